@@ -1,0 +1,28 @@
+# Install rules: program, library (shared and static), header, pkg-config and CMake package files.
+# The static library has an export file of its own: only its users need our dependencies.
+include(CMakePackageConfigHelpers)
+set(PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/pointspec)
+
+set_target_properties(pointspec_program PROPERTIES EXPORT_NAME program)
+install(TARGETS pointspec_program pointspec EXPORT pointspec_shared)
+install(TARGETS pointspec_static EXPORT pointspec_static)
+install(FILES host/include/pointspec/pointspec.h
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pointspec)
+install(FILES LICENSE README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+foreach(export pointspec_shared pointspec_static)
+  install(EXPORT ${export} FILE ${export}.cmake NAMESPACE pointspec:: DESTINATION ${PACKAGE_DIR})
+endforeach()
+configure_package_config_file(cmake/pointspec-config.cmake.in pointspec-config.cmake
+  INSTALL_DESTINATION ${PACKAGE_DIR} NO_SET_AND_CHECK_MACRO)
+write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/pointspec-config-version.cmake
+  COMPATIBILITY SameMinorVersion)   # below 1.0 a minor version may change the interface
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/pointspec-config.cmake
+  ${CMAKE_CURRENT_BINARY_DIR}/pointspec-config-version.cmake DESTINATION ${PACKAGE_DIR})
+
+# The prefix is found from the place of the .pc file, so an installed tree can be moved.
+set(PKGCONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+file(RELATIVE_PATH PREFIX_FROM_PKGCONFIG
+  ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+configure_file(cmake/pointspec.pc.in pointspec.pc @ONLY)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/pointspec.pc DESTINATION ${PKGCONFIG_DIR})

@@ -1,0 +1,140 @@
+#include "analysis/accumulate.h"
+
+#include "analysis/accumulate_device.h"
+#include "analysis/sums.h"
+#include "base/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct ps_accumulator {
+    ps_accumulator_options options;
+    uint32_t *slots;
+    ps_device_accumulator *on_device; /* NULL: rows are on the host */
+    uint64_t num_realizations;
+    double *bin_powers;     /* [batch][num_bins] */
+    ps_sums *bin_sums;      /* [num_bins] */
+    ps_sums *frequency_sums; /* [num_frequencies], host rows only */
+};
+
+static pspec_status allocate(ps_accumulator *self, ps_error *error) {
+    void *memory = NULL;
+    const ps_accumulator_options *options = &self->options;
+    size_t num_powers = 0;
+    if (!ps_size_multiply(options->batch, options->bins->num, &num_powers)) {
+        return ps_fail(error, PSPEC_ERROR_MEMORY, "%zu realizations of %zu bins are too many",
+                       options->batch, options->bins->num);
+    }
+    PS_TRY(ps_allocate(&memory, options->num_frequencies, sizeof(uint32_t), "slots", error));
+    self->slots = memory;
+    memcpy(self->slots, options->slots, options->num_frequencies * sizeof(uint32_t));
+    PS_TRY(ps_allocate(&memory, num_powers, sizeof(double), "powers of bins", error));
+    self->bin_powers = memory;
+    PS_TRY(ps_allocate(&memory, options->bins->num, sizeof(ps_sums), "sums of bins", error));
+    self->bin_sums = memory;
+    if (options->want_frequencies && !options->is_on_device) {
+        PS_TRY(ps_allocate(&memory, options->num_frequencies, sizeof(ps_sums),
+                           "sums of frequencies", error));
+        self->frequency_sums = memory;
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_accumulator_create(ps_accumulator **out, const ps_accumulator_options *options,
+                                   ps_device *device, ps_error *error) {
+    void *memory = NULL;
+    *out = NULL;
+    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_accumulator), "an accumulator", error));
+    ps_accumulator *self = memory;
+    self->options = *options;
+    pspec_status status = allocate(self, error);
+    self->options.slots = self->slots;
+    if (status == PSPEC_OK && options->is_on_device) {
+        status = ps_device_accumulator_create(&self->on_device, &self->options, device, error);
+    }
+    if (status != PSPEC_OK) {
+        ps_accumulator_destroy(self);
+        return status;
+    }
+    *out = self;
+    return PSPEC_OK;
+}
+
+void ps_accumulator_destroy(ps_accumulator *accumulator) {
+    if (accumulator == NULL) {
+        return;
+    }
+    ps_device_accumulator_destroy(accumulator->on_device);
+    free(accumulator->slots);
+    free(accumulator->bin_powers);
+    free(accumulator->bin_sums);
+    free(accumulator->frequency_sums);
+    free(accumulator);
+}
+
+/* Means over bins of one host row. */
+static void average_bins(const ps_accumulator *self, const double *row, double *bin_powers) {
+    const ps_bins *bins = self->options.bins;
+    for (size_t b = 0; b < bins->num; b++) {
+        long double sum = 0;
+        for (size_t i = bins->bins[b].begin; i < bins->bins[b].end; i++) {
+            sum += row[self->slots[bins->members[i]]];
+        }
+        bin_powers[b] = (double)(sum / (long double)(bins->bins[b].end - bins->bins[b].begin));
+    }
+}
+
+static void add_host_rows(ps_accumulator *self, const ps_rows *rows) {
+    for (size_t r = 0; r < rows->num_rows; r++) {
+        const double *row = rows->host + r * rows->stride;
+        average_bins(self, row, self->bin_powers + r * self->options.bins->num);
+        for (size_t i = 0; self->frequency_sums != NULL && i < self->options.num_frequencies; i++) {
+            ps_sums_add(&self->frequency_sums[i], row[self->slots[i]]);
+        }
+    }
+}
+
+pspec_status ps_accumulator_add(ps_accumulator *accumulator, const ps_rows *rows,
+                                const double **bin_powers, ps_error *error) {
+    const size_t num_bins = accumulator->options.bins->num;
+    if (accumulator->on_device != NULL) {
+        PS_TRY(ps_device_accumulator_add(accumulator->on_device, rows, accumulator->bin_powers,
+                                         error));
+    } else {
+        add_host_rows(accumulator, rows);
+    }
+    for (size_t r = 0; r < rows->num_rows; r++) {
+        for (size_t b = 0; b < num_bins; b++) {
+            ps_sums_add(&accumulator->bin_sums[b], accumulator->bin_powers[r * num_bins + b]);
+        }
+    }
+    accumulator->num_realizations += rows->num_rows;
+    if (bin_powers != NULL) {
+        *bin_powers = accumulator->bin_powers;
+    }
+    return PSPEC_OK;
+}
+
+uint64_t ps_accumulator_num_realizations(const ps_accumulator *accumulator) {
+    return accumulator->num_realizations;
+}
+
+void ps_accumulator_bins(const ps_accumulator *accumulator, ps_mean *means) {
+    for (size_t b = 0; b < accumulator->options.bins->num; b++) {
+        ps_sums_finish(&accumulator->bin_sums[b], accumulator->num_realizations, &means[b].mean,
+                       &means[b].standard_error);
+    }
+}
+
+pspec_status ps_accumulator_frequencies(ps_accumulator *accumulator, ps_mean *means,
+                                        ps_error *error) {
+    if (accumulator->on_device != NULL) {
+        return ps_device_accumulator_frequencies(accumulator->on_device,
+                                                 accumulator->num_realizations, means, error);
+    }
+    for (size_t i = 0; i < accumulator->options.num_frequencies; i++) {
+        ps_sums_finish(&accumulator->frequency_sums[i], accumulator->num_realizations,
+                       &means[i].mean, &means[i].standard_error);
+    }
+    return PSPEC_OK;
+}

@@ -1,0 +1,48 @@
+/* Sums over realizations, streamed: memory does not grow with their number.
+ *
+ * Per frequency: sum and sum of squares of the power, in pairs (on the device where the rows are).
+ * Per bin: the mean over the bin is formed for each realization first, then summed in the same way;
+ * so a bin's standard error catches correlations between its frequencies (mathematics.md 1.2).
+ * Realizations are taken one after the other in their order, whatever the batches were.
+ */
+#ifndef PS_ANALYSIS_ACCUMULATE_H
+#define PS_ANALYSIS_ACCUMULATE_H
+
+#include "analysis/bins.h"
+#include "engines/engine.h"
+
+typedef struct ps_accumulator ps_accumulator;
+
+/* Mean and standard error of the mean, nan when there was only one realization. */
+typedef struct ps_mean {
+    double mean, standard_error;
+} ps_mean;
+
+typedef struct ps_accumulator_options {
+    const ps_bins *bins;      /* kept: must outlive the accumulator */
+    size_t num_frequencies;
+    const uint32_t *slots;    /* [num_frequencies] places in a row, copied */
+    size_t stride, batch;     /* of the rows; batch is the largest number of rows at a time */
+    bool is_on_device;
+    ps_precision precision;   /* of the rows */
+    unsigned lanes;           /* of device rows */
+    bool want_frequencies;    /* keep sums per frequency */
+} ps_accumulator_options;
+
+pspec_status ps_accumulator_create(ps_accumulator **out, const ps_accumulator_options *options,
+                                   ps_device *device, ps_error *error) PS_MUST_CHECK;
+void ps_accumulator_destroy(ps_accumulator *accumulator);
+
+/* Adds the rows of one batch. bin_powers[r * num_bins + b], owned by the accumulator until the next
+ * call, is the mean over bin b of realization r; may be NULL if nobody asks. */
+pspec_status ps_accumulator_add(ps_accumulator *accumulator, const ps_rows *rows,
+                                const double **bin_powers, ps_error *error) PS_MUST_CHECK;
+
+uint64_t ps_accumulator_num_realizations(const ps_accumulator *accumulator);
+/* means[num_bins] */
+void ps_accumulator_bins(const ps_accumulator *accumulator, ps_mean *means);
+/* means[num_frequencies]; only with want_frequencies. */
+pspec_status ps_accumulator_frequencies(ps_accumulator *accumulator, ps_mean *means,
+                                        ps_error *error) PS_MUST_CHECK;
+
+#endif

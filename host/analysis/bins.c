@@ -1,0 +1,100 @@
+#include "analysis/bins.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+int64_t ps_ring_of_norm2(int64_t norm2) {
+    /* b = rint(sqrt(norm2)) up to rounding of the square root, which the two lines after mend. */
+    int64_t b = (int64_t)rint(sqrt((double)norm2));
+    b -= norm2 < b * b - b + 1;
+    b += norm2 > b * b + b;
+    return b;
+}
+
+typedef struct keyed {
+    int64_t key;
+    uint32_t index;
+} keyed;
+
+static int compare_keys(const void *a, const void *b) {
+    const keyed *x = a;
+    const keyed *y = b;
+    if (x->key != y->key) {
+        return x->key < y->key ? -1 : 1;
+    }
+    return x->index < y->index ? -1 : x->index > y->index;
+}
+
+/* Keys of reported bins are positive; what is not reported sorts behind them. */
+static int64_t key_of(const ps_frequencies *set, const int32_t *k, bool exact_shells) {
+    const int64_t norm2 = ps_frequency_norm2(k, set->dimension);
+    const int64_t ring = set->kind == PS_FREQUENCIES_LIST ? INT64_MAX : ps_ring_of_norm2(norm2);
+    if (ring > set->max_frequency) {
+        return INT64_MAX;
+    }
+    return exact_shells ? norm2 : ring;
+}
+
+static size_t count_bins(const keyed *keys, size_t num) {
+    size_t count = 0;
+    for (size_t i = 0; i < num; i++) {
+        count += i == 0 || keys[i].key != keys[i - 1].key;
+    }
+    return count;
+}
+
+static void fill_bins(ps_bins *out, const ps_frequencies *set, const keyed *keys) {
+    size_t bin = 0;
+    for (size_t i = 0; i < set->num; i++) {
+        if (i > 0 && keys[i].key != keys[i - 1].key) {
+            bin++;
+        }
+        ps_bin *at = &out->bins[bin];
+        at->begin = at->end == 0 ? i : at->begin;
+        at->key = keys[i].key;
+        at->end = i + 1;
+        out->members[i] = keys[i].index;
+        at->mean_frequency += sqrt((double)ps_frequency_norm2(
+            set->vectors + (size_t)keys[i].index * set->dimension, set->dimension));
+    }
+    for (size_t i = 0; i < out->num; i++) {
+        out->bins[i].mean_frequency /= (double)(out->bins[i].end - out->bins[i].begin);
+    }
+    const bool has_rest = out->num > 0 && out->bins[out->num - 1].key == INT64_MAX;
+    out->num_reported = has_rest ? out->num - 1 : out->num;
+}
+
+pspec_status ps_bins_create(ps_bins *out, const ps_frequencies *frequencies, bool exact_shells,
+                            ps_error *error) {
+    void *memory = NULL;
+    keyed *keys = NULL;
+    pspec_status status = PSPEC_OK;
+    *out = (ps_bins){.num_members = frequencies->num};
+    PS_TRY_OUT(status, ps_allocate(&memory, frequencies->num, sizeof *keys, "bins", error));
+    keys = memory;
+    for (size_t i = 0; i < frequencies->num; i++) {
+        const int32_t *k = frequencies->vectors + i * frequencies->dimension;
+        keys[i] = (keyed){key_of(frequencies, k, exact_shells), (uint32_t)i};
+    }
+    qsort(keys, frequencies->num, sizeof *keys, compare_keys);
+    out->num = count_bins(keys, frequencies->num);
+    PS_TRY_OUT(status, ps_allocate(&memory, out->num, sizeof *out->bins, "bins", error));
+    out->bins = memory;
+    PS_TRY_OUT(status, ps_allocate(&memory, frequencies->num, sizeof *out->members, "bins", error));
+    out->members = memory;
+    fill_bins(out, frequencies, keys);
+out:
+    free(keys);
+    if (status != PSPEC_OK) {
+        ps_bins_free(out);
+    }
+    return status;
+}
+
+void ps_bins_free(ps_bins *bins) {
+    free(bins->bins);
+    free(bins->members);
+    *bins = (ps_bins){0};
+}

@@ -1,0 +1,34 @@
+/* Bins of frequencies: rings of width 1 on the integer lattice, or exact shells |k|^2 = n.
+ *
+ * Ring b holds b^2 - b + 1 <= |k|^2 <= b^2 + b (mathematics.md 1.3): integer arithmetic, no ties.
+ * What belongs to no reported bin (corners of a box, a list of frequencies) forms one more bin at
+ * the end, so that the power of a realization over all frequencies is always known.
+ */
+#ifndef PS_ANALYSIS_BINS_H
+#define PS_ANALYSIS_BINS_H
+
+#include "engines/frequencies.h"
+
+typedef struct ps_bin {
+    int64_t key;     /* ring number b, or |k|^2 of a shell */
+    size_t begin, end; /* members[begin .. end - 1], half-lattice frequencies */
+    double mean_frequency; /* mean |k| */
+} ps_bin;
+
+typedef struct ps_bins {
+    size_t num;       /* all bins, the unreported one included */
+    size_t num_reported;
+    ps_bin *bins;     /* ascending key */
+    uint32_t *members; /* indices of frequencies, bin by bin */
+    size_t num_members;
+} ps_bins;
+
+/* The ring number of |k|^2 >= 1. */
+int64_t ps_ring_of_norm2(int64_t norm2);
+
+/* frequencies must be enumerated; a list is put into the unreported bin as a whole. */
+pspec_status ps_bins_create(ps_bins *out, const ps_frequencies *frequencies, bool exact_shells,
+                            ps_error *error) PS_MUST_CHECK;
+void ps_bins_free(ps_bins *bins);
+
+#endif

@@ -1,0 +1,150 @@
+#include "analysis/spectrum.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+double ps_anisotropy_db(const ps_mean *powers, const uint32_t *members, size_t num_members) {
+    const double decibels = 10;
+    long double sum = 0;
+    long double squares = 0;
+    if (num_members < 2) {
+        return NAN;
+    }
+    for (size_t i = 0; i < num_members; i++) {
+        sum += powers[members[i]].mean;
+    }
+    const long double mean = sum / (long double)num_members;
+    for (size_t i = 0; i < num_members; i++) {
+        const long double deviation = powers[members[i]].mean - mean;
+        squares += deviation * deviation;
+    }
+    const double variance = (double)(squares / (long double)(num_members - 1));
+    const double ratio = variance / (double)(mean * mean);
+    return mean > 0 && ratio > 0 ? decibels * log10(ratio) : NAN;
+}
+
+static pspec_status copy_frequencies(ps_frequencies *out, const ps_frequencies *from,
+                                     ps_error *error) {
+    void *vectors = NULL;
+    const size_t num_components = from->num * from->dimension;
+    PS_TRY(ps_allocate(&vectors, num_components, sizeof(int32_t), "the frequencies", error));
+    memcpy(vectors, from->vectors, num_components * sizeof(int32_t));
+    *out = *from;
+    out->vectors = vectors;
+    return PSPEC_OK;
+}
+
+static void fill_bins(ps_spectrum *out, const ps_bins *bins, const ps_mean *means, double factor) {
+    const double unit = pow(out->mean_points, 1.0 / out->frequencies.dimension);
+    for (size_t b = 0; b < bins->num_reported; b++) {
+        const ps_bin *bin = &bins->bins[b];
+        out->bins[b] = (ps_spectrum_bin){
+            .key = bin->key,
+            .frequency = bin->mean_frequency,
+            .normalized_frequency = bin->mean_frequency / unit,
+            .count = 2 * (uint64_t)(bin->end - bin->begin),
+            .power = means[b].mean * factor,
+            .standard_error = means[b].standard_error * factor,
+            .anisotropy_db = NAN,
+        };
+        if (out->powers != NULL) {
+            out->bins[b].anisotropy_db =
+                ps_anisotropy_db(out->powers, bins->members + bin->begin, bin->end - bin->begin);
+        }
+    }
+}
+
+static pspec_status fill_powers(ps_spectrum *out, ps_accumulator *accumulator, double factor,
+                                ps_error *error) {
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, out->frequencies.num, sizeof(ps_mean), "the powers", error));
+    out->powers = memory;
+    PS_TRY(ps_accumulator_frequencies(accumulator, out->powers, error));
+    for (size_t i = 0; i < out->frequencies.num; i++) {
+        out->powers[i].mean *= factor;
+        out->powers[i].standard_error *= factor;
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status fill(ps_spectrum *out, const ps_bins *bins, ps_accumulator *accumulator,
+                         double factor, bool with_frequencies, ps_error *error) {
+    void *memory = NULL;
+    if (with_frequencies) {
+        PS_TRY(fill_powers(out, accumulator, factor, error));
+    }
+    PS_TRY(ps_allocate(&memory, bins->num_reported, sizeof *out->bins, "the bins", error));
+    out->bins = memory;
+    out->num_bins = bins->num_reported;
+    PS_TRY(ps_allocate(&memory, bins->num, sizeof(ps_mean), "the bins", error));
+    ps_accumulator_bins(accumulator, memory);
+    fill_bins(out, bins, memory, factor);
+    free(memory);
+    return PSPEC_OK;
+}
+
+pspec_status ps_spectrum_create(ps_spectrum *out, const ps_frequencies *frequencies,
+                                const ps_bins *bins, ps_accumulator *accumulator, double factor,
+                                const ps_pattern_totals *totals, bool with_frequencies,
+                                ps_error *error) {
+    const double n = (double)totals->num_realizations;
+    *out = (ps_spectrum){.num_realizations = totals->num_realizations,
+                         .mean_points = totals->sum_points / n,
+                         .smallest_points = totals->smallest_points,
+                         .largest_points = totals->largest_points,
+                         .mean_weight_sum = totals->sum_weights / n};
+    pspec_status status = copy_frequencies(&out->frequencies, frequencies, error);
+    if (status == PSPEC_OK) {
+        status = fill(out, bins, accumulator, factor, with_frequencies, error);
+    }
+    if (status != PSPEC_OK) {
+        ps_spectrum_free(out);
+    }
+    return status;
+}
+
+void ps_spectrum_free(ps_spectrum *spectrum) {
+    ps_frequencies_free(&spectrum->frequencies);
+    free(spectrum->bins);
+    free(spectrum->powers);
+    *spectrum = (ps_spectrum){0};
+}
+
+void ps_spectrum_repeat(ps_spectrum *spectrum, uint64_t num_realizations) {
+    spectrum->num_realizations = num_realizations;
+    for (size_t b = 0; b < spectrum->num_bins; b++) {
+        spectrum->bins[b].standard_error = 0;
+    }
+    for (size_t i = 0; spectrum->powers != NULL && i < spectrum->frequencies.num; i++) {
+        spectrum->powers[i].standard_error = 0;
+    }
+}
+
+pspec_status ps_spectrum_full(const ps_spectrum *spectrum, int which, double dc_power,
+                              double **array, size_t *num_entries, ps_error *error) {
+    const ps_frequencies *set = &spectrum->frequencies;
+    const size_t width = 2 * (size_t)set->max_frequency + 1;
+    void *memory = NULL;
+    *num_entries = 1;
+    for (unsigned axis = 0; axis < set->dimension; axis++) {
+        *num_entries *= width; /* fits: ps_frequencies_lattice checked the size of the box */
+    }
+    PS_TRY(ps_allocate(&memory, *num_entries, sizeof(double), "the full spectrum", error));
+    *array = memory;
+    (*array)[*num_entries / 2] = which == 0 ? dc_power : 0;
+    for (size_t i = 0; i < set->num; i++) {
+        size_t place = 0;
+        for (unsigned axis = 0; axis < set->dimension; axis++) {
+            const int64_t k = set->vectors[i * set->dimension + axis];
+            place = place * width + (size_t)(k + set->max_frequency);
+        }
+        const ps_mean *power = &spectrum->powers[i];
+        const double value = which == 0 ? power->mean : power->standard_error;
+        (*array)[place] = value;
+        (*array)[*num_entries - 1 - place] = value; /* -k */
+    }
+    return PSPEC_OK;
+}

@@ -1,0 +1,56 @@
+/* The averaged power spectrum of a job: per bin and, if kept, per frequency. */
+#ifndef PS_ANALYSIS_SPECTRUM_H
+#define PS_ANALYSIS_SPECTRUM_H
+
+#include "analysis/accumulate.h"
+#include "analysis/bins.h"
+
+typedef struct ps_spectrum_bin {
+    int64_t key;                 /* ring number, or |k|^2 of a shell */
+    double frequency;            /* mean |k| */
+    double normalized_frequency; /* the same divided by N^(1/d) */
+    uint64_t count;              /* lattice points of both signs */
+    double power, standard_error; /* nan: one realization */
+    double anisotropy_db;        /* nan: fewer than two half-lattice frequencies, or power 0 */
+} ps_spectrum_bin;
+
+typedef struct ps_spectrum {
+    ps_frequencies frequencies;  /* a copy of its own */
+    uint64_t num_realizations;
+    double mean_points;
+    size_t smallest_points, largest_points;
+    double mean_weight_sum;
+    size_t num_bins;
+    ps_spectrum_bin *bins;
+    ps_mean *powers;             /* [frequencies.num], or NULL */
+} ps_spectrum;
+
+/* What happened to the realizations besides their powers. */
+typedef struct ps_pattern_totals {
+    uint64_t num_realizations;
+    double sum_points, sum_weights;
+    size_t smallest_points, largest_points;
+} ps_pattern_totals;
+
+/* factor multiplies every accumulated power (mean N over reference N, see job/estimator.h). */
+pspec_status ps_spectrum_create(ps_spectrum *out, const ps_frequencies *frequencies,
+                                const ps_bins *bins, ps_accumulator *accumulator, double factor,
+                                const ps_pattern_totals *totals, bool with_frequencies,
+                                ps_error *error) PS_MUST_CHECK;
+void ps_spectrum_free(ps_spectrum *spectrum);
+
+/* Marks the spectrum as that of num_realizations equal ones: standard errors become exactly 0
+ * (a deterministic set, whose further realizations were skipped). */
+void ps_spectrum_repeat(ps_spectrum *spectrum, uint64_t num_realizations);
+
+/* Anisotropy of one ring: 10 log10(s^2 / P^2), s^2 the sample variance of the averaged periodogram
+ * over the ring's half-lattice frequencies, P their mean. nan when there are fewer than two of them
+ * or P is 0. */
+double ps_anisotropy_db(const ps_mean *powers, const uint32_t *members, size_t num_members);
+
+/* The whole box as an array [2K+1]^d in C order, DC in the middle, axis i along x_i; DC itself is
+ * dc_power with standard error 0. which: 0 power, 1 standard error. *array is freed by the caller. */
+pspec_status ps_spectrum_full(const ps_spectrum *spectrum, int which, double dc_power,
+                              double **array, size_t *num_entries, ps_error *error) PS_MUST_CHECK;
+
+#endif

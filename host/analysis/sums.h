@@ -1,0 +1,16 @@
+/* Sum and sum of squares in double pairs: enough digits that a variance from raw sums loses nothing. */
+#ifndef PS_ANALYSIS_SUMS_H
+#define PS_ANALYSIS_SUMS_H
+
+#include <stdint.h>
+
+typedef struct ps_sums {
+    double sum, sum_low, square, square_low;
+} ps_sums;
+
+void ps_sums_add(ps_sums *sums, double x);
+/* Mean and standard error s / sqrt(count) with s^2 = sum (x - mean)^2 / (count - 1); nan when
+ * count < 2. Adds that differ by no more than rounding give exactly 0. */
+void ps_sums_finish(const ps_sums *sums, uint64_t count, double *mean, double *standard_error);
+
+#endif

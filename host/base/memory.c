@@ -1,0 +1,41 @@
+#include "base/memory.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+
+bool ps_size_multiply(size_t a, size_t b, size_t *product) {
+    if (a != 0 && b > SIZE_MAX / a) {
+        return false;
+    }
+    *product = a * b;
+    return true;
+}
+
+static pspec_status fail_memory(size_t count, size_t element_bytes, const char *what,
+                                ps_error *error) {
+    return ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for %s: %zu elements of %zu bytes",
+                   what, count, element_bytes);
+}
+
+pspec_status ps_allocate(void **out, size_t count, size_t element_bytes, const char *what,
+                         ps_error *error) {
+    *out = calloc(count > 0 ? count : 1, element_bytes); /* calloc checks the product */
+    return *out != NULL ? PSPEC_OK : fail_memory(count, element_bytes, what, error);
+}
+
+pspec_status ps_grow(void **array, size_t *capacity, size_t needed, size_t element_bytes,
+                     const char *what, ps_error *error) {
+    if (needed <= *capacity) {
+        return PSPEC_OK;
+    }
+    const size_t half_more = *capacity + *capacity / 2;
+    const size_t count = half_more > needed ? half_more : needed;
+    size_t bytes = 0;
+    void *grown = ps_size_multiply(count, element_bytes, &bytes) ? realloc(*array, bytes) : NULL;
+    if (grown == NULL) {
+        return fail_memory(needed, element_bytes, what, error);
+    }
+    *array = grown;
+    *capacity = count;
+    return PSPEC_OK;
+}

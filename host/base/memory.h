@@ -1,0 +1,23 @@
+/* Allocation with checked size arithmetic: a product that overflows is an error, not a small block. */
+#ifndef PS_BASE_MEMORY_H
+#define PS_BASE_MEMORY_H
+
+#include "base/status.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* True when a * b fits; the product is stored in *product. */
+bool ps_size_multiply(size_t a, size_t b, size_t *product);
+
+/* Zeroed array of count elements, never of zero bytes. The caller frees it with free().
+ * what names the array in the message, for example "points". */
+pspec_status ps_allocate(void **out, size_t count, size_t element_bytes, const char *what,
+                         ps_error *error) PS_MUST_CHECK;
+
+/* Grows *array to hold at least needed elements; *capacity counts elements. Contents are kept;
+ * new elements are not initialised. Growth is geometric, so that appending is linear. */
+pspec_status ps_grow(void **array, size_t *capacity, size_t needed, size_t element_bytes,
+                     const char *what, ps_error *error) PS_MUST_CHECK;
+
+#endif

@@ -1,0 +1,123 @@
+#include "base/text.h"
+
+#include "base/memory.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+void ps_text_append_bytes(ps_text *text, const char *bytes, size_t num_bytes) {
+    if (text->failed) {
+        return;
+    }
+    void *data = text->data;
+    if (ps_grow(&data, &text->capacity, text->length + num_bytes + 1, 1, "text", NULL) !=
+        PSPEC_OK) {
+        text->failed = true;
+        return;
+    }
+    text->data = data;
+    memcpy(text->data + text->length, bytes, num_bytes);
+    text->length += num_bytes;
+    text->data[text->length] = '\0';
+}
+
+void ps_text_append(ps_text *text, const char *format, ...) {
+    va_list arguments;
+    va_list again;
+    va_start(arguments, format);
+    va_copy(again, arguments);
+    const int length = vsnprintf(NULL, 0, format, arguments);
+    va_end(arguments);
+    char *piece = length >= 0 ? malloc((size_t)length + 1) : NULL;
+    if (piece == NULL) {
+        text->failed = true;
+    } else {
+        vsnprintf(piece, (size_t)length + 1, format, again);
+        ps_text_append_bytes(text, piece, (size_t)length);
+    }
+    va_end(again);
+    free(piece);
+}
+
+const char *ps_text_string(const ps_text *text) {
+    return text->data != NULL ? text->data : "";
+}
+
+void ps_text_free(ps_text *text) {
+    free(text->data);
+    *text = (ps_text){0};
+}
+
+static bool parse_double(const char *text, double *out) {
+    char *end = NULL;
+    *out = strtod(text, &end);
+    return end != text && *end == '\0' && isfinite(*out);
+}
+
+pspec_status ps_parse_number(const char *text, const char *what, double minimum, double maximum,
+                             double *out, ps_error *error) {
+    if (!parse_double(text, out)) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: \"%s\" is not a finite number",
+                       what, text);
+    }
+    if (*out < minimum || *out > maximum) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: %s is not between %g and %g", what,
+                       text, minimum, maximum);
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_parse_count(const char *text, const char *what, uint64_t minimum, uint64_t maximum,
+                            uint64_t *out, ps_error *error) {
+    /* Digits alone are read exactly; 1e6 goes through a double, which is exact below 2^53. */
+    const double exact_limit = 9007199254740992.0;
+    char *end = NULL;
+    errno = 0;
+    const bool digits_only = text[0] != '\0' && text[strspn(text, "0123456789")] == '\0';
+    *out = digits_only ? strtoull(text, &end, 10) : 0;
+    double number = 0;
+    if (!digits_only) {
+        if (!parse_double(text, &number) || number != floor(number)) {
+            return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: \"%s\" is not a whole number",
+                           what, text);
+        }
+        *out = number >= 0 && number < exact_limit ? (uint64_t)number : 0;
+    }
+    const bool is_out_of_range = errno == ERANGE || number < 0 || number >= exact_limit;
+    if (is_out_of_range || *out < minimum || *out > maximum) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "%s: %s is not between %llu and %llu", what, text,
+                       (unsigned long long)minimum, (unsigned long long)maximum);
+    }
+    return PSPEC_OK;
+}
+
+size_t ps_text_distance(const char *a, const char *b) {
+    enum { LONGEST = 64 }; /* option and sampler names are far shorter */
+    size_t row[LONGEST + 1];
+    const size_t a_length = strlen(a);
+    const size_t b_length = strlen(b);
+    if (a_length > LONGEST || b_length > LONGEST) {
+        return LONGEST;
+    }
+    for (size_t j = 0; j <= b_length; j++) {
+        row[j] = j;
+    }
+    for (size_t i = 1; i <= a_length; i++) {
+        size_t diagonal = row[0];
+        row[0] = i;
+        for (size_t j = 1; j <= b_length; j++) {
+            const size_t above = row[j];
+            size_t best = diagonal + (a[i - 1] != b[j - 1]);
+            best = above + 1 < best ? above + 1 : best;
+            best = row[j - 1] + 1 < best ? row[j - 1] + 1 : best;
+            diagonal = above;
+            row[j] = best;
+        }
+    }
+    return row[b_length];
+}

@@ -1,0 +1,36 @@
+/* Growing text, and reading numbers that people type. */
+#ifndef PS_BASE_TEXT_H
+#define PS_BASE_TEXT_H
+
+#include "base/status.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* A text that grows; {0} is the empty text. Once an append runs out of memory, failed stays set
+ * and further appends do nothing, so that callers check once, at the end. */
+typedef struct ps_text {
+    char *data; /* NUL-terminated, or NULL while empty */
+    size_t length, capacity;
+    bool failed;
+} ps_text;
+
+void ps_text_append(ps_text *text, const char *format, ...) PS_PRINTF(2, 3);
+void ps_text_append_bytes(ps_text *text, const char *bytes, size_t num_bytes);
+const char *ps_text_string(const ps_text *text); /* never NULL */
+void ps_text_free(ps_text *text);
+
+/* "1024", "1e6", "4096.0" -> a whole number in [minimum, maximum]; anything else is
+ * PSPEC_ERROR_INVALID_ARGUMENT with a sentence that names the thing, the text and the limits. */
+pspec_status ps_parse_count(const char *text, const char *what, uint64_t minimum, uint64_t maximum,
+                            uint64_t *out, ps_error *error) PS_MUST_CHECK;
+
+/* A finite number in [minimum, maximum]. */
+pspec_status ps_parse_number(const char *text, const char *what, double minimum, double maximum,
+                             double *out, ps_error *error) PS_MUST_CHECK;
+
+/* Edit distance, for "did you mean": insertions, deletions, substitutions cost 1. */
+size_t ps_text_distance(const char *a, const char *b);
+
+#endif

@@ -1,0 +1,181 @@
+/* Words of the command line -> ps_arguments, by the table of options. */
+#include "cli/arguments.h"
+
+#include "base/memory.h"
+#include "cli/options.h"
+
+#include <ctype.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct parser {
+    const ps_command *command;
+    ps_arguments *arguments;
+    char **words;
+    int num_words, next; /* next: the first word that has not been looked at */
+    ps_error *error;
+} parser;
+
+/* An option as it stands on the command line, "--points" of "--points=5". */
+typedef struct shown_option {
+    const char *text;
+    int length;
+} shown_option;
+
+/* ---- what is wrong ------------------------------------------------------------------------- */
+
+/* The option of the command that is nearest to a name without dashes. One letter may also be that
+ * of an option in the other case. */
+static ps_option_id find_nearest(const ps_command *command, const char *name) {
+    ps_option_id nearest = PS_OPTION_HELP;
+    size_t best = SIZE_MAX;
+    for (int id = 0; id < PS_NUM_OPTIONS; id++) {
+        if (!ps_command_takes(command, (ps_option_id)id)) {
+            continue;
+        }
+        const bool is_letter = name[0] != '\0' && name[1] == '\0' &&
+                               tolower((unsigned char)name[0]) == ps_options[id].letter;
+        const size_t distance = is_letter ? 0 : ps_name_distance(name, ps_options[id].name);
+        if (distance < best) {
+            best = distance;
+            nearest = (ps_option_id)id;
+        }
+    }
+    return nearest;
+}
+
+/* name: without dashes and value. is_known: some other command has that option. */
+static pspec_status fail_option(const parser *p, shown_option shown, const char *name,
+                                bool is_known) {
+    const ps_option *const nearest = &ps_options[find_nearest(p->command, name)];
+    const char letter[] = {'-', nearest->letter, '\0'};
+    const bool has_letter = name[0] != '\0' && name[1] == '\0' && nearest->letter != 0;
+    return ps_fail(p->error, PSPEC_ERROR_INVALID_ARGUMENT,
+                   is_known ? "%.*s is not an option of this command; the nearest is %s%s"
+                            : "unknown option %.*s; did you mean %s%s?",
+                   shown.length, shown.text, has_letter ? letter : "--",
+                   has_letter ? "" : nearest->name);
+}
+
+/* Does the word look like an option? Numbers and "-" do not. */
+static bool is_option_like(const char *word) {
+    char *end = NULL;
+    if (word[0] != '-' || word[1] == '\0') {
+        return false;
+    }
+    (void)strtod(word, &end);
+    return end == word || *end != '\0';
+}
+
+/* ---- one option ---------------------------------------------------------------------------- */
+
+/* The next word as the value of an option. --output=--odd is the way to a value that looks like an
+ * option. */
+static pspec_status take_value(parser *p, ps_option_id id, shown_option shown, const char **value) {
+    const char *const metavar = ps_option_metavar(p->command, id);
+    if (p->next == p->num_words) {
+        return ps_fail(p->error, PSPEC_ERROR_INVALID_ARGUMENT, "%.*s needs a value: %.*s %s",
+                       shown.length, shown.text, shown.length, shown.text, metavar);
+    }
+    if (is_option_like(p->words[p->next])) {
+        return ps_fail(p->error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "%.*s needs a value: %.*s %s, but the option %s follows", shown.length,
+                       shown.text, shown.length, shown.text, metavar, p->words[p->next]);
+    }
+    *value = p->words[p->next++];
+    return PSPEC_OK;
+}
+
+/* value: what is attached to the option, or NULL. */
+static pspec_status apply(parser *p, ps_option_id id, shown_option shown, const char *value) {
+    const ps_option *const option = &ps_options[id];
+    if (option->metavar == NULL && value != NULL) {
+        return ps_fail(p->error, PSPEC_ERROR_INVALID_ARGUMENT, "%.*s takes no value", shown.length,
+                       shown.text);
+    }
+    if (option->metavar != NULL && value == NULL) {
+        PS_TRY(take_value(p, id, shown, &value));
+    }
+    p->arguments->is_given[id] = true;
+    return option->set(option, ps_option_metavar(p->command, id), value, p->arguments, p->error);
+}
+
+static bool has_name(ps_option_id id, const char *name, size_t length) {
+    return strlen(ps_options[id].name) == length && strncmp(ps_options[id].name, name, length) == 0;
+}
+
+/* "--name" or "--name=value" */
+static pspec_status parse_long(parser *p, char *word) {
+    char *const name = word + 2;
+    const size_t length = strcspn(name, "=");
+    const char *const value = name[length] == '=' ? name + length + 1 : NULL;
+    const shown_option shown = {word, (int)length + 2};
+    int id = 0;
+    while (id < PS_NUM_OPTIONS && !has_name((ps_option_id)id, name, length)) {
+        id++;
+    }
+    if (id < PS_NUM_OPTIONS && ps_command_takes(p->command, (ps_option_id)id)) {
+        return apply(p, (ps_option_id)id, shown, value);
+    }
+    name[length] = '\0'; /* the words are ours to change, and this one is done with */
+    return fail_option(p, shown, name, id < PS_NUM_OPTIONS);
+}
+
+/* "-n" or "-nvalue" */
+static pspec_status parse_short(parser *p, const char *word) {
+    const shown_option shown = {word, 2};
+    int id = 0;
+    while (id < PS_NUM_OPTIONS && ps_options[id].letter != word[1]) {
+        id++;
+    }
+    if (id < PS_NUM_OPTIONS && ps_command_takes(p->command, (ps_option_id)id)) {
+        return apply(p, (ps_option_id)id, shown, word[2] != '\0' ? word + 2 : NULL);
+    }
+    const shown_option whole = {word, (int)strlen(word)};
+    return id < PS_NUM_OPTIONS ? fail_option(p, shown, ps_options[id].name, true)
+                               : fail_option(p, whole, word + 1, false);
+}
+
+/* ---- the whole line ------------------------------------------------------------------------ */
+
+static pspec_status parse_word(parser *p, bool *is_over) {
+    char *const word = p->words[p->next++];
+    if (*is_over || word[0] != '-' || word[1] == '\0') {
+        p->arguments->files[p->arguments->num_files++] = word;
+        return PSPEC_OK;
+    }
+    if (strcmp(word, "--") == 0) {
+        *is_over = true;
+        return PSPEC_OK;
+    }
+    return word[1] == '-' ? parse_long(p, word) : parse_short(p, word);
+}
+
+static const ps_arguments defaults = {.num_points = 1024,
+                                      .num_realizations = 1,
+                                      .dimension = 2,
+                                      .seed = 1,
+                                      .tolerance = 1e-6,
+                                      .precision = -1,
+                                      .command_line = ""};
+
+pspec_status ps_arguments_parse(ps_arguments *arguments, const ps_command *command, int num_words,
+                                char **words, ps_error *error) {
+    void *memory = NULL;
+    *arguments = defaults;
+    PS_TRY(ps_allocate(&memory, (size_t)num_words, sizeof *arguments->files, "names of files",
+                       error));
+    arguments->files = memory;
+    parser p = {command, arguments, words, num_words, 0, error};
+    bool is_over = false;
+    while (p.next < num_words && !arguments->is_given[PS_OPTION_HELP]) {
+        PS_TRY(parse_word(&p, &is_over));
+    }
+    return PSPEC_OK;
+}
+
+void ps_arguments_free(ps_arguments *arguments) {
+    free(arguments->files);
+    arguments->files = NULL;
+    arguments->num_files = 0;
+}

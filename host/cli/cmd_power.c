@@ -1,0 +1,122 @@
+/* pointspec power: the averaged periodogram. */
+#include "cli/command.h"
+#include "cli/power_table.h"
+#include "io/plot.h"
+
+#include <stdio.h>
+
+const ps_option_id ps_power_options[] = {
+    PS_OPTION_SAMPLER,     PS_OPTION_POINTS,       PS_OPTION_REALIZATIONS,
+    PS_OPTION_DIMENSION,   PS_OPTION_SEED,         PS_OPTION_HOMOGENIZE,
+    PS_OPTION_WEIGHTS,     PS_OPTION_INPUT_FORMAT, PS_OPTION_WRAP,
+    PS_OPTION_MAX_FREQUENCY, PS_OPTION_FREQUENCIES, PS_OPTION_SHELLS,
+    PS_OPTION_NORMALIZE,   PS_OPTION_TOLERANCE,    PS_OPTION_FLOOR,
+    PS_OPTION_PRECISION,   PS_OPTION_ENGINE,       PS_OPTION_DEVICE,
+    PS_OPTION_NO_SKIP,     PS_OPTION_NO_SELF_CHECK, PS_OPTION_OUTPUT,
+    PS_OPTION_FORMAT,      PS_OPTION_FULL,         PS_OPTION_PLOT,
+    PS_OPTION_PROFILE,     PS_OPTION_QUIET,        PS_OPTION_VERBOSE,
+    PS_OPTION_HELP,        PS_NUM_OPTIONS};
+
+static int on_progress(uint64_t done, uint64_t total, void *payload) {
+    ps_progress_update(payload, done, total);
+    return ps_interrupted;
+}
+
+static void print_profile(const ps_power_job *job) {
+    size_t num_rows = 0;
+    const ps_profile_row *rows = ps_power_job_profile(job, &num_rows);
+    fprintf(stderr, "%-24s %9s %12s %10s %8s\n", "kernel", "launches", "seconds", "GFLOP/s", "GB/s");
+    for (size_t i = 0; i < num_rows; i++) {
+        const double giga = 1e-9;
+        fprintf(stderr, "%-24s %9llu %12.6f %10.1f %8.1f\n", rows[i].kernel,
+                (unsigned long long)rows[i].launches, rows[i].seconds,
+                rows[i].flops / rows[i].seconds * giga, rows[i].bytes / rows[i].seconds * giga);
+    }
+}
+
+static void print_plan(const ps_power_job *job) {
+    const ps_plan *plan = ps_power_job_plan(job);
+    for (size_t i = 0; i < plan->num_candidates; i++) {
+        const ps_candidate *candidate = &plan->candidates[i];
+        fprintf(stderr, "%s (%s): %s\n", candidate->engine->name,
+                ps_precision_name(candidate->precision), candidate->reason);
+    }
+}
+
+static pspec_status run_job(const ps_arguments *arguments, ps_power_question *question,
+                            ps_power_job **job, ps_error *error) {
+    ps_progress *progress = ps_progress_begin(arguments, "realizations");
+    question->progress = on_progress;
+    question->payload = progress;
+    pspec_status status = ps_power_job_create(job, question, error);
+    if (status == PSPEC_OK && arguments->verbose) {
+        print_plan(*job);
+    }
+    if (status == PSPEC_OK) {
+        status = ps_power_job_run(*job, error);
+    }
+    ps_progress_end(progress);
+    if (status == PSPEC_OK && arguments->profile) {
+        print_profile(*job);
+    }
+    return status;
+}
+
+static pspec_status write_results(const ps_arguments *arguments, const ps_power_job *const *jobs,
+                                  size_t num, ps_table_format format, ps_error *error) {
+    ps_table *table = NULL;
+    if (arguments->full != NULL) {
+        PS_TRY(ps_power_write_full(arguments, jobs[0], error));
+    }
+    if (arguments->plot != NULL) {
+        PS_TRY(ps_power_write_plot(arguments, jobs, num, error));
+    }
+    PS_TRY(ps_power_table(&table, arguments, jobs, num, error));
+    const pspec_status status = ps_table_write(
+        table, arguments->output != NULL ? arguments->output : "-", format, error);
+    ps_table_destroy(table);
+    return status;
+}
+
+/* Whatever can be refused is refused before hours of work, not after. */
+static pspec_status check_outputs(const ps_arguments *arguments, ps_table_format *format,
+                                  ps_error *error) {
+    if (arguments->plot != NULL && !ps_plot_is_supported(arguments->plot)) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "--plot draws .png, .svg and .pdf, not \"%s\"", arguments->plot);
+    }
+    return ps_table_choose_format(format, arguments->format, arguments->output, error);
+}
+
+static pspec_status run(const ps_arguments *arguments, ps_error *error) {
+    ps_power_job *jobs[PS_MAX_SAMPLERS] = {NULL};
+    ps_question_list list;
+    ps_table_format format = PS_FORMAT_CSV;
+    pspec_status status = PSPEC_OK;
+    PS_TRY(check_outputs(arguments, &format, error));
+    PS_TRY(ps_questions_make(&list, arguments, error));
+    for (size_t i = 0; i < list.num; i++) {
+        PS_TRY_OUT(status, run_job(arguments, &list.questions[i], &jobs[i], error));
+    }
+    status = write_results(arguments, (const ps_power_job *const *)jobs, list.num, format, error);
+out:
+    for (size_t i = 0; i < list.num; i++) {
+        ps_power_job_destroy(jobs[i]);
+    }
+    return status;
+}
+
+const ps_command ps_command_power = {
+    .name = "power",
+    .summary = "averaged periodogram of point sets on the torus",
+    .usage = "power [options] --sampler NAME | power [options] FILE...",
+    .description =
+        "Averages the periodogram P(k) = N |sum w exp(-2 pi i k.x)|^2 / (sum w)^2 over realizations "
+        "and prints its mean over rings of width 1, with standard errors over the realizations. "
+        "Files hold points of [0,1)^d; several files, and several sets in a file, are realizations. "
+        "The default --tol of 1e-6 bounds the numerical error of S relative to white noise.",
+    .options = ps_power_options,
+    .examples = {"pointspec power --sampler jittered -n 1024 -m 100 -k 64",
+                 "pointspec sample --sampler halton -n 256 | pointspec power -k 32 -"},
+    .run = run,
+};

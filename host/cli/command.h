@@ -1,0 +1,68 @@
+/* The commands: one file each (cmd_NAME.c), one table (commands.c). */
+#ifndef PS_CLI_COMMAND_H
+#define PS_CLI_COMMAND_H
+
+#include "cli/arguments.h"
+
+#include <signal.h>
+#include <stdio.h>
+
+/* Exit codes of the program (design.md 3). */
+enum {
+    PS_EXIT_DONE = 0,
+    PS_EXIT_FAILED = 1,
+    PS_EXIT_USAGE = 2,
+    PS_EXIT_CHECK = 3,
+    PS_EXIT_INTERRUPTED = 130
+};
+
+typedef struct ps_command {
+    const char *name;
+    const char *summary;         /* one line */
+    const char *usage;           /* after "pointspec ", for example "power [options] [FILE...]" */
+    const char *description;     /* a paragraph for --help */
+    const ps_option_id *options; /* ended by PS_NUM_OPTIONS */
+    const char *examples[2];     /* complete command lines, run by the tests */
+    const char *formats;         /* words of --format, the default first; NULL: csv|json|npy */
+    pspec_status (*run)(const ps_arguments *, ps_error *);
+} ps_command;
+
+/* Ended by NULL. */
+extern const ps_command *const ps_commands[];
+
+/* The command of that name; NULL with a sentence that names the nearest one. */
+const ps_command *ps_command_find(const char *name, ps_error *error);
+
+extern const ps_command ps_command_power, ps_command_sample, ps_command_plan, ps_command_devices;
+
+/* Options of power, which plan takes too. */
+extern const ps_option_id ps_power_options[];
+
+/* Set by the handler of SIGINT and SIGTERM; commands look at it between batches. The program's only
+ * global variable. */
+extern volatile sig_atomic_t ps_interrupted;
+
+/* Parses the words after the command's name. Options and files may be mixed; "--" ends the options,
+ * "-" is a file. --name value, --name=value, -n value, -nvalue; an option given again replaces what
+ * it said before, but --sampler adds. Errors name the nearest option that the command takes. --help
+ * ends the parsing: see is_given[PS_OPTION_HELP]. Call ps_arguments_free also after an error. */
+pspec_status ps_arguments_parse(ps_arguments *arguments, const ps_command *command, int num_words,
+                                char **words, ps_error *error) PS_MUST_CHECK;
+void ps_arguments_free(ps_arguments *arguments);
+
+/* Exit code that goes with a status. */
+int ps_exit_code(pspec_status status);
+
+/* --help: what the program does, and what one command does. */
+void ps_help_program(FILE *stream);
+void ps_help_command(FILE *stream, const ps_command *command);
+
+/* A progress line on standard error, when that is a terminal and --quiet was not given: done, rate,
+ * time left; updated at most ten times a second, erased at the end. total 0: unknown. what names
+ * the things counted, for example "realizations", and must outlive the progress. */
+typedef struct ps_progress ps_progress;
+ps_progress *ps_progress_begin(const ps_arguments *arguments, const char *what); /* NULL: silent */
+void ps_progress_update(ps_progress *progress, uint64_t done, uint64_t total);
+void ps_progress_end(ps_progress *progress);
+
+#endif

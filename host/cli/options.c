@@ -1,0 +1,285 @@
+#include "cli/options.h"
+
+#include "base/text.h"
+#include "engines/frequencies.h"
+
+#include <float.h>
+#include <string.h>
+
+/* ---- setters ------------------------------------------------------------------------------- */
+
+static void *find_field(const ps_option *option, ps_arguments *arguments) {
+    return (char *)arguments + option->offset;
+}
+
+static pspec_status set_flag(const ps_option *option, const char *words, const char *value,
+                             ps_arguments *arguments, ps_error *error) {
+    (void)words, (void)value, (void)error;
+    bool *const field = find_field(option, arguments);
+    *field = true;
+    return PSPEC_OK;
+}
+
+static pspec_status set_text(const ps_option *option, const char *words, const char *value,
+                             ps_arguments *arguments, ps_error *error) {
+    (void)words, (void)error;
+    const char **const field = find_field(option, arguments);
+    *field = value;
+    return PSPEC_OK;
+}
+
+static pspec_status set_nothing(const ps_option *option, const char *words, const char *value,
+                                ps_arguments *arguments, ps_error *error) {
+    (void)option, (void)words, (void)value, (void)arguments, (void)error;
+    return PSPEC_OK;
+}
+
+static pspec_status set_count(const ps_option *option, const char *words, const char *value,
+                              ps_arguments *arguments, ps_error *error) {
+    (void)words;
+    return ps_parse_count(value, option->what, option->minimum, option->maximum,
+                          find_field(option, arguments), error);
+}
+
+static pspec_status set_dimension(const ps_option *option, const char *words, const char *value,
+                                  ps_arguments *arguments, ps_error *error) {
+    uint64_t count = 0;
+    (void)words;
+    PS_TRY(ps_parse_count(value, option->what, option->minimum, option->maximum, &count, error));
+    arguments->dimension = (unsigned)count;
+    return PSPEC_OK;
+}
+
+static pspec_status set_max_frequency(const ps_option *option, const char *words, const char *value,
+                                      ps_arguments *arguments, ps_error *error) {
+    uint64_t count = 0;
+    (void)words;
+    PS_TRY(ps_parse_count(value, option->what, option->minimum, option->maximum, &count, error));
+    arguments->max_frequency = (int32_t)count;
+    return PSPEC_OK;
+}
+
+/* A number above 0, up to maximum. */
+static pspec_status parse_positive(const ps_option *option, const char *value, double maximum,
+                                   double *out, ps_error *error) {
+    double number = 0;
+    PS_TRY(ps_parse_number(value, option->what, -DBL_MAX, DBL_MAX, &number, error));
+    if (number <= 0 || number > maximum) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: %s is not above 0%s", option->what,
+                       value, maximum < DBL_MAX ? " and at most 1" : "");
+    }
+    *out = number;
+    return PSPEC_OK;
+}
+
+static pspec_status set_tolerance(const ps_option *option, const char *words, const char *value,
+                                  ps_arguments *arguments, ps_error *error) {
+    (void)words;
+    return parse_positive(option, value, 1, &arguments->tolerance, error);
+}
+
+static pspec_status set_floor(const ps_option *option, const char *words, const char *value,
+                              ps_arguments *arguments, ps_error *error) {
+    (void)words;
+    return parse_positive(option, value, DBL_MAX, &arguments->floor, error);
+}
+
+static pspec_status add_sampler(const ps_option *option, const char *words, const char *value,
+                                ps_arguments *arguments, ps_error *error) {
+    (void)option, (void)words;
+    if (arguments->num_samplers == PS_MAX_SAMPLERS) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "more than %d samplers",
+                       PS_MAX_SAMPLERS);
+    }
+    arguments->samplers[arguments->num_samplers++] = value;
+    return PSPEC_OK;
+}
+
+/* ---- values that are one of a few words ---------------------------------------------------- */
+
+static pspec_status fail_word(const ps_option *option, const char *words, const char *value,
+                              ps_error *error) {
+    ps_text list = {0};
+    for (const char *word = words; *word != '\0';) {
+        const size_t length = strcspn(word, "|");
+        ps_text_append(&list, "%s%.*s", word == words ? "" : ", ", (int)length, word);
+        word += length + (word[length] == '|');
+    }
+    ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "--%s: \"%s\" is not one of %s", option->name,
+            value, ps_text_string(&list));
+    ps_text_free(&list);
+    return PSPEC_ERROR_INVALID_ARGUMENT;
+}
+
+/* Number of value among words, "one|two|three". */
+static pspec_status find_word(const ps_option *option, const char *words, const char *value,
+                              int *index, ps_error *error) {
+    *index = 0;
+    for (const char *word = words; *word != '\0';) {
+        const size_t length = strcspn(word, "|");
+        if (strlen(value) == length && strncmp(value, word, length) == 0) {
+            return PSPEC_OK;
+        }
+        word += length + (word[length] == '|');
+        ++*index;
+    }
+    return fail_word(option, words, value, error);
+}
+
+static pspec_status set_word(const ps_option *option, const char *words, const char *value,
+                             ps_arguments *arguments, ps_error *error) {
+    int index = 0;
+    PS_TRY(find_word(option, words, value, &index, error));
+    return set_text(option, words, value, arguments, error);
+}
+
+static pspec_status set_normalize(const ps_option *option, const char *words, const char *value,
+                                  ps_arguments *arguments, ps_error *error) {
+    int index = 0;
+    PS_TRY(find_word(option, words, value, &index, error));
+    arguments->effective = index == 1;
+    return PSPEC_OK;
+}
+
+/* The words after "auto" stand in the order of ps_precision. */
+static pspec_status set_precision(const ps_option *option, const char *words, const char *value,
+                                  ps_arguments *arguments, ps_error *error) {
+    int index = 0;
+    PS_TRY(find_word(option, words, value, &index, error));
+    arguments->precision = index - 1;
+    return PSPEC_OK;
+}
+
+/* ---- the table ----------------------------------------------------------------------------- */
+
+#define FLAG(field) .set = set_flag, .offset = offsetof(ps_arguments, field)
+#define TEXT(field) .set = set_text, .offset = offsetof(ps_arguments, field)
+#define WORD(field) .set = set_word, .offset = offsetof(ps_arguments, field)
+#define COUNT(field) .set = set_count, .offset = offsetof(ps_arguments, field)
+
+/* 10^10 points of the plane are 160 GB. */
+#define MOST_POINTS UINT64_C(10000000000)
+#define MOST_REALIZATIONS UINT64_C(1000000000000)
+
+/* In the order of ps_option_id, which is the order of --help. Where an option is repeated the last
+ * one counts, but for --sampler. */
+const ps_option ps_options[PS_NUM_OPTIONS] = {
+    [PS_OPTION_POINTS] = {.letter = 'n', .name = "points", .metavar = "N",
+                          .help = "points in each realization (default 1024)",
+                          COUNT(num_points), .what = "points", .minimum = 1, .maximum = MOST_POINTS},
+    [PS_OPTION_REALIZATIONS] = {.letter = 'm', .name = "realizations", .metavar = "M",
+                                .help = "realizations of each sampler (default 1)",
+                                COUNT(num_realizations), .what = "realizations",
+                                .minimum = 1, .maximum = MOST_REALIZATIONS},
+    [PS_OPTION_DIMENSION] = {.letter = 'd', .name = "dimension", .metavar = "D",
+                             .help = "dimension, 1 to 6 (default 2; of files: what they have)",
+                             .set = set_dimension, .what = "dimension",
+                             .minimum = 1, .maximum = PS_MAX_DIMENSION},
+    [PS_OPTION_SEED] = {.letter = 's', .name = "seed", .metavar = "S",
+                        .help = "seed, 0 to 2^64 - 1 (default 1); same seed, same bits",
+                        COUNT(seed), .what = "seed", .minimum = 0, .maximum = UINT64_MAX},
+    [PS_OPTION_SAMPLER] = {.name = "sampler", .metavar = "NAME[:key=value,...]",
+                           .help = "what makes the points; the names are below",
+                           .set = add_sampler},
+    [PS_OPTION_MAX_FREQUENCY] = {.letter = 'k', .name = "max-frequency", .metavar = "K",
+                                 .help = "frequencies -K..K on every axis, rings 1..K (default "
+                                         "ceil(5 N^(1/d)) for d <= 3)",
+                                 .set = set_max_frequency, .what = "max frequency",
+                                 .minimum = 1, .maximum = PS_MAX_FREQUENCY},
+    [PS_OPTION_FREQUENCIES] = {.name = "frequencies", .metavar = "FILE",
+                               .help = "only the integer frequency vectors in FILE, one per line",
+                               TEXT(frequencies)},
+    [PS_OPTION_SHELLS] = {.name = "shells",
+                          .help = "exact shells of |k|^2 instead of rings of width 1",
+                          FLAG(shells)},
+    [PS_OPTION_FULL] = {.name = "full", .metavar = "FILE.npy",
+                        .help = "write the whole array too, shape (2K+1)^D, DC in the middle, and "
+                                "its standard error to FILE.standard_error.npy",
+                        TEXT(full)},
+    [PS_OPTION_NORMALIZE] = {.name = "normalize", .metavar = "power|effective",
+                             .help = "N |S|^2 / W^2, or |S|^2 / sum w^2 (default power)",
+                             .set = set_normalize},
+    [PS_OPTION_HOMOGENIZE] = {.name = "homogenize",
+                              .help = "shift every realization by one random vector, mod 1",
+                              FLAG(homogenize)},
+    [PS_OPTION_WEIGHTS] = {.name = "weights", .metavar = "equal|column|FILE",
+                           .help = "weights all 1, in the last column, or from FILE (default equal)",
+                           TEXT(weights)},
+    [PS_OPTION_INPUT_FORMAT] = {.name = "input-format", .metavar = "utk-text|npy",
+                                .help = "format of the point files (default: detected)",
+                                WORD(input_format)},
+    [PS_OPTION_WRAP] = {.name = "wrap",
+                        .help = "reduce coordinates outside [0,1) mod 1 instead of refusing them",
+                        FLAG(wrap)},
+    [PS_OPTION_TOLERANCE] = {.name = "tol", .metavar = "T",
+                             .help = "largest error of S relative to white noise, above 0 and at "
+                                     "most 1 (default 1e-6)",
+                             .set = set_tolerance, .what = "tolerance"},
+    [PS_OPTION_FLOOR] = {.name = "floor", .metavar = "P",
+                         .help = "powers down to P are right to 10 %",
+                         .set = set_floor, .what = "floor"},
+    [PS_OPTION_PRECISION] = {.name = "precision", .metavar = "auto|single|double|extended",
+                             .help = "arithmetic of the engine (default auto: the cheapest that "
+                                     "meets the tolerance)",
+                             .set = set_precision},
+    [PS_OPTION_ENGINE] = {.name = "engine", .metavar = "NAME",
+                          .help = "this engine; pointspec plan lists them (default: the cheapest)",
+                          TEXT(engine)},
+    [PS_OPTION_DEVICE] = {.name = "device", .metavar = "SELECTOR",
+                          .help = "OpenCL device: index, cpu, gpu, accelerator or part of a name "
+                                  "(default: POINTSPEC_DEVICE, else the first GPU, else the first "
+                                  "CPU)",
+                          TEXT(device)},
+    [PS_OPTION_NO_SKIP] = {.name = "no-skip",
+                           .help = "do also what the question does not need",
+                           FLAG(no_skip)},
+    [PS_OPTION_NO_SELF_CHECK] = {.name = "no-self-check",
+                                 .help = "do not recompute random entries with the referee",
+                                 FLAG(no_self_check)},
+    [PS_OPTION_OUTPUT] = {.letter = 'o', .name = "output", .metavar = "FILE",
+                          .help = "write there, in the format of its ending (default: standard "
+                                  "output)",
+                          TEXT(output)},
+    [PS_OPTION_FORMAT] = {.name = "format", .metavar = "csv|json|npy",
+                          .help = "format of the output (default: by the ending of FILE, else the "
+                                  "first of these)",
+                          WORD(format)},
+    [PS_OPTION_PLOT] = {.name = "plot", .metavar = "FILE",
+                        .help = "draw a picture too: .png, .svg or .pdf",
+                        TEXT(plot)},
+    [PS_OPTION_PROFILE] = {.name = "profile",
+                           .help = "time, flop/s and bytes/s of every kernel on standard error",
+                           FLAG(profile)},
+    [PS_OPTION_QUIET] = {.name = "quiet", .help = "no progress line, no remarks", FLAG(quiet)},
+    [PS_OPTION_VERBOSE] = {.name = "verbose",
+                           .help = "say on standard error what is being done",
+                           FLAG(verbose)},
+    [PS_OPTION_HELP] = {.letter = 'h', .name = "help", .help = "this text", .set = set_nothing},
+};
+
+/* ---- what a command takes ------------------------------------------------------------------ */
+
+bool ps_command_takes(const ps_command *command, ps_option_id id) {
+    if (id == PS_OPTION_HELP) {
+        return true;
+    }
+    for (const ps_option_id *own = command->options; *own != PS_NUM_OPTIONS; own++) {
+        if (*own == id) {
+            return true;
+        }
+    }
+    return false;
+}
+
+const char *ps_option_metavar(const ps_command *command, ps_option_id id) {
+    return id == PS_OPTION_FORMAT && command->formats != NULL ? command->formats
+                                                              : ps_options[id].metavar;
+}
+
+size_t ps_name_distance(const char *typed, const char *known) {
+    const size_t length = strlen(typed);
+    const bool is_beginning = length > 0 && strncmp(known, typed, length) == 0;
+    const bool goes_on = strncmp(known, typed, strlen(known)) == 0;
+    const size_t distance = ps_text_distance(typed, known);
+    return distance > 1 && (is_beginning || goes_on) ? 1 : distance;
+}

@@ -1,0 +1,22 @@
+/* Results of power jobs as a table, arrays and a picture. */
+#ifndef PS_CLI_POWER_TABLE_H
+#define PS_CLI_POWER_TABLE_H
+
+#include "cli/question.h"
+#include "io/table.h"
+
+/* Header lines and rows of num jobs that have run; the table of several samplers begins with a
+ * column `sampler`. */
+pspec_status ps_power_table(ps_table **out, const ps_arguments *arguments,
+                            const ps_power_job *const *jobs, size_t num,
+                            ps_error *error) PS_MUST_CHECK;
+
+/* --full: FILE.npy and FILE.standard_error.npy. */
+pspec_status ps_power_write_full(const ps_arguments *arguments, const ps_power_job *job,
+                                 ps_error *error) PS_MUST_CHECK;
+
+/* --plot: radial curves of all jobs, the picture of the spectrum when there is one 2-D job. */
+pspec_status ps_power_write_plot(const ps_arguments *arguments, const ps_power_job *const *jobs,
+                                 size_t num, ps_error *error) PS_MUST_CHECK;
+
+#endif

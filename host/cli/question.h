@@ -1,0 +1,19 @@
+/* From the command line to the question of a power job, shared by power and plan. */
+#ifndef PS_CLI_QUESTION_H
+#define PS_CLI_QUESTION_H
+
+#include "cli/command.h"
+#include "job/power_job.h"
+
+/* One question per sampler, or one for the files. The questions borrow from the arguments. */
+typedef struct ps_question_list {
+    size_t num;
+    ps_power_question questions[PS_MAX_SAMPLERS];
+    ps_sampler_request requests[PS_MAX_SAMPLERS];
+} ps_question_list;
+
+/* Checks that the options fit together. *out must not be moved afterwards. */
+pspec_status ps_questions_make(ps_question_list *out, const ps_arguments *arguments,
+                               ps_error *error) PS_MUST_CHECK;
+
+#endif

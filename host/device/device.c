@@ -1,0 +1,254 @@
+/* Finding, describing, choosing and opening devices. */
+#include "device/device_private.h"
+
+#include "base/memory.h"
+#include "base/text.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_PLATFORMS = 16, MAX_DEVICES = 64 };
+
+/* ---- listing ----------------------------------------------------------------------------- */
+
+static pspec_status fail_no_driver(ps_error *error) {
+    return ps_fail(error, PSPEC_ERROR_NO_DEVICE,
+                   "no OpenCL driver found: install the package pocl-opencl-icd (runs on any CPU) "
+                   "or the driver package of your GPU");
+}
+
+/* Every device of every platform; *num_devices is 0 at most when it fails. */
+static pspec_status find_devices(cl_device_id *devices, size_t *num_devices, ps_error *error) {
+    cl_platform_id platforms[MAX_PLATFORMS];
+    cl_uint num_platforms = 0;
+    *num_devices = 0;
+    if (clGetPlatformIDs(MAX_PLATFORMS, platforms, &num_platforms) != CL_SUCCESS) {
+        return fail_no_driver(error);
+    }
+    num_platforms = num_platforms < MAX_PLATFORMS ? num_platforms : MAX_PLATFORMS;
+    for (cl_uint i = 0; i < num_platforms && *num_devices < MAX_DEVICES; i++) {
+        cl_uint found = 0;
+        const cl_uint room = (cl_uint)(MAX_DEVICES - *num_devices);
+        /* A platform without devices answers CL_DEVICE_NOT_FOUND: that is not a failure. */
+        if (clGetDeviceIDs(platforms[i], CL_DEVICE_TYPE_ALL, room, devices + *num_devices,
+                           &found) == CL_SUCCESS) {
+            *num_devices += found < room ? found : room;
+        }
+    }
+    return *num_devices > 0 ? PSPEC_OK : fail_no_driver(error);
+}
+
+static void query_text(cl_device_id id, cl_device_info what, char *out, size_t out_bytes) {
+    char *text = NULL;
+    size_t bytes = 0;
+    out[0] = '\0';
+    if (clGetDeviceInfo(id, what, 0, NULL, &bytes) == CL_SUCCESS && bytes > 0 &&
+        (text = malloc(bytes)) != NULL &&
+        clGetDeviceInfo(id, what, bytes, text, NULL) == CL_SUCCESS) {
+        snprintf(out, out_bytes, "%.*s", (int)bytes, text);
+    }
+    free(text);
+}
+
+static uint64_t query_number(cl_device_id id, cl_device_info what, size_t bytes) {
+    uint64_t number = 0; /* little-endian hosts only: smaller types fill the low bytes */
+    return clGetDeviceInfo(id, what, bytes, &number, NULL) == CL_SUCCESS ? number : 0;
+}
+
+static unsigned query_uint(cl_device_id id, cl_device_info what) {
+    return (unsigned)query_number(id, what, sizeof(cl_uint));
+}
+
+static ps_device_limits read_limits(cl_device_id id) {
+    ps_device_limits limits = {0};
+    cl_platform_id platform = NULL;
+    query_text(id, CL_DEVICE_NAME, limits.name, sizeof limits.name);
+    query_text(id, CL_DRIVER_VERSION, limits.driver, sizeof limits.driver);
+    query_text(id, CL_DEVICE_VERSION, limits.version, sizeof limits.version);
+    if (clGetDeviceInfo(id, CL_DEVICE_PLATFORM, sizeof platform, &platform, NULL) == CL_SUCCESS) {
+        clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof limits.platform, limits.platform,
+                          NULL);
+    }
+    const uint64_t type = query_number(id, CL_DEVICE_TYPE, sizeof(cl_device_type));
+    limits.is_gpu = (type & CL_DEVICE_TYPE_GPU) != 0;
+    limits.is_cpu = (type & CL_DEVICE_TYPE_CPU) != 0;
+    limits.has_fp64 =
+        query_number(id, CL_DEVICE_DOUBLE_FP_CONFIG, sizeof(cl_device_fp_config)) != 0;
+    limits.has_dedicated_local_memory =
+        query_number(id, CL_DEVICE_LOCAL_MEM_TYPE, sizeof(cl_device_local_mem_type)) == CL_LOCAL;
+    limits.compute_units = query_uint(id, CL_DEVICE_MAX_COMPUTE_UNITS);
+    limits.clock_mhz = query_uint(id, CL_DEVICE_MAX_CLOCK_FREQUENCY);
+    limits.native_float_lanes = query_uint(id, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT);
+    limits.native_double_lanes = query_uint(id, CL_DEVICE_NATIVE_VECTOR_WIDTH_DOUBLE);
+    limits.max_work_group_size =
+        (size_t)query_number(id, CL_DEVICE_MAX_WORK_GROUP_SIZE, sizeof(size_t));
+    limits.global_bytes = query_number(id, CL_DEVICE_GLOBAL_MEM_SIZE, sizeof(cl_ulong));
+    limits.max_allocation_bytes = query_number(id, CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof(cl_ulong));
+    limits.local_bytes = query_number(id, CL_DEVICE_LOCAL_MEM_SIZE, sizeof(cl_ulong));
+    limits.cache_bytes = query_number(id, CL_DEVICE_GLOBAL_MEM_CACHE_SIZE, sizeof(cl_ulong));
+    return limits;
+}
+
+pspec_status ps_device_list(ps_device_limits **limits, size_t *num_devices, ps_error *error) {
+    cl_device_id devices[MAX_DEVICES];
+    void *memory = NULL;
+    *limits = NULL;
+    PS_TRY(find_devices(devices, num_devices, error));
+    PS_TRY(ps_allocate(&memory, *num_devices, sizeof **limits, "the list of devices", error));
+    *limits = memory;
+    for (size_t i = 0; i < *num_devices; i++) {
+        (*limits)[i] = read_limits(devices[i]);
+    }
+    return PSPEC_OK;
+}
+
+/* ---- choosing ---------------------------------------------------------------------------- */
+
+static bool contains_ignoring_case(const char *text, const char *part) {
+    for (; *text != '\0'; text++) {
+        size_t i = 0;
+        while (part[i] != '\0' &&
+               tolower((unsigned char)text[i]) == tolower((unsigned char)part[i])) {
+            i++;
+        }
+        if (part[i] == '\0') {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool device_matches(const ps_device_limits *limits, const char *selector) {
+    if (strcmp(selector, "gpu") == 0) {
+        return limits->is_gpu;
+    }
+    if (strcmp(selector, "cpu") == 0) {
+        return limits->is_cpu;
+    }
+    if (strcmp(selector, "accelerator") == 0) {
+        return !limits->is_gpu && !limits->is_cpu;
+    }
+    return contains_ignoring_case(limits->name, selector);
+}
+
+/* First device that matches selector; num_devices when none does. */
+static size_t find_match(const ps_device_limits *limits, size_t num_devices, const char *selector) {
+    size_t i = 0;
+    while (i < num_devices && !device_matches(&limits[i], selector)) {
+        i++;
+    }
+    return i;
+}
+
+static size_t choose_default(const ps_device_limits *limits, size_t num_devices) {
+    const size_t gpu = find_match(limits, num_devices, "gpu");
+    const size_t cpu = find_match(limits, num_devices, "cpu");
+    return gpu < num_devices ? gpu : cpu < num_devices ? cpu : 0;
+}
+
+pspec_status ps_device_choose(const ps_device_limits *limits, size_t num_devices,
+                              const char *selector, size_t *index, ps_error *error) {
+    if (selector == NULL || selector[0] == '\0') {
+        *index = choose_default(limits, num_devices);
+        return PSPEC_OK;
+    }
+    if (selector[strspn(selector, "0123456789")] == '\0') {
+        uint64_t number = 0;
+        PS_TRY(ps_parse_count(selector, "device index", 0, num_devices - 1, &number, error));
+        *index = (size_t)number;
+        return PSPEC_OK;
+    }
+    *index = find_match(limits, num_devices, selector);
+    if (*index < num_devices) {
+        return PSPEC_OK;
+    }
+    ps_text names = {0};
+    for (size_t i = 0; i < num_devices; i++) {
+        ps_text_append(&names, "%s%zu: %s", i > 0 ? ", " : "", i, limits[i].name);
+    }
+    ps_fail(error, PSPEC_ERROR_NO_DEVICE, "no OpenCL device fits \"%s\"; there are %s", selector,
+            ps_text_string(&names));
+    ps_text_free(&names);
+    return PSPEC_ERROR_NO_DEVICE;
+}
+
+/* ---- opening ----------------------------------------------------------------------------- */
+
+static pspec_status choose_among(const cl_device_id *devices, size_t num_devices,
+                                 const char *selector, ps_device *device, ps_error *error) {
+    ps_device_limits limits[MAX_DEVICES];
+    size_t index = 0;
+    for (size_t i = 0; i < num_devices; i++) {
+        limits[i] = read_limits(devices[i]);
+    }
+    PS_TRY(ps_device_choose(limits, num_devices, selector, &index, error));
+    device->id = devices[index];
+    device->limits = limits[index];
+    return PSPEC_OK;
+}
+
+static pspec_status open_queue(ps_device *device, ps_error *error) {
+    cl_int code = CL_SUCCESS;
+    device->context = clCreateContext(NULL, 1, &device->id, NULL, NULL, &code);
+    if (code != CL_SUCCESS) {
+        return ps_device_fail(code, "clCreateContext", error);
+    }
+    const cl_command_queue_properties properties =
+        device->has_profile ? CL_QUEUE_PROFILING_ENABLE : 0;
+    device->queue = clCreateCommandQueue(device->context, device->id, properties, &code);
+    if (code != CL_SUCCESS) {
+        return ps_device_fail(code, "clCreateCommandQueue", error);
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_device_open(ps_device **out, const char *selector, bool with_profile,
+                            ps_error *error) {
+    cl_device_id devices[MAX_DEVICES];
+    size_t num_devices = 0;
+    void *memory = NULL;
+    *out = NULL;
+    PS_TRY(find_devices(devices, &num_devices, error));
+    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_device), "a device", error));
+    ps_device *device = memory;
+    device->has_profile = with_profile;
+    pspec_status status = choose_among(devices, num_devices, selector, device, error);
+    if (status == PSPEC_OK) {
+        status = open_queue(device, error);
+    }
+    if (status != PSPEC_OK) {
+        ps_device_close(device);
+        return status;
+    }
+    *out = device;
+    return PSPEC_OK;
+}
+
+void ps_device_close(ps_device *device) {
+    if (device == NULL) {
+        return;
+    }
+    for (size_t i = 0; i < device->num_programs; i++) {
+        clReleaseProgram(device->programs[i].program);
+        free(device->programs[i].key);
+    }
+    free(device->programs);
+    if (device->queue != NULL) {
+        clReleaseCommandQueue(device->queue);
+    }
+    if (device->context != NULL) {
+        clReleaseContext(device->context);
+    }
+    free(device);
+}
+
+const ps_device_limits *ps_device_get_limits(const ps_device *device) {
+    return &device->limits;
+}
+
+pspec_status ps_device_finish(ps_device *device, ps_error *error) {
+    PS_TRY_CL(clFinish(device->queue), error);
+    return PSPEC_OK;
+}

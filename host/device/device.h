@@ -1,0 +1,133 @@
+/* An OpenCL device: choice, limits, buffers, programs, launches, profile.
+ *
+ * A ps_device owns its context, one in-order queue and every program built through it. One thread at
+ * a time. Nothing here knows what the kernels compute.
+ */
+#ifndef PS_DEVICE_DEVICE_H
+#define PS_DEVICE_DEVICE_H
+
+#include "base/status.h"
+
+#include <CL/cl.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* ---- what a device can do ------------------------------------------------------------------ */
+
+typedef struct ps_device_limits {
+    char name[128], platform[128], driver[128], version[128];
+    bool is_gpu, is_cpu;
+    bool has_fp64;
+    bool has_dedicated_local_memory; /* GPUs; on CPUs local memory is ordinary memory */
+    unsigned compute_units, clock_mhz;
+    unsigned native_float_lanes, native_double_lanes;
+    size_t max_work_group_size;
+    uint64_t global_bytes, max_allocation_bytes, local_bytes, cache_bytes;
+} ps_device_limits;
+
+/* Limits of every device of every driver, in the order of their indices; *limits is freed by the
+ * caller. No driver at all is PSPEC_ERROR_NO_DEVICE. */
+pspec_status ps_device_list(ps_device_limits **limits, size_t *num_devices,
+                            ps_error *error) PS_MUST_CHECK;
+
+/* Index of the device that selector means: an index, "cpu", "gpu", "accelerator" or a part of a
+ * name (case does not matter); NULL or "" is the first GPU, else the first CPU, else the first. */
+pspec_status ps_device_choose(const ps_device_limits *limits, size_t num_devices,
+                              const char *selector, size_t *index, ps_error *error) PS_MUST_CHECK;
+
+/* ---- an open device ------------------------------------------------------------------------ */
+
+typedef struct ps_device ps_device;
+
+pspec_status ps_device_open(ps_device **out, const char *selector, bool with_profile,
+                            ps_error *error) PS_MUST_CHECK;
+void ps_device_close(ps_device *device);
+const ps_device_limits *ps_device_get_limits(const ps_device *device);
+/* Waits until everything enqueued is done; failures of earlier commands show here. */
+pspec_status ps_device_finish(ps_device *device, ps_error *error) PS_MUST_CHECK;
+
+/* Turns an OpenCL code into a status: no memory -> PSPEC_ERROR_MEMORY (smaller batches may help),
+ * everything else -> PSPEC_ERROR_DEVICE. */
+pspec_status ps_device_fail(cl_int code, const char *call, ps_error *error);
+const char *ps_cl_error_name(cl_int code);
+
+/* ---- buffers --------------------------------------------------------------------------------- */
+
+typedef struct ps_buffer {
+    cl_mem memory;
+    size_t bytes;
+} ps_buffer;
+
+/* At least one byte is allocated. Larger than the device allows: PSPEC_ERROR_MEMORY, not tried. */
+pspec_status ps_buffer_create(ps_device *device, ps_buffer *out, size_t bytes, const char *what,
+                              ps_error *error) PS_MUST_CHECK;
+void ps_buffer_release(ps_buffer *buffer); /* {0} is allowed */
+/* Both wait until the host memory may be used again. */
+pspec_status ps_buffer_write(ps_device *device, const ps_buffer *buffer, size_t offset_bytes,
+                             const void *data, size_t bytes, ps_error *error) PS_MUST_CHECK;
+pspec_status ps_buffer_read(ps_device *device, const ps_buffer *buffer, size_t offset_bytes,
+                            void *data, size_t bytes, ps_error *error) PS_MUST_CHECK;
+pspec_status ps_buffer_clear(ps_device *device, const ps_buffer *buffer,
+                             ps_error *error) PS_MUST_CHECK;
+
+/* ---- programs and kernels -------------------------------------------------------------------- */
+
+/* The kernel `name` of source file `source` (below kernels/), built with the -D options given, for
+ * example "-DPRECISION=32 -DLANES=16". A program is built once per (source, options). The kernel
+ * belongs to the caller: clReleaseKernel. A failed build puts the log into the message. */
+pspec_status ps_kernel_create(ps_device *device, cl_kernel *out, const char *source,
+                              const char *name, const char *options, ps_error *error) PS_MUST_CHECK;
+
+/* ---- launches -------------------------------------------------------------------------------- */
+
+typedef struct ps_argument {
+    size_t bytes;
+    const void *value; /* NULL: bytes of local memory */
+} ps_argument;
+
+#define PS_BUFFER(buffer) ((ps_argument){sizeof(cl_mem), &(buffer).memory})
+#define PS_U32(x) ((ps_argument){sizeof(cl_uint), &(cl_uint){(cl_uint)(x)}})
+#define PS_U64(x) ((ps_argument){sizeof(cl_ulong), &(cl_ulong){(cl_ulong)(x)}})
+#define PS_LOCAL(num_bytes) ((ps_argument){(num_bytes), NULL})
+
+/* What one launch covers, and the work it counts as in the profile. */
+typedef struct ps_range {
+    unsigned rank;
+    size_t global[3];
+    size_t local[3];    /* all 0: the driver chooses */
+    double flops, bytes; /* arithmetic done and memory touched at least once */
+} ps_range;
+
+/* Ranges with the work-groups that suit the device: heavy for work-items that run thousands of
+ * operations (one per work-group on CPUs, where a work-group runs on one thread), light for short
+ * ones. The first extent is rounded up to whole work-groups: kernels check it. */
+ps_range ps_range_heavy(const ps_device *device, size_t first, size_t second, size_t third,
+                        double flops, double bytes);
+ps_range ps_range_light(const ps_device *device, size_t first, size_t second, size_t third,
+                        double flops, double bytes);
+/* Work-items in a light work-group, and in a heavy one on devices with local memory of their own; 0
+ * restores the default. Results do not depend on it (that is what the tests use it for). */
+void ps_device_set_group_size(ps_device *device, size_t group_size);
+
+/* Checks the number of arguments, the work-group size and local memory against kernel and device,
+ * then launches. A range with a zero extent does nothing. */
+pspec_status ps_launch_arguments(ps_device *device, cl_kernel kernel, const ps_range *range,
+                                 const ps_argument *arguments, size_t num_arguments,
+                                 ps_error *error) PS_MUST_CHECK;
+#define PS_LAUNCH(device, kernel, range, error, ...)                                               \
+    ps_launch_arguments((device), (kernel), (range), (const ps_argument[]){__VA_ARGS__},           \
+                        sizeof((const ps_argument[]){__VA_ARGS__}) / sizeof(ps_argument), (error))
+
+/* ---- profile --------------------------------------------------------------------------------- */
+
+typedef struct ps_profile_row {
+    char kernel[64];
+    uint64_t launches;
+    double seconds, flops, bytes;
+} ps_profile_row;
+
+/* Rows in the order in which kernels first ran; empty without profile. Borrowed. */
+const ps_profile_row *ps_device_profile(const ps_device *device, size_t *num_rows);
+
+#endif

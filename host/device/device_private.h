@@ -1,0 +1,39 @@
+/* Inside of ps_device, for the files of host/device only. */
+#ifndef PS_DEVICE_DEVICE_PRIVATE_H
+#define PS_DEVICE_DEVICE_PRIVATE_H
+
+#include "device/device.h"
+
+typedef struct ps_built_program {
+    char *key; /* source name and options */
+    cl_program program;
+} ps_built_program;
+
+enum { PS_PROFILE_ROWS = 64 }; /* more kernels than the product has; further ones are not counted */
+
+struct ps_device {
+    ps_device_limits limits;
+    cl_device_id id;
+    cl_context context;
+    cl_command_queue queue;
+    ps_built_program *programs;
+    size_t num_programs, programs_capacity;
+    size_t group_size; /* see ps_device_set_group_size; 0: default */
+    bool has_profile;
+    ps_profile_row profile[PS_PROFILE_ROWS];
+    size_t num_profile_rows;
+};
+
+/* Adds one finished launch to the profile and releases the event. */
+pspec_status ps_profile_add(ps_device *device, cl_kernel kernel, const ps_range *range,
+                            cl_event event, ps_error *error) PS_MUST_CHECK;
+
+#define PS_TRY_CL(call, error)                                                                     \
+    do {                                                                                           \
+        const cl_int ps_cl_code = (call);                                                          \
+        if (ps_cl_code != CL_SUCCESS) {                                                            \
+            return ps_device_fail(ps_cl_code, #call, (error));                                     \
+        }                                                                                          \
+    } while (0)
+
+#endif

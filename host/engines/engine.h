@@ -1,0 +1,93 @@
+/* The interface of every engine on the torus, and the table that names them all.
+ *
+ * An engine turns batches of point sets into rows of powers, one row per realization, one slot per
+ * frequency (plus padding). It says when it applies, what it costs in work and memory and how exact
+ * it is; the planner (host/plan) compares. Costs are counts of work: turning them into seconds is
+ * the cost model's business. A new engine is a new file and a row in engines/table.c.
+ */
+#ifndef PS_ENGINES_ENGINE_H
+#define PS_ENGINES_ENGINE_H
+
+#include "base/status.h"
+#include "base/text.h"
+#include "device/device.h"
+#include "engines/frequencies.h"
+
+typedef enum ps_precision {
+    PS_SINGLE = 0,  /* float terms, float-pair sums */
+    PS_DOUBLE = 1,  /* double terms, double-pair sums */
+    PS_EXTENDED = 2 /* long double on the host */
+} ps_precision;
+
+const char *ps_precision_name(ps_precision precision);
+
+/* What is to be computed, for the whole job: engines and planner see nothing of batches. */
+typedef struct ps_problem {
+    const ps_frequencies *frequencies;
+    uint64_t num_points;       /* of the largest realization */
+    uint64_t num_realizations; /* 0: not known in advance */
+    bool has_weights;
+    double tolerance; /* of S relative to white noise, see ps_engine.error */
+} ps_problem;
+
+/* Work and memory of a whole job. */
+typedef struct ps_work {
+    double phases;              /* (point, frequency) pairs for which a cosine and sine are made */
+    double product_flops;       /* additions and multiplications of products of tables */
+    double launches;            /* kernel launches per batch */
+    double fixed_bytes;         /* memory on the device, whatever the batch */
+    double bytes_per_realization; /* and for each realization of a batch */
+    double largest_buffer_per_realization; /* part of that in one allocation */
+} ps_work;
+
+/* A batch of realizations. power = scales[r] |S|^2. */
+typedef struct ps_batch {
+    size_t num_patterns;
+    const pspec_pattern *patterns;
+    const double *scales;
+} ps_batch;
+
+/* Rows of powers, borrowed from the engine until its next run. */
+typedef struct ps_rows {
+    size_t num_rows, stride; /* realizations; entries from row to row */
+    ps_precision precision;  /* of the entries: single -> float, else double */
+    const double *host;      /* rows in host memory, or NULL */
+    ps_buffer device;        /* else rows in device memory, padded to a multiple of the lanes */
+} ps_rows;
+
+typedef struct ps_engine {
+    const char *name;
+    const char *summary; /* one line, for plan and docs */
+    bool needs_device;
+    bool has_precision[3]; /* by ps_precision */
+
+    /* May it do this problem? limits is NULL without a device. *why_not is a static sentence. */
+    bool (*applicable)(const ps_problem *, const ps_device_limits *limits, ps_precision,
+                       const char **why_not);
+    ps_work (*work)(const ps_problem *, const ps_device_limits *limits, ps_precision);
+    /* Expected error e of S in sqrt(mean |dS|^2) = e sqrt(sum w^2), mean over the frequencies, for
+     * sets whose effective power averaged over the frequencies is mean_power (1: white noise).
+     * The formula and its measured slack are in the engine's page in docs/. */
+    double (*error)(const ps_problem *, ps_precision, double mean_power);
+    /* batch: the largest number of patterns in one run. The problem's frequencies are enumerated
+     * and outlive the state. */
+    pspec_status (*create)(void **state, const ps_problem *, ps_precision, size_t batch,
+                           ps_device *, ps_error *);
+    /* slots[i] is where in a row the power of frequency i stands. */
+    void (*get_slots)(const void *state, uint32_t *slots);
+    /* Entries in a row. */
+    size_t (*get_stride)(const void *state);
+    pspec_status (*run)(void *state, const ps_batch *, ps_rows *, ps_error *);
+    /* "(torus_direct precision=single split=33x32 lanes=16)" */
+    void (*describe)(const void *state, ps_text *);
+    void (*destroy)(void *state); /* NULL allowed */
+} ps_engine;
+
+/* All engines, ended by NULL, in the order in which plan lists them. */
+extern const ps_engine *const ps_engines[];
+
+/* Lanes of the device kernels: frequencies (or realizations) side by side. The native vector width
+ * on CPUs; on GPUs, where it means work per work-item, GPU_LANES. */
+unsigned ps_engine_lanes(const ps_device_limits *limits, ps_precision precision);
+
+#endif

@@ -1,0 +1,150 @@
+#include "engines/frequencies.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Slots of results are 32-bit indices on the device, with padding and both signs. */
+#define MAX_NUM_FREQUENCIES (((uint64_t)1 << 31) / 4)
+
+int64_t ps_frequency_norm2(const int32_t *k, unsigned dimension) {
+    int64_t sum = 0;
+    for (unsigned i = 0; i < dimension; i++) {
+        sum += (int64_t)k[i] * k[i];
+    }
+    return sum;
+}
+
+bool ps_frequency_is_in_half_lattice(const int32_t *k, unsigned dimension) {
+    unsigned i = 0;
+    while (i < dimension && k[i] == 0) {
+        i++;
+    }
+    return i < dimension && k[i] > 0;
+}
+
+/* ((2K+1)^d - 1) / 2, or more than the limit when it does not fit. */
+static uint64_t half_box_size(unsigned dimension, int64_t max_frequency) {
+    uint64_t size = 1;
+    for (unsigned i = 0; i < dimension; i++) {
+        if (size > 4 * MAX_NUM_FREQUENCIES) {
+            return size;
+        }
+        size *= (uint64_t)(2 * max_frequency + 1);
+    }
+    return (size - 1) / 2;
+}
+
+/* Half the volume of the ball |k|^2 <= K^2 + K: planning needs no more than this. */
+static size_t approximate_half_ball_size(unsigned dimension, double max_frequency) {
+    const double half_dimension = dimension / 2.0;
+    const double pi = 3.14159265358979323846;
+    const double unit_ball = pow(pi, half_dimension) / tgamma(half_dimension + 1);
+    return (size_t)ceil(unit_ball * pow(max_frequency + 0.5, dimension) / 2);
+}
+
+static int32_t largest_allowed(unsigned dimension) {
+    int32_t low = 1;
+    int32_t high = PS_MAX_FREQUENCY;
+    while (low < high) {
+        const int32_t middle = low + (high - low + 1) / 2;
+        if (half_box_size(dimension, middle) <= MAX_NUM_FREQUENCIES) {
+            low = middle;
+        } else {
+            high = middle - 1;
+        }
+    }
+    return low;
+}
+
+pspec_status ps_frequencies_lattice(ps_frequencies *out, unsigned dimension, int32_t max_frequency,
+                                    bool is_ball, ps_error *error) {
+    *out = (ps_frequencies){.kind = is_ball ? PS_FREQUENCIES_BALL : PS_FREQUENCIES_BOX,
+                            .dimension = dimension,
+                            .max_frequency = max_frequency};
+    if (dimension < 1 || dimension > PS_MAX_TORUS_DIMENSION) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "dimension %u is not between 1 and %d",
+                       dimension, PS_MAX_TORUS_DIMENSION);
+    }
+    const int32_t largest = largest_allowed(dimension);
+    if (max_frequency < 1 || max_frequency > largest) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "max frequency %d is not between 1 and %d, the largest whose full grid in "
+                       "dimension %u can be indexed; lists of frequencies have no such limit",
+                       (int)max_frequency, (int)largest, dimension);
+    }
+    const size_t box = (size_t)half_box_size(dimension, max_frequency);
+    const size_t ball = approximate_half_ball_size(dimension, max_frequency);
+    out->num = is_ball && ball < box ? ball : box;
+    return PSPEC_OK;
+}
+
+pspec_status ps_frequencies_list(ps_frequencies *out, unsigned dimension, size_t num,
+                                 int32_t *vectors, ps_error *error) {
+    *out = (ps_frequencies){.kind = PS_FREQUENCIES_LIST,
+                            .dimension = dimension,
+                            .num = num,
+                            .vectors = vectors};
+    for (size_t i = 0; i < num * dimension; i++) {
+        const int64_t size = llabs((long long)vectors[i]);
+        if (size > PS_MAX_FREQUENCY) {
+            return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                           "frequency %zu has the component %d; the largest allowed is %d",
+                           i / dimension + 1, (int)vectors[i], (int)PS_MAX_FREQUENCY);
+        }
+        out->max_frequency = size > out->max_frequency ? (int32_t)size : out->max_frequency;
+    }
+    return PSPEC_OK;
+}
+
+/* The next vector of the box in lexicographic order; false after the last. */
+static bool advance(int32_t *k, unsigned dimension, int32_t max_frequency) {
+    for (unsigned i = dimension; i-- > 0;) {
+        if (k[i] < max_frequency) {
+            k[i]++;
+            return true;
+        }
+        k[i] = -max_frequency;
+    }
+    return false;
+}
+
+/* Walks through the half lattice after DC; stores vectors where out is not NULL. */
+static size_t walk_half_lattice(const ps_frequencies *set, int32_t *out) {
+    const int64_t limit = (int64_t)set->max_frequency * (set->max_frequency + (int64_t)1);
+    int32_t k[PS_MAX_TORUS_DIMENSION] = {0};
+    size_t count = 0;
+    while (advance(k, set->dimension, set->max_frequency)) {
+        if (set->kind == PS_FREQUENCIES_BALL && ps_frequency_norm2(k, set->dimension) > limit) {
+            continue;
+        }
+        for (unsigned i = 0; out != NULL && i < set->dimension; i++) {
+            out[count * set->dimension + i] = k[i];
+        }
+        count++;
+    }
+    return count;
+}
+
+pspec_status ps_frequencies_enumerate(ps_frequencies *frequencies, ps_error *error) {
+    void *vectors = NULL;
+    size_t num_components = 0;
+    if (frequencies->vectors != NULL) {
+        return PSPEC_OK;
+    }
+    const size_t num = walk_half_lattice(frequencies, NULL);
+    if (!ps_size_multiply(num, frequencies->dimension, &num_components)) {
+        return ps_fail(error, PSPEC_ERROR_MEMORY, "%zu frequencies are too many", num);
+    }
+    PS_TRY(ps_allocate(&vectors, num_components, sizeof(int32_t), "the frequencies", error));
+    frequencies->num = num;
+    frequencies->vectors = vectors;
+    walk_half_lattice(frequencies, frequencies->vectors);
+    return PSPEC_OK;
+}
+
+void ps_frequencies_free(ps_frequencies *frequencies) {
+    free(frequencies->vectors);
+    *frequencies = (ps_frequencies){0};
+}

@@ -1,0 +1,52 @@
+/* Sets of integer frequencies on the torus: a list that somebody made, or the half lattice of a box.
+ *
+ * Real weights make |S(-k)| = |S(k)|, so a box |k_i| <= K is represented by its half lattice: the k
+ * whose first non-zero component is positive, in lexicographic order, DC left out
+ * (mathematics.md 1.3). A ball keeps only k with |k|^2 <= K^2 + K: all rings 1..K, no corners.
+ */
+#ifndef PS_ENGINES_FREQUENCIES_H
+#define PS_ENGINES_FREQUENCIES_H
+
+#include "base/status.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum { PS_MAX_TORUS_DIMENSION = 6 };
+
+/* Largest |k_i|: fixed-point phases in float stay exact to a few units below it (torus/phase.h:
+ * the sum over six axes must stay below 2^31). */
+#define PS_MAX_FREQUENCY ((int32_t)1 << 28)
+
+typedef enum ps_frequency_kind {
+    PS_FREQUENCIES_LIST,
+    PS_FREQUENCIES_BOX,
+    PS_FREQUENCIES_BALL
+} ps_frequency_kind;
+
+typedef struct ps_frequencies {
+    ps_frequency_kind kind;
+    unsigned dimension;
+    int32_t max_frequency; /* K; for a list the largest |k_i| in it */
+    size_t num;            /* exact for lists and boxes, for balls once enumerated */
+    int32_t *vectors;      /* [num][dimension]; NULL for boxes and balls not yet enumerated */
+} ps_frequencies;
+
+/* A box or ball, not enumerated: costs nothing, whatever the size. dimension 1..6, K >= 1. More
+ * frequencies than an index holds: PSPEC_ERROR_INVALID_ARGUMENT with the largest K that fits. */
+pspec_status ps_frequencies_lattice(ps_frequencies *out, unsigned dimension, int32_t max_frequency,
+                                    bool is_ball, ps_error *error) PS_MUST_CHECK;
+/* A list: takes vectors over ([num][dimension], allocated by malloc). */
+pspec_status ps_frequencies_list(ps_frequencies *out, unsigned dimension, size_t num,
+                                 int32_t *vectors, ps_error *error) PS_MUST_CHECK;
+/* Fills vectors (and the exact num of a ball). */
+pspec_status ps_frequencies_enumerate(ps_frequencies *frequencies, ps_error *error) PS_MUST_CHECK;
+void ps_frequencies_free(ps_frequencies *frequencies);
+
+/* |k|^2 */
+int64_t ps_frequency_norm2(const int32_t *k, unsigned dimension);
+/* True when the first non-zero component is positive. */
+bool ps_frequency_is_in_half_lattice(const int32_t *k, unsigned dimension);
+
+#endif

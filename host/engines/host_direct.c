@@ -1,0 +1,162 @@
+/* The referee plays in another arithmetic than the device engines: long double terms and sums,
+ * library cosines and sines, phases reduced by splitting coordinates instead of fixed point.
+ */
+#include "engines/host_direct.h"
+
+#include "base/memory.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+static const long double two_pi = 6.283185307179586476925286766559L;
+
+/* k x mod 1, in [-1/2, 1/2]. x = high + low with high a multiple of 2^-32, so that k high is exact
+ * for |k| < 2^28 (2^20 where long double is double) and its whole part can be dropped without
+ * error; k low is below 2^-4 and rounds at 2^-68 (2^-57). */
+static long double reduced_phase(int32_t k, double x) {
+    const long double scale = LDBL_MANT_DIG >= 64 ? 4294967296.0L : 33554432.0L;
+    const long double high = rintl((long double)x * scale) / scale;
+    const long double low = (long double)x - high;
+    const long double whole = (long double)k * high;
+    return whole - rintl(whole) + (long double)k * low;
+}
+
+void ps_host_sum(const pspec_pattern *pattern, const int32_t *k, long double *re,
+                 long double *im) {
+    *re = 0;
+    *im = 0;
+    for (size_t j = 0; j < pattern->num_points; j++) {
+        const double *x = pattern->points + j * pattern->dimension;
+        long double turns = 0;
+        for (unsigned axis = 0; axis < pattern->dimension; axis++) {
+            turns += reduced_phase(k[axis], x[axis]);
+        }
+        const long double angle = two_pi * (turns - rintl(turns));
+        const long double weight = pattern->weights != NULL ? pattern->weights[j] : 1;
+        *re += weight * cosl(angle);
+        *im -= weight * sinl(angle);
+    }
+}
+
+/* ---- the engine -------------------------------------------------------------------------- */
+
+typedef struct host_direct {
+    const ps_frequencies *frequencies;
+    size_t batch;
+    double *power; /* [batch][number of frequencies] */
+} host_direct;
+
+static bool applicable(const ps_problem *problem, const ps_device_limits *limits,
+                       ps_precision precision, const char **why_not) {
+    (void)problem;
+    (void)limits;
+    *why_not = "extended precision only";
+    return precision == PS_EXTENDED;
+}
+
+static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
+                    ps_precision precision) {
+    (void)limits;
+    (void)precision;
+    const double realizations =
+        problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
+    const double num = (double)problem->frequencies->num;
+    return (ps_work){.phases = num * (double)problem->num_points * realizations,
+                     .bytes_per_realization = num * sizeof(double),
+                     .largest_buffer_per_realization = num * sizeof(double)};
+}
+
+/* Results are handed on as doubles: their rounding, not the sums (below 1e-18), is the error. */
+static double error_of(const ps_problem *problem, ps_precision precision, double mean_power) {
+    (void)problem;
+    (void)precision;
+    const double sums = LDBL_MANT_DIG >= 64 ? 1e-18 : 1e-15;
+    return sums + DBL_EPSILON / 2 * sqrt(mean_power);
+}
+
+static void destroy(void *state) {
+    host_direct *self = state;
+    if (self != NULL) {
+        free(self->power);
+        free(self);
+    }
+}
+
+static pspec_status create(void **state, const ps_problem *problem, ps_precision precision,
+                           size_t batch, ps_device *device, ps_error *error) {
+    (void)precision;
+    (void)device;
+    void *memory = NULL;
+    size_t num_powers = 0;
+    *state = NULL;
+    PS_TRY(ps_allocate(&memory, 1, sizeof(host_direct), "an engine", error));
+    host_direct *self = memory;
+    self->frequencies = problem->frequencies;
+    self->batch = batch;
+    pspec_status status = PSPEC_OK;
+    if (!ps_size_multiply(batch, problem->frequencies->num, &num_powers)) {
+        status = ps_fail(error, PSPEC_ERROR_MEMORY, "%zu realizations of %zu powers are too many",
+                         batch, problem->frequencies->num);
+    } else {
+        status = ps_allocate(&memory, num_powers, sizeof(double), "the powers of a batch", error);
+    }
+    if (status != PSPEC_OK) {
+        destroy(self);
+        return status;
+    }
+    self->power = memory;
+    *state = self;
+    return PSPEC_OK;
+}
+
+static void get_slots(const void *state, uint32_t *slots) {
+    const host_direct *self = state;
+    for (size_t i = 0; i < self->frequencies->num; i++) {
+        slots[i] = (uint32_t)i;
+    }
+}
+
+static size_t get_stride(const void *state) {
+    return ((const host_direct *)state)->frequencies->num;
+}
+
+static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_error *error) {
+    host_direct *self = state;
+    const ps_frequencies *set = self->frequencies;
+    (void)error;
+    for (size_t r = 0; r < batch->num_patterns; r++) {
+        for (size_t i = 0; i < set->num; i++) {
+            long double re = 0;
+            long double im = 0;
+            ps_host_sum(&batch->patterns[r], set->vectors + i * set->dimension, &re, &im);
+            self->power[r * set->num + i] = (double)((re * re + im * im) * batch->scales[r]);
+        }
+    }
+    *rows = (ps_rows){.num_rows = batch->num_patterns,
+                      .stride = set->num,
+                      .precision = PS_DOUBLE,
+                      .host = self->power};
+    return PSPEC_OK;
+}
+
+static void describe(const void *state, ps_text *text) {
+    (void)state;
+    ps_text_append(text, "(host_direct precision=extended digits=%d)", LDBL_DIG);
+}
+
+const ps_engine ps_host_direct = {
+    .name = "host_direct",
+    .summary = "direct sums in long double on the host: the referee, needs no device",
+    .needs_device = false,
+    .has_precision = {false, false, true},
+    .applicable = applicable,
+    .work = work,
+    .error = error_of,
+    .create = create,
+    .get_slots = get_slots,
+    .get_stride = get_stride,
+    .run = run,
+    .describe = describe,
+    .destroy = destroy,
+};

@@ -1,0 +1,28 @@
+/* The table of engines. A fast transform (torus_nufft) gets its row here. */
+#include "engines/engine.h"
+#include "engines/host_direct.h"
+#include "engines/torus_direct.h"
+
+const ps_engine *const ps_engines[] = {&ps_torus_direct, &ps_host_direct, NULL};
+
+/* Four right frequencies per work-item give 64 accumulators and 6.4 fused operations per number
+ * loaded in torus/product.cl; not yet measured on a GPU. */
+enum { GPU_LANES = 4, LARGEST_LANES = 16 };
+
+unsigned ps_engine_lanes(const ps_device_limits *limits, ps_precision precision) {
+    const unsigned native =
+        precision == PS_SINGLE ? limits->native_float_lanes : limits->native_double_lanes;
+    if (native <= 1 || limits->has_dedicated_local_memory) {
+        return GPU_LANES;
+    }
+    unsigned lanes = 1;
+    while (lanes * 2 <= native && lanes * 2 <= LARGEST_LANES) {
+        lanes *= 2;
+    }
+    return lanes;
+}
+
+const char *ps_precision_name(ps_precision precision) {
+    static const char *const names[] = {"single", "double", "extended"};
+    return names[precision];
+}

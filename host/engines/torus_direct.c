@@ -1,0 +1,336 @@
+/* The engine: one side for a list, two sides and their product for a grid. */
+#include "engines/torus_direct.h"
+
+#include "base/memory.h"
+#include "engines/torus_layout.h"
+#include "engines/torus_points.h"
+#include "engines/torus_side.h"
+#include "engines/torus_split.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct torus_direct {
+    ps_device *device;
+    const ps_frequencies *frequencies;
+    ps_precision precision;
+    ps_torus_layout layout;
+    size_t batch, stride;
+    ps_split split; /* grids only */
+    ps_torus_points points;
+    ps_torus_side left, right; /* a list has no right side */
+    cl_kernel product, product_power;
+    ps_buffer pairs, sums, scales, power;
+    void *host_scales;
+} torus_direct;
+
+/* ---- what the planner asks --------------------------------------------------------------- */
+
+/* Errors of S, in units of sqrt(sum w^2) for sets like white noise: rounding of the cosines and
+ * sines (independent from point to point) and of the runs of PS_TORUS_RUN terms. Then the part that
+ * grows with S itself, where terms add up in step. Measured: docs/torus_direct.md, tests/test_tolerance.c. */
+static const double random_error[2] = {1.0e-7, 2.2e-16};
+static const double coherent_error[2] = {1.2e-7, 2.6e-16};
+
+static bool applicable(const ps_problem *problem, const ps_device_limits *limits,
+                       ps_precision precision, const char **why_not) {
+    if (limits == NULL) {
+        *why_not = "needs an OpenCL device";
+        return false;
+    }
+    if (precision == PS_EXTENDED) {
+        *why_not = "single and double precision only";
+        return false;
+    }
+    if (precision == PS_DOUBLE && !limits->has_fp64) {
+        *why_not = "the device has no double precision";
+        return false;
+    }
+    const ps_torus_layout layout = ps_torus_layout_make(problem, limits, precision);
+    if (layout.largest_buffer_per_realization > limits->max_allocation_bytes) {
+        *why_not = "needs a larger buffer than the device allows";
+        return false;
+    }
+    if (layout.max_stride > UINT32_MAX) {
+        *why_not = "too many frequencies for 32-bit slots";
+        return false;
+    }
+    *why_not = NULL;
+    return true;
+}
+
+static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
+                    ps_precision precision) {
+    const ps_torus_layout layout = ps_torus_layout_make(problem, limits, precision);
+    const double realizations =
+        problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
+    const double num_points = (double)problem->num_points * realizations;
+    const double lanes = layout.lanes;
+    const double box =
+        lanes * lanes * (double)layout.left_tiles * (double)layout.right_tiles; /* padding counts */
+    const double used = layout.is_grid ? (double)problem->frequencies->num : 0;
+    const double all = 2 * (double)layout.num_left * (double)layout.num_right + 1;
+    const double share = used < all ? used / all : 1; /* tile pairs in corners are left out */
+    return (ps_work){
+        .phases = num_points * lanes * (double)(layout.left_tiles + layout.right_tiles),
+        .product_flops = 8 * num_points * box * share,
+        .launches = layout.is_grid ? 8 : 3,
+        .fixed_bytes = (double)layout.fixed_bytes,
+        .bytes_per_realization = (double)layout.bytes_per_realization,
+        .largest_buffer_per_realization = (double)layout.largest_buffer_per_realization};
+}
+
+static double error_of(const ps_problem *problem, ps_precision precision, double mean_power) {
+    /* Fixed-point phases: 2 + 2^-24 sum |k| units of 2^-32 turns (float, torus/phase.h), 2^-65 |k|
+     * turns (coordinates below 2^-11). Uniform errors: standard deviation 1/sqrt(12) of a unit. */
+    const double sum_k =
+        (double)problem->frequencies->max_frequency * problem->frequencies->dimension;
+    const double two_pi = 6.283185307179586;
+    const double phase = precision == PS_SINGLE ? two_pi * (2 + ldexp(sum_k, -24)) * ldexp(1, -32)
+                                                : two_pi * ldexp(sum_k, -65);
+    const double uniform = sqrt(12.0);
+    return hypot(random_error[precision], phase / uniform) +
+           coherent_error[precision] * sqrt(mean_power);
+}
+
+/* ---- create and destroy ------------------------------------------------------------------ */
+
+static void destroy(void *state) {
+    torus_direct *self = state;
+    if (self == NULL) {
+        return;
+    }
+    ps_split_free(&self->split);
+    ps_torus_points_free(&self->points);
+    ps_torus_side_free(&self->left);
+    ps_torus_side_free(&self->right);
+    if (self->product != NULL) {
+        clReleaseKernel(self->product);
+    }
+    if (self->product_power != NULL) {
+        clReleaseKernel(self->product_power);
+    }
+    ps_buffer_release(&self->pairs);
+    ps_buffer_release(&self->sums);
+    ps_buffer_release(&self->scales);
+    ps_buffer_release(&self->power);
+    free(self->host_scales);
+    free(self);
+}
+
+static pspec_status create_side(torus_direct *self, ps_torus_side *side, size_t num,
+                                const int32_t *vectors, ps_error *error) {
+    return ps_torus_side_create(side, &self->layout, self->frequencies->dimension, num, vectors,
+                                self->batch, self->layout.is_grid, side == &self->left,
+                                self->device, error);
+}
+
+static pspec_status create_product(torus_direct *self, ps_error *error) {
+    ps_text options = {0};
+    const unsigned lanes = self->layout.lanes;
+    const ps_split *split = &self->split;
+    ps_torus_options(&options, &self->layout, self->frequencies->dimension);
+    pspec_status status = ps_kernel_create(self->device, &self->product, "torus/product.cl",
+                                           "torus_product", ps_text_string(&options), error);
+    if (status == PSPEC_OK) {
+        status = ps_kernel_create(self->device, &self->product_power, "torus/power.cl",
+                                  "torus_power_product", ps_text_string(&options), error);
+    }
+    ps_text_free(&options);
+    PS_TRY(status);
+    PS_TRY(ps_buffer_create(self->device, &self->pairs, split->num_pairs * sizeof *split->pairs,
+                            "tile pairs", error));
+    PS_TRY(ps_buffer_write(self->device, &self->pairs, 0, split->pairs,
+                           split->num_pairs * sizeof *split->pairs, error));
+    return ps_buffer_create(self->device, &self->sums,
+                            self->batch * split->num_pairs * lanes * 8 * lanes *
+                                self->layout.real_bytes,
+                            "sums of products", error);
+}
+
+static pspec_status create_grid(torus_direct *self, ps_error *error) {
+    PS_TRY(ps_split_create(&self->split, self->frequencies, self->layout.lanes, error));
+    PS_TRY(create_side(self, &self->left, self->split.left.num, self->split.left.vectors, error));
+    PS_TRY(
+        create_side(self, &self->right, self->split.right.num, self->split.right.vectors, error));
+    self->stride = ps_split_stride(&self->split);
+    return create_product(self, error);
+}
+
+static pspec_status create_list(torus_direct *self, ps_error *error) {
+    PS_TRY(create_side(self, &self->left, self->frequencies->num, self->frequencies->vectors,
+                       error));
+    self->stride = self->left.num_tiles * self->layout.lanes;
+    return PSPEC_OK;
+}
+
+/* Rows are padded to whole groups of lanes and begin as zeros: accumulation reads whole groups. */
+static pspec_status create_rows(torus_direct *self, ps_error *error) {
+    const size_t lanes = self->layout.lanes;
+    const size_t num_rows = (self->batch + lanes - 1) / lanes * lanes;
+    PS_TRY(ps_buffer_create(self->device, &self->power,
+                            num_rows * self->stride * self->layout.real_bytes,
+                            "powers of a batch", error));
+    PS_TRY(ps_buffer_clear(self->device, &self->power, error));
+    PS_TRY(ps_buffer_create(self->device, &self->scales, self->batch * self->layout.real_bytes,
+                            "scales", error));
+    return ps_allocate(&self->host_scales, self->batch, self->layout.real_bytes, "scales", error);
+}
+
+static pspec_status create(void **state, const ps_problem *problem, ps_precision precision,
+                           size_t batch, ps_device *device, ps_error *error) {
+    void *memory = NULL;
+    *state = NULL;
+    PS_TRY(ps_allocate(&memory, 1, sizeof(torus_direct), "an engine", error));
+    torus_direct *self = memory;
+    self->device = device;
+    self->frequencies = problem->frequencies;
+    self->precision = precision;
+    self->batch = batch;
+    self->layout = ps_torus_layout_make(problem, ps_device_get_limits(device), precision);
+    pspec_status status = ps_torus_points_create(&self->points, problem->frequencies->dimension,
+                                                 batch, self->layout.slab, precision, device,
+                                                 error);
+    if (status == PSPEC_OK) {
+        status = self->layout.is_grid ? create_grid(self, error) : create_list(self, error);
+    }
+    if (status == PSPEC_OK) {
+        status = create_rows(self, error);
+    }
+    if (status != PSPEC_OK) {
+        destroy(self);
+        return status;
+    }
+    *state = self;
+    return PSPEC_OK;
+}
+
+static void get_slots(const void *state, uint32_t *slots) {
+    const torus_direct *self = state;
+    const ps_frequencies *set = self->frequencies;
+    for (size_t i = 0; i < set->num; i++) {
+        slots[i] = self->layout.is_grid ? (uint32_t)ps_split_slot(&self->split,
+                                                                  set->vectors +
+                                                                      i * set->dimension)
+                                        : (uint32_t)i;
+    }
+}
+
+static size_t get_stride(const void *state) {
+    return ((const torus_direct *)state)->stride;
+}
+
+/* ---- run --------------------------------------------------------------------------------- */
+
+static pspec_status upload_scales(torus_direct *self, const ps_batch *batch, ps_error *error) {
+    for (size_t r = 0; r < batch->num_patterns; r++) {
+        if (self->precision == PS_SINGLE) {
+            ((float *)self->host_scales)[r] = (float)batch->scales[r];
+        } else {
+            ((double *)self->host_scales)[r] = batch->scales[r];
+        }
+    }
+    return ps_buffer_write(self->device, &self->scales, 0, self->host_scales,
+                           batch->num_patterns * self->layout.real_bytes, error);
+}
+
+static pspec_status multiply(torus_direct *self, size_t num_patterns, size_t num_points,
+                             bool is_first, ps_error *error) {
+    const ps_split *split = &self->split;
+    const double lanes = self->layout.lanes;
+    const double products = (double)num_points * (double)split->num_pairs * lanes * lanes;
+    const double tables = (double)num_points * lanes *
+                          (double)(split->left.num_tiles + split->right.num_tiles) * 2;
+    const ps_range range =
+        ps_range_heavy(self->device, split->num_pairs, num_patterns, 1, 8 * products,
+                       tables * (double)self->layout.real_bytes);
+    return PS_LAUNCH(self->device, self->product, &range, error, PS_BUFFER(self->left.table),
+                     PS_BUFFER(self->right.table), PS_BUFFER(self->points.offsets),
+                     PS_BUFFER(self->pairs), PS_BUFFER(self->sums), PS_U64(split->num_pairs),
+                     PS_U32(split->left.num_tiles), PS_U32(split->right.num_tiles),
+                     PS_U64(self->layout.slab), PS_U32(is_first));
+}
+
+static pspec_status add_slab(torus_direct *self, const ps_batch *batch, size_t first,
+                             ps_error *error) {
+    size_t num_points = 0;
+    const size_t num_patterns = batch->num_patterns;
+    const bool is_first = first == 0;
+    PS_TRY(ps_torus_points_upload(&self->points, self->device, batch, first, &num_points, error));
+    PS_TRY(ps_torus_side_add(&self->left, &self->points, num_patterns, num_points, is_first,
+                             self->device, error));
+    if (!self->layout.is_grid) {
+        return PSPEC_OK;
+    }
+    PS_TRY(ps_torus_side_add(&self->right, &self->points, num_patterns, num_points, is_first,
+                             self->device, error));
+    return multiply(self, num_patterns, num_points, is_first, error);
+}
+
+static pspec_status finish_powers(torus_direct *self, size_t num_patterns, ps_error *error) {
+    const ps_split *split = &self->split;
+    if (!self->layout.is_grid) {
+        return ps_torus_side_power(&self->left, &self->scales, &self->power, 0, self->stride,
+                                   num_patterns, self->device, error);
+    }
+    PS_TRY(ps_torus_side_power(&self->left, &self->scales, &self->power, ps_split_left_slot(split),
+                               self->stride, num_patterns, self->device, error));
+    PS_TRY(ps_torus_side_power(&self->right, &self->scales, &self->power,
+                               ps_split_right_slot(split), self->stride, num_patterns,
+                               self->device, error));
+    const size_t num_rows = split->num_pairs * self->layout.lanes;
+    const double values = (double)(num_rows * self->layout.lanes * num_patterns);
+    const ps_range range = ps_range_light(self->device, num_rows, num_patterns, 1, 20 * values,
+                                          10 * values * (double)self->layout.real_bytes);
+    return PS_LAUNCH(self->device, self->product_power, &range, error, PS_BUFFER(self->sums),
+                     PS_BUFFER(self->scales), PS_BUFFER(self->power), PS_U64(num_rows),
+                     PS_U64(self->stride));
+}
+
+static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_error *error) {
+    torus_direct *self = state;
+    size_t longest = 1;
+    for (size_t r = 0; r < batch->num_patterns; r++) {
+        const size_t num_points = batch->patterns[r].num_points;
+        longest = num_points > longest ? num_points : longest;
+    }
+    PS_TRY(upload_scales(self, batch, error));
+    for (size_t first = 0; first < longest; first += self->layout.slab) {
+        PS_TRY(add_slab(self, batch, first, error));
+    }
+    PS_TRY(finish_powers(self, batch->num_patterns, error));
+    *rows = (ps_rows){.num_rows = batch->num_patterns,
+                      .stride = self->stride,
+                      .precision = self->precision,
+                      .device = self->power};
+    return PSPEC_OK;
+}
+
+static void describe(const void *state, ps_text *text) {
+    const torus_direct *self = state;
+    const ps_torus_layout *layout = &self->layout;
+    ps_text_append(text, "(torus_direct precision=%s lanes=%u run=%d slab=%zu",
+                   ps_precision_name(self->precision), layout->lanes, PS_TORUS_RUN, layout->slab);
+    if (layout->is_grid) {
+        ps_text_append(text, " split=%zux%zu tiles=%zu/%zu)", layout->num_left, layout->num_right,
+                       self->split.num_pairs, layout->max_pairs);
+    } else {
+        ps_text_append(text, " list=%zu)", layout->num_left);
+    }
+}
+
+const ps_engine ps_torus_direct = {
+    .name = "torus_direct",
+    .summary = "direct sums on the device; grids as separable products of two tables",
+    .needs_device = true,
+    .has_precision = {true, true, false},
+    .applicable = applicable,
+    .work = work,
+    .error = error_of,
+    .create = create,
+    .get_slots = get_slots,
+    .get_stride = get_stride,
+    .run = run,
+    .describe = describe,
+    .destroy = destroy,
+};

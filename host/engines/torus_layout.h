@@ -1,0 +1,32 @@
+/* Sizes of one torus_direct job: how much memory of which kind, for planning and for allocation. */
+#ifndef PS_ENGINES_TORUS_LAYOUT_H
+#define PS_ENGINES_TORUS_LAYOUT_H
+
+#include "engines/engine.h"
+
+/* Points of one chunk: the unit of partial sums, fixed so that sums do not depend on slabs. */
+enum { PS_TORUS_CHUNK = 1024 };
+
+/* Points summed in working precision before the pair takes the sum (kernels/torus/layout.h); see the
+ * table of errors against run length in docs/torus_direct.md. Divides PS_TORUS_CHUNK. */
+enum { PS_TORUS_RUN = 128 };
+
+typedef struct ps_torus_layout {
+    unsigned lanes;
+    size_t real_bytes;
+    bool is_grid;
+    size_t num_left, num_right;     /* frequencies; a list is all left */
+    size_t left_tiles, right_tiles; /* of `lanes` frequencies */
+    size_t max_pairs;               /* tile pairs, before those nobody needs are dropped */
+    size_t max_stride;              /* powers in a row, likewise */
+    size_t slab;                    /* points of each realization at a time, a multiple of chunks */
+    size_t num_chunks;              /* in a slab */
+    uint64_t fixed_bytes, bytes_per_realization;
+    uint64_t largest_buffer_per_realization;
+} ps_torus_layout;
+
+/* Without enumerating frequencies: cheap for planning. */
+ps_torus_layout ps_torus_layout_make(const ps_problem *problem, const ps_device_limits *limits,
+                                     ps_precision precision);
+
+#endif

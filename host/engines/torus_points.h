@@ -1,0 +1,33 @@
+/* Point sets on their way to the device: fixed-point coordinates, weights, offsets, one slab of every
+ * realization at a time, so that device memory does not grow with the number of points.
+ */
+#ifndef PS_ENGINES_TORUS_POINTS_H
+#define PS_ENGINES_TORUS_POINTS_H
+
+#include "engines/engine.h"
+
+typedef struct ps_torus_points {
+    unsigned dimension;
+    size_t batch, slab; /* realizations, points of each at a time */
+    ps_precision precision;
+    uint64_t *host_points; /* [batch * slab][dimension] */
+    void *host_weights;    /* [batch * slab] float or double */
+    uint64_t *host_offsets; /* [batch + 1] */
+    ps_buffer points, weights, offsets;
+} ps_torus_points;
+
+pspec_status ps_torus_points_create(ps_torus_points *out, unsigned dimension, size_t batch,
+                                    size_t slab, ps_precision precision, ps_device *device,
+                                    ps_error *error) PS_MUST_CHECK;
+void ps_torus_points_free(ps_torus_points *points);
+
+/* Uploads points first .. first + slab - 1 of every pattern of the batch (fewer or none where a
+ * pattern is shorter). *num_points is their number over all patterns. */
+pspec_status ps_torus_points_upload(ps_torus_points *points, ps_device *device,
+                                    const ps_batch *batch, size_t first, size_t *num_points,
+                                    ps_error *error) PS_MUST_CHECK;
+
+/* round(x 2^64) for x in [0,1): exact for x >= 2^-11, otherwise off by at most 2^-65. */
+uint64_t ps_fixed_point(double x);
+
+#endif

@@ -1,0 +1,229 @@
+#define _XOPEN_SOURCE 700 /* realpath */
+
+#include "io/output_file.h"
+
+#include "base/memory.h"
+#include "base/text.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+struct ps_output_file {
+    FILE *stream;
+    char *name;           /* as the caller gave it, for messages */
+    char *target;         /* the final name, symbolic links resolved; NULL: written directly */
+    char *temporary;      /* where the data are until commit; NULL: written directly */
+    mode_t mode;          /* permissions that the target had, 0: it is new */
+    int reason;           /* errno of the first ps_output_write that failed, or 0 */
+    bool is_caller_owned; /* standard output is not ours to close */
+};
+
+static pspec_status fail_write(const char *name, int reason, ps_error *error) {
+    return ps_fail(error, reason == EINTR ? PSPEC_ERROR_CANCELLED : PSPEC_ERROR_IO,
+                   "cannot write %s: %s", name, reason != 0 ? strerror(reason) : "a write failed");
+}
+
+static void destroy(ps_output_file *file) {
+    if (file->stream != NULL && !file->is_caller_owned) {
+        fclose(file->stream);
+    }
+    if (file->temporary != NULL) {
+        unlink(file->temporary);
+    }
+    free(file->name);
+    free(file->target);
+    free(file->temporary);
+    free(file);
+}
+
+/* The descriptors of this process under their file names: replacing them would be a surprise. */
+static bool names_descriptor(const char *path) {
+    return strncmp(path, "/dev/std", 8) == 0 || strncmp(path, "/dev/fd/", 8) == 0 ||
+           strncmp(path, "/proc/", 6) == 0;
+}
+
+static pspec_status open_directly(ps_output_file *file, const char *path, ps_error *error) {
+    const int descriptor = open(path, O_WRONLY | O_NOCTTY | O_CLOEXEC);
+    file->stream = descriptor >= 0 ? fdopen(descriptor, "wb") : NULL;
+    if (file->stream == NULL) {
+        const int reason = errno;
+        if (descriptor >= 0) {
+            close(descriptor);
+        }
+        return fail_write(file->name, reason, error);
+    }
+    return PSPEC_OK;
+}
+
+/* Creates DIRECTORY/.pointspec-PID-NUMBER.tmp; numbers taken by other outputs are passed over. The
+ * name does not hold the target's, which may have the greatest length already. */
+static int create_temporary(ps_output_file *file) {
+    enum { MOST_TRIES = 10000 };
+    const char *const slash = strrchr(file->target, '/');
+    const int folder_length = slash != NULL ? (int)(slash - file->target) + 1 : 0;
+    for (int number = 0; number < MOST_TRIES; number++) {
+        ps_text text = {0};
+        ps_text_append(&text, "%.*s.pointspec-%ld-%d.tmp", folder_length, file->target,
+                       (long)getpid(), number);
+        if (text.failed) {
+            ps_text_free(&text);
+            errno = ENOMEM;
+            return -1;
+        }
+        const int descriptor = open(text.data, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (descriptor >= 0) {
+            file->temporary = text.data;
+            return descriptor;
+        }
+        ps_text_free(&text);
+        if (errno != EEXIST) {
+            return -1;
+        }
+    }
+    return -1;
+}
+
+static pspec_status open_temporary(ps_output_file *file, ps_error *error) {
+    const int descriptor = create_temporary(file);
+    if (descriptor < 0) {
+        return fail_write(file->name, errno, error);
+    }
+    if (file->mode != 0) {
+        (void)fchmod(descriptor, file->mode); /* not all file systems have permissions */
+    }
+    file->stream = fdopen(descriptor, "wb");
+    if (file->stream == NULL) {
+        close(descriptor);
+        return fail_write(file->name, ENOMEM, error);
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status open_path(ps_output_file *file, const char *path, ps_error *error) {
+    struct stat facts;
+    const bool exists = stat(path, &facts) == 0;
+    if (exists && S_ISDIR(facts.st_mode)) {
+        return fail_write(file->name, EISDIR, error);
+    }
+    if (names_descriptor(path) || (exists && !S_ISREG(facts.st_mode))) {
+        return open_directly(file, path, error);
+    }
+    if (exists && access(path, W_OK) != 0) {
+        return fail_write(file->name, errno, error);
+    }
+    file->mode = exists ? facts.st_mode & 0777 : 0;
+    file->target = exists ? realpath(path, NULL) : strdup(path);
+    if (file->target == NULL) {
+        return fail_write(file->name, errno, error);
+    }
+    return open_temporary(file, error);
+}
+
+pspec_status ps_output_open(ps_output_file **out, const char *path, ps_error *error) {
+    *out = NULL;
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_output_file), "output file", error));
+    ps_output_file *file = memory;
+    const bool is_standard = strcmp(path, "-") == 0;
+    pspec_status status = PSPEC_OK;
+    file->name = strdup(is_standard ? "standard output" : path);
+    if (file->name == NULL) {
+        status = ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for a file name");
+    } else if (path[0] == '\0') {
+        status = ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "the name of an output is empty");
+    } else if (is_standard) {
+        file->stream = stdout;
+        file->is_caller_owned = true;
+    } else {
+        status = open_path(file, path, error);
+    }
+    if (status != PSPEC_OK) {
+        destroy(file);
+        return status;
+    }
+    *out = file;
+    return PSPEC_OK;
+}
+
+FILE *ps_output_stream(ps_output_file *file) {
+    return file->stream;
+}
+
+void ps_output_write(ps_output_file *file, const void *data, size_t element_bytes, size_t count) {
+    errno = 0;
+    if (fwrite(data, element_bytes, count, file->stream) != count && file->reason == 0) {
+        file->reason = errno;
+    }
+}
+
+pspec_status ps_output_check(ps_output_file *file, ps_error *error) {
+    errno = 0;
+    if (fflush(file->stream) != 0 || ferror(file->stream)) {
+        return fail_write(file->name, file->reason != 0 ? file->reason : errno, error);
+    }
+    return PSPEC_OK;
+}
+
+/* Pipes and devices cannot be made durable, and say EINVAL. */
+static bool is_durable(int descriptor) {
+    return fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS || errno == ENOTSUP;
+}
+
+/* The new name itself is in the folder, which has its own way to the disk. Failure is not reported:
+ * the file is complete and there. */
+static void sync_folder(const char *target) {
+    const char *const slash = strrchr(target, '/');
+    ps_text folder = {0};
+    ps_text_append_bytes(&folder, slash != NULL ? target : ".",
+                         slash != NULL ? (size_t)(slash - target) + 1 : 1);
+    const int descriptor = open(ps_text_string(&folder), O_RDONLY | O_CLOEXEC);
+    if (descriptor >= 0) {
+        (void)fsync(descriptor);
+        close(descriptor);
+    }
+    ps_text_free(&folder);
+}
+
+static pspec_status finish(ps_output_file *file, ps_error *error) {
+    PS_TRY(ps_output_check(file, error));
+    if (file->is_caller_owned) {
+        return PSPEC_OK;
+    }
+    if (!is_durable(fileno(file->stream))) {
+        return fail_write(file->name, errno, error);
+    }
+    const int close_status = fclose(file->stream);
+    file->stream = NULL;
+    if (close_status != 0) {
+        return fail_write(file->name, errno, error);
+    }
+    if (file->temporary == NULL) {
+        return PSPEC_OK;
+    }
+    if (rename(file->temporary, file->target) != 0) {
+        return fail_write(file->name, errno, error);
+    }
+    free(file->temporary);
+    file->temporary = NULL;
+    sync_folder(file->target);
+    return PSPEC_OK;
+}
+
+pspec_status ps_output_commit(ps_output_file **file, ps_error *error) {
+    const pspec_status status = finish(*file, error);
+    destroy(*file);
+    *file = NULL;
+    return status;
+}
+
+void ps_output_discard(ps_output_file **file) {
+    if (*file != NULL) {
+        destroy(*file);
+        *file = NULL;
+    }
+}

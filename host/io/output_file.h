@@ -1,0 +1,34 @@
+/* A file that appears under its final name only when it is complete.
+ *
+ * Data go to a temporary file in the same folder, which commit flushes to disk and renames; discard
+ * removes it. "-" is standard output, where nothing can be taken back; devices, pipes and
+ * /dev/stdout are written directly for the same reason. Temporary files that an interruption leaves
+ * behind are impossible for callers that always reach discard.
+ *
+ * As with fopen, the permissions of a new file follow the umask, those of an existing file stay, a
+ * file that may not be written is refused, and a symbolic link keeps pointing to the file.
+ */
+#ifndef PS_IO_OUTPUT_FILE_H
+#define PS_IO_OUTPUT_FILE_H
+
+#include "base/status.h"
+
+#include <stdio.h>
+
+typedef struct ps_output_file ps_output_file;
+
+pspec_status ps_output_open(ps_output_file **out, const char *path, ps_error *error) PS_MUST_CHECK;
+FILE *ps_output_stream(ps_output_file *file);
+/* fwrite to the stream that remembers why it failed, for check and commit; for large blocks, which
+ * stdio does not keep to try again. */
+void ps_output_write(ps_output_file *file, const void *data, size_t element_bytes, size_t count);
+/* Flushes the stream and reports a write that failed before or now (a full disk), without waiting
+ * for commit: for long outputs, and before the first commit of several files. */
+pspec_status ps_output_check(ps_output_file *file, ps_error *error) PS_MUST_CHECK;
+/* Checks every write that went before, makes the data durable, gives the file its name.
+ * The handle is freed in every case and *file set to NULL. */
+pspec_status ps_output_commit(ps_output_file **file, ps_error *error) PS_MUST_CHECK;
+/* NULL handles are allowed. */
+void ps_output_discard(ps_output_file **file);
+
+#endif

@@ -1,0 +1,43 @@
+/* Pictures of a torus spectrum, drawn by gnuplot: PNG, SVG or PDF by the ending of the path.
+ *
+ * Panels: the averaged periodogram around DC as an image (2-D only), the radial mean with error
+ * bars against normalised frequency, the anisotropy in dB below it.
+ */
+#ifndef PS_IO_PLOT_H
+#define PS_IO_PLOT_H
+
+#include "base/status.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* One radial curve. Arrays of length num_bins; standard_error and anisotropy_db may hold nan. */
+typedef struct ps_plot_curve {
+    const char *label;
+    size_t num_bins;
+    const double *normalized_frequency, *power, *standard_error, *anisotropy_db;
+} ps_plot_curve;
+
+/* The averaged periodogram on the whole square: [size][size], size odd, DC in the middle, row index
+ * along x_1. NULL data: no image panel. */
+typedef struct ps_plot_image {
+    size_t size;
+    const double *power;
+    double unit; /* integer frequencies per unit of normalised frequency, N^(1/2) */
+} ps_plot_image;
+
+typedef struct ps_plot {
+    const char *title;
+    size_t num_curves;
+    const ps_plot_curve *curves;
+    const ps_plot_image *image; /* NULL: none */
+    double noise_level_db;      /* level of pure noise in the anisotropy panel, nan: no line */
+} ps_plot;
+
+/* Is the ending of path one that can be drawn (.png .svg .pdf)? */
+bool ps_plot_is_supported(const char *path);
+/* Draws into path (through a temporary file, renamed when gnuplot succeeded). Fails with one
+ * sentence when gnuplot is not installed. */
+pspec_status ps_plot_write(const char *path, const ps_plot *plot, ps_error *error) PS_MUST_CHECK;
+
+#endif

@@ -1,0 +1,25 @@
+/* The gnuplot script of a picture, data included. Private to host/io. */
+#ifndef PS_IO_PLOT_SCRIPT_H
+#define PS_IO_PLOT_SCRIPT_H
+
+#include "io/plot.h"
+
+#include <stdio.h>
+
+/* terminal: "pngcairo", "svg" or "pdfcairo". Errors of the stream are the caller's to check. */
+pspec_status ps_plot_write_script(const ps_plot *plot, const char *terminal, FILE *stream,
+                                  ps_error *error) PS_MUST_CHECK;
+
+/* The image panel's values, ready to draw: blocks averaged until they fit the panel, DC left out,
+ * transposed so that x_1 runs to the right. */
+typedef struct ps_plot_raster {
+    size_t size;    /* pixels per side, odd */
+    double pixel;   /* width of a pixel in normalised frequency */
+    double maximum; /* power at the bright end of the scale */
+    double *power;  /* [size][size], second index along x_1 */
+} ps_plot_raster;
+
+pspec_status ps_plot_raster_make(ps_plot_raster *out, const ps_plot_image *image,
+                                 ps_error *error) PS_MUST_CHECK;
+
+#endif

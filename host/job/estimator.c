@@ -1,0 +1,257 @@
+#include "job/estimator.h"
+
+#include "base/memory.h"
+#include "job/pattern_check.h"
+#include "job/self_check.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+struct ps_estimator {
+    ps_estimator_options options;
+    ps_device *device;
+    void *engine_state; /* NULL after a refused allocation, until it is made again */
+    size_t batch;
+    ps_bins bins;
+    uint32_t *slots;
+    ps_accumulator *accumulator;
+    double reference_points; /* N_ref */
+    double *scales;          /* [batch] */
+    ps_pattern_sums *sums;   /* [batch] */
+    ps_pattern_totals totals;
+    ps_accuracy accuracy;
+};
+
+/* ---- create ------------------------------------------------------------------------------ */
+
+/* Makes the engine for self->batch realizations, or for half of them as long as memory is refused. */
+static pspec_status create_engine(ps_estimator *self, ps_error *error) {
+    const ps_estimator_options *options = &self->options;
+    pspec_status status = PSPEC_OK;
+    options->engine->destroy(self->engine_state);
+    self->engine_state = NULL;
+    for (;;) {
+        status = options->engine->create(&self->engine_state, &options->problem,
+                                         options->precision, self->batch, self->device, error);
+        if (status != PSPEC_ERROR_MEMORY || self->batch == 1) {
+            return status;
+        }
+        self->batch /= 2;
+    }
+}
+
+static pspec_status create_accumulator(ps_estimator *self, ps_error *error) {
+    void *memory = NULL;
+    const ps_estimator_options *options = &self->options;
+    const ps_frequencies *set = options->problem.frequencies;
+    PS_TRY(ps_allocate(&memory, set->num, sizeof(uint32_t), "slots", error));
+    self->slots = memory;
+    options->engine->get_slots(self->engine_state, self->slots);
+    PS_TRY(ps_bins_create(&self->bins, set, options->exact_shells, error));
+    const bool is_on_device = options->engine->needs_device;
+    const ps_accumulator_options accumulator = {
+        .bins = &self->bins,
+        .num_frequencies = set->num,
+        .slots = self->slots,
+        .stride = options->engine->get_stride(self->engine_state),
+        .batch = self->batch,
+        .is_on_device = is_on_device,
+        .precision = options->precision == PS_SINGLE ? PS_SINGLE : PS_DOUBLE,
+        .lanes = is_on_device ? ps_engine_lanes(ps_device_get_limits(self->device),
+                                                options->precision)
+                              : 1,
+        .want_frequencies = options->want_frequencies,
+    };
+    return ps_accumulator_create(&self->accumulator, &accumulator, self->device, error);
+}
+
+static pspec_status create_arrays(ps_estimator *self, ps_error *error) {
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, self->batch, sizeof(double), "scales", error));
+    self->scales = memory;
+    PS_TRY(ps_allocate(&memory, self->batch, sizeof *self->sums, "sums of weights", error));
+    self->sums = memory;
+    return PSPEC_OK;
+}
+
+pspec_status ps_estimator_create(ps_estimator **out, const ps_estimator_options *options,
+                                 ps_device *device, ps_error *error) {
+    void *memory = NULL;
+    *out = NULL;
+    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_estimator), "an estimator", error));
+    ps_estimator *self = memory;
+    self->options = *options;
+    self->device = device;
+    self->batch = options->batch;
+    self->reference_points = (double)options->problem.num_points;
+    pspec_status status = create_engine(self, error);
+    if (status == PSPEC_OK) {
+        status = create_accumulator(self, error);
+    }
+    if (status == PSPEC_OK) {
+        status = create_arrays(self, error);
+    }
+    if (status != PSPEC_OK) {
+        ps_estimator_destroy(self);
+        return status;
+    }
+    *out = self;
+    return PSPEC_OK;
+}
+
+void ps_estimator_destroy(ps_estimator *estimator) {
+    if (estimator == NULL) {
+        return;
+    }
+    estimator->options.engine->destroy(estimator->engine_state);
+    ps_accumulator_destroy(estimator->accumulator);
+    ps_bins_free(&estimator->bins);
+    free(estimator->slots);
+    free(estimator->scales);
+    free(estimator->sums);
+    free(estimator);
+}
+
+size_t ps_estimator_batch(const ps_estimator *estimator) {
+    return estimator->batch;
+}
+
+/* ---- add --------------------------------------------------------------------------------- */
+
+/* Checks the patterns of a batch and finds their scales and the largest number of points. */
+static pspec_status prepare(ps_estimator *self, const pspec_pattern *patterns, size_t num_patterns,
+                            uint64_t *longest, ps_error *error) {
+    const pspec_normalization normalization = self->options.normalization;
+    for (size_t r = 0; r < num_patterns; r++) {
+        PS_TRY(ps_pattern_check(&patterns[r], self->options.problem.frequencies->dimension,
+                                normalization, self->totals.num_realizations + r, &self->sums[r],
+                                error));
+        const double sum = self->sums[r].weight_sum;
+        self->scales[r] = normalization == PSPEC_NORMALIZATION_POWER
+                              ? self->reference_points / (sum * sum)
+                              : 1 / self->sums[r].weight_square_sum;
+        *longest = patterns[r].num_points > *longest ? patterns[r].num_points : *longest;
+    }
+    return PSPEC_OK;
+}
+
+/* Effective power of every realization, mean over all frequencies: what the error formula needs. */
+static void measure_powers(ps_estimator *self, const double *bin_powers, size_t num_patterns) {
+    const double num = (double)self->options.problem.frequencies->num;
+    for (size_t r = 0; r < num_patterns; r++) {
+        double sum = 0;
+        for (size_t b = 0; b < self->bins.num; b++) {
+            sum += bin_powers[r * self->bins.num + b] *
+                   (double)(self->bins.bins[b].end - self->bins.bins[b].begin);
+        }
+        const double power = sum / num / (self->scales[r] * self->sums[r].weight_square_sum);
+        if (!(power <= self->accuracy.largest_mean_power)) {
+            self->accuracy.largest_mean_power = power;
+        }
+    }
+}
+
+static void count_patterns(ps_estimator *self, const pspec_pattern *patterns, size_t num_patterns) {
+    ps_pattern_totals *totals = &self->totals;
+    for (size_t r = 0; r < num_patterns; r++) {
+        const size_t num_points = patterns[r].num_points;
+        const bool is_first = totals->num_realizations == 0;
+        totals->num_realizations++;
+        totals->sum_points += (double)num_points;
+        totals->sum_weights += self->sums[r].weight_sum;
+        if (is_first || num_points < totals->smallest_points) {
+            totals->smallest_points = num_points;
+        }
+        if (num_points > totals->largest_points) {
+            totals->largest_points = num_points;
+        }
+    }
+}
+
+static pspec_status check_first(ps_estimator *self, const ps_rows *rows,
+                                const pspec_pattern *pattern, ps_error *error) {
+    if (!self->options.self_check || self->accuracy.was_checked) {
+        return PSPEC_OK;
+    }
+    const ps_problem *problem = &self->options.problem;
+    self->accuracy.was_checked = true;
+    return ps_self_check(rows, self->slots, problem->frequencies, pattern, self->scales[0],
+                         self->sums[0].weight_square_sum,
+                         self->options.engine->error(problem, self->options.precision, 1),
+                         self->device, &self->accuracy.self_check, error);
+}
+
+/* Runs the engine on one batch that fits; makes a smaller engine when memory is refused (drivers may
+ * allocate no sooner than at the first use). */
+static pspec_status run_batch(ps_estimator *self, const pspec_pattern *patterns,
+                              size_t *num_patterns, ps_rows *rows, ps_error *error) {
+    for (;;) {
+        *num_patterns = *num_patterns < self->batch ? *num_patterns : self->batch;
+        const ps_batch batch = {*num_patterns, patterns, self->scales};
+        const pspec_status status =
+            self->options.engine->run(self->engine_state, &batch, rows, error);
+        if (status != PSPEC_ERROR_MEMORY || self->batch == 1) {
+            return status;
+        }
+        self->batch /= 2;
+        PS_TRY(create_engine(self, error));
+    }
+}
+
+static pspec_status add_batch(ps_estimator *self, const pspec_pattern *patterns,
+                              size_t *num_patterns, ps_error *error) {
+    uint64_t longest = self->options.problem.num_points;
+    ps_rows rows = {0};
+    const double *bin_powers = NULL;
+    PS_TRY(prepare(self, patterns, *num_patterns, &longest, error));
+    if (longest > self->options.problem.num_points) {
+        self->options.problem.num_points = longest;
+        PS_TRY(create_engine(self, error));
+    }
+    PS_TRY(run_batch(self, patterns, num_patterns, &rows, error));
+    PS_TRY(check_first(self, &rows, patterns, error));
+    PS_TRY(ps_accumulator_add(self->accumulator, &rows, &bin_powers, error));
+    measure_powers(self, bin_powers, *num_patterns);
+    count_patterns(self, patterns, *num_patterns);
+    return PSPEC_OK;
+}
+
+pspec_status ps_estimator_add(ps_estimator *estimator, const pspec_pattern *patterns,
+                              size_t num_patterns, ps_error *error) {
+    for (size_t done = 0; done < num_patterns;) {
+        const size_t rest = num_patterns - done;
+        size_t taken = rest < estimator->batch ? rest : estimator->batch;
+        PS_TRY(add_batch(estimator, patterns + done, &taken, error));
+        done += taken;
+    }
+    return PSPEC_OK;
+}
+
+/* ---- results ----------------------------------------------------------------------------- */
+
+pspec_status ps_estimator_spectrum(ps_estimator *estimator, ps_spectrum *out, ps_error *error) {
+    const ps_pattern_totals *totals = &estimator->totals;
+    if (totals->num_realizations == 0) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "there are no point sets to take a spectrum of");
+    }
+    const double mean_points = totals->sum_points / (double)totals->num_realizations;
+    const double factor = estimator->options.normalization == PSPEC_NORMALIZATION_POWER
+                              ? mean_points / estimator->reference_points
+                              : 1;
+    return ps_spectrum_create(out, estimator->options.problem.frequencies, &estimator->bins,
+                              estimator->accumulator, factor, totals,
+                              estimator->options.want_frequencies, error);
+}
+
+ps_accuracy ps_estimator_accuracy(const ps_estimator *estimator) {
+    ps_accuracy accuracy = estimator->accuracy;
+    accuracy.error = estimator->options.engine->error(
+        &estimator->options.problem, estimator->options.precision, accuracy.largest_mean_power);
+    return accuracy;
+}
+
+void ps_estimator_describe(const ps_estimator *estimator, ps_text *text) {
+    if (estimator->engine_state != NULL) {
+        estimator->options.engine->describe(estimator->engine_state, text);
+    }
+}

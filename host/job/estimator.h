@@ -1,0 +1,53 @@
+/* The streaming estimator: point sets go in, averages come out. Batches, memory, numerical error.
+ *
+ * Normalization. Rows hold q = N_ref |S|^2 / W^2 (N_ref fixed for the job: powers of order 1 in
+ * float) or |S|^2 / V; a mean over realizations of different N is mean(N) / N_ref mean(q)
+ * (mathematics.md 0: average p = |S|^2 / W^2, then P = mean(N) mean(p)).
+ */
+#ifndef PS_JOB_ESTIMATOR_H
+#define PS_JOB_ESTIMATOR_H
+
+#include "analysis/spectrum.h"
+#include "plan/choose.h"
+
+typedef struct ps_estimator ps_estimator;
+
+typedef struct ps_estimator_options {
+    ps_problem problem;        /* frequencies enumerated; num_points of the largest set so far known */
+    const ps_engine *engine;
+    ps_precision precision;
+    size_t batch;              /* realizations at a time; halved when memory is refused */
+    bool exact_shells;
+    bool want_frequencies;     /* keep sums per frequency */
+    bool self_check;
+    pspec_normalization normalization;
+} ps_estimator_options;
+
+/* The numerical side of a result. */
+typedef struct ps_accuracy {
+    double error;      /* bound of the engine's formula with the powers that were measured */
+    double largest_mean_power; /* largest effective power of a realization, mean over frequencies */
+    bool was_checked;
+    double self_check; /* largest deviation of |S| from the referee, in units of sqrt(sum w^2) */
+} ps_accuracy;
+
+/* device may be NULL for engines that need none. */
+pspec_status ps_estimator_create(ps_estimator **out, const ps_estimator_options *options,
+                                 ps_device *device, ps_error *error) PS_MUST_CHECK;
+void ps_estimator_destroy(ps_estimator *estimator);
+
+/* Adds realizations, in order; any number at a time gives the same bits. A pattern larger than
+ * problem.num_points is taken all the same (the engine is made anew). Checks every coordinate and
+ * weight. A self-check that fails is PSPEC_ERROR_CHECK. */
+pspec_status ps_estimator_add(ps_estimator *estimator, const pspec_pattern *patterns,
+                              size_t num_patterns, ps_error *error) PS_MUST_CHECK;
+
+/* Realizations that one call of ps_estimator_add takes best. */
+size_t ps_estimator_batch(const ps_estimator *estimator);
+
+pspec_status ps_estimator_spectrum(ps_estimator *estimator, ps_spectrum *out,
+                                   ps_error *error) PS_MUST_CHECK;
+ps_accuracy ps_estimator_accuracy(const ps_estimator *estimator);
+void ps_estimator_describe(const ps_estimator *estimator, ps_text *text);
+
+#endif

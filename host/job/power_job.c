@@ -1,0 +1,389 @@
+#include "job/power_job.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct ps_power_job {
+    const ps_power_question *question;
+    ps_source *source;
+    ps_point_set *sets; /* [capacity] a batch on its way */
+    pspec_pattern *patterns;
+    size_t capacity;
+    ps_point_set first; /* the first set, read for planning */
+    double *weights;
+    size_t num_weights;
+    ps_frequencies frequencies;
+    ps_needs needs;
+    ps_sampler_request request; /* what is really sampled: without a shift nobody needs */
+    uint64_t num_realizations;  /* that are computed; 0: unknown */
+    ps_problem problem;
+    ps_device *device;
+    ps_plan plan;
+    ps_estimator *estimator;
+    ps_spectrum spectrum;
+    ps_accuracy accuracy;
+    ps_text description;
+    bool was_replanned;
+};
+
+double ps_tolerance_of_floor(double floor) {
+    const double relative_error = 0.1;
+    const double deviations = 3;
+    return relative_error / 2 * sqrt(floor) / deviations;
+}
+
+/* ---- source ------------------------------------------------------------------------------ */
+
+static bool is_constant(const ps_power_question *question) {
+    return question->sampler != NULL && ps_sampler_has_constant_power(question->sampler);
+}
+
+static void find_needs(ps_power_job *job) {
+    const ps_power_question *question = job->question;
+    const bool is_grid = question->frequencies_path == NULL;
+    const ps_needs_question needs = {
+        .dimension = job->first.dimension,
+        .max_frequency = is_grid ? job->frequencies.max_frequency : 0,
+        .wants_full_array = question->wants_full_array,
+        .has_constant_power = is_constant(question),
+        .is_homogenized = question->sampler != NULL && question->sampler->homogenize,
+        .num_realizations = question->num_realizations,
+        .no_skip = question->no_skip,
+    };
+    job->needs = ps_needs_find(&needs);
+}
+
+static pspec_status open_source(ps_power_job *job, ps_error *error) {
+    const ps_power_question *question = job->question;
+    if (question->sampler == NULL) {
+        return ps_source_files(&job->source, question->paths, question->num_paths,
+                               &question->point_options, error);
+    }
+    /* The same two decisions as in plan/needs, which has not seen the frequencies yet. */
+    job->request = *question->sampler;
+    job->request.homogenize = question->sampler->homogenize && question->no_skip;
+    job->num_realizations =
+        is_constant(question) && !question->no_skip ? 1 : question->num_realizations;
+    return ps_source_sampler(&job->source, &job->request, job->num_realizations, error);
+}
+
+static pspec_status read_first(ps_power_job *job, ps_error *error) {
+    bool has_set = false;
+    PS_TRY(ps_source_next(job->source, &job->first, &has_set, error));
+    if (!has_set) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "there are no point sets to take a spectrum of");
+    }
+    if (job->question->weights_path != NULL) {
+        return ps_read_weights(job->question->weights_path, &job->weights, &job->num_weights,
+                               error);
+    }
+    return PSPEC_OK;
+}
+
+/* ---- frequencies ------------------------------------------------------------------------- */
+
+static pspec_status default_max_frequency(const ps_power_job *job, int32_t *out, ps_error *error) {
+    /* 5 N^(1/d): what UTK, PSA and GBN show. Above three dimensions it would be a surprise. */
+    const double times = 5;
+    enum { LARGEST_DIMENSION = 3 };
+    if (job->first.dimension > LARGEST_DIMENSION) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "in dimension %u the largest frequency must be given: -k K",
+                       job->first.dimension);
+    }
+    /* The root of an exact power may come out a rounding above it. */
+    const double root = pow((double)job->first.num_points, 1.0 / job->first.dimension);
+    const double rounding = 1e-12;
+    *out = (int32_t)ceil(times * root * (1 - rounding));
+    return PSPEC_OK;
+}
+
+static pspec_status read_frequency_list(ps_power_job *job, ps_error *error) {
+    int *vectors = NULL;
+    size_t num = 0;
+    unsigned dimension = 0;
+    PS_TRY(ps_read_frequencies(job->question->frequencies_path, &vectors, &num, &dimension, error));
+    PS_TRY(ps_frequencies_list(&job->frequencies, dimension, num, vectors, error));
+    if (dimension != job->first.dimension) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "\"%s\" holds frequencies of dimension %u, the points have dimension %u",
+                       job->question->frequencies_path, dimension, job->first.dimension);
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status choose_frequencies(ps_power_job *job, ps_error *error) {
+    const ps_power_question *question = job->question;
+    int32_t max_frequency = question->max_frequency;
+    if (question->frequencies_path != NULL) {
+        return read_frequency_list(job, error);
+    }
+    if (max_frequency == 0) {
+        PS_TRY(default_max_frequency(job, &max_frequency, error));
+    }
+    const bool only_ball = !question->wants_full_array && !question->no_skip;
+    return ps_frequencies_lattice(&job->frequencies, job->first.dimension, max_frequency, only_ball,
+                                  error);
+}
+
+/* ---- plan -------------------------------------------------------------------------------- */
+
+/* A device is opened unless the user's choice of engine or precision leaves none that needs one. */
+static pspec_status open_device(ps_power_job *job, ps_error *error) {
+    const ps_plan_constraints *constraints = &job->question->constraints;
+    bool is_needed = false;
+    for (const ps_engine *const *engine = ps_engines; *engine != NULL; engine++) {
+        const bool may_run =
+            (constraints->engine == NULL || strcmp(constraints->engine, (*engine)->name) == 0) &&
+            (constraints->precision < 0 || (*engine)->has_precision[constraints->precision]);
+        is_needed = is_needed || (may_run && (*engine)->needs_device);
+    }
+    return is_needed ? ps_device_open(&job->device, job->question->device, job->question->profile,
+                                      error)
+                     : PSPEC_OK;
+}
+
+static pspec_status make_plan(ps_power_job *job, double mean_power, ps_error *error) {
+    ps_plan_constraints constraints = job->question->constraints;
+    constraints.mean_power = mean_power;
+    return ps_plan_make(&job->plan, &job->problem, ps_power_job_limits(job), &constraints, error);
+}
+
+static pspec_status prepare(ps_power_job *job, ps_error *error) {
+    const ps_power_question *question = job->question;
+    const double by_floor = question->floor > 0 ? ps_tolerance_of_floor(question->floor) : 1;
+    PS_TRY(open_source(job, error));
+    PS_TRY(read_first(job, error));
+    PS_TRY(choose_frequencies(job, error));
+    find_needs(job);
+    job->problem = (ps_problem){
+        .frequencies = &job->frequencies,
+        .num_points = job->first.num_points,
+        .num_realizations = job->num_realizations,
+        .has_weights = job->first.has_weights || job->weights != NULL,
+        .tolerance = question->tolerance < by_floor ? question->tolerance : by_floor,
+    };
+    PS_TRY(open_device(job, error));
+    return make_plan(job, 1, error);
+}
+
+pspec_status ps_power_job_create(ps_power_job **out, const ps_power_question *question,
+                                 ps_error *error) {
+    void *memory = NULL;
+    *out = NULL;
+    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_power_job), "a job", error));
+    ps_power_job *job = memory;
+    job->question = question;
+    const pspec_status status = prepare(job, error);
+    if (status != PSPEC_OK) {
+        ps_power_job_destroy(job);
+        return status;
+    }
+    *out = job;
+    return PSPEC_OK;
+}
+
+static void free_sets(ps_power_job *job) {
+    for (size_t i = 0; i < job->capacity; i++) {
+        ps_point_set_free(&job->sets[i]);
+    }
+    free(job->sets);
+    free(job->patterns);
+    job->sets = NULL;
+    job->patterns = NULL;
+    job->capacity = 0;
+}
+
+void ps_power_job_destroy(ps_power_job *job) {
+    if (job == NULL) {
+        return;
+    }
+    ps_estimator_destroy(job->estimator);
+    ps_spectrum_free(&job->spectrum);
+    ps_text_free(&job->description);
+    ps_frequencies_free(&job->frequencies);
+    ps_source_destroy(job->source);
+    ps_point_set_free(&job->first);
+    free_sets(job);
+    free(job->weights);
+    ps_device_close(job->device);
+    free(job);
+}
+
+/* ---- run --------------------------------------------------------------------------------- */
+
+static pspec_status create_estimator(ps_power_job *job, ps_error *error) {
+    const ps_power_question *question = job->question;
+    const ps_candidate *chosen = job->plan.chosen;
+    const ps_estimator_options options = {
+        .problem = job->problem,
+        .engine = chosen->engine,
+        .precision = chosen->precision,
+        .batch = chosen->batch,
+        .exact_shells = question->exact_shells,
+        .want_frequencies = true, /* anisotropy needs them, too */
+        .self_check = !question->no_self_check,
+        .normalization = question->normalization,
+    };
+    ps_estimator_destroy(job->estimator);
+    job->estimator = NULL;
+    return ps_estimator_create(&job->estimator, &options, job->device, error);
+}
+
+static pspec_status allocate_sets(ps_power_job *job, ps_error *error) {
+    void *memory = NULL;
+    const size_t count = ps_estimator_batch(job->estimator);
+    free_sets(job);
+    PS_TRY(ps_allocate(&memory, count, sizeof(pspec_pattern), "patterns", error));
+    job->patterns = memory;
+    PS_TRY(ps_allocate(&memory, count, sizeof(ps_point_set), "patterns", error));
+    job->sets = memory;
+    job->capacity = count;
+    return PSPEC_OK;
+}
+
+static pspec_status set_pattern(const ps_power_job *job, const ps_point_set *set,
+                                pspec_pattern *pattern, ps_error *error) {
+    *pattern = (pspec_pattern){set->dimension, set->num_points, set->points,
+                               set->has_weights ? set->weights : NULL};
+    if (job->weights == NULL) {
+        return PSPEC_OK;
+    }
+    if (job->num_weights != set->num_points) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "\"%s\" holds %zu weights, but a set has %zu points",
+                       job->question->weights_path, job->num_weights, set->num_points);
+    }
+    pattern->weights = job->weights;
+    return PSPEC_OK;
+}
+
+/* Fills the batch from the source; *first_is_pending moves the set read for planning in first. */
+static pspec_status fill_batch(ps_power_job *job, bool *first_is_pending, size_t *count,
+                               ps_error *error) {
+    bool has_set = true;
+    *count = 0;
+    while (*count < job->capacity) {
+        ps_point_set *set = &job->sets[*count];
+        if (*first_is_pending) {
+            const ps_point_set empty = *set;
+            *set = job->first;
+            job->first = empty;
+            *first_is_pending = false;
+        } else {
+            PS_TRY(ps_source_next(job->source, set, &has_set, error));
+        }
+        if (!has_set) {
+            return PSPEC_OK;
+        }
+        PS_TRY(set_pattern(job, set, &job->patterns[*count], error));
+        (*count)++;
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status report_progress(const ps_power_job *job, uint64_t done, ps_error *error) {
+    const ps_power_question *question = job->question;
+    if (question->progress != NULL &&
+        question->progress(done, job->num_realizations, question->payload) != 0) {
+        return ps_fail(error, PSPEC_ERROR_CANCELLED, "cancelled after %llu realizations",
+                       (unsigned long long)done);
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status run_once(ps_power_job *job, bool first_is_pending, ps_error *error) {
+    uint64_t done = 0;
+    size_t count = 0;
+    PS_TRY(create_estimator(job, error));
+    PS_TRY(allocate_sets(job, error));
+    do {
+        PS_TRY(report_progress(job, done, error));
+        PS_TRY(fill_batch(job, &first_is_pending, &count, error));
+        PS_TRY(ps_estimator_add(job->estimator, job->patterns, count, error));
+        done += count;
+    } while (count == job->capacity);
+    job->accuracy = ps_estimator_accuracy(job->estimator);
+    return PSPEC_OK;
+}
+
+/* The measured powers make the error larger than the tolerance: plan again with them. */
+static pspec_status run_again(ps_power_job *job, ps_error *error) {
+    PS_TRY(make_plan(job, job->accuracy.largest_mean_power, error));
+    PS_TRY(ps_plan_require(&job->plan, &job->problem, error));
+    if (!ps_source_can_rewind(job->source)) {
+        return ps_fail(error, PSPEC_ERROR_TOLERANCE,
+                       "these sets have a mean power of %.3g, so single precision has an error of "
+                       "%.2g, above the tolerance %g, and standard input cannot be read twice: add "
+                       "--precision %s",
+                       job->accuracy.largest_mean_power, job->accuracy.error,
+                       job->problem.tolerance, ps_precision_name(job->plan.chosen->precision));
+    }
+    job->was_replanned = true;
+    PS_TRY(ps_source_rewind(job->source, error));
+    return run_once(job, false, error);
+}
+
+static pspec_status finish(ps_power_job *job, ps_error *error) {
+    ps_estimator_describe(job->estimator, &job->description);
+    PS_TRY(ps_estimator_spectrum(job->estimator, &job->spectrum, error));
+    if (job->needs.one_realization) {
+        ps_spectrum_repeat(&job->spectrum, job->question->num_realizations);
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_power_job_run(ps_power_job *job, ps_error *error) {
+    PS_TRY(ps_plan_require(&job->plan, &job->problem, error));
+    PS_TRY(ps_frequencies_enumerate(&job->frequencies, error));
+    PS_TRY(run_once(job, true, error));
+    if (job->accuracy.error > job->problem.tolerance) {
+        PS_TRY(run_again(job, error));
+    }
+    return finish(job, error);
+}
+
+/* ---- what is known ----------------------------------------------------------------------- */
+
+const ps_plan *ps_power_job_plan(const ps_power_job *job) {
+    return &job->plan;
+}
+
+const ps_needs *ps_power_job_needs(const ps_power_job *job) {
+    return &job->needs;
+}
+
+const ps_problem *ps_power_job_problem(const ps_power_job *job) {
+    return &job->problem;
+}
+
+const ps_device_limits *ps_power_job_limits(const ps_power_job *job) {
+    return job->device != NULL ? ps_device_get_limits(job->device) : NULL;
+}
+
+const char *ps_power_job_source_format(const ps_power_job *job) {
+    return ps_source_format(job->source);
+}
+
+const ps_spectrum *ps_power_job_spectrum(const ps_power_job *job) {
+    return &job->spectrum;
+}
+
+const ps_accuracy *ps_power_job_accuracy(const ps_power_job *job) {
+    return &job->accuracy;
+}
+
+const char *ps_power_job_description(const ps_power_job *job) {
+    return ps_text_string(&job->description);
+}
+
+bool ps_power_job_was_replanned(const ps_power_job *job) {
+    return job->was_replanned;
+}
+
+const ps_profile_row *ps_power_job_profile(const ps_power_job *job, size_t *num_rows) {
+    *num_rows = 0;
+    return job->device != NULL ? ps_device_profile(job->device, num_rows) : NULL;
+}

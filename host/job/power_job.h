@@ -1,0 +1,76 @@
+/* The averaged periodogram as one job: source of realizations -> plan -> batches -> spectrum.
+ *
+ * The tolerance is a contract. The plan predicts the error for sets like white noise; afterwards the
+ * error formula is evaluated again with the powers that were measured (docs/conventions.md). When it
+ * then exceeds the tolerance, the job runs once more with what the plan chooses for those powers, or
+ * fails with PSPEC_ERROR_TOLERANCE when nothing reaches it or the input cannot be read twice.
+ */
+#ifndef PS_JOB_POWER_JOB_H
+#define PS_JOB_POWER_JOB_H
+
+#include "job/estimator.h"
+#include "job/source.h"
+#include "plan/needs.h"
+
+/* done and total count realizations (total 0: unknown); a result other than 0 cancels the job. */
+typedef int (*ps_progress_callback)(uint64_t done, uint64_t total, void *payload);
+
+typedef struct ps_power_question {
+    /* realizations: a sampler, or files */
+    const ps_sampler_request *sampler; /* NULL: files */
+    uint64_t num_realizations;         /* of the sampler */
+    const char *const *paths;
+    size_t num_paths;
+    ps_point_options point_options;
+    const char *weights_path; /* NULL: none; the same weights for every set */
+
+    /* frequencies */
+    int32_t max_frequency;        /* 0: ceil(5 N^(1/d)), for d <= 3 */
+    const char *frequencies_path; /* NULL: a grid */
+    bool exact_shells;
+    bool wants_full_array;
+
+    /* result */
+    pspec_normalization normalization;
+    double tolerance, floor; /* floor 0: none */
+    bool no_skip, no_self_check;
+    ps_plan_constraints constraints;
+    const char *device; /* selector, NULL: default */
+    bool profile;
+    ps_progress_callback progress; /* may be NULL */
+    void *payload;
+} ps_power_question;
+
+/* A job that is planned but not yet run. */
+typedef struct ps_power_job ps_power_job;
+
+/* Reads the first set, opens the device unless no engine that may be chosen needs it, and plans. The
+ * question must outlive the job. With nothing feasible the job exists all the same, and only
+ * ps_power_job_run fails: `plan` shows why. */
+pspec_status ps_power_job_create(ps_power_job **out, const ps_power_question *question,
+                                 ps_error *error) PS_MUST_CHECK;
+void ps_power_job_destroy(ps_power_job *job);
+
+pspec_status ps_power_job_run(ps_power_job *job, ps_error *error) PS_MUST_CHECK;
+
+/* What is known after create. */
+const ps_plan *ps_power_job_plan(const ps_power_job *job);
+const ps_needs *ps_power_job_needs(const ps_power_job *job);
+const ps_problem *ps_power_job_problem(const ps_power_job *job);
+const ps_device_limits *ps_power_job_limits(const ps_power_job *job); /* NULL: no device */
+const char *ps_power_job_source_format(const ps_power_job *job);
+
+/* What is known after run. Borrowed. */
+const ps_spectrum *ps_power_job_spectrum(const ps_power_job *job);
+const ps_accuracy *ps_power_job_accuracy(const ps_power_job *job);
+/* "(torus_direct ...)" */
+const char *ps_power_job_description(const ps_power_job *job);
+/* True when the first run missed the tolerance and the plan was made again. */
+bool ps_power_job_was_replanned(const ps_power_job *job);
+const ps_profile_row *ps_power_job_profile(const ps_power_job *job, size_t *num_rows);
+
+/* The tolerance that a floor asks for: |dS| <= e sqrt(V) with three times e still leaving a power P
+ * right to 10 % (mathematics.md 7.2: relative error 2 e / sqrt(P)). */
+double ps_tolerance_of_floor(double floor);
+
+#endif

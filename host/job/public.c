@@ -1,0 +1,8 @@
+/* The public library: thin wrappers (pointspec/pointspec.h). */
+#include "pointspec/pointspec.h"
+
+#include "pointspec_version.h"
+
+const char *pspec_version(void) {
+    return PS_VERSION;
+}

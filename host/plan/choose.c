@@ -1,0 +1,148 @@
+#include "plan/choose.h"
+
+#include "base/text.h"
+#include "plan/cost_model.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static pspec_status check_engine_name(const char *name, ps_error *error) {
+    const char *nearest = ps_engines[0]->name;
+    for (const ps_engine *const *engine = ps_engines; name != NULL && *engine != NULL; engine++) {
+        if (strcmp((*engine)->name, name) == 0) {
+            return PSPEC_OK;
+        }
+        if (ps_text_distance((*engine)->name, name) < ps_text_distance(nearest, name)) {
+            nearest = (*engine)->name;
+        }
+    }
+    return name == NULL ? PSPEC_OK
+                        : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                                  "there is no engine \"%s\"; the nearest is %s", name, nearest);
+}
+
+/* Seconds, bytes and error of a candidate that applies. */
+static void estimate(ps_candidate *candidate, const ps_problem *problem,
+                     const ps_device_limits *limits, double mean_power) {
+    const ps_device_limits *used = candidate->engine->needs_device ? limits : NULL;
+    const ps_work work = candidate->engine->work(problem, used, candidate->precision);
+    candidate->batch = ps_cost_batch(&work, used, problem->num_realizations);
+    const double realizations =
+        problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
+    const double batches = ceil(realizations / (double)candidate->batch);
+    candidate->seconds = ps_cost_seconds(&work, used, candidate->precision, batches);
+    candidate->bytes = work.fixed_bytes + work.bytes_per_realization * (double)candidate->batch;
+    candidate->error = candidate->engine->error(problem, candidate->precision, mean_power);
+}
+
+/* Does the user's choice of engine or precision rule it out? */
+static bool exclude(ps_candidate *candidate, const ps_plan_constraints *constraints) {
+    if (constraints->engine != NULL && strcmp(constraints->engine, candidate->engine->name) != 0) {
+        snprintf(candidate->reason, sizeof candidate->reason, "--engine %s excludes it",
+                 constraints->engine);
+        return true;
+    }
+    if (constraints->precision >= 0 && constraints->precision != (int)candidate->precision) {
+        snprintf(candidate->reason, sizeof candidate->reason, "--precision %s excludes it",
+                 ps_precision_name((ps_precision)constraints->precision));
+        return true;
+    }
+    return false;
+}
+
+static void judge(ps_candidate *candidate, const ps_problem *problem,
+                  const ps_device_limits *limits, const ps_plan_constraints *constraints) {
+    const char *why_not = NULL;
+    const uint64_t device_bytes =
+        limits != NULL && candidate->engine->needs_device ? limits->global_bytes : 0;
+    const uint64_t limit = constraints->memory_limit > 0 ? constraints->memory_limit : device_bytes;
+    candidate->is_applicable =
+        candidate->engine->applicable(problem, limits, candidate->precision, &why_not);
+    if (!candidate->is_applicable) {
+        snprintf(candidate->reason, sizeof candidate->reason, "%s", why_not);
+        return;
+    }
+    estimate(candidate, problem, limits, constraints->mean_power);
+    candidate->is_excluded = exclude(candidate, constraints);
+    if (candidate->is_excluded) {
+        return;
+    }
+    if (candidate->error > problem->tolerance) {
+        snprintf(candidate->reason, sizeof candidate->reason, "error above the tolerance %g",
+                 problem->tolerance);
+    } else if (limit > 0 && candidate->bytes > (double)limit) {
+        snprintf(candidate->reason, sizeof candidate->reason, "memory above the limit of %llu bytes",
+                 (unsigned long long)limit);
+    } else {
+        candidate->is_feasible = true;
+    }
+}
+
+static void choose_cheapest(ps_plan *plan) {
+    ps_candidate *best = NULL;
+    for (size_t i = 0; i < plan->num_candidates; i++) {
+        ps_candidate *candidate = &plan->candidates[i];
+        if (candidate->is_feasible && (best == NULL || candidate->seconds < best->seconds)) {
+            best = candidate;
+        }
+    }
+    for (size_t i = 0; best != NULL && i < plan->num_candidates; i++) {
+        ps_candidate *candidate = &plan->candidates[i];
+        if (candidate->is_feasible && candidate != best) {
+            snprintf(candidate->reason, sizeof candidate->reason, "%.3g times slower",
+                     candidate->seconds / best->seconds);
+        }
+    }
+    if (best != NULL) {
+        best->is_chosen = true;
+        snprintf(best->reason, sizeof best->reason, "cheapest within the tolerance");
+    }
+    plan->chosen = best;
+}
+
+pspec_status ps_plan_make(ps_plan *plan, const ps_problem *problem, const ps_device_limits *limits,
+                          const ps_plan_constraints *constraints, ps_error *error) {
+    *plan = (ps_plan){0};
+    PS_TRY(check_engine_name(constraints->engine, error));
+    for (const ps_engine *const *engine = ps_engines; *engine != NULL; engine++) {
+        for (int precision = PS_SINGLE; precision <= PS_EXTENDED; precision++) {
+            if (!(*engine)->has_precision[precision] || plan->num_candidates == PS_MAX_CANDIDATES) {
+                continue;
+            }
+            ps_candidate *candidate = &plan->candidates[plan->num_candidates++];
+            candidate->engine = *engine;
+            candidate->precision = (ps_precision)precision;
+            judge(candidate, problem, limits, constraints);
+        }
+    }
+    choose_cheapest(plan);
+    return PSPEC_OK;
+}
+
+pspec_status ps_plan_require(const ps_plan *plan, const ps_problem *problem, ps_error *error) {
+    const ps_candidate *best = NULL; /* the most exact one that the user's choice leaves */
+    const ps_candidate *other = &plan->candidates[0];
+    if (plan->chosen != NULL) {
+        return PSPEC_OK;
+    }
+    for (size_t i = 0; i < plan->num_candidates; i++) {
+        const ps_candidate *candidate = &plan->candidates[i];
+        if (candidate->is_excluded) {
+            continue;
+        }
+        other = candidate;
+        if (candidate->is_applicable && (best == NULL || candidate->error < best->error)) {
+            best = candidate;
+        }
+    }
+    if (best != NULL && best->error > problem->tolerance) {
+        return ps_fail(error, PSPEC_ERROR_TOLERANCE,
+                       "tolerance %g cannot be reached: the smallest error is %.2g (%s, %s)",
+                       problem->tolerance, best->error, best->engine->name,
+                       ps_precision_name(best->precision));
+    }
+    other = best != NULL ? best : other;
+    return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "no engine can do this; %s (%s): %s",
+                   other->engine->name, ps_precision_name(other->precision), other->reason);
+}

@@ -1,0 +1,45 @@
+/* The planner: a loop over engines and precisions. Feasible first (it can do the problem, its error
+ * is within the tolerance, its memory within the limit), then the cheapest; losers keep their reason.
+ */
+#ifndef PS_PLAN_CHOOSE_H
+#define PS_PLAN_CHOOSE_H
+
+#include "engines/engine.h"
+
+typedef struct ps_candidate {
+    const ps_engine *engine;
+    ps_precision precision;
+    bool is_excluded; /* by the constraints: --engine, --precision */
+    bool is_applicable, is_feasible, is_chosen;
+    double seconds, bytes, error; /* of the whole job; meaningful when applicable */
+    size_t batch;
+    char reason[160]; /* one phrase: why chosen, why not */
+} ps_candidate;
+
+enum { PS_MAX_CANDIDATES = 16 };
+
+typedef struct ps_plan {
+    size_t num_candidates;
+    ps_candidate candidates[PS_MAX_CANDIDATES];
+    const ps_candidate *chosen; /* NULL: nothing is feasible; points into candidates */
+} ps_plan;
+
+typedef struct ps_plan_constraints {
+    const char *engine;       /* NULL: any */
+    int precision;            /* a ps_precision, or -1: any */
+    double mean_power;        /* effective power to expect; 1 unless measured, see ps_engine.error */
+    uint64_t memory_limit;    /* bytes; 0: what the device reports, or no limit on the host */
+} ps_plan_constraints;
+
+/* Fills *plan. limits is NULL without a device. An unknown engine name is
+ * PSPEC_ERROR_INVALID_ARGUMENT with the nearest one; that nothing is feasible is not an error here
+ * (see ps_plan_require). *plan must not be moved afterwards. */
+pspec_status ps_plan_make(ps_plan *plan, const ps_problem *problem, const ps_device_limits *limits,
+                          const ps_plan_constraints *constraints, ps_error *error) PS_MUST_CHECK;
+
+/* Fails when nothing is feasible: PSPEC_ERROR_TOLERANCE when only the tolerance stood in the way
+ * (with the best error that can be reached), else PSPEC_ERROR_MEMORY or _INVALID_ARGUMENT. */
+pspec_status ps_plan_require(const ps_plan *plan, const ps_problem *problem,
+                             ps_error *error) PS_MUST_CHECK;
+
+#endif

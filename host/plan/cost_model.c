@@ -1,0 +1,79 @@
+#include "plan/cost_model.h"
+
+/* Measured rates. Machine: 2 cores of a Zen 5 EPYC (AVX-512) at a nominal 2.6 GHz, PoCL 3.1,
+ * Debian 12, 2026-11. Regenerate with `./dev bench calibrate`, which prints this table. The numbers
+ * are work per second as a share of the nominal peak of ps_cost_nominal_flops, so that they carry
+ * over to other devices of the same class; 20 % either way changes no choice between engines that
+ * differ by a factor of ten. The machine is shared: the best of several runs was taken. */
+static const struct {
+    double phases_per_flop;  /* cosine-sine pairs per nominal flop: torus/list.cl with its table */
+    double product_share;    /* share of the nominal peak that torus/product.cl reaches */
+} device_rates[2] = {
+    [PS_SINGLE] = {0.017, 1.20},
+    [PS_DOUBLE] = {0.014, 1.20},
+};
+
+/* Long double cosine and sine of one (point, frequency) pair on one core, same machine. */
+static const double host_seconds_per_phase = 60e-9;
+
+/* Enqueueing one kernel: 10 microseconds cover PoCL and GPU drivers. */
+static const double seconds_per_launch = 10e-6;
+
+/* Typical clock where a device does not tell. */
+enum { DEFAULT_CLOCK_MHZ = 1000, PIPES = 2, FLOPS_PER_FMA = 2 };
+
+/* A GPU compute unit (streaming multiprocessor) runs this many float lanes per clock and pipe. */
+enum { GPU_UNIT_LANES = 64 };
+
+double ps_cost_nominal_flops(const ps_device_limits *limits, ps_precision precision) {
+    const double clock = 1e6 * (limits->clock_mhz > 0 ? limits->clock_mhz : DEFAULT_CLOCK_MHZ);
+    double lanes = precision == PS_SINGLE ? limits->native_float_lanes
+                                          : limits->native_double_lanes;
+    if (limits->has_dedicated_local_memory) {
+        lanes = precision == PS_SINGLE ? GPU_UNIT_LANES : GPU_UNIT_LANES / 2;
+    }
+    return limits->compute_units * clock * (lanes > 1 ? lanes : 1) * PIPES * FLOPS_PER_FMA;
+}
+
+double ps_cost_seconds(const ps_work *work, const ps_device_limits *limits, ps_precision precision,
+                       double num_batches) {
+    if (limits == NULL || precision == PS_EXTENDED) {
+        return work->phases * host_seconds_per_phase;
+    }
+    const double peak = ps_cost_nominal_flops(limits, precision);
+    return work->phases / (peak * device_rates[precision].phases_per_flop) +
+           work->product_flops / (peak * device_rates[precision].product_share) +
+           num_batches * work->launches * seconds_per_launch;
+}
+
+/* ---- batches ----------------------------------------------------------------------------- */
+
+/* CPU: the share of the last-level cache that a batch may fill. GPU: bytes of a batch; enough work
+ * for a hundred compute units, far below any card's memory. Memory: share of the device's memory
+ * that a job may take. */
+static const double cache_share = 0.5;
+static const double gpu_batch_bytes = 1024.0 * 1024 * 1024;
+static const double memory_share = 0.5;
+
+/* Results come back once per batch: more realizations than this gain nothing. */
+enum { LARGEST_BATCH = 4096 };
+
+size_t ps_cost_batch(const ps_work *work, const ps_device_limits *limits,
+                     uint64_t num_realizations) {
+    double batch = num_realizations > 0 && num_realizations < LARGEST_BATCH
+                       ? (double)num_realizations
+                       : LARGEST_BATCH;
+    if (limits == NULL) {
+        return 1; /* the referee takes long enough on one realization */
+    }
+    double budget = limits->has_dedicated_local_memory ? gpu_batch_bytes
+                                                       : cache_share * (double)limits->cache_bytes;
+    const double memory = memory_share * (double)limits->global_bytes - work->fixed_bytes;
+    budget = budget < memory ? budget : memory;
+    const double by_budget = budget / work->bytes_per_realization;
+    const double by_allocation =
+        (double)limits->max_allocation_bytes / work->largest_buffer_per_realization;
+    batch = batch < by_budget ? batch : by_budget;
+    batch = batch < by_allocation ? batch : by_allocation;
+    return batch > 1 ? (size_t)batch : 1;
+}

@@ -1,0 +1,14 @@
+#include "samplers/list.h"
+
+/* In the order of the help text. A new sampler is a file, a line in list.h and a row here. */
+const ps_sampler *const ps_samplers[] = {
+    &ps_sampler_white,
+    &ps_sampler_regular,
+    &ps_sampler_jittered,
+    &ps_sampler_latin_hypercube,
+    &ps_sampler_sobol,
+    &ps_sampler_halton,
+    &ps_sampler_hammersley,
+    &ps_sampler_larcher_pillichshammer,
+    NULL,
+};

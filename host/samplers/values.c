@@ -1,0 +1,50 @@
+#include "samplers/values.h"
+
+#include "base/text.h"
+
+#include <string.h>
+
+static pspec_status fail_choice(const ps_sampler_request *request, unsigned i_parameter,
+                                const char *const *choices, ps_error *error) {
+    ps_text known = {0};
+    for (unsigned i = 0; choices[i] != NULL; i++) {
+        ps_text_append(&known, "%s%s", i > 0 ? ", " : "", choices[i]);
+    }
+    const pspec_status status =
+        ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "sampler %s: %s=%s is not one of %s",
+                request->sampler->name, request->sampler->parameters[i_parameter].key,
+                request->values[i_parameter], ps_text_string(&known));
+    ps_text_free(&known);
+    return status;
+}
+
+pspec_status ps_sampler_choice(const ps_sampler_request *request, unsigned i_parameter,
+                               const char *const *choices, unsigned *choice, ps_error *error) {
+    for (unsigned i = 0; choices[i] != NULL; i++) {
+        if (strcmp(choices[i], request->values[i_parameter]) == 0) {
+            *choice = i;
+            return PSPEC_OK;
+        }
+    }
+    return fail_choice(request, i_parameter, choices, error);
+}
+
+bool ps_sampler_always(const ps_sampler_request *request) {
+    (void)request;
+    return true;
+}
+
+bool ps_sampler_never(const ps_sampler_request *request) {
+    (void)request;
+    return false;
+}
+
+pspec_status ps_sampler_limit_points(const ps_sampler_request *request, uint64_t limit,
+                                     ps_error *error) {
+    if (request->num_points <= limit) {
+        return PSPEC_OK;
+    }
+    return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                   "sampler %s: %zu points are more than its limit of %llu", request->sampler->name,
+                   request->num_points, (unsigned long long)limit);
+}

@@ -1,0 +1,21 @@
+/* Reading the parameter values of a request, and answers that several samplers share. */
+#ifndef PS_SAMPLERS_VALUES_H
+#define PS_SAMPLERS_VALUES_H
+
+#include "samplers/sampler.h"
+
+/* choices: words ended by NULL. *choice becomes the index of the word that parameter number
+ * i_parameter has as its value; any other value is an error that lists the words. */
+pspec_status ps_sampler_choice(const ps_sampler_request *request, unsigned i_parameter,
+                               const char *const *choices, unsigned *choice,
+                               ps_error *error) PS_MUST_CHECK;
+
+/* For is_deterministic. */
+bool ps_sampler_always(const ps_sampler_request *request);
+bool ps_sampler_never(const ps_sampler_request *request);
+
+/* Refuses more points than limit, for samplers whose indices have a fixed number of digits. */
+pspec_status ps_sampler_limit_points(const ps_sampler_request *request, uint64_t limit,
+                                     ps_error *error) PS_MUST_CHECK;
+
+#endif

@@ -1,0 +1,18 @@
+/* Sizes that the torus kernels and their host agree on (host/engines/torus_*.c passes them).
+ *
+ *   LANES      frequencies in one vector, and in one tile of a table
+ *   DIMENSION  of the points
+ *   RUN        points summed in working precision before the sum goes into a pair: the error of a
+ *              run grows with its length, the cost of the pairs falls with it
+ */
+#ifndef PS_TORUS_LAYOUT_H
+#define PS_TORUS_LAYOUT_H
+
+#ifndef DIMENSION
+#define DIMENSION 2
+#endif
+#ifndef RUN
+#define RUN 128
+#endif
+
+#endif

@@ -1,0 +1,89 @@
+/* Separable torus sums: a grid of frequencies as a product of two tables.
+ *
+ * With L = w (cos, sin)(2 pi l.x) and R = (cos, sin)(2 pi r.x), the four real sums of products
+ *     cc, sc, cs, ss = sum_j L_{cos|sin} R_{cos|sin}
+ * give S(l + r) = (cc - ss) - i (sc + cs) and S(l - r) = (cc + ss) - i (sc - cs): 4 fused
+ * operations per point for two frequencies and their conjugates (algorithms.md T7).
+ *
+ * One work-item owns one pair of tiles (LANES left times LANES right frequencies) of one
+ * realization, and works through it in strips of STRIP left frequencies: 4 STRIP accumulators, one
+ * vector of LANES right frequencies each. Runs are the outer loop, so that the strips of a run find
+ * both tables in the first-level cache.
+ *
+ * Launch: (tile pairs, realizations), pairs rounded up at will; no local memory.
+ *
+ *   left, right  tables of torus/list.cl, table_points apart
+ *   offsets      first point of each realization
+ *   pairs        [pair]: left tile, right tile (pairs that nobody needs are not launched)
+ *   sums         [realization][pair][left in tile][cc, sc, cs, ss][high, low][LANES]; begun anew
+ * when is_first is set, else continued
+ */
+#include "shared/real.h"
+#include "shared/pair.h"
+#include "torus/layout.h"
+
+#ifndef STRIP
+#define STRIP 4
+#endif
+#if STRIP > LANES
+#undef STRIP
+#define STRIP LANES
+#endif
+
+__kernel void torus_product(__global const real *restrict left, __global const real *restrict right,
+                            __global const ulong *restrict offsets,
+                            __global const uint2 *restrict pairs, __global real *restrict sums,
+                            const ulong num_pairs, const uint num_left_tiles,
+                            const uint num_right_tiles, const ulong table_points,
+                            const uint is_first) {
+    const size_t pair = get_global_id(0);
+    const size_t realization = get_global_id(1);
+    if (pair >= num_pairs) {
+        return;
+    }
+    const ulong count = offsets[realization + 1] - offsets[realization];
+    const uint2 tiles = pairs[pair];
+    __global const real *left_tile =
+        left + (realization * num_left_tiles + tiles.x) * table_points * 2 * LANES;
+    __global const real *right_tile =
+        right + (realization * num_right_tiles + tiles.y) * table_points * 2 * LANES;
+    __global real *tile_sums = sums + (realization * num_pairs + pair) * LANES * 8 * LANES;
+
+    if (is_first) {
+        for (int i = 0; i < LANES * 8; i++) {
+            STOREV((realv)0, i, tile_sums);
+        }
+    }
+    for (ulong run = 0; run < count; run += RUN) {
+        const ulong run_end = min(run + RUN, count);
+        for (int strip = 0; strip < LANES; strip += STRIP) {
+            realv sum[STRIP][4];
+#pragma unroll
+            for (int i = 0; i < STRIP; i++) {
+                sum[i][0] = sum[i][1] = sum[i][2] = sum[i][3] = (realv)0;
+            }
+            for (ulong j = run; j < run_end; j++) {
+                const realv right_cos = LOADV(2 * j, right_tile);
+                const realv right_sin = LOADV(2 * j + 1, right_tile);
+                __global const real *row = left_tile + j * 2 * LANES + strip;
+#pragma unroll
+                for (int i = 0; i < STRIP; i++) {
+                    const realv left_cos = (realv)row[i];
+                    const realv left_sin = (realv)row[LANES + i];
+                    sum[i][0] = fma(left_cos, right_cos, sum[i][0]);
+                    sum[i][1] = fma(left_sin, right_cos, sum[i][1]);
+                    sum[i][2] = fma(left_cos, right_sin, sum[i][2]);
+                    sum[i][3] = fma(left_sin, right_sin, sum[i][3]);
+                }
+            }
+#pragma unroll
+            for (int i = 0; i < STRIP * 4; i++) {
+                __global real *out = tile_sums + (strip * 4 + i) * 2 * LANES;
+                realv high = LOADV(0, out), low = LOADV(1, out);
+                pair_add(&high, &low, sum[i / 4][i % 4]);
+                STOREV(high, 0, out);
+                STOREV(low, 1, out);
+            }
+        }
+    }
+}

@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# check_library_calls.sh [ROOT]: the library never prints, exits or aborts; only host/cli/ may.
+# One file may name stdout, the one that opens the path "-".
+set -euo pipefail
+cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"
+
+word='(^|[^A-Za-z0-9_])'
+forbidden="$word(_?exit|_Exit|quick_exit|abort|v?printf|puts|putchar|perror)[[:space:]]*\("
+forbidden+="|${word}stderr([^A-Za-z0-9_]|$)"
+stdout="${word}stdout([^A-Za-z0-9_]|$)"
+bad=0
+while IFS= read -r file; do
+    # -fpreprocessed drops comments and expands nothing; strings go with sed.
+    text=$("${CC:-gcc}" -w -fpreprocessed -dD -E -P "$file" | sed -E 's/"([^"\\]|\\.)*"/""/g')
+    pattern=$forbidden
+    [[ $file == host/io/output_file.c ]] || pattern+="|$stdout"
+    if found=$(grep -E "$pattern" <<<"$text"); then
+        echo "$file: printing, exit or abort in the library:" >&2
+        sed -E 's/^[[:space:]]*/    /' <<<"$found" >&2
+        bad=1
+    fi
+done < <(find host -name '*.[ch]' -not -path 'host/cli/*' | sort)
+exit $bad

@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# oclgrind_test.sh PROGRAM [ARGS]: runs PROGRAM on Oclgrind's simulated device instead of the ICD
+# loader's devices. Oclgrind exits 0 even when it has found something, so its log decides.
+# The preset oclgrind puts this before every test program (CMAKE_CROSSCOMPILING_EMULATOR).
+# Local memory stays at Oclgrind's 32 KiB, the least OpenCL 1.2 promises; OCLGRIND_LOCAL_MEM_SIZE
+# in the environment changes it.
+set -uo pipefail
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+oclgrind --data-races --uninitialized --check-api --max-errors 50 --log "$log" "$@"
+status=$?
+if [[ -s $log ]]; then
+    echo "oclgrind found, in $(basename "$1"):" >&2
+    cat "$log" >&2
+    exit 1
+fi
+exit $status

@@ -1,0 +1,63 @@
+/* What several tests need: reference files, a device, one-shot spectra. */
+#ifndef TESTS_HARNESS_H
+#define TESTS_HARNESS_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "device/device.h"
+#include "engines/engine.h"
+
+#include <cjson/cJSON.h>
+
+/* Exit status that CTest counts as skipped. */
+enum { TEST_SKIPPED = 77 };
+
+/* The message of a failed call, as a test failure. */
+#define assert_ok(call)                                                                            \
+    do {                                                                                           \
+        ps_error test_error = {0};                                                                 \
+        ps_error *const error = &test_error;                                                       \
+        if ((call) != PSPEC_OK) {                                                                  \
+            fail_msg("%s: %s", #call, error->message);                                             \
+        }                                                                                          \
+    } while (0)
+
+/* Parses tests/reference/NAME; the caller deletes it. */
+cJSON *test_read_reference(const char *name);
+/* A number, or a decimal string. */
+double test_number(const cJSON *item);
+long double test_long_number(const cJSON *item);
+double test_field(const cJSON *object, const char *key);
+
+/* One pattern of torus.json; the arrays are freed by test_free_set. */
+typedef struct test_set {
+    const char *name;
+    unsigned dimension;
+    size_t num_points;
+    double *points, *weights; /* weights NULL: unit */
+    double weight_sum, weight_square_sum, weight_size_sum;
+    const cJSON *json;
+} test_set;
+
+test_set test_read_set(const cJSON *json);
+void test_free_set(test_set *set);
+pspec_pattern test_pattern(const test_set *set);
+
+/* Opens the default device, or ends the test program as skipped when there is none. */
+ps_device *test_open_device(void);
+
+/* Runs an engine on patterns with scale 1 and returns |S|^2 as [pattern][frequency], freed by the
+ * caller. batch: capacity of the engine. */
+double *test_run_engine(const ps_engine *engine, ps_precision precision, ps_device *device,
+                        const ps_frequencies *frequencies, const pspec_pattern *patterns,
+                        size_t num_patterns, size_t batch);
+
+/* Reproducible numbers in [0,1) for tests that must not depend on math/random. */
+double test_uniform(uint64_t *state);
+
+#endif

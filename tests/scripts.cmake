@@ -1,0 +1,17 @@
+# Tests that are scripts. Sanitizers bring symbols and libraries of their own, so what looks at the
+# built files runs without them.
+function(add_script_test name label)
+  add_test(NAME ${name} COMMAND bash ${ARGN})
+  set_tests_properties(${name} PROPERTIES LABELS ${label} TIMEOUT 300)
+endfunction()
+
+add_script_test(headers unit ${CMAKE_CURRENT_SOURCE_DIR}/test_headers.sh
+  ${PROJECT_SOURCE_DIR} ${CMAKE_C_COMPILER})
+add_script_test(layers unit ${PROJECT_SOURCE_DIR}/scripts/check_layers.sh)
+add_script_test(library_calls unit ${PROJECT_SOURCE_DIR}/scripts/check_library_calls.sh)
+if(NOT POINTSPEC_SANITIZE)
+  add_script_test(symbols unit ${CMAKE_CURRENT_SOURCE_DIR}/test_symbols.sh
+    $<TARGET_FILE:pointspec> $<TARGET_FILE:pointspec_static>)
+  add_script_test(install install ${CMAKE_CURRENT_SOURCE_DIR}/test_install.sh
+    ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR} ${CMAKE_C_COMPILER})
+endif()

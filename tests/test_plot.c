@@ -1,0 +1,132 @@
+/* Pictures: drawn for every terminal and shape of data, and refused with a sentence otherwise. */
+#include "io/plot.h"
+#include "test_folder.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <sys/stat.h>
+
+#include <cmocka.h>
+
+enum { NUM_BINS = 20, IMAGE_SIZE = 2 * NUM_BINS + 1 };
+
+typedef struct example {
+    double frequency[NUM_BINS], power[NUM_BINS], error[NUM_BINS], anisotropy[NUM_BINS];
+    double image[IMAGE_SIZE * IMAGE_SIZE];
+    ps_plot_curve curves[9];
+    ps_plot_image picture;
+    ps_plot plot;
+} example;
+
+static void make_example(example *out, size_t num_curves, bool has_image, bool has_errors) {
+    for (size_t i = 0; i < NUM_BINS; i++) {
+        out->frequency[i] = (double)(i + 1) / 8;
+        out->power[i] = 1 - exp(-out->frequency[i]);
+        out->error[i] = has_errors ? 0.1 : (double)NAN;
+        out->anisotropy[i] = has_errors ? -10 : i % 2 ? (double)NAN : -(double)INFINITY;
+    }
+    for (size_t i = 0; i < IMAGE_SIZE * IMAGE_SIZE; i++) {
+        out->image[i] = (double)(i % 7) / 3;
+    }
+    for (size_t i = 0; i < num_curves; i++) {
+        out->curves[i] = (ps_plot_curve){"it's \"a_b\" {x^2} `date` \\ $c",
+                                         NUM_BINS,
+                                         out->frequency,
+                                         out->power,
+                                         out->error,
+                                         out->anisotropy};
+    }
+    out->picture = (ps_plot_image){IMAGE_SIZE, out->image, 8};
+    out->plot = (ps_plot){"it's \"a_b\"\nexit 1; `false` {", num_curves, out->curves,
+                          has_image ? &out->picture : NULL, has_errors ? -10 : (double)NAN};
+}
+
+static bool has_gnuplot(void) {
+    return system("gnuplot --version >/dev/null 2>&1") == 0;
+}
+
+static void draws_every_kind(void **state) {
+    static const struct {
+        const char *name, *start;
+    } kinds[] = {{"a 'b'\n\"c\".png", "\x89PNG"}, {"b.SVG", "<?xml"}, {"c.pdf", "%PDF"}};
+    if (!has_gnuplot()) {
+        print_message("gnuplot is not installed: skipped\n");
+        skip();
+    }
+    for (size_t i = 0; i < 3 * 4; i++) {
+        example data;
+        char path[TEST_PATH_BYTES];
+        ps_error error = {0};
+        make_example(&data, i % 4 == 3 ? 9 : 1 + i % 2, i % 4 < 2, i % 4 != 1);
+        test_path(*state, kinds[i / 4].name, path);
+        assert_true(ps_plot_is_supported(path));
+        if (ps_plot_write(path, &data.plot, &error) != PSPEC_OK) {
+            fail_msg("%s", error.message);
+        }
+        char *const file = test_read_file(path, NULL);
+        assert_memory_equal(file, kinds[i / 4].start, strlen(kinds[i / 4].start));
+        free(file);
+        assert_int_equal(test_folder_count(*state, true), 1);
+    }
+}
+
+static void refuses_what_cannot_be_drawn(void **state) {
+    example data;
+    char path[TEST_PATH_BYTES];
+    ps_error error = {0};
+    make_example(&data, 1, true, true);
+    assert_false(ps_plot_is_supported("a.jpg") || ps_plot_is_supported("png"));
+    assert_int_equal(ps_plot_write("a.jpg", &data.plot, &error), PSPEC_ERROR_INVALID_ARGUMENT);
+    assert_string_equal(error.message, "a.jpg: pictures end in .png, .svg or .pdf");
+    data.plot.num_curves = 0;
+    test_path(*state, "a.png", path);
+    assert_int_equal(ps_plot_write(path, &data.plot, &error), PSPEC_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(test_folder_count(*state, false), 0);
+}
+
+/* Draws with PATH set to the folder of the test. */
+static pspec_status draw_with_path(const test_folder *folder, ps_error *error) {
+    example data;
+    char path[TEST_PATH_BYTES];
+    char *const kept = strdup(getenv("PATH") != NULL ? getenv("PATH") : "");
+    assert_non_null(kept);
+    make_example(&data, 1, true, true);
+    setenv("PATH", folder->path, 1);
+    const pspec_status status = ps_plot_write(test_path(folder, "a.png", path), &data.plot, error);
+    setenv("PATH", kept, 1);
+    free(kept);
+    return status;
+}
+
+static void names_the_package_without_gnuplot(void **state) {
+    ps_error error = {0};
+    assert_int_equal(draw_with_path(*state, &error), PSPEC_ERROR_IO);
+    assert_non_null(strstr(error.message, "Debian package gnuplot-nox"));
+    assert_int_equal(test_folder_count(*state, false), 0);
+}
+
+static void passes_on_what_gnuplot_says(void **state) {
+    char path[TEST_PATH_BYTES];
+    ps_error error = {0};
+    const char script[] =
+        "#!/bin/sh\necho 'line 7: no terminal' >&2\necho half a picture\nexit 3\n";
+    test_path(*state, "gnuplot", path);
+    assert_true(test_write_file(path, script, strlen(script)));
+    assert_int_equal(chmod(path, 0700), 0);
+    assert_int_equal(draw_with_path(*state, &error), PSPEC_ERROR_IO);
+    assert_string_equal(error.message, "gnuplot could not draw the picture: line 7: no terminal");
+    assert_int_equal(test_folder_count(*state, false), 1);
+}
+
+int main(void) {
+#define IN_FOLDER(test)                                                                            \
+    cmocka_unit_test_setup_teardown(test, test_folder_create, test_folder_remove)
+    const struct CMUnitTest tests[] = {
+        IN_FOLDER(draws_every_kind),
+        IN_FOLDER(refuses_what_cannot_be_drawn),
+        IN_FOLDER(names_the_package_without_gnuplot),
+        IN_FOLDER(passes_on_what_gnuplot_says),
+    };
+    return cmocka_run_group_tests_name("plot", tests, NULL, NULL);
+}

@@ -1,0 +1,31 @@
+#!/usr/bin/env bash
+# test_symbols.sh SHARED STATIC: what the library's files define. The shared one exports pspec_
+# alone, the archive has pspec_ and ps_, and neither holds data that can change: no global state.
+set -euo pipefail
+shared=$1 static=$2
+bad=0
+complain() { # TITLE LINES
+    [[ -z $2 ]] || {
+        printf '%s:\n%s\n' "$1" "$2" >&2
+        bad=1
+    }
+}
+
+exported=$(nm -D --defined-only "$shared" | awk '{ print $NF }')
+[[ -n $exported ]] || complain "exports" "nothing at all"
+complain "exported without the prefix pspec_" "$(grep -v '^pspec_' <<<"$exported" || true)"
+
+defined=$(nm -g --defined-only "$static" | awk 'NF == 3 { print $NF }')
+complain "global without the prefix pspec_ or ps_" \
+    "$(grep -vE '^(pspec|ps)_' <<<"$defined" || true)"
+
+# objdump -t: address, 7 flag characters, section, size, name. Constant tables with addresses in them
+# lie in .data.rel.ro, which the loader makes read-only.
+complain "data that can change" "$(objdump -t "$static" | awk '
+    / file format / { member = $1; next }
+    {
+        section = substr($0, 26); sub(/[ \t].*/, "", section)
+        if (section ~ /^(\.data|\.bss|\.tdata|\.tbss|\*COM\*)/ && section !~ /^\.data\.rel\.ro/ &&
+            $NF != section && substr($0, 18, 7) !~ /d/) print "    " member " " section " " $NF
+    }')"
+exit $bad
