@@ -119,8 +119,8 @@ double *test_run_engine(const ps_engine *engine, ps_precision precision, ps_devi
         const ps_batch some = {count, patterns + done, scales + done};
         ps_rows rows = {0};
         assert_ok(engine->run(state, &some, &rows, error));
-        const size_t bytes = rows.stride * count *
-                             (rows.precision == PS_SINGLE ? sizeof(float) : sizeof(double));
+        const size_t bytes =
+            rows.stride * count * (rows.precision == PS_SINGLE ? sizeof(float) : sizeof(double));
         void *data = NULL;
         if (rows.host == NULL) {
             data = calloc(bytes, 1);

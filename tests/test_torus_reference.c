@@ -147,8 +147,7 @@ static void referee_sums(void **state) {
         ps_frequencies list = read_rows(&set);
         const pspec_pattern pattern = test_pattern(&set);
         for (size_t i = 0; i < list.num; i++) {
-            const cJSON *row =
-                cJSON_GetArrayItem(cJSON_GetObjectItem(json, "rows"), (int)i);
+            const cJSON *row = cJSON_GetArrayItem(cJSON_GetObjectItem(json, "rows"), (int)i);
             long double re = 0;
             long double im = 0;
             const double allowed = 1e-17 * set.weight_size_sum;

@@ -12,8 +12,8 @@ struct ps_accumulator {
     uint32_t *slots;
     ps_device_accumulator *on_device; /* NULL: rows are on the host */
     uint64_t num_realizations;
-    double *bin_powers;     /* [batch][num_bins] */
-    ps_sums *bin_sums;      /* [num_bins] */
+    double *bin_powers;      /* [batch][num_bins] */
+    ps_sums *bin_sums;       /* [num_bins] */
     ps_sums *frequency_sums; /* [num_frequencies], host rows only */
 };
 

@@ -19,14 +19,14 @@ typedef struct ps_mean {
 } ps_mean;
 
 typedef struct ps_accumulator_options {
-    const ps_bins *bins;      /* kept: must outlive the accumulator */
+    const ps_bins *bins; /* kept: must outlive the accumulator */
     size_t num_frequencies;
-    const uint32_t *slots;    /* [num_frequencies] places in a row, copied */
-    size_t stride, batch;     /* of the rows; batch is the largest number of rows at a time */
+    const uint32_t *slots; /* [num_frequencies] places in a row, copied */
+    size_t stride, batch;  /* of the rows; batch is the largest number of rows at a time */
     bool is_on_device;
-    ps_precision precision;   /* of the rows */
-    unsigned lanes;           /* of device rows */
-    bool want_frequencies;    /* keep sums per frequency */
+    ps_precision precision; /* of the rows */
+    unsigned lanes;         /* of device rows */
+    bool want_frequencies;  /* keep sums per frequency */
 } ps_accumulator_options;
 
 pspec_status ps_accumulator_create(ps_accumulator **out, const ps_accumulator_options *options,

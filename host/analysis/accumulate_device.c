@@ -70,12 +70,11 @@ static pspec_status upload_ranges(ps_device_accumulator *self, ps_error *error) 
     PS_TRY_OUT(status, ps_allocate(&pieces, self->num_pieces, range_bytes, "bins", error));
     PS_TRY_OUT(status, ps_allocate(&bin_pieces, bins->num, range_bytes, "bins", error));
     fill_ranges(self, members, pieces, bin_pieces);
-    PS_TRY_OUT(status, upload(self, &self->members, members, bins->num_members * sizeof(uint32_t),
-                              error));
+    PS_TRY_OUT(status,
+               upload(self, &self->members, members, bins->num_members * sizeof(uint32_t), error));
     PS_TRY_OUT(status,
                upload(self, &self->piece_ranges, pieces, self->num_pieces * range_bytes, error));
-    PS_TRY_OUT(status,
-               upload(self, &self->bin_ranges, bin_pieces, bins->num * range_bytes, error));
+    PS_TRY_OUT(status, upload(self, &self->bin_ranges, bin_pieces, bins->num * range_bytes, error));
 out:
     free(members);
     free(pieces);
@@ -173,9 +172,8 @@ static pspec_status sum_bins(ps_device_accumulator *self, const ps_rows *rows, s
                              ps_error *error) {
     const ps_bins *bins = self->options.bins;
     const double entries = (double)(num_groups * self->options.lanes * bins->num_members);
-    const ps_range pieces =
-        ps_range_light(self->device, self->num_pieces, num_groups, 1, 7 * entries,
-                       entries * (double)self->real_bytes);
+    const ps_range pieces = ps_range_light(self->device, self->num_pieces, num_groups, 1,
+                                           7 * entries, entries * (double)self->real_bytes);
     PS_TRY(PS_LAUNCH(self->device, self->pieces, &pieces, error, PS_BUFFER(rows->device),
                      PS_BUFFER(self->members), PS_BUFFER(self->piece_ranges),
                      PS_BUFFER(self->piece_sums), PS_U64(self->num_pieces), PS_U64(rows->stride)));
@@ -198,8 +196,7 @@ static pspec_status read_bins(ps_device_accumulator *self, const ps_rows *rows, 
             const size_t high = ((r / lanes * bins->num + b) * 2) * lanes + r % lanes;
             const double sum =
                 get_real(self, self->host, high) + get_real(self, self->host, high + lanes);
-            bin_powers[r * bins->num + b] =
-                sum / (double)(bins->bins[b].end - bins->bins[b].begin);
+            bin_powers[r * bins->num + b] = sum / (double)(bins->bins[b].end - bins->bins[b].begin);
         }
     }
     return PSPEC_OK;
@@ -213,9 +210,8 @@ pspec_status ps_device_accumulator_add(ps_device_accumulator *accumulator, const
     PS_TRY(sum_bins(self, rows, num_groups, error));
     if (self->options.want_frequencies) {
         const double entries = (double)(rows->num_rows * rows->stride);
-        const ps_range range =
-            ps_range_light(self->device, rows->stride / lanes, 1, 1, 15 * entries,
-                           entries * (double)self->real_bytes);
+        const ps_range range = ps_range_light(self->device, rows->stride / lanes, 1, 1,
+                                              15 * entries, entries * (double)self->real_bytes);
         PS_TRY(PS_LAUNCH(self->device, self->modes, &range, error, PS_BUFFER(rows->device),
                          PS_BUFFER(self->state), PS_U32(rows->num_rows), PS_U64(rows->stride)));
     }
@@ -227,8 +223,8 @@ pspec_status ps_device_accumulator_frequencies(ps_device_accumulator *accumulato
                                                ps_error *error) {
     const ps_device_accumulator *self = accumulator;
     const size_t stride = self->options.stride;
-    PS_TRY(ps_buffer_read(self->device, &self->state, 0, self->host,
-                          4 * stride * self->real_bytes, error));
+    PS_TRY(ps_buffer_read(self->device, &self->state, 0, self->host, 4 * stride * self->real_bytes,
+                          error));
     for (size_t i = 0; i < self->options.num_frequencies; i++) {
         const size_t slot = self->options.slots[i];
         const ps_sums sums = {get_real(self, self->host, slot),

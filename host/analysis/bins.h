@@ -10,15 +10,15 @@
 #include "engines/frequencies.h"
 
 typedef struct ps_bin {
-    int64_t key;     /* ring number b, or |k|^2 of a shell */
-    size_t begin, end; /* members[begin .. end - 1], half-lattice frequencies */
+    int64_t key;           /* ring number b, or |k|^2 of a shell */
+    size_t begin, end;     /* members[begin .. end - 1], half-lattice frequencies */
     double mean_frequency; /* mean |k| */
 } ps_bin;
 
 typedef struct ps_bins {
-    size_t num;       /* all bins, the unreported one included */
+    size_t num; /* all bins, the unreported one included */
     size_t num_reported;
-    ps_bin *bins;     /* ascending key */
+    ps_bin *bins;      /* ascending key */
     uint32_t *members; /* indices of frequencies, bin by bin */
     size_t num_members;
 } ps_bins;

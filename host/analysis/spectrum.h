@@ -6,23 +6,23 @@
 #include "analysis/bins.h"
 
 typedef struct ps_spectrum_bin {
-    int64_t key;                 /* ring number, or |k|^2 of a shell */
-    double frequency;            /* mean |k| */
-    double normalized_frequency; /* the same divided by N^(1/d) */
-    uint64_t count;              /* lattice points of both signs */
+    int64_t key;                  /* ring number, or |k|^2 of a shell */
+    double frequency;             /* mean |k| */
+    double normalized_frequency;  /* the same divided by N^(1/d) */
+    uint64_t count;               /* lattice points of both signs */
     double power, standard_error; /* nan: one realization */
-    double anisotropy_db;        /* nan: fewer than two half-lattice frequencies, or power 0 */
+    double anisotropy_db;         /* nan: fewer than two half-lattice frequencies, or power 0 */
 } ps_spectrum_bin;
 
 typedef struct ps_spectrum {
-    ps_frequencies frequencies;  /* a copy of its own */
+    ps_frequencies frequencies; /* a copy of its own */
     uint64_t num_realizations;
     double mean_points;
     size_t smallest_points, largest_points;
     double mean_weight_sum;
     size_t num_bins;
     ps_spectrum_bin *bins;
-    ps_mean *powers;             /* [frequencies.num], or NULL */
+    ps_mean *powers; /* [frequencies.num], or NULL */
 } ps_spectrum;
 
 /* What happened to the realizations besides their powers. */

@@ -89,9 +89,8 @@ pspec_status ps_parse_count(const char *text, const char *what, uint64_t minimum
     }
     const bool is_out_of_range = errno == ERANGE || number < 0 || number >= exact_limit;
     if (is_out_of_range || *out < minimum || *out > maximum) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "%s: %s is not between %llu and %llu", what, text,
-                       (unsigned long long)minimum, (unsigned long long)maximum);
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: %s is not between %llu and %llu",
+                       what, text, (unsigned long long)minimum, (unsigned long long)maximum);
     }
     return PSPEC_OK;
 }

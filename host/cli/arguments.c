@@ -33,8 +33,8 @@ static ps_option_id find_nearest(const ps_command *command, const char *name) {
         if (!ps_command_takes(command, (ps_option_id)id)) {
             continue;
         }
-        const bool is_letter = name[0] != '\0' && name[1] == '\0' &&
-                               tolower((unsigned char)name[0]) == ps_options[id].letter;
+        const bool is_letter =
+            strlen(name) == 1 && tolower((unsigned char)name[0]) == ps_options[id].letter;
         const size_t distance = is_letter ? 0 : ps_name_distance(name, ps_options[id].name);
         if (distance < best) {
             best = distance;
@@ -49,7 +49,7 @@ static pspec_status fail_option(const parser *p, shown_option shown, const char 
                                 bool is_known) {
     const ps_option *const nearest = &ps_options[find_nearest(p->command, name)];
     const char letter[] = {'-', nearest->letter, '\0'};
-    const bool has_letter = name[0] != '\0' && name[1] == '\0' && nearest->letter != 0;
+    const bool has_letter = strlen(name) == 1 && nearest->letter == tolower((unsigned char)name[0]);
     return ps_fail(p->error, PSPEC_ERROR_INVALID_ARGUMENT,
                    is_known ? "%.*s is not an option of this command; the nearest is %s%s"
                             : "unknown option %.*s; did you mean %s%s?",
@@ -163,8 +163,8 @@ pspec_status ps_arguments_parse(ps_arguments *arguments, const ps_command *comma
                                 char **words, ps_error *error) {
     void *memory = NULL;
     *arguments = defaults;
-    PS_TRY(ps_allocate(&memory, (size_t)num_words, sizeof *arguments->files, "names of files",
-                       error));
+    PS_TRY(
+        ps_allocate(&memory, (size_t)num_words, sizeof *arguments->files, "names of files", error));
     arguments->files = memory;
     parser p = {command, arguments, words, num_words, 0, error};
     bool is_over = false;

@@ -14,34 +14,34 @@
 enum { PS_MAX_SAMPLERS = 16 };
 
 typedef enum ps_option_id {
-    PS_OPTION_POINTS,         /* -n, --points N */
-    PS_OPTION_REALIZATIONS,   /* -m, --realizations M */
-    PS_OPTION_DIMENSION,      /* -d, --dimension D */
-    PS_OPTION_SEED,           /* -s, --seed S */
-    PS_OPTION_SAMPLER,        /* --sampler NAME[:key=value,...], repeatable */
-    PS_OPTION_MAX_FREQUENCY,  /* -k, --max-frequency K */
-    PS_OPTION_FREQUENCIES,    /* --frequencies FILE */
-    PS_OPTION_SHELLS,         /* --shells */
-    PS_OPTION_FULL,           /* --full FILE.npy */
-    PS_OPTION_NORMALIZE,      /* --normalize power|effective */
-    PS_OPTION_HOMOGENIZE,     /* --homogenize */
-    PS_OPTION_WEIGHTS,        /* --weights equal|column|FILE */
-    PS_OPTION_INPUT_FORMAT,   /* --input-format utk-text|npy */
-    PS_OPTION_WRAP,           /* --wrap */
-    PS_OPTION_TOLERANCE,      /* --tol T */
-    PS_OPTION_FLOOR,          /* --floor P */
-    PS_OPTION_PRECISION,      /* --precision auto|single|double|extended */
-    PS_OPTION_ENGINE,         /* --engine NAME */
-    PS_OPTION_DEVICE,         /* --device SELECTOR */
-    PS_OPTION_NO_SKIP,        /* --no-skip */
-    PS_OPTION_NO_SELF_CHECK,  /* --no-self-check */
-    PS_OPTION_OUTPUT,         /* -o, --output FILE */
-    PS_OPTION_FORMAT,         /* --format csv|json|npy (sample: utk-text|npy) */
-    PS_OPTION_PLOT,           /* --plot FILE */
-    PS_OPTION_PROFILE,        /* --profile */
-    PS_OPTION_QUIET,          /* --quiet */
-    PS_OPTION_VERBOSE,        /* --verbose */
-    PS_OPTION_HELP,           /* -h, --help */
+    PS_OPTION_POINTS,        /* -n, --points N */
+    PS_OPTION_REALIZATIONS,  /* -m, --realizations M */
+    PS_OPTION_DIMENSION,     /* -d, --dimension D */
+    PS_OPTION_SEED,          /* -s, --seed S */
+    PS_OPTION_SAMPLER,       /* --sampler NAME[:key=value,...], repeatable */
+    PS_OPTION_MAX_FREQUENCY, /* -k, --max-frequency K */
+    PS_OPTION_FREQUENCIES,   /* --frequencies FILE */
+    PS_OPTION_SHELLS,        /* --shells */
+    PS_OPTION_FULL,          /* --full FILE.npy */
+    PS_OPTION_NORMALIZE,     /* --normalize power|effective */
+    PS_OPTION_HOMOGENIZE,    /* --homogenize */
+    PS_OPTION_WEIGHTS,       /* --weights equal|column|FILE */
+    PS_OPTION_INPUT_FORMAT,  /* --input-format utk-text|npy */
+    PS_OPTION_WRAP,          /* --wrap */
+    PS_OPTION_TOLERANCE,     /* --tol T */
+    PS_OPTION_FLOOR,         /* --floor P */
+    PS_OPTION_PRECISION,     /* --precision auto|single|double|extended */
+    PS_OPTION_ENGINE,        /* --engine NAME */
+    PS_OPTION_DEVICE,        /* --device SELECTOR */
+    PS_OPTION_NO_SKIP,       /* --no-skip */
+    PS_OPTION_NO_SELF_CHECK, /* --no-self-check */
+    PS_OPTION_OUTPUT,        /* -o, --output FILE */
+    PS_OPTION_FORMAT,        /* --format csv|json|npy (sample: utk-text|npy) */
+    PS_OPTION_PLOT,          /* --plot FILE */
+    PS_OPTION_PROFILE,       /* --profile */
+    PS_OPTION_QUIET,         /* --quiet */
+    PS_OPTION_VERBOSE,       /* --verbose */
+    PS_OPTION_HELP,          /* -h, --help */
     PS_NUM_OPTIONS
 } ps_option_id;
 
@@ -57,12 +57,12 @@ typedef struct ps_arguments {
     const char *frequencies, *full, *weights, *input_format, *engine, *device, *output, *format,
         *plot; /* NULL unless given */
     bool shells, homogenize, wrap, no_skip, no_self_check, profile, quiet, verbose;
-    bool effective;     /* --normalize effective */
-    double tolerance;   /* 1e-6 unless given */
-    double floor;       /* 0 unless given */
-    int precision;      /* a ps_precision, -1 for auto */
+    bool effective;   /* --normalize effective */
+    double tolerance; /* 1e-6 unless given */
+    double floor;     /* 0 unless given */
+    int precision;    /* a ps_precision, -1 for auto */
     size_t num_files;
-    const char **files; /* the remaining words; "-" is standard input */
+    const char **files;       /* the remaining words; "-" is standard input */
     const char *command_line; /* the whole line, for headers */
 } ps_arguments;
 

@@ -46,8 +46,8 @@ static pspec_status add_header(ps_table *table, const ps_arguments *arguments,
     if (arguments->num_samplers > 0) {
         PS_TRY(ps_table_add_meta(table, "sampler", PS_TEXT(arguments->samplers[index]), error));
     }
-    PS_TRY(ps_table_add_meta(table, "device", PS_TEXT(limits != NULL ? limits->name : "host"),
-                             error));
+    PS_TRY(
+        ps_table_add_meta(table, "device", PS_TEXT(limits != NULL ? limits->name : "host"), error));
     PS_TRY(ps_table_add_meta(table, "points", PS_INTEGER(problem->num_points), error));
     PS_TRY(ps_table_add_meta(table, "realizations",
                              problem->num_realizations > 0 ? PS_INTEGER(problem->num_realizations)

@@ -6,16 +6,14 @@
 #include <stdio.h>
 
 const ps_option_id ps_power_options[] = {
-    PS_OPTION_SAMPLER,     PS_OPTION_POINTS,       PS_OPTION_REALIZATIONS,
-    PS_OPTION_DIMENSION,   PS_OPTION_SEED,         PS_OPTION_HOMOGENIZE,
-    PS_OPTION_WEIGHTS,     PS_OPTION_INPUT_FORMAT, PS_OPTION_WRAP,
-    PS_OPTION_MAX_FREQUENCY, PS_OPTION_FREQUENCIES, PS_OPTION_SHELLS,
-    PS_OPTION_NORMALIZE,   PS_OPTION_TOLERANCE,    PS_OPTION_FLOOR,
-    PS_OPTION_PRECISION,   PS_OPTION_ENGINE,       PS_OPTION_DEVICE,
-    PS_OPTION_NO_SKIP,     PS_OPTION_NO_SELF_CHECK, PS_OPTION_OUTPUT,
-    PS_OPTION_FORMAT,      PS_OPTION_FULL,         PS_OPTION_PLOT,
-    PS_OPTION_PROFILE,     PS_OPTION_QUIET,        PS_OPTION_VERBOSE,
-    PS_OPTION_HELP,        PS_NUM_OPTIONS};
+    PS_OPTION_SAMPLER,   PS_OPTION_POINTS,        PS_OPTION_REALIZATIONS, PS_OPTION_DIMENSION,
+    PS_OPTION_SEED,      PS_OPTION_HOMOGENIZE,    PS_OPTION_WEIGHTS,      PS_OPTION_INPUT_FORMAT,
+    PS_OPTION_WRAP,      PS_OPTION_MAX_FREQUENCY, PS_OPTION_FREQUENCIES,  PS_OPTION_SHELLS,
+    PS_OPTION_NORMALIZE, PS_OPTION_TOLERANCE,     PS_OPTION_FLOOR,        PS_OPTION_PRECISION,
+    PS_OPTION_ENGINE,    PS_OPTION_DEVICE,        PS_OPTION_NO_SKIP,      PS_OPTION_NO_SELF_CHECK,
+    PS_OPTION_OUTPUT,    PS_OPTION_FORMAT,        PS_OPTION_FULL,         PS_OPTION_PLOT,
+    PS_OPTION_PROFILE,   PS_OPTION_QUIET,         PS_OPTION_VERBOSE,      PS_OPTION_HELP,
+    PS_NUM_OPTIONS};
 
 static int on_progress(uint64_t done, uint64_t total, void *payload) {
     ps_progress_update(payload, done, total);
@@ -25,7 +23,8 @@ static int on_progress(uint64_t done, uint64_t total, void *payload) {
 static void print_profile(const ps_power_job *job) {
     size_t num_rows = 0;
     const ps_profile_row *rows = ps_power_job_profile(job, &num_rows);
-    fprintf(stderr, "%-24s %9s %12s %10s %8s\n", "kernel", "launches", "seconds", "GFLOP/s", "GB/s");
+    fprintf(stderr, "%-24s %9s %12s %10s %8s\n", "kernel", "launches", "seconds", "GFLOP/s",
+            "GB/s");
     for (size_t i = 0; i < num_rows; i++) {
         const double giga = 1e-9;
         fprintf(stderr, "%-24s %9llu %12.6f %10.1f %8.1f\n", rows[i].kernel,
@@ -72,8 +71,8 @@ static pspec_status write_results(const ps_arguments *arguments, const ps_power_
         PS_TRY(ps_power_write_plot(arguments, jobs, num, error));
     }
     PS_TRY(ps_power_table(&table, arguments, jobs, num, error));
-    const pspec_status status = ps_table_write(
-        table, arguments->output != NULL ? arguments->output : "-", format, error);
+    const pspec_status status =
+        ps_table_write(table, arguments->output != NULL ? arguments->output : "-", format, error);
     ps_table_destroy(table);
     return status;
 }
@@ -111,9 +110,11 @@ const ps_command ps_command_power = {
     .summary = "averaged periodogram of point sets on the torus",
     .usage = "power [options] --sampler NAME | power [options] FILE...",
     .description =
-        "Averages the periodogram P(k) = N |sum w exp(-2 pi i k.x)|^2 / (sum w)^2 over realizations "
+        "Averages the periodogram P(k) = N |sum w exp(-2 pi i k.x)|^2 / (sum w)^2 over "
+        "realizations "
         "and prints its mean over rings of width 1, with standard errors over the realizations. "
-        "Files hold points of [0,1)^d; several files, and several sets in a file, are realizations. "
+        "Files hold points of [0,1)^d; several files, and several sets in a file, are "
+        "realizations. "
         "The default --tol of 1e-6 bounds the numerical error of S relative to white noise.",
     .options = ps_power_options,
     .examples = {"pointspec power --sampler jittered -n 1024 -m 100 -k 64",

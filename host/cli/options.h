@@ -1,4 +1,5 @@
-/* The options of all commands, one row per ps_option_id: parser, usage and --help come from here. */
+/* The options of all commands, one row per ps_option_id: parser, usage and --help come from here.
+ */
 #ifndef PS_CLI_OPTIONS_H
 #define PS_CLI_OPTIONS_H
 
@@ -16,7 +17,7 @@ struct ps_option {
     const char *metavar; /* NULL: takes no value */
     const char *help;
     ps_option_setter *set;
-    size_t offset; /* of the field of ps_arguments, for setters that serve several options */
+    size_t offset;    /* of the field of ps_arguments, for setters that serve several options */
     const char *what; /* in messages, where a limit can be broken */
     uint64_t minimum, maximum;
     char letter; /* 0: none */

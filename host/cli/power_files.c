@@ -67,8 +67,8 @@ static pspec_status make_curve(ps_plot_curve *curve, const char *label, const ps
         columns[2 * num + b] = spectrum->bins[b].standard_error;
         columns[3 * num + b] = spectrum->bins[b].anisotropy_db;
     }
-    *curve = (ps_plot_curve){label, num, columns, columns + num, columns + 2 * num,
-                             columns + 3 * num};
+    *curve =
+        (ps_plot_curve){label, num, columns, columns + num, columns + 2 * num, columns + 3 * num};
     return PSPEC_OK;
 }
 
@@ -81,8 +81,8 @@ static pspec_status make_image(ps_plot_image *image, double **array, const ps_sp
     return PSPEC_OK;
 }
 
-static void write_title(ps_text *title, const ps_arguments *arguments,
-                        const ps_spectrum *spectrum, size_t num) {
+static void write_title(ps_text *title, const ps_arguments *arguments, const ps_spectrum *spectrum,
+                        size_t num) {
     if (num == 1) {
         ps_text_append(title, "%s",
                        arguments->num_samplers == 1 ? arguments->samplers[0] : arguments->files[0]);

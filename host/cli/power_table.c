@@ -29,7 +29,8 @@ static void put_common(header *to, const ps_arguments *arguments) {
     put(to, "schema", PS_INTEGER(1));
     put(to, "command", PS_TEXT(arguments->command_line));
     put(to, "normalization",
-        PS_TEXT(arguments->effective ? "effective: |S|^2 / sum w^2" : "power: N |S|^2 / (sum w)^2"));
+        PS_TEXT(arguments->effective ? "effective: |S|^2 / sum w^2"
+                                     : "power: N |S|^2 / (sum w)^2"));
     if (arguments->num_samplers > 0) {
         put(to, "seed", PS_INTEGER(arguments->seed));
         put(to, "homogenize", PS_TEXT(arguments->homogenize ? "yes" : "no"));
@@ -97,8 +98,8 @@ static void put_job(header *to, const ps_arguments *arguments, const ps_power_jo
 
 enum { MOST_COLUMNS = PS_MAX_DIMENSION + 8 };
 
-static const char *const bin_columns[] = {"bin",   "frequency",      "normalized_frequency",
-                                          "count", "power",          "standard_error",
+static const char *const bin_columns[] = {"bin",          "frequency", "normalized_frequency",
+                                          "count",        "power",     "standard_error",
                                           "anisotropy_db"};
 static const char *const axis_columns[] = {"k1", "k2", "k3", "k4", "k5", "k6"};
 

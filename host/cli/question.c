@@ -79,10 +79,10 @@ static ps_power_question make_question(const ps_arguments *arguments) {
         .frequencies_path = arguments->frequencies,
         .exact_shells = arguments->shells,
         /* the picture of one spectrum shows the corners; several are drawn as curves only */
-        .wants_full_array = arguments->full != NULL ||
-                            (arguments->plot != NULL && arguments->num_samplers <= 1),
-        .normalization = arguments->effective ? PSPEC_NORMALIZATION_EFFECTIVE
-                                              : PSPEC_NORMALIZATION_POWER,
+        .wants_full_array =
+            arguments->full != NULL || (arguments->plot != NULL && arguments->num_samplers <= 1),
+        .normalization =
+            arguments->effective ? PSPEC_NORMALIZATION_EFFECTIVE : PSPEC_NORMALIZATION_POWER,
         .tolerance = arguments->tolerance,
         .floor = arguments->floor,
         .no_skip = arguments->no_skip,

@@ -6,13 +6,13 @@ pspec_status ps_buffer_create(ps_device *device, ps_buffer *out, size_t bytes, c
     *out = (ps_buffer){0};
     if (bytes > device->limits.max_allocation_bytes) {
         return ps_fail(error, PSPEC_ERROR_MEMORY,
-                       "%s need %zu bytes, but device \"%s\" allows %llu bytes per allocation", what,
-                       bytes, device->limits.name,
+                       "%s need %zu bytes, but device \"%s\" allows %llu bytes per allocation",
+                       what, bytes, device->limits.name,
                        (unsigned long long)device->limits.max_allocation_bytes);
     }
     cl_int code = CL_SUCCESS;
-    out->memory = clCreateBuffer(device->context, CL_MEM_READ_WRITE, bytes > 0 ? bytes : 1, NULL,
-                                 &code);
+    out->memory =
+        clCreateBuffer(device->context, CL_MEM_READ_WRITE, bytes > 0 ? bytes : 1, NULL, &code);
     if (code != CL_SUCCESS) {
         out->memory = NULL;
         return ps_device_fail(code, "clCreateBuffer", error);

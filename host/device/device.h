@@ -95,7 +95,7 @@ typedef struct ps_argument {
 typedef struct ps_range {
     unsigned rank;
     size_t global[3];
-    size_t local[3];    /* all 0: the driver chooses */
+    size_t local[3];     /* all 0: the driver chooses */
     double flops, bytes; /* arithmetic done and memory touched at least once */
 } ps_range;
 

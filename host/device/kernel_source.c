@@ -24,7 +24,8 @@ static pspec_status read_from_disk(const char *directory, const char *name, ps_t
     ps_text_append(&path, "%s/%s", directory, name);
     FILE *file = fopen(ps_text_string(&path), "rb");
     if (file == NULL) {
-        ps_fail(error, PSPEC_ERROR_IO, "cannot read kernel source \"%s\" (POINTSPEC_KERNEL_DIR): %s",
+        ps_fail(error, PSPEC_ERROR_IO,
+                "cannot read kernel source \"%s\" (POINTSPEC_KERNEL_DIR): %s",
                 ps_text_string(&path), strerror(errno));
         ps_text_free(&path);
         return PSPEC_ERROR_IO;

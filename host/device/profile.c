@@ -24,8 +24,9 @@ static pspec_status measure(cl_event event, double *seconds, ps_error *error) {
     cl_ulong begin = 0;
     cl_ulong end = 0;
     PS_TRY_CL(clWaitForEvents(1, &event), error);
-    PS_TRY_CL(clGetEventProfilingInfo(event, CL_PROFILING_COMMAND_START, sizeof begin, &begin, NULL),
-              error);
+    PS_TRY_CL(
+        clGetEventProfilingInfo(event, CL_PROFILING_COMMAND_START, sizeof begin, &begin, NULL),
+        error);
     PS_TRY_CL(clGetEventProfilingInfo(event, CL_PROFILING_COMMAND_END, sizeof end, &end, NULL),
               error);
     *seconds = (double)(end - begin) * nanoseconds;

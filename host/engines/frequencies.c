@@ -82,10 +82,8 @@ pspec_status ps_frequencies_lattice(ps_frequencies *out, unsigned dimension, int
 
 pspec_status ps_frequencies_list(ps_frequencies *out, unsigned dimension, size_t num,
                                  int32_t *vectors, ps_error *error) {
-    *out = (ps_frequencies){.kind = PS_FREQUENCIES_LIST,
-                            .dimension = dimension,
-                            .num = num,
-                            .vectors = vectors};
+    *out = (ps_frequencies){
+        .kind = PS_FREQUENCIES_LIST, .dimension = dimension, .num = num, .vectors = vectors};
     for (size_t i = 0; i < num * dimension; i++) {
         const int64_t size = llabs((long long)vectors[i]);
         if (size > PS_MAX_FREQUENCY) {

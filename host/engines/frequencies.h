@@ -1,4 +1,5 @@
-/* Sets of integer frequencies on the torus: a list that somebody made, or the half lattice of a box.
+/* Sets of integer frequencies on the torus: a list that somebody made, or the half lattice of a
+ * box.
  *
  * Real weights make |S(-k)| = |S(k)|, so a box |k_i| <= K is represented by its half lattice: the k
  * whose first non-zero component is positive, in lexicographic order, DC left out

@@ -22,8 +22,7 @@ static long double reduced_phase(int32_t k, double x) {
     return whole - rintl(whole) + (long double)k * low;
 }
 
-void ps_host_sum(const pspec_pattern *pattern, const int32_t *k, long double *re,
-                 long double *im) {
+void ps_host_sum(const pspec_pattern *pattern, const int32_t *k, long double *re, long double *im) {
     *re = 0;
     *im = 0;
     for (size_t j = 0; j < pattern->num_points; j++) {

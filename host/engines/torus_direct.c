@@ -1,14 +1,16 @@
-/* The engine: one side for a list, two sides and their product for a grid. */
+/* The engine: sums over a list of frequencies; for a grid, over the two factors of its split, whose
+ * tables are then multiplied. */
 #include "engines/torus_direct.h"
 
 #include "base/memory.h"
 #include "engines/torus_layout.h"
 #include "engines/torus_points.h"
-#include "engines/torus_side.h"
+#include "engines/torus_sums.h"
 #include "engines/torus_split.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct torus_direct {
     ps_device *device;
@@ -18,19 +20,21 @@ typedef struct torus_direct {
     size_t batch, stride;
     ps_split split; /* grids only */
     ps_torus_points points;
-    ps_torus_side left, right; /* a list has no right side */
+    ps_torus_sums sums; /* of the list, or of the left and right factors of the grid */
     cl_kernel product, product_power;
-    ps_buffer pairs, sums, scales, power;
+    ps_buffer pairs, products, scales, power;
     void *host_scales;
 } torus_direct;
 
 /* ---- what the planner asks --------------------------------------------------------------- */
 
-/* Errors of S, in units of sqrt(sum w^2) for sets like white noise: rounding of the cosines and
- * sines (independent from point to point) and of the runs of PS_TORUS_RUN terms. Then the part that
- * grows with S itself, where terms add up in step. Measured: docs/torus_direct.md, tests/test_tolerance.c. */
-static const double random_error[2] = {1.0e-7, 2.2e-16};
-static const double coherent_error[2] = {1.2e-7, 2.6e-16};
+/* Errors of S in units of sqrt(sum w^2). Cosines and sines round independently from point to point,
+ * and runs of L = PS_TORUS_RUN terms in a far-apart order (torus_points.h) like sums of white noise:
+ * together random_error, measured 1.5e-7 and 2.8e-16. Terms that are all equal (coincident points,
+ * lattices at their peaks) round the same way and add up to L u / 4 of S itself (u = 2^-24, 2^-53):
+ * coherent_error. Measured, with slack, in tests/test_tolerance.c; docs/torus_direct.md. */
+static const double random_error[2] = {2.2e-7, 4.0e-16};
+static const double coherent_error[2] = {4.8e-7, 9.0e-16};
 
 static bool applicable(const ps_problem *problem, const ps_device_limits *limits,
                        ps_precision precision, const char **why_not) {
@@ -74,7 +78,7 @@ static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
     return (ps_work){
         .phases = num_points * lanes * (double)(layout.left_tiles + layout.right_tiles),
         .product_flops = 8 * num_points * box * share,
-        .launches = layout.is_grid ? 8 : 3,
+        .launches = layout.is_grid ? 5 : 3,
         .fixed_bytes = (double)layout.fixed_bytes,
         .bytes_per_realization = (double)layout.bytes_per_realization,
         .largest_buffer_per_realization = (double)layout.largest_buffer_per_realization};
@@ -89,8 +93,8 @@ static double error_of(const ps_problem *problem, ps_precision precision, double
     const double phase = precision == PS_SINGLE ? two_pi * (2 + ldexp(sum_k, -24)) * ldexp(1, -32)
                                                 : two_pi * ldexp(sum_k, -65);
     const double uniform = sqrt(12.0);
-    return hypot(random_error[precision], phase / uniform) +
-           coherent_error[precision] * sqrt(mean_power);
+    const double in_step = (coherent_error[precision] + phase / uniform) * sqrt(mean_power);
+    return hypot(hypot(random_error[precision], phase / uniform), in_step);
 }
 
 /* ---- create and destroy ------------------------------------------------------------------ */
@@ -102,8 +106,7 @@ static void destroy(void *state) {
     }
     ps_split_free(&self->split);
     ps_torus_points_free(&self->points);
-    ps_torus_side_free(&self->left);
-    ps_torus_side_free(&self->right);
+    ps_torus_sums_free(&self->sums);
     if (self->product != NULL) {
         clReleaseKernel(self->product);
     }
@@ -111,18 +114,11 @@ static void destroy(void *state) {
         clReleaseKernel(self->product_power);
     }
     ps_buffer_release(&self->pairs);
-    ps_buffer_release(&self->sums);
+    ps_buffer_release(&self->products);
     ps_buffer_release(&self->scales);
     ps_buffer_release(&self->power);
     free(self->host_scales);
     free(self);
-}
-
-static pspec_status create_side(torus_direct *self, ps_torus_side *side, size_t num,
-                                const int32_t *vectors, ps_error *error) {
-    return ps_torus_side_create(side, &self->layout, self->frequencies->dimension, num, vectors,
-                                self->batch, self->layout.is_grid, side == &self->left,
-                                self->device, error);
 }
 
 static pspec_status create_product(torus_direct *self, ps_error *error) {
@@ -142,25 +138,42 @@ static pspec_status create_product(torus_direct *self, ps_error *error) {
                             "tile pairs", error));
     PS_TRY(ps_buffer_write(self->device, &self->pairs, 0, split->pairs,
                            split->num_pairs * sizeof *split->pairs, error));
-    return ps_buffer_create(self->device, &self->sums,
+    return ps_buffer_create(self->device, &self->products,
                             self->batch * split->num_pairs * lanes * 8 * lanes *
                                 self->layout.real_bytes,
                             "sums of products", error);
 }
 
+/* Left and right factors in one list; the left ones fill whole tiles, padded with zeros. */
+static pspec_status create_factor_sums(torus_direct *self, ps_error *error) {
+    const ps_split *split = &self->split;
+    const unsigned dimension = self->frequencies->dimension;
+    const size_t num_left = split->left.num_tiles * split->lanes;
+    const size_t num = num_left + split->right.num;
+    void *vectors = NULL;
+    PS_TRY(ps_allocate(&vectors, num * dimension, sizeof(int32_t), "frequencies", error));
+    memcpy(vectors, split->left.vectors, split->left.num * dimension * sizeof(int32_t));
+    memcpy((int32_t *)vectors + num_left * dimension, split->right.vectors,
+           split->right.num * dimension * sizeof(int32_t));
+    const pspec_status status =
+        ps_torus_sums_create(&self->sums, &self->layout, dimension, num, vectors, self->batch, true,
+                             split->left.num_tiles, self->device, error);
+    free(vectors);
+    return status;
+}
+
 static pspec_status create_grid(torus_direct *self, ps_error *error) {
     PS_TRY(ps_split_create(&self->split, self->frequencies, self->layout.lanes, error));
-    PS_TRY(create_side(self, &self->left, self->split.left.num, self->split.left.vectors, error));
-    PS_TRY(
-        create_side(self, &self->right, self->split.right.num, self->split.right.vectors, error));
+    PS_TRY(create_factor_sums(self, error));
     self->stride = ps_split_stride(&self->split);
     return create_product(self, error);
 }
 
 static pspec_status create_list(torus_direct *self, ps_error *error) {
-    PS_TRY(create_side(self, &self->left, self->frequencies->num, self->frequencies->vectors,
-                       error));
-    self->stride = self->left.num_tiles * self->layout.lanes;
+    PS_TRY(ps_torus_sums_create(&self->sums, &self->layout, self->frequencies->dimension,
+                                self->frequencies->num, self->frequencies->vectors, self->batch,
+                                false, 0, self->device, error));
+    self->stride = self->sums.num_tiles * self->layout.lanes;
     return PSPEC_OK;
 }
 
@@ -169,8 +182,8 @@ static pspec_status create_rows(torus_direct *self, ps_error *error) {
     const size_t lanes = self->layout.lanes;
     const size_t num_rows = (self->batch + lanes - 1) / lanes * lanes;
     PS_TRY(ps_buffer_create(self->device, &self->power,
-                            num_rows * self->stride * self->layout.real_bytes,
-                            "powers of a batch", error));
+                            num_rows * self->stride * self->layout.real_bytes, "powers of a batch",
+                            error));
     PS_TRY(ps_buffer_clear(self->device, &self->power, error));
     PS_TRY(ps_buffer_create(self->device, &self->scales, self->batch * self->layout.real_bytes,
                             "scales", error));
@@ -188,9 +201,9 @@ static pspec_status create(void **state, const ps_problem *problem, ps_precision
     self->precision = precision;
     self->batch = batch;
     self->layout = ps_torus_layout_make(problem, ps_device_get_limits(device), precision);
-    pspec_status status = ps_torus_points_create(&self->points, problem->frequencies->dimension,
-                                                 batch, self->layout.slab, precision, device,
-                                                 error);
+    pspec_status status =
+        ps_torus_points_create(&self->points, problem->frequencies->dimension, batch,
+                               self->layout.slab, precision, device, error);
     if (status == PSPEC_OK) {
         status = self->layout.is_grid ? create_grid(self, error) : create_list(self, error);
     }
@@ -209,10 +222,9 @@ static void get_slots(const void *state, uint32_t *slots) {
     const torus_direct *self = state;
     const ps_frequencies *set = self->frequencies;
     for (size_t i = 0; i < set->num; i++) {
-        slots[i] = self->layout.is_grid ? (uint32_t)ps_split_slot(&self->split,
-                                                                  set->vectors +
-                                                                      i * set->dimension)
-                                        : (uint32_t)i;
+        slots[i] = self->layout.is_grid
+                       ? (uint32_t)ps_split_slot(&self->split, set->vectors + i * set->dimension)
+                       : (uint32_t)i;
     }
 }
 
@@ -239,15 +251,14 @@ static pspec_status multiply(torus_direct *self, size_t num_patterns, size_t num
     const ps_split *split = &self->split;
     const double lanes = self->layout.lanes;
     const double products = (double)num_points * (double)split->num_pairs * lanes * lanes;
-    const double tables = (double)num_points * lanes *
-                          (double)(split->left.num_tiles + split->right.num_tiles) * 2;
-    const ps_range range =
-        ps_range_heavy(self->device, split->num_pairs, num_patterns, 1, 8 * products,
-                       tables * (double)self->layout.real_bytes);
-    return PS_LAUNCH(self->device, self->product, &range, error, PS_BUFFER(self->left.table),
-                     PS_BUFFER(self->right.table), PS_BUFFER(self->points.offsets),
-                     PS_BUFFER(self->pairs), PS_BUFFER(self->sums), PS_U64(split->num_pairs),
-                     PS_U32(split->left.num_tiles), PS_U32(split->right.num_tiles),
+    const double tables =
+        (double)num_points * lanes * (double)(split->left.num_tiles + split->right.num_tiles) * 2;
+    const ps_range range = ps_range_heavy(self->device, split->num_pairs, num_patterns, 1,
+                                          8 * products, tables * (double)self->layout.real_bytes);
+    return PS_LAUNCH(self->device, self->product, &range, error, PS_BUFFER(self->sums.table),
+                     PS_BUFFER(self->points.offsets), PS_BUFFER(self->pairs),
+                     PS_BUFFER(self->products), PS_U64(split->num_pairs),
+                     PS_U64(self->sums.num_tiles), PS_U64(split->left.num_tiles),
                      PS_U64(self->layout.slab), PS_U32(is_first));
 }
 
@@ -257,32 +268,28 @@ static pspec_status add_slab(torus_direct *self, const ps_batch *batch, size_t f
     const size_t num_patterns = batch->num_patterns;
     const bool is_first = first == 0;
     PS_TRY(ps_torus_points_upload(&self->points, self->device, batch, first, &num_points, error));
-    PS_TRY(ps_torus_side_add(&self->left, &self->points, num_patterns, num_points, is_first,
+    PS_TRY(ps_torus_sums_add(&self->sums, &self->points, num_patterns, num_points, is_first,
                              self->device, error));
     if (!self->layout.is_grid) {
         return PSPEC_OK;
     }
-    PS_TRY(ps_torus_side_add(&self->right, &self->points, num_patterns, num_points, is_first,
-                             self->device, error));
     return multiply(self, num_patterns, num_points, is_first, error);
 }
 
 static pspec_status finish_powers(torus_direct *self, size_t num_patterns, ps_error *error) {
     const ps_split *split = &self->split;
-    if (!self->layout.is_grid) {
-        return ps_torus_side_power(&self->left, &self->scales, &self->power, 0, self->stride,
-                                   num_patterns, self->device, error);
-    }
-    PS_TRY(ps_torus_side_power(&self->left, &self->scales, &self->power, ps_split_left_slot(split),
-                               self->stride, num_patterns, self->device, error));
-    PS_TRY(ps_torus_side_power(&self->right, &self->scales, &self->power,
-                               ps_split_right_slot(split), self->stride, num_patterns,
+    const bool is_grid = self->layout.is_grid;
+    PS_TRY(ps_torus_sums_power(&self->sums, &self->scales, &self->power,
+                               is_grid ? ps_split_left_slot(split) : 0, self->stride, num_patterns,
                                self->device, error));
+    if (!is_grid) {
+        return PSPEC_OK;
+    }
     const size_t num_rows = split->num_pairs * self->layout.lanes;
     const double values = (double)(num_rows * self->layout.lanes * num_patterns);
     const ps_range range = ps_range_light(self->device, num_rows, num_patterns, 1, 20 * values,
                                           10 * values * (double)self->layout.real_bytes);
-    return PS_LAUNCH(self->device, self->product_power, &range, error, PS_BUFFER(self->sums),
+    return PS_LAUNCH(self->device, self->product_power, &range, error, PS_BUFFER(self->products),
                      PS_BUFFER(self->scales), PS_BUFFER(self->power), PS_U64(num_rows),
                      PS_U64(self->stride));
 }

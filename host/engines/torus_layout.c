@@ -54,8 +54,7 @@ ps_torus_layout ps_torus_layout_make(const ps_problem *problem, const ps_device_
                                      ps_precision precision) {
     const ps_frequencies *set = problem->frequencies;
     ps_torus_layout layout = {.lanes = ps_engine_lanes(limits, precision),
-                              .real_bytes =
-                                  precision == PS_SINGLE ? sizeof(float) : sizeof(double),
+                              .real_bytes = precision == PS_SINGLE ? sizeof(float) : sizeof(double),
                               .is_grid = set->kind != PS_FREQUENCIES_LIST};
     if (layout.is_grid) {
         ps_split_sizes(set, layout.lanes, &layout.num_left, &layout.num_right);

@@ -7,9 +7,10 @@
 /* Points of one chunk: the unit of partial sums, fixed so that sums do not depend on slabs. */
 enum { PS_TORUS_CHUNK = 1024 };
 
-/* Points summed in working precision before the pair takes the sum (kernels/torus/layout.h); see the
- * table of errors against run length in docs/torus_direct.md. Divides PS_TORUS_CHUNK. */
-enum { PS_TORUS_RUN = 128 };
+/* Points summed in working precision before a pair takes the sum (kernels/torus/layout.h), in
+ * products and in lists; errors and times against the length of a run are in docs/torus_direct.md.
+ * They divide PS_TORUS_CHUNK. */
+enum { PS_TORUS_RUN = 32, PS_TORUS_LIST_RUN = 8 };
 
 typedef struct ps_torus_layout {
     unsigned lanes;

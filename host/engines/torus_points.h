@@ -1,5 +1,5 @@
-/* Point sets on their way to the device: fixed-point coordinates, weights, offsets, one slab of every
- * realization at a time, so that device memory does not grow with the number of points.
+/* Point sets on their way to the device: fixed-point coordinates, weights, offsets, one slab of
+ * every realization at a time, so that device memory does not grow with the number of points.
  */
 #ifndef PS_ENGINES_TORUS_POINTS_H
 #define PS_ENGINES_TORUS_POINTS_H
@@ -10,8 +10,9 @@ typedef struct ps_torus_points {
     unsigned dimension;
     size_t batch, slab; /* realizations, points of each at a time */
     ps_precision precision;
-    uint64_t *host_points; /* [batch * slab][dimension] */
-    void *host_weights;    /* [batch * slab] float or double */
+    bool has_unit_weights;  /* on the device; so it stays until a pattern has weights */
+    uint64_t *host_points;  /* [batch * slab][dimension] */
+    void *host_weights;     /* [batch * slab] float or double */
     uint64_t *host_offsets; /* [batch + 1] */
     ps_buffer points, weights, offsets;
 } ps_torus_points;
@@ -21,8 +22,14 @@ pspec_status ps_torus_points_create(ps_torus_points *out, unsigned dimension, si
                                     ps_error *error) PS_MUST_CHECK;
 void ps_torus_points_free(ps_torus_points *points);
 
-/* Uploads points first .. first + slab - 1 of every pattern of the batch (fewer or none where a
- * pattern is shorter). *num_points is their number over all patterns. */
+/* Points go to the device in steps of about N / golden ratio, so that the points of a run of the
+ * kernels lie far apart whatever the order of the pattern: in sorted patterns, neighbours would add up
+ * in step at low frequencies and round the same way. A step without common factor with n visits every
+ * point once. */
+uint64_t ps_torus_point_step(uint64_t n);
+
+/* Uploads points first .. first + slab - 1, in that order, of every pattern of the batch (fewer or
+ * none where a pattern is shorter). *num_points is their number over all patterns. */
 pspec_status ps_torus_points_upload(ps_torus_points *points, ps_device *device,
                                     const ps_batch *batch, size_t first, size_t *num_points,
                                     ps_error *error) PS_MUST_CHECK;

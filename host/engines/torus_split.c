@@ -19,8 +19,8 @@ static size_t half_lattice_size(unsigned axes, int32_t max_frequency) {
     return (size - 1) / 2;
 }
 
-/* A, the number of right frequencies in one dimension: A left times A right products cover K = 2 A^2
- * frequencies, so A = sqrt(K / 2), rounded up to whole tiles. */
+/* A, the number of right frequencies in one dimension: A left times A right products cover K = 2
+ * A^2 frequencies, so A = sqrt(K / 2), rounded up to whole tiles. */
 static size_t right_size_1d(int32_t max_frequency, unsigned lanes) {
     const size_t wanted = (size_t)ceil(sqrt(max_frequency / 2.0));
     const size_t tiled = (wanted + lanes - 1) / lanes * lanes;
@@ -206,8 +206,7 @@ size_t ps_split_slot(const ps_split *split, const int32_t *k) {
     }
     const size_t left = at.left - 1;
     const size_t right = at.right - 1;
-    const size_t pair =
-        split->pair_of_tiles[left / lanes * split->right.num_tiles + right / lanes];
+    const size_t pair = split->pair_of_tiles[left / lanes * split->right.num_tiles + right / lanes];
     const size_t row = (pair * lanes + left % lanes) * 2 + (at.is_minus ? 1 : 0);
     return row * lanes + right % lanes;
 }

@@ -1,9 +1,9 @@
 /* A lattice of frequencies as sums and differences of two small sets: k = l + r or l - r.
  *
- * Axes are cut into a left and a right part, l from the half lattice of the left axes, r from that of
- * the right ones (in one dimension: l = multiples of m = 2A + 1, r = 1..A). Then every k of the half
- * lattice is l + r, l - r, l alone or r alone, and exp(-2 pi i k.x) is a product of one factor from
- * each set. Tables hold tiles of `lanes` frequencies; the slot of a k in a row of powers is
+ * Axes are cut into a left and a right part, l from the half lattice of the left axes, r from that
+ * of the right ones (in one dimension: l = multiples of m = 2A + 1, r = 1..A). Then every k of the
+ * half lattice is l + r, l - r, l alone or r alone, and exp(-2 pi i k.x) is a product of one factor
+ * from each set. Tables hold tiles of `lanes` frequencies; the slot of a k in a row of powers is
  *
  *     [tile pair][l in tile][l + r, l - r][r in tile]   then   [l alone]   then   [r alone].
  */

@@ -43,9 +43,13 @@ pspec_status ps_table_create(ps_table **out, const char *command, const char *co
     void *memory = NULL;
     PS_TRY(ps_allocate(&memory, 1, sizeof(ps_table), "table", error));
     ps_table *table = memory;
-    table->columns = columns;
     table->num_columns = num_columns;
-    const pspec_status status = copy_text(&table->command, command, error);
+    pspec_status status = ps_allocate(&memory, num_columns, sizeof *columns, "columns", error);
+    if (status == PSPEC_OK) {
+        table->columns = memory;
+        memcpy(table->columns, columns, num_columns * sizeof *columns);
+        status = copy_text(&table->command, command, error);
+    }
     if (status != PSPEC_OK) {
         ps_table_destroy(table);
         return status;
@@ -103,6 +107,7 @@ void ps_table_destroy(ps_table *table) {
     }
     free(table->meta);
     free(table->cells);
+    free(table->columns);
     free(table->command);
     free(table);
 }

@@ -37,7 +37,7 @@ typedef struct ps_table ps_table;
 
 typedef enum ps_table_format { PS_FORMAT_CSV = 0, PS_FORMAT_JSON, PS_FORMAT_NPY } ps_table_format;
 
-/* columns are borrowed for the life of the table (string literals). */
+/* The array of columns is copied; the names are borrowed for the life of the table (literals). */
 pspec_status ps_table_create(ps_table **out, const char *command, const char *const *columns,
                              size_t num_columns, ps_error *error) PS_MUST_CHECK;
 /* Header entries, kept in order; the same key may occur several times (CSV: several lines; JSON: an

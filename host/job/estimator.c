@@ -31,8 +31,8 @@ static pspec_status create_engine(ps_estimator *self, ps_error *error) {
     options->engine->destroy(self->engine_state);
     self->engine_state = NULL;
     for (;;) {
-        status = options->engine->create(&self->engine_state, &options->problem,
-                                         options->precision, self->batch, self->device, error);
+        status = options->engine->create(&self->engine_state, &options->problem, options->precision,
+                                         self->batch, self->device, error);
         if (status != PSPEC_ERROR_MEMORY || self->batch == 1) {
             return status;
         }
@@ -57,9 +57,9 @@ static pspec_status create_accumulator(ps_estimator *self, ps_error *error) {
         .batch = self->batch,
         .is_on_device = is_on_device,
         .precision = options->precision == PS_SINGLE ? PS_SINGLE : PS_DOUBLE,
-        .lanes = is_on_device ? ps_engine_lanes(ps_device_get_limits(self->device),
-                                                options->precision)
-                              : 1,
+        .lanes = is_on_device
+                     ? ps_engine_lanes(ps_device_get_limits(self->device), options->precision)
+                     : 1,
         .want_frequencies = options->want_frequencies,
     };
     return ps_accumulator_create(&self->accumulator, &accumulator, self->device, error);

@@ -13,19 +13,19 @@
 typedef struct ps_estimator ps_estimator;
 
 typedef struct ps_estimator_options {
-    ps_problem problem;        /* frequencies enumerated; num_points of the largest set so far known */
+    ps_problem problem; /* frequencies enumerated; num_points of the largest set so far known */
     const ps_engine *engine;
     ps_precision precision;
-    size_t batch;              /* realizations at a time; halved when memory is refused */
+    size_t batch; /* realizations at a time; halved when memory is refused */
     bool exact_shells;
-    bool want_frequencies;     /* keep sums per frequency */
+    bool want_frequencies; /* keep sums per frequency */
     bool self_check;
     pspec_normalization normalization;
 } ps_estimator_options;
 
 /* The numerical side of a result. */
 typedef struct ps_accuracy {
-    double error;      /* bound of the engine's formula with the powers that were measured */
+    double error; /* bound of the engine's formula with the powers that were measured */
     double largest_mean_power; /* largest effective power of a realization, mean over frequencies */
     bool was_checked;
     double self_check; /* largest deviation of |S| from the referee, in units of sqrt(sum w^2) */

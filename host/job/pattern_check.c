@@ -61,7 +61,6 @@ pspec_status ps_pattern_check(const pspec_pattern *pattern, unsigned dimension,
     }
     PS_TRY(check_coordinates(pattern, realization, error));
     *sums = (ps_pattern_sums){(double)pattern->num_points, (double)pattern->num_points};
-    return pattern->weights == NULL
-               ? PSPEC_OK
-               : sum_weights(pattern, normalization, realization, sums, error);
+    return pattern->weights == NULL ? PSPEC_OK
+                                    : sum_weights(pattern, normalization, realization, sums, error);
 }

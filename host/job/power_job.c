@@ -141,9 +141,9 @@ static pspec_status open_device(ps_power_job *job, ps_error *error) {
             (constraints->precision < 0 || (*engine)->has_precision[constraints->precision]);
         is_needed = is_needed || (may_run && (*engine)->needs_device);
     }
-    return is_needed ? ps_device_open(&job->device, job->question->device, job->question->profile,
-                                      error)
-                     : PSPEC_OK;
+    return is_needed
+               ? ps_device_open(&job->device, job->question->device, job->question->profile, error)
+               : PSPEC_OK;
 }
 
 static pspec_status make_plan(ps_power_job *job, double mean_power, ps_error *error) {
@@ -253,7 +253,8 @@ static pspec_status set_pattern(const ps_power_job *job, const ps_point_set *set
         return PSPEC_OK;
     }
     if (job->num_weights != set->num_points) {
-        return ps_fail(error, PSPEC_ERROR_INPUT, "\"%s\" holds %zu weights, but a set has %zu points",
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "\"%s\" holds %zu weights, but a set has %zu points",
                        job->question->weights_path, job->num_weights, set->num_points);
     }
     pattern->weights = job->weights;

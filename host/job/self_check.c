@@ -26,8 +26,8 @@ static pspec_status read_entry(const ps_rows *rows, uint32_t slot, ps_device *de
                               error);
     }
     float value = 0;
-    PS_TRY(ps_buffer_read(device, &rows->device, slot * sizeof(float), &value, sizeof value,
-                          error));
+    PS_TRY(
+        ps_buffer_read(device, &rows->device, slot * sizeof(float), &value, sizeof value, error));
     *out = value;
     return PSPEC_OK;
 }

@@ -72,8 +72,8 @@ static void judge(ps_candidate *candidate, const ps_problem *problem,
         snprintf(candidate->reason, sizeof candidate->reason, "error above the tolerance %g",
                  problem->tolerance);
     } else if (limit > 0 && candidate->bytes > (double)limit) {
-        snprintf(candidate->reason, sizeof candidate->reason, "memory above the limit of %llu bytes",
-                 (unsigned long long)limit);
+        snprintf(candidate->reason, sizeof candidate->reason,
+                 "memory above the limit of %llu bytes", (unsigned long long)limit);
     } else {
         candidate->is_feasible = true;
     }

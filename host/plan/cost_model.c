@@ -6,8 +6,8 @@
  * over to other devices of the same class; 20 % either way changes no choice between engines that
  * differ by a factor of ten. The machine is shared: the best of several runs was taken. */
 static const struct {
-    double phases_per_flop;  /* cosine-sine pairs per nominal flop: torus/list.cl with its table */
-    double product_share;    /* share of the nominal peak that torus/product.cl reaches */
+    double phases_per_flop; /* cosine-sine pairs per nominal flop: torus/list.cl with its table */
+    double product_share;   /* share of the nominal peak that torus/product.cl reaches */
 } device_rates[2] = {
     [PS_SINGLE] = {0.017, 1.20},
     [PS_DOUBLE] = {0.014, 1.20},
@@ -27,8 +27,8 @@ enum { GPU_UNIT_LANES = 64 };
 
 double ps_cost_nominal_flops(const ps_device_limits *limits, ps_precision precision) {
     const double clock = 1e6 * (limits->clock_mhz > 0 ? limits->clock_mhz : DEFAULT_CLOCK_MHZ);
-    double lanes = precision == PS_SINGLE ? limits->native_float_lanes
-                                          : limits->native_double_lanes;
+    double lanes =
+        precision == PS_SINGLE ? limits->native_float_lanes : limits->native_double_lanes;
     if (limits->has_dedicated_local_memory) {
         lanes = precision == PS_SINGLE ? GPU_UNIT_LANES : GPU_UNIT_LANES / 2;
     }

@@ -26,8 +26,8 @@ typedef struct ps_skip {
 enum { PS_MAX_SKIPS = 8 };
 
 typedef struct ps_needs {
-    bool only_ball;        /* leave the corners of the box out */
-    bool one_realization;  /* one stands for all */
+    bool only_ball;       /* leave the corners of the box out */
+    bool one_realization; /* one stands for all */
     bool no_shift;
     size_t num_skips;
     ps_skip skips[PS_MAX_SKIPS];

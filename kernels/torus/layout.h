@@ -3,7 +3,8 @@
  *   LANES      frequencies in one vector, and in one tile of a table
  *   DIMENSION  of the points
  *   RUN        points summed in working precision before the sum goes into a pair: the error of a
- *              run grows with its length, the cost of the pairs falls with it
+ *              run grows with its length, the cost of the pairs falls with it. Products keep their
+ *              pairs in memory (RUN), lists in registers (LIST_RUN), where they cost little
  */
 #ifndef PS_TORUS_LAYOUT_H
 #define PS_TORUS_LAYOUT_H
@@ -12,7 +13,10 @@
 #define DIMENSION 2
 #endif
 #ifndef RUN
-#define RUN 128
+#define RUN 32
+#endif
+#ifndef LIST_RUN
+#define LIST_RUN 8
 #endif
 
 #endif

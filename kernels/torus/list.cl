@@ -13,8 +13,9 @@
  *   sums         [realization][chunk][tile][cos high, cos low, sin high, sin low][LANES]
  *   table        [realization][tile][point of the realization][cos, sin][LANES], table_points apart
  *
- * WEIGHT_TABLE 0 leaves the weights out of the table (one factor of a product carries them), never
- * out of the sums. Numerical note: runs of RUN points in working precision, pairs above.
+ * In the table only the first weighted_tiles carry the weights (one factor of a product must, the
+ * other must not); the sums always do. Numerical note: runs of LIST_RUN points in working
+ * precision, pairs above.
  */
 #include "shared/real.h"
 #include "shared/pair.h"
@@ -25,18 +26,14 @@
 #ifndef STORE_TABLE
 #define STORE_TABLE 0
 #endif
-#ifndef WEIGHT_TABLE
-#define WEIGHT_TABLE 1
-#endif
 
-__kernel void torus_list(__global const ulong *restrict points,
-                         __global const real *restrict weights,
-                         __global const ulong *restrict offsets,
-                         __global const word *restrict frequencies, __global real *restrict sums,
-                         const ulong num_tiles, const ulong chunk_points
+__kernel void
+torus_list(__global const ulong *restrict points, __global const real *restrict weights,
+           __global const ulong *restrict offsets, __global const word *restrict frequencies,
+           __global real *restrict sums, const ulong num_tiles, const ulong chunk_points
 #if STORE_TABLE
-                         ,
-                         __global real *restrict table, const ulong table_points
+           ,
+           __global real *restrict table, const ulong table_points, const ulong weighted_tiles
 #endif
 ) {
     const size_t tile = get_global_id(0);
@@ -61,8 +58,8 @@ __kernel void torus_list(__global const ulong *restrict points,
     __global real *row =
         table + ((realization * num_tiles + tile) * table_points + (begin - first)) * 2 * LANES;
 #endif
-    for (ulong run = begin; run < end; run += RUN) {
-        const ulong run_end = min(run + RUN, end);
+    for (ulong run = begin; run < end; run += LIST_RUN) {
+        const ulong run_end = min(run + LIST_RUN, end);
         realv cos_sum = 0, sin_sum = 0;
         for (ulong j = run; j < run_end; j++) {
             realv cosine, sine;
@@ -71,8 +68,9 @@ __kernel void torus_list(__global const ulong *restrict points,
             cos_sum = fma(weight, cosine, cos_sum);
             sin_sum = fma(weight, sine, sin_sum);
 #if STORE_TABLE
-            STOREV(WEIGHT_TABLE ? weight * cosine : cosine, 0, row);
-            STOREV(WEIGHT_TABLE ? weight * sine : sine, 1, row);
+            const realv factor = tile < weighted_tiles ? weight : (realv)1;
+            STOREV(factor * cosine, 0, row);
+            STOREV(factor * sine, 1, row);
             row += 2 * LANES;
 #endif
         }

@@ -12,11 +12,11 @@
  *
  * Launch: (tile pairs, realizations), pairs rounded up at will; no local memory.
  *
- *   left, right  tables of torus/list.cl, table_points apart
- *   offsets      first point of each realization
- *   pairs        [pair]: left tile, right tile (pairs that nobody needs are not launched)
- *   sums         [realization][pair][left in tile][cc, sc, cs, ss][high, low][LANES]; begun anew
- * when is_first is set, else continued
+ *   table    of torus/list.cl: left tiles (with weights), then right tiles (without)
+ *   offsets  first point of each realization
+ *   pairs    [pair]: left tile, right tile (pairs that nobody needs are not launched)
+ *   sums     [realization][pair][left in tile][cc, sc, cs, ss][high, low][LANES], begun anew when
+ *            is_first is set, else continued
  */
 #include "shared/real.h"
 #include "shared/pair.h"
@@ -30,11 +30,11 @@
 #define STRIP LANES
 #endif
 
-__kernel void torus_product(__global const real *restrict left, __global const real *restrict right,
+__kernel void torus_product(__global const real *restrict table,
                             __global const ulong *restrict offsets,
                             __global const uint2 *restrict pairs, __global real *restrict sums,
-                            const ulong num_pairs, const uint num_left_tiles,
-                            const uint num_right_tiles, const ulong table_points,
+                            const ulong num_pairs, const ulong num_tiles,
+                            const ulong num_left_tiles, const ulong table_points,
                             const uint is_first) {
     const size_t pair = get_global_id(0);
     const size_t realization = get_global_id(1);
@@ -44,17 +44,18 @@ __kernel void torus_product(__global const real *restrict left, __global const r
     const ulong count = offsets[realization + 1] - offsets[realization];
     const uint2 tiles = pairs[pair];
     __global const real *left_tile =
-        left + (realization * num_left_tiles + tiles.x) * table_points * 2 * LANES;
+        table + (realization * num_tiles + tiles.x) * table_points * 2 * LANES;
     __global const real *right_tile =
-        right + (realization * num_right_tiles + tiles.y) * table_points * 2 * LANES;
+        table + (realization * num_tiles + num_left_tiles + tiles.y) * table_points * 2 * LANES;
     __global real *tile_sums = sums + (realization * num_pairs + pair) * LANES * 8 * LANES;
 
-    if (is_first) {
+    if (is_first && count == 0) { /* a pattern without points: the loop below never starts */
         for (int i = 0; i < LANES * 8; i++) {
             STOREV((realv)0, i, tile_sums);
         }
     }
     for (ulong run = 0; run < count; run += RUN) {
+        const bool is_new = is_first && run == 0;
         const ulong run_end = min(run + RUN, count);
         for (int strip = 0; strip < LANES; strip += STRIP) {
             realv sum[STRIP][4];
@@ -79,7 +80,8 @@ __kernel void torus_product(__global const real *restrict left, __global const r
 #pragma unroll
             for (int i = 0; i < STRIP * 4; i++) {
                 __global real *out = tile_sums + (strip * 4 + i) * 2 * LANES;
-                realv high = LOADV(0, out), low = LOADV(1, out);
+                realv high = is_new ? (realv)0 : LOADV(0, out);
+                realv low = is_new ? (realv)0 : LOADV(1, out);
                 pair_add(&high, &low, sum[i / 4][i % 4]);
                 STOREV(high, 0, out);
                 STOREV(low, 1, out);

@@ -1,39 +1,41 @@
-/* One side of a torus product, or a whole list: its frequencies on the device, the sums over them
- * and, for products, its table of cosines and sines.
+/* Sums over a list of frequencies on the device and, for products, the table of their cosines and
+ * sines: the first pass of torus_direct.
  */
-#ifndef PS_ENGINES_TORUS_SIDE_H
-#define PS_ENGINES_TORUS_SIDE_H
+#ifndef PS_ENGINES_TORUS_SUMS_H
+#define PS_ENGINES_TORUS_SUMS_H
 
 #include "engines/torus_layout.h"
 #include "engines/torus_points.h"
 
-typedef struct ps_torus_side {
+typedef struct ps_torus_sums {
     size_t num, num_tiles, num_chunks, table_points;
+    size_t weighted_tiles; /* tiles of the table that carry the weights */
     unsigned dimension, lanes;
     size_t real_bytes;
     bool has_table;
     cl_kernel list, fold, power;
     ps_buffer frequencies, sums, totals, table;
-} ps_torus_side;
+} ps_torus_sums;
 
 /* Kernel options of a job, "-DPRECISION=32 -DLANES=16 ..."; text is freed by the caller. */
 void ps_torus_options(ps_text *text, const ps_torus_layout *layout, unsigned dimension);
 
-/* vectors: [num][dimension]. with_table: also fill the table, with the weights when weighted. */
-pspec_status ps_torus_side_create(ps_torus_side *out, const ps_torus_layout *layout,
+/* vectors: [num][dimension], whole tiles of lanes except at the end. with_table: also fill the
+ * table, weights in the first weighted_tiles. */
+pspec_status ps_torus_sums_create(ps_torus_sums *out, const ps_torus_layout *layout,
                                   unsigned dimension, size_t num, const int32_t *vectors,
-                                  size_t batch, bool with_table, bool weighted, ps_device *device,
-                                  ps_error *error) PS_MUST_CHECK;
-void ps_torus_side_free(ps_torus_side *side);
+                                  size_t batch, bool with_table, size_t weighted_tiles,
+                                  ps_device *device, ps_error *error) PS_MUST_CHECK;
+void ps_torus_sums_free(ps_torus_sums *sums);
 
 /* Adds the uploaded slab to the totals (begun anew when is_first) and fills the table. num_points:
  * of all patterns in the slab, for the profile. */
-pspec_status ps_torus_side_add(ps_torus_side *side, const ps_torus_points *points,
+pspec_status ps_torus_sums_add(ps_torus_sums *sums, const ps_torus_points *points,
                                size_t num_patterns, size_t num_points, bool is_first,
                                ps_device *device, ps_error *error) PS_MUST_CHECK;
 
-/* Writes |S|^2 of the side's frequencies into slots first_slot.. of the power rows. */
-pspec_status ps_torus_side_power(ps_torus_side *side, const ps_buffer *scales,
+/* Writes |S|^2 of the frequencies into slots first_slot.. of the power rows. */
+pspec_status ps_torus_sums_power(ps_torus_sums *sums, const ps_buffer *scales,
                                  const ps_buffer *power, size_t first_slot, size_t stride,
                                  size_t num_patterns, ps_device *device,
                                  ps_error *error) PS_MUST_CHECK;

@@ -1,0 +1,166 @@
+#include "bench.h"
+
+#include "engines/host_direct.h"
+#include "math/random.h"
+#include "plan/cost_model.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+void bench_die(const char *message) {
+    fprintf(stderr, "bench: %s\n", message);
+    exit(EXIT_FAILURE);
+}
+
+double bench_seconds(void) {
+    const double nanoseconds = 1e-9;
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + (double)now.tv_nsec * nanoseconds;
+}
+
+static void *allocate(size_t count, size_t bytes) {
+    void *memory = calloc(count, bytes);
+    if (memory == NULL) {
+        bench_die("out of memory");
+    }
+    return memory;
+}
+
+double *bench_uniform(size_t count, uint64_t seed) {
+    double *numbers = allocate(count, sizeof(double));
+    ps_random random = ps_random_init(seed, PS_STREAM_COORDINATES, 0);
+    ps_random_fill_uniform(&random, numbers, count);
+    return numbers;
+}
+
+static int compare_doubles(const void *a, const void *b) {
+    const double x = *(const double *)a;
+    const double y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
+
+double bench_median(double *numbers, size_t num) {
+    qsort(numbers, num, sizeof *numbers, compare_doubles);
+    return numbers[num / 2];
+}
+
+/* ---- peak -------------------------------------------------------------------------------- */
+
+double bench_peak(ps_device *device, ps_precision precision) {
+    enum { ITEMS = 8192, STEPS = 4096, CHAINS = 16, REPEATS = 7 };
+    const ps_device_limits *limits = ps_device_get_limits(device);
+    const unsigned lanes = ps_engine_lanes(limits, precision);
+    const double flops = 2.0 * ITEMS * STEPS * CHAINS * lanes;
+    cl_kernel kernel = NULL;
+    ps_buffer result = {0};
+    ps_text options = {0};
+    double best = HUGE_VAL;
+    ps_text_append(&options, "-DPRECISION=%d -DLANES=%u -DSTEPS=%d",
+                   precision == PS_SINGLE ? 32 : 64, lanes, STEPS);
+    BENCH_TRY(ps_kernel_create(device, &kernel, "probe/peak.cl", "probe_peak",
+                               ps_text_string(&options), error));
+    BENCH_TRY(ps_buffer_create(device, &result, ITEMS * lanes * sizeof(double), "results", error));
+    const ps_range range = ps_range_light(device, ITEMS, 1, 1, flops, 0);
+    for (int i = 0; i < REPEATS; i++) {
+        const double begin = bench_seconds();
+        BENCH_TRY(PS_LAUNCH(device, kernel, &range, error, PS_BUFFER(result), PS_U32(i)));
+        BENCH_TRY(ps_device_finish(device, error));
+        best = fmin(best, bench_seconds() - begin);
+    }
+    clReleaseKernel(kernel);
+    ps_buffer_release(&result);
+    ps_text_free(&options);
+    return flops / best;
+}
+
+/* ---- jobs -------------------------------------------------------------------------------- */
+
+void bench_job_create(bench_job *job, const ps_engine *engine, ps_precision precision,
+                      ps_device *device, ps_frequencies frequencies, size_t num_points,
+                      size_t num_realizations) {
+    *job = (bench_job){.engine = engine,
+                       .precision = precision,
+                       .device = device,
+                       .frequencies = frequencies,
+                       .num_points = num_points,
+                       .num_realizations = num_realizations};
+    const unsigned dimension = frequencies.dimension;
+    BENCH_TRY(ps_frequencies_enumerate(&job->frequencies, error));
+    const ps_problem problem = {.frequencies = &job->frequencies,
+                                .num_points = num_points,
+                                .num_realizations = num_realizations,
+                                .tolerance = 1};
+    const ps_device_limits *limits = ps_device_get_limits(device);
+    const ps_work work = engine->work(&problem, limits, precision);
+    job->batch = ps_cost_batch(&work, limits, num_realizations);
+    job->points = bench_uniform(num_points * dimension * num_realizations, num_points);
+    job->patterns = allocate(num_realizations, sizeof *job->patterns);
+    job->scales = allocate(num_realizations, sizeof *job->scales);
+    job->slots = allocate(job->frequencies.num, sizeof *job->slots);
+    for (size_t r = 0; r < num_realizations; r++) {
+        job->patterns[r] =
+            (pspec_pattern){dimension, num_points, job->points + r * num_points * dimension, NULL};
+        job->scales[r] = 1 / (double)num_points;
+    }
+    BENCH_TRY(engine->create(&job->state, &problem, precision, job->batch, device, error));
+    engine->get_slots(job->state, job->slots);
+}
+
+double bench_job_run(bench_job *job, ps_rows *rows) {
+    const double begin = bench_seconds();
+    for (size_t done = 0; done < job->num_realizations; done += job->batch) {
+        const size_t rest = job->num_realizations - done;
+        const ps_batch batch = {rest < job->batch ? rest : job->batch, job->patterns + done,
+                                job->scales + done};
+        BENCH_TRY(job->engine->run(job->state, &batch, rows, error));
+    }
+    BENCH_TRY(ps_device_finish(job->device, error));
+    return bench_seconds() - begin;
+}
+
+static double read_entry(bench_job *job, const ps_rows *rows, uint32_t slot) {
+    float single = 0;
+    double number = 0;
+    if (job->precision == PS_SINGLE) {
+        BENCH_TRY(ps_buffer_read(job->device, &rows->device, slot * sizeof single, &single,
+                                 sizeof single, error));
+        return single;
+    }
+    BENCH_TRY(ps_buffer_read(job->device, &rows->device, slot * sizeof number, &number,
+                             sizeof number, error));
+    return number;
+}
+
+double bench_job_error(bench_job *job) {
+    enum { TERMS = 1 << 22, MOST_SAMPLES = 2000 }; /* long double terms: about a quarter second */
+    ps_rows rows = {0};
+    const ps_batch batch = {1, job->patterns, job->scales};
+    ps_random random = ps_random_init(1, PS_STREAM_COORDINATES, 1);
+    size_t num_samples = TERMS / job->num_points;
+    num_samples = num_samples < 1 ? 1 : num_samples > MOST_SAMPLES ? MOST_SAMPLES : num_samples;
+    double squares = 0;
+    BENCH_TRY(job->engine->run(job->state, &batch, &rows, error));
+    for (size_t i = 0; i < num_samples; i++) {
+        const size_t index = (size_t)ps_random_below(&random, job->frequencies.num);
+        long double re = 0;
+        long double im = 0;
+        ps_host_sum(&job->patterns[0],
+                    job->frequencies.vectors + index * job->frequencies.dimension, &re, &im);
+        const double expected = (double)hypotl(re, im) / sqrt((double)job->num_points);
+        const double off = sqrt(read_entry(job, &rows, job->slots[index])) - expected;
+        squares += off * off;
+    }
+    return sqrt(squares / (double)num_samples);
+}
+
+void bench_job_destroy(bench_job *job) {
+    job->engine->destroy(job->state);
+    ps_frequencies_free(&job->frequencies);
+    free(job->points);
+    free(job->patterns);
+    free(job->scales);
+    free(job->slots);
+}

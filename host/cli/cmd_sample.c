@@ -1,0 +1,117 @@
+/* pointspec sample: point sets to a file or standard output, one realization in memory at a time.
+ */
+#include "base/memory.h"
+#include "base/text.h"
+#include "cli/command.h"
+#include "io/points.h"
+#include "samplers/sampler.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static pspec_status fail_without_sampler(ps_error *error) {
+    ps_text names = {0};
+    for (size_t i = 0; ps_samplers[i] != NULL; i++) {
+        ps_text_append(&names, "%s%s", i > 0 ? ", " : "", ps_samplers[i]->name);
+    }
+    ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "--sampler NAME is needed; there are %s",
+            ps_text_string(&names));
+    ps_text_free(&names);
+    return PSPEC_ERROR_INVALID_ARGUMENT;
+}
+
+static pspec_status check_words(const ps_arguments *arguments, ps_error *error) {
+    if (arguments->num_files > 0) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "no input file is read, but %s was given; -o FILE names the output",
+                       arguments->files[0]);
+    }
+    if (arguments->num_samplers == 0) {
+        return fail_without_sampler(error);
+    }
+    if (arguments->num_samplers > 1) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "%zu samplers were given; one output holds the points of one",
+                       arguments->num_samplers);
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status make_request(const ps_arguments *arguments, ps_sampler_request *request,
+                                 ps_error *error) {
+    PS_TRY(ps_sampler_parse(request, arguments->samplers[0], error));
+    request->num_points = (size_t)arguments->num_points;
+    request->dimension = arguments->dimension;
+    request->seed = arguments->seed;
+    request->homogenize = arguments->homogenize;
+    return ps_sampler_check(request, error);
+}
+
+/* A progress line would run into points that go to the same terminal. */
+static ps_progress *begin_progress(const ps_arguments *arguments, const char *path) {
+    const bool shares_terminal = strcmp(path, "-") == 0 && isatty(STDOUT_FILENO);
+    return shares_terminal ? NULL : ps_progress_begin(arguments, "realizations");
+}
+
+static pspec_status write_realizations(const ps_sampler_request *request, uint64_t num_realizations,
+                                       double *points, ps_point_writer *writer,
+                                       ps_progress *progress, ps_error *error) {
+    for (uint64_t r = 0; r < num_realizations; r++) {
+        PS_TRY(ps_sampler_generate(request, r, points, error));
+        PS_TRY(ps_points_write(writer, points, error));
+        ps_progress_update(progress, r + 1, num_realizations);
+        if (ps_interrupted) {
+            return ps_fail(error, PSPEC_ERROR_CANCELLED,
+                           "interrupted after %llu of %llu realizations", (unsigned long long)r + 1,
+                           (unsigned long long)num_realizations);
+        }
+    }
+    return ps_points_commit(writer, error);
+}
+
+static pspec_status run(const ps_arguments *arguments, ps_error *error) {
+    const char *const path = arguments->output != NULL ? arguments->output : "-";
+    ps_sampler_request request = {0};
+    void *points = NULL;
+    ps_point_writer *writer = NULL;
+    ps_progress *progress = NULL;
+    pspec_status status = PSPEC_OK;
+    PS_TRY(check_words(arguments, error));
+    PS_TRY(make_request(arguments, &request, error));
+    PS_TRY(ps_allocate(&points, request.num_points, request.dimension * sizeof(double), "points",
+                       error));
+    PS_TRY_OUT(status, ps_points_create(&writer, path, arguments->format,
+                                        (size_t)arguments->num_realizations, request.num_points,
+                                        request.dimension, error));
+    progress = begin_progress(arguments, path);
+    status =
+        write_realizations(&request, arguments->num_realizations, points, writer, progress, error);
+out:
+    ps_progress_end(progress);
+    ps_points_discard(writer);
+    free(points);
+    return status;
+}
+
+static const ps_option_id options[] = {
+    PS_OPTION_POINTS,  PS_OPTION_REALIZATIONS, PS_OPTION_DIMENSION, PS_OPTION_SEED,
+    PS_OPTION_SAMPLER, PS_OPTION_HOMOGENIZE,   PS_OPTION_OUTPUT,    PS_OPTION_FORMAT,
+    PS_OPTION_QUIET,   PS_OPTION_HELP,         PS_NUM_OPTIONS,
+};
+
+const ps_command ps_command_sample = {
+    .name = "sample",
+    .summary = "generate point sets of the torus",
+    .usage = "sample --sampler NAME[:key=value,...] [options]",
+    .description =
+        "Writes realizations of a sampler of the torus [0,1)^D. Realization r depends on nothing "
+        "but the sampler, its parameters, N, D, the seed and r. UTK text has one point per line, "
+        "coordinates with 17 digits, and a line \"#\" between two realizations; an NPY array has "
+        "the shape (M, N, D).",
+    .options = options,
+    .formats = "utk-text|npy",
+    .examples = {"pointspec sample --sampler jittered -n 1024 -m 10 --seed 7 -o points.txt",
+                 "pointspec sample --sampler sobol:scramble=owen -n 4096 -d 3 -o points.npy"},
+    .run = run,
+};

@@ -1,0 +1,51 @@
+/* The table of commands. */
+#include "cli/command.h"
+
+#include "cli/options.h"
+
+#include <string.h>
+
+/* In the order of --help. A new command is a file and a row here. */
+const ps_command *const ps_commands[] = {
+    &ps_command_power, &ps_command_sample, &ps_command_plan, &ps_command_devices, NULL,
+};
+
+const ps_command *ps_command_find(const char *name, ps_error *error) {
+    const ps_command *nearest = NULL;
+    size_t best = SIZE_MAX;
+    for (size_t i = 0; ps_commands[i] != NULL; i++) {
+        const size_t distance = ps_name_distance(name, ps_commands[i]->name);
+        if (distance < best) {
+            best = distance;
+            nearest = ps_commands[i];
+        }
+    }
+    if (best == 0) {
+        return nearest;
+    }
+    ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "unknown command \"%s\"; did you mean %s?", name,
+            nearest != NULL ? nearest->name : "help");
+    return NULL;
+}
+
+int ps_exit_code(pspec_status status) {
+    switch (status) {
+    case PSPEC_OK:
+        return PS_EXIT_DONE;
+    case PSPEC_ERROR_INVALID_ARGUMENT:
+    case PSPEC_ERROR_INPUT:
+        return PS_EXIT_USAGE;
+    case PSPEC_ERROR_TOLERANCE:
+    case PSPEC_ERROR_CHECK:
+        return PS_EXIT_CHECK;
+    case PSPEC_ERROR_CANCELLED:
+        return PS_EXIT_INTERRUPTED;
+    case PSPEC_ERROR_IO:
+    case PSPEC_ERROR_MEMORY:
+    case PSPEC_ERROR_NO_DEVICE:
+    case PSPEC_ERROR_DEVICE:
+    case PSPEC_ERROR_BUILD:
+        break;
+    }
+    return PS_EXIT_FAILED;
+}

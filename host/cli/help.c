@@ -1,0 +1,116 @@
+/* --help: everything comes from the tables of commands, options and samplers. */
+#include "cli/options.h"
+#include "samplers/sampler.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { TEXT_WIDTH = 79, HELP_COLUMN = 30 }; /* fits a terminal of 80 columns */
+
+/* Prints text word by word, from the column where the line now is; further lines begin at indent.
+ * Ends the line. */
+static void print_wrapped(FILE *stream, const char *text, int indent, int column) {
+    while (*text != '\0') {
+        const int length = (int)strcspn(text, " ");
+        if (column > indent && column + 1 + length > TEXT_WIDTH) {
+            fprintf(stream, "\n%*s", indent, "");
+            column = indent;
+        }
+        const bool is_first = column <= indent;
+        fprintf(stream, "%s%.*s", is_first ? "" : " ", length, text);
+        column += length + !is_first;
+        text += length + (text[length] == ' ');
+    }
+    putc('\n', stream);
+}
+
+/* "  term      text", the text in a column of its own. */
+static void print_item(FILE *stream, const char *term, const char *text) {
+    int column = fprintf(stream, "  %s", term);
+    if (column > HELP_COLUMN - 2) {
+        putc('\n', stream);
+        column = 0;
+    }
+    fprintf(stream, "%*s", HELP_COLUMN - column, "");
+    print_wrapped(stream, text, HELP_COLUMN, HELP_COLUMN);
+}
+
+static void print_option(FILE *stream, const ps_command *command, ps_option_id id) {
+    const ps_option *const option = &ps_options[id];
+    const char *const metavar = ps_option_metavar(command, id);
+    char term[128];
+    const char letter[] = {'-', option->letter, ',', ' ', '\0'};
+    snprintf(term, sizeof term, "%s--%s%s%s", option->letter != 0 ? letter : "    ", option->name,
+             metavar != NULL ? " " : "", metavar != NULL ? metavar : "");
+    print_item(stream, term, option->help);
+}
+
+/* ---- samplers ------------------------------------------------------------------------------ */
+
+static void print_sampler(FILE *stream, const ps_sampler *sampler) {
+    char text[512];
+    int length = snprintf(text, sizeof text, "%s", sampler->summary);
+    for (size_t i = 0; sampler->aliases[i] != NULL && length < (int)sizeof text; i++) {
+        length += snprintf(text + length, sizeof text - (size_t)length, "%s%s",
+                           i == 0 ? "; also called " : ", ", sampler->aliases[i]);
+    }
+    if (length < (int)sizeof text && sampler->minimum_dimension == sampler->maximum_dimension) {
+        snprintf(text + length, sizeof text - (size_t)length, "; dimension %u only",
+                 sampler->maximum_dimension);
+    }
+    print_item(stream, sampler->name, text);
+    for (const ps_sampler_parameter *p = sampler->parameters; p->key != NULL; p++) {
+        char term[128];
+        snprintf(term, sizeof term, "  :%s=%s", p->key, p->default_value);
+        print_item(stream, term, p->meaning);
+    }
+}
+
+static void print_samplers(FILE *stream) {
+    fputs("\nSamplers, with the defaults of their parameters:\n", stream);
+    for (size_t i = 0; ps_samplers[i] != NULL; i++) {
+        print_sampler(stream, ps_samplers[i]);
+    }
+}
+
+/* ---- commands ------------------------------------------------------------------------------ */
+
+void ps_help_command(FILE *stream, const ps_command *command) {
+    fprintf(stream, "Usage: pointspec %s\n\n", command->usage);
+    print_wrapped(stream, command->description, 0, 0);
+    fputs("\nOptions:\n", stream);
+    for (int id = 0; id < PS_NUM_OPTIONS; id++) {
+        if (ps_command_takes(command, (ps_option_id)id)) {
+            print_option(stream, command, (ps_option_id)id);
+        }
+    }
+    if (ps_command_takes(command, PS_OPTION_SAMPLER)) {
+        print_samplers(stream);
+    }
+    fputs("\nExamples:\n", stream);
+    for (size_t i = 0; i < sizeof command->examples / sizeof command->examples[0]; i++) {
+        fprintf(stream, "  %s\n", command->examples[i]);
+    }
+}
+
+void ps_help_program(FILE *stream) {
+    fputs("Usage: pointspec COMMAND [options] [FILE...]\n\n"
+          "Power spectra of sampling patterns, with standard errors and error bounds.\n"
+          "\nCommands:\n",
+          stream);
+    for (size_t i = 0; ps_commands[i] != NULL; i++) {
+        fprintf(stream, "  %-12s%s\n", ps_commands[i]->name, ps_commands[i]->summary);
+    }
+    fputs("\n"
+          "pointspec COMMAND --help explains a command, its options and samplers.\n"
+          "pointspec --version prints the version.\n"
+          "\n"
+          "FILE may be - for standard input. Where an option is repeated the last one\n"
+          "counts, but --sampler adds; -- ends the options. Numbers may be written 1e6.\n"
+          "\n"
+          "Exit status: 0 done, 1 failed, 2 usage or bad input, 3 tolerance unreachable or\n"
+          "check failed, 130 interrupted.\n"
+          "\nExamples:\n",
+          stream);
+    fprintf(stream, "  %s\n  %s\n", ps_commands[0]->examples[0], ps_commands[1]->examples[0]);
+}

@@ -1,0 +1,189 @@
+/* The program: finds the command, parses its words, runs it, turns its status into an exit code and
+ * its message into one line on standard error. */
+#include "base/text.h"
+#include "cli/command.h"
+#include "cli/options.h"
+
+#include <fcntl.h>
+#include <gsl/gsl_errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+volatile sig_atomic_t ps_interrupted = 0;
+
+/* ---- the process --------------------------------------------------------------------------- */
+
+static void interrupt(int signal_number) {
+    (void)signal_number;
+    ps_interrupted = 1;
+}
+
+/* The first signal asks the command to stop and clean up, the second ends the process: no
+ * SA_RESTART, so that a read or write that waits returns. A signal that our parent had ignored, as
+ * nohup and shells do for background jobs, stays ignored. */
+static void handle_signal(int signal_number) {
+    struct sigaction action;
+    if (sigaction(signal_number, NULL, &action) == 0 && action.sa_handler != SIG_IGN) {
+        memset(&action, 0, sizeof action);
+        action.sa_handler = interrupt;
+        action.sa_flags = (int)SA_RESETHAND;
+        sigemptyset(&action.sa_mask);
+        sigaction(signal_number, &action, NULL);
+    }
+}
+
+/* A process may be started with its standard streams closed. Files opened later must not get their
+ * numbers, or messages would go into them. The stand-ins refuse what the stream is for: results
+ * that cannot be written are an error. */
+static void occupy_standard_streams(void) {
+    for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; descriptor++) {
+        if (fcntl(descriptor, F_GETFD) == -1) {
+            (void)!open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+        }
+    }
+}
+
+static void prepare_process(void) {
+    occupy_standard_streams();
+    handle_signal(SIGINT);
+    handle_signal(SIGTERM);
+    signal(SIGPIPE, SIG_IGN);    /* a closed pipe is a write that fails: unfinished files go away */
+    gsl_set_error_handler_off(); /* GSL would abort */
+}
+
+/* ---- messages ------------------------------------------------------------------------------ */
+
+/* One line, whatever control characters came in with a name or value; build logs keep their lines.
+ */
+static int report(const char *command, pspec_status status, ps_error *error) {
+    for (char *c = error->message; *c != '\0' && status != PSPEC_ERROR_BUILD; c++) {
+        if ((unsigned char)*c < ' ' || *c == 0x7f) {
+            *c = '?';
+        }
+    }
+    fprintf(stderr, "pointspec%s%s: %s\n", command[0] != '\0' ? " " : "", command, error->message);
+    return ps_exit_code(status);
+}
+
+/* For texts on standard output: a full disk is an error there too. */
+static int finish_output(void) {
+    if (fflush(stdout) == 0 && !ferror(stdout)) {
+        return PS_EXIT_DONE;
+    }
+    ps_error error = {0};
+    return report("", ps_fail(&error, PSPEC_ERROR_IO, "cannot write standard output"), &error);
+}
+
+/* ---- commands ------------------------------------------------------------------------------ */
+
+/* "pointspec power ..." for the header of results, in words that a shell takes back. */
+static void append_word(ps_text *line, const char *word) {
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                                "_-+=:,./@%^";
+    ps_text_append(line, " ");
+    if (word[0] != '\0' && word[strspn(word, plain)] == '\0') {
+        ps_text_append(line, "%s", word);
+        return;
+    }
+    ps_text_append(line, "'");
+    for (; *word != '\0'; word++) {
+        if (*word == '\'') {
+            ps_text_append(line, "'\\''");
+        } else {
+            ps_text_append_bytes(line, word, 1);
+        }
+    }
+    ps_text_append(line, "'");
+}
+
+static pspec_status run_parsed(const ps_command *command, ps_arguments *arguments,
+                               ps_error *error) {
+    if (!arguments->is_given[PS_OPTION_DEVICE]) {
+        arguments->device = getenv("POINTSPEC_DEVICE");
+    }
+    return command->run(arguments, error);
+}
+
+/* words: those after "pointspec". */
+static int run_command(int num_words, char **words) {
+    ps_error error = {0};
+    ps_arguments arguments;
+    ps_text line = {0};
+    const ps_command *const command = ps_command_find(words[0], &error);
+    if (command == NULL) {
+        return report("", error.status, &error);
+    }
+    ps_text_append(&line, "pointspec");
+    for (int i = 0; i < num_words; i++) {
+        append_word(&line, words[i]); /* before the parser, which cuts words */
+    }
+    pspec_status status = ps_arguments_parse(&arguments, command, num_words - 1, words + 1, &error);
+    const bool wants_help = status == PSPEC_OK && arguments.is_given[PS_OPTION_HELP];
+    if (wants_help) {
+        ps_help_command(stdout, command);
+    } else if (status == PSPEC_OK) {
+        arguments.command_line = ps_text_string(&line);
+        status = run_parsed(command, &arguments, &error);
+    }
+    ps_arguments_free(&arguments);
+    ps_text_free(&line);
+    return wants_help           ? finish_output()
+           : status == PSPEC_OK ? PS_EXIT_DONE
+                                : report(command->name, status, &error);
+}
+
+static int run_help(const char *name) {
+    ps_error error = {0};
+    const ps_command *const command = name != NULL ? ps_command_find(name, &error) : NULL;
+    if (name != NULL && command == NULL) {
+        return report("help", error.status, &error);
+    }
+    if (command != NULL) {
+        ps_help_command(stdout, command);
+    } else {
+        ps_help_program(stdout);
+    }
+    return finish_output();
+}
+
+/* Without any argument: what there is, in two lines. */
+static int complain_of_nothing(void) {
+    fputs("usage: pointspec COMMAND [options] [FILE...]\ncommands:", stderr);
+    for (size_t i = 0; ps_commands[i] != NULL; i++) {
+        fprintf(stderr, " %s%s", ps_commands[i]->name, ps_commands[i + 1] != NULL ? "," : "");
+    }
+    fputs("; pointspec --help tells more\n", stderr);
+    return PS_EXIT_USAGE;
+}
+
+static int fail_program_option(const char *word) {
+    ps_error error = {0};
+    const char *const name = word + strspn(word, "-");
+    const bool is_version = ps_name_distance(name, "version") < ps_name_distance(name, "help");
+    return report("",
+                  ps_fail(&error, PSPEC_ERROR_INVALID_ARGUMENT,
+                          "unknown option %s; did you mean %s? Options of a command stand after "
+                          "its name",
+                          word, is_version ? "--version" : "--help"),
+                  &error);
+}
+
+int main(int argc, char **argv) {
+    prepare_process();
+    if (argc < 2) {
+        return complain_of_nothing();
+    }
+    const char *const first = argv[1];
+    if (strcmp(first, "--version") == 0) {
+        printf("pointspec %s\n", pspec_version());
+        return finish_output();
+    }
+    if (strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0) {
+        return run_help(NULL);
+    }
+    if (strcmp(first, "help") == 0) {
+        return run_help(argc > 2 ? argv[2] : NULL);
+    }
+    return first[0] == '-' ? fail_program_option(first) : run_command(argc - 1, argv + 1);
+}

@@ -1,0 +1,15 @@
+# Tests of the program: the parser as a unit, and scripts that run what was built.
+target_sources(test_arguments PRIVATE
+  ${PROJECT_SOURCE_DIR}/host/cli/arguments.c ${PROJECT_SOURCE_DIR}/host/cli/options.c)
+
+function(add_program_test name)
+  add_script_test(${name} unit ${CMAKE_CURRENT_SOURCE_DIR}/${name}.sh
+    $<TARGET_FILE:pointspec_program> ${ARGN})
+  set_tests_properties(${name} PROPERTIES
+    ENVIRONMENT "POCL_CACHE_DIR=${CMAKE_BINARY_DIR}/pocl-cache")
+endfunction()
+
+add_program_test(cli_errors)    # bad input: exit code, one sentence, nothing left behind
+add_program_test(cli_program)   # streams, signals, formats, same bits
+add_program_test(cli_examples)  # the examples of every --help
+add_program_test(cli_man ${PROJECT_SOURCE_DIR}/docs/man)   # man pages agree with the option table

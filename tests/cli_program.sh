@@ -1,0 +1,128 @@
+#!/usr/bin/env bash
+# cli_program.sh PROGRAM: what goes to which stream, signals, formats, and same seed, same bits.
+set -euo pipefail
+program=$(realpath "$1")
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch"
+unset POINTSPEC_DEVICE
+
+# The leak sanitizer may trip over threads of PoCL when a run is short. That is no finding: once more
+# without it.
+tripped='LeakSanitizer has encountered a fatal error'
+bad=0
+complain() {
+    printf 'cli_program: %s\n' "$*" >&2
+    bad=1
+}
+# runs EXIT ARGS...: standard output in out, standard error in err.
+runs() {
+    local expected=$1 code
+    shift
+    for leaks in 1 0; do
+        code=0
+        ASAN_OPTIONS=${ASAN_OPTIONS-}:detect_leaks=$leaks \
+            "$program" "$@" </dev/null >out 2>err || code=$?
+        grep -q "$tripped" err || break
+    done
+    [[ $code == "$expected" ]] || complain "exit $code, not $expected: $*: $(<err)"
+}
+quietly() { # ARGS...: exit 0 and nothing on standard error
+    runs 0 "$@"
+    [[ ! -s err ]] || complain "says something: $*: $(<err)"
+}
+
+# ---- help and version
+quietly --version
+[[ $(<out) =~ ^pointspec\ [0-9]+\.[0-9]+\.[0-9]+$ ]] || complain "version: $(<out)"
+quietly --help
+cp out help
+quietly help
+cmp -s help out || complain "help and --help differ"
+quietly help sample
+cp out help
+quietly sample --help
+cmp -s help out || complain "help sample and sample --help differ"
+for name in white jittered sobol :scramble=none :strata=auto; do
+    grep -q -e "^ *$name " out || complain "sample --help does not name $name"
+done
+[[ $(wc -L <out) -le 80 ]] || complain "sample --help is $(wc -L <out) columns wide"
+runs 2
+[[ ! -s out && $(<err) == *devices* ]] || complain "without arguments: $(<err)"
+
+# ---- sample: shape and bits
+quietly sample --sampler white -n 10 -m 3 -d 3
+cp out first
+[[ $(grep -c . out) == 32 && $(grep -c '^#$' out) == 2 ]] || complain "10 points in 3 sets"
+awk '!/^#/ && NF != 3 { exit 1 }' out || complain "3 coordinates"
+quietly sample --sampler white -n 10 -m 3 -d 3 -s 1 -o points.txt
+cmp -s first points.txt || complain "-o writes something else than standard output"
+[[ ! -s out ]] || complain "results beside -o"
+quietly sample --sampler white -n 10 -m 3 -d 3 -s 2
+cmp -s first out && complain "two seeds, same points"
+quietly sample --sampler white -n 10 -m 2 -d 3
+head -n 21 first | cmp -s - out || complain "realizations depend on how many there are"
+quietly sample --sampler white -n 10 -m 3 -d 3 --homogenize
+cmp -s first out && complain "--homogenize changes nothing"
+quietly sample --sampler white -n 10 -m 3 -d 3 --format npy
+cp out stream.npy
+quietly sample --sampler white -n 10 -m 3 -d 3 -o points.npy
+cmp -s stream.npy points.npy || complain "--format npy and .npy differ"
+grep -aq "'shape': (3, 10, 3)" points.npy || complain "shape in NPY"
+quietly power -k 4 --no-self-check points.npy
+grep -v '^# ' out >from_npy
+quietly power -k 4 --no-self-check points.txt
+grep -v '^# ' out | cmp -s - from_npy || complain "UTK text and NPY have different spectra"
+"$program" sample --sampler white -n 10 -m 3 -d 3 | "$program" power -k 4 --no-self-check - |
+    grep -v '^# ' | cmp -s - from_npy || complain "standard input has another spectrum"
+
+# ---- devices, and POINTSPEC_DEVICE as the default of --device
+quietly devices
+grep -q '^index,default,name,type,' out || complain "columns of devices"
+[[ $(grep -v '^#' out | grep -c '^[0-9]*,1,') == 1 ]] || complain "one default device"
+quietly devices --format json
+grep -q '"schema": *1' out || complain "JSON of devices"
+POINTSPEC_DEVICE=quantum runs 1 devices
+POINTSPEC_DEVICE=quantum quietly devices --device 0
+
+# ---- the header repeats the command line so that a shell takes it back
+quietly devices -o "it's here.csv"
+grep -qF "# command: pointspec devices -o 'it'\\''s here.csv'" "it's here.csv" ||
+    complain "command line: $(grep command "it's here.csv")"
+
+# ---- writes that fail
+"$program" sample --sampler white -n 1e5 2>err | head -n 1 >out || true
+[[ $(<err) == "pointspec sample: cannot write standard output: Broken pipe" ]] ||
+    complain "closed pipe: $(<err)"
+for arguments in --help --version 'sample --sampler white'; do
+    code=0
+    # shellcheck disable=SC2086  # words
+    "$program" $arguments >/dev/full 2>err || code=$?
+    [[ $code == 1 && $(wc -l <err) == 1 ]] || complain "full disk: $arguments: exit $code"
+    code=0
+    # shellcheck disable=SC2086
+    "$program" $arguments >&- 2>err || code=$?
+    [[ $code == 1 && $(wc -l <err) == 1 ]] || complain "closed output: $arguments: exit $code"
+done
+
+# ---- SIGTERM and SIGINT: exit 130, one line, nothing left behind
+interrupts() { # SIGNAL ARGS...
+    local signal=$1 code=0 pid
+    shift
+    mkdir interrupted
+    # Background jobs ignore SIGINT, which the program respects; env takes that back.
+    env --default-signal=INT "$program" "$@" >/dev/null 2>err &
+    pid=$!
+    sleep 1
+    kill -s "$signal" $pid
+    wait $pid || code=$?
+    [[ $code == 130 ]] || complain "$signal: exit $code: $*: $(<err)"
+    [[ $(wc -l <err) == 1 ]] || complain "$signal: not one line: $(<err)"
+    [[ -z $(ls -A interrupted) ]] || complain "$signal leaves $(ls -A interrupted): $*"
+    rm -rf interrupted
+}
+interrupts TERM sample --sampler white -n 1000 -m 1e9 -o interrupted/points.txt
+interrupts INT sample --sampler white -n 1000 -m 1e9 -o interrupted/points.npy
+interrupts INT power --sampler white -n 1000 -m 1e9 -k 8 -o interrupted/power.csv
+
+exit $bad
