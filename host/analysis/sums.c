@@ -3,6 +3,7 @@
 #define PRECISION 64
 #include "shared/pair.h"
 
+#include <float.h>
 #include <math.h>
 
 void ps_sums_add(ps_sums *sums, double x) {
@@ -16,9 +17,19 @@ static void multiply(double a, double b, double *high, double *low) {
     *low = fma(a, b, -*high);
 }
 
+/* The same sum with a low part below the last digit of the high one. */
+static void normalize(double *high, double *low) {
+    const double sum = *high + *low;
+    *low -= sum - *high;
+    *high = sum;
+}
+
 void ps_sums_finish(const ps_sums *sums, uint64_t count, double *mean, double *standard_error) {
     const double n = (double)count;
-    *mean = (sums->sum + sums->sum_low) / n;
+    ps_sums whole = *sums;
+    normalize(&whole.sum, &whole.sum_low);
+    normalize(&whole.square, &whole.square_low);
+    *mean = whole.sum / n;
     *standard_error = NAN;
     if (count < 2) {
         return;
@@ -28,11 +39,13 @@ void ps_sums_finish(const ps_sums *sums, uint64_t count, double *mean, double *s
     double left_low = 0;
     double right = 0;
     double right_low = 0;
-    multiply(n, sums->square, &left, &left_low);
-    left_low += n * sums->square_low;
-    multiply(sums->sum, sums->sum, &right, &right_low);
-    right_low += 2 * sums->sum * sums->sum_low;
+    multiply(n, whole.square, &left, &left_low);
+    left_low += n * whole.square_low;
+    multiply(whole.sum, whole.sum, &right, &right_low);
+    right_low += 2 * whole.sum * whole.sum_low + whole.sum_low * whole.sum_low;
     const double difference = (left - right) + (left_low - right_low);
-    const double variance = difference > 0 ? difference / n / (n - 1) : 0;
+    /* n equal numbers leave at most 0.1 n^2 eps^2 of rounding here (measured, n = 2 .. 1e7). */
+    const double rounding = n * n * DBL_EPSILON * DBL_EPSILON / 4 * left;
+    const double variance = difference > rounding ? difference / n / (n - 1) : 0;
     *standard_error = sqrt(variance / n);
 }

@@ -10,7 +10,8 @@ typedef struct ps_sums {
 
 void ps_sums_add(ps_sums *sums, double x);
 /* Mean and standard error s / sqrt(count) with s^2 = sum (x - mean)^2 / (count - 1); nan when
- * count < 2. Adds that differ by no more than rounding give exactly 0. */
+ * count < 2. Numbers that differ by no more than rounding give exactly 0: a standard error below
+ * sqrt(count) 2^-53 of the mean is taken for that. */
 void ps_sums_finish(const ps_sums *sums, uint64_t count, double *mean, double *standard_error);
 
 #endif

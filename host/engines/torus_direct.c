@@ -26,6 +26,10 @@ typedef struct torus_direct {
     void *host_scales;
 } torus_direct;
 
+static size_t divide_up(size_t a, size_t b) {
+    return (a + b - 1) / b;
+}
+
 /* ---- what the planner asks --------------------------------------------------------------- */
 
 /* Errors of S in units of sqrt(sum w^2). Cosines and sines round independently from point to point,
@@ -51,7 +55,7 @@ static bool applicable(const ps_problem *problem, const ps_device_limits *limits
         return false;
     }
     const ps_torus_layout layout = ps_torus_layout_make(problem, limits, precision);
-    if (layout.largest_buffer_per_realization > limits->max_allocation_bytes) {
+    if (layout.largest_buffer > limits->max_allocation_bytes) {
         *why_not = "needs a larger buffer than the device allows";
         return false;
     }
@@ -75,13 +79,15 @@ static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
     const double used = layout.is_grid ? (double)problem->frequencies->num : 0;
     const double all = 2 * (double)layout.num_left * (double)layout.num_right + 1;
     const double share = used < all ? used / all : 1; /* tile pairs in corners are left out */
-    return (ps_work){
-        .phases = num_points * lanes * (double)(layout.left_tiles + layout.right_tiles),
-        .product_flops = 8 * num_points * box * share,
-        .launches = layout.is_grid ? 5 : 3,
-        .fixed_bytes = (double)layout.fixed_bytes,
-        .bytes_per_realization = (double)layout.bytes_per_realization,
-        .largest_buffer_per_realization = (double)layout.largest_buffer_per_realization};
+    return (ps_work){.phases =
+                         num_points * lanes * (double)(layout.left_tiles + layout.right_tiles),
+                     .product_flops = 8 * num_points * box * share,
+                     .launches = ceil(realizations / (double)layout.group) *
+                                 (double)divide_up((size_t)problem->num_points, layout.slab) *
+                                 (layout.is_grid ? 5 : 3),
+                     .fixed_bytes = (double)layout.fixed_bytes,
+                     .bytes_per_realization = (double)layout.bytes_per_realization,
+                     .largest_buffer_per_realization = (double)layout.bytes_per_realization};
 }
 
 static double error_of(const ps_problem *problem, ps_precision precision, double mean_power) {
@@ -139,7 +145,7 @@ static pspec_status create_product(torus_direct *self, ps_error *error) {
     PS_TRY(ps_buffer_write(self->device, &self->pairs, 0, split->pairs,
                            split->num_pairs * sizeof *split->pairs, error));
     return ps_buffer_create(self->device, &self->products,
-                            self->batch * split->num_pairs * lanes * 8 * lanes *
+                            self->layout.group * split->num_pairs * lanes * 8 * lanes *
                                 self->layout.real_bytes,
                             "sums of products", error);
 }
@@ -156,8 +162,8 @@ static pspec_status create_factor_sums(torus_direct *self, ps_error *error) {
     memcpy((int32_t *)vectors + num_left * dimension, split->right.vectors,
            split->right.num * dimension * sizeof(int32_t));
     const pspec_status status =
-        ps_torus_sums_create(&self->sums, &self->layout, dimension, num, vectors, self->batch, true,
-                             split->left.num_tiles, self->device, error);
+        ps_torus_sums_create(&self->sums, &self->layout, dimension, num, vectors,
+                             self->layout.group, true, split->left.num_tiles, self->device, error);
     free(vectors);
     return status;
 }
@@ -171,8 +177,8 @@ static pspec_status create_grid(torus_direct *self, ps_error *error) {
 
 static pspec_status create_list(torus_direct *self, ps_error *error) {
     PS_TRY(ps_torus_sums_create(&self->sums, &self->layout, self->frequencies->dimension,
-                                self->frequencies->num, self->frequencies->vectors, self->batch,
-                                false, 0, self->device, error));
+                                self->frequencies->num, self->frequencies->vectors,
+                                self->layout.group, false, 0, self->device, error));
     self->stride = self->sums.num_tiles * self->layout.lanes;
     return PSPEC_OK;
 }
@@ -201,6 +207,7 @@ static pspec_status create(void **state, const ps_problem *problem, ps_precision
     self->precision = precision;
     self->batch = batch;
     self->layout = ps_torus_layout_make(problem, ps_device_get_limits(device), precision);
+    self->layout.group = self->layout.group < batch ? self->layout.group : batch;
     pspec_status status =
         ps_torus_points_create(&self->points, problem->frequencies->dimension, batch,
                                self->layout.slab, precision, device, error);
@@ -259,7 +266,7 @@ static pspec_status multiply(torus_direct *self, size_t num_patterns, size_t num
                      PS_BUFFER(self->points.offsets), PS_BUFFER(self->pairs),
                      PS_BUFFER(self->products), PS_U64(split->num_pairs),
                      PS_U64(self->sums.num_tiles), PS_U64(split->left.num_tiles),
-                     PS_U64(self->layout.slab), PS_U32(is_first));
+                     PS_U64(self->layout.table_points), PS_U32(is_first));
 }
 
 static pspec_status add_slab(torus_direct *self, const ps_batch *batch, size_t first,
@@ -276,36 +283,48 @@ static pspec_status add_slab(torus_direct *self, const ps_batch *batch, size_t f
     return multiply(self, num_patterns, num_points, is_first, error);
 }
 
-static pspec_status finish_powers(torus_direct *self, size_t num_patterns, ps_error *error) {
+static pspec_status finish_powers(torus_direct *self, size_t first_row, size_t num_patterns,
+                                  ps_error *error) {
     const ps_split *split = &self->split;
     const bool is_grid = self->layout.is_grid;
-    PS_TRY(ps_torus_sums_power(&self->sums, &self->scales, &self->power,
+    PS_TRY(ps_torus_sums_power(&self->sums, &self->scales, &self->power, first_row,
                                is_grid ? ps_split_left_slot(split) : 0, self->stride, num_patterns,
                                self->device, error));
     if (!is_grid) {
         return PSPEC_OK;
     }
-    const size_t num_rows = split->num_pairs * self->layout.lanes;
-    const double values = (double)(num_rows * self->layout.lanes * num_patterns);
-    const ps_range range = ps_range_light(self->device, num_rows, num_patterns, 1, 20 * values,
+    const size_t num_left = split->num_pairs * self->layout.lanes;
+    const double values = (double)(num_left * self->layout.lanes * num_patterns);
+    const ps_range range = ps_range_light(self->device, num_left, num_patterns, 1, 20 * values,
                                           10 * values * (double)self->layout.real_bytes);
     return PS_LAUNCH(self->device, self->product_power, &range, error, PS_BUFFER(self->products),
-                     PS_BUFFER(self->scales), PS_BUFFER(self->power), PS_U64(num_rows),
-                     PS_U64(self->stride));
+                     PS_BUFFER(self->scales), PS_BUFFER(self->power), PS_U64(num_left),
+                     PS_U64(first_row), PS_U64(self->stride));
+}
+
+/* One group of realizations: slab after slab, then their rows of powers. */
+static pspec_status run_group(torus_direct *self, const ps_batch *group, size_t first_row,
+                              ps_error *error) {
+    size_t longest = 1;
+    for (size_t r = 0; r < group->num_patterns; r++) {
+        const size_t num_points = group->patterns[r].num_points;
+        longest = num_points > longest ? num_points : longest;
+    }
+    for (size_t first = 0; first < longest; first += self->layout.slab) {
+        PS_TRY(add_slab(self, group, first, error));
+    }
+    return finish_powers(self, first_row, group->num_patterns, error);
 }
 
 static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_error *error) {
     torus_direct *self = state;
-    size_t longest = 1;
-    for (size_t r = 0; r < batch->num_patterns; r++) {
-        const size_t num_points = batch->patterns[r].num_points;
-        longest = num_points > longest ? num_points : longest;
-    }
     PS_TRY(upload_scales(self, batch, error));
-    for (size_t first = 0; first < longest; first += self->layout.slab) {
-        PS_TRY(add_slab(self, batch, first, error));
+    for (size_t row = 0; row < batch->num_patterns; row += self->layout.group) {
+        const size_t rest = batch->num_patterns - row;
+        const ps_batch group = {rest < self->layout.group ? rest : self->layout.group,
+                                batch->patterns + row, batch->scales + row};
+        PS_TRY(run_group(self, &group, row, error));
     }
-    PS_TRY(finish_powers(self, batch->num_patterns, error));
     *rows = (ps_rows){.num_rows = batch->num_patterns,
                       .stride = self->stride,
                       .precision = self->precision,
@@ -316,8 +335,9 @@ static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_er
 static void describe(const void *state, ps_text *text) {
     const torus_direct *self = state;
     const ps_torus_layout *layout = &self->layout;
-    ps_text_append(text, "(torus_direct precision=%s lanes=%u run=%d slab=%zu",
-                   ps_precision_name(self->precision), layout->lanes, PS_TORUS_RUN, layout->slab);
+    ps_text_append(text, "(torus_direct precision=%s lanes=%u run=%d group=%zu slab=%zu",
+                   ps_precision_name(self->precision), layout->lanes, PS_TORUS_RUN, layout->group,
+                   layout->slab);
     if (layout->is_grid) {
         ps_text_append(text, " split=%zux%zu tiles=%zu/%zu)", layout->num_left, layout->num_right,
                        self->split.num_pairs, layout->max_pairs);

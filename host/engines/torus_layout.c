@@ -2,10 +2,17 @@
 
 #include "engines/torus_split.h"
 
-/* Share of the device's cache that the tables of one slab may take: both cores of a CPU work on
- * tables of their own, and points and sums need room too. Flat optimum between 1/8 and 1/2 on a
- * 32 MB L3 (Zen 5, 2 cores, 2026-11, ./dev bench torus). */
-enum { CACHE_SHARE = 4 };
+/* Share of a CPU's cache that the tables of one slab of one realization may take, and those of a
+ * group of realizations with their sums. Flat optima between 1/8 and 1/2, and 1/2 and 2, on a 32 MB
+ * L3 (Zen 5, 2 cores, PoCL 3.1, 2026-11, bench_torus). */
+static const double slab_share = 0.25;
+static const double group_share = 0.5;
+
+/* On GPUs a group must fill the device: bytes of tables and sums of a group. */
+static const double gpu_group_bytes = 512.0 * 1024 * 1024;
+
+/* More realizations at a time gain nothing: launches are then a small part of the work. */
+enum { LARGEST_GROUP = 1024 };
 
 /* Largest slab: lists need no tables, but partial sums of every chunk. */
 enum { LARGEST_SLAB_CHUNKS = 64 };
@@ -17,37 +24,61 @@ static size_t divide_up(size_t a, size_t b) {
     return (a + b - 1) / b;
 }
 
-static size_t choose_slab(const ps_torus_layout *layout, const ps_problem *problem,
-                          const ps_device_limits *limits) {
-    const uint64_t cache = limits->cache_bytes > 0 ? limits->cache_bytes : DEFAULT_CACHE_BYTES;
+static double cache_bytes(const ps_device_limits *limits) {
+    return limits->cache_bytes > 0 ? (double)limits->cache_bytes : DEFAULT_CACHE_BYTES;
+}
+
+static void choose_slab(ps_torus_layout *layout, const ps_problem *problem,
+                        const ps_device_limits *limits) {
     const size_t tiles = layout->left_tiles + layout->right_tiles;
-    const size_t table_bytes_per_chunk =
-        PS_TORUS_CHUNK * tiles * 2 * layout->lanes * layout->real_bytes;
-    size_t chunks = layout->is_grid ? (size_t)(cache / CACHE_SHARE) / table_bytes_per_chunk
-                                    : LARGEST_SLAB_CHUNKS;
+    const double chunk_bytes =
+        (double)(PS_TORUS_CHUNK * tiles * 2 * layout->lanes * layout->real_bytes);
+    const double fitting = slab_share * cache_bytes(limits) / chunk_bytes;
     const size_t needed = divide_up((size_t)problem->num_points, PS_TORUS_CHUNK);
-    chunks = chunks < needed ? chunks : needed;
-    chunks = chunks < LARGEST_SLAB_CHUNKS ? chunks : LARGEST_SLAB_CHUNKS;
-    return (chunks > 0 ? chunks : 1) * PS_TORUS_CHUNK;
+    size_t chunks = needed < LARGEST_SLAB_CHUNKS ? needed : LARGEST_SLAB_CHUNKS;
+    if (layout->is_grid && fitting < (double)chunks) {
+        chunks = fitting > 1 ? (size_t)fitting : 1;
+    }
+    layout->num_chunks = chunks > 0 ? chunks : 1;
+    layout->slab = layout->num_chunks * PS_TORUS_CHUNK;
+    layout->table_points =
+        problem->num_points < layout->slab ? (size_t)problem->num_points : layout->slab;
+}
+
+/* Bytes that every realization of a group takes on the device, and their host copies. */
+static uint64_t group_member_bytes(const ps_torus_layout *layout, unsigned dimension) {
+    const uint64_t row = (uint64_t)layout->lanes * layout->real_bytes;
+    const uint64_t tiles = layout->left_tiles + layout->right_tiles;
+    const uint64_t tables = layout->is_grid ? tiles * layout->table_points * 2 * row : 0;
+    const uint64_t products = layout->max_pairs * layout->lanes * 8 * row;
+    const uint64_t sums = (layout->num_chunks + 1) * tiles * 4 * row;
+    const uint64_t points = layout->slab * (dimension * sizeof(uint64_t) + layout->real_bytes);
+    return tables + products + sums + 2 * points;
+}
+
+static void choose_group(ps_torus_layout *layout, const ps_problem *problem,
+                         const ps_device_limits *limits) {
+    const double member = (double)group_member_bytes(layout, problem->frequencies->dimension);
+    const double budget =
+        limits->has_dedicated_local_memory ? gpu_group_bytes : group_share * cache_bytes(limits);
+    const double fitting = budget / member;
+    const uint64_t known = problem->num_realizations;
+    double group = known > 0 && known < LARGEST_GROUP ? (double)known : LARGEST_GROUP;
+    group = group < fitting ? group : fitting;
+    layout->group = group > 1 ? (size_t)group : 1;
 }
 
 static void count_bytes(ps_torus_layout *layout, unsigned dimension) {
     const uint64_t row = (uint64_t)layout->lanes * layout->real_bytes;
     const uint64_t tiles = layout->left_tiles + layout->right_tiles;
-    const uint64_t tables = layout->is_grid ? tiles * layout->slab * 2 * row : 0;
-    const uint64_t products = layout->is_grid ? layout->max_pairs * layout->lanes * 8 * row : 0;
-    const uint64_t chunk_sums = layout->num_chunks * tiles * 4 * row;
+    const uint64_t tables = layout->is_grid ? tiles * layout->table_points * 2 * row : 0;
+    const uint64_t products = layout->max_pairs * layout->lanes * 8 * row;
     const uint64_t power = layout->max_stride * layout->real_bytes;
-    const uint64_t points =
-        layout->slab * (dimension * sizeof(uint64_t) + layout->real_bytes) + sizeof(uint64_t);
-    layout->bytes_per_realization = tables + products + chunk_sums + tiles * 4 * row + power +
-                                    2 * points + layout->real_bytes; /* host copy of points */
-    layout->fixed_bytes = tiles * dimension * row + layout->max_pairs * 2 * sizeof(uint32_t) +
+    layout->bytes_per_realization = power + 2 * layout->real_bytes;
+    layout->fixed_bytes = layout->group * group_member_bytes(layout, dimension) +
+                          tiles * dimension * row + layout->max_pairs * 2 * sizeof(uint32_t) +
                           layout->lanes * power; /* rows are padded to whole groups of lanes */
-    layout->largest_buffer_per_realization = tables > products ? tables : products;
-    if (power > layout->largest_buffer_per_realization) {
-        layout->largest_buffer_per_realization = power;
-    }
+    layout->largest_buffer = layout->group * (tables > products ? tables : products);
 }
 
 ps_torus_layout ps_torus_layout_make(const ps_problem *problem, const ps_device_limits *limits,
@@ -66,8 +97,8 @@ ps_torus_layout ps_torus_layout_make(const ps_problem *problem, const ps_device_
     layout.max_pairs = layout.left_tiles * layout.right_tiles;
     layout.max_stride = layout.max_pairs * 2 * layout.lanes * layout.lanes +
                         (layout.left_tiles + layout.right_tiles) * layout.lanes;
-    layout.slab = choose_slab(&layout, problem, limits);
-    layout.num_chunks = layout.slab / PS_TORUS_CHUNK;
+    choose_slab(&layout, problem, limits);
+    choose_group(&layout, problem, limits);
     count_bytes(&layout, set->dimension);
     return layout;
 }

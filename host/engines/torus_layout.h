@@ -20,10 +20,12 @@ typedef struct ps_torus_layout {
     size_t left_tiles, right_tiles; /* of `lanes` frequencies */
     size_t max_pairs;               /* tile pairs, before those nobody needs are dropped */
     size_t max_stride;              /* powers in a row, likewise */
-    size_t slab;                    /* points of each realization at a time, a multiple of chunks */
-    size_t num_chunks;              /* in a slab */
-    uint64_t fixed_bytes, bytes_per_realization;
-    uint64_t largest_buffer_per_realization;
+    size_t group;        /* realizations whose tables are made and multiplied at a time */
+    size_t slab;         /* points of each realization at a time, a multiple of chunks */
+    size_t num_chunks;   /* in a slab */
+    size_t table_points; /* from table row to table row: no more than a slab or a pattern has */
+    uint64_t fixed_bytes, bytes_per_realization; /* of the job; of each row of a batch */
+    uint64_t largest_buffer;                     /* of those that do not depend on the batch */
 } ps_torus_layout;
 
 /* Without enumerating frequencies: cheap for planning. */

@@ -52,38 +52,38 @@ out:
     return status;
 }
 
-static pspec_status create_buffers(ps_torus_sums *self, size_t batch, ps_device *device,
+static pspec_status create_buffers(ps_torus_sums *self, size_t group, ps_device *device,
                                    ps_error *error) {
     const size_t tile_bytes = self->lanes * self->real_bytes;
     const size_t tiles = self->num_tiles;
     PS_TRY(ps_buffer_create(device, &self->frequencies, tiles * self->dimension * tile_bytes,
                             "frequencies", error));
-    PS_TRY(ps_buffer_create(device, &self->sums, batch * self->num_chunks * tiles * 4 * tile_bytes,
+    PS_TRY(ps_buffer_create(device, &self->sums, group * self->num_chunks * tiles * 4 * tile_bytes,
                             "partial sums", error));
-    PS_TRY(ps_buffer_create(device, &self->totals, batch * tiles * 4 * tile_bytes, "sums", error));
+    PS_TRY(ps_buffer_create(device, &self->totals, group * tiles * 4 * tile_bytes, "sums", error));
     if (!self->has_table) {
         return PSPEC_OK;
     }
     return ps_buffer_create(device, &self->table,
-                            batch * tiles * self->table_points * 2 * tile_bytes,
+                            group * tiles * self->table_points * 2 * tile_bytes,
                             "tables of cosines and sines", error);
 }
 
 pspec_status ps_torus_sums_create(ps_torus_sums *out, const ps_torus_layout *layout,
                                   unsigned dimension, size_t num, const int32_t *vectors,
-                                  size_t batch, bool with_table, size_t weighted_tiles,
+                                  size_t group, bool with_table, size_t weighted_tiles,
                                   ps_device *device, ps_error *error) {
     *out = (ps_torus_sums){.num = num,
                            .num_tiles = (num + layout->lanes - 1) / layout->lanes,
                            .num_chunks = layout->num_chunks,
-                           .table_points = layout->slab,
+                           .table_points = layout->table_points,
                            .weighted_tiles = weighted_tiles,
                            .dimension = dimension,
                            .lanes = layout->lanes,
                            .real_bytes = layout->real_bytes,
                            .has_table = with_table};
     PS_TRY(create_kernels(out, layout, device, error));
-    PS_TRY(create_buffers(out, batch, device, error));
+    PS_TRY(create_buffers(out, group, device, error));
     return upload_frequencies(out, vectors, device, error);
 }
 
@@ -137,12 +137,13 @@ pspec_status ps_torus_sums_add(ps_torus_sums *self, const ps_torus_points *point
 }
 
 pspec_status ps_torus_sums_power(ps_torus_sums *self, const ps_buffer *scales,
-                                 const ps_buffer *power, size_t first_slot, size_t stride,
-                                 size_t num_patterns, ps_device *device, ps_error *error) {
+                                 const ps_buffer *power, size_t first_row, size_t first_slot,
+                                 size_t stride, size_t num_patterns, ps_device *device,
+                                 ps_error *error) {
     const double num = (double)(self->num * num_patterns);
     const ps_range range = ps_range_light(device, self->num_tiles, num_patterns, 1, 6 * num,
                                           5 * num * (double)self->real_bytes);
     return PS_LAUNCH(device, self->power, &range, error, PS_BUFFER(self->totals),
                      PS_BUFFER(*scales), PS_BUFFER(*power), PS_U64(self->num_tiles),
-                     PS_U64(first_slot), PS_U64(stride));
+                     PS_U64(first_row), PS_U64(first_slot), PS_U64(stride));
 }

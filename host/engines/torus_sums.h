@@ -24,7 +24,7 @@ void ps_torus_options(ps_text *text, const ps_torus_layout *layout, unsigned dim
  * table, weights in the first weighted_tiles. */
 pspec_status ps_torus_sums_create(ps_torus_sums *out, const ps_torus_layout *layout,
                                   unsigned dimension, size_t num, const int32_t *vectors,
-                                  size_t batch, bool with_table, size_t weighted_tiles,
+                                  size_t group, bool with_table, size_t weighted_tiles,
                                   ps_device *device, ps_error *error) PS_MUST_CHECK;
 void ps_torus_sums_free(ps_torus_sums *sums);
 
@@ -34,10 +34,10 @@ pspec_status ps_torus_sums_add(ps_torus_sums *sums, const ps_torus_points *point
                                size_t num_patterns, size_t num_points, bool is_first,
                                ps_device *device, ps_error *error) PS_MUST_CHECK;
 
-/* Writes |S|^2 of the frequencies into slots first_slot.. of the power rows. */
+/* Writes |S|^2 of the frequencies into slots first_slot.. of power rows first_row.. . */
 pspec_status ps_torus_sums_power(ps_torus_sums *sums, const ps_buffer *scales,
-                                 const ps_buffer *power, size_t first_slot, size_t stride,
-                                 size_t num_patterns, ps_device *device,
+                                 const ps_buffer *power, size_t first_row, size_t first_slot,
+                                 size_t stride, size_t num_patterns, ps_device *device,
                                  ps_error *error) PS_MUST_CHECK;
 
 #endif

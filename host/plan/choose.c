@@ -28,10 +28,7 @@ static void estimate(ps_candidate *candidate, const ps_problem *problem,
     const ps_device_limits *used = candidate->engine->needs_device ? limits : NULL;
     const ps_work work = candidate->engine->work(problem, used, candidate->precision);
     candidate->batch = ps_cost_batch(&work, used, problem->num_realizations);
-    const double realizations =
-        problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
-    const double batches = ceil(realizations / (double)candidate->batch);
-    candidate->seconds = ps_cost_seconds(&work, used, candidate->precision, batches);
+    candidate->seconds = ps_cost_seconds(&work, used, candidate->precision);
     candidate->bytes = work.fixed_bytes + work.bytes_per_realization * (double)candidate->batch;
     candidate->error = candidate->engine->error(problem, candidate->precision, mean_power);
 }

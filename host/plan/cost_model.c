@@ -35,15 +35,15 @@ double ps_cost_nominal_flops(const ps_device_limits *limits, ps_precision precis
     return limits->compute_units * clock * (lanes > 1 ? lanes : 1) * PIPES * FLOPS_PER_FMA;
 }
 
-double ps_cost_seconds(const ps_work *work, const ps_device_limits *limits, ps_precision precision,
-                       double num_batches) {
+double ps_cost_seconds(const ps_work *work, const ps_device_limits *limits,
+                       ps_precision precision) {
     if (limits == NULL || precision == PS_EXTENDED) {
         return work->phases * host_seconds_per_phase;
     }
     const double peak = ps_cost_nominal_flops(limits, precision);
     return work->phases / (peak * device_rates[precision].phases_per_flop) +
            work->product_flops / (peak * device_rates[precision].product_share) +
-           num_batches * work->launches * seconds_per_launch;
+           work->launches * seconds_per_launch;
 }
 
 /* ---- batches ----------------------------------------------------------------------------- */

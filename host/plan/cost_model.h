@@ -10,11 +10,10 @@ double ps_cost_nominal_flops(const ps_device_limits *limits, ps_precision precis
 
 /* Estimated seconds of a whole job. A pure function: nothing is timed while planning. limits is NULL
  * for work on the host. */
-double ps_cost_seconds(const ps_work *work, const ps_device_limits *limits, ps_precision precision,
-                       double num_batches);
+double ps_cost_seconds(const ps_work *work, const ps_device_limits *limits, ps_precision precision);
 
-/* Realizations of one batch that suit the device: large enough to fill it, small enough that the
- * tables stay in the cache of a CPU, within the limits of one allocation and of memory. Not more
+/* Realizations of one batch: rows of powers that stay in the cache of a CPU until they are summed up,
+ * within the limits of one allocation and of memory. Not more
  * than num_realizations unless that is 0 (unknown). At least 1. */
 size_t ps_cost_batch(const ps_work *work, const ps_device_limits *limits,
                      uint64_t num_realizations);
