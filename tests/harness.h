@@ -17,14 +17,17 @@
 /* Exit status that CTest counts as skipped. */
 enum { TEST_SKIPPED = 77 };
 
-/* The message of a failed call, as a test failure. */
+/* Runs a call whose last argument is written `error`, and shows its sentence when it fails. (Callers
+ * may have an `error` of their own for calls that must fail: hence the pragma.) */
 #define assert_ok(call)                                                                            \
     do {                                                                                           \
+        _Pragma("GCC diagnostic push") _Pragma("GCC diagnostic ignored \"-Wshadow\"");             \
         ps_error test_error = {0};                                                                 \
         ps_error *const error = &test_error;                                                       \
         if ((call) != PSPEC_OK) {                                                                  \
             fail_msg("%s: %s", #call, error->message);                                             \
         }                                                                                          \
+        _Pragma("GCC diagnostic pop");                                                             \
     } while (0)
 
 /* Parses tests/reference/NAME; the caller deletes it. */

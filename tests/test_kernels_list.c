@@ -103,7 +103,7 @@ static test_memory upload_frequencies(const list_case *one, const list_data *dat
 
 static cl_kernel create_kernel(const list_case *one) {
     return test_kernel(device, "torus/list.cl", "torus_list",
-                       "-DPRECISION=%u -DLANES=%u -DDIMENSION=%u -DRUN=%zu -DSTORE_TABLE=%d",
+                       "-DPRECISION=%u -DLANES=%u -DDIMENSION=%u -DLIST_RUN=%zu -DSTORE_TABLE=%d",
                        one->precision, one->lanes, one->dimension, one->run, one->has_table);
 }
 
@@ -307,8 +307,8 @@ static void sums_without_table(void **state) {
 
 static void production_sizes(void **state) {
     (void)state;
-    check_case(&(list_case){32, native_lanes(PS_SINGLE), 2, true, PS_TORUS_RUN, PS_TORUS_CHUNK, 1,
-                            1, 1000},
+    check_case(&(list_case){32, native_lanes(PS_SINGLE), 2, true, PS_TORUS_LIST_RUN, PS_TORUS_CHUNK,
+                            1, 1, 1000},
                1);
 }
 

@@ -209,15 +209,16 @@ static void fold(void **state) {
 
 /* ---- power ------------------------------------------------------------------------------- */
 
-enum { POWER_REALIZATIONS = 3 };
-static const double scales[POWER_REALIZATIONS] = {1, 0.5, 4};
+/* The realizations of a launch go into rows FIRST_ROW .. of more. */
+enum { POWER_REALIZATIONS = 3, FIRST_ROW = 2, ROWS = 6 };
+static const double scales[ROWS] = {8, 16, 1, 0.5, 4, 32};
 
 /* Real parts and imaginary parts up to it have squares that a number holds. */
 static double largest_part(unsigned precision) {
     return precision == 64 ? 0x1p23 : 0x1p9;
 }
 
-/* Rows have room before and behind: it must survive (NaN). */
+/* Rows have room before and behind, and there are rows of others: they must survive (NaN). */
 static void check_power_list(const build *one) {
     enum { NUM_TILES = 5 };
     const size_t lanes = one->lanes, first_slot = 2 * lanes, stride = (NUM_TILES + 3) * lanes;
@@ -227,23 +228,22 @@ static void check_power_list(const build *one) {
     double *values = test_whole_numbers(&seed, length, largest_part(one->precision));
     for (size_t g = 0; g < one->num_groups; g++) {
         test_memory totals = test_reals_create(device, one->precision, values, length);
-        test_memory factors = test_reals_create(device, one->precision, scales, POWER_REALIZATIONS);
-        test_memory power =
-            test_reals_create(device, one->precision, NULL, POWER_REALIZATIONS * stride);
+        test_memory factors = test_reals_create(device, one->precision, scales, ROWS);
+        test_memory power = test_reals_create(device, one->precision, NULL, ROWS * stride);
         TEST_LAUNCH(device, kernel, test_group_sizes[g], NUM_TILES, POWER_REALIZATIONS, 1,
                     PS_BUFFER(totals.buffer), PS_BUFFER(factors.buffer), PS_BUFFER(power.buffer),
-                    PS_U64(NUM_TILES), PS_U64(first_slot), PS_U64(stride));
+                    PS_U64(NUM_TILES), PS_U64(FIRST_ROW), PS_U64(first_slot), PS_U64(stride));
         double *found = test_reals_read(&power, one->precision);
-        for (size_t i = 0; i < POWER_REALIZATIONS * stride; i++) {
-            const size_t r = i / stride, slot = i % stride - first_slot;
-            if (i % stride < first_slot || slot >= NUM_TILES * lanes) {
+        for (size_t i = 0; i < ROWS * stride; i++) {
+            const size_t r = i / stride - FIRST_ROW, slot = i % stride - first_slot;
+            if (r >= POWER_REALIZATIONS || slot >= NUM_TILES * lanes) { /* or before the first */
                 assert_true(isnan(found[i]));
                 continue;
             }
             const double *total =
                 values + (r * NUM_TILES + slot / lanes) * 4 * lanes + slot % lanes;
             const double re = total[0] + total[lanes], im = total[2 * lanes] + total[3 * lanes];
-            assert_true(found[i] == (re * re + im * im) * scales[r]);
+            assert_true(found[i] == (re * re + im * im) * scales[FIRST_ROW + r]);
         }
         free(found);
         test_memory_free_unchanged(&totals);
@@ -254,7 +254,7 @@ static void check_power_list(const build *one) {
     clReleaseKernel(kernel);
 }
 
-/* |(cc - ss, sc + cs)|^2 and |(cc + ss, sc - cs)|^2 of pairs. */
+/* Powers of a product: |(cc - ss, sc + cs)|^2 and |(cc + ss, sc - cs)|^2 of pairs. */
 static double expected_square(const double *sum, size_t lanes, bool is_minus) {
     const double cc = sum[0] + sum[lanes], sc = sum[2 * lanes] + sum[3 * lanes];
     const double cs = sum[4 * lanes] + sum[5 * lanes], ss = sum[6 * lanes] + sum[7 * lanes];
@@ -263,29 +263,28 @@ static double expected_square(const double *sum, size_t lanes, bool is_minus) {
 }
 
 static void check_power_product(const build *one) {
-    const size_t lanes = one->lanes, num_rows = 3 * lanes, stride = (2 * num_rows + 1) * lanes;
-    const size_t length = POWER_REALIZATIONS * num_rows * 8 * lanes;
+    const size_t lanes = one->lanes, num_left = 3 * lanes, stride = (2 * num_left + 1) * lanes;
+    const size_t length = POWER_REALIZATIONS * num_left * 8 * lanes;
     cl_kernel kernel = test_kernel(device, "torus/power.cl", "torus_power_product",
                                    "-DPRECISION=%u -DLANES=%u", one->precision, one->lanes);
     double *values = test_whole_numbers(&seed, length, largest_part(one->precision));
     for (size_t g = 0; g < one->num_groups; g++) {
         test_memory sums = test_reals_create(device, one->precision, values, length);
-        test_memory factors = test_reals_create(device, one->precision, scales, POWER_REALIZATIONS);
-        test_memory power =
-            test_reals_create(device, one->precision, NULL, POWER_REALIZATIONS * stride);
-        TEST_LAUNCH(device, kernel, test_group_sizes[g], num_rows, POWER_REALIZATIONS, 1,
+        test_memory factors = test_reals_create(device, one->precision, scales, ROWS);
+        test_memory power = test_reals_create(device, one->precision, NULL, ROWS * stride);
+        TEST_LAUNCH(device, kernel, test_group_sizes[g], num_left, POWER_REALIZATIONS, 1,
                     PS_BUFFER(sums.buffer), PS_BUFFER(factors.buffer), PS_BUFFER(power.buffer),
-                    PS_U64(num_rows), PS_U64(stride));
+                    PS_U64(num_left), PS_U64(FIRST_ROW), PS_U64(stride));
         double *found = test_reals_read(&power, one->precision);
-        for (size_t i = 0; i < POWER_REALIZATIONS * stride; i++) {
-            const size_t r = i / stride, row = i % stride / (2 * lanes);
-            if (row >= num_rows) {
+        for (size_t i = 0; i < ROWS * stride; i++) {
+            const size_t r = i / stride - FIRST_ROW, left = i % stride / (2 * lanes);
+            if (r >= POWER_REALIZATIONS || left >= num_left) { /* or before the first */
                 assert_true(isnan(found[i]));
                 continue;
             }
-            const double *sum = values + (r * num_rows + row) * 8 * lanes + i % lanes;
+            const double *sum = values + (r * num_left + left) * 8 * lanes + i % lanes;
             const bool is_minus = i % stride / lanes % 2 == 1;
-            assert_true(found[i] == expected_square(sum, lanes, is_minus) * scales[r]);
+            assert_true(found[i] == expected_square(sum, lanes, is_minus) * scales[FIRST_ROW + r]);
         }
         free(found);
         test_memory_free_unchanged(&sums);

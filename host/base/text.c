@@ -52,8 +52,12 @@ void ps_text_free(ps_text *text) {
     *text = (ps_text){0};
 }
 
+/* Decimal numbers only: strtod also takes leading blanks, hexadecimal digits and names. */
 static bool parse_double(const char *text, double *out) {
     char *end = NULL;
+    if (text[strspn(text, "0123456789+-.eE")] != '\0') {
+        return false;
+    }
     *out = strtod(text, &end);
     return end != text && *end == '\0' && isfinite(*out);
 }

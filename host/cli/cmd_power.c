@@ -1,6 +1,7 @@
 /* pointspec power: the averaged periodogram. */
 #include "cli/command.h"
 #include "cli/power_table.h"
+#include "io/output_file.h"
 #include "io/plot.h"
 
 #include <stdio.h>
@@ -77,6 +78,17 @@ static pspec_status write_results(const ps_arguments *arguments, const ps_power_
     return status;
 }
 
+/* A missing folder or a lacking permission shows when the temporary file is made. */
+static pspec_status check_path(const char *path, ps_error *error) {
+    ps_output_file *file = NULL;
+    if (path == NULL) {
+        return PSPEC_OK;
+    }
+    PS_TRY(ps_output_open(&file, path, error));
+    ps_output_discard(&file);
+    return PSPEC_OK;
+}
+
 /* Whatever can be refused is refused before hours of work, not after. */
 static pspec_status check_outputs(const ps_arguments *arguments, ps_table_format *format,
                                   ps_error *error) {
@@ -84,7 +96,11 @@ static pspec_status check_outputs(const ps_arguments *arguments, ps_table_format
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "--plot draws .png, .svg and .pdf, not \"%s\"", arguments->plot);
     }
-    return ps_table_choose_format(format, arguments->format, arguments->output, error);
+    PS_TRY(ps_table_choose_format(format, arguments->format, arguments->output, error));
+    PS_TRY(ps_power_check_full(arguments, error));
+    PS_TRY(check_path(arguments->output, error));
+    PS_TRY(check_path(arguments->full, error));
+    return check_path(arguments->plot, error);
 }
 
 static pspec_status run(const ps_arguments *arguments, ps_error *error) {

@@ -32,20 +32,33 @@ static pspec_status write_array(const char *path, const ps_arguments *arguments,
     return status;
 }
 
+static const char array_ending[] = ".npy";
+
+/* Length of the path without its ending; 0 when it has another one. */
+static size_t stem_length(const char *path) {
+    const size_t length = strlen(path);
+    const size_t ending = sizeof array_ending - 1;
+    return length > ending && strcmp(path + length - ending, array_ending) == 0 ? length - ending
+                                                                                : 0;
+}
+
+pspec_status ps_power_check_full(const ps_arguments *arguments, ps_error *error) {
+    if (arguments->full != NULL && stem_length(arguments->full) == 0) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "--full writes NPY: \"%s\" does not end in %s", arguments->full,
+                       array_ending);
+    }
+    return PSPEC_OK;
+}
+
 pspec_status ps_power_write_full(const ps_arguments *arguments, const ps_power_job *job,
                                  ps_error *error) {
-    static const char ending[] = ".npy";
     const char *path = arguments->full;
-    const size_t length = strlen(path);
     const ps_spectrum *spectrum = ps_power_job_spectrum(job);
     ps_text beside = {0};
-    if (length <= sizeof ending - 1 || strcmp(path + length - (sizeof ending - 1), ending) != 0) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "--full writes NPY: \"%s\" does not end in %s", path, ending);
-    }
     PS_TRY(write_array(path, arguments, spectrum, 0, error));
-    ps_text_append_bytes(&beside, path, length - (sizeof ending - 1));
-    ps_text_append(&beside, ".standard_error%s", ending);
+    ps_text_append_bytes(&beside, path, stem_length(path));
+    ps_text_append(&beside, ".standard_error%s", array_ending);
     const pspec_status status =
         beside.failed ? ps_fail(error, PSPEC_ERROR_MEMORY, "no memory for a file name")
                       : write_array(ps_text_string(&beside), arguments, spectrum, 1, error);

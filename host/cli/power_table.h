@@ -11,6 +11,9 @@ pspec_status ps_power_table(ps_table **out, const ps_arguments *arguments,
                             const ps_power_job *const *jobs, size_t num,
                             ps_error *error) PS_MUST_CHECK;
 
+/* Is the name after --full, if any, one of an NPY file? */
+pspec_status ps_power_check_full(const ps_arguments *arguments, ps_error *error) PS_MUST_CHECK;
+
 /* --full: FILE.npy and FILE.standard_error.npy. */
 pspec_status ps_power_write_full(const ps_arguments *arguments, const ps_power_job *job,
                                  ps_error *error) PS_MUST_CHECK;

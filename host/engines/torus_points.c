@@ -11,19 +11,23 @@ static size_t real_bytes(ps_precision precision) {
     return precision == PS_SINGLE ? sizeof(float) : sizeof(double);
 }
 
-/* From the bits of the double: x = mantissa 2^(exponent - 1075), so X is the mantissa shifted by
- * exponent - 1011. Twice as fast as rint() and a conversion, which matters for small sets. */
-uint64_t ps_fixed_point(double x) {
-    enum { MANTISSA_BITS = 52, ZERO_SHIFT = 1011, LONGEST_SHIFT = 54 };
-    const uint64_t one = 1;
+static uint64_t bits_of(double x) {
     uint64_t bits = 0;
     memcpy(&bits, &x, sizeof bits);
-    const int shift = (int)(bits >> MANTISSA_BITS) - ZERO_SHIFT;
-    const uint64_t mantissa = (bits & ((one << MANTISSA_BITS) - 1)) | one << MANTISSA_BITS;
-    if (shift >= 0) {
-        return mantissa << shift;
-    }
-    return shift < -LONGEST_SHIFT ? 0 : (mantissa + (one << (-shift - 1))) >> -shift;
+    return bits;
+}
+
+/* Without branches and conversions, since every point passes here: adding 1 leaves the upper 52 bits
+ * of x in the mantissa; what that rounds off is below 2^-52, exact, and goes through the mantissa of
+ * another sum, which rounds it to whole units of 2^-64. 1 + x may round up to 2: the upper part then
+ * is 0, the rest negative, and the sum wraps as it should. */
+uint64_t ps_fixed_point(double x) {
+    enum { EXPONENT_BITS = 12 };
+    const double two_to_64 = 18446744073709551616.0;
+    const double rounder = 6755399441055744.0; /* 1.5 * 2^52: its last bit is a unit */
+    const double upper = 1 + x;
+    const double rest = (x - (upper - 1)) * two_to_64;
+    return (bits_of(upper) << EXPONENT_BITS) + (bits_of(rest + rounder) - bits_of(rounder));
 }
 
 /* ---- create ------------------------------------------------------------------------------ */
@@ -31,8 +35,6 @@ uint64_t ps_fixed_point(double x) {
 static pspec_status create_host(ps_torus_points *out, ps_error *error) {
     void *memory = NULL;
     const size_t count = out->batch * out->slab;
-    PS_TRY(ps_allocate(&memory, count, out->dimension * sizeof(uint64_t), "points", error));
-    out->host_points = memory;
     PS_TRY(ps_allocate(&memory, count, real_bytes(out->precision), "weights", error));
     out->host_weights = memory;
     PS_TRY(ps_allocate(&memory, out->batch + 1, sizeof(uint64_t), "offsets", error));
@@ -77,7 +79,6 @@ pspec_status ps_torus_points_create(ps_torus_points *out, unsigned dimension, si
 }
 
 void ps_torus_points_free(ps_torus_points *points) {
-    free(points->host_points);
     free(points->host_weights);
     free(points->host_offsets);
     ps_buffer_release(&points->points);
@@ -106,9 +107,22 @@ uint64_t ps_torus_point_step(uint64_t n) {
     return step > 0 ? step : 1;
 }
 
+/* Fixed-point coordinates of count points, from point j on in steps; dimension is a constant in every
+ * call, so that the inner loop unrolls. */
+static inline void convert_points(uint64_t *out, const double *points, unsigned dimension,
+                                  size_t count, uint64_t j, uint64_t step, uint64_t n) {
+    for (size_t i = 0; i < count; i++) {
+        for (unsigned axis = 0; axis < dimension; axis++) {
+            out[i * dimension + axis] = ps_fixed_point(points[j * dimension + axis]);
+        }
+        j += step;
+        j -= j >= n ? n : 0;
+    }
+}
+
 /* Points first .. of a pattern, in the order of steps, to place `at` on; how many there were. */
-static size_t convert_pattern(ps_torus_points *points, size_t at, const pspec_pattern *pattern,
-                              size_t first) {
+static size_t convert_pattern(ps_torus_points *points, uint64_t *fixed, size_t at,
+                              const pspec_pattern *pattern, size_t first) {
     const uint64_t n = pattern->num_points;
     if (first >= n) {
         return 0;
@@ -116,38 +130,53 @@ static size_t convert_pattern(ps_torus_points *points, size_t at, const pspec_pa
     const size_t count = n - first < points->slab ? (size_t)(n - first) : points->slab;
     const uint64_t step = ps_torus_point_step(n);
     uint64_t j = (uint64_t)((wide)first * step % n);
-    for (size_t i = at; i < at + count; i++) {
-        for (unsigned axis = 0; axis < points->dimension; axis++) {
-            points->host_points[i * points->dimension + axis] =
-                ps_fixed_point(pattern->points[j * points->dimension + axis]);
-        }
-        if (!points->has_unit_weights) {
-            set_weight(points, i, pattern->weights != NULL ? pattern->weights[j] : 1);
-        }
+    uint64_t *out = fixed + at * points->dimension;
+    switch (points->dimension) {
+    case 1:
+        convert_points(out, pattern->points, 1, count, j, step, n);
+        break;
+    case 2:
+        convert_points(out, pattern->points, 2, count, j, step, n);
+        break;
+    case 3:
+        convert_points(out, pattern->points, 3, count, j, step, n);
+        break;
+    default:
+        convert_points(out, pattern->points, points->dimension, count, j, step, n);
+    }
+    for (size_t i = at; !points->has_unit_weights && i < at + count; i++) {
+        set_weight(points, i, pattern->weights != NULL ? pattern->weights[j] : 1);
         j += step;
         j -= j >= n ? n : 0;
     }
     return count;
 }
 
-pspec_status ps_torus_points_upload(ps_torus_points *points, ps_device *device,
-                                    const ps_batch *batch, size_t first, size_t *num_points,
-                                    ps_error *error) {
+static pspec_status upload_coordinates(ps_torus_points *points, ps_device *device,
+                                       const ps_batch *batch, size_t first, size_t *num_points,
+                                       ps_error *error) {
+    void *mapped = NULL;
     size_t at = 0;
-    for (size_t r = 0; r < batch->num_patterns; r++) {
-        points->has_unit_weights = points->has_unit_weights && batch->patterns[r].weights == NULL;
-    }
+    PS_TRY(ps_buffer_map(device, &points->points, points->points.bytes, &mapped, error));
     for (size_t r = 0; r < batch->num_patterns; r++) {
         points->host_offsets[r] = at;
-        at += convert_pattern(points, at, &batch->patterns[r], first);
+        at += convert_pattern(points, mapped, at, &batch->patterns[r], first);
     }
     points->host_offsets[batch->num_patterns] = at;
     *num_points = at;
-    PS_TRY(ps_buffer_write(device, &points->points, 0, points->host_points,
-                           at * points->dimension * sizeof(uint64_t), error));
+    return ps_buffer_unmap(device, &points->points, mapped, error);
+}
+
+pspec_status ps_torus_points_upload(ps_torus_points *points, ps_device *device,
+                                    const ps_batch *batch, size_t first, size_t *num_points,
+                                    ps_error *error) {
+    for (size_t r = 0; r < batch->num_patterns; r++) {
+        points->has_unit_weights = points->has_unit_weights && batch->patterns[r].weights == NULL;
+    }
+    PS_TRY(upload_coordinates(points, device, batch, first, num_points, error));
     if (!points->has_unit_weights) {
         PS_TRY(ps_buffer_write(device, &points->weights, 0, points->host_weights,
-                               at * real_bytes(points->precision), error));
+                               *num_points * real_bytes(points->precision), error));
     }
     return ps_buffer_write(device, &points->offsets, 0, points->host_offsets,
                            (batch->num_patterns + 1) * sizeof(uint64_t), error);

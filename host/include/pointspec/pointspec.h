@@ -10,16 +10,11 @@
  * White noise has mean power 1 at every k != 0. DC (k = 0) is never part of a radial mean. Ring b
  * holds the frequencies with b^2 - b + 1 <= |k|^2 <= b^2 + b (docs/conventions.md).
  *
- * Objects. A context holds the device and the last error message; a plan fixes what is asked and by
- * which engine; patterns go through the plan in batches; a spectrum is a snapshot of the averages.
+ * This header holds the vocabulary that the program and its parts share: statuses, patterns,
+ * normalizations. Calls to run the estimator from other programs are not in it yet.
  *
- *     pspec_context_create -> pspec_plan_create -> pspec_plan_run ... -> pspec_spectrum_create
- *
- * Threads. One context, and the plans made from it, may be used by one thread at a time; different
- * contexts are independent.
- *
- * Errors. Whatever can fail returns a pspec_status; the sentence that goes with it is
- * pspec_context_message(context). The library never prints, exits or aborts.
+ * Errors. Whatever can fail returns a pspec_status, with a sentence beside it. The library never
+ * prints, exits or aborts.
  */
 #ifndef POINTSPEC_POINTSPEC_H
 #define POINTSPEC_POINTSPEC_H
