@@ -84,7 +84,7 @@ set grid linecolor "#dddddd"
 set xlabel "|k|"
 set ylabel "root mean square error of S / sqrt(N)"
 set title "Error against frequency, white noise, N = 1000"
-set key left top
+set key left top noenhanced
 plot "naive.txt" with linespoints pointtype 8 linecolor "#999999" title "phase 2 pi k.x in float", \
      "single.txt" with linespoints pointtype 7 linecolor "#0072b2" title "torus_direct, single", \
      "double.txt" with linespoints pointtype 5 linecolor "#d55e00" title "torus_direct, double", \
@@ -117,7 +117,7 @@ set xlabel "points N"
 set ylabel "ms per realization, best of 7"
 set yrange [0.005:200]
 set title "torus_direct on $(sed -n 's/^# device: \([^(]*\) (.*, /\1, /p' bench.txt)" noenhanced
-set key left top
+set key left top noenhanced
 plot "grid-single.txt" with linespoints pointtype 7 linecolor "#0072b2" \
         title "grid K = 64 (8320 frequencies), single", \
      "grid-double.txt" with linespoints pointtype 5 linecolor "#d55e00" \

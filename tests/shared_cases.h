@@ -149,8 +149,8 @@ static void cancellation_leaves_what_is_small(void **state) {
     pair_add(&high, &low, tiny);
     pair_add(&high, &low, -1);
     assert_true(high + low == tiny);
-    high = low = 0;
-    pair_add(&high, &low, tiny); /* and when the larger one comes later */
+    high = low = 0; /* and when the larger one comes later */
+    pair_add(&high, &low, tiny);
     pair_add(&high, &low, 1);
     pair_add(&high, &low, -1);
     assert_true(high + low == tiny);
@@ -255,10 +255,10 @@ static void phases_are_exact(void **state) {
             const phase_case one = random_phase_case();
             check_phase(&one);
         }
-        const int32_t extremes[] = {0, 1, -1, (1 << 28) - 1, 1 << 28, -(1 << 28)};
-        const ulong places[] = {0, 1, UINT32_MAX, (ulong)1 << 32, (ulong)1 << 63, UINT64_MAX};
-        for (size_t i = 0; i < sizeof extremes / sizeof extremes[0]; i++) {
-            for (size_t j = 0; j < sizeof places / sizeof places[0]; j++) {
+        const int32_t extremes[6] = {0, 1, -1, (1 << 28) - 1, 1 << 28, -(1 << 28)};
+        const ulong places[6] = {0, 1, UINT32_MAX, (ulong)1 << 32, (ulong)1 << 63, UINT64_MAX};
+        for (size_t i = 0; i < 6; i++) {
+            for (size_t j = 0; j < 6; j++) {
                 phase_case one = {.k = {0}};
                 for (int axis = 0; axis < dimension; axis++) {
                     one.k[axis] = extremes[i];
@@ -272,7 +272,7 @@ static void phases_are_exact(void **state) {
 
 /* ---- the same on the device -------------------------------------------------------------- */
 
-enum { DEVICE_WORDS = 8 * 125, LARGEST_GROUP = 64 };
+enum { DEVICE_WORDS = 8 * 125 };
 
 static unsigned device_lanes(void) {
     if (device == NULL) {
@@ -341,7 +341,7 @@ static void check_device_phases(unsigned lanes, size_t num) {
     test_memory phases = test_memory_create(device, NULL, num * lanes * sizeof(word));
     TEST_LAUNCH(device, kernel, 3, num, 1, 1, PS_BUFFER(x.buffer), PS_BUFFER(frequencies.buffer),
                 PS_BUFFER(phases.buffer), PS_U64(num));
-    word *found = test_memory_read(&phases);
+    word *const found = test_memory_read(&phases);
     for (size_t i = 0; i < num; i++) {
         for (unsigned lane = 0; lane < lanes; lane++) {
             memcpy(cases[i].k, lane_cases[lane].k, sizeof cases[i].k);

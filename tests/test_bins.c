@@ -68,6 +68,7 @@ static void check_members(const ps_bins *bins, const ps_frequencies *set, bool e
             const int32_t *k = set->vectors + bins->members[i] * set->dimension;
             assert_false(is_seen[bins->members[i]]);
             is_seen[bins->members[i]] = true;
+            assert_true(i == bin->begin || bins->members[i - 1] < bins->members[i]);
             assert_int_equal(key_by_definition(set, k, exact_shells), bin->key);
             sum += sqrtl((long double)ps_frequency_norm2(k, set->dimension));
         }

@@ -142,6 +142,8 @@ static void largest_lattices(void **state) {
         const double box = (pow(2.0 * (double)largest + 1, dimension) - 1) / 2;
         assert_true(fabs((double)set.num / box - 1) < 1e-12);
         assert_true(box <= 0x1p29);
+        const double next = (pow(2.0 * (double)largest + 3, dimension) - 1) / 2;
+        assert_true(next > 0x1p29 || largest == PS_MAX_FREQUENCY);
         for (int is_ball = 0; is_ball <= 1; is_ball++) {
             assert_int_equal(
                 ps_frequencies_lattice(&set, dimension, (int32_t)largest + 1, is_ball != 0, &said),

@@ -146,7 +146,6 @@ static void every_tolerance_is_kept(void **state) {
     }
 }
 
-/* A double holds a power to 1.1e-16, so that is where tolerances end. */
 static void without_a_device_the_host_does_it(void **state) {
     (void)state;
     const ps_frequencies set = grid(2, 32);

@@ -12,7 +12,10 @@ struct ps_power_job {
     ps_point_set *sets; /* [capacity] a batch on its way */
     pspec_pattern *patterns;
     size_t capacity;
-    ps_point_set first; /* the first set, read for planning */
+    unsigned dimension;
+    size_t num_points;  /* of the first set */
+    ps_point_set first; /* of files: read for planning, and used by the run */
+    bool first_is_pending;
     double *weights;
     size_t num_weights;
     ps_frequencies frequencies;
@@ -45,7 +48,7 @@ static void find_needs(ps_power_job *job) {
     const ps_power_question *question = job->question;
     const bool is_grid = question->frequencies_path == NULL;
     const ps_needs_question needs = {
-        .dimension = job->first.dimension,
+        .dimension = job->dimension,
         .max_frequency = is_grid ? job->frequencies.max_frequency : 0,
         .wants_full_array = question->wants_full_array,
         .has_constant_power = is_constant(question),
@@ -70,17 +73,24 @@ static pspec_status open_source(ps_power_job *job, ps_error *error) {
     return ps_source_sampler(&job->source, &job->request, job->num_realizations, error);
 }
 
-static pspec_status read_first(ps_power_job *job, ps_error *error) {
-    bool has_set = false;
-    PS_TRY(ps_source_next(job->source, &job->first, &has_set, error));
-    if (!has_set) {
-        return ps_fail(error, PSPEC_ERROR_INPUT, "there are no point sets to take a spectrum of");
+/* The shape of the first set: a sampler is asked, a file is read. */
+static pspec_status find_shape(ps_power_job *job, ps_error *error) {
+    const ps_power_question *question = job->question;
+    if (question->sampler != NULL) {
+        job->dimension = question->sampler->dimension;
+        job->num_points = question->sampler->num_points;
+    } else {
+        PS_TRY(ps_source_next(job->source, &job->first, &job->first_is_pending, error));
+        if (!job->first_is_pending) {
+            return ps_fail(error, PSPEC_ERROR_INPUT,
+                           "there are no point sets to take a spectrum of");
+        }
+        job->dimension = job->first.dimension;
+        job->num_points = job->first.num_points;
     }
-    if (job->question->weights_path != NULL) {
-        return ps_read_weights(job->question->weights_path, &job->weights, &job->num_weights,
-                               error);
-    }
-    return PSPEC_OK;
+    return question->weights_path == NULL
+               ? PSPEC_OK
+               : ps_read_weights(question->weights_path, &job->weights, &job->num_weights, error);
 }
 
 /* ---- frequencies ------------------------------------------------------------------------- */
@@ -89,13 +99,12 @@ static pspec_status default_max_frequency(const ps_power_job *job, int32_t *out,
     /* 5 N^(1/d): what UTK, PSA and GBN show. Above three dimensions it would be a surprise. */
     const double times = 5;
     enum { LARGEST_DIMENSION = 3 };
-    if (job->first.dimension > LARGEST_DIMENSION) {
+    if (job->dimension > LARGEST_DIMENSION) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "in dimension %u the largest frequency must be given: -k K",
-                       job->first.dimension);
+                       "in dimension %u the largest frequency must be given: -k K", job->dimension);
     }
     /* The root of an exact power may come out a rounding above it. */
-    const double root = pow((double)job->first.num_points, 1.0 / job->first.dimension);
+    const double root = pow((double)job->num_points, 1.0 / job->dimension);
     const double rounding = 1e-12;
     *out = (int32_t)ceil(times * root * (1 - rounding));
     return PSPEC_OK;
@@ -107,10 +116,10 @@ static pspec_status read_frequency_list(ps_power_job *job, ps_error *error) {
     unsigned dimension = 0;
     PS_TRY(ps_read_frequencies(job->question->frequencies_path, &vectors, &num, &dimension, error));
     PS_TRY(ps_frequencies_list(&job->frequencies, dimension, num, vectors, error));
-    if (dimension != job->first.dimension) {
+    if (dimension != job->dimension) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "\"%s\" holds frequencies of dimension %u, the points have dimension %u",
-                       job->question->frequencies_path, dimension, job->first.dimension);
+                       job->question->frequencies_path, dimension, job->dimension);
     }
     return PSPEC_OK;
 }
@@ -125,7 +134,7 @@ static pspec_status choose_frequencies(ps_power_job *job, ps_error *error) {
         PS_TRY(default_max_frequency(job, &max_frequency, error));
     }
     const bool only_ball = !question->wants_full_array && !question->no_skip;
-    return ps_frequencies_lattice(&job->frequencies, job->first.dimension, max_frequency, only_ball,
+    return ps_frequencies_lattice(&job->frequencies, job->dimension, max_frequency, only_ball,
                                   error);
 }
 
@@ -156,12 +165,12 @@ static pspec_status prepare(ps_power_job *job, ps_error *error) {
     const ps_power_question *question = job->question;
     const double by_floor = question->floor > 0 ? ps_tolerance_of_floor(question->floor) : 1;
     PS_TRY(open_source(job, error));
-    PS_TRY(read_first(job, error));
+    PS_TRY(find_shape(job, error));
     PS_TRY(choose_frequencies(job, error));
     find_needs(job);
     job->problem = (ps_problem){
         .frequencies = &job->frequencies,
-        .num_points = job->first.num_points,
+        .num_points = job->num_points,
         .num_realizations = job->num_realizations,
         .has_weights = job->first.has_weights || job->weights != NULL,
         .tolerance = question->tolerance < by_floor ? question->tolerance : by_floor,
@@ -261,18 +270,17 @@ static pspec_status set_pattern(const ps_power_job *job, const ps_point_set *set
     return PSPEC_OK;
 }
 
-/* Fills the batch from the source; *first_is_pending moves the set read for planning in first. */
-static pspec_status fill_batch(ps_power_job *job, bool *first_is_pending, size_t *count,
-                               ps_error *error) {
+/* Fills the batch from the source; the set read for planning comes first. */
+static pspec_status fill_batch(ps_power_job *job, size_t *count, ps_error *error) {
     bool has_set = true;
     *count = 0;
     while (*count < job->capacity) {
         ps_point_set *set = &job->sets[*count];
-        if (*first_is_pending) {
+        if (job->first_is_pending) {
             const ps_point_set empty = *set;
             *set = job->first;
             job->first = empty;
-            *first_is_pending = false;
+            job->first_is_pending = false;
         } else {
             PS_TRY(ps_source_next(job->source, set, &has_set, error));
         }
@@ -295,14 +303,14 @@ static pspec_status report_progress(const ps_power_job *job, uint64_t done, ps_e
     return PSPEC_OK;
 }
 
-static pspec_status run_once(ps_power_job *job, bool first_is_pending, ps_error *error) {
+static pspec_status run_once(ps_power_job *job, ps_error *error) {
     uint64_t done = 0;
     size_t count = 0;
     PS_TRY(create_estimator(job, error));
     PS_TRY(allocate_sets(job, error));
     do {
         PS_TRY(report_progress(job, done, error));
-        PS_TRY(fill_batch(job, &first_is_pending, &count, error));
+        PS_TRY(fill_batch(job, &count, error));
         PS_TRY(ps_estimator_add(job->estimator, job->patterns, count, error));
         done += count;
     } while (count == job->capacity);
@@ -324,7 +332,7 @@ static pspec_status run_again(ps_power_job *job, ps_error *error) {
     }
     job->was_replanned = true;
     PS_TRY(ps_source_rewind(job->source, error));
-    return run_once(job, false, error);
+    return run_once(job, error);
 }
 
 static pspec_status finish(ps_power_job *job, ps_error *error) {
@@ -339,7 +347,7 @@ static pspec_status finish(ps_power_job *job, ps_error *error) {
 pspec_status ps_power_job_run(ps_power_job *job, ps_error *error) {
     PS_TRY(ps_plan_require(&job->plan, &job->problem, error));
     PS_TRY(ps_frequencies_enumerate(&job->frequencies, error));
-    PS_TRY(run_once(job, true, error));
+    PS_TRY(run_once(job, error));
     if (job->accuracy.error > job->problem.tolerance) {
         PS_TRY(run_again(job, error));
     }

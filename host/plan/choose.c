@@ -1,5 +1,6 @@
 #include "plan/choose.h"
 
+#include "base/memory.h"
 #include "base/text.h"
 #include "plan/cost_model.h"
 
@@ -22,11 +23,22 @@ static pspec_status check_engine_name(const char *name, ps_error *error) {
                                   "there is no engine \"%s\"; the nearest is %s", name, nearest);
 }
 
-/* Seconds, bytes and error of a candidate that applies. */
+/* Host memory of a job besides its engine, for every frequency: its vector, slot, place in a bin, sums
+ * of the accumulator, mean and standard error (analysis/accumulate, bins, spectrum). */
+static double host_bytes_per_frequency(unsigned dimension) {
+    return (double)(dimension * sizeof(int32_t) + 2 * sizeof(uint32_t) + 6 * sizeof(double));
+}
+
+/* Seconds, bytes and error of a candidate that applies. A realization of a batch is kept on the host,
+ * too, as coordinates and weights. */
 static void estimate(ps_candidate *candidate, const ps_problem *problem,
                      const ps_device_limits *limits, double mean_power) {
+    const unsigned dimension = problem->frequencies->dimension;
     const ps_device_limits *used = candidate->engine->needs_device ? limits : NULL;
-    const ps_work work = candidate->engine->work(problem, used, candidate->precision);
+    ps_work work = candidate->engine->work(problem, used, candidate->precision);
+    const double columns = dimension + (problem->has_weights ? 1 : 0);
+    work.bytes_per_realization += (double)problem->num_points * columns * (double)sizeof(double);
+    work.fixed_bytes += (double)problem->frequencies->num * host_bytes_per_frequency(dimension);
     candidate->batch = ps_cost_batch(&work, used, problem->num_realizations);
     candidate->seconds = ps_cost_seconds(&work, used, candidate->precision);
     candidate->bytes = work.fixed_bytes + work.bytes_per_realization * (double)candidate->batch;
@@ -48,29 +60,42 @@ static bool exclude(ps_candidate *candidate, const ps_plan_constraints *constrai
     return false;
 }
 
+/* The user's limit, else the smaller of what the device and the machine have. */
+static uint64_t find_memory_limit(const ps_candidate *candidate, const ps_device_limits *limits,
+                                  const ps_plan_constraints *constraints) {
+    uint64_t limit = ps_memory_installed();
+    if (constraints->memory_limit > 0) {
+        return constraints->memory_limit;
+    }
+    if (limits != NULL && candidate->engine->needs_device &&
+        (limit == 0 || limits->global_bytes < limit)) {
+        limit = limits->global_bytes;
+    }
+    return limit;
+}
+
 static void judge(ps_candidate *candidate, const ps_problem *problem,
                   const ps_device_limits *limits, const ps_plan_constraints *constraints) {
     const char *why_not = NULL;
-    const uint64_t device_bytes =
-        limits != NULL && candidate->engine->needs_device ? limits->global_bytes : 0;
-    const uint64_t limit = constraints->memory_limit > 0 ? constraints->memory_limit : device_bytes;
+    const uint64_t limit = find_memory_limit(candidate, limits, constraints);
+    candidate->is_excluded = exclude(candidate, constraints);
     candidate->is_applicable =
         candidate->engine->applicable(problem, limits, candidate->precision, &why_not);
-    if (!candidate->is_applicable) {
-        snprintf(candidate->reason, sizeof candidate->reason, "%s", why_not);
-        return;
+    if (candidate->is_applicable) {
+        estimate(candidate, problem, limits, constraints->mean_power);
     }
-    estimate(candidate, problem, limits, constraints->mean_power);
-    candidate->is_excluded = exclude(candidate, constraints);
     if (candidate->is_excluded) {
         return;
     }
-    if (candidate->error > problem->tolerance) {
+    if (!candidate->is_applicable) {
+        snprintf(candidate->reason, sizeof candidate->reason, "%s", why_not);
+    } else if (candidate->error > problem->tolerance) {
         snprintf(candidate->reason, sizeof candidate->reason, "error above the tolerance %g",
                  problem->tolerance);
     } else if (limit > 0 && candidate->bytes > (double)limit) {
         snprintf(candidate->reason, sizeof candidate->reason,
-                 "memory above the limit of %llu bytes", (unsigned long long)limit);
+                 "needs %.3g bytes of memory, above the limit of %.3g", candidate->bytes,
+                 (double)limit);
     } else {
         candidate->is_feasible = true;
     }
@@ -118,8 +143,8 @@ pspec_status ps_plan_make(ps_plan *plan, const ps_problem *problem, const ps_dev
 }
 
 pspec_status ps_plan_require(const ps_plan *plan, const ps_problem *problem, ps_error *error) {
-    const ps_candidate *best = NULL; /* the most exact one that the user's choice leaves */
-    const ps_candidate *other = &plan->candidates[0];
+    const ps_candidate *best = NULL;  /* the most exact one that the user's choice leaves */
+    const ps_candidate *other = NULL; /* any that it leaves */
     if (plan->chosen != NULL) {
         return PSPEC_OK;
     }
@@ -133,13 +158,20 @@ pspec_status ps_plan_require(const ps_plan *plan, const ps_problem *problem, ps_
             best = candidate;
         }
     }
-    if (best != NULL && best->error > problem->tolerance) {
+    if (other == NULL) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "no engine is left: the engine asked for does not have that precision");
+    }
+    if (best == NULL) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "no engine can do this; %s (%s): %s",
+                       other->engine->name, ps_precision_name(other->precision), other->reason);
+    }
+    if (best->error > problem->tolerance) {
         return ps_fail(error, PSPEC_ERROR_TOLERANCE,
                        "tolerance %g cannot be reached: the smallest error is %.2g (%s, %s)",
                        problem->tolerance, best->error, best->engine->name,
                        ps_precision_name(best->precision));
     }
-    other = best != NULL ? best : other;
-    return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "no engine can do this; %s (%s): %s",
-                   other->engine->name, ps_precision_name(other->precision), other->reason);
+    return ps_fail(error, PSPEC_ERROR_MEMORY, "%s (%s) %s", best->engine->name,
+                   ps_precision_name(best->precision), best->reason);
 }

@@ -10,8 +10,8 @@
 #include "torus/phase.h"
 
 __kernel void probe_phase(__global const ulong *restrict points,
-                          __global const word *restrict frequencies,
-                          __global word *restrict phases, const ulong num) {
+                          __global const word *restrict frequencies, __global word *restrict phases,
+                          const ulong num) {
     const size_t i = get_global_id(0);
     if (i >= num) {
         return;

@@ -1,0 +1,87 @@
+#!/usr/bin/env bash
+# update_tables.sh BUILD_DIR [TABLE...]: fills the tables of docs/*.md with what the programs of
+# BUILD_DIR print (build/release has benchmarks and tests alike). A table stands between a line
+# "<!-- table: NAME -->" and a line "<!-- end -->"; NAME is a function table_NAME below. Times want a
+# quiet machine. Without TABLE all are made; a program that is not built leaves its table alone.
+set -euo pipefail
+docs=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
+(($# >= 1)) || { sed -n '2,5s/^# //p' "$0" >&2; exit 2; }
+build=$(realpath "$1")
+shift
+kernels=$docs/../kernels
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+
+need() { # PROGRAM
+    [[ -x $build/$1 ]] || { echo "update_tables: no $1 in $build" >&2; return 1; }
+}
+
+bench() { # NAME
+    need "bench/bench_$1" && "$build/bench/bench_$1"
+}
+table_bench_torus() { bench torus; }
+table_bench_reading() { bench reading; }
+table_bench_memory() { bench memory; }
+
+# The lines of the tolerance test. Its frequencies are, in the order of the lines of one shape, a grid
+# with K = 12, 100 of |k_i| <= 1e6 and 100 of |k_i| <= 2^28.
+tolerance() {
+    need tests/test_tolerance && "$build/tests/test_tolerance" 2>&1 | grep ' slack '
+}
+table_tolerance() { tolerance; }
+
+# Error and time against PS_TORUS_RUN: the kernels from disk, with the length of a run put in.
+table_run_length() {
+    need tests/test_tolerance && need bench/bench_torus || return 1
+    local run
+    local -x POINTSPEC_KERNEL_DIR=$scratch/kernels
+    printf '%6s %14s %14s %14s %14s %12s\n' run "white single" "one place" "white double" \
+        "one place" "ms/R single"
+    for run in 1 8 16 32 64 128 256; do
+        rm -rf "$POINTSPEC_KERNEL_DIR"
+        cp -r "$kernels" "$POINTSPEC_KERNEL_DIR"
+        sed -i "s/^#ifndef RUN\$/#undef RUN\n#ifndef RUN/; s/^#define RUN .*/#define RUN $run/" \
+            "$POINTSPEC_KERNEL_DIR/torus/layout.h"
+        # Long runs fail the test's bound, which ends it: "-" for what it did not come to.
+        { "$build/tests/test_tolerance" 2>&1 || true; } | grep ' slack ' >"$scratch/lines"
+        "$build/bench/bench_torus" "grid 2 1024 64 256 single" | tail -n 1 >"$scratch/time"
+        printf '%6d %14s %14s %14s %14s %12s\n' "$run" "$(grid_error white single)" \
+            "$(grid_error 'one place' single)" "$(grid_error white double)" \
+            "$(grid_error 'one place' double)" "$(awk '{ print $7 }' "$scratch/time")"
+    done
+}
+grid_error() { # SHAPE PRECISION: error on the grid, the first line of the shape
+    awk -v shape="$1 " -v precision="$2" '
+        index($0, shape) == 1 && $0 ~ ("N=1000 +" precision) {
+            for (i = 1; i < NF; i++) if ($i == "error") { print $(i + 1); found = 1; exit }
+        }
+        END { if (!found) print "-" }' "$scratch/lines"
+}
+
+fill() { # FILE NAME TEXT
+    awk -v name="$2" -v text="$3" '
+        $0 == "<!-- table: " name " -->" {
+            print
+            print "```text"
+            while ((getline line < text) > 0) print line
+            print "```"
+            inside = 1
+            next
+        }
+        $0 == "<!-- end -->" { inside = 0 }
+        !inside' "$1" >"$scratch/new"
+    cat "$scratch/new" >"$1"
+}
+
+if (($# == 0)); then
+    mapfile -t names < <(sed -n 's/^<!-- table: \(.*\) -->$/\1/p' "$docs"/*.md | sort -u)
+    set -- "${names[@]}"
+fi
+for name in "$@"; do
+    declare -F "table_$name" >/dev/null || { echo "update_tables: no table $name" >&2; exit 2; }
+    echo "update_tables: $name" >&2
+    "table_$name" >"$scratch/$name" || { echo "update_tables: $name not made" >&2; continue; }
+    while IFS= read -r file; do
+        fill "$file" "$name" "$scratch/$name"
+    done < <(grep -lx "<!-- table: $name -->" "$docs"/*.md)
+done

@@ -1,0 +1,95 @@
+/* Which device a selector means: made-up lists, then the devices that are here. */
+#include "harness.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { NUM_MADE_UP = 4 };
+static const ps_device_limits made_up[NUM_MADE_UP] = {
+    {.name = "Fast Chip FC-1"},
+    {.name = "Example Core i7", .is_cpu = true},
+    {.name = "Example Graphics 200", .is_gpu = true},
+    {.name = "Example Graphics 100", .is_gpu = true},
+};
+
+static void selectors(void **state) {
+    (void)state;
+    const struct {
+        const char *selector;
+        size_t index;
+    } cases[] = {{NULL, 2},     {"", 2},         {"0", 0},           {"3", 3},
+                 {"gpu", 2},    {"cpu", 1},      {"accelerator", 0}, {"Core", 1},
+                 {"core i", 1}, {"GRAPHICS", 2}, {"fc-1", 0},        {"Graphics 1", 3}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        size_t index = NUM_MADE_UP;
+        assert_ok(ps_device_choose(made_up, NUM_MADE_UP, cases[i].selector, &index, error));
+        assert_int_equal(index, cases[i].index);
+    }
+}
+
+/* Without a GPU the first CPU, without a CPU the first device. */
+static void default_choice(void **state) {
+    (void)state;
+    size_t index = NUM_MADE_UP;
+    assert_ok(ps_device_choose(made_up, 2, NULL, &index, error));
+    assert_int_equal(index, 1);
+    assert_ok(ps_device_choose(made_up, 1, NULL, &index, error));
+    assert_int_equal(index, 0);
+}
+
+static void unknown_selectors(void **state) {
+    (void)state;
+    size_t index = 0;
+    ps_error said = {0};
+    assert_int_equal(ps_device_choose(made_up, NUM_MADE_UP, "Radeon", &index, &said),
+                     PSPEC_ERROR_NO_DEVICE);
+    assert_non_null(strstr(said.message, "\"Radeon\""));
+    for (size_t i = 0; i < NUM_MADE_UP; i++) {
+        assert_non_null(strstr(said.message, made_up[i].name));
+    }
+    const char *const indices[] = {"4", "100", "99999999999999999999"};
+    for (size_t i = 0; i < 3; i++) {
+        assert_int_not_equal(ps_device_choose(made_up, NUM_MADE_UP, indices[i], &index, &said),
+                             PSPEC_OK);
+        assert_non_null(strstr(said.message, "between 0 and 3"));
+    }
+    assert_int_equal(ps_device_choose(made_up, 1, "gpu", &index, &said), PSPEC_ERROR_NO_DEVICE);
+}
+
+static void listed_devices_can_be_chosen(void **state) {
+    (void)state;
+    ps_device_limits *limits = NULL;
+    size_t num_devices = 0;
+    ps_error said = {0};
+    if (ps_device_list(&limits, &num_devices, &said) != PSPEC_OK) {
+        assert_non_null(strstr(said.message, "pocl-opencl-icd")); /* what to install */
+        skip();
+    }
+    assert_true(num_devices > 0);
+    for (size_t i = 0; i < num_devices; i++) {
+        char number[24];
+        size_t index = num_devices;
+        snprintf(number, sizeof number, "%zu", i);
+        assert_ok(ps_device_choose(limits, num_devices, number, &index, error));
+        assert_int_equal(index, i);
+        assert_true(limits[i].name[0] != '\0' && limits[i].platform[0] != '\0');
+        assert_true(limits[i].compute_units > 0 && limits[i].max_work_group_size > 0);
+        assert_true(limits[i].global_bytes >= limits[i].max_allocation_bytes);
+        assert_true(limits[i].local_bytes >= 32 << 10); /* OpenCL 1.2 promises it */
+    }
+    free(limits);
+    ps_device *none = NULL;
+    assert_int_equal(ps_device_open(&none, "no such device", false, &said), PSPEC_ERROR_NO_DEVICE);
+    assert_null(none);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(selectors),
+        cmocka_unit_test(default_choice),
+        cmocka_unit_test(unknown_selectors),
+        cmocka_unit_test(listed_devices_can_be_chosen),
+    };
+    return cmocka_run_group_tests_name("device_choice", tests, NULL, NULL);
+}
