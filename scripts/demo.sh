@@ -16,14 +16,14 @@ estimate() {
     local name=$1 fact=$2 look=$3
     shift 3
     echo "demo: $name" >&2
-    "$program" power "$@" -k $max_frequency --seed 1 --quiet \
+    "$program" power "$@" -k $max_frequency --quiet \
         -o "$folder/$name.csv" --plot "$folder/$name.png"
     [[ -s $folder/$name.png ]] || { echo "demo: no picture $folder/$name.png" >&2; exit 1; }
     awk -v name="$name" -v fact="$fact" -v look="$look" -f scripts/demo_facts.awk \
         "$folder/$name.csv" >>"$summary"
 }
 sampler() { # NAME FACT LOOK SAMPLER
-    estimate "$1" "$2" "$3" --sampler "$4" -n $points -m $realizations
+    estimate "$1" "$2" "$3" --sampler "$4" -n $points -m $realizations --seed 1
 }
 published() { # NAME FACT LOOK
     local file=$data/utk_$1_1024.txt

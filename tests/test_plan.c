@@ -294,14 +294,17 @@ static void memory_limits(void **state) {
     const ps_candidate *candidate = find_candidate(&plan, "torus_direct", PS_SINGLE);
     assert_true(candidate->is_applicable && !candidate->is_feasible);
     assert_int_equal(candidate->batch, 1);
-    assert_non_null(strstr(candidate->reason, "memory above the limit of 1048576 bytes"));
+    assert_non_null(strstr(candidate->reason, "above the limit of 1.05e+06"));
     assert_string_equal(plan.chosen->engine->name, "host_direct"); /* the host is not so small */
     const ps_plan_constraints limited = {.precision = -1, .mean_power = 1, .memory_limit = 1000};
     make(&plan, &problem, &limits, &limited);
     assert_null(plan.chosen);
     for (size_t i = 0; i < plan.num_candidates; i++) {
-        assert_non_null(strstr(plan.candidates[i].reason, "1000 bytes"));
+        assert_non_null(strstr(plan.candidates[i].reason, "above the limit of 1e+03"));
     }
+    ps_error said = {0};
+    assert_int_equal(ps_plan_require(&plan, &problem, &said), PSPEC_ERROR_MEMORY);
+    assert_non_null(strstr(said.message, "above the limit of 1e+03"));
 }
 
 static void allocation_limits(void **state) {
