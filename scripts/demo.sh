@@ -34,7 +34,7 @@ start=$SECONDS
 sampler white flat "flat at 1, no structure" white
 sampler jittered slope "no peak; dark middle" jittered
 sampler latin-hypercube anisotropy "dark lines on the two axes" latin-hypercube
-sampler sobol-owen anisotropy "square, not round, pattern" sobol:scramble=owen
+sampler sobol-owen anisotropy "dark cross along the axes, not a disc" sobol:scramble=owen
 num_samplers=$(wc -l <"$summary")
 published BNOT ring "empty disc, then rings"
 published FPO ring "empty disc, then rings"

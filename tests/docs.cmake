@@ -1,0 +1,2 @@
+# The commands in README.md and docs/ work as they stand, and links lead somewhere.
+add_program_test(docs ${PROJECT_SOURCE_DIR})
