@@ -30,6 +30,25 @@ tolerance() {
 }
 table_tolerance() { tolerance; }
 
+# The smallest slack, and the largest error with its bound, of every shape and precision.
+table_tolerance_summary() {
+    need tests/test_tolerance || return 1
+    printf '%-15s %-9s %14s %14s %14s\n' shape precision "largest error" formula "smallest slack"
+    tolerance | awk '{
+        shape = substr($0, 1, 15)
+        for (i = 1; i < NF; i++) if ($i == "error") at = i
+        key = shape " " $(at - 1)
+        if (!(key in slack)) order[++num] = key
+        if (!(key in slack) || $(at + 5) + 0 < slack[key]) slack[key] = $(at + 5) + 0
+        if ($(at + 1) + 0 > error[key] + 0) { error[key] = $(at + 1); formula[key] = $(at + 3) }
+    }
+    END {
+        for (i = 1; i <= num; i++)
+            printf "%-15s %-9s %14s %14s %14.2f\n", substr(order[i], 1, 15), substr(order[i], 17),
+                error[order[i]], formula[order[i]], slack[order[i]]
+    }'
+}
+
 # Error and time against PS_TORUS_RUN: the kernels from disk, with the length of a run put in.
 table_run_length() {
     need tests/test_tolerance && need bench/bench_torus || return 1

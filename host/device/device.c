@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 enum { MAX_PLATFORMS = 16, MAX_DEVICES = 64 };
 
@@ -121,13 +122,13 @@ static bool contains_ignoring_case(const char *text, const char *part) {
 }
 
 static bool device_matches(const ps_device_limits *limits, const char *selector) {
-    if (strcmp(selector, "gpu") == 0) {
+    if (strcasecmp(selector, "gpu") == 0) {
         return limits->is_gpu;
     }
-    if (strcmp(selector, "cpu") == 0) {
+    if (strcasecmp(selector, "cpu") == 0) {
         return limits->is_cpu;
     }
-    if (strcmp(selector, "accelerator") == 0) {
+    if (strcasecmp(selector, "accelerator") == 0) {
         return !limits->is_gpu && !limits->is_cpu;
     }
     return contains_ignoring_case(limits->name, selector);

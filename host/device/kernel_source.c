@@ -109,6 +109,7 @@ static pspec_status expand(expansion *state, const char *name, ps_error *error) 
 
 pspec_status ps_kernel_source_expand(const char *name, ps_text *out, ps_error *error) {
     expansion state = {.out = out};
+    already_included(&state, name); /* marks it: a file that includes itself appears once */
     PS_TRY(expand(&state, name, error));
     return out->failed ? ps_fail(error, PSPEC_ERROR_MEMORY, "no memory for kernel \"%s\"", name)
                        : PSPEC_OK;

@@ -76,12 +76,15 @@ static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
     const double lanes = layout.lanes;
     const double box =
         lanes * lanes * (double)layout.left_tiles * (double)layout.right_tiles; /* padding counts */
-    const double used = layout.is_grid ? (double)problem->frequencies->num : 0;
-    const double all = 2 * (double)layout.num_left * (double)layout.num_right + 1;
-    const double share = used < all ? used / all : 1; /* tile pairs in corners are left out */
+    /* Tile pairs in the corners of a ball are left out; in one dimension there are none. */
+    const double left = (double)layout.num_left;
+    const double right = (double)layout.num_right;
+    const bool has_corners =
+        problem->frequencies->kind == PS_FREQUENCIES_BALL && problem->frequencies->dimension > 1;
+    const double share = (double)problem->frequencies->num / (2 * left * right + left + right);
     return (ps_work){.phases =
                          num_points * lanes * (double)(layout.left_tiles + layout.right_tiles),
-                     .product_flops = 8 * num_points * box * share,
+                     .product_flops = 8 * num_points * box * (has_corners && share < 1 ? share : 1),
                      .launches = ceil(realizations / (double)layout.group) *
                                  (double)divide_up((size_t)problem->num_points, layout.slab) *
                                  (layout.is_grid ? 5 : 3),

@@ -28,15 +28,20 @@ static double cache_bytes(const ps_device_limits *limits) {
     return limits->cache_bytes > 0 ? (double)limits->cache_bytes : DEFAULT_CACHE_BYTES;
 }
 
+/* Tables of a grid, or partial sums of a list, that one chunk of a realization takes. */
+static double chunk_bytes(const ps_torus_layout *layout) {
+    const double row = (double)layout->lanes * (double)layout->real_bytes;
+    const double tiles = (double)(layout->left_tiles + layout->right_tiles);
+    const double sums = 4 * tiles * row;
+    return layout->is_grid ? sums + PS_TORUS_CHUNK * tiles * 2 * row : sums;
+}
+
 static void choose_slab(ps_torus_layout *layout, const ps_problem *problem,
                         const ps_device_limits *limits) {
-    const size_t tiles = layout->left_tiles + layout->right_tiles;
-    const double chunk_bytes =
-        (double)(PS_TORUS_CHUNK * tiles * 2 * layout->lanes * layout->real_bytes);
-    const double fitting = slab_share * cache_bytes(limits) / chunk_bytes;
+    const double fitting = slab_share * cache_bytes(limits) / chunk_bytes(layout);
     const size_t needed = divide_up((size_t)problem->num_points, PS_TORUS_CHUNK);
     size_t chunks = needed < LARGEST_SLAB_CHUNKS ? needed : LARGEST_SLAB_CHUNKS;
-    if (layout->is_grid && fitting < (double)chunks) {
+    if (fitting < (double)chunks) {
         chunks = fitting > 1 ? (size_t)fitting : 1;
     }
     layout->num_chunks = chunks > 0 ? chunks : 1;
@@ -52,8 +57,8 @@ static uint64_t group_member_bytes(const ps_torus_layout *layout, unsigned dimen
     const uint64_t tables = layout->is_grid ? tiles * layout->table_points * 2 * row : 0;
     const uint64_t products = layout->max_pairs * layout->lanes * 8 * row;
     const uint64_t sums = (layout->num_chunks + 1) * tiles * 4 * row;
-    const uint64_t points = layout->slab * (dimension * sizeof(uint64_t) + layout->real_bytes);
-    return tables + products + sums + 2 * points;
+    const uint64_t points = layout->slab * (dimension * sizeof(uint64_t) + 2 * layout->real_bytes);
+    return tables + products + sums + points; /* weights have a copy on the host */
 }
 
 static void choose_group(ps_torus_layout *layout, const ps_problem *problem,
@@ -68,17 +73,29 @@ static void choose_group(ps_torus_layout *layout, const ps_problem *problem,
     layout->group = group > 1 ? (size_t)group : 1;
 }
 
+static uint64_t largest(const uint64_t *numbers, size_t num) {
+    uint64_t found = 0;
+    for (size_t i = 0; i < num; i++) {
+        found = numbers[i] > found ? numbers[i] : found;
+    }
+    return found;
+}
+
 static void count_bytes(ps_torus_layout *layout, unsigned dimension) {
     const uint64_t row = (uint64_t)layout->lanes * layout->real_bytes;
     const uint64_t tiles = layout->left_tiles + layout->right_tiles;
-    const uint64_t tables = layout->is_grid ? tiles * layout->table_points * 2 * row : 0;
-    const uint64_t products = layout->max_pairs * layout->lanes * 8 * row;
+    const uint64_t buffers[] = {
+        layout->is_grid ? tiles * layout->table_points * 2 * row : 0, /* tables */
+        layout->max_pairs * layout->lanes * 8 * row,                  /* sums of products */
+        layout->num_chunks * tiles * 4 * row,                         /* sums of chunks */
+        layout->slab * dimension * sizeof(uint64_t),                  /* points */
+    };
     const uint64_t power = layout->max_stride * layout->real_bytes;
     layout->bytes_per_realization = power + 2 * layout->real_bytes;
     layout->fixed_bytes = layout->group * group_member_bytes(layout, dimension) +
                           tiles * dimension * row + layout->max_pairs * 2 * sizeof(uint32_t) +
                           layout->lanes * power; /* rows are padded to whole groups of lanes */
-    layout->largest_buffer = layout->group * (tables > products ? tables : products);
+    layout->largest_buffer = layout->group * largest(buffers, sizeof buffers / sizeof buffers[0]);
 }
 
 ps_torus_layout ps_torus_layout_make(const ps_problem *problem, const ps_device_limits *limits,
@@ -88,6 +105,7 @@ ps_torus_layout ps_torus_layout_make(const ps_problem *problem, const ps_device_
                               .real_bytes = precision == PS_SINGLE ? sizeof(float) : sizeof(double),
                               .is_grid = set->kind != PS_FREQUENCIES_LIST};
     if (layout.is_grid) {
+        layout.left_axes = ps_split_left_axes(set->dimension);
         ps_split_sizes(set, layout.lanes, &layout.num_left, &layout.num_right);
     } else {
         layout.num_left = set->num;

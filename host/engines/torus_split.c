@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static unsigned count_left_axes(unsigned dimension) {
+unsigned ps_split_left_axes(unsigned dimension) {
     return (dimension + 1) / 2;
 }
 
@@ -29,7 +29,7 @@ static size_t right_size_1d(int32_t max_frequency, unsigned lanes) {
 
 void ps_split_sizes(const ps_frequencies *lattice, unsigned lanes, size_t *num_left,
                     size_t *num_right) {
-    const unsigned left_axes = count_left_axes(lattice->dimension);
+    const unsigned left_axes = ps_split_left_axes(lattice->dimension);
     if (lattice->dimension == 1) {
         *num_right = right_size_1d(lattice->max_frequency, lanes);
         *num_left = ((size_t)lattice->max_frequency + *num_right) / (2 * *num_right + 1);
@@ -155,7 +155,7 @@ static pspec_status fill_pairs(ps_split *split, const ps_frequencies *lattice, p
 pspec_status ps_split_create(ps_split *out, const ps_frequencies *lattice, unsigned lanes,
                              ps_error *error) {
     *out = (ps_split){.dimension = lattice->dimension,
-                      .left_axes = count_left_axes(lattice->dimension),
+                      .left_axes = ps_split_left_axes(lattice->dimension),
                       .lanes = lanes,
                       .max_frequency = lattice->max_frequency};
     ps_split_sizes(lattice, lanes, &out->left.num, &out->right.num);

@@ -1,8 +1,8 @@
 /* Cosine and sine of an angle given as a fraction of a turn in fixed point: 2 pi u / 2^PRECISION.
  *
  * k.x mod 1 in fixed point is integer arithmetic that wraps, so the phase is exact for any k
- * (mathematics.md 7.1); here it becomes a cosine and a sine with absolute errors below
- * 1e-7 (float; measured 9.1e-8) and 2.5e-16 (double; measured 2.3e-16): tests/test_shared.c.
+ * (mathematics.md 7.1); here it becomes a cosine and a sine with absolute errors below 1.8e-7 (float,
+ * all words; root mean square 5e-8) and 4e-16 (double, 1e8 random words; 1e-16): tests/shared_cases.h.
  */
 #ifndef PS_SHARED_TURN_H
 #define PS_SHARED_TURN_H

@@ -27,13 +27,54 @@
 #define STORE_TABLE 0
 #endif
 
-__kernel void
-torus_list(__global const ulong *restrict points, __global const real *restrict weights,
-           __global const ulong *restrict offsets, __global const word *restrict frequencies,
-           __global real *restrict sums, const ulong num_tiles, const ulong chunk_points
+/* In a table of factors the first weighted_tiles look at the axes before LEFT_AXES only and the others
+ * at the rest (all at the same one in one dimension): elsewhere their frequencies are zero. */
+#ifndef LEFT_AXES
+#define LEFT_AXES DIMENSION
+#endif
+#if LEFT_AXES < DIMENSION
+#define RIGHT_BEGIN LEFT_AXES
+#else
+#define RIGHT_BEGIN 0
+#endif
+
+/* Adds the points begin .. end - 1 up over the axes given; constants in both calls, so loops unroll. */
+static inline void add_points(__global const ulong *restrict points,
+                              __global const real *restrict weights, const wordv *k,
+                              const realv *k_real, const ulong begin, const ulong end,
+                              const int first_axis, const int last_axis, const int is_weighted,
+                              __global real *restrict row, realv *sums) {
+    for (ulong run = begin; run < end; run += LIST_RUN) {
+        const ulong run_end = min(run + LIST_RUN, end);
+        realv cos_sum = 0, sin_sum = 0;
+        for (ulong j = run; j < run_end; j++) {
+            realv cosine, sine;
+            turn_cosine_sine(
+                phase_of_point(k, k_real, points + j * DIMENSION, first_axis, last_axis), &cosine,
+                &sine);
+            const realv weight = (realv)weights[j];
+            cos_sum = fma(weight, cosine, cos_sum);
+            sin_sum = fma(weight, sine, sin_sum);
 #if STORE_TABLE
-           ,
-           __global real *restrict table, const ulong table_points, const ulong weighted_tiles
+            STOREV(is_weighted ? weight * cosine : cosine, 0, row);
+            STOREV(is_weighted ? weight * sine : sine, 1, row);
+            row += 2 * LANES;
+#endif
+        }
+        pair_add(&sums[0], &sums[1], cos_sum);
+        pair_add(&sums[2], &sums[3], sin_sum);
+    }
+}
+
+__kernel void torus_list(__global const ulong *restrict points,
+                         __global const real *restrict weights,
+                         __global const ulong *restrict offsets,
+                         __global const word *restrict frequencies, __global real *restrict sums,
+                         const ulong num_tiles, const ulong chunk_points
+#if STORE_TABLE
+                         ,
+                         __global real *restrict table, const ulong table_points,
+                         const ulong weighted_tiles
 #endif
 ) {
     const size_t tile = get_global_id(0);
@@ -53,33 +94,20 @@ torus_list(__global const ulong *restrict points, __global const real *restrict 
         k[axis] = LOADV(axis * num_tiles + tile, frequencies);
         k_real[axis] = TO_REALV(AS_SWORDV(k[axis]));
     }
-    realv cos_high = 0, cos_low = 0, sin_high = 0, sin_low = 0;
+    realv pairs[4] = {(realv)0, (realv)0, (realv)0, (realv)0};
 #if STORE_TABLE
     __global real *row =
         table + ((realization * num_tiles + tile) * table_points + (begin - first)) * 2 * LANES;
-#endif
-    for (ulong run = begin; run < end; run += LIST_RUN) {
-        const ulong run_end = min(run + LIST_RUN, end);
-        realv cos_sum = 0, sin_sum = 0;
-        for (ulong j = run; j < run_end; j++) {
-            realv cosine, sine;
-            turn_cosine_sine(phase_of_point(k, k_real, points + j * DIMENSION), &cosine, &sine);
-            const realv weight = (realv)weights[j];
-            cos_sum = fma(weight, cosine, cos_sum);
-            sin_sum = fma(weight, sine, sin_sum);
-#if STORE_TABLE
-            const realv factor = tile < weighted_tiles ? weight : (realv)1;
-            STOREV(factor * cosine, 0, row);
-            STOREV(factor * sine, 1, row);
-            row += 2 * LANES;
-#endif
-        }
-        pair_add(&cos_high, &cos_low, cos_sum);
-        pair_add(&sin_high, &sin_low, sin_sum);
+    if (tile < weighted_tiles) {
+        add_points(points, weights, k, k_real, begin, end, 0, LEFT_AXES, 1, row, pairs);
+    } else {
+        add_points(points, weights, k, k_real, begin, end, RIGHT_BEGIN, DIMENSION, 0, row, pairs);
     }
+#else
+    add_points(points, weights, k, k_real, begin, end, 0, DIMENSION, 1, sums, pairs);
+#endif
     __global real *out = sums + ((realization * num_chunks + chunk) * num_tiles + tile) * 4 * LANES;
-    STOREV(cos_high, 0, out);
-    STOREV(cos_low, 1, out);
-    STOREV(sin_high, 2, out);
-    STOREV(sin_low, 3, out);
+    for (int i = 0; i < 4; i++) {
+        STOREV(pairs[i], i, out);
+    }
 }
