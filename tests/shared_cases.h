@@ -219,7 +219,7 @@ static word host_phase(const phase_case *one) {
         k[axis] = (word)(sword)one->k[axis];
         k_real[axis] = TO_REALV(AS_SWORDV(k[axis]));
     }
-    return phase_of_point(k, k_real, one->x);
+    return phase_of_point(k, k_real, one->x, 0, dimension);
 }
 
 /* The error of the phase in units of 2^-PRECISION turns. */

@@ -22,5 +22,5 @@ __kernel void probe_phase(__global const ulong *restrict points,
         k[axis] = LOADV(axis, frequencies);
         k_real[axis] = TO_REALV(AS_SWORDV(k[axis]));
     }
-    STOREV(phase_of_point(k, k_real, points + i * DIMENSION), i, phases);
+    STOREV(phase_of_point(k, k_real, points + i * DIMENSION, 0, DIMENSION), i, phases);
 }
