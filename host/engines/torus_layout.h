@@ -16,7 +16,7 @@ typedef struct ps_torus_layout {
     unsigned lanes;
     size_t real_bytes;
     bool is_grid;
-    unsigned left_axes; /* of a grid, see torus_split.h */
+    unsigned left_axes;             /* of a grid, see torus_split.h */
     size_t num_left, num_right;     /* frequencies; a list is all left */
     size_t left_tiles, right_tiles; /* of `lanes` frequencies */
     size_t max_pairs;               /* tile pairs, before those nobody needs are dropped */

@@ -117,18 +117,12 @@ pspec_status ps_torus_sums_add(ps_torus_sums *self, const ps_torus_points *point
         device, self->num_tiles, self->num_chunks, num_patterns, pairs * phase_flops(self),
         (double)num_points * (8.0 * self->dimension + real_bytes) +
             (self->has_table ? 2 * pairs * real_bytes : 0));
-    if (self->has_table) {
-        PS_TRY(PS_LAUNCH(device, self->list, &range, error, PS_BUFFER(points->points),
-                         PS_BUFFER(points->weights), PS_BUFFER(points->offsets),
-                         PS_BUFFER(self->frequencies), PS_BUFFER(self->sums),
-                         PS_U64(self->num_tiles), PS_U64(PS_TORUS_CHUNK), PS_BUFFER(self->table),
-                         PS_U64(self->table_points), PS_U64(self->weighted_tiles)));
-    } else {
-        PS_TRY(PS_LAUNCH(device, self->list, &range, error, PS_BUFFER(points->points),
-                         PS_BUFFER(points->weights), PS_BUFFER(points->offsets),
-                         PS_BUFFER(self->frequencies), PS_BUFFER(self->sums),
-                         PS_U64(self->num_tiles), PS_U64(PS_TORUS_CHUNK)));
-    }
+    const ps_buffer *table = self->has_table ? &self->table : &self->sums;
+    PS_TRY(PS_LAUNCH(device, self->list, &range, error, PS_BUFFER(points->points),
+                     PS_BUFFER(points->weights), PS_BUFFER(points->offsets),
+                     PS_BUFFER(self->frequencies), PS_BUFFER(self->sums), PS_U64(self->num_tiles),
+                     PS_U64(PS_TORUS_CHUNK), PS_BUFFER(*table), PS_U64(self->table_points),
+                     PS_U64(self->weighted_tiles)));
     const double sums = (double)(num_patterns * self->num_chunks * self->num_tiles * self->lanes);
     const ps_range fold =
         ps_range_light(device, self->num_tiles, num_patterns, 1, 14 * sums, 4 * sums * real_bytes);

@@ -41,8 +41,7 @@
 #define TURN_POLY5(z, a, b, c, d, e) fma(z, TURN_POLY4(z, b, c, d, e), (realv)(a))
 #define TURN_POLY6(z, a, b, c, d, e, f) fma(z, TURN_POLY5(z, b, c, d, e, f), (realv)(a))
 #define TURN_POLY7(z, a, b, c, d, e, f, g) fma(z, TURN_POLY6(z, b, c, d, e, f, g), (realv)(a))
-#define TURN_POLY8(z, a, b, c, d, e, f, g, h)                                                      \
-    fma(z, TURN_POLY7(z, b, c, d, e, f, g, h), (realv)(a))
+#define TURN_POLY8(z, a, b, c, d, e, f, g, h) fma(z, TURN_POLY7(z, b, c, d, e, f, g, h), (realv)(a))
 #define TURN_POLY9(z, a, b, c, d, e, f, g, h, i)                                                   \
     fma(z, TURN_POLY8(z, b, c, d, e, f, g, h, i), (realv)(a))
 

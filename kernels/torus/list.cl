@@ -11,7 +11,8 @@
  *   offsets      first point of each realization, one more than realizations
  *   frequencies  [DIMENSION][num_tiles * LANES], two's complement words
  *   sums         [realization][chunk][tile][cos high, cos low, sin high, sin low][LANES]
- *   table        [realization][tile][point of the realization][cos, sin][LANES], table_points apart
+ *   table        [realization][tile][point of the realization][cos, sin][LANES], table_points apart;
+ *                never touched without STORE_TABLE
  *
  * In the table only the first weighted_tiles carry the weights (one factor of a product must, the
  * other must not); the sums always do. Numerical note: runs of LIST_RUN points in working
@@ -38,12 +39,12 @@
 #define RIGHT_BEGIN 0
 #endif
 
-/* Adds the points begin .. end - 1 up over the axes given; constants in both calls, so loops unroll. */
-static inline void add_points(__global const ulong *restrict points,
-                              __global const real *restrict weights, const wordv *k,
-                              const realv *k_real, const ulong begin, const ulong end,
-                              const int first_axis, const int last_axis, const int is_weighted,
-                              __global real *restrict row, realv *sums) {
+/* Adds the points begin .. end - 1 up over the axes given, constants in every call, so that loops
+ * unroll. (No restrict here: Oclgrind does not know what inlining makes of it.) */
+static inline void add_points(__global const ulong *points, __global const real *weights,
+                              const wordv *k, const realv *k_real, const ulong begin,
+                              const ulong end, const int first_axis, const int last_axis,
+                              const int is_weighted, __global real *row, realv *sums) {
     for (ulong run = begin; run < end; run += LIST_RUN) {
         const ulong run_end = min(run + LIST_RUN, end);
         realv cos_sum = 0, sin_sum = 0;
@@ -55,28 +56,22 @@ static inline void add_points(__global const ulong *restrict points,
             const realv weight = (realv)weights[j];
             cos_sum = fma(weight, cosine, cos_sum);
             sin_sum = fma(weight, sine, sin_sum);
-#if STORE_TABLE
-            STOREV(is_weighted ? weight * cosine : cosine, 0, row);
-            STOREV(is_weighted ? weight * sine : sine, 1, row);
-            row += 2 * LANES;
-#endif
+            if (STORE_TABLE) {
+                STOREV(is_weighted ? weight * cosine : cosine, 0, row);
+                STOREV(is_weighted ? weight * sine : sine, 1, row);
+                row += 2 * LANES;
+            }
         }
         pair_add(&sums[0], &sums[1], cos_sum);
         pair_add(&sums[2], &sums[3], sin_sum);
     }
 }
 
-__kernel void torus_list(__global const ulong *restrict points,
-                         __global const real *restrict weights,
-                         __global const ulong *restrict offsets,
-                         __global const word *restrict frequencies, __global real *restrict sums,
-                         const ulong num_tiles, const ulong chunk_points
-#if STORE_TABLE
-                         ,
-                         __global real *restrict table, const ulong table_points,
-                         const ulong weighted_tiles
-#endif
-) {
+__kernel void
+torus_list(__global const ulong *restrict points, __global const real *restrict weights,
+           __global const ulong *restrict offsets, __global const word *restrict frequencies,
+           __global real *restrict sums, const ulong num_tiles, const ulong chunk_points,
+           __global real *restrict table, const ulong table_points, const ulong weighted_tiles) {
     const size_t tile = get_global_id(0);
     const size_t chunk = get_global_id(1), num_chunks = get_global_size(1);
     const size_t realization = get_global_id(2);
@@ -95,17 +90,15 @@ __kernel void torus_list(__global const ulong *restrict points,
         k_real[axis] = TO_REALV(AS_SWORDV(k[axis]));
     }
     realv pairs[4] = {(realv)0, (realv)0, (realv)0, (realv)0};
-#if STORE_TABLE
     __global real *row =
         table + ((realization * num_tiles + tile) * table_points + (begin - first)) * 2 * LANES;
-    if (tile < weighted_tiles) {
+    if (!STORE_TABLE) {
+        add_points(points, weights, k, k_real, begin, end, 0, DIMENSION, 1, row, pairs);
+    } else if (tile < weighted_tiles) {
         add_points(points, weights, k, k_real, begin, end, 0, LEFT_AXES, 1, row, pairs);
     } else {
         add_points(points, weights, k, k_real, begin, end, RIGHT_BEGIN, DIMENSION, 0, row, pairs);
     }
-#else
-    add_points(points, weights, k, k_real, begin, end, 0, DIMENSION, 1, sums, pairs);
-#endif
     __global real *out = sums + ((realization * num_chunks + chunk) * num_tiles + tile) * 4 * LANES;
     for (int i = 0; i < 4; i++) {
         STOREV(pairs[i], i, out);
