@@ -49,31 +49,36 @@ double bench_median(double *numbers, size_t num) {
 
 /* ---- peak -------------------------------------------------------------------------------- */
 
-double bench_peak(ps_device *device, ps_precision precision) {
-    enum { ITEMS = 8192, STEPS = 4096, CHAINS = 16, REPEATS = 7 };
+void bench_peak_create(bench_peak *peak, ps_device *device, ps_precision precision) {
+    enum { CPU_ITEMS = 1024, GPU_ITEMS = 1 << 17, STEPS = 4096, CHAINS = 16 };
     const ps_device_limits *limits = ps_device_get_limits(device);
     const unsigned lanes = ps_engine_lanes(limits, precision);
-    const double flops = 2.0 * ITEMS * STEPS * CHAINS * lanes;
-    cl_kernel kernel = NULL;
-    ps_buffer result = {0};
+    const size_t items = limits->has_dedicated_local_memory ? GPU_ITEMS : CPU_ITEMS;
     ps_text options = {0};
-    double best = HUGE_VAL;
+    *peak = (bench_peak){.device = device};
     ps_text_append(&options, "-DPRECISION=%d -DLANES=%u -DSTEPS=%d",
                    precision == PS_SINGLE ? 32 : 64, lanes, STEPS);
-    BENCH_TRY(ps_kernel_create(device, &kernel, "probe/peak.cl", "probe_peak",
+    BENCH_TRY(ps_kernel_create(device, &peak->kernel, "probe/peak.cl", "probe_peak",
                                ps_text_string(&options), error));
-    BENCH_TRY(ps_buffer_create(device, &result, ITEMS * lanes * sizeof(double), "results", error));
-    const ps_range range = ps_range_light(device, ITEMS, 1, 1, flops, 0);
-    for (int i = 0; i < REPEATS; i++) {
-        const double begin = bench_seconds();
-        BENCH_TRY(PS_LAUNCH(device, kernel, &range, error, PS_BUFFER(result), PS_U32(i)));
-        BENCH_TRY(ps_device_finish(device, error));
-        best = fmin(best, bench_seconds() - begin);
-    }
-    clReleaseKernel(kernel);
-    ps_buffer_release(&result);
+    BENCH_TRY(
+        ps_buffer_create(device, &peak->result, items * lanes * sizeof(double), "results", error));
+    peak->range =
+        ps_range_light(device, items, 1, 1, 2.0 * (double)items * STEPS * CHAINS * lanes, 0);
     ps_text_free(&options);
-    return flops / best;
+    bench_peak_run(peak); /* builds the kernel, touches the memory */
+}
+
+double bench_peak_run(bench_peak *peak) {
+    const double begin = bench_seconds();
+    BENCH_TRY(PS_LAUNCH(peak->device, peak->kernel, &peak->range, error, PS_BUFFER(peak->result),
+                        PS_U32(1)));
+    BENCH_TRY(ps_device_finish(peak->device, error));
+    return peak->range.flops / (bench_seconds() - begin);
+}
+
+void bench_peak_destroy(bench_peak *peak) {
+    clReleaseKernel(peak->kernel);
+    ps_buffer_release(&peak->result);
 }
 
 /* ---- jobs -------------------------------------------------------------------------------- */

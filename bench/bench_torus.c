@@ -3,8 +3,8 @@
  *
  *     bench_torus [CASE...]        a case is "grid|list D N K R single|double", K frequencies of a list
  *
- * The engine and the plain loop alternate in one run; the machine may be shared, so minimum and
- * median are given, and the ratio is one of medians. Errors are measured against long double sums:
+ * The engine, the peak and the plain loop alternate in one run; the machine may be shared, so minimum
+ * and median are given, and shares and ratios are medians of those of each repeat. Errors are measured against long double sums:
  * root mean square of |S| - |S_referee| in units of sqrt(N), as --tol counts them.
  */
 #include "bench.h"
@@ -25,6 +25,8 @@ static const char *const default_cases[] = {
     "list 2 4096 4096 32 single",  "list 3 4096 4096 32 single", "list 2 1000000 64 1 single",
     "list 6 4096 4096 32 single",  "list 2 4096 4096 16 double",
 };
+
+enum { REPEATS = 9 };
 
 typedef struct bench_case {
     bool is_grid;
@@ -119,36 +121,46 @@ static double counted_flops(const bench_case *what, const bench_job *job) {
     return points * (what->dimension == 2 ? 8 * k1 * k1 : 4 * (double)job->frequencies.num);
 }
 
-static void run_case(const char *text, ps_device *device, const double *peaks) {
-    enum { REPEATS = 7 };
+typedef struct timing {
+    double seconds[REPEATS], share[REPEATS], ratio[REPEATS];
+    double plain_seconds, plain_error; /* of a (point, frequency) pair */
+} timing;
+
+static timing measure(const bench_case *what, bench_job *job, bench_peak *peak) {
+    timing out = {0};
+    ps_rows rows = {0};
+    const double pairs =
+        (double)job->frequencies.num * (double)what->num_points * (double)what->num_realizations;
+    bench_job_run(job, &rows); /* builds kernels, touches memory */
+    for (int i = 0; i < REPEATS; i++) {
+        const double before = bench_peak_run(peak);
+        out.seconds[i] = bench_job_run(job, &rows);
+        const double after = bench_peak_run(peak);
+        out.share[i] = counted_flops(what, job) / out.seconds[i] / (0.5 * (before + after));
+        out.plain_seconds = plain_loop(job, &out.plain_error);
+        out.ratio[i] = out.plain_seconds * pairs / out.seconds[i];
+    }
+    return out;
+}
+
+static void run_case(const char *text, ps_device *device, bench_peak *peaks) {
     bench_case what;
     bench_job job;
-    ps_rows rows = {0};
-    double times[REPEATS];
-    double plain_times[REPEATS];
-    double plain_error = 0;
     if (!parse_case(text, &what)) {
         bench_die(text);
     }
     bench_job_create(&job, &ps_torus_direct, what.precision, device, make_frequencies(&what),
                      what.num_points, what.num_realizations);
-    bench_job_run(&job, &rows); /* builds kernels, touches memory */
-    for (int i = 0; i < REPEATS; i++) {
-        times[i] = bench_job_run(&job, &rows);
-        plain_times[i] = plain_loop(&job, &plain_error);
-    }
-    const double error = bench_job_error(&job);
-    const double median = bench_median(times, REPEATS);
-    const double plain = bench_median(plain_times, REPEATS);
-    const double pairs =
-        (double)job.frequencies.num * (double)what.num_points * (double)what.num_realizations;
-    const double rate = counted_flops(&what, &job) / median;
+    timing found = measure(&what, &job, &peaks[what.precision]);
+    const double median = bench_median(found.seconds, REPEATS);
+    const double realizations = (double)what.num_realizations;
     const double cores = ps_device_get_limits(device)->compute_units;
+    const double pairs = (double)job.frequencies.num * (double)what.num_points * realizations;
     printf("%-30s %10.3f %10.3f %8.1e %8.1f %6.2f %9.4f | %8.2f %8.1e %8.0f\n", text,
-           times[0] / (double)what.num_realizations * 1e3,
-           median / (double)what.num_realizations * 1e3, error, rate * 1e-9,
-           rate / peaks[what.precision], median / pairs * 1e9 * cores, plain * 1e9, plain_error,
-           plain * pairs / median);
+           found.seconds[0] / realizations * 1e3, median / realizations * 1e3,
+           bench_job_error(&job), counted_flops(&what, &job) / median * 1e-9,
+           bench_median(found.share, REPEATS), median / pairs * 1e9 * cores,
+           found.plain_seconds * 1e9, found.plain_error, bench_median(found.ratio, REPEATS));
     fflush(stdout);
     bench_job_destroy(&job);
 }
@@ -157,12 +169,15 @@ int main(int argc, char **argv) {
     ps_device *device = NULL;
     BENCH_TRY(ps_device_open(&device, getenv("POINTSPEC_DEVICE"), false, error));
     const ps_device_limits *limits = ps_device_get_limits(device);
-    const double peaks[2] = {bench_peak(device, PS_SINGLE),
-                             limits->has_fp64 ? bench_peak(device, PS_DOUBLE) : 1};
+    bench_peak peaks[2];
+    bench_peak_create(&peaks[PS_SINGLE], device, PS_SINGLE);
+    bench_peak_create(&peaks[PS_DOUBLE], device, limits->has_fp64 ? PS_DOUBLE : PS_SINGLE);
     printf("# device: %s (%s), %u compute units\n", limits->name, limits->version,
            limits->compute_units);
-    printf("# measured peak: %.0f GFLOP/s single, %.0f GFLOP/s double\n", peaks[0] * 1e-9,
-           peaks[1] * 1e-9);
+    printf("# measured peak now: %.0f GFLOP/s single, %.0f GFLOP/s double; measured again beside "
+           "every "
+           "run\n",
+           bench_peak_run(&peaks[PS_SINGLE]) * 1e-9, bench_peak_run(&peaks[PS_DOUBLE]) * 1e-9);
     printf("# plain loop: sincosf in C, one thread, no fixed-point phases; ratio of medians to all "
            "cores of the device\n");
     printf("%-30s %10s %10s %8s %8s %6s %9s | %8s %8s %8s\n", "case", "min ms/R", "median", "error",
@@ -171,6 +186,8 @@ int main(int argc, char **argv) {
     for (int i = 0; i < num; i++) {
         run_case(argc > 1 ? argv[i + 1] : default_cases[i], device, peaks);
     }
+    bench_peak_destroy(&peaks[PS_SINGLE]);
+    bench_peak_destroy(&peaks[PS_DOUBLE]);
     ps_device_close(device);
     return 0;
 }
