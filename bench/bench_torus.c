@@ -1,5 +1,5 @@
 /* Time, error, GFLOP/s and share of the measured peak of torus_direct, beside a plain C loop over
- * sincosf as today's tools have it.
+ * cosf and sinf as today's tools have it.
  *
  *     bench_torus [CASE...]        a case is "grid|list D N K R single|double", K frequencies of a list
  *
@@ -178,7 +178,8 @@ int main(int argc, char **argv) {
            "every "
            "run\n",
            bench_peak_run(&peaks[PS_SINGLE]) * 1e-9, bench_peak_run(&peaks[PS_DOUBLE]) * 1e-9);
-    printf("# plain loop: sincosf in C, one thread, no fixed-point phases; ratio of medians to all "
+    printf("# plain loop: cosf and sinf in C, one thread, no fixed-point phases; ratio of medians "
+           "to all "
            "cores of the device\n");
     printf("%-30s %10s %10s %8s %8s %6s %9s | %8s %8s %8s\n", "case", "min ms/R", "median", "error",
            "GFLOP/s", "peak", "ns/pair/c", "plain ns", "error", "ratio");

@@ -47,7 +47,7 @@ static size_t count_bins(const keyed *keys, size_t num) {
 
 static void fill_bins(ps_bins *out, const ps_frequencies *set, const keyed *keys) {
     size_t bin = 0;
-    for (size_t i = 0; i < set->num; i++) {
+    for (size_t i = 0; i < out->num_members; i++) {
         if (i > 0 && keys[i].key != keys[i - 1].key) {
             bin++;
         }
@@ -71,18 +71,20 @@ pspec_status ps_bins_create(ps_bins *out, const ps_frequencies *frequencies, boo
     void *memory = NULL;
     keyed *keys = NULL;
     pspec_status status = PSPEC_OK;
-    *out = (ps_bins){.num_members = frequencies->num};
+    *out = (ps_bins){0};
     PS_TRY_OUT(status, ps_allocate(&memory, frequencies->num, sizeof *keys, "bins", error));
     keys = memory;
     for (size_t i = 0; i < frequencies->num; i++) {
         const int32_t *k = frequencies->vectors + i * frequencies->dimension;
-        keys[i] = (keyed){key_of(frequencies, k, exact_shells), (uint32_t)i};
+        if (ps_frequency_norm2(k, frequencies->dimension) > 0) {
+            keys[out->num_members++] = (keyed){key_of(frequencies, k, exact_shells), (uint32_t)i};
+        }
     }
-    qsort(keys, frequencies->num, sizeof *keys, compare_keys);
-    out->num = count_bins(keys, frequencies->num);
+    qsort(keys, out->num_members, sizeof *keys, compare_keys);
+    out->num = count_bins(keys, out->num_members);
     PS_TRY_OUT(status, ps_allocate(&memory, out->num, sizeof *out->bins, "bins", error));
     out->bins = memory;
-    PS_TRY_OUT(status, ps_allocate(&memory, frequencies->num, sizeof *out->members, "bins", error));
+    PS_TRY_OUT(status, ps_allocate(&memory, out->num_members, sizeof *out->members, "bins", error));
     out->members = memory;
     fill_bins(out, frequencies, keys);
 out:

@@ -37,7 +37,7 @@ static void put_common(header *to, const ps_arguments *arguments) {
     }
 }
 
-static void put_points(header *to, const ps_spectrum *spectrum) {
+static void put_points(header *to, const ps_spectrum *spectrum, const ps_needs *needs) {
     char range[96];
     if (spectrum->smallest_points == spectrum->largest_points) {
         put(to, "points", PS_INTEGER(spectrum->largest_points));
@@ -49,7 +49,7 @@ static void put_points(header *to, const ps_spectrum *spectrum) {
     put(to, "realizations", PS_INTEGER(spectrum->num_realizations));
     if (spectrum->num_realizations == 1) {
         put(to, "standard_error", PS_TEXT("none: one realization"));
-    } else {
+    } else if (!needs->one_realization) {
         put(to, "noise_level_db", PS_NUMBER(-10 * log10((double)spectrum->num_realizations)));
     }
     put(to, "weight_sum", PS_NUMBER(spectrum->mean_weight_sum));
@@ -76,7 +76,7 @@ static void put_job(header *to, const ps_arguments *arguments, const ps_power_jo
     } else {
         put(to, "input_format", PS_TEXT(ps_power_job_source_format(job)));
     }
-    put_points(to, ps_power_job_spectrum(job));
+    put_points(to, ps_power_job_spectrum(job), ps_power_job_needs(job));
     put(to, "dimension", PS_INTEGER(ps_power_job_problem(job)->frequencies->dimension));
     put(to, "max_frequency", PS_INTEGER(ps_power_job_problem(job)->frequencies->max_frequency));
     put(to, "device",

@@ -30,7 +30,7 @@ ps_range ps_range_light(const ps_device *device, size_t first, size_t second, si
 /* On a CPU a work-group runs on one thread and costs PoCL about a quarter of a microsecond: as many
  * items as make it worth that, but enough groups to keep every thread busy to the end. */
 static size_t cpu_group_size(const ps_device *device, double items, double flops) {
-    const double worthwhile_flops = 5e5; /* 2 microseconds of one AVX-512 core */
+    const double worthwhile_flops = 2e6; /* 8 microseconds of one AVX-512 core */
     const double groups_per_unit = 16;
     const double wanted = worthwhile_flops * items / flops;
     const double allowed = items / (groups_per_unit * device->limits.compute_units);

@@ -213,7 +213,7 @@ static pspec_status create(void **state, const ps_problem *problem, ps_precision
     self->layout.group = self->layout.group < batch ? self->layout.group : batch;
     pspec_status status =
         ps_torus_points_create(&self->points, problem->frequencies->dimension, batch,
-                               self->layout.slab, precision, device, error);
+                               self->layout.table_points, precision, device, error);
     if (status == PSPEC_OK) {
         status = self->layout.is_grid ? create_grid(self, error) : create_list(self, error);
     }
@@ -339,8 +339,8 @@ static void describe(const void *state, ps_text *text) {
     const torus_direct *self = state;
     const ps_torus_layout *layout = &self->layout;
     ps_text_append(text, "(torus_direct precision=%s lanes=%u run=%d group=%zu slab=%zu",
-                   ps_precision_name(self->precision), layout->lanes, PS_TORUS_RUN, layout->group,
-                   layout->slab);
+                   ps_precision_name(self->precision), layout->lanes,
+                   layout->is_grid ? PS_TORUS_RUN : PS_TORUS_LIST_RUN, layout->group, layout->slab);
     if (layout->is_grid) {
         ps_text_append(text, " split=%zux%zu tiles=%zu/%zu)", layout->num_left, layout->num_right,
                        self->split.num_pairs, layout->max_pairs);

@@ -2,11 +2,14 @@
 
 #include "engines/torus_split.h"
 
-/* Share of a CPU's cache that the tables of one slab of one realization may take, and those of a
- * group of realizations with their sums. Flat optima between 1/8 and 1/2, and 1/2 and 2, on a 32 MB
- * L3 (Zen 5, 2 cores, PoCL 3.1, 2026-11, bench_torus). */
-static const double slab_share = 0.25;
+/* Share of a CPU's cache that the tables of a group of realizations, one slab of each, may take with
+ * their sums: flat optimum around 1/2 of a 32 MB L3 (Zen 5, 2 cores, PoCL 3.1, 2026-11, bench_torus:
+ * 7 % slower at 1/4, 15 % at 1). */
 static const double group_share = 0.5;
+
+/* Realizations that a slab should leave room for, when there are so many: short slabs of many
+ * realizations keep both cores busy to the end of a launch. Files do not tell how many there are. */
+enum { ROOM_FOR_REALIZATIONS = 16, ROOM_WHEN_UNKNOWN = 4 };
 
 /* On GPUs a group must fill the device: bytes of tables and sums of a group. */
 static const double gpu_group_bytes = 512.0 * 1024 * 1024;
@@ -38,7 +41,11 @@ static double chunk_bytes(const ps_torus_layout *layout) {
 
 static void choose_slab(ps_torus_layout *layout, const ps_problem *problem,
                         const ps_device_limits *limits) {
-    const double fitting = slab_share * cache_bytes(limits) / chunk_bytes(layout);
+    const uint64_t known = problem->num_realizations;
+    const double room = known == 0                      ? ROOM_WHEN_UNKNOWN
+                        : known < ROOM_FOR_REALIZATIONS ? (double)known
+                                                        : ROOM_FOR_REALIZATIONS;
+    const double fitting = group_share * cache_bytes(limits) / room / chunk_bytes(layout);
     const size_t needed = divide_up((size_t)problem->num_points, PS_TORUS_CHUNK);
     size_t chunks = needed < LARGEST_SLAB_CHUNKS ? needed : LARGEST_SLAB_CHUNKS;
     if (fitting < (double)chunks) {
@@ -57,7 +64,8 @@ static uint64_t group_member_bytes(const ps_torus_layout *layout, unsigned dimen
     const uint64_t tables = layout->is_grid ? tiles * layout->table_points * 2 * row : 0;
     const uint64_t products = layout->max_pairs * layout->lanes * 8 * row;
     const uint64_t sums = (layout->num_chunks + 1) * tiles * 4 * row;
-    const uint64_t points = layout->slab * (dimension * sizeof(uint64_t) + 2 * layout->real_bytes);
+    const uint64_t points =
+        layout->table_points * (dimension * sizeof(uint64_t) + 2 * layout->real_bytes);
     return tables + products + sums + points; /* weights have a copy on the host */
 }
 
@@ -88,7 +96,7 @@ static void count_bytes(ps_torus_layout *layout, unsigned dimension) {
         layout->is_grid ? tiles * layout->table_points * 2 * row : 0, /* tables */
         layout->max_pairs * layout->lanes * 8 * row,                  /* sums of products */
         layout->num_chunks * tiles * 4 * row,                         /* sums of chunks */
-        layout->slab * dimension * sizeof(uint64_t),                  /* points */
+        layout->table_points * dimension * sizeof(uint64_t),          /* points */
     };
     const uint64_t power = layout->max_stride * layout->real_bytes;
     layout->bytes_per_realization = power + 2 * layout->real_bytes;

@@ -1,7 +1,7 @@
 /* Pictures of a torus spectrum, drawn by gnuplot: PNG, SVG or PDF by the ending of the path.
  *
  * Panels: the averaged periodogram around DC as an image (2-D only), the radial mean with error
- * bars against normalised frequency, the anisotropy in dB below it.
+ * bars against normalized frequency, the anisotropy in dB below it.
  */
 #ifndef PS_IO_PLOT_H
 #define PS_IO_PLOT_H
@@ -23,7 +23,7 @@ typedef struct ps_plot_curve {
 typedef struct ps_plot_image {
     size_t size;
     const double *power;
-    double unit; /* integer frequencies per unit of normalised frequency, N^(1/2) */
+    double unit; /* integer frequencies per unit of normalized frequency, N^(1/2) */
 } ps_plot_image;
 
 typedef struct ps_plot {

@@ -160,8 +160,8 @@ static void print_image_panel(const ps_plot_raster *raster, FILE *stream) {
           stream);
     print_colour_ticks(raster->maximum, stream);
     fputs("set cblabel 'power' offset -2.2,0\nset xtics out nomirror\nset ytics out nomirror\n"
-          "set xlabel 'normalised frequency k₁ N^{-1/2}'\n"
-          "set ylabel 'normalised frequency k₂ N^{-1/2}' offset 1,0\n",
+          "set xlabel 'normalized frequency k₁ N^{-1/2}'\n"
+          "set ylabel 'normalized frequency k₂ N^{-1/2}' offset 1,0\n",
           stream);
     fprintf(stream, "set xrange [%.9g:%.9g]\nset yrange [%.9g:%.9g]\n", -extent, extent, -extent,
             extent);
@@ -202,7 +202,7 @@ static void print_power_panel(const ps_plot *plot, const layout *where, FILE *st
     fprintf(stream, "set xrange [0:%.9g]\nset yrange [0:%.9g]\n", find_range(plot),
             find_height(plot));
     fputs(where->has_anisotropy ? "set format x ''\nunset xlabel\n"
-                                : "set xlabel 'normalised frequency |k| N^{-1/d}'\n",
+                                : "set xlabel 'normalized frequency |k| N^{-1/d}'\n",
           stream);
     fprintf(stream, "set ylabel 'radial mean power%s' offset 1,0\n",
             any_finite(plot, true) ? " ± standard error" : "");
@@ -227,7 +227,7 @@ static void print_power_panel(const ps_plot *plot, const layout *where, FILE *st
 static void print_anisotropy_panel(const ps_plot *plot, const layout *where, FILE *stream) {
     fprintf(stream, "set bmargin at screen 0.10\nset tmargin at screen %g\n",
             where->middle - 0.015);
-    fputs("set format x '%g'\nset xlabel 'normalised frequency |k| N^{-1/d}'\n"
+    fputs("set format x '%g'\nset xlabel 'normalized frequency |k| N^{-1/d}'\n"
           "set ylabel 'anisotropy / dB'\nset yrange [*:*]\n"
           "set key top right opaque Left reverse width -1 box linecolor '#c0c0c0' samplen 2 "
           "noenhanced\nplot ",

@@ -94,7 +94,7 @@ pspec_status ps_coordinate_refuse(const char *where, const char *text, double co
                        text);
     }
     return ps_fail(error, PSPEC_ERROR_INPUT,
-                   "%s: coordinate %s is outside [0,1); wrap would reduce it mod 1", where, text);
+                   "%s: coordinate %s is outside [0,1); --wrap would reduce it mod 1", where, text);
 }
 
 pspec_status ps_weight_refuse(const char *where, const char *text, ps_error *error) {

@@ -135,9 +135,9 @@ static pspec_status prepare(ps_estimator *self, const pspec_pattern *patterns, s
     return PSPEC_OK;
 }
 
-/* Effective power of every realization, mean over all frequencies: what the error formula needs. */
+/* Effective power of every realization, mean over all frequencies but DC: what the error formula needs. */
 static void measure_powers(ps_estimator *self, const double *bin_powers, size_t num_patterns) {
-    const double num = (double)self->options.problem.frequencies->num;
+    const double num = self->bins.num_members > 0 ? (double)self->bins.num_members : 1;
     for (size_t r = 0; r < num_patterns; r++) {
         double sum = 0;
         for (size_t b = 0; b < self->bins.num; b++) {
