@@ -121,9 +121,9 @@ static double *run_list(const list_case *one, const list_data *data, size_t grou
     test_memory table = test_reals_create(device, one->precision, NULL, data->table_length);
     TEST_LAUNCH(device, kernel, group, one->tiles, data->num_chunks, REALIZATIONS,
                 PS_BUFFER(points.buffer), PS_BUFFER(weights.buffer), PS_BUFFER(offsets.buffer),
-                PS_BUFFER(frequencies.buffer), PS_BUFFER(sums.buffer), PS_U64(one->tiles),
-                PS_U64(one->chunk), PS_BUFFER(table.buffer), PS_U64(data->table_points),
-                PS_U64(one->weighted_tiles));
+                PS_BUFFER(frequencies.buffer), PS_BUFFER(sums.buffer), PS_U64(0),
+                PS_U64(one->tiles), PS_U64(one->chunk), PS_BUFFER(table.buffer),
+                PS_U64(data->table_points), PS_U64(one->weighted_tiles));
     double *values = test_reals_read(&sums, one->precision);
     *table_values = one->has_table ? test_reals_read(&table, one->precision) : NULL;
     test_memory_free_unchanged(&points);

@@ -50,21 +50,6 @@ pspec_status ps_buffer_read(ps_device *device, const ps_buffer *buffer, size_t o
     return PSPEC_OK;
 }
 
-pspec_status ps_buffer_map(ps_device *device, const ps_buffer *buffer, size_t bytes, void **out,
-                           ps_error *error) {
-    cl_int code = CL_SUCCESS;
-    *out =
-        clEnqueueMapBuffer(device->queue, buffer->memory, CL_TRUE, CL_MAP_WRITE_INVALIDATE_REGION,
-                           0, bytes > 0 ? bytes : 1, 0, NULL, NULL, &code);
-    return code == CL_SUCCESS ? PSPEC_OK : ps_device_fail(code, "clEnqueueMapBuffer", error);
-}
-
-pspec_status ps_buffer_unmap(ps_device *device, const ps_buffer *buffer, void *mapped,
-                             ps_error *error) {
-    PS_TRY_CL(clEnqueueUnmapMemObject(device->queue, buffer->memory, mapped, 0, NULL, NULL), error);
-    return PSPEC_OK;
-}
-
 pspec_status ps_buffer_clear(ps_device *device, const ps_buffer *buffer, ps_error *error) {
     const cl_uint zero = 0;
     if (buffer->bytes == 0) {

@@ -68,12 +68,6 @@ pspec_status ps_buffer_write(ps_device *device, const ps_buffer *buffer, size_t 
                              const void *data, size_t bytes, ps_error *error) PS_MUST_CHECK;
 pspec_status ps_buffer_read(ps_device *device, const ps_buffer *buffer, size_t offset_bytes,
                             void *data, size_t bytes, ps_error *error) PS_MUST_CHECK;
-/* Lets the host write the first `bytes` of the buffer in place (nothing of the old contents is there);
- * no copy where device and host share memory. Nothing may be launched before the unmap. */
-pspec_status ps_buffer_map(ps_device *device, const ps_buffer *buffer, size_t bytes, void **out,
-                           ps_error *error) PS_MUST_CHECK;
-pspec_status ps_buffer_unmap(ps_device *device, const ps_buffer *buffer, void *mapped,
-                             ps_error *error) PS_MUST_CHECK;
 pspec_status ps_buffer_clear(ps_device *device, const ps_buffer *buffer,
                              ps_error *error) PS_MUST_CHECK;
 

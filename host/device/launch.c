@@ -112,5 +112,6 @@ pspec_status ps_launch_arguments(ps_device *device, cl_kernel kernel, const ps_r
                                      range->local[0] > 0 ? range->local : NULL, 0, NULL,
                                      device->has_profile ? &event : NULL),
               error);
+    PS_TRY_CL(clFlush(device->queue), error); /* the device works while the host prepares more */
     return device->has_profile ? ps_profile_add(device, kernel, range, event, error) : PSPEC_OK;
 }

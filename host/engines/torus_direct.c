@@ -21,7 +21,7 @@ typedef struct torus_direct {
     ps_split split; /* grids only */
     ps_torus_points points;
     ps_torus_sums sums; /* of the list, or of the left and right factors of the grid */
-    cl_kernel product, product_power;
+    cl_kernel product;
     ps_buffer pairs, products, scales, power;
     void *host_scales;
 } torus_direct;
@@ -55,7 +55,8 @@ static bool applicable(const ps_problem *problem, const ps_device_limits *limits
         return false;
     }
     const ps_torus_layout layout = ps_torus_layout_make(problem, limits, precision);
-    if (layout.largest_buffer > limits->max_allocation_bytes) {
+    if (layout.largest_buffer > limits->max_allocation_bytes ||
+        layout.largest_buffer_per_realization > limits->max_allocation_bytes) {
         *why_not = "needs a larger buffer than the device allows";
         return false;
     }
@@ -82,15 +83,15 @@ static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
     const bool has_corners =
         problem->frequencies->kind == PS_FREQUENCIES_BALL && problem->frequencies->dimension > 1;
     const double share = (double)problem->frequencies->num / (2 * left * right + left + right);
-    return (ps_work){.phases =
-                         num_points * lanes * (double)(layout.left_tiles + layout.right_tiles),
-                     .product_flops = 8 * num_points * box * (has_corners && share < 1 ? share : 1),
-                     .launches = ceil(realizations / (double)layout.group) *
-                                 (double)divide_up((size_t)problem->num_points, layout.slab) *
-                                 (layout.is_grid ? 5 : 3),
-                     .fixed_bytes = (double)layout.fixed_bytes,
-                     .bytes_per_realization = (double)layout.bytes_per_realization,
-                     .largest_buffer_per_realization = (double)layout.bytes_per_realization};
+    return (ps_work){
+        .phases = num_points * lanes * (double)(layout.left_tiles + layout.right_tiles),
+        .product_flops = 8 * num_points * box * (has_corners && share < 1 ? share : 1),
+        .launches = ceil(realizations / (double)layout.group) *
+                    (double)divide_up((size_t)problem->num_points, layout.slab) *
+                    (layout.is_grid ? 2 : 1),
+        .fixed_bytes = (double)layout.fixed_bytes,
+        .bytes_per_realization = (double)layout.bytes_per_realization,
+        .largest_buffer_per_realization = (double)layout.largest_buffer_per_realization};
 }
 
 static double error_of(const ps_problem *problem, ps_precision precision, double mean_power) {
@@ -119,9 +120,6 @@ static void destroy(void *state) {
     if (self->product != NULL) {
         clReleaseKernel(self->product);
     }
-    if (self->product_power != NULL) {
-        clReleaseKernel(self->product_power);
-    }
     ps_buffer_release(&self->pairs);
     ps_buffer_release(&self->products);
     ps_buffer_release(&self->scales);
@@ -135,12 +133,8 @@ static pspec_status create_product(torus_direct *self, ps_error *error) {
     const unsigned lanes = self->layout.lanes;
     const ps_split *split = &self->split;
     ps_torus_options(&options, &self->layout, self->frequencies->dimension);
-    pspec_status status = ps_kernel_create(self->device, &self->product, "torus/product.cl",
-                                           "torus_product", ps_text_string(&options), error);
-    if (status == PSPEC_OK) {
-        status = ps_kernel_create(self->device, &self->product_power, "torus/power.cl",
-                                  "torus_power_product", ps_text_string(&options), error);
-    }
+    const pspec_status status = ps_kernel_create(self->device, &self->product, "torus/product.cl",
+                                                 "torus_product", ps_text_string(&options), error);
     ps_text_free(&options);
     PS_TRY(status);
     PS_TRY(ps_buffer_create(self->device, &self->pairs, split->num_pairs * sizeof *split->pairs,
@@ -165,7 +159,7 @@ static pspec_status create_factor_sums(torus_direct *self, ps_error *error) {
     memcpy((int32_t *)vectors + num_left * dimension, split->right.vectors,
            split->right.num * dimension * sizeof(int32_t));
     const pspec_status status =
-        ps_torus_sums_create(&self->sums, &self->layout, dimension, num, vectors,
+        ps_torus_sums_create(&self->sums, &self->layout, dimension, num, vectors, self->batch,
                              self->layout.group, true, split->left.num_tiles, self->device, error);
     free(vectors);
     return status;
@@ -180,7 +174,7 @@ static pspec_status create_grid(torus_direct *self, ps_error *error) {
 
 static pspec_status create_list(torus_direct *self, ps_error *error) {
     PS_TRY(ps_torus_sums_create(&self->sums, &self->layout, self->frequencies->dimension,
-                                self->frequencies->num, self->frequencies->vectors,
+                                self->frequencies->num, self->frequencies->vectors, self->batch,
                                 self->layout.group, false, 0, self->device, error));
     self->stride = self->sums.num_tiles * self->layout.lanes;
     return PSPEC_OK;
@@ -256,78 +250,84 @@ static pspec_status upload_scales(torus_direct *self, const ps_batch *batch, ps_
                            batch->num_patterns * self->layout.real_bytes, error);
 }
 
-static pspec_status multiply(torus_direct *self, size_t num_patterns, size_t num_points,
-                             bool is_first, ps_error *error) {
+/* Where a slab of a group of realizations stands in its job. */
+typedef struct slab_place {
+    size_t first_row, num_patterns;
+    size_t first_point;
+    bool is_only, is_last; /* slab of its group */
+} slab_place;
+
+static pspec_status multiply(torus_direct *self, const slab_place *at, size_t num_points,
+                             ps_error *error) {
     const ps_split *split = &self->split;
     const double lanes = self->layout.lanes;
     const double products = (double)num_points * (double)split->num_pairs * lanes * lanes;
-    const double tables =
-        (double)num_points * lanes * (double)(split->left.num_tiles + split->right.num_tiles) * 2;
-    const ps_range range = ps_range_heavy(self->device, split->num_pairs, num_patterns, 1,
+    const double tables = (double)num_points * lanes * (double)self->sums.num_tiles * 2;
+    const ps_range range = ps_range_heavy(self->device, split->num_pairs, at->num_patterns, 1,
                                           8 * products, tables * (double)self->layout.real_bytes);
     return PS_LAUNCH(self->device, self->product, &range, error, PS_BUFFER(self->sums.table),
                      PS_BUFFER(self->points.offsets), PS_BUFFER(self->pairs),
                      PS_BUFFER(self->products), PS_U64(split->num_pairs),
                      PS_U64(self->sums.num_tiles), PS_U64(split->left.num_tiles),
-                     PS_U64(self->layout.table_points), PS_U32(is_first));
+                     PS_U64(self->layout.table_points), PS_U32(at->first_point == 0),
+                     PS_U32(at->is_last), PS_BUFFER(self->scales), PS_BUFFER(self->power),
+                     PS_U64(at->first_row), PS_U64(self->stride));
 }
 
-static pspec_status add_slab(torus_direct *self, const ps_batch *batch, size_t first,
+static pspec_status add_slab(torus_direct *self, const ps_batch *group, const slab_place *at,
                              ps_error *error) {
     size_t num_points = 0;
-    const size_t num_patterns = batch->num_patterns;
-    const bool is_first = first == 0;
-    PS_TRY(ps_torus_points_upload(&self->points, self->device, batch, first, &num_points, error));
-    PS_TRY(ps_torus_sums_add(&self->sums, &self->points, num_patterns, num_points, is_first,
-                             self->device, error));
-    if (!self->layout.is_grid) {
-        return PSPEC_OK;
+    PS_TRY(ps_torus_points_upload(&self->points, self->device, group, at->first_point, &num_points,
+                                  error));
+    PS_TRY(ps_torus_sums_add(&self->sums, &self->points, at->first_row, at->num_patterns,
+                             num_points, self->device, error));
+    if (!at->is_only) { /* the next slab overwrites the sums of the chunks */
+        PS_TRY(ps_torus_sums_fold(&self->sums, at->first_row, at->num_patterns,
+                                  at->first_point == 0, self->device, error));
     }
-    return multiply(self, num_patterns, num_points, is_first, error);
+    return self->layout.is_grid ? multiply(self, at, num_points, error) : PSPEC_OK;
 }
 
-static pspec_status finish_powers(torus_direct *self, size_t first_row, size_t num_patterns,
-                                  ps_error *error) {
-    const ps_split *split = &self->split;
-    const bool is_grid = self->layout.is_grid;
-    PS_TRY(ps_torus_sums_power(&self->sums, &self->scales, &self->power, first_row,
-                               is_grid ? ps_split_left_slot(split) : 0, self->stride, num_patterns,
-                               self->device, error));
-    if (!is_grid) {
-        return PSPEC_OK;
-    }
-    const size_t num_left = split->num_pairs * self->layout.lanes;
-    const double values = (double)(num_left * self->layout.lanes * num_patterns);
-    const ps_range range = ps_range_light(self->device, num_left, num_patterns, 1, 20 * values,
-                                          10 * values * (double)self->layout.real_bytes);
-    return PS_LAUNCH(self->device, self->product_power, &range, error, PS_BUFFER(self->products),
-                     PS_BUFFER(self->scales), PS_BUFFER(self->power), PS_U64(num_left),
-                     PS_U64(first_row), PS_U64(self->stride));
-}
-
-/* One group of realizations: slab after slab, then their rows of powers. */
-static pspec_status run_group(torus_direct *self, const ps_batch *group, size_t first_row,
-                              ps_error *error) {
+static size_t longest_pattern(const ps_batch *batch) {
     size_t longest = 1;
-    for (size_t r = 0; r < group->num_patterns; r++) {
-        const size_t num_points = group->patterns[r].num_points;
+    for (size_t r = 0; r < batch->num_patterns; r++) {
+        const size_t num_points = batch->patterns[r].num_points;
         longest = num_points > longest ? num_points : longest;
     }
-    for (size_t first = 0; first < longest; first += self->layout.slab) {
-        PS_TRY(add_slab(self, group, first, error));
+    return longest;
+}
+
+/* One group of realizations, slab after slab. All groups of a batch have as many slabs as its longest
+ * pattern needs, so that one fold serves all of them when that is one. */
+static pspec_status run_group(torus_direct *self, const ps_batch *group, size_t first_row,
+                              size_t num_slabs, ps_error *error) {
+    for (size_t slab = 0; slab < num_slabs; slab++) {
+        const slab_place at = {.first_row = first_row,
+                               .num_patterns = group->num_patterns,
+                               .first_point = slab * self->layout.slab,
+                               .is_only = num_slabs == 1,
+                               .is_last = slab + 1 == num_slabs};
+        PS_TRY(add_slab(self, group, &at, error));
     }
-    return finish_powers(self, first_row, group->num_patterns, error);
+    return PSPEC_OK;
 }
 
 static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_error *error) {
     torus_direct *self = state;
+    const size_t num_slabs = divide_up(longest_pattern(batch), self->layout.slab);
+    const size_t first_slot = self->layout.is_grid ? ps_split_left_slot(&self->split) : 0;
     PS_TRY(upload_scales(self, batch, error));
     for (size_t row = 0; row < batch->num_patterns; row += self->layout.group) {
         const size_t rest = batch->num_patterns - row;
         const ps_batch group = {rest < self->layout.group ? rest : self->layout.group,
                                 batch->patterns + row, batch->scales + row};
-        PS_TRY(run_group(self, &group, row, error));
+        PS_TRY(run_group(self, &group, row, num_slabs, error));
     }
+    if (num_slabs == 1) {
+        PS_TRY(ps_torus_sums_fold(&self->sums, 0, batch->num_patterns, true, self->device, error));
+    }
+    PS_TRY(ps_torus_sums_power(&self->sums, &self->scales, &self->power, first_slot, self->stride,
+                               batch->num_patterns, self->device, error));
     *rows = (ps_rows){.num_rows = batch->num_patterns,
                       .stride = self->stride,
                       .precision = self->precision,

@@ -63,10 +63,9 @@ static uint64_t group_member_bytes(const ps_torus_layout *layout, unsigned dimen
     const uint64_t tiles = layout->left_tiles + layout->right_tiles;
     const uint64_t tables = layout->is_grid ? tiles * layout->table_points * 2 * row : 0;
     const uint64_t products = layout->max_pairs * layout->lanes * 8 * row;
-    const uint64_t sums = (layout->num_chunks + 1) * tiles * 4 * row;
     const uint64_t points =
-        layout->table_points * (dimension * sizeof(uint64_t) + 2 * layout->real_bytes);
-    return tables + products + sums + points; /* weights have a copy on the host */
+        2 * layout->table_points * (dimension * sizeof(uint64_t) + layout->real_bytes);
+    return tables + products + points; /* points and weights are on the host, too */
 }
 
 static void choose_group(ps_torus_layout *layout, const ps_problem *problem,
@@ -95,11 +94,12 @@ static void count_bytes(ps_torus_layout *layout, unsigned dimension) {
     const uint64_t buffers[] = {
         layout->is_grid ? tiles * layout->table_points * 2 * row : 0, /* tables */
         layout->max_pairs * layout->lanes * 8 * row,                  /* sums of products */
-        layout->num_chunks * tiles * 4 * row,                         /* sums of chunks */
         layout->table_points * dimension * sizeof(uint64_t),          /* points */
     };
     const uint64_t power = layout->max_stride * layout->real_bytes;
-    layout->bytes_per_realization = power + 2 * layout->real_bytes;
+    const uint64_t sums = (layout->num_chunks + 1) * tiles * 4 * row;
+    layout->bytes_per_realization = power + sums + 2 * layout->real_bytes;
+    layout->largest_buffer_per_realization = power > sums ? power : sums;
     layout->fixed_bytes = layout->group * group_member_bytes(layout, dimension) +
                           tiles * dimension * row + layout->max_pairs * 2 * sizeof(uint32_t) +
                           layout->lanes * power; /* rows are padded to whole groups of lanes */

@@ -35,6 +35,8 @@ uint64_t ps_fixed_point(double x) {
 static pspec_status create_host(ps_torus_points *out, ps_error *error) {
     void *memory = NULL;
     const size_t count = out->batch * out->slab;
+    PS_TRY(ps_allocate(&memory, count, out->dimension * sizeof(uint64_t), "points", error));
+    out->host_points = memory;
     PS_TRY(ps_allocate(&memory, count, real_bytes(out->precision), "weights", error));
     out->host_weights = memory;
     PS_TRY(ps_allocate(&memory, out->batch + 1, sizeof(uint64_t), "offsets", error));
@@ -79,6 +81,7 @@ pspec_status ps_torus_points_create(ps_torus_points *out, unsigned dimension, si
 }
 
 void ps_torus_points_free(ps_torus_points *points) {
+    free(points->host_points);
     free(points->host_weights);
     free(points->host_offsets);
     ps_buffer_release(&points->points);
@@ -121,8 +124,8 @@ static inline void convert_points(uint64_t *out, const double *points, unsigned 
 }
 
 /* Points first .. of a pattern, in the order of steps, to place `at` on; how many there were. */
-static size_t convert_pattern(ps_torus_points *points, uint64_t *fixed, size_t at,
-                              const pspec_pattern *pattern, size_t first) {
+static size_t convert_pattern(ps_torus_points *points, size_t at, const pspec_pattern *pattern,
+                              size_t first) {
     const uint64_t n = pattern->num_points;
     if (first >= n) {
         return 0;
@@ -130,7 +133,7 @@ static size_t convert_pattern(ps_torus_points *points, uint64_t *fixed, size_t a
     const size_t count = n - first < points->slab ? (size_t)(n - first) : points->slab;
     const uint64_t step = ps_torus_point_step(n);
     uint64_t j = (uint64_t)((wide)first * step % n);
-    uint64_t *out = fixed + at * points->dimension;
+    uint64_t *out = points->host_points + at * points->dimension;
     switch (points->dimension) {
     case 1:
         convert_points(out, pattern->points, 1, count, j, step, n);
@@ -152,31 +155,24 @@ static size_t convert_pattern(ps_torus_points *points, uint64_t *fixed, size_t a
     return count;
 }
 
-static pspec_status upload_coordinates(ps_torus_points *points, ps_device *device,
-                                       const ps_batch *batch, size_t first, size_t *num_points,
-                                       ps_error *error) {
-    void *mapped = NULL;
-    size_t at = 0;
-    PS_TRY(ps_buffer_map(device, &points->points, points->points.bytes, &mapped, error));
-    for (size_t r = 0; r < batch->num_patterns; r++) {
-        points->host_offsets[r] = at;
-        at += convert_pattern(points, mapped, at, &batch->patterns[r], first);
-    }
-    points->host_offsets[batch->num_patterns] = at;
-    *num_points = at;
-    return ps_buffer_unmap(device, &points->points, mapped, error);
-}
-
 pspec_status ps_torus_points_upload(ps_torus_points *points, ps_device *device,
                                     const ps_batch *batch, size_t first, size_t *num_points,
                                     ps_error *error) {
+    size_t at = 0;
     for (size_t r = 0; r < batch->num_patterns; r++) {
         points->has_unit_weights = points->has_unit_weights && batch->patterns[r].weights == NULL;
     }
-    PS_TRY(upload_coordinates(points, device, batch, first, num_points, error));
+    for (size_t r = 0; r < batch->num_patterns; r++) {
+        points->host_offsets[r] = at;
+        at += convert_pattern(points, at, &batch->patterns[r], first);
+    }
+    points->host_offsets[batch->num_patterns] = at;
+    *num_points = at;
+    PS_TRY(ps_buffer_write(device, &points->points, 0, points->host_points,
+                           at * points->dimension * sizeof(uint64_t), error));
     if (!points->has_unit_weights) {
         PS_TRY(ps_buffer_write(device, &points->weights, 0, points->host_weights,
-                               *num_points * real_bytes(points->precision), error));
+                               at * real_bytes(points->precision), error));
     }
     return ps_buffer_write(device, &points->offsets, 0, points->host_offsets,
                            (batch->num_patterns + 1) * sizeof(uint64_t), error);

@@ -11,6 +11,7 @@ typedef struct ps_torus_points {
     size_t batch, slab; /* realizations, points of each at a time */
     ps_precision precision;
     bool has_unit_weights;  /* on the device; so it stays until a pattern has weights */
+    uint64_t *host_points;  /* [batch * slab][dimension]: filled while the device is still busy */
     void *host_weights;     /* [batch * slab] float or double */
     uint64_t *host_offsets; /* [batch + 1] */
     ps_buffer points, weights, offsets;

@@ -53,15 +53,15 @@ out:
     return status;
 }
 
-static pspec_status create_buffers(ps_torus_sums *self, size_t group, ps_device *device,
-                                   ps_error *error) {
+static pspec_status create_buffers(ps_torus_sums *self, size_t batch, size_t group,
+                                   ps_device *device, ps_error *error) {
     const size_t tile_bytes = self->lanes * self->real_bytes;
     const size_t tiles = self->num_tiles;
     PS_TRY(ps_buffer_create(device, &self->frequencies, tiles * self->dimension * tile_bytes,
                             "frequencies", error));
-    PS_TRY(ps_buffer_create(device, &self->sums, group * self->num_chunks * tiles * 4 * tile_bytes,
+    PS_TRY(ps_buffer_create(device, &self->sums, batch * self->num_chunks * tiles * 4 * tile_bytes,
                             "partial sums", error));
-    PS_TRY(ps_buffer_create(device, &self->totals, group * tiles * 4 * tile_bytes, "sums", error));
+    PS_TRY(ps_buffer_create(device, &self->totals, batch * tiles * 4 * tile_bytes, "sums", error));
     if (!self->has_table) {
         return PSPEC_OK;
     }
@@ -72,8 +72,8 @@ static pspec_status create_buffers(ps_torus_sums *self, size_t group, ps_device 
 
 pspec_status ps_torus_sums_create(ps_torus_sums *out, const ps_torus_layout *layout,
                                   unsigned dimension, size_t num, const int32_t *vectors,
-                                  size_t group, bool with_table, size_t weighted_tiles,
-                                  ps_device *device, ps_error *error) {
+                                  size_t batch, size_t group, bool with_table,
+                                  size_t weighted_tiles, ps_device *device, ps_error *error) {
     *out = (ps_torus_sums){.num = num,
                            .num_tiles = (num + layout->lanes - 1) / layout->lanes,
                            .num_chunks = layout->num_chunks,
@@ -84,7 +84,7 @@ pspec_status ps_torus_sums_create(ps_torus_sums *out, const ps_torus_layout *lay
                            .real_bytes = layout->real_bytes,
                            .has_table = with_table};
     PS_TRY(create_kernels(out, layout, device, error));
-    PS_TRY(create_buffers(out, group, device, error));
+    PS_TRY(create_buffers(out, batch, group, device, error));
     return upload_frequencies(out, vectors, device, error);
 }
 
@@ -108,9 +108,9 @@ static double phase_flops(const ps_torus_sums *self) {
     return 3.0 * self->dimension + 9 + (self->real_bytes == sizeof(float) ? 22 : 34);
 }
 
-pspec_status ps_torus_sums_add(ps_torus_sums *self, const ps_torus_points *points,
-                               size_t num_patterns, size_t num_points, bool is_first,
-                               ps_device *device, ps_error *error) {
+pspec_status ps_torus_sums_add(ps_torus_sums *self, const ps_torus_points *points, size_t first_row,
+                               size_t num_patterns, size_t num_points, ps_device *device,
+                               ps_error *error) {
     const double pairs = (double)num_points * (double)self->num;
     const double real_bytes = (double)self->real_bytes;
     const ps_range range = ps_range_heavy(
@@ -118,27 +118,30 @@ pspec_status ps_torus_sums_add(ps_torus_sums *self, const ps_torus_points *point
         (double)num_points * (8.0 * self->dimension + real_bytes) +
             (self->has_table ? 2 * pairs * real_bytes : 0));
     const ps_buffer *table = self->has_table ? &self->table : &self->sums;
-    PS_TRY(PS_LAUNCH(device, self->list, &range, error, PS_BUFFER(points->points),
+    return PS_LAUNCH(device, self->list, &range, error, PS_BUFFER(points->points),
                      PS_BUFFER(points->weights), PS_BUFFER(points->offsets),
-                     PS_BUFFER(self->frequencies), PS_BUFFER(self->sums), PS_U64(self->num_tiles),
-                     PS_U64(PS_TORUS_CHUNK), PS_BUFFER(*table), PS_U64(self->table_points),
-                     PS_U64(self->weighted_tiles)));
-    const double sums = (double)(num_patterns * self->num_chunks * self->num_tiles * self->lanes);
-    const ps_range fold =
-        ps_range_light(device, self->num_tiles, num_patterns, 1, 14 * sums, 4 * sums * real_bytes);
-    return PS_LAUNCH(device, self->fold, &fold, error, PS_BUFFER(self->sums),
-                     PS_BUFFER(self->totals), PS_U64(self->num_tiles), PS_U32(self->num_chunks),
-                     PS_U32(is_first));
+                     PS_BUFFER(self->frequencies), PS_BUFFER(self->sums), PS_U64(first_row),
+                     PS_U64(self->num_tiles), PS_U64(PS_TORUS_CHUNK), PS_BUFFER(*table),
+                     PS_U64(self->table_points), PS_U64(self->weighted_tiles));
+}
+
+pspec_status ps_torus_sums_fold(ps_torus_sums *self, size_t first_row, size_t num_rows,
+                                bool is_first, ps_device *device, ps_error *error) {
+    const double sums = (double)(num_rows * self->num_chunks * self->num_tiles * self->lanes);
+    const ps_range range = ps_range_light(device, self->num_tiles, num_rows, 1, 14 * sums,
+                                          4 * sums * (double)self->real_bytes);
+    return PS_LAUNCH(device, self->fold, &range, error, PS_BUFFER(self->sums),
+                     PS_BUFFER(self->totals), PS_U64(first_row), PS_U64(self->num_tiles),
+                     PS_U32(self->num_chunks), PS_U32(is_first));
 }
 
 pspec_status ps_torus_sums_power(ps_torus_sums *self, const ps_buffer *scales,
-                                 const ps_buffer *power, size_t first_row, size_t first_slot,
-                                 size_t stride, size_t num_patterns, ps_device *device,
-                                 ps_error *error) {
-    const double num = (double)(self->num * num_patterns);
-    const ps_range range = ps_range_light(device, self->num_tiles, num_patterns, 1, 6 * num,
+                                 const ps_buffer *power, size_t first_slot, size_t stride,
+                                 size_t num_rows, ps_device *device, ps_error *error) {
+    const double num = (double)(self->num * num_rows);
+    const ps_range range = ps_range_light(device, self->num_tiles, num_rows, 1, 6 * num,
                                           5 * num * (double)self->real_bytes);
     return PS_LAUNCH(device, self->power, &range, error, PS_BUFFER(self->totals),
                      PS_BUFFER(*scales), PS_BUFFER(*power), PS_U64(self->num_tiles),
-                     PS_U64(first_row), PS_U64(first_slot), PS_U64(stride));
+                     PS_U64(first_slot), PS_U64(stride));
 }

@@ -10,7 +10,7 @@
  *   weights      one per point
  *   offsets      first point of each realization, one more than realizations
  *   frequencies  [DIMENSION][num_tiles * LANES], two's complement words
- *   sums         [realization][chunk][tile][cos high, cos low, sin high, sin low][LANES]
+ *   sums         [row][chunk][tile][cos high, cos low, sin high, sin low][LANES], rows first_row ..
  *   table        [realization][tile][point of the realization][cos, sin][LANES], table_points apart;
  *                never touched without STORE_TABLE
  *
@@ -67,11 +67,13 @@ static inline void add_points(__global const ulong *points, __global const real 
     }
 }
 
-__kernel void
-torus_list(__global const ulong *restrict points, __global const real *restrict weights,
-           __global const ulong *restrict offsets, __global const word *restrict frequencies,
-           __global real *restrict sums, const ulong num_tiles, const ulong chunk_points,
-           __global real *restrict table, const ulong table_points, const ulong weighted_tiles) {
+__kernel void torus_list(__global const ulong *restrict points,
+                         __global const real *restrict weights,
+                         __global const ulong *restrict offsets,
+                         __global const word *restrict frequencies, __global real *restrict sums,
+                         const ulong first_row, const ulong num_tiles, const ulong chunk_points,
+                         __global real *restrict table, const ulong table_points,
+                         const ulong weighted_tiles) {
     const size_t tile = get_global_id(0);
     const size_t chunk = get_global_id(1), num_chunks = get_global_size(1);
     const size_t realization = get_global_id(2);
@@ -99,7 +101,8 @@ torus_list(__global const ulong *restrict points, __global const real *restrict 
     } else {
         add_points(points, weights, k, k_real, begin, end, RIGHT_BEGIN, DIMENSION, 0, row, pairs);
     }
-    __global real *out = sums + ((realization * num_chunks + chunk) * num_tiles + tile) * 4 * LANES;
+    __global real *out =
+        sums + (((first_row + realization) * num_chunks + chunk) * num_tiles + tile) * 4 * LANES;
     for (int i = 0; i < 4; i++) {
         STOREV(pairs[i], i, out);
     }

@@ -17,6 +17,8 @@
  *   pairs    [pair]: left tile, right tile (pairs that nobody needs are not launched)
  *   sums     [realization][pair][left in tile][cc, sc, cs, ss][high, low][LANES], begun anew when
  *            is_first is set, else continued
+ *   power    [row][stride], written when is_last is set: row first_row + realization gets
+ *            scales[row] |S|^2 in the slots [pair][left in tile][l + r, l - r][LANES]
  */
 #include "shared/real.h"
 #include "shared/pair.h"
@@ -30,12 +32,26 @@
 #define STRIP LANES
 #endif
 
+/* Powers of l + r and l - r for one left frequency, from its finished sums. */
+static inline void store_powers(__global const real *sum, const realv scale, __global real *out) {
+    const realv cc = LOADV(0, sum), cc_low = LOADV(1, sum);
+    const realv sc = LOADV(2, sum), sc_low = LOADV(3, sum);
+    const realv cs = LOADV(4, sum), cs_low = LOADV(5, sum);
+    const realv ss = LOADV(6, sum), ss_low = LOADV(7, sum);
+    const realv plus_re = (cc - ss) + (cc_low - ss_low), plus_im = (sc + cs) + (sc_low + cs_low);
+    const realv minus_re = (cc + ss) + (cc_low + ss_low), minus_im = (sc - cs) + (sc_low - cs_low);
+    STOREV(fma(plus_re, plus_re, plus_im * plus_im) * scale, 0, out);
+    STOREV(fma(minus_re, minus_re, minus_im * minus_im) * scale, 1, out);
+}
+
 __kernel void torus_product(__global const real *restrict table,
                             __global const ulong *restrict offsets,
                             __global const uint2 *restrict pairs, __global real *restrict sums,
                             const ulong num_pairs, const ulong num_tiles,
                             const ulong num_left_tiles, const ulong table_points,
-                            const uint is_first) {
+                            const uint is_first, const uint is_last,
+                            __global const real *restrict scales, __global real *restrict power,
+                            const ulong first_row, const ulong stride) {
     const size_t pair = get_global_id(0);
     const size_t realization = get_global_id(1);
     if (pair >= num_pairs) {
@@ -86,6 +102,13 @@ __kernel void torus_product(__global const real *restrict table,
                 STOREV(high, 0, out);
                 STOREV(low, 1, out);
             }
+        }
+    }
+    if (is_last) {
+        const size_t row = first_row + realization;
+        __global real *out = power + row * stride + pair * LANES * 2 * LANES;
+        for (int left = 0; left < LANES; left++) {
+            store_powers(tile_sums + left * 8 * LANES, (realv)scales[row], out + left * 2 * LANES);
         }
     }
 }
