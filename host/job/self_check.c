@@ -5,8 +5,8 @@
 
 #include <math.h>
 
-/* Entries to look at, and the most long double terms to spend on them (about 60 ns each). */
-enum { MOST_ENTRIES = 8, MOST_TERMS = 1 << 21 };
+/* Entries to look at, and the most long double terms to spend on them (about 190 ns each). */
+enum { MOST_ENTRIES = 8, MOST_TERMS = 1 << 20 };
 
 /* How far one entry may lie outside the engine's root-mean-square error before something is wrong:
  * rounding errors are sums of many small ones, and 8 standard deviations do not happen. */

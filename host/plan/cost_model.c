@@ -9,12 +9,12 @@ static const struct {
     double phases_per_flop; /* cosine-sine pairs per nominal flop: torus/list.cl with its table */
     double product_share;   /* share of the nominal peak that torus/product.cl reaches */
 } device_rates[2] = {
-    [PS_SINGLE] = {0.017, 1.20},
-    [PS_DOUBLE] = {0.014, 1.20},
+    [PS_SINGLE] = {0.010, 1.15},
+    [PS_DOUBLE] = {0.0133, 1.14},
 };
 
 /* Long double cosine and sine of one (point, frequency) pair on one core, same machine. */
-static const double host_seconds_per_phase = 60e-9;
+static const double host_seconds_per_phase = 190e-9;
 
 /* Enqueueing one kernel: 10 microseconds cover PoCL and GPU drivers. */
 static const double seconds_per_launch = 10e-6;
