@@ -72,7 +72,11 @@ static void put_job(header *to, const ps_arguments *arguments, const ps_power_jo
     const ps_candidate *chosen = ps_power_job_plan(job)->chosen;
     ps_text skipped = {0};
     if (arguments->num_samplers > 0) {
+        const char *note = ps_sampler_note(ps_power_job_sampler(job));
         put(to, "sampler", PS_TEXT(arguments->samplers[index]));
+        if (note != NULL) {
+            put(to, "sampler_note", PS_TEXT(note));
+        }
     } else {
         put(to, "input_format", PS_TEXT(ps_power_job_source_format(job)));
     }

@@ -372,6 +372,10 @@ const ps_device_limits *ps_power_job_limits(const ps_power_job *job) {
     return job->device != NULL ? ps_device_get_limits(job->device) : NULL;
 }
 
+const ps_sampler_request *ps_power_job_sampler(const ps_power_job *job) {
+    return job->question->sampler;
+}
+
 const char *ps_power_job_source_format(const ps_power_job *job) {
     return ps_source_format(job->source);
 }

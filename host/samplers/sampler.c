@@ -67,6 +67,10 @@ pspec_status ps_sampler_generate(const ps_sampler_request *request, uint64_t rea
     return PSPEC_OK;
 }
 
+const char *ps_sampler_note(const ps_sampler_request *request) {
+    return request->sampler->note != NULL ? request->sampler->note(request) : NULL;
+}
+
 bool ps_sampler_has_constant_power(const ps_sampler_request *request) {
     return request->sampler->is_deterministic(request);
 }

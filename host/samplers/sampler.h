@@ -45,6 +45,8 @@ struct ps_sampler {
 
     /* Every realization the same points, before homogenize (may depend on the parameters). */
     bool (*is_deterministic)(const ps_sampler_request *);
+    /* What the header of a result should say of this request, or NULL. The member may be NULL. */
+    const char *(*note)(const ps_sampler_request *);
     /* Are number of points, dimension and parameter values admissible? NULL: always. */
     pspec_status (*check)(const ps_sampler_request *, ps_error *);
     /* Writes realization r: points [num_points][dimension], each in [0,1). */
@@ -66,6 +68,9 @@ pspec_status ps_sampler_check(const ps_sampler_request *request, ps_error *error
 /* Writes realization r of the request, random shift included when it is homogenized. */
 pspec_status ps_sampler_generate(const ps_sampler_request *request, uint64_t realization,
                                  double *points, ps_error *error) PS_MUST_CHECK;
+
+/* The sampler's note on this request, NULL when there is nothing to say. Static storage. */
+const char *ps_sampler_note(const ps_sampler_request *request);
 
 /* True when all realizations have the same power spectrum: deterministic points, shifted or not
  * (a shift of the torus leaves P unchanged, mathematics.md 1.1). */

@@ -78,6 +78,11 @@ static pspec_status generate(const ps_sampler_request *request, uint64_t realiza
     return PSPEC_OK;
 }
 
+/* The first two dimensions are the same in every table of direction numbers, the others are not. */
+static const char *note(const ps_sampler_request *request) {
+    return request->dimension > 2 ? "direction numbers new-joe-kuo-6 (Joe and Kuo 2008)" : NULL;
+}
+
 const ps_sampler ps_sampler_sobol = {
     .name = "sobol",
     .summary = "Sobol' sequence; a net when N is a power of 2",
@@ -85,6 +90,7 @@ const ps_sampler ps_sampler_sobol = {
     .maximum_dimension = PS_MAX_DIMENSION,
     .parameters = {PS_NET_SCRAMBLE_PARAMETER},
     .is_deterministic = is_deterministic,
+    .note = note,
     .check = check,
     .generate = generate,
 };
