@@ -16,15 +16,17 @@ enum { M = 2000 };
 
 static cJSON *tables;
 
-/* The frequencies as a file, since that is how a job takes them. */
-static void write_list(const char *path, const cJSON *k) {
+/* The frequency as a file, `times` lines of it, since that is how a job takes a list. */
+static void write_list(const char *path, const cJSON *k, int times) {
     FILE *file = fopen(path, "w");
     const cJSON *component = NULL;
     assert_non_null(file);
-    cJSON_ArrayForEach(component, k) {
-        fprintf(file, "%d ", (int)component->valuedouble);
+    for (int i = 0; i < times; i++) {
+        cJSON_ArrayForEach(component, k) {
+            fprintf(file, "%d ", (int)component->valuedouble);
+        }
+        fprintf(file, "\n");
     }
-    fprintf(file, "\n");
     assert_int_equal(fclose(file), 0);
 }
 
@@ -33,7 +35,7 @@ static ps_mean run_job(const char *sampler, size_t num_points, unsigned dimensio
     const int descriptor = mkstemp(path);
     assert_true(descriptor >= 0);
     close(descriptor);
-    write_list(path, k);
+    write_list(path, k, 1);
     ps_sampler_request request = {.num_points = num_points, .dimension = dimension, .seed = 1};
     assert_ok(ps_sampler_parse(&request, sampler, error));
     const ps_power_question question = {
@@ -160,7 +162,7 @@ static void coherent_sets_are_planned_twice(void **state) {
     const int descriptor = mkstemp(path);
     assert_true(descriptor >= 0);
     close(descriptor);
-    write_list(path, k);
+    write_list(path, k, 64); /* enough to fill the lanes: single is cheaper then */
     assert_ok(ps_sampler_parse(&request, "regular", error));
     ps_power_question question = {.sampler = &request,
                                   .num_realizations = 1,
