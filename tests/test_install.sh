@@ -6,6 +6,7 @@ source_dir=$1 build_dir=$2 compiler=$3
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 consume=$source_dir/tests/consume
+example=$source_dir/docs/examples/many_realizations.c
 prefix=$scratch/moved
 
 cmake --install "$build_dir" --prefix "$scratch/installed" >/dev/null
@@ -23,7 +24,7 @@ check_program() { # shared|static PROGRAM
     else
         ! needs_shared "$2" || { echo "$2 uses the shared library" >&2; return 1; }
     fi
-    LD_LIBRARY_PATH=$libdir "$2"
+    LD_LIBRARY_PATH=$libdir "$2" | grep -q "^[0-9]" || { echo "$2 prints no spectrum" >&2; return 1; }
 }
 
 cmake -S "$consume" -B "$scratch/cmake" -DCMAKE_C_COMPILER="$compiler" -DCMAKE_PREFIX_PATH="$prefix" \
@@ -41,11 +42,11 @@ words() { # pkg-config's answer as words, one per line
 mapfile -t cflags < <(words --cflags)
 mapfile -t libs < <(words --libs)
 mapfile -t static_libs < <(words --static --libs)
-"$compiler" -std=c11 -Wall -Werror "${cflags[@]}" "$consume/consume.c" "${libs[@]}" \
+"$compiler" -std=c11 -Wall -Werror "${cflags[@]}" "$example" "${libs[@]}" \
     -o "$scratch/pc_shared"
 check_program shared "$scratch/pc_shared"
 echo "installed: pkg-config, shared"
-"$compiler" -std=c11 -Wall -Werror "${cflags[@]}" "$consume/consume.c" -Wl,--as-needed \
+"$compiler" -std=c11 -Wall -Werror "${cflags[@]}" "$example" -Wl,--as-needed \
     -Wl,--whole-archive "$libdir/libpointspec.a" -Wl,--no-whole-archive "${static_libs[@]}" \
     -o "$scratch/pc_static"
 check_program static "$scratch/pc_static"
