@@ -205,9 +205,9 @@ static pspec_status create(void **state, const ps_problem *problem, ps_precision
     self->batch = batch;
     self->layout = ps_torus_layout_make(problem, ps_device_get_limits(device), precision);
     self->layout.group = self->layout.group < batch ? self->layout.group : batch;
-    pspec_status status =
-        ps_torus_points_create(&self->points, problem->frequencies->dimension, batch,
-                               self->layout.table_points, precision, device, error);
+    pspec_status status = ps_torus_points_create(&self->points, problem->frequencies->dimension,
+                                                 batch, self->layout.table_points, precision,
+                                                 self->layout.is_grid, device, error);
     if (status == PSPEC_OK) {
         status = self->layout.is_grid ? create_grid(self, error) : create_list(self, error);
     }

@@ -65,11 +65,14 @@ static pspec_status upload_unit_weights(ps_torus_points *points, ps_device *devi
 }
 
 pspec_status ps_torus_points_create(ps_torus_points *out, unsigned dimension, size_t batch,
-                                    size_t slab, ps_precision precision, ps_device *device,
-                                    ps_error *error) {
+                                    size_t slab, ps_precision precision, bool far_apart,
+                                    ps_device *device, ps_error *error) {
     const size_t count = batch * slab;
-    *out = (ps_torus_points){
-        .dimension = dimension, .batch = batch, .slab = slab, .precision = precision};
+    *out = (ps_torus_points){.dimension = dimension,
+                             .batch = batch,
+                             .slab = slab,
+                             .precision = precision,
+                             .far_apart = far_apart};
     PS_TRY(create_host(out, error));
     PS_TRY(ps_buffer_create(device, &out->points, count * dimension * sizeof(uint64_t), "points",
                             error));
@@ -131,7 +134,7 @@ static size_t convert_pattern(ps_torus_points *points, size_t at, const pspec_pa
         return 0;
     }
     const size_t count = n - first < points->slab ? (size_t)(n - first) : points->slab;
-    const uint64_t step = ps_torus_point_step(n);
+    const uint64_t step = points->far_apart ? ps_torus_point_step(n) : 1;
     uint64_t j = (uint64_t)((wide)first * step % n);
     uint64_t *out = points->host_points + at * points->dimension;
     switch (points->dimension) {

@@ -10,6 +10,7 @@ typedef struct ps_torus_points {
     unsigned dimension;
     size_t batch, slab; /* realizations, points of each at a time */
     ps_precision precision;
+    bool far_apart;         /* order of the points, see ps_torus_point_step */
     bool has_unit_weights;  /* on the device; so it stays until a pattern has weights */
     uint64_t *host_points;  /* [batch * slab][dimension]: filled while the device is still busy */
     void *host_weights;     /* [batch * slab] float or double */
@@ -18,14 +19,14 @@ typedef struct ps_torus_points {
 } ps_torus_points;
 
 pspec_status ps_torus_points_create(ps_torus_points *out, unsigned dimension, size_t batch,
-                                    size_t slab, ps_precision precision, ps_device *device,
-                                    ps_error *error) PS_MUST_CHECK;
+                                    size_t slab, ps_precision precision, bool far_apart,
+                                    ps_device *device, ps_error *error) PS_MUST_CHECK;
 void ps_torus_points_free(ps_torus_points *points);
 
 /* Points go to the device in steps of about N / golden ratio, so that the points of a run of the
  * kernels lie far apart whatever the order of the pattern: in sorted patterns, neighbours would add up
  * in step at low frequencies and round the same way. A step without common factor with n visits every
- * point once. */
+ * point once. (Runs of lists are so short that they do without, and read large patterns in order.) */
 uint64_t ps_torus_point_step(uint64_t n);
 
 /* Uploads points first .. first + slab - 1, in that order, of every pattern of the batch (fewer or
