@@ -118,8 +118,9 @@ double bench_job_run(bench_job *job, ps_rows *rows) {
     const double begin = bench_seconds();
     for (size_t done = 0; done < job->num_realizations; done += job->batch) {
         const size_t rest = job->num_realizations - done;
-        const ps_batch batch = {rest < job->batch ? rest : job->batch, job->patterns + done,
-                                job->scales + done};
+        const ps_batch batch = {.num_patterns = rest < job->batch ? rest : job->batch,
+                                .patterns = job->patterns + done,
+                                .scales = job->scales + done};
         BENCH_TRY(job->engine->run(job->state, &batch, rows, error));
     }
     BENCH_TRY(ps_device_finish(job->device, error));
@@ -142,7 +143,7 @@ static double read_entry(bench_job *job, const ps_rows *rows, uint32_t slot) {
 double bench_job_error(bench_job *job) {
     enum { TERMS = 1 << 22, MOST_SAMPLES = 2000 }; /* long double terms: about a quarter second */
     ps_rows rows = {0};
-    const ps_batch batch = {1, job->patterns, job->scales};
+    const ps_batch batch = {.num_patterns = 1, .patterns = job->patterns, .scales = job->scales};
     ps_random random = ps_random_init(1, PS_STREAM_COORDINATES, 1);
     size_t num_samples = TERMS / job->num_points;
     num_samples = num_samples < 1 ? 1 : num_samples > MOST_SAMPLES ? MOST_SAMPLES : num_samples;

@@ -114,7 +114,7 @@ set logscale xy
 set format y "%g"
 set grid linecolor "#dddddd"
 set xlabel "points N"
-set ylabel "ms per realization, best of 7"
+set ylabel "ms per realization, best of 9"
 set yrange [0.005:200]
 set title "torus_direct on $(sed -n 's/^# device: \([^(]*\) (.*, /\1, /p' bench.txt)" noenhanced
 set key left top noenhanced

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# update_tables.sh BUILD_DIR [TABLE...]: fills the tables of docs/*.md with what the programs of
-# BUILD_DIR print (build/release has benchmarks and tests alike). A table stands between a line
-# "<!-- table: NAME -->" and a line "<!-- end -->"; NAME is a function table_NAME below. Times want a
-# quiet machine. Without TABLE all are made; a program that is not built leaves its table alone.
+# update_tables.sh BUILD_DIR [TABLE...]: fills the tables of README.md and docs/*.md with what the
+# programs of BUILD_DIR print (build/release has benchmarks and tests alike). A table stands between a
+# line "<!-- table: NAME -->" and a line "<!-- end -->"; NAME is a function table_NAME below. Times want
+# a quiet machine. Without TABLE all are made; a program that is not built leaves its table alone.
 set -euo pipefail
 docs=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
+pages=("$docs/../README.md" "$docs"/*.md)
 (($# >= 1)) || { sed -n '2,5s/^# //p' "$0" >&2; exit 2; }
 build=$(realpath "$1")
 shift
@@ -22,6 +23,25 @@ bench() { # NAME
 table_bench_torus() { bench torus; }
 table_bench_reading() { bench reading; }
 table_bench_memory() { bench memory; }
+
+# The examples of README.md: the first rows of jittered sampling, a list, a plan from the first skip on.
+power_rows() { # ARGUMENTS...
+    "$build/pointspec" power --quiet "$@" | grep -v '^#'
+}
+table_jittered() {
+    need pointspec || return 1
+    power_rows --sampler jittered -n 1024 -m 1000 -k 64 | sed -n 1,4p
+    echo ...
+}
+table_list() {
+    need pointspec || return 1
+    printf '1 1 0\n0 7 7\n100000000 3 -5\n' >"$scratch/frequencies.txt"
+    power_rows --sampler halton -n 1000 -d 3 --frequencies "$scratch/frequencies.txt"
+}
+table_plan() {
+    need pointspec || return 1
+    "$build/pointspec" plan power --sampler white -n 65536 -m 100 -k 256 | sed -n '/^# skip/,$p'
+}
 
 # The lines of the tolerance test. Its frequencies are, in the order of the lines of one shape, a grid
 # with K = 12, 100 of |k_i| <= 1e6 and 100 of |k_i| <= 2^28.
@@ -93,7 +113,7 @@ fill() { # FILE NAME TEXT
 }
 
 if (($# == 0)); then
-    mapfile -t names < <(sed -n 's/^<!-- table: \(.*\) -->$/\1/p' "$docs"/*.md | sort -u)
+    mapfile -t names < <(sed -n 's/^<!-- table: \(.*\) -->$/\1/p' "${pages[@]}" | sort -u)
     set -- "${names[@]}"
 fi
 for name in "$@"; do
@@ -102,5 +122,5 @@ for name in "$@"; do
     "table_$name" >"$scratch/$name" || { echo "update_tables: $name not made" >&2; continue; }
     while IFS= read -r file; do
         fill "$file" "$name" "$scratch/$name"
-    done < <(grep -lx "<!-- table: $name -->" "$docs"/*.md)
+    done < <(grep -lx "<!-- table: $name -->" "${pages[@]}")
 done

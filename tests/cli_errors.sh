@@ -159,7 +159,7 @@ refuses 2 '"csv" is not one of utk-text, npy' sample "${white[@]}" --format csv
 
 # ---- devices
 refuses 1 'no OpenCL device fits "quantum"' devices --device quantum
-refuses 2 'device index: 99 is not between' devices --device 99
+refuses 1 'no OpenCL device fits "99"' devices --device 99
 refuses 2 '"npy" is not one of csv, json' devices --format npy
 refuses 2 'no file is read' devices list
 POINTSPEC_DEVICE=quantum refuses 1 'no OpenCL device fits "quantum"' devices

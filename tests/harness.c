@@ -116,7 +116,8 @@ double *test_run_engine(const ps_engine *engine, ps_precision precision, ps_devi
     engine->get_slots(state, slots);
     for (size_t done = 0; done < num_patterns; done += batch) {
         const size_t count = num_patterns - done < batch ? num_patterns - done : batch;
-        const ps_batch some = {count, patterns + done, scales + done};
+        const ps_batch some = {
+            .num_patterns = count, .patterns = patterns + done, .scales = scales + done};
         ps_rows rows = {0};
         assert_ok(engine->run(state, &some, &rows, error));
         const size_t bytes =

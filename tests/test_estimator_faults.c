@@ -111,7 +111,8 @@ static pspec_status run_wrongly(void *state, const ps_batch *batch, ps_rows *row
     for (size_t r = 0; r < batch->num_patterns; r++) {
         scales[r] = batch->scales[r] * 1.01;
     }
-    const ps_batch wrong = {batch->num_patterns, batch->patterns, scales};
+    ps_batch wrong = *batch;
+    wrong.scales = scales;
     return ps_torus_direct.run(state, &wrong, rows, error);
 }
 

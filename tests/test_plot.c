@@ -1,11 +1,16 @@
 /* Pictures: drawn for every terminal and shape of data, and refused with a sentence otherwise. */
 #include "io/plot.h"
+#include "io/plot_script.h"
 #include "test_folder.h"
 
+#include <errno.h>
 #include <math.h>
 #include <setjmp.h>
+#include <signal.h>
 #include <stdarg.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 
 #include <cmocka.h>
 
@@ -106,17 +111,112 @@ static void names_the_package_without_gnuplot(void **state) {
     assert_int_equal(test_folder_count(*state, false), 0);
 }
 
-static void passes_on_what_gnuplot_says(void **state) {
+/* A program of ours under the name gnuplot. */
+static void make_gnuplot(const test_folder *folder, const char *script) {
     char path[TEST_PATH_BYTES];
-    ps_error error = {0};
-    const char script[] =
-        "#!/bin/sh\necho 'line 7: no terminal' >&2\necho half a picture\nexit 3\n";
-    test_path(*state, "gnuplot", path);
+    test_path(folder, "gnuplot", path);
     assert_true(test_write_file(path, script, strlen(script)));
     assert_int_equal(chmod(path, 0700), 0);
+}
+
+static void passes_on_what_gnuplot_says(void **state) {
+    ps_error error = {0};
+    make_gnuplot(*state,
+                 "#!/bin/sh\necho 'line 7: no terminal' >&2\necho half a picture\nexit 3\n");
     assert_int_equal(draw_with_path(*state, &error), PSPEC_ERROR_IO);
     assert_string_equal(error.message, "gnuplot could not draw the picture: line 7: no terminal");
     assert_int_equal(test_folder_count(*state, false), 1);
+}
+
+/* Neither success without a whole picture nor a whole picture without success is enough. */
+static void refuses_half_a_picture(void **state) {
+    static const struct {
+        const char *script, *said;
+    } cases[] = {
+        {"#!/bin/sh\n", "the picture is not complete"},
+        {"#!/bin/sh\nprintf '\\211PNG and so on IEND\\256B`'\n", "the picture is not complete"},
+        {"#!/bin/sh\nprintf '\\211PNG IEND\\256B`\\202'\nexit 1\n", "it says nothing more"},
+        {"#!/bin/sh\nprintf '\\211PNG IEND\\256B`\\202'\n", NULL},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        ps_error error = {0};
+        make_gnuplot(*state, cases[i].script);
+        const pspec_status status = draw_with_path(*state, &error);
+        assert_int_equal(status, cases[i].said != NULL ? PSPEC_ERROR_IO : PSPEC_OK);
+        if (cases[i].said != NULL) {
+            assert_non_null(strstr(error.message, cases[i].said));
+        }
+        assert_int_equal(test_folder_count(*state, true), cases[i].said != NULL ? 1 : 2);
+        assert_true(waitpid(-1, NULL, WNOHANG) == -1 && errno == ECHILD);
+    }
+}
+
+/* In a process of its own, since the limit cannot be lifted again by everyone. The limit is above
+ * the script and below the picture. */
+static int draw_beyond_limit(const char *path) {
+    enum { LIMIT = 8192 };
+    const struct rlimit limit = {LIMIT, LIMIT};
+    example data;
+    ps_error error = {0};
+    make_example(&data, 2, false, true);
+    signal(SIGXFSZ, SIG_IGN);
+    if (setrlimit(RLIMIT_FSIZE, &limit) != 0) {
+        return 1;
+    }
+    if (ps_plot_write(path, &data.plot, &error) != PSPEC_ERROR_IO) {
+        return 2;
+    }
+    if (strstr(error.message, "cannot write ") == NULL ||
+        strstr(error.message, "File too large") == NULL) {
+        return 3;
+    }
+    return waitpid(-1, NULL, WNOHANG) == -1 && errno == ECHILD ? 0 : 4;
+}
+
+/* cairo does not notice, and gnuplot ends well. */
+static void a_disk_that_fills_leaves_no_picture(void **state) {
+    static const char *const names[] = {"a.png", "a.svg", "a.pdf"};
+    if (!has_gnuplot()) {
+        skip();
+    }
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        char path[TEST_PATH_BYTES];
+        int result = 0;
+        test_path(*state, names[i], path);
+        const pid_t child = fork();
+        assert_true(child >= 0);
+        if (child == 0) {
+            _exit(draw_beyond_limit(path));
+        }
+        assert_int_equal(waitpid(child, &result, 0), child);
+        assert_true(WIFEXITED(result));
+        assert_int_equal(WEXITSTATUS(result), 0);
+        assert_int_equal(test_folder_count(*state, false), 0);
+    }
+}
+
+static bool script_contains(const ps_plot *plot, const char *what) {
+    char *script = NULL;
+    size_t length = 0;
+    ps_error error = {0};
+    FILE *const stream = open_memstream(&script, &length);
+    assert_non_null(stream);
+    assert_int_equal(ps_plot_write_script(plot, "svg", stream, &error), PSPEC_OK);
+    assert_int_equal(fclose(stream), 0);
+    const bool contains = strstr(script, what) != NULL;
+    free(script);
+    return contains;
+}
+
+/* One realization has an anisotropy but no level of noise. */
+static void no_key_without_something_in_it(void **state) {
+    example data;
+    (void)state;
+    make_example(&data, 1, false, true);
+    assert_true(script_contains(&data.plot, "\nset key"));
+    data.plot.noise_level_db = (double)NAN;
+    assert_false(script_contains(&data.plot, "\nset key"));
+    assert_true(script_contains(&data.plot, "anisotropy"));
 }
 
 int main(void) {
@@ -127,6 +227,9 @@ int main(void) {
         IN_FOLDER(refuses_what_cannot_be_drawn),
         IN_FOLDER(names_the_package_without_gnuplot),
         IN_FOLDER(passes_on_what_gnuplot_says),
+        IN_FOLDER(refuses_half_a_picture),
+        IN_FOLDER(a_disk_that_fills_leaves_no_picture),
+        cmocka_unit_test(no_key_without_something_in_it),
     };
     return cmocka_run_group_tests_name("plot", tests, NULL, NULL);
 }

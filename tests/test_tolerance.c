@@ -183,7 +183,7 @@ static void double_precision(void **state) {
 /* Sizes around runs, chunks and slabs; the formula does not depend on N. */
 static void numbers_of_points(void **state) {
     (void)state;
-    static const size_t sizes[] = {1, 2, 127, 128, 129, 1023, 1024, 1025, 20000};
+    static const size_t sizes[] = {1, 2, 7, 8, 9, 31, 32, 33, 1023, 1024, 1025, 65537};
     ps_frequencies list = make_list(1, 24, 5000);
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         check(&shapes[0], &list, sizes[i], PS_SINGLE);
@@ -207,6 +207,9 @@ static void sorted_points(void **state) {
             check(&what, &grid, NUM_POINTS, PS_DOUBLE);
         }
         ps_frequencies_free(&grid);
+        ps_frequencies list = make_list(1, 14, reaches[i] + 1);
+        check(&what, &list, NUM_POINTS, PS_SINGLE);
+        ps_frequencies_free(&list);
     }
 }
 

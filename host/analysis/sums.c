@@ -46,6 +46,7 @@ void ps_sums_finish(const ps_sums *sums, uint64_t count, double *mean, double *s
     const double difference = (left - right) + (left_low - right_low);
     /* n equal numbers leave at most 0.1 n^2 eps^2 of rounding here (measured, n = 2 .. 1e7). */
     const double rounding = n * n * DBL_EPSILON * DBL_EPSILON / 4 * left;
-    const double variance = difference > rounding ? difference / n / (n - 1) : 0;
+    /* written so that nan stays nan */
+    const double variance = difference <= rounding ? 0 : difference / n / (n - 1);
     *standard_error = sqrt(variance / n);
 }

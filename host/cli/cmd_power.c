@@ -1,7 +1,7 @@
 /* pointspec power: the averaged periodogram. */
 #include "cli/command.h"
+#include "cli/output_check.h"
 #include "cli/power_table.h"
-#include "io/output_file.h"
 #include "io/plot.h"
 
 #include <stdio.h>
@@ -28,9 +28,10 @@ static void print_profile(const ps_power_job *job) {
             "GB/s");
     for (size_t i = 0; i < num_rows; i++) {
         const double giga = 1e-9;
+        const double seconds = rows[i].seconds > 0 ? rows[i].seconds : giga; /* a clock's tick */
         fprintf(stderr, "%-24s %9llu %12.6f %10.1f %8.1f\n", rows[i].kernel,
                 (unsigned long long)rows[i].launches, rows[i].seconds,
-                rows[i].flops / rows[i].seconds * giga, rows[i].bytes / rows[i].seconds * giga);
+                rows[i].flops / seconds * giga, rows[i].bytes / seconds * giga);
     }
 }
 
@@ -78,17 +79,6 @@ static pspec_status write_results(const ps_arguments *arguments, const ps_power_
     return status;
 }
 
-/* A missing folder or a lacking permission shows when the temporary file is made. */
-static pspec_status check_path(const char *path, ps_error *error) {
-    ps_output_file *file = NULL;
-    if (path == NULL) {
-        return PSPEC_OK;
-    }
-    PS_TRY(ps_output_open(&file, path, error));
-    ps_output_discard(&file);
-    return PSPEC_OK;
-}
-
 /* Whatever can be refused is refused before hours of work, not after. */
 static pspec_status check_outputs(const ps_arguments *arguments, ps_table_format *format,
                                   ps_error *error) {
@@ -98,9 +88,7 @@ static pspec_status check_outputs(const ps_arguments *arguments, ps_table_format
     }
     PS_TRY(ps_table_choose_format(format, arguments->format, arguments->output, error));
     PS_TRY(ps_power_check_full(arguments, error));
-    PS_TRY(check_path(arguments->output, error));
-    PS_TRY(check_path(arguments->full, error));
-    return check_path(arguments->plot, error);
+    return ps_outputs_check(arguments, error);
 }
 
 static pspec_status run(const ps_arguments *arguments, ps_error *error) {

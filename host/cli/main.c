@@ -102,7 +102,12 @@ static pspec_status run_parsed(const ps_command *command, ps_arguments *argument
     if (!arguments->is_given[PS_OPTION_DEVICE]) {
         arguments->device = getenv("POINTSPEC_DEVICE");
     }
-    return command->run(arguments, error);
+    const pspec_status status = command->run(arguments, error);
+    /* A signal may make anything fail that was going on (a compiler in the driver, a read): what the
+     * user did is the reason, not what it led to. */
+    return status != PSPEC_OK && ps_interrupted
+               ? ps_fail(error, PSPEC_ERROR_CANCELLED, "interrupted")
+               : status;
 }
 
 /* words: those after "pointspec". */

@@ -156,12 +156,11 @@ pspec_status ps_device_choose(const ps_device_limits *limits, size_t num_devices
         return PSPEC_OK;
     }
     if (selector[strspn(selector, "0123456789")] == '\0') {
-        uint64_t number = 0;
-        PS_TRY(ps_parse_count(selector, "device index", 0, num_devices - 1, &number, error));
-        *index = (size_t)number;
-        return PSPEC_OK;
+        const unsigned long long number = strtoull(selector, NULL, 10);
+        *index = number < num_devices ? (size_t)number : num_devices;
+    } else {
+        *index = find_match(limits, num_devices, selector);
     }
-    *index = find_match(limits, num_devices, selector);
     if (*index < num_devices) {
         return PSPEC_OK;
     }

@@ -40,12 +40,20 @@ typedef struct ps_work {
     double largest_buffer_per_realization; /* part of that in one allocation */
 } ps_work;
 
-/* A batch of realizations. power = scales[r] |S|^2. */
+/* A batch of realizations. power = scales[r] |S|^2, S with weights w 2^-exponents[r] (NULL: 0).
+ * should_stop, unless it is NULL, is asked every second or so; true ends the run with
+ * PSPEC_ERROR_CANCELLED. */
 typedef struct ps_batch {
     size_t num_patterns;
     const pspec_pattern *patterns;
     const double *scales;
+    const int *exponents;
+    bool (*should_stop)(void *payload);
+    void *payload;
 } ps_batch;
+
+/* PSPEC_ERROR_CANCELLED when the batch is to stop. */
+pspec_status ps_batch_go_on(const ps_batch *batch, ps_error *error) PS_MUST_CHECK;
 
 /* Rows of powers, borrowed from the engine until its next run. */
 typedef struct ps_rows {

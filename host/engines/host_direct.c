@@ -124,12 +124,15 @@ static size_t get_stride(const void *state) {
 static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_error *error) {
     host_direct *self = state;
     const ps_frequencies *set = self->frequencies;
-    (void)error;
     for (size_t r = 0; r < batch->num_patterns; r++) {
+        const int exponent = batch->exponents != NULL ? batch->exponents[r] : 0;
         for (size_t i = 0; i < set->num; i++) {
             long double re = 0;
             long double im = 0;
+            PS_TRY(ps_batch_go_on(batch, error));
             ps_host_sum(&batch->patterns[r], set->vectors + i * set->dimension, &re, &im);
+            re = ldexpl(re, -exponent);
+            im = ldexpl(im, -exponent);
             self->power[r * set->num + i] = (double)((re * re + im * im) * batch->scales[r]);
         }
     }

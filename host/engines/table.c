@@ -22,6 +22,12 @@ unsigned ps_engine_lanes(const ps_device_limits *limits, ps_precision precision)
     return lanes;
 }
 
+pspec_status ps_batch_go_on(const ps_batch *batch, ps_error *error) {
+    return batch->should_stop != NULL && batch->should_stop(batch->payload)
+               ? ps_fail(error, PSPEC_ERROR_CANCELLED, "cancelled")
+               : PSPEC_OK;
+}
+
 const char *ps_precision_name(ps_precision precision) {
     static const char *const names[] = {"single", "double", "extended"};
     return names[precision];

@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -128,7 +129,7 @@ static inline void convert_points(uint64_t *out, const double *points, unsigned 
 
 /* Points first .. of a pattern, in the order of steps, to place `at` on; how many there were. */
 static size_t convert_pattern(ps_torus_points *points, size_t at, const pspec_pattern *pattern,
-                              size_t first) {
+                              int exponent, size_t first) {
     const uint64_t n = pattern->num_points;
     if (first >= n) {
         return 0;
@@ -151,7 +152,7 @@ static size_t convert_pattern(ps_torus_points *points, size_t at, const pspec_pa
         convert_points(out, pattern->points, points->dimension, count, j, step, n);
     }
     for (size_t i = at; !points->has_unit_weights && i < at + count; i++) {
-        set_weight(points, i, pattern->weights != NULL ? pattern->weights[j] : 1);
+        set_weight(points, i, pattern->weights != NULL ? ldexp(pattern->weights[j], -exponent) : 1);
         j += step;
         j -= j >= n ? n : 0;
     }
@@ -167,7 +168,8 @@ pspec_status ps_torus_points_upload(ps_torus_points *points, ps_device *device,
     }
     for (size_t r = 0; r < batch->num_patterns; r++) {
         points->host_offsets[r] = at;
-        at += convert_pattern(points, at, &batch->patterns[r], first);
+        at += convert_pattern(points, at, &batch->patterns[r],
+                              batch->exponents != NULL ? batch->exponents[r] : 0, first);
     }
     points->host_offsets[batch->num_patterns] = at;
     *num_points = at;

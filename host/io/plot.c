@@ -1,31 +1,37 @@
-/* Runs gnuplot: the script is its standard input, the picture its standard output, both files, so
- * that no name needs quoting, nothing blocks and nothing is left behind. */
+/* Runs gnuplot: the script is its standard input, a file without a name; the picture its standard
+ * output, a pipe that is read here to its end. So no name needs quoting, nothing blocks, nothing is
+ * left behind, and it is we who write the picture: gnuplot does not notice a disk that is full. */
 #include "io/plot.h"
 
+#include "base/text.h"
 #include "io/input_file.h"
 #include "io/output_file.h"
 #include "io/plot_script.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <spawn.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 extern char **environ; /* POSIX wants it declared by whoever uses it */
 
-static const struct {
-    const char *ending, *terminal;
-} terminals[] = {{".png", "pngcairo"}, {".svg", "svg"}, {".pdf", "pdfcairo"}};
+/* last: the bytes that a whole picture ends in, but for empty lines. */
+typedef struct terminal {
+    const char *ending, *name, *last;
+} terminal;
+static const terminal terminals[] = {{".png", "pngcairo", "IEND\xae\x42\x60\x82"},
+                                     {".svg", "svg", "</svg>"},
+                                     {".pdf", "pdfcairo", "%%EOF"}};
 enum { NUM_TERMINALS = sizeof terminals / sizeof terminals[0] };
 
-static const char *find_terminal(const char *path) {
+static const terminal *find_terminal(const char *path) {
     const char *const dot = strrchr(path, '.');
     for (size_t i = 0; dot != NULL && i < NUM_TERMINALS; i++) {
         if (strcasecmp(dot, terminals[i].ending) == 0) {
-            return terminals[i].terminal;
+            return &terminals[i];
         }
     }
     return NULL;
@@ -35,8 +41,8 @@ bool ps_plot_is_supported(const char *path) {
     return find_terminal(path) != NULL;
 }
 
-/* 0, or the errno of what failed. */
-static int spawn_gnuplot(FILE *script, FILE *picture, FILE *complaints, pid_t *child) {
+/* 0, or the errno of what failed. Descriptors: of the child's standard streams. */
+static int spawn_gnuplot(const int descriptors[3], pid_t *child) {
     /* --default-settings: the user's own gnuplot start-up file must not change the picture. */
     char program[] = "gnuplot";
     char option[] = "--default-settings";
@@ -46,15 +52,36 @@ static int spawn_gnuplot(FILE *script, FILE *picture, FILE *complaints, pid_t *c
     if (reason != 0) {
         return reason;
     }
-    FILE *const streams[] = {script, picture, complaints};
     for (int i = 0; i < 3 && reason == 0; i++) {
-        reason = posix_spawn_file_actions_adddup2(&actions, fileno(streams[i]), i);
+        reason = posix_spawn_file_actions_adddup2(&actions, descriptors[i], i);
     }
     if (reason == 0) {
         reason = posix_spawnp(child, program, &actions, NULL, arguments, environ);
     }
     posix_spawn_file_actions_destroy(&actions);
     return reason;
+}
+
+/* gnuplot gets the writing end as its standard output and must not hold any other. */
+static bool close_on_exec(const int ends[2]) {
+    return fcntl(ends[0], F_SETFD, FD_CLOEXEC) == 0 && fcntl(ends[1], F_SETFD, FD_CLOEXEC) == 0;
+}
+
+/* Starts gnuplot; *source is where its picture can be read. 0, or the errno of what failed. */
+static int start_gnuplot(FILE *script, FILE *complaints, int *source, pid_t *child) {
+    int ends[2] = {-1, -1};
+    if (pipe(ends) != 0) {
+        return errno;
+    }
+    const int descriptors[] = {fileno(script), ends[1], fileno(complaints)};
+    const int reason = close_on_exec(ends) ? spawn_gnuplot(descriptors, child) : errno;
+    close(ends[1]); /* the end of the picture comes when gnuplot closes the only other one */
+    if (reason != 0) {
+        close(ends[0]);
+        return reason;
+    }
+    *source = ends[0];
+    return 0;
 }
 
 /* The line of gnuplot's standard error that tells most: the last but for empty ones. */
@@ -71,53 +98,90 @@ static void read_complaint(FILE *complaints, char shown[PS_TOKEN_BYTES]) {
     }
 }
 
-static pspec_status wait_for(pid_t child, FILE *picture, FILE *complaints, ps_error *error) {
+/* Reads to the end, even without memory to keep it: gnuplot must not wait for us. A read that fails
+ * leaves a picture that is not complete. */
+static void read_picture(int source, ps_text *picture) {
+    char block[1 << 14];
+    ssize_t got = 0;
+    do {
+        got = read(source, block, sizeof block);
+        if (got > 0) {
+            ps_text_append_bytes(picture, block, (size_t)got);
+        }
+    } while (got > 0 || (got < 0 && errno == EINTR)); /* the keyboard interrupts gnuplot, too */
+}
+
+static bool is_complete(const ps_text *picture, const char *last) {
+    const size_t last_length = strlen(last);
+    size_t length = picture->length;
+    while (length > 0 && picture->data[length - 1] == '\n') {
+        length--;
+    }
+    return length >= last_length &&
+           memcmp(picture->data + length - last_length, last, last_length) == 0;
+}
+
+static bool ended_well(pid_t child) {
     int state = 0;
     pid_t waited = 0;
     do {
         waited = waitpid(child, &state, 0);
-    } while (waited < 0 && errno == EINTR); /* an interrupt from the keyboard reaches gnuplot too */
-    struct stat facts;
-    const bool has_picture =
-        fstat(fileno(picture), &facts) == 0 && (facts.st_size > 0 || !S_ISREG(facts.st_mode));
+    } while (waited < 0 && errno == EINTR);
     /* Where the program ignores SIGCHLD the state is lost, and the picture alone can tell. */
-    const bool is_good = waited == child ? WIFEXITED(state) && WEXITSTATUS(state) == 0 : true;
-    if (is_good && has_picture) {
+    return waited == child ? WIFEXITED(state) && WEXITSTATUS(state) == 0 : true;
+}
+
+/* Takes the picture and the child; closes source. */
+static pspec_status collect(int source, pid_t child, FILE *complaints, const char *last,
+                            ps_text *picture, ps_error *error) {
+    read_picture(source, picture);
+    close(source); /* before waiting: after a read that failed, gnuplot's writes must fail, too */
+    const bool is_good = ended_well(child);
+    if (picture->failed) {
+        return ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for a picture");
+    }
+    if (is_good && is_complete(picture, last)) {
         return PSPEC_OK;
     }
     char shown[PS_TOKEN_BYTES];
     read_complaint(complaints, shown);
     return ps_fail(error, PSPEC_ERROR_IO, "gnuplot could not draw the picture: %s",
-                   shown[0] != '\0' ? shown : "it says nothing more");
+                   shown[0] != '\0' ? shown
+                   : is_good        ? "the picture is not complete"
+                                    : "it says nothing more");
 }
 
-static pspec_status run_gnuplot(FILE *script, FILE *picture, ps_error *error) {
+static pspec_status run_gnuplot(FILE *script, const char *last, ps_text *picture, ps_error *error) {
     FILE *const complaints = tmpfile();
     if (complaints == NULL) {
         return ps_fail(error, PSPEC_ERROR_IO, "cannot create a temporary file: %s",
                        strerror(errno));
     }
+    pspec_status status = PSPEC_OK;
     pid_t child = 0;
-    const int reason = spawn_gnuplot(script, picture, complaints, &child);
-    const pspec_status status =
-        reason == 0 ? wait_for(child, picture, complaints, error)
-        : reason == ENOENT
-            ? ps_fail(error, PSPEC_ERROR_IO,
-                      "plots need the program gnuplot, which is not installed (Debian package "
-                      "gnuplot-nox) or not in PATH")
-            : ps_fail(error, PSPEC_ERROR_IO, "cannot run gnuplot: %s", strerror(reason));
+    int source = -1;
+    const int reason = start_gnuplot(script, complaints, &source, &child);
+    if (reason == 0) {
+        status = collect(source, child, complaints, last, picture, error);
+    } else if (reason == ENOENT) {
+        status = ps_fail(error, PSPEC_ERROR_IO,
+                         "plots need the program gnuplot, which is not installed (Debian package "
+                         "gnuplot-nox) or not in PATH");
+    } else {
+        status = ps_fail(error, PSPEC_ERROR_IO, "cannot run gnuplot: %s", strerror(reason));
+    }
     fclose(complaints);
     return status;
 }
 
 /* Writes the script to a file without a name, and goes back to its start. */
-static pspec_status make_script(FILE *script, const ps_plot *plot, const char *terminal,
+static pspec_status make_script(FILE *script, const ps_plot *plot, const char *terminal_name,
                                 ps_error *error) {
     if (script == NULL) {
         return ps_fail(error, PSPEC_ERROR_IO, "cannot create a temporary file: %s",
                        strerror(errno));
     }
-    PS_TRY(ps_plot_write_script(plot, terminal, script, error));
+    PS_TRY(ps_plot_write_script(plot, terminal_name, script, error));
     errno = 0;
     if (fflush(script) != 0 || ferror(script) || fseeko(script, 0, SEEK_SET) != 0) {
         return ps_fail(error, PSPEC_ERROR_IO, "cannot write a temporary file: %s", strerror(errno));
@@ -141,17 +205,21 @@ static pspec_status check_plot(const char *path, const ps_plot *plot, ps_error *
 }
 
 pspec_status ps_plot_write(const char *path, const ps_plot *plot, ps_error *error) {
-    ps_output_file *picture = NULL;
+    ps_output_file *file = NULL;
     FILE *script = NULL;
+    ps_text picture = {0};
     pspec_status status = PSPEC_OK;
     PS_TRY(check_plot(path, plot, error));
-    PS_TRY(ps_output_open(&picture, path, error));
+    const terminal *const kind = find_terminal(path);
+    PS_TRY(ps_output_open(&file, path, error));
     script = tmpfile();
-    PS_TRY_OUT(status, make_script(script, plot, find_terminal(path), error));
-    PS_TRY_OUT(status, run_gnuplot(script, ps_output_stream(picture), error));
-    PS_TRY_OUT(status, ps_output_commit(&picture, error));
+    PS_TRY_OUT(status, make_script(script, plot, kind->name, error));
+    PS_TRY_OUT(status, run_gnuplot(script, kind->last, &picture, error));
+    ps_output_write(file, picture.data, 1, picture.length);
+    PS_TRY_OUT(status, ps_output_commit(&file, error));
 out:
-    ps_output_discard(&picture);
+    ps_output_discard(&file);
+    ps_text_free(&picture);
     if (script != NULL) {
         fclose(script);
     }

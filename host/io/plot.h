@@ -36,7 +36,7 @@ typedef struct ps_plot {
 
 /* Is the ending of path one that can be drawn (.png .svg .pdf)? */
 bool ps_plot_is_supported(const char *path);
-/* Draws into path (through a temporary file, renamed when gnuplot succeeded). Fails with one
+/* Draws into path, which appears when the picture is complete and on the disk. Fails with one
  * sentence when gnuplot is not installed. */
 pspec_status ps_plot_write(const char *path, const ps_plot *plot, ps_error *error) PS_MUST_CHECK;
 

@@ -228,11 +228,15 @@ static void print_anisotropy_panel(const ps_plot *plot, const layout *where, FIL
     fprintf(stream, "set bmargin at screen 0.10\nset tmargin at screen %g\n",
             where->middle - 0.015);
     fputs("set format x '%g'\nset xlabel 'normalized frequency |k| N^{-1/d}'\n"
-          "set ylabel 'anisotropy / dB'\nset yrange [*:*]\n"
-          "set key top right opaque Left reverse width -1 box linecolor '#c0c0c0' samplen 2 "
-          "noenhanced\nplot ",
+          "set ylabel 'anisotropy / dB'\nset yrange [*:*]\n",
           stream);
-    if (isfinite(plot->noise_level_db)) {
+    /* The key holds the noise level alone; without it, it would be an empty box. */
+    const bool has_level = isfinite(plot->noise_level_db);
+    fputs(has_level ? "set key top right opaque Left reverse width -1 box linecolor '#c0c0c0' "
+                      "samplen 2 noenhanced\nplot "
+                    : "unset key\nplot ",
+          stream);
+    if (has_level) {
         fprintf(stream,
                 "%.9g with lines linecolor rgb '#707070' dashtype 2 linewidth 1.2 title "
                 "'pure noise, %.1f dB', ",

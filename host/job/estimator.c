@@ -17,6 +17,7 @@ struct ps_estimator {
     ps_accumulator *accumulator;
     double reference_points; /* N_ref */
     double *scales;          /* [batch] */
+    int *exponents;          /* [batch] of the weights */
     ps_pattern_sums *sums;   /* [batch] */
     ps_pattern_totals totals;
     ps_accuracy accuracy;
@@ -24,15 +25,19 @@ struct ps_estimator {
 
 /* ---- create ------------------------------------------------------------------------------ */
 
-/* Makes the engine for self->batch realizations, or for half of them as long as memory is refused. */
+/* Makes the engine anew for self->batch realizations. */
 static pspec_status create_engine(ps_estimator *self, ps_error *error) {
     const ps_estimator_options *options = &self->options;
-    pspec_status status = PSPEC_OK;
     options->engine->destroy(self->engine_state);
     self->engine_state = NULL;
+    return options->engine->create(&self->engine_state, &options->problem, options->precision,
+                                   self->batch, self->device, error);
+}
+
+/* The same, for half as many realizations as long as memory is refused. */
+static pspec_status create_fitting_engine(ps_estimator *self, ps_error *error) {
     for (;;) {
-        status = options->engine->create(&self->engine_state, &options->problem, options->precision,
-                                         self->batch, self->device, error);
+        const pspec_status status = create_engine(self, error);
         if (status != PSPEC_ERROR_MEMORY || self->batch == 1) {
             return status;
         }
@@ -41,13 +46,8 @@ static pspec_status create_engine(ps_estimator *self, ps_error *error) {
 }
 
 static pspec_status create_accumulator(ps_estimator *self, ps_error *error) {
-    void *memory = NULL;
     const ps_estimator_options *options = &self->options;
     const ps_frequencies *set = options->problem.frequencies;
-    PS_TRY(ps_allocate(&memory, set->num, sizeof(uint32_t), "slots", error));
-    self->slots = memory;
-    options->engine->get_slots(self->engine_state, self->slots);
-    PS_TRY(ps_bins_create(&self->bins, set, options->exact_shells, error));
     const bool is_on_device = options->engine->needs_device;
     const ps_accumulator_options accumulator = {
         .bins = &self->bins,
@@ -65,10 +65,29 @@ static pspec_status create_accumulator(ps_estimator *self, ps_error *error) {
     return ps_accumulator_create(&self->accumulator, &accumulator, self->device, error);
 }
 
+/* Engine and accumulator, for half as many realizations as long as memory is refused to either. */
+static pspec_status create_parts(ps_estimator *self, ps_error *error) {
+    for (;;) {
+        PS_TRY(create_fitting_engine(self, error));
+        self->options.engine->get_slots(self->engine_state, self->slots);
+        const pspec_status status = create_accumulator(self, error);
+        if (status != PSPEC_ERROR_MEMORY || self->batch == 1) {
+            return status;
+        }
+        self->batch /= 2;
+    }
+}
+
 static pspec_status create_arrays(ps_estimator *self, ps_error *error) {
     void *memory = NULL;
+    const ps_frequencies *set = self->options.problem.frequencies;
+    PS_TRY(ps_bins_create(&self->bins, set, self->options.exact_shells, error));
+    PS_TRY(ps_allocate(&memory, set->num, sizeof(uint32_t), "slots", error));
+    self->slots = memory;
     PS_TRY(ps_allocate(&memory, self->batch, sizeof(double), "scales", error));
     self->scales = memory;
+    PS_TRY(ps_allocate(&memory, self->batch, sizeof(int), "exponents", error));
+    self->exponents = memory;
     PS_TRY(ps_allocate(&memory, self->batch, sizeof *self->sums, "sums of weights", error));
     self->sums = memory;
     return PSPEC_OK;
@@ -84,12 +103,9 @@ pspec_status ps_estimator_create(ps_estimator **out, const ps_estimator_options 
     self->device = device;
     self->batch = options->batch;
     self->reference_points = (double)options->problem.num_points;
-    pspec_status status = create_engine(self, error);
+    pspec_status status = create_arrays(self, error);
     if (status == PSPEC_OK) {
-        status = create_accumulator(self, error);
-    }
-    if (status == PSPEC_OK) {
-        status = create_arrays(self, error);
+        status = create_parts(self, error);
     }
     if (status != PSPEC_OK) {
         ps_estimator_destroy(self);
@@ -108,6 +124,7 @@ void ps_estimator_destroy(ps_estimator *estimator) {
     ps_bins_free(&estimator->bins);
     free(estimator->slots);
     free(estimator->scales);
+    free(estimator->exponents);
     free(estimator->sums);
     free(estimator);
 }
@@ -127,6 +144,7 @@ static pspec_status prepare(ps_estimator *self, const pspec_pattern *patterns, s
                                 normalization, self->totals.num_realizations + r, &self->sums[r],
                                 error));
         const double sum = self->sums[r].weight_sum;
+        self->exponents[r] = self->sums[r].exponent;
         self->scales[r] = normalization == PSPEC_NORMALIZATION_POWER
                               ? self->reference_points / (sum * sum)
                               : 1 / self->sums[r].weight_square_sum;
@@ -158,7 +176,7 @@ static void count_patterns(ps_estimator *self, const pspec_pattern *patterns, si
         const bool is_first = totals->num_realizations == 0;
         totals->num_realizations++;
         totals->sum_points += (double)num_points;
-        totals->sum_weights += self->sums[r].weight_sum;
+        totals->sum_weights += ldexp(self->sums[r].weight_sum, self->sums[r].exponent);
         if (is_first || num_points < totals->smallest_points) {
             totals->smallest_points = num_points;
         }
@@ -168,17 +186,56 @@ static void count_patterns(ps_estimator *self, const pspec_pattern *patterns, si
     }
 }
 
-static pspec_status check_first(ps_estimator *self, const ps_rows *rows,
-                                const pspec_pattern *pattern, ps_error *error) {
-    if (!self->options.self_check || self->accuracy.was_checked) {
+static ps_batch make_batch(const ps_estimator *self, const pspec_pattern *patterns,
+                           size_t num_patterns) {
+    return (ps_batch){.num_patterns = num_patterns,
+                      .patterns = patterns,
+                      .scales = self->scales,
+                      .exponents = self->exponents,
+                      .should_stop = self->options.should_stop,
+                      .payload = self->options.payload};
+}
+
+static pspec_status compare_with_referee(ps_estimator *self, const ps_rows *rows,
+                                         const pspec_pattern *pattern, ps_error *error) {
+    const ps_problem *problem = &self->options.problem;
+    const ps_self_check_input input = {
+        .rows = rows,
+        .slots = self->slots,
+        .frequencies = problem->frequencies,
+        .pattern = pattern,
+        .exponent = self->exponents[0],
+        .scale = self->scales[0],
+        .weight_square_sum = self->sums[0].weight_square_sum,
+        .engine_error = self->options.engine->error(problem, self->options.precision, 1),
+    };
+    return ps_self_check(&input, self->device, &self->accuracy.self_check, error);
+}
+
+/* A pattern too large for long double sums is checked by its first points, in a run of their own. */
+static pspec_status check_beginning(ps_estimator *self, const pspec_pattern *whole,
+                                    ps_error *error) {
+    pspec_pattern pattern = *whole;
+    ps_rows rows = {0};
+    const double scale = self->scales[0];
+    const ps_pattern_sums sums = self->sums[0];
+    pattern.num_points = PS_SELF_CHECK_POINTS;
+    if (ps_pattern_check(&pattern, pattern.dimension, PSPEC_NORMALIZATION_EFFECTIVE, 0,
+                         &self->sums[0], NULL) != PSPEC_OK) {
+        self->sums[0] = sums; /* these weights are all 0: nothing to compare */
         return PSPEC_OK;
     }
-    const ps_problem *problem = &self->options.problem;
-    self->accuracy.was_checked = true;
-    return ps_self_check(rows, self->slots, problem->frequencies, pattern, self->scales[0],
-                         self->sums[0].weight_square_sum,
-                         self->options.engine->error(problem, self->options.precision, 1),
-                         self->device, &self->accuracy.self_check, error);
+    self->exponents[0] = self->sums[0].exponent;
+    self->scales[0] = 1 / self->sums[0].weight_square_sum;
+    const ps_batch batch = make_batch(self, &pattern, 1);
+    pspec_status status = self->options.engine->run(self->engine_state, &batch, &rows, error);
+    if (status == PSPEC_OK) {
+        status = compare_with_referee(self, &rows, &pattern, error);
+    }
+    self->scales[0] = scale;
+    self->sums[0] = sums;
+    self->exponents[0] = sums.exponent;
+    return status;
 }
 
 /* Runs the engine on one batch that fits; makes a smaller engine when memory is refused (drivers may
@@ -187,15 +244,31 @@ static pspec_status run_batch(ps_estimator *self, const pspec_pattern *patterns,
                               size_t *num_patterns, ps_rows *rows, ps_error *error) {
     for (;;) {
         *num_patterns = *num_patterns < self->batch ? *num_patterns : self->batch;
-        const ps_batch batch = {*num_patterns, patterns, self->scales};
+        const ps_batch batch = make_batch(self, patterns, *num_patterns);
         const pspec_status status =
             self->options.engine->run(self->engine_state, &batch, rows, error);
         if (status != PSPEC_ERROR_MEMORY || self->batch == 1) {
             return status;
         }
         self->batch /= 2;
-        PS_TRY(create_engine(self, error));
+        PS_TRY(create_fitting_engine(self, error));
     }
+}
+
+/* The engine's rows of a batch, the first of the job compared with the referee. */
+static pspec_status run_checked(ps_estimator *self, const pspec_pattern *patterns,
+                                size_t *num_patterns, ps_rows *rows, ps_error *error) {
+    const bool is_due = self->options.self_check && !self->accuracy.was_checked;
+    const bool is_large = patterns[0].num_points > PS_SELF_CHECK_POINTS;
+    if (is_due && is_large) {
+        PS_TRY(check_beginning(self, patterns, error));
+    }
+    PS_TRY(run_batch(self, patterns, num_patterns, rows, error));
+    if (is_due && !is_large) {
+        PS_TRY(compare_with_referee(self, rows, patterns, error));
+    }
+    self->accuracy.was_checked = self->accuracy.was_checked || is_due;
+    return PSPEC_OK;
 }
 
 static pspec_status add_batch(ps_estimator *self, const pspec_pattern *patterns,
@@ -206,10 +279,9 @@ static pspec_status add_batch(ps_estimator *self, const pspec_pattern *patterns,
     PS_TRY(prepare(self, patterns, *num_patterns, &longest, error));
     if (longest > self->options.problem.num_points) {
         self->options.problem.num_points = longest;
-        PS_TRY(create_engine(self, error));
+        PS_TRY(create_fitting_engine(self, error));
     }
-    PS_TRY(run_batch(self, patterns, num_patterns, &rows, error));
-    PS_TRY(check_first(self, &rows, patterns, error));
+    PS_TRY(run_checked(self, patterns, num_patterns, &rows, error));
     PS_TRY(ps_accumulator_add(self->accumulator, &rows, &bin_powers, error));
     measure_powers(self, bin_powers, *num_patterns);
     count_patterns(self, patterns, *num_patterns);

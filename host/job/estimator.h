@@ -21,6 +21,8 @@ typedef struct ps_estimator_options {
     bool want_frequencies; /* keep sums per frequency */
     bool self_check;
     pspec_normalization normalization;
+    bool (*should_stop)(void *payload); /* asked every second or so; may be NULL, see ps_batch */
+    void *payload;
 } ps_estimator_options;
 
 /* The numerical side of a result. */

@@ -17,20 +17,37 @@ static pspec_status check_coordinates(const pspec_pattern *pattern, uint64_t rea
     return PSPEC_OK;
 }
 
-static pspec_status sum_weights(const pspec_pattern *pattern, pspec_normalization normalization,
-                                uint64_t realization, ps_pattern_sums *sums, ps_error *error) {
-    long double sum = 0;
-    long double squares = 0;
-    long double sizes = 0;
+/* The exponent of the largest |w|, or a failure when a weight is not finite or all are 0. */
+static pspec_status find_exponent(const pspec_pattern *pattern, uint64_t realization, int *exponent,
+                                  ps_error *error) {
+    double largest = 0;
     for (size_t j = 0; j < pattern->num_points; j++) {
         const double weight = pattern->weights[j];
         if (!isfinite(weight)) {
             return ps_fail(error, PSPEC_ERROR_INPUT, "set %llu, point %zu: weight %g is not finite",
                            (unsigned long long)realization + 1, j + 1, weight);
         }
+        largest = fabs(weight) > largest ? fabs(weight) : largest;
+    }
+    if (largest == 0) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "set %llu: all weights are 0",
+                       (unsigned long long)realization + 1);
+    }
+    frexp(largest, exponent);
+    return PSPEC_OK;
+}
+
+static pspec_status sum_weights(const pspec_pattern *pattern, pspec_normalization normalization,
+                                uint64_t realization, ps_pattern_sums *sums, ps_error *error) {
+    long double sum = 0;
+    long double squares = 0;
+    long double sizes = 0;
+    PS_TRY(find_exponent(pattern, realization, &sums->exponent, error));
+    for (size_t j = 0; j < pattern->num_points; j++) {
+        const long double weight = ldexp(pattern->weights[j], -sums->exponent);
         sum += weight;
-        squares += (long double)weight * weight;
-        sizes += fabsl((long double)weight);
+        squares += weight * weight;
+        sizes += fabsl(weight);
     }
     /* A sum this small is what rounding of the weights leaves of an exact zero. */
     const long double rounding = (long double)DBL_EPSILON * sizes;
@@ -40,11 +57,8 @@ static pspec_status sum_weights(const pspec_pattern *pattern, pspec_normalizatio
                        "--normalize effective",
                        (unsigned long long)realization + 1);
     }
-    if (squares == 0) {
-        return ps_fail(error, PSPEC_ERROR_INPUT, "set %llu: all weights are 0",
-                       (unsigned long long)realization + 1);
-    }
-    *sums = (ps_pattern_sums){(double)sum, (double)squares};
+    sums->weight_sum = (double)sum;
+    sums->weight_square_sum = (double)squares;
     return PSPEC_OK;
 }
 
@@ -60,7 +74,7 @@ pspec_status ps_pattern_check(const pspec_pattern *pattern, unsigned dimension,
                        (unsigned long long)realization + 1);
     }
     PS_TRY(check_coordinates(pattern, realization, error));
-    *sums = (ps_pattern_sums){(double)pattern->num_points, (double)pattern->num_points};
+    *sums = (ps_pattern_sums){0, (double)pattern->num_points, (double)pattern->num_points};
     return pattern->weights == NULL ? PSPEC_OK
                                     : sum_weights(pattern, normalization, realization, sums, error);
 }

@@ -4,9 +4,12 @@
 
 #include "base/status.h"
 
+/* Weights count as w 2^-exponent, which makes the largest |w| a number in [1/2, 1): so neither the
+ * squares of double weights nor sums in single precision overflow or vanish. */
 typedef struct ps_pattern_sums {
-    double weight_sum;        /* W */
-    double weight_square_sum; /* V */
+    int exponent;             /* 0 for unit weights */
+    double weight_sum;        /* W 2^-exponent */
+    double weight_square_sum; /* V 2^(-2 exponent) */
 } ps_pattern_sums;
 
 /* realization counts from 0 and is only for messages. W = 0 under the default normalization is

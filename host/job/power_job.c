@@ -22,6 +22,7 @@ struct ps_power_job {
     ps_needs needs;
     ps_sampler_request request; /* what is really sampled: without a shift nobody needs */
     uint64_t num_realizations;  /* that are computed; 0: unknown */
+    uint64_t num_done;
     ps_problem problem;
     ps_device *device;
     ps_plan plan;
@@ -40,57 +41,49 @@ double ps_tolerance_of_floor(double floor) {
 
 /* ---- source ------------------------------------------------------------------------------ */
 
-static bool is_constant(const ps_power_question *question) {
-    return question->sampler != NULL && ps_sampler_has_constant_power(question->sampler);
-}
-
+/* What is not needed, once dimension and frequencies are known. */
 static void find_needs(ps_power_job *job) {
     const ps_power_question *question = job->question;
+    const ps_sampler_request *sampler = question->sampler;
     const bool is_grid = question->frequencies_path == NULL;
     const ps_needs_question needs = {
         .dimension = job->dimension,
         .max_frequency = is_grid ? job->frequencies.max_frequency : 0,
         .wants_full_array = question->wants_full_array,
-        .has_constant_power = is_constant(question),
-        .is_homogenized = question->sampler != NULL && question->sampler->homogenize,
+        .has_constant_power = sampler != NULL && ps_sampler_has_constant_power(sampler),
+        .is_homogenized = sampler != NULL && sampler->homogenize,
         .num_realizations = question->num_realizations,
         .no_skip = question->no_skip,
     };
     job->needs = ps_needs_find(&needs);
 }
 
-static pspec_status open_source(ps_power_job *job, ps_error *error) {
+/* The sampler as it is needed: without shifts that nobody sees, one realization that stands for all. */
+static pspec_status open_sampler(ps_power_job *job, ps_error *error) {
     const ps_power_question *question = job->question;
-    if (question->sampler == NULL) {
-        return ps_source_files(&job->source, question->paths, question->num_paths,
-                               &question->point_options, error);
-    }
-    /* The same two decisions as in plan/needs, which has not seen the frequencies yet. */
     job->request = *question->sampler;
-    job->request.homogenize = question->sampler->homogenize && question->no_skip;
-    job->num_realizations =
-        is_constant(question) && !question->no_skip ? 1 : question->num_realizations;
+    job->request.homogenize = question->sampler->homogenize && !job->needs.no_shift;
+    job->num_realizations = job->needs.one_realization ? 1 : question->num_realizations;
     return ps_source_sampler(&job->source, &job->request, job->num_realizations, error);
 }
 
-/* The shape of the first set: a sampler is asked, a file is read. */
+/* The shape of the first set: a sampler's is known, a file is read. */
 static pspec_status find_shape(ps_power_job *job, ps_error *error) {
     const ps_power_question *question = job->question;
     if (question->sampler != NULL) {
         job->dimension = question->sampler->dimension;
         job->num_points = question->sampler->num_points;
-    } else {
-        PS_TRY(ps_source_next(job->source, &job->first, &job->first_is_pending, error));
-        if (!job->first_is_pending) {
-            return ps_fail(error, PSPEC_ERROR_INPUT,
-                           "there are no point sets to take a spectrum of");
-        }
-        job->dimension = job->first.dimension;
-        job->num_points = job->first.num_points;
+        return PSPEC_OK;
     }
-    return question->weights_path == NULL
-               ? PSPEC_OK
-               : ps_read_weights(question->weights_path, &job->weights, &job->num_weights, error);
+    PS_TRY(ps_source_files(&job->source, question->paths, question->num_paths,
+                           &question->point_options, error));
+    PS_TRY(ps_source_next(job->source, &job->first, &job->first_is_pending, error));
+    if (!job->first_is_pending) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "there are no point sets to take a spectrum of");
+    }
+    job->dimension = job->first.dimension;
+    job->num_points = job->first.num_points;
+    return PSPEC_OK;
 }
 
 /* ---- frequencies ------------------------------------------------------------------------- */
@@ -115,7 +108,12 @@ static pspec_status read_frequency_list(ps_power_job *job, ps_error *error) {
     size_t num = 0;
     unsigned dimension = 0;
     PS_TRY(ps_read_frequencies(job->question->frequencies_path, &vectors, &num, &dimension, error));
-    PS_TRY(ps_frequencies_list(&job->frequencies, dimension, num, vectors, error));
+    ps_error inner = {0};
+    const pspec_status status =
+        ps_frequencies_list(&job->frequencies, dimension, num, vectors, &inner);
+    if (status != PSPEC_OK) {
+        return ps_fail(error, status, "\"%s\": %s", job->question->frequencies_path, inner.message);
+    }
     if (dimension != job->dimension) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "\"%s\" holds frequencies of dimension %u, the points have dimension %u",
@@ -164,10 +162,15 @@ static pspec_status make_plan(ps_power_job *job, double mean_power, ps_error *er
 static pspec_status prepare(ps_power_job *job, ps_error *error) {
     const ps_power_question *question = job->question;
     const double by_floor = question->floor > 0 ? ps_tolerance_of_floor(question->floor) : 1;
-    PS_TRY(open_source(job, error));
     PS_TRY(find_shape(job, error));
     PS_TRY(choose_frequencies(job, error));
     find_needs(job);
+    if (question->sampler != NULL) {
+        PS_TRY(open_sampler(job, error));
+    }
+    if (question->weights_path != NULL) {
+        PS_TRY(ps_read_weights(question->weights_path, &job->weights, &job->num_weights, error));
+    }
     job->problem = (ps_problem){
         .frequencies = &job->frequencies,
         .num_points = job->num_points,
@@ -224,6 +227,14 @@ void ps_power_job_destroy(ps_power_job *job) {
 
 /* ---- run --------------------------------------------------------------------------------- */
 
+/* Asked by the engine while it works: progress has not changed since the last batch. */
+static bool should_stop(void *payload) {
+    const ps_power_job *job = payload;
+    const ps_power_question *question = job->question;
+    return question->progress != NULL &&
+           question->progress(job->num_done, job->num_realizations, question->payload) != 0;
+}
+
 static pspec_status create_estimator(ps_power_job *job, ps_error *error) {
     const ps_power_question *question = job->question;
     const ps_candidate *chosen = job->plan.chosen;
@@ -236,6 +247,8 @@ static pspec_status create_estimator(ps_power_job *job, ps_error *error) {
         .want_frequencies = true, /* anisotropy needs them, too */
         .self_check = !question->no_self_check,
         .normalization = question->normalization,
+        .should_stop = should_stop,
+        .payload = job,
     };
     ps_estimator_destroy(job->estimator);
     job->estimator = NULL;
@@ -293,29 +306,28 @@ static pspec_status fill_batch(ps_power_job *job, size_t *count, ps_error *error
     return PSPEC_OK;
 }
 
-static pspec_status report_progress(const ps_power_job *job, uint64_t done, ps_error *error) {
-    const ps_power_question *question = job->question;
-    if (question->progress != NULL &&
-        question->progress(done, job->num_realizations, question->payload) != 0) {
-        return ps_fail(error, PSPEC_ERROR_CANCELLED, "cancelled after %llu realizations",
-                       (unsigned long long)done);
-    }
-    return PSPEC_OK;
+static pspec_status report_progress(ps_power_job *job, ps_error *error) {
+    return should_stop(job)
+               ? ps_fail(error, PSPEC_ERROR_CANCELLED, "cancelled after %llu realizations",
+                         (unsigned long long)job->num_done)
+               : PSPEC_OK;
 }
 
 static pspec_status run_once(ps_power_job *job, ps_error *error) {
-    uint64_t done = 0;
     size_t count = 0;
+    job->num_done = 0;
     PS_TRY(create_estimator(job, error));
     PS_TRY(allocate_sets(job, error));
     do {
-        PS_TRY(report_progress(job, done, error));
+        PS_TRY(report_progress(job, error));
         PS_TRY(fill_batch(job, &count, error));
         PS_TRY(ps_estimator_add(job->estimator, job->patterns, count, error));
-        done += count;
+        job->num_done += count;
     } while (count == job->capacity);
     job->accuracy = ps_estimator_accuracy(job->estimator);
-    return PSPEC_OK;
+    return isfinite(job->accuracy.error)
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_CHECK, "the powers are not finite numbers");
 }
 
 /* The measured powers make the error larger than the tolerance: plan again with them. */
@@ -348,7 +360,7 @@ pspec_status ps_power_job_run(ps_power_job *job, ps_error *error) {
     PS_TRY(ps_plan_require(&job->plan, &job->problem, error));
     PS_TRY(ps_frequencies_enumerate(&job->frequencies, error));
     PS_TRY(run_once(job, error));
-    if (job->accuracy.error > job->problem.tolerance) {
+    if (!(job->accuracy.error <= job->problem.tolerance)) {
         PS_TRY(run_again(job, error));
     }
     return finish(job, error);

@@ -247,7 +247,7 @@ static pspec_status copy_powers(pspec_spectrum *spectrum, ps_error *error) {
 static pspec_status fill_spectrum(pspec_spectrum *spectrum, pspec_plan *plan, ps_error *error) {
     const ps_accuracy accuracy = ps_estimator_accuracy(plan->estimator);
     PS_TRY(ps_estimator_spectrum(plan->estimator, &spectrum->averages, error));
-    if (accuracy.error > plan->problem.tolerance) {
+    if (!(accuracy.error <= plan->problem.tolerance)) {
         return ps_fail(error, PSPEC_ERROR_TOLERANCE,
                        "these patterns have a mean power of %.3g, so %s precision has an error of "
                        "%.2g, above the tolerance %g: make a plan of higher precision",

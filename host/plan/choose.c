@@ -142,6 +142,19 @@ pspec_status ps_plan_make(ps_plan *plan, const ps_problem *problem, const ps_dev
     return PSPEC_OK;
 }
 
+/* The candidate that is exact enough and needs the least memory; there is one. */
+static const ps_candidate *find_smallest(const ps_plan *plan, double tolerance) {
+    const ps_candidate *smallest = NULL;
+    for (size_t i = 0; i < plan->num_candidates; i++) {
+        const ps_candidate *candidate = &plan->candidates[i];
+        if (!candidate->is_excluded && candidate->is_applicable && candidate->error <= tolerance &&
+            (smallest == NULL || candidate->bytes < smallest->bytes)) {
+            smallest = candidate;
+        }
+    }
+    return smallest;
+}
+
 pspec_status ps_plan_require(const ps_plan *plan, const ps_problem *problem, ps_error *error) {
     const ps_candidate *best = NULL;  /* the most exact one that the user's choice leaves */
     const ps_candidate *other = NULL; /* any that it leaves */
@@ -172,6 +185,7 @@ pspec_status ps_plan_require(const ps_plan *plan, const ps_problem *problem, ps_
                        problem->tolerance, best->error, best->engine->name,
                        ps_precision_name(best->precision));
     }
-    return ps_fail(error, PSPEC_ERROR_MEMORY, "%s (%s) %s", best->engine->name,
-                   ps_precision_name(best->precision), best->reason);
+    const ps_candidate *smallest = find_smallest(plan, problem->tolerance);
+    return ps_fail(error, PSPEC_ERROR_MEMORY, "%s (%s) %s", smallest->engine->name,
+                   ps_precision_name(smallest->precision), smallest->reason);
 }

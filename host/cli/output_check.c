@@ -1,0 +1,118 @@
+#include "cli/output_check.h"
+
+#include "base/text.h"
+#include "io/output_file.h"
+
+#include <string.h>
+#include <sys/stat.h>
+
+/* One path of the command line and the option that named it. */
+typedef struct named_path {
+    const char *option, *path;
+} named_path;
+
+/* The same file, whatever the two names are; files that do not exist yet are compared by name. */
+static bool is_same_file(const char *a, const char *b) {
+    struct stat first;
+    struct stat second;
+    if (stat(a, &first) == 0 && stat(b, &second) == 0) {
+        return first.st_dev == second.st_dev && first.st_ino == second.st_ino &&
+               S_ISREG(first.st_mode);
+    }
+    return strcmp(a, b) == 0;
+}
+
+static pspec_status check_pair(const named_path *output, const named_path *other, ps_error *error) {
+    const bool is_stream = strcmp(output->path, "-") == 0 || strcmp(other->path, "-") == 0;
+    return is_stream || !is_same_file(output->path, other->path)
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "%s \"%s\" and %s \"%s\" are the same file", output->option, output->path,
+                         other->option, other->path);
+}
+
+static pspec_status check_inputs(const named_path *output, const ps_arguments *arguments,
+                                 ps_error *error) {
+    const char *weights = arguments->weights;
+    const bool is_file =
+        weights != NULL && strcmp(weights, "column") != 0 && strcmp(weights, "equal") != 0;
+    if (is_file) {
+        PS_TRY(check_pair(output, &(named_path){"--weights", weights}, error));
+    }
+    if (arguments->frequencies != NULL) {
+        PS_TRY(check_pair(output, &(named_path){"--frequencies", arguments->frequencies}, error));
+    }
+    for (size_t i = 0; i < arguments->num_files; i++) {
+        PS_TRY(check_pair(output, &(named_path){"the input", arguments->files[i]}, error));
+    }
+    return PSPEC_OK;
+}
+
+/* A missing folder or a lacking permission shows when the temporary file is made. */
+static pspec_status check_folder(const char *path, ps_error *error) {
+    ps_output_file *file = NULL;
+    struct stat status;
+    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) {
+        return PSPEC_OK;
+    }
+    PS_TRY(ps_output_open(&file, path, error));
+    ps_output_discard(&file);
+    return PSPEC_OK;
+}
+
+/* "a/b.npy" -> "a/b" and the ending given. */
+static void replace_ending(ps_text *out, const char *path, const char *ending) {
+    const char *slash = strrchr(path, '/');
+    const char *dot = strrchr(slash != NULL ? slash : path, '.');
+    ps_text_append_bytes(out, path, dot != NULL ? (size_t)(dot - path) : strlen(path));
+    ps_text_append(out, "%s", ending);
+}
+
+static bool ends_in_npy(const char *path) {
+    static const char ending[] = ".npy";
+    const size_t length = strlen(path);
+    return length >= sizeof ending - 1 && strcmp(path + length - (sizeof ending - 1), ending) == 0;
+}
+
+static pspec_status check_all(const named_path *outputs, size_t num, const ps_arguments *arguments,
+                              ps_error *error) {
+    for (size_t i = 0; i < num; i++) {
+        if (outputs[i].path == NULL) {
+            continue;
+        }
+        for (size_t j = i + 1; j < num; j++) {
+            if (outputs[j].path != NULL) {
+                PS_TRY(check_pair(&outputs[i], &outputs[j], error));
+            }
+        }
+        PS_TRY(check_inputs(&outputs[i], arguments, error));
+        PS_TRY(check_folder(outputs[i].path, error));
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_outputs_check(const ps_arguments *arguments, ps_error *error) {
+    ps_text sidecar = {0};         /* names of the columns beside a table in NPY */
+    ps_text standard_errors = {0}; /* beside the array of --full */
+    const bool is_npy = arguments->output != NULL &&
+                        (arguments->format != NULL ? strcmp(arguments->format, "npy") == 0
+                                                   : ends_in_npy(arguments->output));
+    if (is_npy) {
+        replace_ending(&sidecar, arguments->output, ".json");
+    }
+    if (arguments->full != NULL) {
+        replace_ending(&standard_errors, arguments->full, ".standard_error.npy");
+    }
+    const named_path outputs[] = {
+        {"--output", arguments->output},
+        {"--full", arguments->full},
+        {"--plot", arguments->plot},
+        {"the column names", is_npy ? ps_text_string(&sidecar) : NULL},
+        {"the standard errors", arguments->full != NULL ? ps_text_string(&standard_errors) : NULL},
+    };
+    const pspec_status status =
+        check_all(outputs, sizeof outputs / sizeof outputs[0], arguments, error);
+    ps_text_free(&sidecar);
+    ps_text_free(&standard_errors);
+    return status;
+}

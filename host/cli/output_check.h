@@ -1,0 +1,11 @@
+/* Outputs looked at before hours of work, not after: can they be written, is each a file of its own? */
+#ifndef PS_CLI_OUTPUT_CHECK_H
+#define PS_CLI_OUTPUT_CHECK_H
+
+#include "cli/arguments.h"
+
+/* Refuses outputs that would overwrite each other or an input, and those whose folder cannot be
+ * written. Pipes and devices are not opened: somebody may be waiting at their other end. */
+pspec_status ps_outputs_check(const ps_arguments *arguments, ps_error *error) PS_MUST_CHECK;
+
+#endif
