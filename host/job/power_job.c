@@ -1,6 +1,7 @@
 #include "job/power_job.h"
 
 #include "base/memory.h"
+#include "job/power_frequencies.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -86,56 +87,6 @@ static pspec_status find_shape(ps_power_job *job, ps_error *error) {
     return PSPEC_OK;
 }
 
-/* ---- frequencies ------------------------------------------------------------------------- */
-
-static pspec_status default_max_frequency(const ps_power_job *job, int32_t *out, ps_error *error) {
-    /* 5 N^(1/d): what UTK, PSA and GBN show. Above three dimensions it would be a surprise. */
-    const double times = 5;
-    enum { LARGEST_DIMENSION = 3 };
-    if (job->dimension > LARGEST_DIMENSION) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "in dimension %u the largest frequency must be given: -k K", job->dimension);
-    }
-    /* The root of an exact power may come out a rounding above it. */
-    const double root = pow((double)job->num_points, 1.0 / job->dimension);
-    const double rounding = 1e-12;
-    *out = (int32_t)ceil(times * root * (1 - rounding));
-    return PSPEC_OK;
-}
-
-static pspec_status read_frequency_list(ps_power_job *job, ps_error *error) {
-    int *vectors = NULL;
-    size_t num = 0;
-    unsigned dimension = 0;
-    PS_TRY(ps_read_frequencies(job->question->frequencies_path, &vectors, &num, &dimension, error));
-    ps_error inner = {0};
-    const pspec_status status =
-        ps_frequencies_list(&job->frequencies, dimension, num, vectors, &inner);
-    if (status != PSPEC_OK) {
-        return ps_fail(error, status, "\"%s\": %s", job->question->frequencies_path, inner.message);
-    }
-    if (dimension != job->dimension) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "\"%s\" holds frequencies of dimension %u, the points have dimension %u",
-                       job->question->frequencies_path, dimension, job->dimension);
-    }
-    return PSPEC_OK;
-}
-
-static pspec_status choose_frequencies(ps_power_job *job, ps_error *error) {
-    const ps_power_question *question = job->question;
-    int32_t max_frequency = question->max_frequency;
-    if (question->frequencies_path != NULL) {
-        return read_frequency_list(job, error);
-    }
-    if (max_frequency == 0) {
-        PS_TRY(default_max_frequency(job, &max_frequency, error));
-    }
-    const bool only_ball = !question->wants_full_array && !question->no_skip;
-    return ps_frequencies_lattice(&job->frequencies, job->dimension, max_frequency, only_ball,
-                                  error);
-}
-
 /* ---- plan -------------------------------------------------------------------------------- */
 
 /* A device is opened unless the user's choice of engine or precision leaves none that needs one. */
@@ -163,7 +114,8 @@ static pspec_status prepare(ps_power_job *job, ps_error *error) {
     const ps_power_question *question = job->question;
     const double by_floor = question->floor > 0 ? ps_tolerance_of_floor(question->floor) : 1;
     PS_TRY(find_shape(job, error));
-    PS_TRY(choose_frequencies(job, error));
+    PS_TRY(
+        ps_power_frequencies(&job->frequencies, question, job->dimension, job->num_points, error));
     find_needs(job);
     if (question->sampler != NULL) {
         PS_TRY(open_sampler(job, error));

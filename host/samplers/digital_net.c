@@ -31,6 +31,12 @@ pspec_status ps_digital_net_scramble(const ps_sampler_request *request, unsigned
     return PSPEC_OK;
 }
 
+bool ps_digital_net_is_plain(const ps_sampler_request *request, unsigned i_parameter) {
+    ps_net_scramble scramble = PS_NET_PLAIN;
+    return ps_digital_net_scramble(request, i_parameter, &scramble, NULL) == PSPEC_OK &&
+           scramble == PS_NET_PLAIN;
+}
+
 void ps_digital_net_set_axis(ps_digital_net *net, unsigned axis,
                              const uint32_t directions[PS_NET_DIGITS]) {
     uint32_t sum = 0;

@@ -40,9 +40,7 @@ static void build_net(unsigned m, bool is_centred, ps_digital_net *net) {
 }
 
 static bool is_deterministic(const ps_sampler_request *request) {
-    ps_net_scramble scramble = PS_NET_PLAIN;
-    return ps_digital_net_scramble(request, SCRAMBLE, &scramble, NULL) == PSPEC_OK &&
-           scramble == PS_NET_PLAIN;
+    return ps_digital_net_is_plain(request, SCRAMBLE);
 }
 
 static pspec_status check(const ps_sampler_request *request, ps_error *error) {

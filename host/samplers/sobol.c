@@ -57,9 +57,7 @@ static void build_net(ps_digital_net *net) {
 }
 
 static bool is_deterministic(const ps_sampler_request *request) {
-    ps_net_scramble scramble = PS_NET_PLAIN;
-    return ps_digital_net_scramble(request, SCRAMBLE, &scramble, NULL) == PSPEC_OK &&
-           scramble == PS_NET_PLAIN;
+    return ps_digital_net_is_plain(request, SCRAMBLE);
 }
 
 static pspec_status check(const ps_sampler_request *request, ps_error *error) {
