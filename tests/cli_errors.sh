@@ -151,6 +151,10 @@ power 1 'No space left' "${white[@]}" -o /dev/full
 power 1 'Is a directory' "${white[@]}" -o "$in"
 power 1 'No such file' "${white[@]}" --full missing/full.npy
 power 1 'No such file' "${white[@]}" --plot missing/picture.png
+power 2 'are the same file' -o "$in/good.txt" "$in/good.txt"
+power 2 'are the same file' --full array.npy -o array.npy "$in/good.txt"
+power 2 'are the same file' --full array.npy -o array.standard_error.npy "$in/good.txt"
+power 2 'are the same file' --plot result.png -o result.png "$in/good.txt"
 refuses 1 'No such file' sample "${white[@]}" -o missing/points.txt
 refuses 1 'No space left' sample "${white[@]}" -o /dev/full
 refuses 1 'Is a directory' sample "${white[@]}" -o "$in"

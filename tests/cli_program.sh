@@ -131,5 +131,14 @@ interrupts() { # SIGNAL ARGS...
 interrupts TERM sample --sampler white -n 1000 -m 1e9 -o interrupted/points.txt
 interrupts INT sample --sampler white -n 1000 -m 1e9 -o interrupted/points.npy
 interrupts INT power --sampler white -n 1000 -m 1e9 -k 8 -o interrupted/power.csv
+# inside one realization, too
+interrupts INT power --sampler white -n 65536 -k 300 --engine host_direct -o interrupted/power.csv
+
+# ---- a pipe with a name: its reader gets the whole table
+mkfifo pipe
+cat pipe >from_pipe.csv &
+"$program" power --sampler white -n 64 -k 3 -o pipe || complain "named pipe: exit $?"
+wait $!
+grep -q '^3,' from_pipe.csv || complain "named pipe: no table"
 
 exit $bad

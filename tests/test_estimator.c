@@ -228,6 +228,31 @@ static void white_noise(void **state) {
     ps_frequencies_free(&grid);
 }
 
+/* Weights times a power of two, far outside the range of float, change no bit of the powers. */
+static void weights_of_any_size(void **state) {
+    (void)state;
+    static const int exponents[] = {900, 130, -130, -900};
+    ps_frequencies grid = test_make_lattice(2, 7, false);
+    test_sample what = test_make_sample(3, 2, 64, 0, true);
+    const ps_estimator_options options =
+        test_make_options(&grid, &ps_torus_direct, PS_SINGLE, 64, 3);
+    ps_spectrum expected = test_estimate(&options, &what, 3, device);
+    for (size_t i = 0; i < sizeof exponents / sizeof exponents[0]; i++) {
+        test_sample scaled = test_make_sample(3, 2, 64, 0, true);
+        for (size_t j = 0; j < 64; j++) { /* of the second set only: realizations are independent */
+            double *weights = (double *)scaled.patterns[1].weights;
+            weights[j] = ldexp(weights[j], exponents[i]);
+        }
+        ps_spectrum found = test_estimate(&options, &scaled, 3, device);
+        assert_true(test_is_same_bits(&expected, &found));
+        ps_spectrum_free(&found);
+        test_free_sample(&scaled);
+    }
+    ps_spectrum_free(&expected);
+    test_free_sample(&what);
+    ps_frequencies_free(&grid);
+}
+
 static void effective_normalization(void **state) {
     (void)state;
     ps_frequencies grid = test_make_lattice(1, 30, false);
@@ -263,6 +288,7 @@ int main(void) {
         cmocka_unit_test(merging_duplicates_changes_nothing),
         cmocka_unit_test(different_numbers_of_points),
         cmocka_unit_test(white_noise),
+        cmocka_unit_test(weights_of_any_size),
         cmocka_unit_test(effective_normalization),
     };
     device = test_open_device();
