@@ -113,10 +113,12 @@ pspec_status ps_torus_sums_add(ps_torus_sums *self, const ps_torus_points *point
                                ps_error *error) {
     const double pairs = (double)num_points * (double)self->num;
     const double real_bytes = (double)self->real_bytes;
-    const ps_range range = ps_range_heavy(
-        device, self->num_tiles, self->num_chunks, num_patterns, pairs * phase_flops(self),
-        (double)num_points * (8.0 * self->dimension + real_bytes) +
-            (self->has_table ? 2 * pairs * real_bytes : 0));
+    /* Without a table a work-item takes two tiles (torus/list.cl). */
+    const size_t num_items = self->has_table ? self->num_tiles : (self->num_tiles + 1) / 2;
+    const ps_range range =
+        ps_range_heavy(device, num_items, self->num_chunks, num_patterns, pairs * phase_flops(self),
+                       (double)num_points * (8.0 * self->dimension + real_bytes) +
+                           (self->has_table ? 2 * pairs * real_bytes : 0));
     const ps_buffer *table = self->has_table ? &self->table : &self->sums;
     return PS_LAUNCH(device, self->list, &range, error, PS_BUFFER(points->points),
                      PS_BUFFER(points->weights), PS_BUFFER(points->offsets),

@@ -1,10 +1,11 @@
 /* Torus sums over a list of frequencies, and the tables of cosines and sines for separable grids.
  *
- * One work-item owns one tile (LANES frequencies) of one realization and one chunk of its points:
- * it walks through the points, forms w cos(2 pi k.x) and w sin(2 pi k.x), adds them up and, when
- * STORE_TABLE is set, also writes them down for torus/product.cl.
+ * One work-item owns a tile (LANES frequencies; two tiles without a table) of one realization and
+ * one chunk of its points: it walks through the points, forms w cos(2 pi k.x) and w sin(2 pi k.x),
+ * adds them up and, when STORE_TABLE is set, also writes them down for torus/product.cl.
  *
- * Launch: (tiles, chunks, realizations), tiles rounded up at will; no local memory.
+ * Launch: (tiles, half as many without a table; chunks; realizations), the first rounded up at will;
+ * no local memory.
  *
  *   points       [..][DIMENSION] fixed point, realization r at offsets[r] .. offsets[r + 1]
  *   weights      one per point
@@ -39,31 +40,46 @@
 #define RIGHT_BEGIN 0
 #endif
 
+/* Tiles of one work-item. Sums alone take two, which share the work on the coordinates of a point; a
+ * table is written by one, since its two factors look at different axes. */
+#define SIDE_BY_SIDE (STORE_TABLE ? 1 : 2)
+
 /* Adds the points begin .. end - 1 up over the axes given, constants in every call, so that loops
  * unroll. (No restrict here: Oclgrind does not know what inlining makes of it.) */
 static inline void add_points(__global const ulong *points, __global const real *weights,
-                              const wordv *k, const realv *k_real, const ulong begin,
-                              const ulong end, const int first_axis, const int last_axis,
-                              const int is_weighted, __global real *row, realv *sums) {
+                              const wordv k[][DIMENSION], const realv k_real[][DIMENSION],
+                              const ulong begin, const ulong end, const int first_axis,
+                              const int last_axis, const int is_weighted, __global real *row,
+                              realv sums[][4]) {
     for (ulong run = begin; run < end; run += LIST_RUN) {
         const ulong run_end = min(run + LIST_RUN, end);
-        realv cos_sum = 0, sin_sum = 0;
+        realv cos_sum[SIDE_BY_SIDE], sin_sum[SIDE_BY_SIDE];
+#pragma unroll
+        for (int i = 0; i < SIDE_BY_SIDE; i++) {
+            cos_sum[i] = sin_sum[i] = (realv)0;
+        }
         for (ulong j = run; j < run_end; j++) {
-            realv cosine, sine;
-            turn_cosine_sine(
-                phase_of_point(k, k_real, points + j * DIMENSION, first_axis, last_axis), &cosine,
-                &sine);
             const realv weight = (realv)weights[j];
-            cos_sum = fma(weight, cosine, cos_sum);
-            sin_sum = fma(weight, sine, sin_sum);
-            if (STORE_TABLE) {
-                STOREV(is_weighted ? weight * cosine : cosine, 0, row);
-                STOREV(is_weighted ? weight * sine : sine, 1, row);
-                row += 2 * LANES;
+#pragma unroll
+            for (int i = 0; i < SIDE_BY_SIDE; i++) {
+                realv cosine, sine;
+                turn_cosine_sine(
+                    phase_of_point(k[i], k_real[i], points + j * DIMENSION, first_axis, last_axis),
+                    &cosine, &sine);
+                cos_sum[i] = fma(weight, cosine, cos_sum[i]);
+                sin_sum[i] = fma(weight, sine, sin_sum[i]);
+                if (STORE_TABLE) {
+                    STOREV(is_weighted ? weight * cosine : cosine, 0, row);
+                    STOREV(is_weighted ? weight * sine : sine, 1, row);
+                    row += 2 * LANES;
+                }
             }
         }
-        pair_add(&sums[0], &sums[1], cos_sum);
-        pair_add(&sums[2], &sums[3], sin_sum);
+#pragma unroll
+        for (int i = 0; i < SIDE_BY_SIDE; i++) {
+            pair_add(&sums[i][0], &sums[i][1], cos_sum[i]);
+            pair_add(&sums[i][2], &sums[i][3], sin_sum[i]);
+        }
     }
 }
 
@@ -74,7 +90,7 @@ __kernel void torus_list(__global const ulong *restrict points,
                          const ulong first_row, const ulong num_tiles, const ulong chunk_points,
                          __global real *restrict table, const ulong table_points,
                          const ulong weighted_tiles) {
-    const size_t tile = get_global_id(0);
+    const size_t tile = get_global_id(0) * SIDE_BY_SIDE;
     const size_t chunk = get_global_id(1), num_chunks = get_global_size(1);
     const size_t realization = get_global_id(2);
     if (tile >= num_tiles) {
@@ -85,13 +101,17 @@ __kernel void torus_list(__global const ulong *restrict points,
     const ulong begin = min(first + chunk * chunk_points, last);
     const ulong end = min(begin + chunk_points, last);
 
-    wordv k[DIMENSION];
-    realv k_real[DIMENSION];
-    for (int axis = 0; axis < DIMENSION; axis++) {
-        k[axis] = LOADV(axis * num_tiles + tile, frequencies);
-        k_real[axis] = TO_REALV(AS_SWORDV(k[axis]));
+    wordv k[SIDE_BY_SIDE][DIMENSION];
+    realv k_real[SIDE_BY_SIDE][DIMENSION];
+    realv pairs[SIDE_BY_SIDE][4];
+    for (int i = 0; i < SIDE_BY_SIDE; i++) {
+        const size_t at = min(tile + i, (size_t)num_tiles - 1); /* the last one twice, if odd */
+        for (int axis = 0; axis < DIMENSION; axis++) {
+            k[i][axis] = LOADV(axis * num_tiles + at, frequencies);
+            k_real[i][axis] = TO_REALV(AS_SWORDV(k[i][axis]));
+        }
+        pairs[i][0] = pairs[i][1] = pairs[i][2] = pairs[i][3] = (realv)0;
     }
-    realv pairs[4] = {(realv)0, (realv)0, (realv)0, (realv)0};
     __global real *row =
         table + ((realization * num_tiles + tile) * table_points + (begin - first)) * 2 * LANES;
     if (!STORE_TABLE) {
@@ -103,7 +123,9 @@ __kernel void torus_list(__global const ulong *restrict points,
     }
     __global real *out =
         sums + (((first_row + realization) * num_chunks + chunk) * num_tiles + tile) * 4 * LANES;
-    for (int i = 0; i < 4; i++) {
-        STOREV(pairs[i], i, out);
+    for (size_t i = 0; i < SIDE_BY_SIDE && tile + i < num_tiles; i++) {
+        for (int part = 0; part < 4; part++) {
+            STOREV(pairs[i][part], 4 * i + part, out);
+        }
     }
 }
