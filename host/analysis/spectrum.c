@@ -95,7 +95,8 @@ pspec_status ps_spectrum_create(ps_spectrum *out, const ps_frequencies *frequenc
                          .mean_points = totals->sum_points / n,
                          .smallest_points = totals->smallest_points,
                          .largest_points = totals->largest_points,
-                         .mean_weight_sum = totals->sum_weights / n};
+                         .mean_weight_sum = totals->sum_weights / n,
+                         .mean_sample_size = totals->sum_sample_sizes / n};
     pspec_status status = copy_frequencies(&out->frequencies, frequencies, error);
     if (status == PSPEC_OK) {
         status = fill(out, bins, accumulator, factor, with_frequencies, error);

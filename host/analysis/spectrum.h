@@ -20,6 +20,7 @@ typedef struct ps_spectrum {
     double mean_points;
     size_t smallest_points, largest_points;
     double mean_weight_sum;
+    double mean_sample_size; /* W^2 / V, the effective power at DC */
     size_t num_bins;
     ps_spectrum_bin *bins;
     ps_mean *powers; /* [frequencies.num], or NULL */
@@ -29,6 +30,7 @@ typedef struct ps_spectrum {
 typedef struct ps_pattern_totals {
     uint64_t num_realizations;
     double sum_points, sum_weights;
+    double sum_sample_sizes; /* of W^2 / V, the effective sample size */
     size_t smallest_points, largest_points;
 } ps_pattern_totals;
 

@@ -11,9 +11,9 @@
 
 /* ---- --full ------------------------------------------------------------------------------ */
 
-/* P(0) = N W^2 / W^2 = N, or W^2 / V; only the default normalization has it without the weights. */
+/* P(0) = N W^2 / W^2 = N, or W^2 / V. */
 static double dc_power(const ps_arguments *arguments, const ps_spectrum *spectrum) {
-    return arguments->effective ? NAN : spectrum->mean_points;
+    return arguments->effective ? spectrum->mean_sample_size : spectrum->mean_points;
 }
 
 static pspec_status write_array(const char *path, const ps_arguments *arguments,

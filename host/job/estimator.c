@@ -176,6 +176,8 @@ static void count_patterns(ps_estimator *self, const pspec_pattern *patterns, si
         const bool is_first = totals->num_realizations == 0;
         totals->num_realizations++;
         totals->sum_points += (double)num_points;
+        totals->sum_sample_sizes +=
+            self->sums[r].weight_sum * self->sums[r].weight_sum / self->sums[r].weight_square_sum;
         totals->sum_weights += ldexp(self->sums[r].weight_sum, self->sums[r].exponent);
         if (is_first || num_points < totals->smallest_points) {
             totals->smallest_points = num_points;
