@@ -115,10 +115,6 @@ pspec_status ps_accumulator_add(ps_accumulator *accumulator, const ps_rows *rows
     return PSPEC_OK;
 }
 
-uint64_t ps_accumulator_num_realizations(const ps_accumulator *accumulator) {
-    return accumulator->num_realizations;
-}
-
 void ps_accumulator_bins(const ps_accumulator *accumulator, ps_mean *means) {
     for (size_t b = 0; b < accumulator->options.bins->num; b++) {
         ps_sums_finish(&accumulator->bin_sums[b], accumulator->num_realizations, &means[b].mean,

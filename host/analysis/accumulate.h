@@ -38,7 +38,6 @@ void ps_accumulator_destroy(ps_accumulator *accumulator);
 pspec_status ps_accumulator_add(ps_accumulator *accumulator, const ps_rows *rows,
                                 const double **bin_powers, ps_error *error) PS_MUST_CHECK;
 
-uint64_t ps_accumulator_num_realizations(const ps_accumulator *accumulator);
 /* means[num_bins] */
 void ps_accumulator_bins(const ps_accumulator *accumulator, ps_mean *means);
 /* means[num_frequencies]; only with want_frequencies. */

@@ -87,6 +87,7 @@ static pspec_status create_kernels(ps_device_accumulator *self, ps_error *error)
     pspec_status status = PSPEC_OK;
     ps_text_append(&options, "-DPRECISION=%zu -DLANES=%u", self->real_bytes * 8,
                    self->options.lanes);
+    PS_TRY_OUT(status, ps_text_check(&options, error));
     const char *text = ps_text_string(&options);
     PS_TRY_OUT(status, ps_kernel_create(self->device, &self->pieces, "accumulate/bins.cl",
                                         "accumulate_bin_pieces", text, error));

@@ -47,6 +47,11 @@ const char *ps_text_string(const ps_text *text) {
     return text->data != NULL ? text->data : "";
 }
 
+pspec_status ps_text_check(const ps_text *text, ps_error *error) {
+    return text->failed ? ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for text")
+                        : PSPEC_OK;
+}
+
 void ps_text_free(ps_text *text) {
     free(text->data);
     *text = (ps_text){0};

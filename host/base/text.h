@@ -20,6 +20,8 @@ void ps_text_append(ps_text *text, const char *format, ...) PS_PRINTF(2, 3);
 void ps_text_append_bytes(ps_text *text, const char *bytes, size_t num_bytes);
 const char *ps_text_string(const ps_text *text); /* never NULL */
 void ps_text_free(ps_text *text);
+/* PSPEC_ERROR_MEMORY when an append ran out of memory. */
+pspec_status ps_text_check(const ps_text *text, ps_error *error) PS_MUST_CHECK;
 
 /* "1024", "1e6", "4096.0" -> a whole number in [minimum, maximum]; anything else is
  * PSPEC_ERROR_INVALID_ARGUMENT with a sentence that names the thing, the text and the limits. */

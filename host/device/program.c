@@ -35,6 +35,7 @@ static pspec_status build(ps_device *device, cl_program *out, const char *source
     *out = NULL;
     PS_TRY_OUT(status, ps_kernel_source_expand(source, &text, error));
     ps_text_append(&all_options, "%s %s", common_options, options);
+    PS_TRY_OUT(status, ps_text_check(&all_options, error));
     const char *string = ps_text_string(&text);
     *out = clCreateProgramWithSource(device->context, 1, &string, NULL, &code);
     if (code != CL_SUCCESS) {

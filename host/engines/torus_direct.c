@@ -134,8 +134,11 @@ static pspec_status create_product(torus_direct *self, ps_error *error) {
     const unsigned lanes = self->layout.lanes;
     const ps_split *split = &self->split;
     ps_torus_options(&options, &self->layout, self->frequencies->dimension);
-    const pspec_status status = ps_kernel_create(self->device, &self->product, "torus/product.cl",
-                                                 "torus_product", ps_text_string(&options), error);
+    pspec_status status = ps_text_check(&options, error);
+    if (status == PSPEC_OK) {
+        status = ps_kernel_create(self->device, &self->product, "torus/product.cl", "torus_product",
+                                  ps_text_string(&options), error);
+    }
     ps_text_free(&options);
     PS_TRY(status);
     PS_TRY(ps_buffer_create(self->device, &self->pairs, split->num_pairs * sizeof *split->pairs,

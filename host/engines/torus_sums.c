@@ -40,6 +40,8 @@ static pspec_status create_kernels(ps_torus_sums *self, const ps_torus_layout *l
     ps_torus_options(&common, layout, self->dimension);
     ps_text_append(&list, "%s -DSTORE_TABLE=%d -DLEFT_AXES=%u", ps_text_string(&common),
                    self->has_table, self->has_table ? layout->left_axes : self->dimension);
+    PS_TRY_OUT(status, ps_text_check(&list, error));
+    PS_TRY_OUT(status, ps_text_check(&common, error));
     const char *options = ps_text_string(&common);
     PS_TRY_OUT(status, ps_kernel_create(device, &self->list, "torus/list.cl", "torus_list",
                                         ps_text_string(&list), error));

@@ -34,12 +34,6 @@ struct ps_power_job {
     bool was_replanned;
 };
 
-double ps_tolerance_of_floor(double floor) {
-    const double relative_error = 0.1;
-    const double deviations = 3;
-    return relative_error / 2 * sqrt(floor) / deviations;
-}
-
 /* ---- source ------------------------------------------------------------------------------ */
 
 /* What is not needed, once dimension and frequencies are known. */
@@ -91,16 +85,9 @@ static pspec_status find_shape(ps_power_job *job, ps_error *error) {
 
 /* A device is opened unless the user's choice of engine or precision leaves none that needs one. */
 static pspec_status open_device(ps_power_job *job, ps_error *error) {
-    const ps_plan_constraints *constraints = &job->question->constraints;
-    bool is_needed = false;
-    for (const ps_engine *const *engine = ps_engines; *engine != NULL; engine++) {
-        const bool may_run =
-            (constraints->engine == NULL || strcmp(constraints->engine, (*engine)->name) == 0) &&
-            (constraints->precision < 0 || (*engine)->has_precision[constraints->precision]);
-        is_needed = is_needed || (may_run && (*engine)->needs_device);
-    }
-    return is_needed
-               ? ps_device_open(&job->device, job->question->device, job->question->profile, error)
+    const ps_power_question *question = job->question;
+    return ps_plan_may_need_device(&question->constraints)
+               ? ps_device_open(&job->device, question->device, question->profile, error)
                : PSPEC_OK;
 }
 
@@ -112,7 +99,6 @@ static pspec_status make_plan(ps_power_job *job, double mean_power, ps_error *er
 
 static pspec_status prepare(ps_power_job *job, ps_error *error) {
     const ps_power_question *question = job->question;
-    const double by_floor = question->floor > 0 ? ps_tolerance_of_floor(question->floor) : 1;
     PS_TRY(find_shape(job, error));
     PS_TRY(
         ps_power_frequencies(&job->frequencies, question, job->dimension, job->num_points, error));
@@ -128,7 +114,7 @@ static pspec_status prepare(ps_power_job *job, ps_error *error) {
         .num_points = job->num_points,
         .num_realizations = job->num_realizations,
         .has_weights = job->first.has_weights || job->weights != NULL,
-        .tolerance = question->tolerance < by_floor ? question->tolerance : by_floor,
+        .tolerance = ps_plan_tolerance(question->tolerance, question->floor),
     };
     PS_TRY(open_device(job, error));
     return make_plan(job, 1, error);

@@ -70,8 +70,4 @@ const char *ps_power_job_description(const ps_power_job *job);
 bool ps_power_job_was_replanned(const ps_power_job *job);
 const ps_profile_row *ps_power_job_profile(const ps_power_job *job, size_t *num_rows);
 
-/* The tolerance that a floor asks for: |dS| <= e sqrt(V) with three times e still leaving a power P
- * right to 10 % (mathematics.md 7.2: relative error 2 e / sqrt(P)). */
-double ps_tolerance_of_floor(double floor);
-
 #endif

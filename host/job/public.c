@@ -3,7 +3,6 @@
 
 #include "base/memory.h"
 #include "job/estimator.h"
-#include "job/power_job.h"
 
 #include "pointspec_version.h"
 
@@ -115,24 +114,12 @@ static pspec_status check_request(const pspec_power_request *request, ps_error *
     return PSPEC_OK;
 }
 
-/* Is there an engine with that precision that needs a device? The planner says the rest. */
-static bool may_need_device(const ps_plan_constraints *constraints) {
-    for (const ps_engine *const *engine = ps_engines; *engine != NULL; engine++) {
-        const bool is_allowed =
-            constraints->engine == NULL || strcmp(constraints->engine, (*engine)->name) == 0;
-        if (is_allowed && (*engine)->needs_device) {
-            return constraints->precision < 0 || (*engine)->has_precision[constraints->precision];
-        }
-    }
-    return false;
-}
-
 static pspec_status choose_engine(pspec_plan *plan, const pspec_power_request *request,
                                   ps_error *error) {
     pspec_context *context = plan->context;
     ps_plan_constraints constraints = {.engine = request->engine, .mean_power = 1};
     PS_TRY(parse_precision(request->precision, &constraints.precision, error));
-    if (context->device == NULL && may_need_device(&constraints)) {
+    if (context->device == NULL && ps_plan_may_need_device(&constraints)) {
         PS_TRY(ps_device_open(&context->device, context->selector, false, error));
     }
     const ps_device_limits *limits =
@@ -160,7 +147,6 @@ static pspec_status create_estimator(pspec_plan *plan, const pspec_power_request
 
 static pspec_status fill_plan(pspec_plan *plan, const pspec_power_request *request,
                               ps_error *error) {
-    const double by_floor = request->floor > 0 ? ps_tolerance_of_floor(request->floor) : 1;
     PS_TRY(check_request(request, error));
     PS_TRY(set_frequencies(plan, request, error));
     plan->problem = (ps_problem){
@@ -168,7 +154,7 @@ static pspec_status fill_plan(pspec_plan *plan, const pspec_power_request *reque
         .num_points = request->num_points,
         .num_realizations = request->num_realizations,
         .has_weights = true,
-        .tolerance = request->tolerance < by_floor ? request->tolerance : by_floor,
+        .tolerance = ps_plan_tolerance(request->tolerance, request->floor),
     };
     PS_TRY(choose_engine(plan, request, error));
     return create_estimator(plan, request, error);

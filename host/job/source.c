@@ -110,10 +110,6 @@ pspec_status ps_source_rewind(ps_source *source, ps_error *error) {
     return PSPEC_OK;
 }
 
-uint64_t ps_source_num_realizations(const ps_source *source) {
-    return source->num_realizations;
-}
-
 const char *ps_source_format(const ps_source *source) {
     return source->format;
 }

@@ -25,8 +25,6 @@ pspec_status ps_source_next(ps_source *source, ps_point_set *set, bool *has_set,
                             ps_error *error) PS_MUST_CHECK;
 bool ps_source_can_rewind(const ps_source *source);
 pspec_status ps_source_rewind(ps_source *source, ps_error *error) PS_MUST_CHECK;
-/* 0: not known in advance. */
-uint64_t ps_source_num_realizations(const ps_source *source);
 /* Formats of the files read so far, or "". */
 const char *ps_source_format(const ps_source *source);
 void ps_source_destroy(ps_source *source);

@@ -123,6 +123,25 @@ static void choose_cheapest(ps_plan *plan) {
     plan->chosen = best;
 }
 
+bool ps_plan_may_need_device(const ps_plan_constraints *constraints) {
+    for (const ps_engine *const *engine = ps_engines; *engine != NULL; engine++) {
+        const bool may_run =
+            (constraints->engine == NULL || strcmp(constraints->engine, (*engine)->name) == 0) &&
+            (constraints->precision < 0 || (*engine)->has_precision[constraints->precision]);
+        if (may_run && (*engine)->needs_device) {
+            return true;
+        }
+    }
+    return false;
+}
+
+double ps_plan_tolerance(double tolerance, double floor) {
+    const double relative_error = 0.1;
+    const double deviations = 3;
+    const double by_floor = relative_error / 2 * sqrt(floor) / deviations;
+    return floor > 0 && by_floor < tolerance ? by_floor : tolerance;
+}
+
 pspec_status ps_plan_make(ps_plan *plan, const ps_problem *problem, const ps_device_limits *limits,
                           const ps_plan_constraints *constraints, ps_error *error) {
     *plan = (ps_plan){0};

@@ -31,6 +31,14 @@ typedef struct ps_plan_constraints {
     uint64_t memory_limit; /* bytes; 0: what the device reports, or no limit on the host */
 } ps_plan_constraints;
 
+/* May an engine that these constraints leave need a device? */
+bool ps_plan_may_need_device(const ps_plan_constraints *constraints);
+
+/* The tolerance of S that both a tolerance and a floor ask for (floor 0: none): |dS| <= e sqrt(V) with
+ * three times e still leaving a power of `floor` right to 10 % (mathematics.md 7.2: the relative
+ * error of a power P is 2 e / sqrt(P)). */
+double ps_plan_tolerance(double tolerance, double floor);
+
 /* Fills *plan. limits is NULL without a device. An unknown engine name is
  * PSPEC_ERROR_INVALID_ARGUMENT with the nearest one; that nothing is feasible is not an error here
  * (see ps_plan_require). *plan must not be moved afterwards. */
