@@ -1,7 +1,6 @@
 #include "analysis/accumulate.h"
 
 #include "analysis/accumulate_device.h"
-#include "analysis/sums.h"
 #include "base/memory.h"
 
 #include <stdlib.h>
@@ -112,6 +111,32 @@ pspec_status ps_accumulator_add(ps_accumulator *accumulator, const ps_rows *rows
     if (bin_powers != NULL) {
         *bin_powers = accumulator->bin_powers;
     }
+    return PSPEC_OK;
+}
+
+pspec_status ps_accumulator_reset(ps_accumulator *accumulator, ps_error *error) {
+    const ps_accumulator_options *options = &accumulator->options;
+    accumulator->num_realizations = 0;
+    memset(accumulator->bin_sums, 0, options->bins->num * sizeof(ps_sums));
+    if (accumulator->frequency_sums != NULL) {
+        memset(accumulator->frequency_sums, 0, options->num_frequencies * sizeof(ps_sums));
+    }
+    return accumulator->on_device != NULL
+               ? ps_device_accumulator_reset(accumulator->on_device, error)
+               : PSPEC_OK;
+}
+
+pspec_status ps_accumulator_sums(ps_accumulator *accumulator, ps_sums *bins, ps_sums *frequencies,
+                                 ps_error *error) {
+    const ps_accumulator_options *options = &accumulator->options;
+    memcpy(bins, accumulator->bin_sums, options->bins->num * sizeof(ps_sums));
+    if (frequencies == NULL) {
+        return PSPEC_OK;
+    }
+    if (accumulator->on_device != NULL) {
+        return ps_device_accumulator_sums(accumulator->on_device, frequencies, error);
+    }
+    memcpy(frequencies, accumulator->frequency_sums, options->num_frequencies * sizeof(ps_sums));
     return PSPEC_OK;
 }
 

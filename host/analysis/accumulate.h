@@ -9,6 +9,7 @@
 #define PS_ANALYSIS_ACCUMULATE_H
 
 #include "analysis/bins.h"
+#include "analysis/sums.h"
 #include "engines/engine.h"
 
 typedef struct ps_accumulator ps_accumulator;
@@ -38,6 +39,12 @@ void ps_accumulator_destroy(ps_accumulator *accumulator);
 pspec_status ps_accumulator_add(ps_accumulator *accumulator, const ps_rows *rows,
                                 const double **bin_powers, ps_error *error) PS_MUST_CHECK;
 
+/* Forgets every realization; allocates nothing. */
+pspec_status ps_accumulator_reset(ps_accumulator *accumulator, ps_error *error) PS_MUST_CHECK;
+
+/* The sums themselves: bins[bins->num], frequencies[num_frequencies] or NULL when nobody asks. */
+pspec_status ps_accumulator_sums(ps_accumulator *accumulator, ps_sums *bins, ps_sums *frequencies,
+                                 ps_error *error) PS_MUST_CHECK;
 /* means[num_bins] */
 void ps_accumulator_bins(const ps_accumulator *accumulator, ps_mean *means);
 /* means[num_frequencies]; only with want_frequencies. */

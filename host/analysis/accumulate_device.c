@@ -1,6 +1,5 @@
 #include "analysis/accumulate_device.h"
 
-#include "analysis/sums.h"
 #include "base/memory.h"
 
 #include <stdlib.h>
@@ -219,19 +218,41 @@ pspec_status ps_device_accumulator_add(ps_device_accumulator *accumulator, const
     return read_bins(self, rows, num_groups, bin_powers, error);
 }
 
+pspec_status ps_device_accumulator_reset(ps_device_accumulator *accumulator, ps_error *error) {
+    return accumulator->options.want_frequencies
+               ? ps_buffer_clear(accumulator->device, &accumulator->state, error)
+               : PSPEC_OK;
+}
+
+/* Brings the sums per frequency into the staging memory. */
+static pspec_status read_state(const ps_device_accumulator *self, ps_error *error) {
+    return ps_buffer_read(self->device, &self->state, 0, self->host,
+                          4 * self->options.stride * self->real_bytes, error);
+}
+
+static ps_sums get_sums(const ps_device_accumulator *self, size_t frequency) {
+    const size_t stride = self->options.stride;
+    const size_t slot = self->options.slots[frequency];
+    return (ps_sums){get_real(self, self->host, slot), get_real(self, self->host, stride + slot),
+                     get_real(self, self->host, 2 * stride + slot),
+                     get_real(self, self->host, 3 * stride + slot)};
+}
+
+pspec_status ps_device_accumulator_sums(ps_device_accumulator *accumulator, ps_sums *sums,
+                                        ps_error *error) {
+    PS_TRY(read_state(accumulator, error));
+    for (size_t i = 0; i < accumulator->options.num_frequencies; i++) {
+        sums[i] = get_sums(accumulator, i);
+    }
+    return PSPEC_OK;
+}
+
 pspec_status ps_device_accumulator_frequencies(ps_device_accumulator *accumulator,
                                                uint64_t num_realizations, ps_mean *means,
                                                ps_error *error) {
-    const ps_device_accumulator *self = accumulator;
-    const size_t stride = self->options.stride;
-    PS_TRY(ps_buffer_read(self->device, &self->state, 0, self->host, 4 * stride * self->real_bytes,
-                          error));
-    for (size_t i = 0; i < self->options.num_frequencies; i++) {
-        const size_t slot = self->options.slots[i];
-        const ps_sums sums = {get_real(self, self->host, slot),
-                              get_real(self, self->host, stride + slot),
-                              get_real(self, self->host, 2 * stride + slot),
-                              get_real(self, self->host, 3 * stride + slot)};
+    PS_TRY(read_state(accumulator, error));
+    for (size_t i = 0; i < accumulator->options.num_frequencies; i++) {
+        const ps_sums sums = get_sums(accumulator, i);
         ps_sums_finish(&sums, num_realizations, &means[i].mean, &means[i].standard_error);
     }
     return PSPEC_OK;

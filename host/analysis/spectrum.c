@@ -4,7 +4,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 double ps_anisotropy_db(const ps_mean *powers, const uint32_t *members, size_t num_members) {
     const double decibels = 10;
@@ -24,17 +23,6 @@ double ps_anisotropy_db(const ps_mean *powers, const uint32_t *members, size_t n
     const double variance = (double)(squares / (long double)(num_members - 1));
     const double ratio = variance / (double)(mean * mean);
     return mean > 0 && ratio > 0 ? decibels * log10(ratio) : NAN;
-}
-
-static pspec_status copy_frequencies(ps_frequencies *out, const ps_frequencies *from,
-                                     ps_error *error) {
-    void *vectors = NULL;
-    const size_t num_components = from->num * from->dimension;
-    PS_TRY(ps_allocate(&vectors, num_components, sizeof(int32_t), "the frequencies", error));
-    memcpy(vectors, from->vectors, num_components * sizeof(int32_t));
-    *out = *from;
-    out->vectors = vectors;
-    return PSPEC_OK;
 }
 
 static void fill_bins(ps_spectrum *out, const ps_bins *bins, const ps_mean *means, double factor) {
@@ -57,53 +45,61 @@ static void fill_bins(ps_spectrum *out, const ps_bins *bins, const ps_mean *mean
     }
 }
 
-static pspec_status fill_powers(ps_spectrum *out, ps_accumulator *accumulator, double factor,
-                                ps_error *error) {
+static pspec_status fill(ps_spectrum *out, const ps_frequencies *frequencies, const ps_bins *bins,
+                         const ps_mean *bin_means, double factor, ps_error *error) {
     void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, out->frequencies.num, sizeof(ps_mean), "the powers", error));
-    out->powers = memory;
-    PS_TRY(ps_accumulator_frequencies(accumulator, out->powers, error));
-    for (size_t i = 0; i < out->frequencies.num; i++) {
+    PS_TRY(ps_frequencies_copy(&out->frequencies, frequencies, error));
+    for (size_t i = 0; out->powers != NULL && i < frequencies->num; i++) {
         out->powers[i].mean *= factor;
         out->powers[i].standard_error *= factor;
-    }
-    return PSPEC_OK;
-}
-
-static pspec_status fill(ps_spectrum *out, const ps_bins *bins, ps_accumulator *accumulator,
-                         double factor, bool with_frequencies, ps_error *error) {
-    void *memory = NULL;
-    if (with_frequencies) {
-        PS_TRY(fill_powers(out, accumulator, factor, error));
     }
     PS_TRY(ps_allocate(&memory, bins->num_reported, sizeof *out->bins, "the bins", error));
     out->bins = memory;
     out->num_bins = bins->num_reported;
-    PS_TRY(ps_allocate(&memory, bins->num, sizeof(ps_mean), "the bins", error));
-    ps_accumulator_bins(accumulator, memory);
-    fill_bins(out, bins, memory, factor);
-    free(memory);
+    fill_bins(out, bins, bin_means, factor);
     return PSPEC_OK;
 }
 
-pspec_status ps_spectrum_create(ps_spectrum *out, const ps_frequencies *frequencies,
-                                const ps_bins *bins, ps_accumulator *accumulator, double factor,
-                                const ps_pattern_totals *totals, bool with_frequencies,
-                                ps_error *error) {
+pspec_status ps_spectrum_from_means(ps_spectrum *out, const ps_frequencies *frequencies,
+                                    const ps_bins *bins, const ps_mean *bin_means, ps_mean *powers,
+                                    double factor, const ps_pattern_totals *totals,
+                                    ps_error *error) {
     const double n = (double)totals->num_realizations;
     *out = (ps_spectrum){.num_realizations = totals->num_realizations,
                          .mean_points = totals->sum_points / n,
                          .smallest_points = totals->smallest_points,
                          .largest_points = totals->largest_points,
                          .mean_weight_sum = totals->sum_weights / n,
-                         .mean_sample_size = totals->sum_sample_sizes / n};
-    pspec_status status = copy_frequencies(&out->frequencies, frequencies, error);
-    if (status == PSPEC_OK) {
-        status = fill(out, bins, accumulator, factor, with_frequencies, error);
-    }
+                         .mean_sample_size = totals->sum_sample_sizes / n,
+                         .powers = powers};
+    const pspec_status status = fill(out, frequencies, bins, bin_means, factor, error);
     if (status != PSPEC_OK) {
         ps_spectrum_free(out);
     }
+    return status;
+}
+
+pspec_status ps_spectrum_create(ps_spectrum *out, const ps_frequencies *frequencies,
+                                const ps_bins *bins, ps_accumulator *accumulator, double factor,
+                                const ps_pattern_totals *totals, bool with_frequencies,
+                                ps_error *error) {
+    void *bin_means = NULL;
+    void *powers = NULL;
+    pspec_status status = PSPEC_OK;
+    *out = (ps_spectrum){0};
+    PS_TRY_OUT(status, ps_allocate(&bin_means, bins->num, sizeof(ps_mean), "the bins", error));
+    ps_accumulator_bins(accumulator, bin_means);
+    if (with_frequencies) {
+        PS_TRY_OUT(status,
+                   ps_allocate(&powers, frequencies->num, sizeof(ps_mean), "the powers", error));
+        PS_TRY_OUT(status, ps_accumulator_frequencies(accumulator, powers, error));
+    }
+    status =
+        ps_spectrum_from_means(out, frequencies, bins, bin_means, powers, factor, totals, error);
+    powers = NULL;
+out:
+    free(powers);
+    free(bin_means);
     return status;
 }
 

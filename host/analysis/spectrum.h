@@ -39,6 +39,11 @@ pspec_status ps_spectrum_create(ps_spectrum *out, const ps_frequencies *frequenc
                                 const ps_bins *bins, ps_accumulator *accumulator, double factor,
                                 const ps_pattern_totals *totals, bool with_frequencies,
                                 ps_error *error) PS_MUST_CHECK;
+/* The same from means: bin_means[bins->num]; powers[frequencies->num] or NULL, taken over. */
+pspec_status ps_spectrum_from_means(ps_spectrum *out, const ps_frequencies *frequencies,
+                                    const ps_bins *bins, const ps_mean *bin_means, ps_mean *powers,
+                                    double factor, const ps_pattern_totals *totals,
+                                    ps_error *error) PS_MUST_CHECK;
 void ps_spectrum_free(ps_spectrum *spectrum);
 
 /* Marks the spectrum as that of num_realizations equal ones: standard errors become exactly 0

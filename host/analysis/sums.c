@@ -17,6 +17,24 @@ static void multiply(double a, double b, double *high, double *low) {
     *low = fma(a, b, -*high);
 }
 
+/* (*high, *low) += factor (high2, low2) */
+static void add_scaled(double *high, double *low, double high2, double low2, double factor) {
+    double product = 0;
+    double product_low = 0;
+    multiply(high2, factor, &product, &product_low);
+    pair_add(high, low, product);
+    *low += product_low + low2 * factor;
+}
+
+void ps_sums_merge(ps_sums *sums, const ps_sums *other, double factor) {
+    double square = 0;
+    double square_low = 0;
+    add_scaled(&sums->sum, &sums->sum_low, other->sum, other->sum_low, factor);
+    multiply(factor, factor, &square, &square_low);
+    add_scaled(&sums->square, &sums->square_low, other->square, other->square_low, square);
+    sums->square_low += other->square * square_low;
+}
+
 /* The same sum with a low part below the last digit of the high one. */
 static void normalize(double *high, double *low) {
     const double sum = *high + *low;

@@ -9,6 +9,9 @@ typedef struct ps_sums {
 } ps_sums;
 
 void ps_sums_add(ps_sums *sums, double x);
+/* Adds the sums of factor * x: those of other realizations whose powers had another unit. With factor 1
+ * (or a power of two), to the pair's last digit what adding the x one by one gives. */
+void ps_sums_merge(ps_sums *sums, const ps_sums *other, double factor);
 /* Mean and standard error s / sqrt(count) with s^2 = sum (x - mean)^2 / (count - 1); nan when
  * count < 2. Numbers that differ by no more than rounding give exactly 0: a standard error below
  * sqrt(count) 2^-53 of the mean is taken for that. */

@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Slots of results are 32-bit indices on the device, with padding and both signs. */
 #define MAX_NUM_FREQUENCIES (((uint64_t)1 << 31) / 4)
@@ -139,6 +140,16 @@ pspec_status ps_frequencies_enumerate(ps_frequencies *frequencies, ps_error *err
     frequencies->num = num;
     frequencies->vectors = vectors;
     walk_half_lattice(frequencies, frequencies->vectors);
+    return PSPEC_OK;
+}
+
+pspec_status ps_frequencies_copy(ps_frequencies *out, const ps_frequencies *from, ps_error *error) {
+    void *vectors = NULL;
+    const size_t num_components = from->num * from->dimension;
+    PS_TRY(ps_allocate(&vectors, num_components, sizeof(int32_t), "the frequencies", error));
+    memcpy(vectors, from->vectors, num_components * sizeof(int32_t));
+    *out = *from;
+    out->vectors = vectors;
     return PSPEC_OK;
 }
 

@@ -43,6 +43,9 @@ pspec_status ps_frequencies_list(ps_frequencies *out, unsigned dimension, size_t
                                  int32_t *vectors, ps_error *error) PS_MUST_CHECK;
 /* Fills vectors (and the exact num of a ball). */
 pspec_status ps_frequencies_enumerate(ps_frequencies *frequencies, ps_error *error) PS_MUST_CHECK;
+/* A copy with vectors of its own; from is enumerated. */
+pspec_status ps_frequencies_copy(ps_frequencies *out, const ps_frequencies *from,
+                                 ps_error *error) PS_MUST_CHECK;
 void ps_frequencies_free(ps_frequencies *frequencies);
 
 /* |k|^2 */

@@ -1,7 +1,6 @@
 #include "job/estimator.h"
 
 #include "base/memory.h"
-#include "job/pattern_check.h"
 #include "job/self_check.h"
 
 #include <math.h>
@@ -34,6 +33,12 @@ static pspec_status create_engine(ps_estimator *self, ps_error *error) {
                                    self->batch, self->device, error);
 }
 
+static void halve_batch(ps_estimator *self) {
+    self->batch /= 2;
+    ps_log_say(&self->options.log, "memory was refused: %zu realizations at a time instead",
+               self->batch);
+}
+
 /* The same, for half as many realizations as long as memory is refused. */
 static pspec_status create_fitting_engine(ps_estimator *self, ps_error *error) {
     for (;;) {
@@ -41,7 +46,7 @@ static pspec_status create_fitting_engine(ps_estimator *self, ps_error *error) {
         if (status != PSPEC_ERROR_MEMORY || self->batch == 1) {
             return status;
         }
-        self->batch /= 2;
+        halve_batch(self);
     }
 }
 
@@ -74,7 +79,7 @@ static pspec_status create_parts(ps_estimator *self, ps_error *error) {
         if (status != PSPEC_ERROR_MEMORY || self->batch == 1) {
             return status;
         }
-        self->batch /= 2;
+        halve_batch(self);
     }
 }
 
@@ -133,16 +138,32 @@ size_t ps_estimator_batch(const ps_estimator *estimator) {
     return estimator->batch;
 }
 
+uint64_t ps_estimator_num_realizations(const ps_estimator *estimator) {
+    return estimator->totals.num_realizations;
+}
+
 /* ---- add --------------------------------------------------------------------------------- */
 
-/* Checks the patterns of a batch and finds their scales and the largest number of points. */
-static pspec_status prepare(ps_estimator *self, const pspec_pattern *patterns, size_t num_patterns,
-                            uint64_t *longest, ps_error *error) {
+pspec_status ps_estimator_check(const ps_estimator *estimator, const pspec_pattern *pattern,
+                                uint64_t realization, ps_pattern_sums *sums, ps_error *error) {
+    const ps_estimator_options *options = &estimator->options;
+    return ps_pattern_check(pattern, options->problem.frequencies->dimension,
+                            options->normalization, realization, sums, error);
+}
+
+/* Scales of the patterns of a batch, whose sums are known or found here, and the largest number of
+ * points. */
+static pspec_status prepare(ps_estimator *self, const pspec_pattern *patterns,
+                            const ps_pattern_sums *sums, size_t num_patterns, uint64_t *longest,
+                            ps_error *error) {
     const pspec_normalization normalization = self->options.normalization;
     for (size_t r = 0; r < num_patterns; r++) {
-        PS_TRY(ps_pattern_check(&patterns[r], self->options.problem.frequencies->dimension,
-                                normalization, self->totals.num_realizations + r, &self->sums[r],
-                                error));
+        if (sums != NULL) {
+            self->sums[r] = sums[r];
+        } else {
+            PS_TRY(ps_estimator_check(self, &patterns[r], self->totals.num_realizations + r,
+                                      &self->sums[r], error));
+        }
         const double sum = self->sums[r].weight_sum;
         self->exponents[r] = self->sums[r].exponent;
         self->scales[r] = normalization == PSPEC_NORMALIZATION_POWER
@@ -252,7 +273,7 @@ static pspec_status run_batch(ps_estimator *self, const pspec_pattern *patterns,
         if (status != PSPEC_ERROR_MEMORY || self->batch == 1) {
             return status;
         }
-        self->batch /= 2;
+        halve_batch(self);
         PS_TRY(create_fitting_engine(self, error));
     }
 }
@@ -273,14 +294,23 @@ static pspec_status run_checked(ps_estimator *self, const pspec_pattern *pattern
     return PSPEC_OK;
 }
 
+static pspec_status enlarge(ps_estimator *self, uint64_t num_points, ps_error *error) {
+    ps_log_say(
+        &self->options.log, "a pattern has %llu points, more than %llu: the engine is made anew",
+        (unsigned long long)num_points, (unsigned long long)self->options.problem.num_points);
+    self->options.problem.num_points = num_points;
+    return create_fitting_engine(self, error);
+}
+
 static pspec_status add_batch(ps_estimator *self, const pspec_pattern *patterns,
-                              size_t *num_patterns, ps_error *error) {
+                              const ps_pattern_sums *sums, size_t *num_patterns, ps_error *error) {
     uint64_t longest = self->options.problem.num_points;
     ps_rows rows = {0};
     const double *bin_powers = NULL;
-    PS_TRY(prepare(self, patterns, *num_patterns, &longest, error));
+    PS_TRY(prepare(self, patterns, sums, *num_patterns, &longest, error));
     if (longest > self->options.problem.num_points) {
-        self->options.problem.num_points = longest;
+        PS_TRY(enlarge(self, longest, error));
+    } else if (self->engine_state == NULL) { /* refused before a reset */
         PS_TRY(create_fitting_engine(self, error));
     }
     PS_TRY(run_checked(self, patterns, num_patterns, &rows, error));
@@ -290,24 +320,41 @@ static pspec_status add_batch(ps_estimator *self, const pspec_pattern *patterns,
     return PSPEC_OK;
 }
 
-pspec_status ps_estimator_add(ps_estimator *estimator, const pspec_pattern *patterns,
-                              size_t num_patterns, ps_error *error) {
+pspec_status ps_estimator_add_checked(ps_estimator *estimator, const pspec_pattern *patterns,
+                                      const ps_pattern_sums *sums, size_t num_patterns,
+                                      ps_error *error) {
     for (size_t done = 0; done < num_patterns;) {
         const size_t rest = num_patterns - done;
         size_t taken = rest < estimator->batch ? rest : estimator->batch;
-        PS_TRY(add_batch(estimator, patterns + done, &taken, error));
+        PS_TRY(add_batch(estimator, patterns + done, sums != NULL ? sums + done : NULL, &taken,
+                         error));
         done += taken;
     }
     return PSPEC_OK;
 }
 
+pspec_status ps_estimator_add(ps_estimator *estimator, const pspec_pattern *patterns,
+                              size_t num_patterns, ps_error *error) {
+    return ps_estimator_add_checked(estimator, patterns, NULL, num_patterns, error);
+}
+
+pspec_status ps_estimator_reset(ps_estimator *estimator, ps_error *error) {
+    estimator->totals = (ps_pattern_totals){0};
+    estimator->accuracy = (ps_accuracy){0};
+    return ps_accumulator_reset(estimator->accumulator, error);
+}
+
 /* ---- results ----------------------------------------------------------------------------- */
+
+static pspec_status require_realizations(const ps_estimator *self, ps_error *error) {
+    return self->totals.num_realizations > 0
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INPUT, "there are no point sets to take a spectrum of");
+}
 
 pspec_status ps_estimator_spectrum(ps_estimator *estimator, ps_spectrum *out, ps_error *error) {
     const ps_pattern_totals *totals = &estimator->totals;
-    if (totals->num_realizations == 0) {
-        return ps_fail(error, PSPEC_ERROR_INPUT, "there are no point sets to take a spectrum of");
-    }
+    PS_TRY(require_realizations(estimator, error));
     const double mean_points = totals->sum_points / (double)totals->num_realizations;
     const double factor = estimator->options.normalization == PSPEC_NORMALIZATION_POWER
                               ? mean_points / estimator->reference_points
@@ -315,6 +362,28 @@ pspec_status ps_estimator_spectrum(ps_estimator *estimator, ps_spectrum *out, ps
     return ps_spectrum_create(out, estimator->options.problem.frequencies, &estimator->bins,
                               estimator->accumulator, factor, totals,
                               estimator->options.want_frequencies, error);
+}
+
+pspec_status ps_estimator_sums(ps_estimator *estimator, ps_spectrum_sums *out, ps_error *error) {
+    const ps_estimator_options *options = &estimator->options;
+    PS_TRY(require_realizations(estimator, error));
+    PS_TRY(ps_spectrum_sums_create(out, options->problem.frequencies, estimator->bins.num, error));
+    out->exact_shells = options->exact_shells;
+    out->normalization = options->normalization;
+    out->reference_points =
+        options->normalization == PSPEC_NORMALIZATION_POWER ? estimator->reference_points : 1;
+    out->totals = estimator->totals;
+    out->error = ps_estimator_accuracy(estimator).error;
+    const pspec_status status =
+        ps_accumulator_sums(estimator->accumulator, out->bins, out->powers, error);
+    if (status != PSPEC_OK) {
+        ps_spectrum_sums_free(out);
+    }
+    return status;
+}
+
+const ps_bins *ps_estimator_bins(const ps_estimator *estimator) {
+    return &estimator->bins;
 }
 
 ps_accuracy ps_estimator_accuracy(const ps_estimator *estimator) {

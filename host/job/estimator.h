@@ -7,7 +7,9 @@
 #ifndef PS_JOB_ESTIMATOR_H
 #define PS_JOB_ESTIMATOR_H
 
-#include "analysis/spectrum.h"
+#include "analysis/spectrum_sums.h"
+#include "base/log.h"
+#include "job/pattern_check.h"
 #include "plan/choose.h"
 
 typedef struct ps_estimator ps_estimator;
@@ -23,6 +25,7 @@ typedef struct ps_estimator_options {
     pspec_normalization normalization;
     bool (*should_stop)(void *payload); /* asked every second or so; may be NULL, see ps_batch */
     void *payload;
+    ps_log log; /* told of smaller batches and larger engines */
 } ps_estimator_options;
 
 /* The numerical side of a result. */
@@ -44,11 +47,29 @@ void ps_estimator_destroy(ps_estimator *estimator);
 pspec_status ps_estimator_add(ps_estimator *estimator, const pspec_pattern *patterns,
                               size_t num_patterns, ps_error *error) PS_MUST_CHECK;
 
+/* The same for patterns that were checked before, with sums[num_patterns] from the check. */
+pspec_status ps_estimator_add_checked(ps_estimator *estimator, const pspec_pattern *patterns,
+                                      const ps_pattern_sums *sums, size_t num_patterns,
+                                      ps_error *error) PS_MUST_CHECK;
+/* Checks a pattern that will be realization number `realization`, counted from 0. */
+pspec_status ps_estimator_check(const ps_estimator *estimator, const pspec_pattern *pattern,
+                                uint64_t realization, ps_pattern_sums *sums,
+                                ps_error *error) PS_MUST_CHECK;
+
+/* Forgets all realizations, and any failure: what follows has the bits of a new estimator. Allocates
+ * nothing. */
+pspec_status ps_estimator_reset(ps_estimator *estimator, ps_error *error) PS_MUST_CHECK;
+
 /* Realizations that one call of ps_estimator_add takes best. */
 size_t ps_estimator_batch(const ps_estimator *estimator);
+uint64_t ps_estimator_num_realizations(const ps_estimator *estimator);
 
 pspec_status ps_estimator_spectrum(ps_estimator *estimator, ps_spectrum *out,
                                    ps_error *error) PS_MUST_CHECK;
+/* The sums behind the averages, with the error bound; bins are ps_estimator_bins. */
+pspec_status ps_estimator_sums(ps_estimator *estimator, ps_spectrum_sums *out,
+                               ps_error *error) PS_MUST_CHECK;
+const ps_bins *ps_estimator_bins(const ps_estimator *estimator);
 ps_accuracy ps_estimator_accuracy(const ps_estimator *estimator);
 void ps_estimator_describe(const ps_estimator *estimator, ps_text *text);
 

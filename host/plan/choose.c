@@ -30,9 +30,9 @@ static double host_bytes_per_frequency(unsigned dimension) {
 }
 
 /* Seconds, bytes and error of a candidate that applies. A realization of a batch is kept on the host,
- * too, as coordinates and weights. */
+ * too, as coordinates and weights. A limit that somebody set makes batches smaller. */
 static void estimate(ps_candidate *candidate, const ps_problem *problem,
-                     const ps_device_limits *limits, double mean_power) {
+                     const ps_device_limits *limits, double mean_power, uint64_t memory_limit) {
     const unsigned dimension = problem->frequencies->dimension;
     const ps_device_limits *used = candidate->engine->needs_device ? limits : NULL;
     ps_work work = candidate->engine->work(problem, used, candidate->precision);
@@ -40,6 +40,11 @@ static void estimate(ps_candidate *candidate, const ps_problem *problem,
     work.bytes_per_realization += (double)problem->num_points * columns * (double)sizeof(double);
     work.fixed_bytes += (double)problem->frequencies->num * host_bytes_per_frequency(dimension);
     candidate->batch = ps_cost_batch(&work, used, problem->num_realizations);
+    while (memory_limit > 0 && candidate->batch > 1 &&
+           work.fixed_bytes + work.bytes_per_realization * (double)candidate->batch >
+               (double)memory_limit) {
+        candidate->batch /= 2;
+    }
     candidate->seconds = ps_cost_seconds(&work, used, candidate->precision);
     candidate->bytes = work.fixed_bytes + work.bytes_per_realization * (double)candidate->batch;
     candidate->error = candidate->engine->error(problem, candidate->precision, mean_power);
@@ -82,7 +87,7 @@ static void judge(ps_candidate *candidate, const ps_problem *problem,
     candidate->is_applicable =
         candidate->engine->applicable(problem, limits, candidate->precision, &why_not);
     if (candidate->is_applicable) {
-        estimate(candidate, problem, limits, constraints->mean_power);
+        estimate(candidate, problem, limits, constraints->mean_power, constraints->memory_limit);
     }
     if (candidate->is_excluded) {
         return;

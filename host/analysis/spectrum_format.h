@@ -1,0 +1,21 @@
+/* What writer and reader of spectrum files agree on; see docs/spectrum_file.md. */
+#ifndef PS_ANALYSIS_SPECTRUM_FORMAT_H
+#define PS_ANALYSIS_SPECTRUM_FORMAT_H
+
+#include <stdint.h>
+
+#define PS_SPECTRUM_MAGIC "pointspec spectrum"
+enum { PS_SPECTRUM_VERSION = 1 };
+
+/* Values of the header lines, by the enumerators that they stand for. */
+static const char *const ps_spectrum_kinds[] = {"list", "box", "ball"};
+static const char *const ps_spectrum_bins[] = {"rings", "shells"};
+static const char *const ps_spectrum_normalizations[] = {"power", "effective"};
+
+/* Doubles after the header, and per bin or frequency. */
+enum { PS_SPECTRUM_TOTALS = 5, PS_SPECTRUM_SUMS = 4 };
+
+/* More realizations than a double counts exactly are no realizations. */
+#define PS_SPECTRUM_MOST_REALIZATIONS ((uint64_t)1 << 53)
+
+#endif

@@ -1,0 +1,31 @@
+/* What the files of the public library (pointspec/pointspec.h) know of each other's objects. */
+#ifndef PS_JOB_PUBLIC_OBJECTS_H
+#define PS_JOB_PUBLIC_OBJECTS_H
+
+#include "analysis/spectrum_sums.h"
+#include "base/log.h"
+#include "device/device.h"
+
+struct pspec_context {
+    ps_error error;
+    char *selector;
+    ps_device *device; /* NULL until a plan needs it */
+    uint64_t memory_limit;
+    pspec_progress progress;
+    void *progress_payload;
+    ps_log log;
+};
+
+/* Opens the context's device unless it is open. */
+pspec_status ps_context_open_device(pspec_context *context) PS_MUST_CHECK;
+
+/* A spectrum of sums, which are taken over even when it fails. */
+pspec_status ps_public_spectrum(pspec_spectrum **out, ps_spectrum_sums *sums, const ps_bins *bins,
+                                ps_error *error) PS_MUST_CHECK;
+
+/* The plan's realizations, all of them in the sums; out of an engine within the tolerance. */
+pspec_status ps_plan_sums(pspec_plan *plan, ps_spectrum_sums *out,
+                          const ps_bins **bins) PS_MUST_CHECK;
+pspec_context *ps_plan_context(const pspec_plan *plan);
+
+#endif

@@ -1,0 +1,276 @@
+/* The public library: plans over the estimator, and the callbacks of their context. */
+#include "base/memory.h"
+#include "job/gather.h"
+#include "job/public_objects.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+struct pspec_plan {
+    pspec_context *context;
+    ps_frequencies frequencies;
+    ps_problem problem;
+    ps_plan choice;
+    ps_estimator *estimator;
+    ps_gather *gather;
+    ps_text text;
+    bool has_failed;   /* its sums may hold a part of a batch */
+    double last_asked; /* seconds: when progress was called last */
+};
+
+/* ---- progress ---------------------------------------------------------------------------- */
+
+static bool ask_to_stop(pspec_plan *plan) {
+    const pspec_context *context = plan->context;
+    return context->progress != NULL &&
+           context->progress(ps_estimator_num_realizations(plan->estimator),
+                             plan->problem.num_realizations, context->progress_payload) != 0;
+}
+
+static double now(void) {
+    const double nano = 1e-9;
+    struct timespec time = {0};
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + nano * (double)time.tv_nsec;
+}
+
+/* Asked by engines, some of them for every frequency: the callback is not called as often. */
+static bool should_stop(void *payload) {
+    const double interval = 0.1; /* seconds; what people call at once */
+    pspec_plan *plan = payload;
+    if (plan->context->progress == NULL) {
+        return false;
+    }
+    const double time = now();
+    if (time - plan->last_asked < interval) {
+        return false;
+    }
+    plan->last_asked = time;
+    return ask_to_stop(plan);
+}
+
+static pspec_status after_batch(void *payload, ps_error *error) {
+    return ask_to_stop(payload) ? ps_fail(error, PSPEC_ERROR_CANCELLED, "cancelled") : PSPEC_OK;
+}
+
+/* ---- create ------------------------------------------------------------------------------ */
+
+static pspec_status parse_precision(const char *name, int *out, ps_error *error) {
+    *out = -1;
+    for (int precision = PS_SINGLE; name != NULL && precision <= PS_EXTENDED; precision++) {
+        if (strcmp(name, ps_precision_name((ps_precision)precision)) == 0) {
+            *out = precision;
+        }
+    }
+    return name == NULL || *out >= 0
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "precision \"%s\" is none of single, double, extended", name);
+}
+
+static pspec_status set_frequencies(pspec_plan *plan, const pspec_power_request *request,
+                                    ps_error *error) {
+    void *copy = NULL;
+    size_t num_components = 0;
+    const size_t num = request->num_frequencies;
+    if (request->frequencies == NULL) {
+        PS_TRY(ps_frequencies_lattice(&plan->frequencies, request->dimension,
+                                      request->max_frequency, request->rings_only != 0, error));
+        return ps_frequencies_enumerate(&plan->frequencies, error);
+    }
+    if (num == 0) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "the list of frequencies is empty");
+    }
+    if (!ps_size_multiply(num, request->dimension, &num_components)) {
+        return ps_fail(error, PSPEC_ERROR_MEMORY, "%zu frequencies are too many", num);
+    }
+    PS_TRY(ps_allocate(&copy, num_components, sizeof(int32_t), "frequencies", error));
+    memcpy(copy, request->frequencies, num_components * sizeof(int32_t));
+    return ps_frequencies_list(&plan->frequencies, request->dimension, num, copy, error);
+}
+
+static pspec_status check_request(const pspec_power_request *request, ps_error *error) {
+    if (request->struct_size != sizeof *request) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "struct_size is %zu instead of %zu: begin with PSPEC_POWER_REQUEST_INIT",
+                       request->struct_size, sizeof *request);
+    }
+    if (request->dimension < 1 || request->dimension > PS_MAX_TORUS_DIMENSION) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "dimension %u is not between 1 and %d",
+                       request->dimension, PS_MAX_TORUS_DIMENSION);
+    }
+    if (request->num_points == 0) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "num_points is 0");
+    }
+    if (!(request->tolerance > 0) || !(request->floor >= 0)) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "tolerance %g must be above 0, floor %g not below", request->tolerance,
+                       request->floor);
+    }
+    if (request->normalization != PSPEC_NORMALIZATION_POWER &&
+        request->normalization != PSPEC_NORMALIZATION_EFFECTIVE) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "there is no normalization %d",
+                       (int)request->normalization);
+    }
+    return PSPEC_OK;
+}
+
+static void log_choice(const pspec_plan *plan) {
+    for (size_t i = 0; i < plan->choice.num_candidates; i++) {
+        const ps_candidate *candidate = &plan->choice.candidates[i];
+        ps_log_say(&plan->context->log, "%s in %s precision%s: %s", candidate->engine->name,
+                   ps_precision_name(candidate->precision), candidate->is_chosen ? ", chosen" : "",
+                   candidate->reason);
+    }
+}
+
+static pspec_status choose_engine(pspec_plan *plan, const pspec_power_request *request,
+                                  ps_error *error) {
+    pspec_context *context = plan->context;
+    ps_plan_constraints constraints = {
+        .engine = request->engine, .mean_power = 1, .memory_limit = context->memory_limit};
+    PS_TRY(parse_precision(request->precision, &constraints.precision, error));
+    if (ps_plan_may_need_device(&constraints)) {
+        PS_TRY(ps_context_open_device(context));
+    }
+    const ps_device_limits *limits =
+        context->device != NULL ? ps_device_get_limits(context->device) : NULL;
+    PS_TRY(ps_plan_make(&plan->choice, &plan->problem, limits, &constraints, error));
+    log_choice(plan);
+    return ps_plan_require(&plan->choice, &plan->problem, error);
+}
+
+static pspec_status create_estimator(pspec_plan *plan, const pspec_power_request *request,
+                                     ps_error *error) {
+    const ps_estimator_options options = {
+        .problem = plan->problem,
+        .engine = plan->choice.chosen->engine,
+        .precision = plan->choice.chosen->precision,
+        .batch = plan->choice.chosen->batch,
+        .exact_shells = request->exact_shells != 0,
+        .want_frequencies = true,
+        .self_check = request->no_self_check == 0,
+        .normalization = request->normalization,
+        .should_stop = should_stop,
+        .payload = plan,
+        .log = plan->context->log,
+    };
+    PS_TRY(ps_estimator_create(&plan->estimator, &options, plan->context->device, error));
+    ps_estimator_describe(plan->estimator, &plan->text);
+    PS_TRY(ps_text_check(&plan->text, error));
+    ps_log_say(&plan->context->log, "plan: %s, %zu realizations at a time",
+               ps_text_string(&plan->text), ps_estimator_batch(plan->estimator));
+    const ps_gather_options gather = {.estimator = plan->estimator,
+                                      .dimension = request->dimension,
+                                      .num_points = request->num_points,
+                                      .after_batch = after_batch,
+                                      .payload = plan};
+    return ps_gather_create(&plan->gather, &gather, error);
+}
+
+static pspec_status fill_plan(pspec_plan *plan, const pspec_power_request *request,
+                              ps_error *error) {
+    PS_TRY(check_request(request, error));
+    PS_TRY(set_frequencies(plan, request, error));
+    plan->problem = (ps_problem){
+        .frequencies = &plan->frequencies,
+        .num_points = request->num_points,
+        .num_realizations = request->num_realizations,
+        .has_weights = true,
+        .tolerance = ps_plan_tolerance(request->tolerance, request->floor),
+    };
+    PS_TRY(choose_engine(plan, request, error));
+    return create_estimator(plan, request, error);
+}
+
+pspec_status pspec_plan_create(pspec_plan **out, pspec_context *context,
+                               const pspec_power_request *request) {
+    void *memory = NULL;
+    *out = NULL;
+    if (context == NULL) {
+        return PSPEC_ERROR_INVALID_ARGUMENT;
+    }
+    PS_TRY(ps_allocate(&memory, 1, sizeof(pspec_plan), "a plan", &context->error));
+    pspec_plan *plan = memory;
+    plan->context = context;
+    const pspec_status status = fill_plan(plan, request, &context->error);
+    if (status != PSPEC_OK) {
+        pspec_plan_destroy(plan);
+        return status;
+    }
+    *out = plan;
+    return PSPEC_OK;
+}
+
+void pspec_plan_destroy(pspec_plan *plan) {
+    if (plan != NULL) {
+        ps_gather_destroy(plan->gather);
+        ps_estimator_destroy(plan->estimator);
+        ps_frequencies_free(&plan->frequencies);
+        ps_text_free(&plan->text);
+        free(plan);
+    }
+}
+
+const char *pspec_plan_text(const pspec_plan *plan) {
+    return ps_text_string(&plan->text);
+}
+
+/* ---- run --------------------------------------------------------------------------------- */
+
+static pspec_status require_sound(const pspec_plan *plan) {
+    return plan->has_failed
+               ? ps_fail(&plan->context->error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "this plan failed before, so its averages cannot be used: destroy it, or "
+                         "begin again with pspec_plan_reset")
+               : PSPEC_OK;
+}
+
+/* Remembers a failure. Engines that were cancelled do not know how far the whole plan is. */
+static pspec_status note(pspec_plan *plan, pspec_status status) {
+    plan->has_failed = status != PSPEC_OK;
+    return status == PSPEC_ERROR_CANCELLED
+               ? ps_fail(&plan->context->error, status,
+                         "cancelled by the progress callback after %llu realizations",
+                         (unsigned long long)ps_estimator_num_realizations(plan->estimator))
+               : status;
+}
+
+pspec_status pspec_plan_run(pspec_plan *plan, const pspec_pattern *patterns, size_t num_patterns) {
+    if (plan == NULL) {
+        return PSPEC_ERROR_INVALID_ARGUMENT;
+    }
+    PS_TRY(require_sound(plan));
+    return note(plan, ps_gather_add(plan->gather, patterns, num_patterns, &plan->context->error));
+}
+
+pspec_status pspec_plan_reset(pspec_plan *plan) {
+    if (plan == NULL) {
+        return PSPEC_ERROR_INVALID_ARGUMENT;
+    }
+    ps_gather_reset(plan->gather);
+    return note(plan, ps_estimator_reset(plan->estimator, &plan->context->error));
+}
+
+pspec_status ps_plan_sums(pspec_plan *plan, ps_spectrum_sums *out, const ps_bins **bins) {
+    ps_error *error = &plan->context->error;
+    PS_TRY(require_sound(plan));
+    PS_TRY(note(plan, ps_gather_flush(plan->gather, error)));
+    const ps_accuracy accuracy = ps_estimator_accuracy(plan->estimator);
+    *bins = ps_estimator_bins(plan->estimator);
+    if (ps_estimator_num_realizations(plan->estimator) > 0 &&
+        !(accuracy.error <= plan->problem.tolerance)) {
+        return ps_fail(error, PSPEC_ERROR_TOLERANCE,
+                       "these patterns have a mean power of %.3g, so %s precision has an error of "
+                       "%.2g, above the tolerance %g: make a plan of higher precision",
+                       accuracy.largest_mean_power,
+                       ps_precision_name(plan->choice.chosen->precision), accuracy.error,
+                       plan->problem.tolerance);
+    }
+    return ps_estimator_sums(plan->estimator, out, error);
+}
+
+pspec_context *ps_plan_context(const pspec_plan *plan) {
+    return plan->context;
+}
