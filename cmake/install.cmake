@@ -10,6 +10,7 @@ install(FILES host/include/pointspec/pointspec.h
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pointspec)
 install(FILES LICENSE README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 FILES_MATCHING PATTERN "*.1")
+install(FILES docs/man/pointspec.3 DESTINATION ${CMAKE_INSTALL_MANDIR}/man3)
 
 foreach(export pointspec_shared pointspec_static)
   install(EXPORT ${export} FILE ${export}.cmake NAMESPACE pointspec:: DESTINATION ${PACKAGE_DIR})

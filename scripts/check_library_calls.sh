@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # check_library_calls.sh [ROOT]: the library never prints, exits or aborts; only host/cli/ may.
-# One file may name stdout, the one that opens the path "-".
+# GSL's error handler is the program's. One file may name stdout, the one that opens the path "-".
 set -euo pipefail
 cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"
 
 word='(^|[^A-Za-z0-9_])'
 forbidden="$word(_?exit|_Exit|quick_exit|abort|v?printf|puts|putchar|perror)[[:space:]]*\("
+forbidden+="|${word}gsl_set_error_handler"
 forbidden+="|${word}stderr([^A-Za-z0-9_]|$)"
 stdout="${word}stdout([^A-Za-z0-9_]|$)"
 bad=0

@@ -9,6 +9,10 @@ add_script_test(headers unit ${CMAKE_CURRENT_SOURCE_DIR}/test_headers.sh
   ${PROJECT_SOURCE_DIR} ${CMAKE_C_COMPILER})
 add_script_test(layers unit ${PROJECT_SOURCE_DIR}/scripts/check_layers.sh)
 add_script_test(library_calls unit ${PROJECT_SOURCE_DIR}/scripts/check_library_calls.sh)
+# The reference of the header is made without a warning; skipped where there is no doxygen.
+add_script_test(reference unit ${PROJECT_SOURCE_DIR}/scripts/reference.sh
+  ${PROJECT_BINARY_DIR}/reference)
+set_tests_properties(reference PROPERTIES SKIP_RETURN_CODE 77)
 if(NOT POINTSPEC_SANITIZE)
   add_script_test(symbols unit ${CMAKE_CURRENT_SOURCE_DIR}/test_symbols.sh
     $<TARGET_FILE:pointspec> $<TARGET_FILE:pointspec_static>)

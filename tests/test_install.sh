@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # test_install.sh SOURCE_DIR BUILD_DIR C_COMPILER: installs into an empty folder, moves that folder,
-# and builds and runs tests/consume against it by CMake and by pkg-config, shared and static.
+# and builds and runs the examples of the documentation, and those of the installed manual page, against it
+# by CMake and by pkg-config, shared and static.
 set -euo pipefail
 source_dir=$1 build_dir=$2 compiler=$3
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-consume=$source_dir/tests/consume
-example=$source_dir/docs/examples/many_realizations.c
+examples=("$source_dir"/docs/examples/*.c)
 prefix=$scratch/moved
 
 cmake --install "$build_dir" --prefix "$scratch/installed" >/dev/null
@@ -15,6 +15,23 @@ libdir=$(dirname "$(find "$prefix" -name libpointspec.a)")
 "$prefix/bin/pointspec" --help >/dev/null
 echo "installed: program runs"
 
+# ---- the manual page: every example is a whole program; every function is named ----------------------
+page=$(find "$prefix" -name pointspec.3)
+"$source_dir/scripts/man_examples.sh" "$page" "$scratch/page"
+pages=("$scratch"/page/*.c)
+cmp "${pages[0]}" <(sed '1,/^ \*\/$/d' "$source_dir/docs/examples/one_pattern.c") ||
+    { echo "pointspec.3 does not have docs/examples/one_pattern.c" >&2; exit 1; }
+while IFS= read -r name; do
+    grep -qE "^\.(Fo|Ft|Fn|It Fn|Nm) (.* )?$name( |$)" "$page" ||
+        { echo "pointspec.3 lacks $name" >&2; exit 1; }
+done < <(nm -D --defined-only "$(readlink -f "$libdir/libpointspec.so")" | awk '{ print $NF }' | grep '^pspec_')
+if command -v groff >/dev/null; then
+    said=$(groff -mdoc -Tascii -ww -z "$page" 2>&1)
+    [[ -z $said ]] || { echo "$page: $said" >&2; exit 1; }
+fi
+echo "installed: pointspec.3 names every function, ${#pages[@]} examples"
+
+# ---- programs ----------------------------------------------------------------------------------------
 needs_shared() {
     readelf -d "$1" | grep -q 'NEEDED.*libpointspec\.so'
 }
@@ -24,14 +41,18 @@ check_program() { # shared|static PROGRAM
     else
         ! needs_shared "$2" || { echo "$2 uses the shared library" >&2; return 1; }
     fi
-    LD_LIBRARY_PATH=$libdir "$2" | grep -q "^[0-9]" || { echo "$2 prints no spectrum" >&2; return 1; }
+    (cd "$scratch" && LD_LIBRARY_PATH=$libdir "$2" 2>errors >output) ||
+        { echo "$2 failed: $(<"$scratch/errors")" >&2; return 1; }
+    grep -q "^[0-9]" "$scratch/output" || { echo "$2 prints no spectrum" >&2; return 1; }
 }
-
-cmake -S "$consume" -B "$scratch/cmake" -DCMAKE_C_COMPILER="$compiler" -DCMAKE_PREFIX_PATH="$prefix" \
-    >/dev/null
-cmake --build "$scratch/cmake" >/dev/null
+list=$(IFS=';' && echo "${pages[*]}")
+cmake -S "$source_dir/tests/consume" -B "$scratch/cmake" -DCMAKE_C_COMPILER="$compiler" \
+    -DCMAKE_PREFIX_PATH="$prefix" -DEXTRA="$list" >/dev/null
+cmake --build "$scratch/cmake" --parallel 2 >"$scratch/log" || { cat "$scratch/log" >&2; exit 1; }
 for kind in shared static; do
-    check_program $kind "$scratch/cmake/consume_$kind"
+    for source in "${examples[@]}" "${pages[@]}"; do
+        check_program $kind "$scratch/cmake/$(basename "$source" .c)_$kind"
+    done
     echo "installed: CMake, $kind"
 done
 
@@ -42,12 +63,16 @@ words() { # pkg-config's answer as words, one per line
 mapfile -t cflags < <(words --cflags)
 mapfile -t libs < <(words --libs)
 mapfile -t static_libs < <(words --static --libs)
-"$compiler" -std=c11 -Wall -Werror "${cflags[@]}" "$example" "${libs[@]}" \
-    -o "$scratch/pc_shared"
-check_program shared "$scratch/pc_shared"
+for source in "${examples[@]}"; do
+    "$compiler" -std=c11 -Wall -Werror "${cflags[@]}" "$source" "${libs[@]}" -lm \
+        -o "$scratch/pc_shared"
+    check_program shared "$scratch/pc_shared"
+done
 echo "installed: pkg-config, shared"
-"$compiler" -std=c11 -Wall -Werror "${cflags[@]}" "$example" -Wl,--as-needed \
-    -Wl,--whole-archive "$libdir/libpointspec.a" -Wl,--no-whole-archive "${static_libs[@]}" \
-    -o "$scratch/pc_static"
-check_program static "$scratch/pc_static"
+for source in "${examples[@]}"; do
+    "$compiler" -std=c11 -Wall -Werror "${cflags[@]}" "$source" -Wl,--as-needed \
+        -Wl,--whole-archive "$libdir/libpointspec.a" -Wl,--no-whole-archive "${static_libs[@]}" \
+        -o "$scratch/pc_static"
+    check_program static "$scratch/pc_static"
+done
 echo "installed: pkg-config, static"

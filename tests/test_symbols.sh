@@ -28,4 +28,10 @@ complain "data that can change" "$(objdump -t "$static" | awk '
         if (section ~ /^(\.data|\.bss|\.tdata|\.tbss|\*COM\*)/ && section !~ /^\.data\.rel\.ro/ &&
             $NF != section && substr($0, 18, 7) !~ /d/) print "    " member " " section " " $NF
     }')"
+
+# What the header declares is what the library exports.
+header=$(dirname "${BASH_SOURCE[0]}")/../host/include/pointspec/pointspec.h
+declared=$(grep -A1 '^PSPEC_EXPORT' "$header" | grep -oE 'pspec_[a-z_]+\(' | tr -d '(' | sort -u)
+complain "declared, but not exported, or exported, but not declared" \
+    "$(comm -3 <(sort -u <<<"$exported") - <<<"$declared")"
 exit $bad
