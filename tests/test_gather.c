@@ -1,7 +1,7 @@
 /* Plans of the public library: calls of any size give the same bits, failures have a number and a way out,
  * callbacks are called.
  */
-#include "harness_estimator.h"
+#include "harness_public.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -266,7 +266,14 @@ static void progress_counts_and_cancels(void **state) {
     test_free_sample(&what);
 }
 
-/* The referee takes seconds for this one pattern; a cancel inside it must come through. */
+static int stop_at_once(uint64_t done, uint64_t total, void *payload) {
+    (void)done;
+    (void)total;
+    (void)payload;
+    return 1;
+}
+
+/* The referee takes a second for this one pattern; a cancel inside it must come through. */
 static void one_long_batch_is_cancelled(void **state) {
     (void)state;
     test_sample what = test_make_sample(1, 2, 100000, 0, false);
@@ -276,6 +283,10 @@ static void one_long_batch_is_cancelled(void **state) {
     pspec_context_set_progress(context, watch, &seen);
     run(context, plan, what.patterns, 1);
     assert_true(seen.calls >= 2); /* inside, and at the end */
+    assert_int_equal(pspec_plan_reset(plan), PSPEC_OK);
+    pspec_context_set_progress(context, stop_at_once, NULL);
+    assert_int_equal(pspec_plan_run(plan, what.patterns, 1), PSPEC_ERROR_CANCELLED);
+    assert_says(context, "after 0 realizations");
     pspec_plan_destroy(plan);
     pspec_context_destroy(context);
     test_free_sample(&what);
@@ -364,7 +375,9 @@ int main(void) {
         cmocka_unit_test(one_long_batch_is_cancelled),
         cmocka_unit_test(the_log_says_what_is_done),
         cmocka_unit_test(memory_limits_are_obeyed),
+        cmocka_unit_test(test_gsl_is_left_alone),
     };
+    test_watch_gsl();
     ps_device *device = test_open_device(); /* ends as skipped when there is none */
     has_fp64 = ps_device_get_limits(device)->has_fp64;
     ps_device_close(device);

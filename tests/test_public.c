@@ -1,7 +1,7 @@
 /* The public library: the same numbers as the parts below it, errors with sentences, contexts in
  * threads of their own.
  */
-#include "harness_estimator.h"
+#include "harness_public.h"
 
 #include "engines/host_direct.h"
 #include "engines/torus_direct.h"
@@ -212,7 +212,9 @@ int main(void) {
         cmocka_unit_test(powers_too_large_for_the_tolerance),
         cmocka_unit_test(contexts_in_threads),
         cmocka_unit_test(destroys_accept_null),
+        cmocka_unit_test(test_gsl_is_left_alone),
     };
+    test_watch_gsl();
     ps_device_close(test_open_device()); /* ends as skipped when there is none */
     return cmocka_run_group_tests_name("public", tests, NULL, NULL);
 }
