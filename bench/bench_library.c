@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { DIMENSION = 2, PATTERNS = 20000, REPEATS = 5 };
+enum { DIMENSION = 2, MOST_PATTERNS = 20000, MOST_WORK = 1 << 21, REPEATS = 5 };
 
 typedef struct library_case {
     const char *engine, *precision;
@@ -21,14 +21,14 @@ typedef struct library_case {
 static const library_case cases[] = {
     {"torus_direct", "single"}, {"torus_direct", "double"}, {"host_direct", "extended"}};
 
-static const size_t call_sizes[] = {1, 10, 100, PATTERNS};
+static const size_t call_sizes[] = {1, 10, 100, MOST_PATTERNS};
 
 typedef struct library_bench {
     pspec_context *context;
     pspec_plan *plan;
     pspec_pattern *patterns;
     double *points;
-    size_t num_points;
+    size_t num_points, num_patterns;
     int32_t max_frequency;
     pspec_spectrum *first; /* of this engine */
 } library_bench;
@@ -39,11 +39,19 @@ static void try_call(const library_bench *bench, pspec_status status) {
     }
 }
 
+/* As many patterns as the referee does in about a second. */
+static size_t count_patterns(const library_bench *bench) {
+    const size_t width = 2 * (size_t)bench->max_frequency + 1;
+    const size_t count = MOST_WORK / (bench->num_points * width * width);
+    return count > MOST_PATTERNS ? MOST_PATTERNS : count > 0 ? count : 1;
+}
+
 static void make_patterns(library_bench *bench) {
+    bench->num_patterns = count_patterns(bench);
     const size_t stride = bench->num_points * DIMENSION;
-    bench->points = bench_uniform(PATTERNS * stride, 1);
-    bench->patterns = calloc(PATTERNS, sizeof *bench->patterns);
-    for (size_t r = 0; r < PATTERNS; r++) {
+    bench->points = bench_uniform(bench->num_patterns * stride, 1);
+    bench->patterns = calloc(bench->num_patterns, sizeof *bench->patterns);
+    for (size_t r = 0; r < bench->num_patterns; r++) {
         bench->patterns[r] =
             (pspec_pattern){DIMENSION, bench->num_points, bench->points + r * stride, NULL};
     }
@@ -72,9 +80,9 @@ static double time_engine(const library_bench *bench, const library_case *which)
     BENCH_TRY(ps_device_open(&device, getenv("POINTSPEC_DEVICE"), false, error));
     BENCH_TRY(ps_frequencies_lattice(&set, DIMENSION, bench->max_frequency, false, error));
     bench_job_create(&job, find_engine(which->engine), (ps_precision)precision, device, set,
-                     bench->num_points, PATTERNS);
+                     bench->num_points, bench->num_patterns);
     for (int i = 0; i < REPEATS; i++) {
-        seconds[i] = bench_job_run(&job, &rows) / PATTERNS;
+        seconds[i] = bench_job_run(&job, &rows) / (double)bench->num_patterns;
     }
     bench_job_destroy(&job);
     ps_device_close(device);
@@ -86,8 +94,8 @@ static double time_calls(library_bench *bench, size_t size) {
     pspec_spectrum *spectrum = NULL;
     try_call(bench, pspec_plan_reset(bench->plan));
     const double begin = bench_seconds();
-    for (size_t r = 0; r < PATTERNS; r += size) {
-        const size_t rest = PATTERNS - r;
+    for (size_t r = 0; r < bench->num_patterns; r += size) {
+        const size_t rest = bench->num_patterns - r;
         try_call(bench,
                  pspec_plan_run(bench->plan, bench->patterns + r, rest < size ? rest : size));
     }
@@ -97,21 +105,21 @@ static double time_calls(library_bench *bench, size_t size) {
     pspec_spectrum_frequencies(spectrum, &num);
     if (bench->first == NULL) {
         bench->first = spectrum;
-        return seconds / PATTERNS;
+        return seconds / (double)bench->num_patterns;
     }
     if (memcmp(pspec_spectrum_powers(bench->first), pspec_spectrum_powers(spectrum),
                num * sizeof(double)) != 0) {
         bench_die("the spectrum depends on the size of the calls");
     }
     pspec_spectrum_destroy(spectrum);
-    return seconds / PATTERNS;
+    return seconds / (double)bench->num_patterns;
 }
 
 static void make_plan(library_bench *bench, const library_case *which) {
     pspec_power_request request = PSPEC_POWER_REQUEST_INIT;
     request.dimension = DIMENSION;
     request.num_points = bench->num_points;
-    request.num_realizations = PATTERNS;
+    request.num_realizations = bench->num_patterns;
     request.max_frequency = bench->max_frequency;
     request.engine = which->engine;
     request.precision = which->precision;
@@ -123,7 +131,7 @@ static void measure(library_bench *bench, const library_case *which) {
     const double micro = 1e6;
     const double alone = time_engine(bench, which);
     make_plan(bench, which);
-    time_calls(bench, PATTERNS); /* touches the memory */
+    time_calls(bench, bench->num_patterns); /* touches the memory */
     for (size_t i = 0; i < sizeof call_sizes / sizeof call_sizes[0]; i++) {
         double seconds[REPEATS];
         for (int repeat = 0; repeat < REPEATS; repeat++) {
@@ -144,7 +152,7 @@ int main(int argc, char **argv) {
     bench.context = pspec_context_create();
     pspec_context_set_device(bench.context, getenv("POINTSPEC_DEVICE"));
     make_patterns(&bench);
-    printf("# %d patterns of %zu points, K = %d, microseconds per pattern\n", PATTERNS,
+    printf("# %zu patterns of %zu points, K = %d, microseconds per pattern\n", bench.num_patterns,
            bench.num_points, (int)bench.max_frequency);
     printf("engine,precision,calls of,library,engine alone,overhead\n");
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {

@@ -217,6 +217,14 @@ static void null_arguments_are_refused(void **state) {
     pspec_spectrum *spectrum = NULL;
     assert_int_equal(pspec_plan_create(&plan, NULL, &request), PSPEC_ERROR_INVALID_ARGUMENT);
     assert_int_equal(pspec_plan_run(NULL, NULL, 0), PSPEC_ERROR_INVALID_ARGUMENT);
+    pspec_context *context = make_context();
+    assert_int_equal(pspec_plan_create(&plan, context, NULL), PSPEC_ERROR_INVALID_ARGUMENT);
+    plan = make_plan(context, &cases[2], 1);
+    assert_int_equal(pspec_plan_run(plan, NULL, 0), PSPEC_OK);
+    assert_int_equal(pspec_plan_run(plan, NULL, 2), PSPEC_ERROR_INVALID_ARGUMENT);
+    assert_says(context, "2 patterns at the address NULL");
+    pspec_plan_destroy(plan);
+    pspec_context_destroy(context);
     assert_int_equal(pspec_plan_reset(NULL), PSPEC_ERROR_INVALID_ARGUMENT);
     assert_int_equal(pspec_spectrum_create(&spectrum, NULL), PSPEC_ERROR_INVALID_ARGUMENT);
     assert_int_equal(pspec_spectrum_load(&spectrum, NULL, "x"), PSPEC_ERROR_INVALID_ARGUMENT);

@@ -50,6 +50,9 @@ void ps_spectrum_sums_free(ps_spectrum_sums *sums) {
 
 /* ---- merge ------------------------------------------------------------------------------- */
 
+/* What a double counts exactly, and a file may hold (spectrum_format.h). */
+#define MOST_REALIZATIONS ((uint64_t)1 << 53)
+
 static const char *kind_name(ps_frequency_kind kind) {
     return kind == PS_FREQUENCIES_LIST  ? "a list of frequencies"
            : kind == PS_FREQUENCIES_BOX ? "the frequencies of a box"
@@ -115,6 +118,10 @@ static void add_totals(ps_pattern_totals *totals, const ps_pattern_totals *other
 pspec_status ps_spectrum_sums_merge(ps_spectrum_sums *sums, const ps_spectrum_sums *other,
                                     const char *which, ps_error *error) {
     PS_TRY(compare(sums, other, which, error));
+    if (other->totals.num_realizations > MOST_REALIZATIONS - sums->totals.num_realizations) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s brings the realizations to more than 2^53",
+                       which);
+    }
     const double factor = sums->reference_points / other->reference_points;
     for (size_t b = 0; b < sums->num_bins; b++) {
         ps_sums_merge(&sums->bins[b], &other->bins[b], factor);

@@ -119,6 +119,9 @@ static pspec_status check_request(const pspec_power_request *request, ps_error *
 static void log_choice(const pspec_plan *plan) {
     for (size_t i = 0; i < plan->choice.num_candidates; i++) {
         const ps_candidate *candidate = &plan->choice.candidates[i];
+        if (candidate->is_excluded) { /* as the request says */
+            continue;
+        }
         ps_log_say(&plan->context->log, "%s in %s precision%s: %s", candidate->engine->name,
                    ps_precision_name(candidate->precision), candidate->is_chosen ? ", chosen" : "",
                    candidate->reason);
@@ -191,6 +194,9 @@ pspec_status pspec_plan_create(pspec_plan **out, pspec_context *context,
     if (context == NULL) {
         return PSPEC_ERROR_INVALID_ARGUMENT;
     }
+    if (request == NULL) {
+        return ps_fail(&context->error, PSPEC_ERROR_INVALID_ARGUMENT, "there is no request");
+    }
     PS_TRY(ps_allocate(&memory, 1, sizeof(pspec_plan), "a plan", &context->error));
     pspec_plan *plan = memory;
     plan->context = context;
@@ -242,6 +248,10 @@ pspec_status pspec_plan_run(pspec_plan *plan, const pspec_pattern *patterns, siz
         return PSPEC_ERROR_INVALID_ARGUMENT;
     }
     PS_TRY(require_sound(plan));
+    if (patterns == NULL && num_patterns > 0) {
+        return ps_fail(&plan->context->error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "%zu patterns at the address NULL", num_patterns);
+    }
     return note(plan, ps_gather_add(plan->gather, patterns, num_patterns, &plan->context->error));
 }
 
