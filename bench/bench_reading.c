@@ -30,8 +30,10 @@ static double file_bytes(const char *path) {
 
 static void write_points(const char *path, const char *format, size_t num, const double *points) {
     ps_point_writer *writer = NULL;
-    BENCH_TRY(ps_points_create(&writer, path, format, 1, num, DIMENSION, error));
-    BENCH_TRY(ps_points_write(writer, points, error));
+    const ps_point_shape shape = {.num_sets = 1, .num_points = num, .dimension = DIMENSION};
+    const ps_point_set set = {.dimension = DIMENSION, .num_points = num, .points = points};
+    BENCH_TRY(ps_points_create(&writer, path, format, &shape, error));
+    BENCH_TRY(ps_points_write(writer, &set, true, error));
     BENCH_TRY(ps_points_commit(writer, error));
     ps_points_discard(writer);
 }

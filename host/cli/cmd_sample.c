@@ -54,12 +54,13 @@ static ps_progress *begin_progress(const ps_arguments *arguments, const char *pa
     return shares_terminal ? NULL : ps_progress_begin(arguments, "realizations");
 }
 
+/* set: the points' place, of one realization. */
 static pspec_status write_realizations(const ps_sampler_request *request, uint64_t num_realizations,
-                                       double *points, ps_point_writer *writer,
+                                       const ps_point_set *set, ps_point_writer *writer,
                                        ps_progress *progress, ps_error *error) {
     for (uint64_t r = 0; r < num_realizations; r++) {
-        PS_TRY(ps_sampler_generate(request, r, points, error));
-        PS_TRY(ps_points_write(writer, points, error));
+        PS_TRY(ps_sampler_generate(request, r, set->points, error));
+        PS_TRY(ps_points_write(writer, set, true, error));
         ps_progress_update(progress, r + 1, num_realizations);
         if (ps_interrupted) {
             return ps_fail(error, PSPEC_ERROR_CANCELLED,
@@ -67,7 +68,15 @@ static pspec_status write_realizations(const ps_sampler_request *request, uint64
                            (unsigned long long)num_realizations);
         }
     }
-    return ps_points_commit(writer, error);
+    return PSPEC_OK;
+}
+
+static void print_loss(const ps_arguments *arguments, const ps_point_writer *writer) {
+    char loss[256];
+    ps_points_describe_loss(writer, loss, sizeof loss);
+    if (loss[0] != '\0' && !arguments->quiet) {
+        fprintf(stderr, "pointspec sample: %s\n", loss);
+    }
 }
 
 static pspec_status run(const ps_arguments *arguments, ps_error *error) {
@@ -81,12 +90,17 @@ static pspec_status run(const ps_arguments *arguments, ps_error *error) {
     PS_TRY(make_request(arguments, &request, error));
     PS_TRY(ps_allocate(&points, request.num_points, request.dimension * sizeof(double), "points",
                        error));
-    PS_TRY_OUT(status, ps_points_create(&writer, path, arguments->format,
-                                        (size_t)arguments->num_realizations, request.num_points,
-                                        request.dimension, error));
+    const ps_point_set set = {
+        .dimension = request.dimension, .num_points = request.num_points, .points = points};
+    const ps_point_shape shape = {.num_sets = (size_t)arguments->num_realizations,
+                                  .num_points = request.num_points,
+                                  .dimension = request.dimension};
+    PS_TRY_OUT(status, ps_points_create(&writer, path, arguments->format, &shape, error));
     progress = begin_progress(arguments, path);
-    status =
-        write_realizations(&request, arguments->num_realizations, points, writer, progress, error);
+    PS_TRY_OUT(status, write_realizations(&request, arguments->num_realizations, &set, writer,
+                                          progress, error));
+    print_loss(arguments, writer);
+    status = ps_points_commit(writer, error);
 out:
     ps_progress_end(progress);
     ps_points_discard(writer);
@@ -110,7 +124,7 @@ const ps_command ps_command_sample = {
         "coordinates with 17 digits, and a line \"#\" between two realizations; an NPY array has "
         "the shape (M, N, D).",
     .options = options,
-    .formats = "utk-text|npy",
+    .formats = PS_POINT_FORMATS,
     .examples = {"pointspec sample --sampler jittered -n 1024 -m 10 --seed 7 -o points.txt",
                  "pointspec sample --sampler sobol:scramble=owen -n 4096 -d 3 -o points.npy"},
     .run = run,

@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "engines/frequencies.h"
+#include "io/points.h"
 
 #include <float.h>
 #include <string.h>
@@ -234,7 +235,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                "weights all 1, in the last column, or from FILE (default equal)",
                            TEXT(weights)},
     [PS_OPTION_INPUT_FORMAT] = {.name = "input-format",
-                                .metavar = "utk-text|npy",
+                                .metavar = PS_POINT_FORMATS,
                                 .help = "format of the point files (default: detected)",
                                 WORD(input_format)},
     [PS_OPTION_WRAP] = {.name = "wrap",

@@ -1,16 +1,19 @@
 #include "io/input_file.h"
 
 #include "base/memory.h"
-#include "io/decimal.h"
+#include "io/gzip.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Large enough that system calls do not show, small enough to stay in the cache. */
-enum { BUFFER_BYTES = 1 << 20 };
+enum {
+    BUFFER_BYTES = 1 << 18, /* larger reads go around the buffer; smaller ones share system calls */
+    MOST_PEEKED = 16
+};
 
 pspec_status ps_input_fail(const char *name, ps_error *error) {
     const int reason = errno;
@@ -18,45 +21,68 @@ pspec_status ps_input_fail(const char *name, ps_error *error) {
                    "cannot read %s: %s", name, strerror(reason));
 }
 
+/* ---- opening ----------------------------------------------------------------------------- */
+
 /* Standard input is read through a copy of its descriptor, so that closing it is ours to do. */
-static FILE *open_stream(const char *path) {
-    if (strcmp(path, "-") != 0) {
-        return fopen(path, "rb");
-    }
-    const int copy = dup(STDIN_FILENO);
-    FILE *stream = copy >= 0 ? fdopen(copy, "rb") : NULL;
-    if (copy >= 0 && stream == NULL) {
-        close(copy);
-    }
-    return stream;
+static int open_descriptor(const char *path) {
+    return strcmp(path, "-") != 0 ? open(path, O_RDONLY | O_NOCTTY | O_CLOEXEC)
+                                  : fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0);
 }
 
-static pspec_status check_stream(ps_input *input, ps_error *error) {
+static pspec_status check_kind(ps_input *input, ps_error *error) {
     struct stat facts;
-    errno = 0;
-    if (fstat(fileno(input->stream), &facts) == 0 && S_ISDIR(facts.st_mode)) {
+    if (fstat(input->descriptor, &facts) != 0) {
+        return ps_input_fail(input->name, error);
+    }
+    if (S_ISDIR(facts.st_mode)) {
         errno = EISDIR;
         return ps_input_fail(input->name, error);
     }
-    setvbuf(input->stream, NULL, _IONBF, 0);
-    input->first_byte = getc(input->stream);
-    if (input->first_byte == EOF) {
-        return ferror(input->stream)
-                   ? ps_input_fail(input->name, error)
-                   : ps_fail(error, PSPEC_ERROR_INPUT, "%s is empty", input->name);
-    }
+    input->is_seekable = S_ISREG(facts.st_mode);
     return PSPEC_OK;
 }
 
-pspec_status ps_input_open(ps_input *input, const char *path, ps_error *error) {
-    *input = (ps_input){0};
+static pspec_status start_gzip(ps_input *input, ps_error *error) {
+    static const unsigned char magic[] = {0x1f, 0x8b};
+    const unsigned char *bytes = NULL;
+    size_t num_bytes = 0;
+    PS_TRY(ps_input_peek(input, 1, &bytes, &num_bytes, error));
+    if (num_bytes == 0) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s is empty", input->name);
+    }
+    if (bytes[0] != magic[0]) {
+        return PSPEC_OK; /* without waiting for a second byte of a slow pipe */
+    }
+    PS_TRY(ps_input_peek(input, sizeof magic, &bytes, &num_bytes, error));
+    if (num_bytes < sizeof magic || bytes[1] != magic[1]) {
+        return PSPEC_OK;
+    }
+    PS_TRY(ps_gzip_create(&input->gzip, input->buffer + input->begin, input->end - input->begin,
+                          error));
+    input->begin = input->end = 0;
+    input->is_seekable = false;
+    return PSPEC_OK;
+}
+
+static pspec_status open_input(ps_input *input, const char *path, ps_error *error) {
     input->name = strdup(strcmp(path, "-") == 0 ? "standard input" : path);
     if (input->name == NULL) {
         return ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for a file name");
     }
-    input->stream = open_stream(path);
-    const pspec_status status =
-        input->stream != NULL ? check_stream(input, error) : ps_input_fail(input->name, error);
+    input->descriptor = open_descriptor(path);
+    if (input->descriptor < 0) {
+        return ps_input_fail(input->name, error);
+    }
+    PS_TRY(check_kind(input, error));
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, BUFFER_BYTES, 1, "an input buffer", error));
+    input->buffer = memory;
+    return start_gzip(input, error);
+}
+
+pspec_status ps_input_open(ps_input *input, const char *path, ps_error *error) {
+    *input = (ps_input){.descriptor = -1};
+    const pspec_status status = open_input(input, path, error);
     if (status != PSPEC_OK) {
         ps_input_close(input);
     }
@@ -64,92 +90,111 @@ pspec_status ps_input_open(ps_input *input, const char *path, ps_error *error) {
 }
 
 void ps_input_close(ps_input *input) {
-    if (input->stream != NULL) {
-        fclose(input->stream);
+    if (input->name != NULL && input->descriptor >= 0) {
+        close(input->descriptor);
     }
+    ps_gzip_destroy(input->gzip);
+    free(input->buffer);
     free(input->name);
-    *input = (ps_input){0};
+    *input = (ps_input){.descriptor = -1};
 }
 
-pspec_status ps_lines_open(ps_lines *lines, const ps_input *input, ps_error *error) {
-    *lines = (ps_lines){.input = input, .line_number = 1};
-    void *buffer = NULL;
-    PS_TRY(ps_allocate(&buffer, BUFFER_BYTES + PS_DECIMAL_PADDING, 1, "input buffer", error));
-    lines->buffer = buffer;
-    lines->buffer[0] = (char)input->first_byte;
-    lines->num_bytes = 1;
-    lines->cursor = lines->lines_end = lines->buffer;
+/* ---- reading ----------------------------------------------------------------------------- */
+
+/* One step of the source itself, around the buffer. */
+static pspec_status read_source(ps_input *input, void *out, size_t max_bytes, size_t *count,
+                                ps_error *error) {
+    if (input->gzip != NULL) {
+        return ps_gzip_read(input->gzip, input, out, max_bytes, count, error);
+    }
+    const ssize_t taken = read(input->descriptor, out, max_bytes);
+    if (taken < 0) {
+        return ps_input_fail(input->name, error);
+    }
+    *count = (size_t)taken;
     return PSPEC_OK;
 }
 
-void ps_lines_close(ps_lines *lines) {
-    free(lines->buffer);
-    *lines = (ps_lines){0};
-}
-
-/* Moves what is left to the start of the buffer. */
-static void make_room(ps_lines *lines) {
-    const size_t used = (size_t)(lines->cursor - lines->buffer);
-    lines->num_bytes -= used;
-    memmove(lines->buffer, lines->cursor, lines->num_bytes);
-    lines->cursor = lines->lines_end = lines->buffer;
-}
-
-/* Looks for the last '\n' in the bytes from first on. */
-static void find_lines(ps_lines *lines, size_t first) {
-    for (size_t i = lines->num_bytes; i > first; i--) {
-        if (lines->buffer[i - 1] == '\n') {
-            lines->lines_end = lines->buffer + i;
-            return;
-        }
+pspec_status ps_input_peek(ps_input *input, size_t wanted, const unsigned char **bytes,
+                           size_t *num_bytes, ps_error *error) {
+    size_t count = 1;
+    if (input->begin > 0 && input->end - input->begin < MOST_PEEKED) {
+        memmove(input->buffer, input->buffer + input->begin, input->end - input->begin);
+        input->end -= input->begin;
+        input->begin = 0;
     }
-}
-
-static void end_last_line(ps_lines *lines) {
-    lines->is_at_end = true;
-    if (lines->num_bytes > 0) {
-        lines->buffer[lines->num_bytes++] = '\n';
-        lines->lines_end = lines->buffer + lines->num_bytes;
+    while (input->end - input->begin < wanted && count > 0) {
+        PS_TRY(read_source(input, input->buffer + input->end, BUFFER_BYTES - input->end, &count,
+                           error));
+        input->end += count;
     }
-}
-
-pspec_status ps_lines_fill(ps_lines *lines, bool *has_line, ps_error *error) {
-    if (lines->cursor == lines->lines_end && !lines->is_at_end) {
-        make_room(lines);
-        find_lines(lines, 0); /* the first byte of the input may be a whole line */
-    }
-    while (lines->cursor == lines->lines_end && !lines->is_at_end) {
-        if (lines->num_bytes == BUFFER_BYTES - 1) { /* one byte is kept for a missing '\n' */
-            return ps_fail(error, PSPEC_ERROR_INPUT,
-                           "%s, line %zu: no end of line within %d bytes; is this a text file?",
-                           lines->input->name, lines->line_number, BUFFER_BYTES - 1);
-        }
-        const size_t first = lines->num_bytes;
-        const ssize_t count =
-            read(fileno(lines->input->stream), lines->buffer + first, BUFFER_BYTES - 1 - first);
-        if (count < 0) {
-            return ps_input_fail(lines->input->name, error);
-        }
-        lines->num_bytes += (size_t)count;
-        find_lines(lines, first);
-        if (count == 0) {
-            end_last_line(lines);
-        }
-    }
-    *has_line = lines->cursor != lines->lines_end;
+    *bytes = input->buffer + input->begin;
+    *num_bytes = input->end - input->begin;
     return PSPEC_OK;
 }
 
-const char *ps_token_show(char shown[PS_TOKEN_BYTES], const char *text, size_t length) {
-    enum { LONGEST = 4, SHOWN = 30 }; /* one byte may become "\xHH"; 30 tell which token it was */
-    size_t used = 0;
-    const size_t count = length < SHOWN ? length : SHOWN;
-    for (size_t i = 0; i < count && used + LONGEST < PS_TOKEN_BYTES - 4; i++) {
-        const unsigned char byte = (unsigned char)text[i];
-        const int is_printable = byte >= ' ' && byte < 0x7f;
-        used += (size_t)snprintf(shown + used, PS_TOKEN_BYTES - used,
-                                 is_printable ? "%c" : "\\x%02x", byte);
+static size_t take_buffered(ps_input *input, void *out, size_t max_bytes) {
+    const size_t there = input->end - input->begin;
+    const size_t count = there < max_bytes ? there : max_bytes;
+    if (count > 0) {
+        memcpy(out, input->buffer + input->begin, count);
+        input->begin += count;
     }
-    snprintf(shown + used, PS_TOKEN_BYTES - used, "%s", count < length ? "..." : "");
-    return shown;
+    return count;
+}
+
+pspec_status ps_input_read_some(ps_input *input, void *out, size_t max_bytes, size_t *count,
+                                ps_error *error) {
+    *count = take_buffered(input, out, max_bytes);
+    return *count > 0 ? PSPEC_OK : read_source(input, out, max_bytes, count, error);
+}
+
+/* Large reads go where they are wanted, small ones through the buffer. */
+static pspec_status read_step(ps_input *input, void *out, size_t num_bytes, size_t *count,
+                              ps_error *error) {
+    if (num_bytes >= BUFFER_BYTES) {
+        return read_source(input, out, num_bytes, count, error);
+    }
+    input->begin = input->end = 0;
+    PS_TRY(read_source(input, input->buffer, BUFFER_BYTES, count, error));
+    input->end = *count;
+    *count = take_buffered(input, out, num_bytes);
+    return PSPEC_OK;
+}
+
+pspec_status ps_input_read(ps_input *input, void *out, size_t num_bytes, size_t *count,
+                           ps_error *error) {
+    *count = take_buffered(input, out, num_bytes);
+    while (*count < num_bytes) {
+        size_t step = 0;
+        PS_TRY(read_step(input, (unsigned char *)out + *count, num_bytes - *count, &step, error));
+        if (step == 0) {
+            break;
+        }
+        *count += step;
+    }
+    return PSPEC_OK;
+}
+
+/* ---- places in files --------------------------------------------------------------------- */
+
+off_t ps_input_position(const ps_input *input) {
+    return lseek(input->descriptor, 0, SEEK_CUR) - (off_t)(input->end - input->begin);
+}
+
+bool ps_input_bytes_left(const ps_input *input, uint64_t *num_bytes) {
+    struct stat facts;
+    const off_t position = input->is_seekable ? ps_input_position(input) : -1;
+    if (position < 0 || fstat(input->descriptor, &facts) != 0) {
+        return false;
+    }
+    *num_bytes = facts.st_size > position ? (uint64_t)(facts.st_size - position) : 0;
+    return true;
+}
+
+pspec_status ps_input_seek(ps_input *input, off_t position, ps_error *error) {
+    input->begin = input->end = 0;
+    return lseek(input->descriptor, position, SEEK_SET) == position
+               ? PSPEC_OK
+               : ps_input_fail(input->name, error);
 }

@@ -1,4 +1,5 @@
-/* Opening what is read: a file or standard input, with the refusals that are the same for both. */
+/* Opening and reading what is read: a file, standard input, or either of them compressed by gzip,
+ * with the refusals that are the same for all. */
 #ifndef PS_IO_INPUT_FILE_H
 #define PS_IO_INPUT_FILE_H
 
@@ -6,44 +7,48 @@
 
 #include <stdbool.h>
 #include <stddef.h>
-#include <stdio.h>
+#include <stdint.h>
+#include <sys/types.h>
 
-/* {0} is closed. The stream has no buffer: readers bring larger ones, and input from a pipe can be
- * taken as it comes. first_byte was read already and shows the format. */
+typedef struct ps_gzip ps_gzip;
+
+/* Closed by ps_input_close, also after an open that failed. */
 typedef struct ps_input {
-    FILE *stream;
     char *name; /* for messages */
-    int first_byte;
+    int descriptor;
+    ps_gzip *gzip;         /* NULL: the bytes are as they are */
+    unsigned char *buffer; /* read, but not yet taken: [begin, end) */
+    size_t begin, end;
+    bool is_seekable; /* a regular file, not compressed */
 } ps_input;
 
-/* Opens path, or standard input for "-". Folders and empty files are refused. */
+/* Opens path, or standard input for "-". Folders and empty files are refused; gzip is recognised by
+ * its first bytes. */
 pspec_status ps_input_open(ps_input *input, const char *path, ps_error *error) PS_MUST_CHECK;
 void ps_input_close(ps_input *input);
+
+/* Makes the first bytes visible in *bytes without taking them: at least wanted (at most 16), fewer
+ * only when the input ends before. Valid until the next call. */
+pspec_status ps_input_peek(ps_input *input, size_t wanted, const unsigned char **bytes,
+                           size_t *num_bytes, ps_error *error) PS_MUST_CHECK;
+
+/* Reads what is there, at least one byte and at most max_bytes; *count is 0 at the end only. */
+pspec_status ps_input_read_some(ps_input *input, void *out, size_t max_bytes, size_t *count,
+                                ps_error *error) PS_MUST_CHECK;
+
+/* Reads num_bytes; *count is smaller only at the end. */
+pspec_status ps_input_read(ps_input *input, void *out, size_t num_bytes, size_t *count,
+                           ps_error *error) PS_MUST_CHECK;
+
+/* Bytes that are still to come, where the system tells: for files that are not compressed. */
+bool ps_input_bytes_left(const ps_input *input, uint64_t *num_bytes);
+
+/* Where the next byte stands in the file, and going back there. Seekable inputs only. */
+off_t ps_input_position(const ps_input *input);
+pspec_status ps_input_seek(ps_input *input, off_t position, ps_error *error) PS_MUST_CHECK;
 
 /* Records that reading name failed, as errno says; an interruption is PSPEC_ERROR_CANCELLED, so
  * that whoever installed the signal handler decides (SA_RESTART or not) whether reads go on. */
 pspec_status ps_input_fail(const char *name, ps_error *error);
-
-/* Lines of a text input. The text between cursor and lines_end is whole lines, each with its '\n'
- * (added to the last line when missing), so that parsers need no other limit. */
-typedef struct ps_lines {
-    const ps_input *input;
-    char *buffer;
-    const char *cursor;    /* the caller moves it past each line it has read */
-    const char *lines_end; /* end of the last whole line */
-    size_t num_bytes;      /* of buffer in use */
-    size_t line_number;    /* of the line at cursor, counted from 1; the caller counts */
-    bool is_at_end;
-} ps_lines;
-
-pspec_status ps_lines_open(ps_lines *lines, const ps_input *input, ps_error *error) PS_MUST_CHECK;
-void ps_lines_close(ps_lines *lines);
-/* Makes at least one whole line available at cursor; *has_line is false at the end of the input.
- * Pointers into the buffer do not survive this call. */
-pspec_status ps_lines_fill(ps_lines *lines, bool *has_line, ps_error *error) PS_MUST_CHECK;
-
-/* The token at text, up to a separator, made printable and shortened for a message. */
-enum { PS_TOKEN_BYTES = 128 };
-const char *ps_token_show(char shown[PS_TOKEN_BYTES], const char *text, size_t length);
 
 #endif

@@ -3,6 +3,7 @@
 #include "io/decimal.h"
 #include "io/npy.h"
 #include "io/points_format.h"
+#include "io/text_lines.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -12,7 +13,7 @@ enum { MAX_FREQUENCY = 1 << 30, FIRST_VALUES = 1024 };
 
 /* Numbers as they are read, row by row. */
 typedef struct number_list {
-    const ps_input *input;
+    ps_input *input;
     double *values;
     size_t num_values, capacity;
     unsigned columns; /* of every row; 0: any number */
@@ -73,8 +74,7 @@ static pspec_status read_lines(number_list *list, line_parser *parse, ps_error *
         if (*text != '\n' && *text != '#') {
             PS_TRY_OUT(status, parse(list, text, lines.line_number, error));
         }
-        lines.cursor = (const char *)memchr(text, '\n', (size_t)(lines.lines_end - text)) + 1;
-        lines.line_number++;
+        ps_lines_skip(&lines);
         PS_TRY_OUT(status, ps_lines_fill(&lines, &has_line, error));
     }
     if (list->num_values == 0) {
@@ -175,6 +175,11 @@ static pspec_status parse_weights(number_list *list, const char *text, size_t li
     return PSPEC_OK;
 }
 
+/* The first byte tells: no text begins with it. */
+static bool is_npy(const ps_input *input) {
+    return input->buffer[input->begin] == (unsigned char)ps_format_npy.magic[0];
+}
+
 /* In blocks, so that a pipe that promises too much does not claim the memory for it. */
 static pspec_status read_npy_elements(number_list *list, const ps_npy_header *header,
                                       ps_error *error) {
@@ -187,8 +192,7 @@ static pspec_status read_npy_elements(number_list *list, const ps_npy_header *he
                        error));
         list->values = memory;
         double *const block = list->values + list->num_values;
-        PS_TRY(ps_npy_read_elements(list->input->stream, list->input->name, header, block, num,
-                                    error));
+        PS_TRY(ps_npy_read_elements(list->input, header, block, num, error));
         for (size_t i = 0; i < num; i++) {
             if (!isfinite(block[i])) {
                 return ps_fail(error, PSPEC_ERROR_INPUT,
@@ -198,13 +202,12 @@ static pspec_status read_npy_elements(number_list *list, const ps_npy_header *he
         }
         list->num_values += num;
     }
-    return ps_npy_check_end(list->input->stream, list->input->name, error);
+    return ps_npy_check_end(list->input, error);
 }
 
 static pspec_status read_npy(number_list *list, ps_error *error) {
     ps_npy_header header;
-    ungetc(list->input->first_byte, list->input->stream);
-    PS_TRY(ps_npy_read_header(list->input->stream, list->input->name, &header, error));
+    PS_TRY(ps_npy_read_header(list->input, &header, error));
     if (header.rank != 1) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "%s: an array with %u axes; weights have one",
                        list->input->name, header.rank);
@@ -222,9 +225,8 @@ pspec_status ps_read_weights(const char *path, double **weights, size_t *num_wei
     number_list list = {.input = &input};
     pspec_status status = PSPEC_OK;
     PS_TRY_OUT(status, ps_input_open(&input, path, error));
-    PS_TRY_OUT(status, input.first_byte == ps_format_npy.first_byte
-                           ? read_npy(&list, error)
-                           : read_lines(&list, parse_weights, error));
+    PS_TRY_OUT(status,
+               is_npy(&input) ? read_npy(&list, error) : read_lines(&list, parse_weights, error));
     *weights = list.values;
     *num_weights = list.num_values;
     list.values = NULL;

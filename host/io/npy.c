@@ -5,14 +5,12 @@
 
 #include "base/memory.h"
 #include "base/text.h"
-#include "io/input_file.h"
 #include "io/output_file.h"
+#include "io/text_lines.h"
 
 #include <errno.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 enum {
     MAGIC_BYTES = 6,
@@ -21,19 +19,16 @@ enum {
 };
 static const char magic[] = "\x93NUMPY";
 
-static bool host_is_little_endian(void) {
-    const uint16_t probe = 1;
-    unsigned char first = 0;
-    memcpy(&first, &probe, 1);
-    return first == 1;
+static pspec_status fail_short(const ps_input *input, ps_error *error) {
+    return ps_fail(error, PSPEC_ERROR_INPUT,
+                   "%s is truncated: it ends inside its NPY header or array", input->name);
 }
 
-static pspec_status fail_short(FILE *stream, const char *name, ps_error *error) {
-    if (ferror(stream)) {
-        return ps_input_fail(name, error);
-    }
-    return ps_fail(error, PSPEC_ERROR_INPUT, "%s is truncated: it ends inside its NPY %s", name,
-                   "header or array");
+/* Exactly num_bytes. */
+static pspec_status read_exactly(ps_input *input, void *out, size_t num_bytes, ps_error *error) {
+    size_t count = 0;
+    PS_TRY(ps_input_read(input, out, num_bytes, &count, error));
+    return count == num_bytes ? PSPEC_OK : fail_short(input, error);
 }
 
 /* ---- the header's dictionary ---- */
@@ -99,10 +94,11 @@ static bool accept_type(const char **at, ps_npy_header *out) {
     if (!accept_text(at, type, sizeof type) || strlen(type) != 3 || type[1] != 'f') {
         return false;
     }
-    out->is_little_endian = type[0] == '<' || (type[0] == '=' && host_is_little_endian());
-    out->element_bytes = (unsigned)(type[2] - '0');
+    out->type.kind = PS_ELEMENT_FLOAT;
+    out->type.is_big_endian = type[0] == '>' || (type[0] == '=' && ps_host_is_big_endian());
+    out->type.num_bytes = (unsigned)(type[2] - '0');
     return strchr("<>=", type[0]) != NULL &&
-           (out->element_bytes == sizeof(float) || out->element_bytes == sizeof(double));
+           (out->type.num_bytes == sizeof(float) || out->type.num_bytes == sizeof(double));
 }
 
 static pspec_status fail_header(const char *name, const char *text, ps_error *error) {
@@ -160,67 +156,60 @@ static pspec_status parse_dictionary(const char *text, const char *name, ps_npy_
 
 /* ---- reading ---- */
 
-static pspec_status read_header_text(FILE *stream, const char *name, char **text, ps_error *error) {
+static pspec_status read_header_text(ps_input *input, char **text, ps_error *error) {
     unsigned char start[MAGIC_BYTES + 2];
     unsigned char length_bytes[4] = {0};
-    if (fread(start, 1, sizeof start, stream) != sizeof start) {
-        return fail_short(stream, name, error);
-    }
+    PS_TRY(read_exactly(input, start, sizeof start, error));
     const unsigned version = start[MAGIC_BYTES];
     if (memcmp(start, magic, MAGIC_BYTES) != 0 || version < 1 || version > 3) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "%s is not an NPY file of version 1, 2 or 3",
-                       name);
+                       input->name);
     }
-    if (fread(length_bytes, 1, version == 1 ? 2 : 4, stream) != (version == 1 ? 2 : 4)) {
-        return fail_short(stream, name, error);
-    }
+    PS_TRY(read_exactly(input, length_bytes, version == 1 ? 2 : 4, error));
     const size_t length = length_bytes[0] + ((size_t)length_bytes[1] << 8) +
                           ((size_t)length_bytes[2] << 16) + ((size_t)length_bytes[3] << 24);
     if (length > MAX_HEADER_BYTES) {
         return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "%s: an NPY header of %zu bytes; at most %d are read", name, length,
+                       "%s: an NPY header of %zu bytes; at most %d are read", input->name, length,
                        MAX_HEADER_BYTES);
     }
     void *memory = NULL;
     PS_TRY(ps_allocate(&memory, length + 1, 1, "NPY header", error));
     *text = memory;
-    return fread(*text, 1, length, stream) == length ? PSPEC_OK : fail_short(stream, name, error);
+    return read_exactly(input, *text, length, error);
 }
 
 /* A wrong size is found before memory is asked for. */
-static pspec_status check_size(FILE *stream, const char *name, const ps_npy_header *header,
+static pspec_status check_size(const ps_input *input, const ps_npy_header *header,
                                ps_error *error) {
     size_t needed = 0;
-    if (!ps_size_multiply(header->num_elements, header->element_bytes, &needed)) {
-        return ps_fail(error, PSPEC_ERROR_INPUT, "%s: its NPY header promises %zu elements", name,
-                       header->num_elements);
+    uint64_t present = 0;
+    if (!ps_size_multiply(header->num_elements, header->type.num_bytes, &needed)) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s: its NPY header promises %zu elements",
+                       input->name, header->num_elements);
     }
-    struct stat facts;
-    const off_t position = ftello(stream);
-    if (position < 0 || fstat(fileno(stream), &facts) != 0 || !S_ISREG(facts.st_mode)) {
+    if (!ps_input_bytes_left(input, &present)) {
         return PSPEC_OK;
     }
-    const size_t present = facts.st_size > position ? (size_t)(facts.st_size - position) : 0;
     if (present < needed) {
         return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "%s is truncated: its header promises %zu bytes of data, there are %zu",
-                       name, needed, present);
+                       "%s is truncated: its header promises %zu bytes of data, there are %llu",
+                       input->name, needed, (unsigned long long)present);
     }
     if (present > needed) {
         return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "%s has %zu bytes after its array; one array per file is read", name,
-                       present - needed);
+                       "%s has %llu bytes after its array; one array per file is read", input->name,
+                       (unsigned long long)(present - needed));
     }
     return PSPEC_OK;
 }
 
-pspec_status ps_npy_read_header(FILE *stream, const char *name, ps_npy_header *out,
-                                ps_error *error) {
+pspec_status ps_npy_read_header(ps_input *input, ps_npy_header *out, ps_error *error) {
     *out = (ps_npy_header){0};
     char *text = NULL;
-    pspec_status status = read_header_text(stream, name, &text, error);
+    pspec_status status = read_header_text(input, &text, error);
     if (status == PSPEC_OK) {
-        status = parse_dictionary(text, name, out, error);
+        status = parse_dictionary(text, input->name, out, error);
     }
     free(text);
     PS_TRY(status);
@@ -228,51 +217,27 @@ pspec_status ps_npy_read_header(FILE *stream, const char *name, ps_npy_header *o
     for (unsigned axis = 0; axis < out->rank; axis++) {
         if (!ps_size_multiply(out->num_elements, out->shape[axis], &out->num_elements)) {
             return ps_fail(error, PSPEC_ERROR_INPUT, "%s: the shape in its NPY header is too large",
-                           name);
+                           input->name);
         }
     }
-    return check_size(stream, name, out, error);
+    return check_size(input, out, error);
 }
 
-static void swap_bytes(unsigned char *bytes, size_t count, size_t element_bytes) {
-    for (size_t i = 0; i < count; i++) {
-        unsigned char *const element = bytes + i * element_bytes;
-        for (size_t j = 0; j < element_bytes / 2; j++) {
-            const unsigned char kept = element[j];
-            element[j] = element[element_bytes - 1 - j];
-            element[element_bytes - 1 - j] = kept;
-        }
-    }
+pspec_status ps_npy_read_elements(ps_input *input, const ps_npy_header *header, double *out,
+                                  size_t count, ps_error *error) {
+    size_t num_read = 0;
+    PS_TRY(ps_elements_read(input, header->type, out, count, &num_read, error));
+    return num_read == count ? PSPEC_OK : fail_short(input, error);
 }
 
-pspec_status ps_npy_read_elements(FILE *stream, const char *name, const ps_npy_header *header,
-                                  double *out, size_t count, ps_error *error) {
-    /* float32 is read into the upper half of out; widening from the front never overtakes it. */
-    unsigned char *const raw =
-        (unsigned char *)out + count * (sizeof(double) - header->element_bytes);
-    if (fread(raw, header->element_bytes, count, stream) != count) {
-        return fail_short(stream, name, error);
-    }
-    if (header->is_little_endian != host_is_little_endian()) {
-        swap_bytes(raw, count, header->element_bytes);
-    }
-    if (header->element_bytes == sizeof(float)) {
-        for (size_t i = 0; i < count; i++) {
-            float narrow = 0;
-            memcpy(&narrow, raw + i * sizeof narrow, sizeof narrow);
-            const double value = narrow;
-            memcpy(out + i, &value, sizeof value);
-        }
-    }
-    return PSPEC_OK;
-}
-
-pspec_status ps_npy_check_end(FILE *stream, const char *name, ps_error *error) {
-    if (getc(stream) != EOF) {
-        return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "%s goes on after its array; one array per input is read", name);
-    }
-    return ferror(stream) ? ps_input_fail(name, error) : PSPEC_OK;
+pspec_status ps_npy_check_end(ps_input *input, ps_error *error) {
+    const unsigned char *bytes = NULL;
+    size_t count = 0;
+    PS_TRY(ps_input_peek(input, 1, &bytes, &count, error));
+    return count == 0
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INPUT,
+                         "%s goes on after its array; one array per input is read", input->name);
 }
 
 /* ---- writing ---- */
@@ -282,7 +247,7 @@ void ps_npy_write_header(FILE *stream, unsigned rank, const size_t *shape) {
     char text[MAX_TEXT];
     size_t length =
         (size_t)snprintf(text, sizeof text, "{'descr': '%cf8', 'fortran_order': False, 'shape': (",
-                         host_is_little_endian() ? '<' : '>');
+                         ps_host_is_big_endian() ? '>' : '<');
     for (unsigned axis = 0; axis < rank; axis++) {
         length += (size_t)snprintf(text + length, sizeof text - length,
                                    axis + 1 == rank && rank > 1 ? "%zu" : "%zu,%s", shape[axis],

@@ -3,10 +3,8 @@
 #ifndef PS_IO_NPY_H
 #define PS_IO_NPY_H
 
-#include "base/status.h"
+#include "io/elements.h"
 
-#include <stdbool.h>
-#include <stddef.h>
 #include <stdio.h>
 
 enum { PS_NPY_MAX_RANK = 8 };
@@ -16,19 +14,17 @@ typedef struct ps_npy_header {
     size_t shape[PS_NPY_MAX_RANK];
     size_t num_elements;
     bool is_fortran_order;
-    bool is_little_endian;
-    unsigned element_bytes; /* 4 or 8: floats only */
+    ps_element_type type; /* floats only */
 } ps_npy_header;
 
-/* Reads magic and header (of versions 1 to 3) from stream; name is for messages. Where the size of
- * the file is known, it must be what the header says. */
-pspec_status ps_npy_read_header(FILE *stream, const char *name, ps_npy_header *out,
-                                ps_error *error) PS_MUST_CHECK;
+/* Reads magic and header (of versions 1 to 3). Where the size of the file is known, it must be what
+ * the header says. */
+pspec_status ps_npy_read_header(ps_input *input, ps_npy_header *out, ps_error *error) PS_MUST_CHECK;
 /* Reads the next count elements as doubles, in the order of the file. */
-pspec_status ps_npy_read_elements(FILE *stream, const char *name, const ps_npy_header *header,
-                                  double *out, size_t count, ps_error *error) PS_MUST_CHECK;
+pspec_status ps_npy_read_elements(ps_input *input, const ps_npy_header *header, double *out,
+                                  size_t count, ps_error *error) PS_MUST_CHECK;
 /* After the last element: the input must end here (a pipe does not tell its size in advance). */
-pspec_status ps_npy_check_end(FILE *stream, const char *name, ps_error *error) PS_MUST_CHECK;
+pspec_status ps_npy_check_end(ps_input *input, ps_error *error) PS_MUST_CHECK;
 
 /* Writes the header of a float64 array in C order and in the byte order of this machine, so that
  * the elements follow by fwrite. Write errors show at commit. */

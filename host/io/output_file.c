@@ -15,6 +15,7 @@
 
 struct ps_output_file {
     FILE *stream;
+    FILE *waiting;        /* the output itself, while stream is a temporary file; or NULL */
     char *name;           /* as the caller gave it, for messages */
     char *target;         /* the final name, symbolic links resolved; NULL: written directly */
     char *temporary;      /* where the data are until commit; NULL: written directly */
@@ -28,7 +29,17 @@ static pspec_status fail_write(const char *name, int reason, ps_error *error) {
                    "cannot write %s: %s", name, reason != 0 ? strerror(reason) : "a write failed");
 }
 
+/* After this, stream is the output itself. */
+static void end_waiting(ps_output_file *file) {
+    if (file->waiting != NULL) {
+        fclose(file->stream);
+        file->stream = file->waiting;
+        file->waiting = NULL;
+    }
+}
+
 static void destroy(ps_output_file *file) {
+    end_waiting(file);
     if (file->stream != NULL && !file->is_caller_owned) {
         fclose(file->stream);
     }
@@ -169,6 +180,45 @@ pspec_status ps_output_check(ps_output_file *file, ps_error *error) {
     return PSPEC_OK;
 }
 
+pspec_status ps_output_make_seekable(ps_output_file *file, ps_error *error) {
+    struct stat facts;
+    const int descriptor = fileno(file->stream);
+    const bool appends = (fcntl(descriptor, F_GETFL) & O_APPEND) != 0;
+    if (fstat(descriptor, &facts) == 0 && S_ISREG(facts.st_mode) && !appends &&
+        ftello(file->stream) == 0) { /* standard output may be a file with something in it */
+        return PSPEC_OK;
+    }
+    FILE *const temporary = tmpfile();
+    if (temporary == NULL) {
+        return fail_write("a temporary file", errno, error);
+    }
+    file->waiting = file->stream;
+    file->stream = temporary;
+    return PSPEC_OK;
+}
+
+pspec_status ps_output_rewind(ps_output_file *file, ps_error *error) {
+    PS_TRY(ps_output_check(file, error));
+    return fseeko(file->stream, 0, SEEK_SET) == 0 ? PSPEC_OK : fail_write(file->name, errno, error);
+}
+
+/* From the temporary file to where the data belong. */
+static pspec_status copy_waiting(ps_output_file *file, ps_error *error) {
+    enum { BLOCK_BYTES = 1 << 16 };
+    char block[BLOCK_BYTES];
+    PS_TRY(ps_output_rewind(file, error));
+    FILE *const temporary = file->stream;
+    for (size_t count = BLOCK_BYTES; count == BLOCK_BYTES;) {
+        count = fread(block, 1, BLOCK_BYTES, temporary);
+        errno = 0;
+        if (fwrite(block, 1, count, file->waiting) != count || ferror(temporary)) {
+            return fail_write(file->name, errno, error);
+        }
+    }
+    end_waiting(file);
+    return ps_output_check(file, error);
+}
+
 /* Pipes and devices cannot be made durable, and say EINVAL. */
 static bool is_durable(int descriptor) {
     return fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS || errno == ENOTSUP;
@@ -191,6 +241,9 @@ static void sync_folder(const char *target) {
 
 static pspec_status finish(ps_output_file *file, ps_error *error) {
     PS_TRY(ps_output_check(file, error));
+    if (file->waiting != NULL) {
+        PS_TRY(copy_waiting(file, error));
+    }
     if (file->is_caller_owned) {
         return PSPEC_OK;
     }

@@ -22,6 +22,11 @@ FILE *ps_output_stream(ps_output_file *file);
 /* fwrite to the stream that remembers why it failed, for check and commit; for large blocks, which
  * stdio does not keep to try again. */
 void ps_output_write(ps_output_file *file, const void *data, size_t element_bytes, size_t count);
+/* For writers that come back to the beginning of their file: where the output cannot do that (a pipe),
+ * the data wait in an unnamed temporary file until commit. To be called before the first write. */
+pspec_status ps_output_make_seekable(ps_output_file *file, ps_error *error) PS_MUST_CHECK;
+/* Goes back there; what is written then replaces what is there. */
+pspec_status ps_output_rewind(ps_output_file *file, ps_error *error) PS_MUST_CHECK;
 /* Flushes the stream and reports a write that failed before or now (a full disk), without waiting
  * for commit: for long outputs, and before the first commit of several files. */
 pspec_status ps_output_check(ps_output_file *file, ps_error *error) PS_MUST_CHECK;

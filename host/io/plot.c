@@ -4,7 +4,7 @@
 #include "io/plot.h"
 
 #include "base/text.h"
-#include "io/input_file.h"
+#include "io/text_lines.h"
 #include "io/output_file.h"
 #include "io/plot_script.h"
 

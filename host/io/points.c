@@ -1,117 +1,138 @@
-/* The table of point formats, and what all formats share. */
+/* The table of point formats, and how the format of a file is found. */
 #include "io/points.h"
 
 #include "base/memory.h"
+#include "base/text.h"
 #include "io/points_format.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
-/* The first format is the one that is meant when nothing tells. */
-static const ps_point_format *const formats[] = {&ps_format_utk_text, &ps_format_npy};
+/* In the order of PS_POINT_FORMATS. The first is the one that is meant when nothing tells. */
+static const ps_point_format *const formats[] = {
+    &ps_format_utk_text, &ps_format_csv,     &ps_format_psa_text,   &ps_format_gbn,
+    &ps_format_edat,     &ps_format_eps,     &ps_format_utk_binary, &ps_format_rps,
+    &ps_format_npy,      &ps_format_openquad};
 enum { NUM_FORMATS = sizeof formats / sizeof formats[0] };
 
-static pspec_status find_format(const char *name, const ps_point_format **out, ps_error *error) {
+pspec_status ps_point_format_find(const char *name, const ps_point_format **out, ps_error *error) {
     for (size_t i = 0; i < NUM_FORMATS; i++) {
         if (strcmp(formats[i]->name, name) == 0) {
             *out = formats[i];
             return PSPEC_OK;
         }
     }
-    char known[128] = "";
-    for (size_t i = 0; i < NUM_FORMATS; i++) {
-        strncat(known, i > 0 ? ", " : "", sizeof known - strlen(known) - 1);
-        strncat(known, formats[i]->name, sizeof known - strlen(known) - 1);
-    }
     return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                   "point format \"%s\" is not known; there are %s", name, known);
+                   "point format \"%s\" is none of " PS_POINT_FORMATS, name);
 }
 
-/* ---- sets ---- */
-
-void ps_point_set_free(ps_point_set *set) {
-    free(set->points);
-    free(set->weights);
-    *set = (ps_point_set){0};
+static bool ends_in(const char *path, const char *ending) {
+    const size_t length = strlen(path);
+    return length > strlen(ending) && strcasecmp(path + length - strlen(ending), ending) == 0;
 }
 
-pspec_status ps_points_reserve(ps_point_set *set, size_t num_points, ps_error *error) {
-    size_t num_coordinates = 0;
-    if (!ps_size_multiply(num_points, set->dimension, &num_coordinates)) {
-        return ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for %zu points", num_points);
-    }
-    void *memory = set->points;
-    PS_TRY(
-        ps_grow(&memory, &set->points_capacity, num_coordinates, sizeof(double), "points", error));
-    set->points = memory;
-    if (set->has_weights) {
-        memory = set->weights;
-        PS_TRY(
-            ps_grow(&memory, &set->weights_capacity, num_points, sizeof(double), "weights", error));
-        set->weights = memory;
-    }
-    return PSPEC_OK;
-}
-
-pspec_status ps_points_dimension(const ps_point_reader *reader, const char *where, size_t columns,
-                                 unsigned *dimension, ps_error *error) {
-    const bool has_weights = reader->options.weight_column;
-    const unsigned asked = reader->options.dimension;
-    if (columns <= has_weights) {
-        return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "%s: 1 column; with a weight column there must be at least 2", where);
-    }
-    if (columns - has_weights > PS_MAX_DIMENSION) {
-        return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "%s: %zu columns%s; at most %d dimensions are read", where, columns,
-                       has_weights ? ", one of them the weight" : "", PS_MAX_DIMENSION);
-    }
-    *dimension = (unsigned)columns - has_weights;
-    if (asked != 0 && *dimension != asked) {
-        return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "%s: %zu column%s%s, but the dimension asked for is %u%s", where, columns,
-                       columns > 1 ? "s" : "", has_weights ? ", one of them the weight" : "", asked,
-                       columns == asked + 1 && !has_weights ? " (is the last one a weight?)" : "");
-    }
-    return PSPEC_OK;
-}
-
-bool ps_coordinate_wrap(double *coordinate) {
-    if (!isfinite(*coordinate)) {
-        return false;
-    }
-    const double reduced = *coordinate - floor(*coordinate);
-    *coordinate = reduced < 1 ? reduced : 0; /* -1e-20 rounds to 1, which is 0 on the torus */
-    return true;
-}
-
-pspec_status ps_coordinate_refuse(const char *where, const char *text, double coordinate,
-                                  ps_error *error) {
-    if (!isfinite(coordinate)) {
-        return ps_fail(error, PSPEC_ERROR_INPUT, "%s: coordinate %s is not a finite number", where,
-                       text);
-    }
-    return ps_fail(error, PSPEC_ERROR_INPUT,
-                   "%s: coordinate %s is outside [0,1); --wrap would reduce it mod 1", where, text);
-}
-
-pspec_status ps_weight_refuse(const char *where, const char *text, ps_error *error) {
-    return ps_fail(error, PSPEC_ERROR_INPUT, "%s: weight %s is not a finite number", where, text);
-}
-
-/* ---- reading ---- */
-
-static pspec_status detect_format(ps_point_reader *reader, ps_error *error) {
-    if (reader->options.format != NULL) {
-        return find_format(reader->options.format, &reader->format, error);
-    }
-    reader->format = formats[0];
+/* The format whose files end like this; NULL: none. */
+static const ps_point_format *find_ending(const char *path) {
     for (size_t i = 0; i < NUM_FORMATS; i++) {
-        if (formats[i]->first_byte == reader->input.first_byte) {
-            reader->format = formats[i];
+        for (size_t j = 0; j < 3 && formats[i]->endings[j] != NULL; j++) {
+            if (ends_in(path, formats[i]->endings[j])) {
+                return formats[i];
+            }
         }
+    }
+    return NULL;
+}
+
+const char *ps_points_format_by_ending(const char *path) {
+    const ps_point_format *format = find_ending(path);
+    return format != NULL ? format->name : formats[0]->name;
+}
+
+/* ---- detection --------------------------------------------------------------------------- */
+
+/* How many more bytes must be seen to tell whether the format's magic is there: 0 when they tell. */
+static size_t missing_bytes(const ps_point_format *format, const unsigned char *bytes,
+                            size_t num_bytes, bool *is_it) {
+    const size_t length = format->magic != NULL ? strlen(format->magic) : 0;
+    const size_t there = num_bytes < length ? num_bytes : length;
+    const bool agrees = length > 0 && memcmp(bytes, format->magic, there) == 0;
+    *is_it = agrees && there == length;
+    return agrees ? length - there : 0;
+}
+
+/* Looks no further than needed: a pipe may bring a few bytes and wait. */
+static pspec_status find_magic(ps_point_reader *reader, ps_error *error) {
+    const unsigned char *bytes = NULL;
+    size_t num_bytes = 0;
+    size_t wanted = 1;
+    size_t missing = 1;
+    while (missing > 0) {
+        PS_TRY(ps_input_peek(&reader->input, wanted, &bytes, &num_bytes, error));
+        missing = 0;
+        for (size_t i = 0; i < NUM_FORMATS; i++) {
+            bool is_it = false;
+            const size_t more = missing_bytes(formats[i], bytes, num_bytes, &is_it);
+            if (is_it) {
+                reader->format = formats[i];
+                return PSPEC_OK;
+            }
+            missing = more > missing ? more : missing;
+        }
+        if (num_bytes < wanted) { /* the input is shorter */
+            missing = 0;
+        }
+        wanted = num_bytes + 1;
+    }
+    return PSPEC_OK;
+}
+
+/* Names tell formats without a magic; a compressed file's is the one before ".gz". */
+static pspec_status find_by_name(ps_point_reader *reader, const char *path, ps_error *error) {
+    static const char compressed[] = ".gz";
+    ps_text name = {0};
+    const size_t length = strlen(path) - (ends_in(path, compressed) ? sizeof compressed - 1 : 0);
+    ps_text_append_bytes(&name, path, length);
+    PS_TRY(ps_text_check(&name, error));
+    const ps_point_format *format = find_ending(ps_text_string(&name));
+    ps_text_free(&name);
+    if (format != NULL && format->magic == NULL) {
+        reader->format = format;
+    }
+    if (format != NULL && format->magic != NULL) {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "%s ends in %s, but does not begin like %s; what is it? --input-format "
+                       "NAME tells",
+                       reader->input.name, format->endings[0], format->name);
+    }
+    return PSPEC_OK;
+}
+
+/* Files of these formats have a magic, which is refused here rather than misread as numbers. */
+static pspec_status find_format(ps_point_reader *reader, const char *path, ps_error *error) {
+    if (reader->options.format != NULL) {
+        return ps_point_format_find(reader->options.format, &reader->format, error);
+    }
+    PS_TRY(find_magic(reader, error));
+    if (reader->format == NULL) {
+        PS_TRY(find_by_name(reader, path, error));
+    }
+    return reader->format == NULL ? ps_text_detect(reader, error) : PSPEC_OK;
+}
+
+/* ---- opening and closing ----------------------------------------------------------------- */
+
+static pspec_status check_options(const ps_point_options *options, ps_error *error) {
+    if (options->dimension > PS_MAX_DIMENSION) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "dimension %u is not between 1 and %d",
+                       options->dimension, PS_MAX_DIMENSION);
+    }
+    if (options->sets.last != 0 &&
+        (options->sets.first == 0 || options->sets.first > options->sets.last)) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "sets %llu to %llu: they count from 1, and the first comes first",
+                       (unsigned long long)options->sets.first,
+                       (unsigned long long)options->sets.last);
     }
     return PSPEC_OK;
 }
@@ -119,17 +140,14 @@ static pspec_status detect_format(ps_point_reader *reader, ps_error *error) {
 pspec_status ps_points_open(ps_point_reader **out, const char *path,
                             const ps_point_options *options, ps_error *error) {
     *out = NULL;
-    if (options->dimension > PS_MAX_DIMENSION) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "dimension %u is not between 1 and %d",
-                       options->dimension, PS_MAX_DIMENSION);
-    }
+    PS_TRY(check_options(options, error));
     void *memory = NULL;
     PS_TRY(ps_allocate(&memory, 1, sizeof(ps_point_reader), "point reader", error));
     ps_point_reader *reader = memory;
     reader->options = *options;
     pspec_status status = PSPEC_OK;
     PS_TRY_OUT(status, ps_input_open(&reader->input, path, error));
-    PS_TRY_OUT(status, detect_format(reader, error));
+    PS_TRY_OUT(status, find_format(reader, path, error));
     PS_TRY_OUT(status, reader->format->open(reader, error));
     *out = reader;
     return PSPEC_OK;
@@ -138,21 +156,12 @@ out:
     return status;
 }
 
-pspec_status ps_points_next(ps_point_reader *reader, ps_point_set *set, bool *has_set,
-                            ps_error *error) {
-    *has_set = false;
-    set->num_points = 0;
-    set->has_weights = reader->options.weight_column;
-    PS_TRY(reader->format->next(reader, set, has_set, error));
-    if (!*has_set && reader->num_sets == 0) {
-        return ps_fail(error, PSPEC_ERROR_INPUT, "%s holds no points", reader->input.name);
-    }
-    reader->num_sets += *has_set;
-    return PSPEC_OK;
-}
-
 const char *ps_points_format(const ps_point_reader *reader) {
     return reader->format->name;
+}
+
+const char *ps_points_columns(const ps_point_reader *reader) {
+    return reader->has_layout ? ps_layout_name(&reader->layout) : "";
 }
 
 void ps_points_close(ps_point_reader *reader) {
@@ -161,77 +170,7 @@ void ps_points_close(ps_point_reader *reader) {
             reader->format->close(reader);
         }
         ps_input_close(&reader->input);
+        free(reader->staging);
         free(reader);
-    }
-}
-
-/* ---- writing ---- */
-
-static const ps_point_format *format_by_ending(const char *path) {
-    for (size_t i = 0; i < NUM_FORMATS; i++) {
-        const char *const ending = formats[i]->ending;
-        if (ending != NULL && strlen(path) > strlen(ending) &&
-            strcasecmp(path + strlen(path) - strlen(ending), ending) == 0) {
-            return formats[i];
-        }
-    }
-    return formats[0];
-}
-
-pspec_status ps_points_create(ps_point_writer **out, const char *path, const char *format,
-                              size_t num_sets, size_t num_points, unsigned dimension,
-                              ps_error *error) {
-    *out = NULL;
-    const ps_point_format *chosen = format_by_ending(path);
-    if (format != NULL) {
-        PS_TRY(find_format(format, &chosen, error));
-    }
-    if (chosen->write == NULL) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "point format \"%s\" is only read",
-                       chosen->name);
-    }
-    if (dimension < 1 || dimension > PS_MAX_DIMENSION || num_sets == 0 || num_points == 0) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "%s: cannot write %zu sets of %zu points in %u dimensions", path, num_sets,
-                       num_points, dimension);
-    }
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_point_writer), "point writer", error));
-    ps_point_writer *writer = memory;
-    *writer = (ps_point_writer){
-        .format = chosen, .num_sets = num_sets, .num_points = num_points, .dimension = dimension};
-    const pspec_status status = ps_output_open(&writer->file, path, error);
-    if (status != PSPEC_OK) {
-        ps_points_discard(writer);
-        return status;
-    }
-    writer->format->begin(writer);
-    *out = writer;
-    return PSPEC_OK;
-}
-
-pspec_status ps_points_write(ps_point_writer *writer, const double *points, ps_error *error) {
-    if (writer->num_written == writer->num_sets) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "one point set more than the %zu that were announced", writer->num_sets);
-    }
-    PS_TRY(writer->format->write(writer, points, error));
-    writer->num_written++;
-    return ferror(ps_output_stream(writer->file)) ? ps_output_check(writer->file, error) : PSPEC_OK;
-}
-
-pspec_status ps_points_commit(ps_point_writer *writer, ps_error *error) {
-    if (writer->num_written != writer->num_sets) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "%zu point sets written of the %zu that were announced", writer->num_written,
-                       writer->num_sets);
-    }
-    return ps_output_commit(&writer->file, error);
-}
-
-void ps_points_discard(ps_point_writer *writer) {
-    if (writer != NULL) {
-        ps_output_discard(&writer->file);
-        free(writer);
     }
 }

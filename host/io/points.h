@@ -1,9 +1,10 @@
-/* Reading and writing point sets of the torus: UTK text and NPY, from files or standard input.
+/* Reading and writing point sets of the torus and of the sphere, in the formats of the field
+ * (docs/formats.md), from files or standard input.
  *
- * A reader yields one set (realization) at a time and holds no more than that set (up to 64 MiB of
- * sets for NPY arrays of several sets in Fortran order, which lie scattered over the file). Sets,
- * rows and lines are counted from 1 in messages. A read that a signal interrupts is
- * PSPEC_ERROR_CANCELLED; a handler installed with SA_RESTART does not interrupt.
+ * A reader yields one set (realization) at a time, or one block of a set, and holds no more than
+ * that (up to 64 MiB of sets for NPY arrays of several sets in Fortran order, which lie scattered
+ * over the file). Sets, rows and lines are counted from 1 in messages. A read that a signal
+ * interrupts is PSPEC_ERROR_CANCELLED; a handler installed with SA_RESTART does not interrupt.
  * Another format is another row in the table of formats in points.c and another file beside it.
  */
 #ifndef PS_IO_POINTS_H
@@ -13,52 +14,113 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
+
+/* Where points are meant to lie. */
+typedef enum ps_domain {
+    PS_DOMAIN_TORUS = 0, /* [0,1)^d, d = 1..6 */
+    PS_DOMAIN_SPHERE,    /* unit vectors */
+    PS_DOMAIN_ANY        /* what the file holds; the first row tells vectors from the torus */
+} ps_domain;
+
+/* What the numbers of a point are. */
+typedef enum ps_coordinates {
+    PS_TORUS_COORDINATES = 0, /* each in [0,1) */
+    PS_UNIT_VECTORS,          /* x, y, z */
+    PS_ANGLES /* theta in [0,pi] from the pole, phi: radians; only with keep_angles */
+} ps_coordinates;
 
 /* One point set; {0} is empty. The arrays belong to the set and are reused by the next read. */
 typedef struct ps_point_set {
-    unsigned dimension;
+    ps_coordinates coordinates;
+    unsigned dimension; /* numbers per point: d, 3 or 2 */
     size_t num_points;
-    double *points;  /* [num_points][dimension], in [0,1) */
+    double *points;  /* [num_points][dimension] */
     double *weights; /* [num_points], meaningful only when has_weights */
     bool has_weights;
     size_t points_capacity, weights_capacity; /* in doubles */
 } ps_point_set;
 
 void ps_point_set_free(ps_point_set *set);
+/* Makes room for num_points points (and weights) in all, what is there is kept. */
+pspec_status ps_points_reserve(ps_point_set *set, size_t num_points, ps_error *error) PS_MUST_CHECK;
+
+/* Names of all formats and of all layouts of columns, for options. */
+#define PS_POINT_FORMATS "utk-text|csv|psa-text|gbn|edat|eps|utk-binary|rps|npy|openquad"
+#define PS_POINT_COLUMNS                                                                           \
+    "xy|xyw|xyz|xyzw|theta-phi|theta-phi-w|phi-theta|phi-theta-w|lon-lat|lon-lat-w"
+
+/* Numbers from first to last, counted from 1; {0} means all. */
+typedef struct ps_point_range {
+    uint64_t first, last;
+} ps_point_range;
 
 typedef struct ps_point_options {
-    const char *format; /* "utk-text", "npy", or NULL: detected (NPY by its magic, else text) */
-    unsigned dimension; /* 0: from the file; otherwise it must agree */
-    bool weight_column; /* the last column holds the weight */
-    bool wrap;          /* coordinates outside [0,1) are reduced mod 1 instead of refused */
+    const char *format;     /* NULL: detected, else one of PS_POINT_FORMATS */
+    const char *columns;    /* NULL: found out, else one of PS_POINT_COLUMNS */
+    unsigned dimension;     /* of the torus; 0: from the file; otherwise it must agree */
+    size_t points_per_set;  /* of formats that do not say (rps); 0: all is one set */
+    ps_point_range sets;    /* others are passed over */
+    ps_domain domain;       /* what the caller can use */
+    bool weight_column;     /* the last column holds the weight */
+    bool ignore_weights;    /* weights of the file are read and dropped */
+    bool wrap;              /* torus coordinates outside [0,1) are reduced mod 1, not refused */
+    bool normalize_vectors; /* vectors are divided by their length instead of refused when that
+                                differs from 1 by more than 1e-6 */
+    bool keep_angles;       /* angles stay angles (theta, phi) instead of becoming vectors */
 } ps_point_options;
 
 typedef struct ps_point_reader ps_point_reader;
 
-/* Opens path, or standard input for "-". */
+/* Opens path, or standard input for "-". The texts of options must outlive the reader. */
 pspec_status ps_points_open(ps_point_reader **out, const char *path,
                             const ps_point_options *options, ps_error *error) PS_MUST_CHECK;
 /* Reads the next set. *has_set is false at the end of the input; a file without any point is an
- * error. Errors name file, line (or set and row for NPY), value and what would be right. */
+ * error. Errors name file, line (or set and row), value and what would be right. */
 pspec_status ps_points_next(ps_point_reader *reader, ps_point_set *set, bool *has_set,
                             ps_error *error) PS_MUST_CHECK;
-/* Name of the format in use, for the header of results; static storage. */
+/* The same in blocks: appends at most max_points of the current set to *set. *ends_set tells that
+ * the set is complete with them; at the end of the input no points come and *has_set is false. */
+pspec_status ps_points_next_block(ps_point_reader *reader, ps_point_set *set, size_t max_points,
+                                  bool *has_set, bool *ends_set, ps_error *error) PS_MUST_CHECK;
+/* Names of the format and of the columns in use, for the header of results; static storage. The
+ * columns are known after the first set. */
 const char *ps_points_format(const ps_point_reader *reader);
+const char *ps_points_columns(const ps_point_reader *reader);
 void ps_points_close(ps_point_reader *reader);
+
+/* ---- writing ----------------------------------------------------------------------------- */
 
 typedef struct ps_point_writer ps_point_writer;
 
-/* Creates path ("-": standard output). Format by name, or NULL: by ending (.npy, else UTK text,
- * 17 digits). num_sets and the shape are needed in advance by NPY: (num_sets, num_points, d)
- * float64. The file appears under its name only when ps_points_commit succeeds. */
+/* What will be written. Counts that are not known in advance are 0: headers that hold them are then
+ * completed at the end. */
+typedef struct ps_point_shape {
+    size_t num_sets, num_points;
+    ps_coordinates coordinates;
+    unsigned dimension;
+    bool has_weights;
+    const char *columns; /* of the sphere: one of PS_POINT_COLUMNS; NULL: as the coordinates are */
+} ps_point_shape;
+
+/* The format that a file of this name would get: by its ending, else "utk-text". */
+const char *ps_points_format_by_ending(const char *path);
+
+/* Creates path ("-": standard output). Format by name, or NULL: by ending. Shapes that the format
+ * cannot hold are refused. The file appears under its name only when ps_points_commit succeeds. */
 pspec_status ps_points_create(ps_point_writer **out, const char *path, const char *format,
-                              size_t num_sets, size_t num_points, unsigned dimension,
-                              ps_error *error) PS_MUST_CHECK;
-pspec_status ps_points_write(ps_point_writer *writer, const double *points,
+                              const ps_point_shape *shape, ps_error *error) PS_MUST_CHECK;
+/* Writes a set, or a block of one. */
+pspec_status ps_points_write(ps_point_writer *writer, const ps_point_set *block, bool ends_set,
                              ps_error *error) PS_MUST_CHECK;
+/* Appends what the format could not keep ("2034 of 2048 coordinates were rounded to float32 ..."),
+ * or nothing; to be called before commit. */
+void ps_points_describe_loss(const ps_point_writer *writer, char *text, size_t text_bytes);
 pspec_status ps_points_commit(ps_point_writer *writer, ps_error *error) PS_MUST_CHECK;
 /* Frees the writer; what was not committed is removed. NULL is allowed. */
 void ps_points_discard(ps_point_writer *writer);
+
+/* ---- lists beside points ----------------------------------------------------------------- */
 
 /* Reads a list of integer frequency vectors, one per line, columns separated by blanks or commas,
  * '#' lines skipped; *vectors is [num_vectors][*dimension], freed by the caller. The dimension is

@@ -1,60 +1,121 @@
-/* NPY arrays of points: (N,) is one set in one dimension, (N, d) one set, (M, N, d) M sets; with a
- * weight column the last axis is one longer. Set and row are counted from 1 in messages. */
+/* NPY arrays of points: (N,) is one set in one dimension, (N, c) one set of c columns, (M, N, c) M
+ * sets. openquad: (2, N) and (3, N) hold theta, phi and perhaps weights in rows, which is how an
+ * array (N, 2) or (N, 3) in Fortran order lies in the file. Set and row are counted from 1. */
 #include "base/memory.h"
+#include "base/text.h"
 #include "io/npy.h"
 #include "io/points_format.h"
 
-#include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum {
-    BLOCK_ELEMENTS = 1 << 16, /* converted and checked while still in the cache */
+    BLOCK_ELEMENTS = 1 << 16, /* converted while still in the cache */
     CACHE_ELEMENTS = 1 << 23  /* sets kept of one pass over an array in Fortran order: 64 MiB */
 };
 
 typedef struct npy_state {
     ps_npy_header header;
-    size_t num_sets, num_points, columns;
-    unsigned dimension;
-    double *block; /* [BLOCK_ELEMENTS] */
-    /* Fortran order only: where the array starts (-1: a pipe), and sets from first_cached on. */
-    off_t data_position;
-    double *cache;
+    size_t num_sets, num_points;
+    bool is_fortran_order;
+    off_t data_position; /* where the array starts; -1: a pipe */
+    double *block;       /* [BLOCK_ELEMENTS], Fortran order only, like the rest */
+    double *cache;       /* sets from first_cached on */
     size_t cache_capacity, first_cached, num_cached;
 } npy_state;
 
-static pspec_status interpret_shape(ps_point_reader *reader, npy_state *state, ps_error *error) {
-    const ps_npy_header *const header = &state->header;
-    if (header->rank < 1 || header->rank > 3) {
-        return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "%s: an array with %u axes; points are (N, d), (M, N, d) or (N)",
-                       reader->input.name, header->rank);
+/* ---- open -------------------------------------------------------------------------------- */
+
+static pspec_status fail_shape(const ps_point_reader *reader, const char *what, ps_error *error) {
+    const ps_npy_header *const header = &((const npy_state *)reader->state)->header;
+    ps_text shape = {0};
+    for (unsigned axis = 0; axis < header->rank; axis++) {
+        ps_text_append(&shape, "%s%zu", axis > 0 ? ", " : "", header->shape[axis]);
     }
-    const size_t *const extent = header->shape;
-    state->num_sets = header->rank == 3 ? extent[0] : 1;
-    state->num_points = header->rank == 3 ? extent[1] : extent[0];
-    state->columns = header->rank == 1 ? 1 : extent[header->rank - 1];
-    if (header->num_elements == 0) {
-        return ps_fail(error, PSPEC_ERROR_INPUT, "%s holds no points", reader->input.name);
-    }
-    return ps_points_dimension(reader, reader->input.name, state->columns, &state->dimension,
-                               error);
+    ps_fail(error, PSPEC_ERROR_INPUT, "%s: an array of shape (%s): %s", reader->input.name,
+            ps_text_string(&shape), what);
+    ps_text_free(&shape);
+    return PSPEC_ERROR_INPUT;
 }
 
-static pspec_status npy_open(ps_point_reader *reader, ps_error *error) {
-    PS_TRY(ps_allocate(&reader->state, 1, sizeof(npy_state), "NPY reader", error));
-    npy_state *const state = reader->state;
-    ungetc(reader->input.first_byte, reader->input.stream);
-    PS_TRY(ps_npy_read_header(reader->input.stream, reader->input.name, &state->header, error));
-    PS_TRY(interpret_shape(reader, state, error));
-    state->data_position = ftello(reader->input.stream);
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, BLOCK_ELEMENTS, sizeof(double), "NPY block", error));
-    state->block = memory;
+/* Two or three long rows are angles, as openquad writes them; short ones could be points, too. */
+static pspec_status detect_openquad(ps_point_reader *reader, ps_error *error) {
+    const ps_npy_header *const header = &((const npy_state *)reader->state)->header;
+    const ps_point_options *options = &reader->options;
+    const bool is_told = options->format != NULL || options->columns != NULL ||
+                         options->dimension != 0 || options->domain == PS_DOMAIN_TORUS;
+    if (is_told || header->rank != 2 || header->is_fortran_order ||
+        (header->shape[0] != 2 && header->shape[0] != 3)) {
+        return PSPEC_OK;
+    }
+    if (header->shape[1] <= PS_MAX_COLUMNS && header->shape[1] > 1) {
+        return fail_shape(reader, "points, or rows of angles? --input-format npy or openquad",
+                          error);
+    }
+    if (header->shape[1] > PS_MAX_COLUMNS) {
+        reader->format = &ps_format_openquad;
+    }
     return PSPEC_OK;
 }
 
-static void npy_close(ps_point_reader *reader) {
+static pspec_status interpret_openquad(ps_point_reader *reader, ps_error *error) {
+    npy_state *const state = reader->state;
+    const ps_npy_header *const header = &state->header;
+    if (header->rank != 2 || header->shape[0] < 2 || header->shape[0] > 3) {
+        return fail_shape(reader, "openquad has (2, N) or (3, N): theta, phi, and perhaps weights",
+                          error);
+    }
+    state->num_sets = 1;
+    state->num_points = header->shape[1];
+    state->is_fortran_order = !header->is_fortran_order;
+    reader->columns = (unsigned)header->shape[0];
+    reader->own_columns = reader->columns == 3 ? "theta-phi-w" : "theta-phi";
+    return PSPEC_OK;
+}
+
+static pspec_status interpret_points(ps_point_reader *reader, ps_error *error) {
+    npy_state *const state = reader->state;
+    const ps_npy_header *const header = &state->header;
+    const size_t *const extent = header->shape;
+    if (header->rank < 1 || header->rank > 3) {
+        return fail_shape(reader, "points are (N, d), (M, N, d) or (N)", error);
+    }
+    const size_t columns = header->rank == 1 ? 1 : extent[header->rank - 1];
+    if (columns > PS_MAX_COLUMNS) {
+        return fail_shape(reader,
+                          header->rank == 2 && extent[0] <= PS_MAX_COLUMNS
+                              ? "points are rows, so transpose it"
+                              : "points are rows of at most 6 dimensions",
+                          error);
+    }
+    state->num_sets = header->rank == 3 ? extent[0] : 1;
+    state->num_points = header->rank == 3 ? extent[1] : extent[0];
+    state->is_fortran_order = header->is_fortran_order && header->rank > 1;
+    reader->columns = (unsigned)columns;
+    return PSPEC_OK;
+}
+
+static pspec_status open_npy(ps_point_reader *reader, ps_error *error) {
+    PS_TRY(ps_allocate(&reader->state, 1, sizeof(npy_state), "NPY reader", error));
+    npy_state *const state = reader->state;
+    PS_TRY(ps_npy_read_header(&reader->input, &state->header, error));
+    if (state->header.num_elements == 0) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s holds no points", reader->input.name);
+    }
+    PS_TRY(detect_openquad(reader, error));
+    PS_TRY(reader->format == &ps_format_openquad ? interpret_openquad(reader, error)
+                                                 : interpret_points(reader, error));
+    state->data_position = reader->input.is_seekable ? ps_input_position(&reader->input) : -1;
+    reader->rows_per_set = state->data_position >= 0 ? state->num_points : 0;
+    if (state->is_fortran_order) {
+        void *memory = NULL;
+        PS_TRY(ps_allocate(&memory, BLOCK_ELEMENTS, sizeof(double), "NPY block", error));
+        state->block = memory;
+    }
+    return PSPEC_OK;
+}
+
+static void close_npy(ps_point_reader *reader) {
     npy_state *const state = reader->state;
     if (state != NULL) {
         free(state->block);
@@ -63,107 +124,20 @@ static void npy_close(ps_point_reader *reader) {
     }
 }
 
-/* ---- checks ---- */
+/* ---- Fortran order: set fastest, then point, then column --------------------------------- */
 
-static pspec_status refuse_value(const ps_point_reader *reader, size_t row, bool is_weight,
-                                 double value, ps_error *error) {
-    char where[512];
-    char text[32];
-    snprintf(where, sizeof where, "%.440s, set %zu, row %zu", reader->input.name,
-             reader->num_sets + 1, row + 1);
-    snprintf(text, sizeof text, "%.17g", value);
-    return is_weight ? ps_weight_refuse(where, text, error)
-                     : ps_coordinate_refuse(where, text, value, error);
-}
-
-/* Checks coordinates [first, first + count) of the set; a loop without branches, since nearly
- * always all are good. */
-static pspec_status check_coordinates(const ps_point_reader *reader, ps_point_set *set,
-                                      size_t first, size_t count, ps_error *error) {
-    double *const values = set->points + first;
-    int are_good = 1;
-    for (size_t i = 0; i < count; i++) {
-        are_good &= (values[i] >= 0) & (values[i] < 1);
-    }
-    for (size_t i = 0; !are_good && i < count; i++) {
-        const double value = values[i];
-        if (!ps_coordinate_accept(&values[i], reader->options.wrap)) {
-            return refuse_value(reader, (first + i) / set->dimension, false, value, error);
-        }
-    }
-    return PSPEC_OK;
-}
-
-/* ---- C order ---- */
-
-/* A pipe may promise more than it brings: memory then grows with what has come. */
-static pspec_status reserve_rows(const npy_state *state, ps_point_set *set, size_t num_rows,
-                                 ps_error *error) {
-    return ps_points_reserve(set, state->data_position >= 0 ? state->num_points : num_rows, error);
-}
-
-/* Coordinates only: the file has them as the set does. */
-static pspec_status read_coordinates(ps_point_reader *reader, ps_point_set *set, ps_error *error) {
-    const npy_state *const state = reader->state;
-    const size_t rows_per_block = BLOCK_ELEMENTS / state->columns;
-    for (size_t row = 0; row < state->num_points; row += rows_per_block) {
-        const size_t left = state->num_points - row;
-        const size_t num_rows = left < rows_per_block ? left : rows_per_block;
-        const size_t first = row * state->columns;
-        PS_TRY(reserve_rows(state, set, row + num_rows, error));
-        PS_TRY(ps_npy_read_elements(reader->input.stream, reader->input.name, &state->header,
-                                    set->points + first, num_rows * state->columns, error));
-        PS_TRY(check_coordinates(reader, set, first, num_rows * state->columns, error));
-    }
-    return PSPEC_OK;
-}
-
-/* Takes num_rows rows of columns values apart; row is the number of the first. */
-static pspec_status split_rows(const ps_point_reader *reader, const double *rows, size_t row,
-                               size_t num_rows, ps_point_set *set, ps_error *error) {
-    const unsigned d = set->dimension;
-    const size_t columns = d + (size_t)set->has_weights;
-    for (size_t i = 0; i < num_rows; i++) {
-        for (unsigned j = 0; j < d; j++) {
-            set->points[(row + i) * d + j] = rows[i * columns + j];
-        }
-        if (set->has_weights) {
-            const double weight = rows[i * columns + d];
-            set->weights[row + i] = weight;
-            if (!isfinite(weight)) {
-                return refuse_value(reader, row + i, true, weight, error);
-            }
-        }
-    }
-    return check_coordinates(reader, set, row * d, num_rows * d, error);
-}
-
-static pspec_status read_rows(ps_point_reader *reader, ps_point_set *set, ps_error *error) {
-    const npy_state *const state = reader->state;
-    const size_t rows_per_block = BLOCK_ELEMENTS / state->columns;
-    for (size_t row = 0; row < state->num_points; row += rows_per_block) {
-        const size_t left = state->num_points - row;
-        const size_t num_rows = left < rows_per_block ? left : rows_per_block;
-        PS_TRY(reserve_rows(state, set, row + num_rows, error));
-        PS_TRY(ps_npy_read_elements(reader->input.stream, reader->input.name, &state->header,
-                                    state->block, num_rows * state->columns, error));
-        PS_TRY(split_rows(reader, state->block, row, num_rows, set, error));
-    }
-    return PSPEC_OK;
-}
-
-/* ---- Fortran order: set fastest, then point, then column ---- */
-
-/* Puts num elements of the file, from number first on, where target has them: sets from
+/* Puts num elements of the file, from number first on, where the cache has them: sets from
  * first_cached on, each in C order. */
-static void scatter_block(const npy_state *state, size_t first, size_t num, double *target) {
+static void scatter_block(const ps_point_reader *reader, size_t first, size_t num) {
+    const npy_state *const state = reader->state;
     size_t set = first % state->num_sets;
     size_t point = first / state->num_sets % state->num_points;
     size_t column = first / state->num_sets / state->num_points;
     for (size_t i = 0; i < num; i++) {
         const size_t slot = set - state->first_cached; /* earlier sets wrap around to large ones */
         if (slot < state->num_cached) {
-            target[(slot * state->num_points + point) * state->columns + column] = state->block[i];
+            state->cache[(slot * state->num_points + point) * reader->columns + column] =
+                state->block[i];
         }
         if (++set == state->num_sets) {
             set = 0;
@@ -175,103 +149,147 @@ static void scatter_block(const npy_state *state, size_t first, size_t num, doub
     }
 }
 
-static pspec_status scatter_array(ps_point_reader *reader, double *target, ps_error *error) {
-    const npy_state *const state = reader->state;
-    for (size_t first = 0; first < state->header.num_elements; first += BLOCK_ELEMENTS) {
-        const size_t rest = state->header.num_elements - first;
-        const size_t num = rest < BLOCK_ELEMENTS ? rest : BLOCK_ELEMENTS;
-        PS_TRY(ps_npy_read_elements(reader->input.stream, reader->input.name, &state->header,
-                                    state->block, num, error));
-        scatter_block(state, first, num, target);
-    }
-    return PSPEC_OK;
-}
-
 /* One pass over the array fills the cache with as many sets as it is meant to hold, at least the
  * one that is wanted. */
 static pspec_status fill_cache(ps_point_reader *reader, size_t wanted, ps_error *error) {
     npy_state *const state = reader->state;
-    const size_t set_elements = state->num_points * state->columns;
+    const size_t set_elements = state->num_points * reader->columns;
     const size_t fitting = set_elements < CACHE_ELEMENTS ? CACHE_ELEMENTS / set_elements : 1;
     const size_t left = state->num_sets - wanted;
     state->first_cached = wanted;
     state->num_cached = left < fitting ? left : fitting;
-    if (wanted > 0 && fseeko(reader->input.stream, state->data_position, SEEK_SET) != 0) {
-        return ps_input_fail(reader->input.name, error);
+    if (wanted > 0) {
+        PS_TRY(ps_input_seek(&reader->input, state->data_position, error));
     }
     void *memory = state->cache;
     PS_TRY(ps_grow(&memory, &state->cache_capacity, state->num_cached * set_elements,
                    sizeof(double), "sets in Fortran order", error));
     state->cache = memory;
-    return scatter_array(reader, state->cache, error);
+    for (size_t first = 0; first < state->header.num_elements; first += BLOCK_ELEMENTS) {
+        const size_t rest = state->header.num_elements - first;
+        const size_t num = rest < BLOCK_ELEMENTS ? rest : BLOCK_ELEMENTS;
+        PS_TRY(ps_npy_read_elements(&reader->input, &state->header, state->block, num, error));
+        scatter_block(reader, first, num);
+    }
+    return PSPEC_OK;
 }
 
-/* A single set needs no cache; numpy.array([x, y]).T is saved like this. */
-static pspec_status read_transposed(ps_point_reader *reader, ps_point_set *set, ps_error *error) {
+static pspec_status read_cached(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
     npy_state *const state = reader->state;
-    state->num_cached = 1;
-    PS_TRY(scatter_array(reader, set->points, error));
-    return check_coordinates(reader, set, 0, state->header.num_elements, error);
-}
-
-static pspec_status read_fortran(ps_point_reader *reader, ps_point_set *set, ps_error *error) {
-    npy_state *const state = reader->state;
-    const size_t wanted = reader->num_sets;
+    const size_t wanted = (size_t)reader->num_sets;
     if (state->data_position < 0 && state->header.num_elements > CACHE_ELEMENTS) {
         return ps_fail(error, PSPEC_ERROR_INPUT,
                        "%s: an array in Fortran order of more than %d elements cannot be read from "
                        "a pipe; save it in C order",
                        reader->input.name, CACHE_ELEMENTS);
     }
-    PS_TRY(ps_points_reserve(set, state->num_points, error));
-    if (state->num_sets == 1 && !set->has_weights) {
-        return read_transposed(reader, set, error);
-    }
     if (wanted - state->first_cached >= state->num_cached) {
         PS_TRY(fill_cache(reader, wanted, error));
     }
-    const size_t set_elements = state->num_points * state->columns;
-    const double *const rows = state->cache + (wanted - state->first_cached) * set_elements;
-    return split_rows(reader, rows, 0, state->num_points, set, error);
-}
-
-/* ---- the format ---- */
-
-static pspec_status npy_next(ps_point_reader *reader, ps_point_set *set, bool *has_set,
-                             ps_error *error) {
-    const npy_state *const state = reader->state;
-    if (reader->num_sets == state->num_sets) {
-        return ps_npy_check_end(reader->input.stream, reader->input.name, error);
-    }
-    set->dimension = state->dimension;
-    PS_TRY(state->header.is_fortran_order ? read_fortran(reader, set, error)
-           : set->has_weights             ? read_rows(reader, set, error)
-                                          : read_coordinates(reader, set, error));
-    set->num_points = state->num_points;
-    *has_set = true;
+    const size_t row = (wanted - state->first_cached) * state->num_points + reader->rows_in_set;
+    memcpy(out->rows, state->cache + row * reader->columns,
+           out->num * reader->columns * sizeof(double));
     return PSPEC_OK;
 }
 
-static void npy_begin(ps_point_writer *writer) {
-    const size_t shape[] = {writer->num_sets, writer->num_points, writer->dimension};
+/* One set lies column by column in the file: the rows are gathered from as many places. */
+static pspec_status gather_columns(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
+    const npy_state *const state = reader->state;
+    for (unsigned column = 0; column < reader->columns; column++) {
+        for (size_t first = 0; first < out->num; first += BLOCK_ELEMENTS) {
+            const size_t left = out->num - first;
+            const size_t num = left < BLOCK_ELEMENTS ? left : BLOCK_ELEMENTS;
+            const size_t element = column * state->num_points + reader->rows_in_set + first;
+            PS_TRY(ps_input_seek(
+                &reader->input,
+                state->data_position + (off_t)(element * state->header.type.num_bytes), error));
+            PS_TRY(ps_npy_read_elements(&reader->input, &state->header, state->block, num, error));
+            for (size_t i = 0; i < num; i++) {
+                out->rows[(first + i) * reader->columns + column] = state->block[i];
+            }
+        }
+    }
+    return PSPEC_OK;
+}
+
+/* ---- read -------------------------------------------------------------------------------- */
+
+static pspec_status read_npy(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
+    const npy_state *const state = reader->state;
+    const size_t left = state->num_points - reader->rows_in_set;
+    out->num = left < out->capacity ? left : out->capacity;
+    if (!state->is_fortran_order) {
+        PS_TRY(ps_npy_read_elements(&reader->input, &state->header, out->rows,
+                                    out->num * reader->columns, error));
+    } else if (state->num_sets == 1 && state->data_position >= 0) {
+        PS_TRY(gather_columns(reader, out, error));
+    } else {
+        PS_TRY(read_cached(reader, out, error));
+    }
+    if (out->num < left) {
+        return PSPEC_OK;
+    }
+    const bool is_last = reader->num_sets + 1 == state->num_sets;
+    out->end = is_last ? PS_END_OF_INPUT : PS_END_OF_SET;
+    return is_last && !reader->input.is_seekable ? ps_npy_check_end(&reader->input, error)
+                                                 : PSPEC_OK;
+}
+
+/* ---- write ------------------------------------------------------------------------------- */
+
+static void begin_npy(ps_point_writer *writer) {
+    const size_t shape[] = {writer->shape.num_sets, writer->shape.num_points, writer->columns};
     ps_npy_write_header(ps_output_stream(writer->file), 3, shape);
 }
 
-static pspec_status npy_write(ps_point_writer *writer, const double *points, ps_error *error) {
-    size_t count = 0;
-    if (!ps_size_multiply(writer->num_points, writer->dimension, &count)) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%zu points are too many",
-                       writer->num_points);
+static void write_npy(ps_point_writer *writer, const double *rows, size_t num_rows) {
+    ps_output_write(writer->file, rows, sizeof *rows, num_rows * writer->columns);
+}
+
+/* Columns are written one after the other, so the set is kept until it is complete. */
+static void begin_openquad(ps_point_writer *writer) {
+    (void)writer;
+}
+
+static void write_openquad(ps_point_writer *writer, const double *rows, size_t num_rows) {
+    ps_text_append_bytes(&writer->kept, (const char *)rows,
+                         num_rows * writer->columns * sizeof *rows);
+}
+
+static pspec_status finish_openquad(ps_point_writer *writer, ps_error *error) {
+    PS_TRY(ps_text_check(&writer->kept, error));
+    const size_t num = writer->kept.length / sizeof(double) / writer->columns;
+    const size_t shape[] = {writer->columns, num};
+    ps_npy_write_header(ps_output_stream(writer->file), 2, shape);
+    for (unsigned column = 0; column < writer->columns; column++) {
+        for (size_t i = 0; i < num; i++) {
+            ps_output_write(writer->file,
+                            writer->kept.data + (i * writer->columns + column) * sizeof(double),
+                            sizeof(double), 1);
+        }
     }
-    ps_output_write(writer->file, points, sizeof *points, count);
     return PSPEC_OK;
 }
 
 const ps_point_format ps_format_npy = {.name = "npy",
-                                       .ending = ".npy",
-                                       .first_byte = 0x93,
-                                       .open = npy_open,
-                                       .next = npy_next,
-                                       .close = npy_close,
-                                       .begin = npy_begin,
-                                       .write = npy_write};
+                                       .endings = {".npy"},
+                                       .magic = "\x93NUMPY",
+                                       .open = open_npy,
+                                       .read = read_npy,
+                                       .close = close_npy,
+                                       .abilities = PS_HOLDS_SETS | PS_HOLDS_WEIGHTS |
+                                                    PS_HOLDS_TORUS | PS_HOLDS_VECTORS |
+                                                    PS_HOLDS_ANGLES | PS_NEEDS_COUNTS,
+                                       .max_dimension = PS_MAX_DIMENSION,
+                                       .begin = begin_npy,
+                                       .write = write_npy};
+
+const ps_point_format ps_format_openquad = {.name = "openquad",
+                                            .open = open_npy,
+                                            .read = read_npy,
+                                            .close = close_npy,
+                                            .abilities = PS_HOLDS_WEIGHTS | PS_HOLDS_ANGLES,
+                                            .max_dimension = 2,
+                                            .begin = begin_openquad,
+                                            .write = write_openquad,
+                                            .finish = finish_openquad};

@@ -1,0 +1,34 @@
+/* What the formats of text share: lines, and rows of numbers in them. Private to host/io. */
+#ifndef PS_IO_POINTS_TEXT_H
+#define PS_IO_POINTS_TEXT_H
+
+#include "io/points_format.h"
+#include "io/text_lines.h"
+
+typedef struct ps_text_state {
+    ps_lines lines;
+    char separator;
+    size_t columns_line; /* the line that fixed the columns */
+    size_t promised;     /* points, by a count at the beginning of the file */
+    /* edat: coordinate j becomes (x - origin[j]) / size[j] */
+    bool is_scaled;
+    unsigned num_corners;
+    double origin[PS_MAX_DIMENSION], size[PS_MAX_DIMENSION];
+} ps_text_state;
+
+typedef enum ps_line_kind { PS_LINE_POINT, PS_LINE_MARK, PS_LINE_BLANK, PS_LINE_NONE } ps_line_kind;
+
+/* Makes the next line available and tells what it is. */
+pspec_status ps_text_next_line(ps_text_state *state, ps_line_kind *kind,
+                               ps_error *error) PS_MUST_CHECK;
+
+/* Makes the state of a text reader, or takes over the one that ps_text_detect has made, and goes to
+ * the first line that is not a '#' line. */
+pspec_status ps_text_open_lines(ps_point_reader *reader, char separator,
+                                ps_error *error) PS_MUST_CHECK;
+void ps_text_close(ps_point_reader *reader);
+
+/* Rows of numbers between blanks, 17 digits. */
+void ps_text_write_rows(ps_point_writer *writer, const double *rows, size_t num_rows);
+
+#endif
