@@ -28,7 +28,7 @@ static double file_bytes(const char *path) {
     return bytes;
 }
 
-static void write_points(const char *path, const char *format, size_t num, const double *points) {
+static void write_points(const char *path, const char *format, size_t num, double *points) {
     ps_point_writer *writer = NULL;
     const ps_point_shape shape = {.num_sets = 1, .num_points = num, .dimension = DIMENSION};
     const ps_point_set set = {.dimension = DIMENSION, .num_points = num, .points = points};
@@ -87,7 +87,7 @@ static double read_with_strtod(const char *path, size_t num) {
     return seconds;
 }
 
-static void report(const char *format, const char *path, size_t num, const double *points) {
+static void report(const char *format, const char *path, size_t num, double *points) {
     double ours[REPEATS];
     double raw[REPEATS];
     double plain[REPEATS];

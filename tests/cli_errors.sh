@@ -159,7 +159,7 @@ refuses 1 'No such file' sample "${white[@]}" -o missing/points.txt
 refuses 1 'No space left' sample "${white[@]}" -o /dev/full
 refuses 1 'Is a directory' sample "${white[@]}" -o "$in"
 refuses 2 'name of an output is empty' sample "${white[@]}" -o ''
-refuses 2 '"csv" is not one of utk-text, npy' sample "${white[@]}" --format csv
+refuses 2 '"ply" is not one of utk-text, csv, psa-text' sample "${white[@]}" --format ply
 
 # ---- devices
 refuses 1 'no OpenCL device fits "quantum"' devices --device quantum

@@ -209,7 +209,8 @@ static void words_are_checked(void **state) {
         {"--format cs", "--format: \"cs\" is not one of csv, json, npy"},
         {"--format csv|json", "--format: \"csv|json\" is not one of csv, json, npy"},
         {"--format=", "--format: \"\" is not one of csv, json, npy"},
-        {"--input-format exr", "--input-format: \"exr\" is not one of utk-text, npy"},
+        {"--input-format exr", "--input-format: \"exr\" is not one of utk-text, csv, psa-text, "
+                               "gbn, edat, eps, utk-binary, rps, npy, openquad"},
     };
     static const bad_line bad_small[] = {
         {"--format csv", "--format: \"csv\" is not one of utk-text, npy"}};

@@ -96,25 +96,25 @@ static void refuses_bad_text(void **state) {
         {"0.5 0.25\n#\n0.5 0.25 0.1\n", &defaults, "line 3: 3 columns, where line 1 has 2"},
         {"0.5 nan\n", &defaults, "line 1: \"nan\" is not a finite number"},
         {"0.5 0.1\n-Inf 0.1\n", &defaults, "line 2: \"-Inf\" is not a finite number"},
-        {"0.5 1e999\n", &wrapping, "line 1: coordinate 1e999 is not a finite number"},
+        {"0.5 1e999\n", &wrapping, "line 1: coordinate inf is not a finite number"},
         {"0.5 1\n", &defaults, "line 1: coordinate 1 is outside [0,1)"},
         {"0.5 0.99999999999999999\n", &defaults,
-         "line 1: coordinate 0.99999999999999999 is outside [0,1)"},
+         "line 1: coordinate 1 is outside [0,1)"}, /* which it is as a double */
         {"0.5 0.5\n-1e-20 0.5\n", &defaults, "line 2: coordinate -1e-20 is outside [0,1)"},
         {"0.5 x0.5\n", &defaults, "line 1: \"x0.5\" is not a number"},
-        {"0.5,0.5\n", &defaults, "line 1: \"0.5,0.5\" is not a number"},
+        {"0.5 0.5\n0.5,0.5\n", &defaults, "line 2: \",\" is not a number"},
         {"0.5 0x1p-3\n", &defaults, "line 1: \"0x1p-3\" is not a number"},
         {"0.5 0.5 # here\n", &defaults, "line 1: \"#\" is not a number"},
         {"0.5 0.5\r0.5 0.5\n", &defaults, "line 1: \"0.5\\x0d0.5\" is not a number"},
-        {"\x89PNG\x01\x02\n", &defaults, "line 1: \"\\x89PNG\\x01\\x02\" is not a number"},
+        {"\x89PNG\x01\x02\n", &defaults, "points.txt is neither text nor begins like a format"},
         {"0.5 0.5\n\n0.5 0.5\n", &defaults, "line 2: a blank line, and more after it"},
         {"0.5 0.5\n#\n#\n0.5 0.5\n", &defaults, "line 3: set 2 has no points"},
         {".1 .1 .1 .1 .1 .1 .1\n", &defaults, "line 1: 7 columns; at most 6 dimensions"},
-        {".1 .1 .1 .1 .1 .1 .1 .1\n", &weighted, "line 1: 8 columns, one of them the weight"},
+        {".1 .1 .1 .1 .1 .1 .1 .1\n", &weighted, "line 1: 8 columns; at most 6 dimensions"},
         {"0.5 0.5 2\n", &plane, "line 1: 3 columns, but the dimension asked for is 2 (is the last"},
         {"0.5\n", &plane, "line 1: 1 column, but the dimension asked for is 2"},
         {"0.5\n", &weighted, "line 1: 1 column; with a weight column there must be at least 2"},
-        {"0.5 1\n0.5 1e999\n", &weighted, "line 2: weight 1e999 is not a finite number"},
+        {"0.5 1\n0.5 1e999\n", &weighted, "line 2: weight inf is not a finite number"},
         {"0.5 1\n1.5 1\n", &weighted, "line 2: coordinate 1.5 is outside [0,1)"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
@@ -151,10 +151,9 @@ static void refuses_what_cannot_be_opened(void **state) {
         assert_non_null(strstr(error.message, "Permission denied"));
         assert_int_equal(chmod(path, 0600), 0);
     }
-    const ps_point_options unknown = {.format = "csv"};
+    const ps_point_options unknown = {.format = "ply"};
     assert_int_equal(ps_points_open(&reader, path, &unknown, &error), PSPEC_ERROR_INVALID_ARGUMENT);
-    assert_string_equal(error.message,
-                        "point format \"csv\" is not known; there are utk-text, npy");
+    assert_string_equal(error.message, "point format \"ply\" is none of " PS_POINT_FORMATS);
     const ps_point_options too_many = {.dimension = 7};
     assert_int_equal(ps_points_open(&reader, path, &too_many, &error),
                      PSPEC_ERROR_INVALID_ARGUMENT);
@@ -236,15 +235,18 @@ static void survives_every_buffer_end(void **state) {
     }
     for (int i = 0; i < 3; i++) { /* set by set: two of them, then both again as one */
         char path[TEST_PATH_BYTES];
-        test_path(*state, "large.txt", path);
         ps_error error = {0};
         ps_point_writer *writer = NULL;
-        assert_int_equal(ps_points_create(&writer, path, i == 2 ? "npy" : NULL, i == 0 ? 2 : 1,
-                                          i == 0 ? NUM_POINTS / 2 : NUM_POINTS, DIMENSION, &error),
-                         PSPEC_OK);
-        assert_int_equal(ps_points_write(writer, points, &error), PSPEC_OK);
+        const size_t half = i == 0 ? 2 : 1;
+        const ps_point_shape shape = {half, NUM_POINTS / half, 0, DIMENSION, false, NULL};
+        ps_point_set set = {
+            .dimension = DIMENSION, .num_points = NUM_POINTS / half, .points = points};
+        test_path(*state, i == 2 ? "large.npy" : "large.txt", path);
+        assert_int_equal(ps_points_create(&writer, path, NULL, &shape, &error), PSPEC_OK);
+        assert_int_equal(ps_points_write(writer, &set, true, &error), PSPEC_OK);
         if (i == 0) {
-            assert_int_equal(ps_points_write(writer, points + NUM_VALUES / 2, &error), PSPEC_OK);
+            set.points += NUM_VALUES / 2;
+            assert_int_equal(ps_points_write(writer, &set, true, &error), PSPEC_OK);
         }
         assert_int_equal(ps_points_commit(writer, &error), PSPEC_OK);
         ps_points_discard(writer);
@@ -278,26 +280,29 @@ static void refuses_a_line_without_end(void **state) {
 }
 
 static void writes_what_was_announced(void **state) {
-    static const double points[] = {0.5, 0.25, 0.1, 1.0 / 3};
+    double points[] = {0.5, 0.25, 0.1, 1.0 / 3};
+    const ps_point_set set = {.dimension = 2, .num_points = 2, .points = points};
+    const ps_point_shape two = {.num_sets = 2, .num_points = 2, .dimension = 2};
+    const ps_point_shape seven = {.num_sets = 1, .num_points = 1, .dimension = 7};
     char path[TEST_PATH_BYTES];
     ps_error error = {0};
     ps_point_writer *writer = NULL;
     test_path(*state, "written.dat", path);
-    assert_int_equal(ps_points_create(&writer, path, NULL, 2, 2, 2, &error), PSPEC_OK);
-    assert_int_equal(ps_points_write(writer, points, &error), PSPEC_OK);
+    assert_int_equal(ps_points_create(&writer, path, NULL, &two, &error), PSPEC_OK);
+    assert_int_equal(ps_points_write(writer, &set, true, &error), PSPEC_OK);
     assert_int_equal(ps_points_commit(writer, &error), PSPEC_ERROR_INVALID_ARGUMENT);
     assert_int_equal(access(path, F_OK), -1);
-    assert_int_equal(ps_points_write(writer, points, &error), PSPEC_OK);
-    assert_int_equal(ps_points_write(writer, points, &error), PSPEC_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(ps_points_write(writer, &set, true, &error), PSPEC_OK);
+    assert_int_equal(ps_points_write(writer, &set, true, &error), PSPEC_ERROR_INVALID_ARGUMENT);
     assert_int_equal(ps_points_commit(writer, &error), PSPEC_OK);
     ps_points_discard(writer);
     char *const text = test_read_file(path, NULL);
     assert_string_equal(text, "0.5 0.25\n0.10000000000000001 0.33333333333333331\n#\n"
                               "0.5 0.25\n0.10000000000000001 0.33333333333333331\n");
     free(text);
-    assert_int_equal(ps_points_create(&writer, path, "csv", 1, 1, 2, &error),
+    assert_int_equal(ps_points_create(&writer, path, "ply", &two, &error),
                      PSPEC_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(ps_points_create(&writer, path, NULL, 1, 1, 7, &error),
+    assert_int_equal(ps_points_create(&writer, path, NULL, &seven, &error),
                      PSPEC_ERROR_INVALID_ARGUMENT);
     ps_points_discard(NULL);
 }

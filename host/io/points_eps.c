@@ -77,7 +77,7 @@ const ps_point_format ps_format_eps = {.name = "eps",
                                        .read = read_eps,
                                        .close = ps_text_close,
                                        .abilities = PS_HOLDS_TORUS,
-                                       .max_dimension = 2,
+                                       .only_dimension = 2,
                                        .begin = begin_eps,
                                        .write = write_eps,
                                        .finish = finish_eps};

@@ -47,9 +47,9 @@ typedef struct ps_point_format {
     /* Writing; errors of the stream show when the caller checks it. begin writes the header with
      * the counts known so far, always of the same length, and is called again at the end when they
      * were not. begin_set is called for every set (NULL: nothing), write for rows of it. */
-    unsigned abilities; /* of ps_format_ability */
-    unsigned max_dimension;
-    uint64_t max_count; /* of sets, and of points of a set; 0: any */
+    unsigned abilities;      /* of ps_format_ability */
+    unsigned only_dimension; /* of the torus; 0: any */
+    uint64_t max_count;      /* of sets, and of points of a set; 0: any */
     void (*begin)(ps_point_writer *writer);
     void (*begin_set)(ps_point_writer *writer);
     void (*write)(ps_point_writer *writer, const double *rows, size_t num_rows);

@@ -280,7 +280,6 @@ const ps_point_format ps_format_npy = {.name = "npy",
                                        .abilities = PS_HOLDS_SETS | PS_HOLDS_WEIGHTS |
                                                     PS_HOLDS_TORUS | PS_HOLDS_VECTORS |
                                                     PS_HOLDS_ANGLES | PS_NEEDS_COUNTS,
-                                       .max_dimension = PS_MAX_DIMENSION,
                                        .begin = begin_npy,
                                        .write = write_npy};
 
@@ -289,7 +288,6 @@ const ps_point_format ps_format_openquad = {.name = "openquad",
                                             .read = read_npy,
                                             .close = close_npy,
                                             .abilities = PS_HOLDS_WEIGHTS | PS_HOLDS_ANGLES,
-                                            .max_dimension = 2,
                                             .begin = begin_openquad,
                                             .write = write_openquad,
                                             .finish = finish_openquad};

@@ -153,7 +153,7 @@ const ps_point_format ps_format_psa_text = {.name = "psa-text",
                                             .close = ps_text_close,
                                             .abilities =
                                                 PS_HOLDS_WEIGHTS | PS_HOLDS_TORUS | PS_NEEDS_COUNTS,
-                                            .max_dimension = 2,
+                                            .only_dimension = 2,
                                             .begin = begin_psa,
                                             .write = ps_text_write_rows};
 
@@ -162,6 +162,5 @@ const ps_point_format ps_format_gbn = {.name = "gbn",
                                        .read = read_psa,
                                        .close = ps_text_close,
                                        .abilities = PS_HOLDS_TORUS | PS_NEEDS_COUNTS,
-                                       .max_dimension = PS_MAX_DIMENSION,
                                        .begin = begin_gbn,
                                        .write = ps_text_write_rows};

@@ -108,6 +108,5 @@ const ps_point_format ps_format_rps = {.name = "rps",
                                        .read = read_rps,
                                        .close = close_rps,
                                        .abilities = PS_HOLDS_SETS | PS_HOLDS_TORUS,
-                                       .max_dimension = PS_MAX_DIMENSION,
                                        .begin = begin_rps,
                                        .write = write_rps};

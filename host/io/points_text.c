@@ -279,7 +279,6 @@ const ps_point_format ps_format_utk_text = {.name = "utk-text",
                                             .read = read_text,
                                             .close = ps_text_close,
                                             .abilities = ANY_POINTS,
-                                            .max_dimension = PS_MAX_DIMENSION,
                                             .begin = begin_nothing,
                                             .begin_set = begin_set,
                                             .write = ps_text_write_rows};
@@ -290,7 +289,6 @@ const ps_point_format ps_format_csv = {.name = "csv",
                                        .read = read_text,
                                        .close = ps_text_close,
                                        .abilities = ANY_POINTS,
-                                       .max_dimension = PS_MAX_DIMENSION,
                                        .begin = begin_nothing,
                                        .begin_set = begin_set,
                                        .write = write_csv};
@@ -302,7 +300,6 @@ const ps_point_format ps_format_edat = {.name = "edat",
                                         .close = ps_text_close,
                                         .abilities =
                                             PS_HOLDS_SETS | PS_HOLDS_WEIGHTS | PS_HOLDS_TORUS,
-                                        .max_dimension = PS_MAX_DIMENSION,
                                         .begin = begin_edat,
                                         .begin_set = begin_set,
                                         .write = ps_text_write_rows};

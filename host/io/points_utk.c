@@ -184,7 +184,6 @@ const ps_point_format ps_format_utk_binary = {.name = "utk-binary",
                                               .close = close_utk,
                                               .abilities = PS_HOLDS_SETS | PS_HOLDS_TORUS |
                                                            PS_HOLDS_VECTORS | PS_NEEDS_COUNTS,
-                                              .max_dimension = PS_MAX_DIMENSION,
                                               .max_count = UINT32_MAX,
                                               .begin = begin_utk,
                                               .write = write_utk};

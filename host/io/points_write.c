@@ -42,9 +42,13 @@ static pspec_status check_points(const ps_point_writer *writer, ps_error *error)
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s does not hold %s", format->name,
                        kinds[coordinates].what);
     }
-    if (shape->dimension > format->max_dimension) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s does not hold %u dimensions",
-                       format->name, shape->dimension);
+    const unsigned most =
+        format->only_dimension != 0 ? format->only_dimension : (unsigned)PS_MAX_DIMENSION;
+    if (coordinates == PS_TORUS_COORDINATES &&
+        (shape->dimension > most || shape->dimension < format->only_dimension)) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "%s does not hold points in %u dimension%s", format->name, shape->dimension,
+                       shape->dimension == 1 ? "" : "s");
     }
     if (shape->has_weights && (format->abilities & PS_HOLDS_WEIGHTS) == 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
