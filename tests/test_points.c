@@ -263,7 +263,7 @@ static void survives_every_buffer_end(void **state) {
 }
 
 static void refuses_a_line_without_end(void **state) {
-    enum { LENGTH = 3 << 20 };
+    enum { LENGTH = 5 << 20 };
     char path[TEST_PATH_BYTES];
     char *const text = malloc(LENGTH);
     assert_non_null(text);

@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 /* Vectors this near to length 1 are unit vectors that somebody printed with few digits. The square
  * of the length is compared. */
@@ -31,13 +32,23 @@ static bool wrap(double *coordinate) {
     return true;
 }
 
-/* A loop without branches first, since nearly always all are good. */
+/* Are all values in [0,1)? In that range bits grow with the number, so the sign of a difference of
+ * whole numbers tells, and compilers make vectors of that; -0 counts as bad here. */
+static bool are_inside(const double *values, size_t count) {
+    const uint64_t last_inside = 0x3FEFFFFFFFFFFFFF; /* the largest double below 1 */
+    uint64_t signs = 0;
+    for (size_t i = 0; i < count; i++) {
+        uint64_t bits = 0;
+        memcpy(&bits, values + i, sizeof bits);
+        signs |= bits | (last_inside - bits);
+    }
+    return signs >> 63 == 0;
+}
+
+/* Nearly always all are good. */
 static size_t accept_torus(unsigned dimension, bool wraps, double *values, size_t num) {
     const size_t count = num * dimension;
-    int are_good = 1;
-    for (size_t i = 0; i < count; i++) {
-        are_good &= (values[i] >= 0) & (values[i] < 1);
-    }
+    const bool are_good = are_inside(values, count);
     for (size_t i = 0; !are_good && i < count; i++) {
         const bool is_inside = values[i] >= 0 && values[i] < 1;
         if (!is_inside && !(wraps && wrap(&values[i]))) {

@@ -39,44 +39,53 @@ static bool is_digit(char c) {
 /* ---- scanning ---- */
 
 #if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-/* Eight digits at once: are all bytes '0'..'9', and the number they make. Adding 6 carries a low
- * half above 9 into the high half of its byte; sums of neighbours then halve the count thrice. */
-static bool eight_digits(const char *text, uint64_t *number) {
-    uint64_t v = 0;
-    memcpy(&v, text, sizeof v);
-    const uint64_t high = 0xF0F0F0F0F0F0F0F0U;
-    const uint64_t zeros = 0x3030303030303030U;
-    if ((v & high) != zeros || ((v + 0x0606060606060606U) & high) != zeros) {
-        return false;
-    }
-    v -= zeros;
-    v = v * 10 + (v >> 8); /* pairs, in every other byte */
+static const uint64_t HIGH_HALVES = 0xF0F0F0F0F0F0F0F0U;
+static const uint64_t ZEROS = 0x3030303030303030U; /* "00000000" */
+
+/* Eight characters: not 0 in every byte that is no digit, as far as the first of them. Adding 6
+ * carries a low half above 9 into the high half of its byte. */
+static uint64_t find_others(uint64_t v) {
+    return ((v ^ ZEROS) & HIGH_HALVES) | (((v + 0x0606060606060606U) ^ ZEROS) & HIGH_HALVES);
+}
+
+/* The number that eight digits make: sums of neighbours halve the count thrice. */
+static uint64_t join_eight(uint64_t v) {
     const uint64_t mask = 0x000000FF000000FFU;
     const uint64_t weights_even = 100 + (UINT64_C(1000000) << 32);
     const uint64_t weights_odd = 1 + (UINT64_C(10000) << 32);
-    *number = ((v & mask) * weights_even + ((v >> 16) & mask) * weights_odd) >> 32;
-    return true;
+    v -= ZEROS;
+    v = v * 10 + (v >> 8); /* pairs, in every other byte */
+    return ((v & mask) * weights_even + ((v >> 16) & mask) * weights_odd) >> 32;
+}
+
+/* Appends the digits at text to *digits, which wraps around when they are too many. Eight at a time,
+ * the last ones behind zeros in front: how many there are decides no branch, which would be guessed
+ * wrong for every other number. */
+static const char *scan_digits(const char *text, uint64_t *digits) {
+    static const uint32_t power[] = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000};
+    enum { BYTES = 8, BITS = 8 };
+    uint64_t v = 0;
+    uint64_t others = 0;
+    memcpy(&v, text, BYTES);
+    while ((others = find_others(v)) == 0) {
+        *digits = *digits * 100000000 + join_eight(v);
+        text += BYTES;
+        memcpy(&v, text, BYTES);
+    }
+    const unsigned count = (unsigned)__builtin_ctzll(others) / BITS;
+    const unsigned missing = (BYTES - count) * BITS; /* 8 to 64 bits, shifted in two steps */
+    const uint64_t last = (v << (missing - BITS) << BITS) | (ZEROS >> (BITS * count));
+    *digits = *digits * power[count] + join_eight(last);
+    return text + count;
 }
 #else
-static bool eight_digits(const char *text, uint64_t *number) {
-    (void)text;
-    (void)number;
-    return false;
-}
-#endif
-
-/* Appends the digits at text to *digits, which wraps around when they are too many. */
 static const char *scan_digits(const char *text, uint64_t *digits) {
-    uint64_t eight = 0;
-    while (is_digit(text[0]) && eight_digits(text, &eight)) {
-        *digits = *digits * 100000000 + eight;
-        text += 8;
-    }
     while (is_digit(*text)) {
         *digits = *digits * 10 + (uint64_t)(*text++ - '0');
     }
     return text;
 }
+#endif
 
 static const char *scan_exponent(const char *text, long *exponent) {
     const char *digit = text + 1;
@@ -108,7 +117,9 @@ static const char *scan_number(const char *text, scanned_number *number) {
     text += *text == '-' || *text == '+';
     const char *const first = text;
     number->digits = 0;
-    text = scan_digits(text, &number->digits);
+    while (is_digit(*text)) { /* mostly one: the branch is guessed */
+        number->digits = number->digits * 10 + (uint64_t)(*text++ - '0');
+    }
     long num_digits = text - first;
     number->exponent = 0;
     if (*text == '.') {

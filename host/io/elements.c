@@ -20,14 +20,13 @@ static void swap_bytes(unsigned char *bytes, size_t count, size_t element_bytes)
     }
 }
 
-/* Widens elements of raw, which may be the upper half of out: the front never overtakes them. */
+/* Widens elements; raw and out do not overlap, so that compilers make vectors of this. */
 #define DEFINE_WIDEN(name, element)                                                                \
-    static void name(const unsigned char *raw, double *out, size_t count) {                        \
+    static void name(const unsigned char *restrict raw, double *restrict out, size_t count) {      \
         for (size_t i = 0; i < count; i++) {                                                       \
             element narrow = 0;                                                                    \
             memcpy(&narrow, raw + i * sizeof narrow, sizeof narrow);                               \
-            const double value = (double)narrow;                                                   \
-            memcpy(out + i, &value, sizeof value);                                                 \
+            out[i] = (double)narrow;                                                               \
         }                                                                                          \
     }
 
@@ -40,10 +39,8 @@ DEFINE_WIDEN(widen_uint64, uint64_t)
 static void widen(ps_element_type type, const unsigned char *raw, double *out, size_t count) {
     const bool is_long = type.num_bytes == sizeof(double);
     switch (type.kind) {
-    case PS_ELEMENT_FLOAT:
-        if (!is_long) { /* doubles are where they belong */
-            widen_float(raw, out, count);
-        }
+    case PS_ELEMENT_FLOAT: /* doubles are not widened */
+        widen_float(raw, out, count);
         break;
     case PS_ELEMENT_SIGNED:
         (is_long ? widen_int64 : widen_int32)(raw, out, count);
@@ -54,16 +51,34 @@ static void widen(ps_element_type type, const unsigned char *raw, double *out, s
     }
 }
 
+/* One read: *count elements at most, and at the end fewer. */
+static pspec_status read_step(ps_input *input, ps_element_type type, double *out, size_t *count,
+                              ps_error *error) {
+    enum { STEP_BYTES = 1 << 16 }; /* not less than ps_input reads without its buffer */
+    unsigned char raw[STEP_BYTES];
+    const bool is_double = type.kind == PS_ELEMENT_FLOAT && type.num_bytes == sizeof(double);
+    const size_t most = is_double ? *count : STEP_BYTES / type.num_bytes;
+    const size_t wanted = *count < most ? *count : most;
+    unsigned char *const target = is_double ? (unsigned char *)out : raw;
+    size_t num_bytes = 0;
+    PS_TRY(ps_input_read(input, target, wanted * type.num_bytes, &num_bytes, error));
+    *count = num_bytes / type.num_bytes;
+    if (type.is_big_endian != ps_host_is_big_endian()) {
+        swap_bytes(target, *count, type.num_bytes);
+    }
+    if (!is_double) {
+        widen(type, raw, out, *count);
+    }
+    return PSPEC_OK;
+}
+
 pspec_status ps_elements_read(ps_input *input, ps_element_type type, double *out, size_t count,
                               size_t *num_read, ps_error *error) {
-    size_t num_bytes = 0;
-    unsigned char *const raw = (unsigned char *)out + count * (sizeof(double) - type.num_bytes);
-    PS_TRY(ps_input_read(input, raw, count * type.num_bytes, &num_bytes, error));
-    *num_read = num_bytes / type.num_bytes;
-    if (type.is_big_endian != ps_host_is_big_endian()) {
-        swap_bytes(raw, *num_read, type.num_bytes);
+    size_t step = 1;
+    for (*num_read = 0; *num_read < count && step > 0; *num_read += step) {
+        step = count - *num_read;
+        PS_TRY(read_step(input, type, out + *num_read, &step, error));
     }
-    widen(type, raw, out, *num_read);
     return PSPEC_OK;
 }
 

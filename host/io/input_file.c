@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 enum {
-    BUFFER_BYTES = 1 << 18, /* larger reads go around the buffer; smaller ones share system calls */
+    BUFFER_BYTES = 1 << 16, /* larger reads go around the buffer; smaller ones share system calls */
     MOST_PEEKED = 16
 };
 

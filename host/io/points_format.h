@@ -65,11 +65,12 @@ struct ps_point_reader {
     unsigned columns;        /* of every row */
     const char *own_columns; /* name of the layout that the format prescribes, or NULL */
     size_t rows_per_set;     /* when it is known and really there; else 0 */
+    size_t block_values;     /* numbers of a read, if not as many as fit the cache of a core */
     size_t first_line;       /* of the rows last read, for formats with a row per line; else 0 */
     /* points_read.c */
     bool has_layout, is_at_end;
     ps_layout layout;
-    double *staging;    /* [STAGING_VALUES] */
+    double *staging;    /* [block_values] */
     uint64_t num_sets;  /* complete ones */
     size_t rows_in_set; /* of the set that is being read */
     bool has_any_points;

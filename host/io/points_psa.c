@@ -55,23 +55,13 @@ static pspec_status read_count(ps_point_reader *reader, const char *what, double
 static const double MOST_POINTS = 1e15; /* counts in doubles are exact */
 
 /* Rows of three numbers are points with weights, or something else: that is for the user to say. */
-static pspec_status choose_columns(ps_point_reader *reader, ps_error *error) {
-    const ps_point_options *options = &reader->options;
-    ps_lines *const lines = &((ps_text_state *)reader->state)->lines;
-    const bool says_weights = options->weight_column ||
-                              (options->columns != NULL && strcmp(options->columns, "xyw") == 0);
+static pspec_status check_columns(ps_point_reader *reader, ps_error *error) {
+    ps_text_state *const state = reader->state;
+    const ps_lines *const lines = &state->lines;
     double row[3];
-    bool has_line = false;
-    ps_line_kind kind = PS_LINE_BLANK;
-    reader->columns = says_weights ? 3 : 2;
-    reader->own_columns = says_weights ? "xyw" : "xy";
-    while (kind == PS_LINE_BLANK) { /* the rest of the line of the count */
-        ps_lines_skip(lines);
-        PS_TRY(ps_text_next_line(reader->state, &kind, error));
-    }
-    PS_TRY(ps_lines_fill(lines, &has_line, error));
-    if (has_line && !says_weights && options->columns == NULL &&
-        ps_row_parse(lines->cursor, ' ', 3, row) != NULL) {
+    ps_line_kind kind = PS_LINE_NONE;
+    PS_TRY(ps_text_next_line(state, &kind, error));
+    if (kind == PS_LINE_POINT && ps_row_parse(lines->cursor, ' ', 3, row) != NULL) {
         return ps_fail(error, PSPEC_ERROR_INPUT,
                        "%s, line %zu: 3 columns after a count; --columns xyw, if the third one is "
                        "the weight",
@@ -80,16 +70,27 @@ static pspec_status choose_columns(ps_point_reader *reader, ps_error *error) {
     return PSPEC_OK;
 }
 
+static void set_columns(ps_point_reader *reader, unsigned columns, const char *name) {
+    ps_text_state *const state = reader->state;
+    ps_text_set_columns(reader, columns);
+    reader->own_columns = name;
+    state->is_in_line = !ps_ends_line(ps_skip_blanks(state->lines.cursor));
+    if (!state->is_in_line) {
+        ps_lines_skip(&state->lines); /* the rest of the line of the count */
+    }
+}
+
 static pspec_status open_psa(ps_point_reader *reader, ps_error *error) {
+    const ps_point_options *options = &reader->options;
+    const bool says_weights = options->weight_column ||
+                              (options->columns != NULL && strcmp(options->columns, "xyw") == 0);
     PS_TRY(ps_text_open_lines(reader, ' ', error));
     ps_text_state *const state = reader->state;
     PS_TRY(read_count(reader, "points", MOST_POINTS, &state->promised, error));
-    if (ps_ends_line(ps_skip_blanks(state->lines.cursor))) {
-        return choose_columns(reader, error);
-    }
-    reader->columns = 2 + reader->options.weight_column; /* points begin on the line of the count */
-    reader->own_columns = reader->options.weight_column ? "xyw" : "xy";
-    return PSPEC_OK;
+    set_columns(reader, says_weights ? 3 : 2, says_weights ? "xyw" : "xy");
+    return says_weights || options->columns != NULL || state->is_in_line
+               ? PSPEC_OK
+               : check_columns(reader, error);
 }
 
 static pspec_status open_gbn(ps_point_reader *reader, ps_error *error) {
@@ -98,7 +99,7 @@ static pspec_status open_gbn(ps_point_reader *reader, ps_error *error) {
     ps_text_state *const state = reader->state;
     PS_TRY(read_count(reader, "points", MOST_POINTS, &state->promised, error));
     PS_TRY(read_count(reader, "dimensions from 1 to 6", PS_MAX_DIMENSION, &dimension, error));
-    reader->columns = (unsigned)dimension;
+    set_columns(reader, (unsigned)dimension, NULL);
     return PSPEC_OK;
 }
 
@@ -109,19 +110,56 @@ static pspec_status fail_short(const ps_point_reader *reader, size_t promised, s
                    reader->input.name, promised, num_points + 1);
 }
 
+/* One point, wherever its numbers are. */
+static pspec_status read_point(ps_point_reader *reader, double *row, size_t index,
+                               ps_error *error) {
+    ps_text_state *const state = reader->state;
+    for (unsigned j = 0; j < reader->columns; j++) {
+        bool has_number = false;
+        PS_TRY(next_number(reader, &row[j], &has_number, error));
+        if (!has_number) {
+            return fail_short(reader, state->promised, index, error);
+        }
+    }
+    state->is_in_line = !ps_ends_line(ps_skip_blanks(state->lines.cursor));
+    if (!state->is_in_line) {
+        ps_lines_skip(&state->lines);
+    }
+    return PSPEC_OK;
+}
+
+/* Points that stand each on a line of its own, as they mostly do: fast. */
+static pspec_status read_lines(ps_point_reader *reader, double *rows, size_t capacity, size_t *num,
+                               ps_error *error) {
+    ps_text_state *const state = reader->state;
+    ps_lines *const lines = &state->lines;
+    bool has_line = false;
+    *num = 0;
+    if (state->is_in_line) {
+        return PSPEC_OK;
+    }
+    PS_TRY(ps_lines_fill(lines, &has_line, error));
+    if (has_line) {
+        lines->cursor =
+            ps_rows_parse(&state->parser, lines->cursor, lines->lines_end, rows, capacity, num);
+        lines->line_number += *num;
+    }
+    return PSPEC_OK;
+}
+
 static pspec_status read_psa(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
     const size_t promised = ((ps_text_state *)reader->state)->promised;
     const size_t left = promised - reader->rows_in_set;
     const size_t num = left < out->capacity ? left : out->capacity;
-    for (; out->num < num; out->num++) {
-        for (unsigned j = 0; j < reader->columns; j++) {
-            bool has_number = false;
-            PS_TRY(next_number(reader, &out->rows[out->num * reader->columns + j], &has_number,
-                               error));
-            if (!has_number) {
-                return fail_short(reader, promised, reader->rows_in_set + out->num, error);
-            }
+    while (out->num < num) {
+        size_t num_rows = 0;
+        double *const row = out->rows + out->num * reader->columns;
+        PS_TRY(read_lines(reader, row, num - out->num, &num_rows, error));
+        if (num_rows == 0) {
+            PS_TRY(read_point(reader, row, reader->rows_in_set + out->num, error));
+            num_rows = 1;
         }
+        out->num += num_rows;
     }
     out->end = out->num == left ? PS_END_OF_INPUT : PS_MORE_ROWS;
     return PSPEC_OK;

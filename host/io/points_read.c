@@ -6,8 +6,8 @@
 #include <string.h>
 
 enum {
-    STAGING_VALUES = 1 << 16, /* rows are converted while they are still in the cache: 512 KiB */
-    FIRST_POINTS = 1024       /* so that small sets are allocated once */
+    BLOCK_VALUES = 1 << 16, /* rows are converted while they are still in the cache: 512 KiB */
+    FIRST_POINTS = 1024     /* so that small sets are allocated once */
 };
 
 void ps_point_set_free(ps_point_set *set) {
@@ -47,12 +47,17 @@ const char *ps_place_show(char place[PS_PLACE_BYTES], const ps_point_reader *rea
 
 /* ---- one block --------------------------------------------------------------------------- */
 
+static size_t block_rows(const ps_point_reader *reader) {
+    return (reader->block_values > 0 ? reader->block_values : BLOCK_VALUES) / reader->columns;
+}
+
 static pspec_status prepare_staging(ps_point_reader *reader, ps_error *error) {
     void *memory = NULL;
     if (reader->staging != NULL) {
         return PSPEC_OK;
     }
-    PS_TRY(ps_allocate(&memory, STAGING_VALUES, sizeof(double), "rows", error));
+    PS_TRY(
+        ps_allocate(&memory, block_rows(reader) * reader->columns, sizeof(double), "rows", error));
     reader->staging = memory;
     return PSPEC_OK;
 }
@@ -67,7 +72,7 @@ static pspec_status read_rows(ps_point_reader *reader, double *rows, size_t capa
 
 static pspec_status read_staged(ps_point_reader *reader, size_t max_points, ps_rows_read *out,
                                 ps_error *error) {
-    const size_t fitting = STAGING_VALUES / reader->columns;
+    const size_t fitting = block_rows(reader);
     PS_TRY(prepare_staging(reader, error));
     return read_rows(reader, reader->staging, max_points < fitting ? max_points : fitting, out,
                      error);
@@ -128,7 +133,7 @@ static void shape_set(const ps_point_reader *reader, ps_point_set *set) {
 /* Room for the points of the next block: all of the set when its size is known and really there. */
 static pspec_status reserve_block(const ps_point_reader *reader, ps_point_set *set,
                                   size_t max_points, size_t *num, ps_error *error) {
-    const size_t fitting = STAGING_VALUES / reader->columns;
+    const size_t fitting = block_rows(reader);
     const size_t left =
         reader->rows_per_set -
         (reader->rows_in_set < reader->rows_per_set ? reader->rows_in_set : reader->rows_per_set);

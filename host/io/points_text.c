@@ -12,6 +12,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Numbers of a read: enough that several threads are worth while, 2 MiB. */
+enum { BLOCK_VALUES = 1 << 18 };
+
 /* ---- lines ------------------------------------------------------------------------------- */
 
 pspec_status ps_text_next_line(ps_text_state *state, ps_line_kind *kind, ps_error *error) {
@@ -62,6 +65,14 @@ static pspec_status skip_marks(ps_text_state *state, ps_error *error) {
                : ps_fail(error, PSPEC_ERROR_INPUT, "%s holds no points", state->lines.input->name);
 }
 
+void ps_text_set_columns(ps_point_reader *reader, unsigned columns) {
+    ps_text_state *const state = reader->state;
+    reader->columns = columns;
+    reader->block_values = BLOCK_VALUES;
+    state->parser.columns = columns;
+    state->parser.separator = state->separator;
+}
+
 /* The first row fixes the number of columns for all sets of the input. */
 static pspec_status fix_columns(ps_point_reader *reader, ps_error *error) {
     ps_text_state *const state = reader->state;
@@ -72,7 +83,7 @@ static pspec_status fix_columns(ps_point_reader *reader, ps_error *error) {
                        "%s, line %zu: %zu columns; at most %d dimensions are read",
                        reader->input.name, state->lines.line_number, num_columns, PS_MAX_DIMENSION);
     }
-    reader->columns = (unsigned)num_columns;
+    ps_text_set_columns(reader, (unsigned)num_columns);
     state->columns_line = state->lines.line_number;
     return PSPEC_OK;
 }
@@ -143,6 +154,7 @@ void ps_text_close(ps_point_reader *reader) {
     ps_text_state *const state = reader->state;
     if (state != NULL) {
         ps_lines_close(&state->lines);
+        ps_row_parser_free(&state->parser);
         free(state);
     }
 }
@@ -165,24 +177,19 @@ static void scale_row(const ps_text_state *state, double *row) {
     }
 }
 
-/* Reads the rows that are whole lines in the buffer, up to the first line that is something else. */
-static const char *read_rows(const ps_point_reader *reader, ps_rows_read *out) {
+/* Reads rows of the whole lines in the buffer, up to the first line that is something else. */
+static void read_rows(const ps_point_reader *reader, ps_rows_read *out) {
     ps_text_state *const state = reader->state;
     ps_lines *const lines = &state->lines;
-    const char *line_end = lines->cursor;
-    while (out->num < out->capacity && lines->cursor != lines->lines_end && line_end != NULL) {
-        double *const row = out->rows + out->num * reader->columns;
-        line_end = ps_row_parse(lines->cursor, state->separator, reader->columns, row);
-        if (line_end != NULL) {
-            if (state->is_scaled) {
-                scale_row(state, row);
-            }
-            lines->cursor = line_end + 1;
-            lines->line_number++;
-            out->num++;
-        }
+    double *const rows = out->rows + out->num * reader->columns;
+    size_t num_rows = 0;
+    lines->cursor = ps_rows_parse(&state->parser, lines->cursor, lines->lines_end, rows,
+                                  out->capacity - out->num, &num_rows);
+    lines->line_number += num_rows;
+    out->num += num_rows;
+    for (size_t i = 0; state->is_scaled && i < num_rows; i++) {
+        scale_row(state, rows + i * reader->columns);
     }
-    return line_end;
 }
 
 static pspec_status end_set(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
@@ -212,7 +219,8 @@ static pspec_status read_text(ps_point_reader *reader, ps_rows_read *out, ps_err
             return kind == PS_LINE_BLANK ? read_blank_end(state, error) : PSPEC_OK;
         }
         const size_t before = out->num;
-        if (read_rows(reader, out) == NULL && out->num == before) {
+        read_rows(reader, out);
+        if (out->num == before) {
             return out->num > 0 ? PSPEC_OK : refuse_line(reader, error);
         }
     }

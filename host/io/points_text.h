@@ -3,13 +3,15 @@
 #define PS_IO_POINTS_TEXT_H
 
 #include "io/points_format.h"
-#include "io/text_lines.h"
+#include "io/text_rows.h"
 
 typedef struct ps_text_state {
     ps_lines lines;
+    ps_row_parser parser;
     char separator;
     size_t columns_line; /* the line that fixed the columns */
     size_t promised;     /* points, by a count at the beginning of the file */
+    bool is_in_line;     /* the cursor is not at the beginning of a line (such files only) */
     /* edat: coordinate j becomes (x - origin[j]) / size[j] */
     bool is_scaled;
     unsigned num_corners;
@@ -26,6 +28,8 @@ pspec_status ps_text_next_line(ps_text_state *state, ps_line_kind *kind,
  * the first line that is not a '#' line. */
 pspec_status ps_text_open_lines(ps_point_reader *reader, char separator,
                                 ps_error *error) PS_MUST_CHECK;
+/* Fixes the number of columns of all rows. */
+void ps_text_set_columns(ps_point_reader *reader, unsigned columns);
 void ps_text_close(ps_point_reader *reader);
 
 /* Rows of numbers between blanks, 17 digits. */

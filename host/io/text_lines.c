@@ -8,8 +8,8 @@
 #include <string.h>
 #include <strings.h>
 
-/* Large enough that system calls do not show, small enough to stay in the cache. */
-enum { BUFFER_BYTES = 1 << 20 };
+/* Large enough for several threads to share, small enough to stay in the cache they share. */
+enum { BUFFER_BYTES = 1 << 22 };
 
 /* ---- lines ------------------------------------------------------------------------------- */
 

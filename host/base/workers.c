@@ -1,0 +1,129 @@
+#include "base/workers.h"
+
+#include <pthread.h>
+#include <signal.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+typedef struct worker {
+    ps_workers *workers;
+    unsigned index;
+    pthread_t thread;
+} worker;
+
+struct ps_workers {
+    pthread_mutex_t mutex;
+    pthread_cond_t has_work, is_done;
+    void (*task)(void *payload, unsigned index);
+    void *payload;
+    unsigned long round; /* how many runs there were */
+    unsigned num_busy;
+    bool is_over;
+    unsigned num_threads; /* without the caller */
+    worker threads[];
+};
+
+static void *work(void *argument) {
+    const worker *const self = argument;
+    ps_workers *const workers = self->workers;
+    unsigned long round = 0;
+    pthread_mutex_lock(&workers->mutex);
+    for (;;) {
+        while (!workers->is_over && workers->round == round) {
+            pthread_cond_wait(&workers->has_work, &workers->mutex);
+        }
+        if (workers->is_over) {
+            break;
+        }
+        round = workers->round;
+        pthread_mutex_unlock(&workers->mutex);
+        workers->task(workers->payload, self->index);
+        pthread_mutex_lock(&workers->mutex);
+        if (--workers->num_busy == 0) {
+            pthread_cond_signal(&workers->is_done);
+        }
+    }
+    pthread_mutex_unlock(&workers->mutex);
+    return NULL;
+}
+
+/* Signals that a handler of the caller waits for must not end up in a thread that goes on working. */
+static void start_threads(ps_workers *workers, unsigned wanted) {
+    sigset_t all;
+    sigset_t kept;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &kept);
+    for (unsigned i = 0; i < wanted; i++) {
+        worker *const self = &workers->threads[i];
+        *self = (worker){.workers = workers, .index = i + 1};
+        if (pthread_create(&self->thread, NULL, work, self) != 0) {
+            break;
+        }
+        workers->num_threads++;
+    }
+    pthread_sigmask(SIG_SETMASK, &kept, NULL);
+}
+
+ps_workers *ps_workers_create(unsigned most_threads) {
+    const long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    const unsigned most = processors > 0 && (unsigned long)processors < most_threads
+                              ? (unsigned)processors
+                              : most_threads;
+    ps_workers *const workers =
+        most > 1 ? calloc(1, sizeof *workers + (most - 1) * sizeof(worker)) : NULL;
+    if (workers == NULL) {
+        return NULL;
+    }
+    pthread_mutex_init(&workers->mutex, NULL);
+    pthread_cond_init(&workers->has_work, NULL);
+    pthread_cond_init(&workers->is_done, NULL);
+    start_threads(workers, most - 1);
+    if (workers->num_threads == 0) {
+        ps_workers_destroy(workers);
+        return NULL;
+    }
+    return workers;
+}
+
+void ps_workers_destroy(ps_workers *workers) {
+    if (workers == NULL) {
+        return;
+    }
+    pthread_mutex_lock(&workers->mutex);
+    workers->is_over = true;
+    pthread_cond_broadcast(&workers->has_work);
+    pthread_mutex_unlock(&workers->mutex);
+    for (unsigned i = 0; i < workers->num_threads; i++) {
+        pthread_join(workers->threads[i].thread, NULL);
+    }
+    pthread_cond_destroy(&workers->has_work);
+    pthread_cond_destroy(&workers->is_done);
+    pthread_mutex_destroy(&workers->mutex);
+    free(workers);
+}
+
+unsigned ps_workers_count(const ps_workers *workers) {
+    return workers != NULL ? workers->num_threads + 1 : 1;
+}
+
+void ps_workers_run(ps_workers *workers, void (*task)(void *payload, unsigned index),
+                    void *payload) {
+    if (workers == NULL) {
+        task(payload, 0);
+        return;
+    }
+    pthread_mutex_lock(&workers->mutex);
+    workers->task = task;
+    workers->payload = payload;
+    workers->num_busy = workers->num_threads;
+    workers->round++;
+    pthread_cond_broadcast(&workers->has_work);
+    pthread_mutex_unlock(&workers->mutex);
+    task(payload, 0);
+    pthread_mutex_lock(&workers->mutex);
+    while (workers->num_busy > 0) {
+        pthread_cond_wait(&workers->is_done, &workers->mutex);
+    }
+    pthread_mutex_unlock(&workers->mutex);
+}
