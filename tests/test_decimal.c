@@ -151,18 +151,39 @@ static void refuses_what_is_no_number(void **state) {
     assert_ptr_equal(ps_decimal_parse(hexadecimal, &value), hexadecimal + 1); /* the 0 only */
 }
 
+static void check_written(double value) {
+    char text[PS_DECIMAL_BYTES];
+    char expected[64];
+    snprintf(expected, sizeof expected, "%.17g", value);
+    assert_int_equal(ps_decimal_format(text, value), strlen(expected));
+    assert_string_equal(text, expected);
+}
+
+/* Values of all sizes, of few bits (which may lie half way between two texts), and beside powers of
+ * ten and two. */
 static void writes_17_digits(void **state) {
     (void)state;
-    static const double values[] = {0, -0.0, 1, 0.1, 1e300, -DBL_MIN, DBL_MAX, 1.0 / 3, 123456789};
+    static const double values[] = {0,       -0.0,    1,         0.1,  1e300, -DBL_MIN,
+                                    DBL_MAX, 1.0 / 3, 123456789, 5e-5, -0.5,  99999999999999999.0};
     uint64_t random = 362436069;
-    for (size_t i = 0; i < 100000; i++) {
-        const size_t num_values = sizeof values / sizeof values[0];
-        const double value = i < num_values ? values[i] : next_unit(&random);
-        char text[PS_DECIMAL_BYTES];
-        char expected[64];
-        snprintf(expected, sizeof expected, "%.17g", value);
-        assert_int_equal(ps_decimal_format(text, value), strlen(expected));
-        assert_string_equal(text, expected);
+    for (size_t i = 0; i < sizeof values / sizeof values[0]; i++) {
+        check_written(values[i]);
+    }
+    for (int i = 0; i < 200000; i++) {
+        const double unit = next_unit(&random);
+        check_written(unit);
+        check_written(-unit * pow(10, i % 30 - 9));
+        check_written(ldexp(floor(unit * 4096), i % 80 - 60));
+    }
+    for (int power = -8; power < 22; power++) {
+        const double ten = pow(10, power);
+        const double two = ldexp(1, 2 * power);
+        check_written(nextafter(ten, 0));
+        check_written(ten);
+        check_written(nextafter(ten, 2 * ten));
+        check_written(nextafter(two, 0));
+        check_written(two);
+        check_written(nextafter(two, 2 * two));
     }
 }
 
