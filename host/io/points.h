@@ -47,10 +47,11 @@ pspec_status ps_points_reserve(ps_point_set *set, size_t num_points, ps_error *e
 
 /* Names of all formats and of all layouts of columns, for options. */
 #define PS_POINT_FORMATS "utk-text|csv|psa-text|gbn|edat|eps|utk-binary|rps|npy|openquad"
-#define PS_POINT_COLUMNS                                                                           \
-    "xy|xyw|xyz|xyzw|theta-phi|theta-phi-w|phi-theta|phi-theta-w|lon-lat|lon-lat-w"
+#define PS_SPHERE_COLUMNS "xyz|xyzw|theta-phi|theta-phi-w|phi-theta|phi-theta-w|lon-lat|lon-lat-w"
+#define PS_POINT_COLUMNS "xy|xyw|" PS_SPHERE_COLUMNS
 
-/* Numbers from first to last, counted from 1; {0} means all. */
+/* Numbers from first to last, counted from 1; {0} means all. What is asked for must be there, but
+ * last may be UINT64_MAX: up to the end. */
 typedef struct ps_point_range {
     uint64_t first, last;
 } ps_point_range;
@@ -59,7 +60,8 @@ typedef struct ps_point_options {
     const char *format;     /* NULL: detected, else one of PS_POINT_FORMATS */
     const char *columns;    /* NULL: found out, else one of PS_POINT_COLUMNS */
     unsigned dimension;     /* of the torus; 0: from the file; otherwise it must agree */
-    size_t points_per_set;  /* of formats that do not say (rps); 0: all is one set */
+    size_t points_per_set;  /* of formats that do not say (rps), where 0 means that all is one set;
+                               sets of other formats must have so many, unless 0 */
     ps_point_range sets;    /* others are passed over */
     ps_domain domain;       /* what the caller can use */
     bool weight_column;     /* the last column holds the weight */

@@ -184,6 +184,20 @@ static pspec_status fail_empty_set(const ps_point_reader *reader, ps_error *erro
                    (unsigned long long)reader->num_sets + 1);
 }
 
+/* Sets have the number of points that the user said, if he said one. */
+static pspec_status check_count(const ps_point_reader *reader, bool ends_set, ps_error *error) {
+    const size_t wanted = reader->options.points_per_set;
+    const size_t there = reader->rows_in_set;
+    if (wanted == 0 || there == wanted || (there < wanted && !ends_set)) {
+        return PSPEC_OK;
+    }
+    return ps_fail(error, PSPEC_ERROR_INPUT,
+                   "%s: set %llu has %s%zu points, but -n asks for %zu; %s says itself how many "
+                   "points its sets have",
+                   reader->input.name, (unsigned long long)reader->num_sets + 1,
+                   ends_set ? "" : "at least ", there, wanted, reader->format->name);
+}
+
 /* Counts the rows that came, and the set when it is over. */
 static pspec_status count_rows(ps_point_reader *reader, const ps_rows_read *read, bool *ends_set,
                                ps_error *error) {
@@ -193,6 +207,7 @@ static pspec_status count_rows(ps_point_reader *reader, const ps_rows_read *read
     if (read->end == PS_END_OF_SET && reader->rows_in_set == 0) {
         return fail_empty_set(reader, error);
     }
+    PS_TRY(check_count(reader, *ends_set, error));
     if (*ends_set) {
         reader->num_sets++;
         reader->rows_in_set = 0;
@@ -224,10 +239,12 @@ static pspec_status skip_sets(ps_point_reader *reader, ps_error *error) {
 
 static pspec_status check_range(const ps_point_reader *reader, ps_error *error) {
     const ps_point_range *sets = &reader->options.sets;
-    if (sets->last > 0 && reader->is_at_end && reader->num_sets < sets->first) {
+    const bool is_open = sets->last == UINT64_MAX;
+    const uint64_t needed = is_open || reader->num_sets < sets->first ? sets->first : sets->last;
+    if (sets->last > 0 && reader->is_at_end && reader->num_sets < needed) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "%s holds %llu set%s; set %llu is asked for",
                        reader->input.name, (unsigned long long)reader->num_sets,
-                       reader->num_sets == 1 ? "" : "s", (unsigned long long)sets->first);
+                       reader->num_sets == 1 ? "" : "s", (unsigned long long)needed);
     }
     return PSPEC_OK;
 }
