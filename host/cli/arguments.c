@@ -97,7 +97,7 @@ static pspec_status apply(parser *p, ps_option_id id, shown_option shown, const 
         PS_TRY(take_value(p, id, shown, &value));
     }
     p->arguments->is_given[id] = true;
-    return option->set(option, ps_option_metavar(p->command, id), value, p->arguments, p->error);
+    return option->set(option, ps_option_words(p->command, id), value, p->arguments, p->error);
 }
 
 static bool has_name(ps_option_id id, const char *name, size_t length) {
@@ -155,6 +155,7 @@ static const ps_arguments defaults = {.num_points = 1024,
                                       .num_realizations = 1,
                                       .dimension = 2,
                                       .seed = 1,
+                                      .domain = PS_DOMAIN_ANY,
                                       .tolerance = 1e-6,
                                       .precision = -1,
                                       .command_line = ""};

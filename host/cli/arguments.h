@@ -5,6 +5,7 @@
 #define PS_CLI_ARGUMENTS_H
 
 #include "base/status.h"
+#include "io/points.h"
 #include "samplers/sampler.h"
 
 #include <stdbool.h>
@@ -14,34 +15,41 @@
 enum { PS_MAX_SAMPLERS = 16 };
 
 typedef enum ps_option_id {
-    PS_OPTION_POINTS,        /* -n, --points N */
-    PS_OPTION_REALIZATIONS,  /* -m, --realizations M */
-    PS_OPTION_DIMENSION,     /* -d, --dimension D */
-    PS_OPTION_SEED,          /* -s, --seed S */
-    PS_OPTION_SAMPLER,       /* --sampler NAME[:key=value,...], repeatable */
-    PS_OPTION_MAX_FREQUENCY, /* -k, --max-frequency K */
-    PS_OPTION_FREQUENCIES,   /* --frequencies FILE */
-    PS_OPTION_SHELLS,        /* --shells */
-    PS_OPTION_FULL,          /* --full FILE.npy */
-    PS_OPTION_NORMALIZE,     /* --normalize power|effective */
-    PS_OPTION_HOMOGENIZE,    /* --homogenize */
-    PS_OPTION_WEIGHTS,       /* --weights equal|column|FILE */
-    PS_OPTION_INPUT_FORMAT,  /* --input-format utk-text|npy */
-    PS_OPTION_WRAP,          /* --wrap */
-    PS_OPTION_TOLERANCE,     /* --tol T */
-    PS_OPTION_FLOOR,         /* --floor P */
-    PS_OPTION_PRECISION,     /* --precision auto|single|double|extended */
-    PS_OPTION_ENGINE,        /* --engine NAME */
-    PS_OPTION_DEVICE,        /* --device SELECTOR */
-    PS_OPTION_NO_SKIP,       /* --no-skip */
-    PS_OPTION_NO_SELF_CHECK, /* --no-self-check */
-    PS_OPTION_OUTPUT,        /* -o, --output FILE */
-    PS_OPTION_FORMAT,        /* --format csv|json|npy (sample: utk-text|npy) */
-    PS_OPTION_PLOT,          /* --plot FILE */
-    PS_OPTION_PROFILE,       /* --profile */
-    PS_OPTION_QUIET,         /* --quiet */
-    PS_OPTION_VERBOSE,       /* --verbose */
-    PS_OPTION_HELP,          /* -h, --help */
+    PS_OPTION_POINTS,            /* -n, --points N */
+    PS_OPTION_REALIZATIONS,      /* -m, --realizations M */
+    PS_OPTION_DIMENSION,         /* -d, --dimension D */
+    PS_OPTION_SEED,              /* -s, --seed S */
+    PS_OPTION_SAMPLER,           /* --sampler NAME[:key=value,...], repeatable */
+    PS_OPTION_MAX_FREQUENCY,     /* -k, --max-frequency K */
+    PS_OPTION_FREQUENCIES,       /* --frequencies FILE */
+    PS_OPTION_SHELLS,            /* --shells */
+    PS_OPTION_FULL,              /* --full FILE.npy */
+    PS_OPTION_NORMALIZE,         /* --normalize power|effective */
+    PS_OPTION_HOMOGENIZE,        /* --homogenize */
+    PS_OPTION_WEIGHTS,           /* --weights equal|column|FILE */
+    PS_OPTION_INPUT_FORMAT,      /* --input-format NAME */
+    PS_OPTION_COLUMNS,           /* --columns NAME */
+    PS_OPTION_DOMAIN,            /* --domain torus|sphere */
+    PS_OPTION_WRAP,              /* --wrap */
+    PS_OPTION_NORMALIZE_VECTORS, /* --normalize-vectors */
+    PS_OPTION_SELECT_SETS,       /* --select-sets A..B */
+    PS_OPTION_SELECT_POINTS,     /* --select-points A..B */
+    PS_OPTION_MERGE,             /* --merge */
+    PS_OPTION_TO_COLUMNS,        /* --to-columns NAME */
+    PS_OPTION_TOLERANCE,         /* --tol T */
+    PS_OPTION_FLOOR,             /* --floor P */
+    PS_OPTION_PRECISION,         /* --precision auto|single|double|extended */
+    PS_OPTION_ENGINE,            /* --engine NAME */
+    PS_OPTION_DEVICE,            /* --device SELECTOR */
+    PS_OPTION_NO_SKIP,           /* --no-skip */
+    PS_OPTION_NO_SELF_CHECK,     /* --no-self-check */
+    PS_OPTION_OUTPUT,            /* -o, --output FILE */
+    PS_OPTION_FORMAT,            /* --format csv|json|npy, or a format of points */
+    PS_OPTION_PLOT,              /* --plot FILE */
+    PS_OPTION_PROFILE,           /* --profile */
+    PS_OPTION_QUIET,             /* --quiet */
+    PS_OPTION_VERBOSE,           /* --verbose */
+    PS_OPTION_HELP,              /* -h, --help */
     PS_NUM_OPTIONS
 } ps_option_id;
 
@@ -54,9 +62,12 @@ typedef struct ps_arguments {
     size_t num_samplers;
     const char *samplers[PS_MAX_SAMPLERS];
     int32_t max_frequency; /* 0 unless given: the default of design.md 3.1 */
-    const char *frequencies, *full, *weights, *input_format, *engine, *device, *output, *format,
-        *plot; /* NULL unless given */
-    bool shells, homogenize, wrap, no_skip, no_self_check, profile, quiet, verbose;
+    const char *frequencies, *full, *weights, *input_format, *columns, *to_columns, *engine,
+        *device, *output, *format, *plot; /* NULL unless given */
+    ps_domain domain;                     /* PS_DOMAIN_ANY unless given */
+    ps_point_range sets, points;          /* {0} unless given */
+    bool shells, homogenize, wrap, normalize_vectors, merge, no_skip, no_self_check, profile, quiet,
+        verbose;
     bool effective;   /* --normalize effective */
     double tolerance; /* 1e-6 unless given */
     double floor;     /* 0 unless given */

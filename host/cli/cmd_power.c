@@ -7,14 +7,14 @@
 #include <stdio.h>
 
 const ps_option_id ps_power_options[] = {
-    PS_OPTION_SAMPLER,   PS_OPTION_POINTS,        PS_OPTION_REALIZATIONS, PS_OPTION_DIMENSION,
-    PS_OPTION_SEED,      PS_OPTION_HOMOGENIZE,    PS_OPTION_WEIGHTS,      PS_OPTION_INPUT_FORMAT,
-    PS_OPTION_WRAP,      PS_OPTION_MAX_FREQUENCY, PS_OPTION_FREQUENCIES,  PS_OPTION_SHELLS,
-    PS_OPTION_NORMALIZE, PS_OPTION_TOLERANCE,     PS_OPTION_FLOOR,        PS_OPTION_PRECISION,
-    PS_OPTION_ENGINE,    PS_OPTION_DEVICE,        PS_OPTION_NO_SKIP,      PS_OPTION_NO_SELF_CHECK,
-    PS_OPTION_OUTPUT,    PS_OPTION_FORMAT,        PS_OPTION_FULL,         PS_OPTION_PLOT,
-    PS_OPTION_PROFILE,   PS_OPTION_QUIET,         PS_OPTION_VERBOSE,      PS_OPTION_HELP,
-    PS_NUM_OPTIONS};
+    PS_OPTION_SAMPLER,     PS_OPTION_POINTS,        PS_OPTION_REALIZATIONS, PS_OPTION_DIMENSION,
+    PS_OPTION_SEED,        PS_OPTION_HOMOGENIZE,    PS_OPTION_WEIGHTS,      PS_OPTION_INPUT_FORMAT,
+    PS_OPTION_COLUMNS,     PS_OPTION_SELECT_SETS,   PS_OPTION_WRAP,         PS_OPTION_MAX_FREQUENCY,
+    PS_OPTION_FREQUENCIES, PS_OPTION_SHELLS,        PS_OPTION_NORMALIZE,    PS_OPTION_TOLERANCE,
+    PS_OPTION_FLOOR,       PS_OPTION_PRECISION,     PS_OPTION_ENGINE,       PS_OPTION_DEVICE,
+    PS_OPTION_NO_SKIP,     PS_OPTION_NO_SELF_CHECK, PS_OPTION_OUTPUT,       PS_OPTION_FORMAT,
+    PS_OPTION_FULL,        PS_OPTION_PLOT,          PS_OPTION_PROFILE,      PS_OPTION_QUIET,
+    PS_OPTION_VERBOSE,     PS_OPTION_HELP,          PS_NUM_OPTIONS};
 
 static int on_progress(uint64_t done, uint64_t total, void *payload) {
     ps_progress_update(payload, done, total);
@@ -88,7 +88,7 @@ static pspec_status check_outputs(const ps_arguments *arguments, ps_table_format
     }
     PS_TRY(ps_table_choose_format(format, arguments->format, arguments->output, error));
     PS_TRY(ps_power_check_full(arguments, error));
-    return ps_outputs_check(arguments, error);
+    return ps_outputs_check(arguments, true, error);
 }
 
 static pspec_status run(const ps_arguments *arguments, ps_error *error) {

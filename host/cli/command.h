@@ -24,6 +24,7 @@ typedef struct ps_command {
     const ps_option_id *options; /* ended by PS_NUM_OPTIONS */
     const char *examples[2];     /* complete command lines, run by the tests */
     const char *formats;         /* words of --format, the default first; NULL: csv|json|npy */
+    const char *weights;         /* words of --weights; NULL: equal|column|FILE */
     pspec_status (*run)(const ps_arguments *, ps_error *);
 } ps_command;
 
@@ -33,7 +34,8 @@ extern const ps_command *const ps_commands[];
 /* The command of that name; NULL with a sentence that names the nearest one. */
 const ps_command *ps_command_find(const char *name, ps_error *error);
 
-extern const ps_command ps_command_power, ps_command_sample, ps_command_plan, ps_command_devices;
+extern const ps_command ps_command_power, ps_command_sample, ps_command_convert, ps_command_plan,
+    ps_command_devices;
 
 /* Options of power, which plan takes too. */
 extern const ps_option_id ps_power_options[];

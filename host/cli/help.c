@@ -1,4 +1,5 @@
 /* --help: everything comes from the tables of commands, options and samplers. */
+#include "base/text.h"
 #include "cli/options.h"
 #include "samplers/sampler.h"
 
@@ -35,6 +36,18 @@ static void print_item(FILE *stream, const char *term, const char *text) {
     print_wrapped(stream, text, HELP_COLUMN, HELP_COLUMN);
 }
 
+/* The values that NAME stands for. */
+static void append_names(ps_text *text, const char *words, const char *metavar) {
+    if (words == metavar) {
+        return;
+    }
+    for (const char *separator = ": "; *words != '\0'; separator = ", ") {
+        const size_t length = strcspn(words, "|");
+        ps_text_append(text, "%s%.*s", separator, (int)length, words);
+        words += length + (words[length] == '|');
+    }
+}
+
 static void print_option(FILE *stream, const ps_command *command, ps_option_id id) {
     const ps_option *const option = &ps_options[id];
     const char *const metavar = ps_option_metavar(command, id);
@@ -42,7 +55,11 @@ static void print_option(FILE *stream, const ps_command *command, ps_option_id i
     const char letter[] = {'-', option->letter, ',', ' ', '\0'};
     snprintf(term, sizeof term, "%s--%s%s%s", option->letter != 0 ? letter : "    ", option->name,
              metavar != NULL ? " " : "", metavar != NULL ? metavar : "");
-    print_item(stream, term, option->help);
+    ps_text text = {0};
+    ps_text_append(&text, "%s", option->help);
+    append_names(&text, ps_option_words(command, id), metavar);
+    print_item(stream, term, ps_text_string(&text));
+    ps_text_free(&text);
 }
 
 /* ---- samplers ------------------------------------------------------------------------------ */

@@ -42,6 +42,41 @@ static pspec_status set_count(const ps_option *option, const char *words, const 
                           find_field(option, arguments), error);
 }
 
+/* One end of a range; an empty text leaves *out as it is. */
+static pspec_status parse_end(const ps_option *option, const char *text, size_t length,
+                              uint64_t *out, ps_error *error) {
+    enum { MOST_DIGITS = 31 };
+    char number[MOST_DIGITS + 1];
+    snprintf(number, sizeof number, "%.*s", (int)(length < MOST_DIGITS ? length : MOST_DIGITS),
+             text);
+    return length == 0 ? PSPEC_OK
+                       : ps_parse_count(number, option->what, 1, UINT64_MAX - 1, out, error);
+}
+
+/* "A..B", "A", "A.." or "..B" */
+static pspec_status set_range(const ps_option *option, const char *words, const char *value,
+                              ps_arguments *arguments, ps_error *error) {
+    static const char dots[] = "..";
+    ps_point_range *const field = find_field(option, arguments);
+    ps_point_range range = {1, UINT64_MAX};
+    const char *const middle = strstr(value, dots);
+    const char *const last = middle != NULL ? middle + sizeof dots - 1 : value;
+    const size_t first_length = middle != NULL ? (size_t)(middle - value) : strlen(value);
+    if (first_length + strlen(last) == 0) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "--%s: \"%s\" says neither end: %s, or A, A.., ..B", option->name, value,
+                       words);
+    }
+    PS_TRY(parse_end(option, value, first_length, &range.first, error));
+    PS_TRY(parse_end(option, last, strlen(last), &range.last, error));
+    if (range.first > range.last) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "--%s: \"%s\": the first number is the larger one", option->name, value);
+    }
+    *field = range;
+    return PSPEC_OK;
+}
+
 static pspec_status set_dimension(const ps_option *option, const char *words, const char *value,
                                   ps_arguments *arguments, ps_error *error) {
     uint64_t count = 0;
@@ -134,6 +169,22 @@ static pspec_status set_word(const ps_option *option, const char *words, const c
     return set_text(option, words, value, arguments, error);
 }
 
+/* One of the words, or the name of a file where FILE is one of them. */
+static pspec_status set_weights(const ps_option *option, const char *words, const char *value,
+                                ps_arguments *arguments, ps_error *error) {
+    return strstr(words, "FILE") != NULL ? set_text(option, words, value, arguments, error)
+                                         : set_word(option, words, value, arguments, error);
+}
+
+/* The words stand in the order of ps_domain. */
+static pspec_status set_domain(const ps_option *option, const char *words, const char *value,
+                               ps_arguments *arguments, ps_error *error) {
+    int index = 0;
+    PS_TRY(find_word(option, words, value, &index, error));
+    arguments->domain = (ps_domain)index;
+    return PSPEC_OK;
+}
+
 static pspec_status set_normalize(const ps_option *option, const char *words, const char *value,
                                   ps_arguments *arguments, ps_error *error) {
     int index = 0;
@@ -156,6 +207,7 @@ static pspec_status set_precision(const ps_option *option, const char *words, co
 #define FLAG(field) .set = set_flag, .offset = offsetof(ps_arguments, field)
 #define TEXT(field) .set = set_text, .offset = offsetof(ps_arguments, field)
 #define WORD(field) .set = set_word, .offset = offsetof(ps_arguments, field)
+#define RANGE(field) .set = set_range, .offset = offsetof(ps_arguments, field)
 #define COUNT(field) .set = set_count, .offset = offsetof(ps_arguments, field)
 
 /* 10^10 points of the plane are 160 GB. */
@@ -168,7 +220,8 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_POINTS] = {.letter = 'n',
                           .name = "points",
                           .metavar = "N",
-                          .help = "points in each realization (default 1024)",
+                          .help = "points in each realization (default 1024); of files: "
+                                  "points in each set, for formats that do not say (rps)",
                           COUNT(num_points),
                           .what = "points",
                           .minimum = 1,
@@ -231,16 +284,50 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                               FLAG(homogenize)},
     [PS_OPTION_WEIGHTS] = {.name = "weights",
                            .metavar = "equal|column|FILE",
-                           .help =
-                               "weights all 1, in the last column, or from FILE (default equal)",
-                           TEXT(weights)},
+                           .help = "equal: all 1, weights of the files are dropped; column: the "
+                                   "last one of the files (default: those that "
+                                   "--columns names, else all 1)",
+                           .set = set_weights,
+                           .offset = offsetof(ps_arguments, weights)},
     [PS_OPTION_INPUT_FORMAT] = {.name = "input-format",
                                 .metavar = PS_POINT_FORMATS,
                                 .help = "format of the point files (default: detected)",
                                 WORD(input_format)},
+    [PS_OPTION_COLUMNS] = {.name = "columns",
+                           .metavar = PS_POINT_COLUMNS,
+                           .help = "what the columns of the point files are, w being the weight "
+                                   "(default: found out; angles are in radians but lon-lat, "
+                                   "degrees)",
+                           WORD(columns)},
+    [PS_OPTION_DOMAIN] = {.name = "domain",
+                          .metavar = "torus|sphere",
+                          .help = "where the points lie (default: found out)",
+                          .set = set_domain},
     [PS_OPTION_WRAP] = {.name = "wrap",
                         .help = "reduce coordinates outside [0,1) mod 1 instead of refusing them",
                         FLAG(wrap)},
+    [PS_OPTION_NORMALIZE_VECTORS] = {.name = "normalize-vectors",
+                                     .help = "divide vectors by their length instead of refusing "
+                                             "those of another length than 1",
+                                     FLAG(normalize_vectors)},
+    [PS_OPTION_SELECT_SETS] = {.name = "select-sets",
+                               .metavar = "A..B",
+                               .help = "only these sets of each file, counted from 1; also A, A.., "
+                                       "..B",
+                               RANGE(sets),
+                               .what = "sets"},
+    [PS_OPTION_SELECT_POINTS] = {.name = "select-points",
+                                 .metavar = "A..B",
+                                 .help = "only these points of each set, counted from 1; also A, "
+                                         "A.., ..B",
+                                 RANGE(points),
+                                 .what = "points"},
+    [PS_OPTION_MERGE] = {.name = "merge", .help = "make one set of all sets", FLAG(merge)},
+    [PS_OPTION_TO_COLUMNS] = {.name = "to-columns",
+                              .metavar = PS_SPHERE_COLUMNS,
+                              .help = "columns of the output, for points of the sphere (default "
+                                      "xyz, with w if there are weights)",
+                              WORD(to_columns)},
     [PS_OPTION_TOLERANCE] = {.name = "tol",
                              .metavar = "T",
                              .help = "largest error of S relative to white noise, above 0 and at "
@@ -312,9 +399,18 @@ bool ps_command_takes(const ps_command *command, ps_option_id id) {
     return false;
 }
 
+const char *ps_option_words(const ps_command *command, ps_option_id id) {
+    if (id == PS_OPTION_FORMAT && command->formats != NULL) {
+        return command->formats;
+    }
+    return id == PS_OPTION_WEIGHTS && command->weights != NULL ? command->weights
+                                                               : ps_options[id].metavar;
+}
+
 const char *ps_option_metavar(const ps_command *command, ps_option_id id) {
-    return id == PS_OPTION_FORMAT && command->formats != NULL ? command->formats
-                                                              : ps_options[id].metavar;
+    enum { MOST_LETTERS = 40 };
+    const char *const words = ps_option_words(command, id);
+    return words != NULL && strlen(words) > MOST_LETTERS ? "NAME" : words;
 }
 
 size_t ps_name_distance(const char *typed, const char *known) {

@@ -7,8 +7,8 @@
 
 typedef struct ps_option ps_option;
 
-/* Stores value (NULL for a flag) in *arguments, or says what is wrong with it. words is the metavar
- * of the option for the command at hand. */
+/* Stores value (NULL for a flag) in *arguments, or says what is wrong with it. words are the values
+ * that the command at hand admits, "one|two". */
 typedef pspec_status ps_option_setter(const ps_option *option, const char *words, const char *value,
                                       ps_arguments *arguments, ps_error *error);
 
@@ -28,7 +28,11 @@ extern const ps_option ps_options[PS_NUM_OPTIONS];
 /* Every command takes --help, also when its list does not say so. */
 bool ps_command_takes(const ps_command *command, ps_option_id id);
 
-/* What stands after the option in usage and help; NULL for a flag. */
+/* The values that the command admits for the option, "one|two|FILE"; NULL for a flag. */
+const char *ps_option_words(const ps_command *command, ps_option_id id);
+
+/* What stands after the option in usage and help: these values, or NAME when they are too many for
+ * a line; NULL for a flag. */
 const char *ps_option_metavar(const ps_command *command, ps_option_id id);
 
 /* How far a name that somebody typed is from a known one. 0: that very name; a beginning of it

@@ -91,10 +91,10 @@ static pspec_status check_all(const named_path *outputs, size_t num, const ps_ar
     return PSPEC_OK;
 }
 
-pspec_status ps_outputs_check(const ps_arguments *arguments, ps_error *error) {
+pspec_status ps_outputs_check(const ps_arguments *arguments, bool is_table, ps_error *error) {
     ps_text sidecar = {0};         /* names of the columns beside a table in NPY */
     ps_text standard_errors = {0}; /* beside the array of --full */
-    const bool is_npy = arguments->output != NULL &&
+    const bool is_npy = is_table && arguments->output != NULL &&
                         (arguments->format != NULL ? strcmp(arguments->format, "npy") == 0
                                                    : ends_in_npy(arguments->output));
     if (is_npy) {

@@ -5,7 +5,9 @@
 #include "cli/arguments.h"
 
 /* Refuses outputs that would overwrite each other or an input, and those whose folder cannot be
- * written. Pipes and devices are not opened: somebody may be waiting at their other end. */
-pspec_status ps_outputs_check(const ps_arguments *arguments, ps_error *error) PS_MUST_CHECK;
+ * written. Pipes and devices are not opened: somebody may be waiting at their other end. is_table: --output is
+ * one, which as NPY has a file of column names beside it. */
+pspec_status ps_outputs_check(const ps_arguments *arguments, bool is_table,
+                              ps_error *error) PS_MUST_CHECK;
 
 #endif

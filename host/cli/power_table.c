@@ -79,6 +79,7 @@ static void put_job(header *to, const ps_arguments *arguments, const ps_power_jo
         }
     } else {
         put(to, "input_format", PS_TEXT(ps_power_job_source_format(job)));
+        put(to, "input_columns", PS_TEXT(ps_power_job_source_columns(job)));
     }
     put_points(to, ps_power_job_spectrum(job), ps_power_job_needs(job));
     put(to, "dimension", PS_INTEGER(ps_power_job_problem(job)->frequencies->dimension));

@@ -6,6 +6,30 @@ static pspec_status fail_conflict(const char *a, const char *b, const char *why,
     return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s does not go with %s: %s", a, b, why);
 }
 
+/* Options that are about the other kind of source. */
+static pspec_status check_other_source(const ps_arguments *arguments, ps_error *error) {
+    static const struct {
+        ps_option_id option;
+        const char *name;
+        bool is_for_files;
+    } options[] = {{PS_OPTION_REALIZATIONS, "--realizations", false},
+                   {PS_OPTION_SEED, "--seed", false},
+                   {PS_OPTION_HOMOGENIZE, "--homogenize", false},
+                   {PS_OPTION_INPUT_FORMAT, "--input-format", true},
+                   {PS_OPTION_COLUMNS, "--columns", true},
+                   {PS_OPTION_SELECT_SETS, "--select-sets", true}};
+    const bool are_files = arguments->num_files > 0;
+    for (size_t i = 0; i < sizeof options / sizeof options[0]; i++) {
+        if (arguments->is_given[options[i].option] && options[i].is_for_files != are_files) {
+            return are_files ? fail_conflict(options[i].name, "point files",
+                                             "it says what a --sampler makes", error)
+                             : fail_conflict(options[i].name, "--sampler",
+                                             "it says how point files are read", error);
+        }
+    }
+    return PSPEC_OK;
+}
+
 static pspec_status check_source(const ps_arguments *arguments, ps_error *error) {
     if (arguments->num_samplers == 0 && arguments->num_files == 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
@@ -16,19 +40,7 @@ static pspec_status check_source(const ps_arguments *arguments, ps_error *error)
         return fail_conflict("--sampler", arguments->files[0], "points come from one of them",
                              error);
     }
-    static const struct {
-        ps_option_id option;
-        const char *name;
-    } sampler_only[] = {{PS_OPTION_POINTS, "--points"},
-                        {PS_OPTION_REALIZATIONS, "--realizations"},
-                        {PS_OPTION_SEED, "--seed"},
-                        {PS_OPTION_HOMOGENIZE, "--homogenize"}};
-    for (size_t i = 0; i < sizeof sampler_only / sizeof sampler_only[0]; i++) {
-        if (arguments->num_files > 0 && arguments->is_given[sampler_only[i].option]) {
-            return fail_conflict(sampler_only[i].name, "point files",
-                                 "it says what a --sampler makes", error);
-        }
-    }
+    PS_TRY(check_other_source(arguments, error));
     if (arguments->weights != NULL && strcmp(arguments->weights, "column") == 0 &&
         arguments->num_samplers > 0) {
         return fail_conflict("--weights column", "--sampler", "samplers make points only", error);
@@ -57,17 +69,22 @@ static pspec_status check_results(const ps_arguments *arguments, ps_error *error
     return PSPEC_OK;
 }
 
+/* Weights of the files are used where their columns name them, unless others are given. */
 static void fill_points(ps_power_question *question, const ps_arguments *arguments) {
     const char *weights = arguments->weights;
-    const bool is_word =
-        weights == NULL || strcmp(weights, "column") == 0 || strcmp(weights, "equal") == 0;
+    const bool is_column = weights != NULL && strcmp(weights, "column") == 0;
+    const bool is_word = is_column || weights == NULL || strcmp(weights, "equal") == 0;
     question->paths = arguments->files;
     question->num_paths = arguments->num_files;
     question->weights_path = is_word ? NULL : weights;
     question->point_options = (ps_point_options){
         .format = arguments->input_format,
+        .columns = arguments->columns,
         .dimension = arguments->is_given[PS_OPTION_DIMENSION] ? arguments->dimension : 0,
-        .weight_column = weights != NULL && strcmp(weights, "column") == 0,
+        .points_per_set = arguments->is_given[PS_OPTION_POINTS] ? (size_t)arguments->num_points : 0,
+        .sets = arguments->sets,
+        .weight_column = is_column,
+        .ignore_weights = weights != NULL && !is_column,
         .wrap = arguments->wrap,
     };
 }

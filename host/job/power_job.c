@@ -330,6 +330,10 @@ const char *ps_power_job_source_format(const ps_power_job *job) {
     return ps_source_format(job->source);
 }
 
+const char *ps_power_job_source_columns(const ps_power_job *job) {
+    return ps_source_columns(job->source);
+}
+
 const ps_spectrum *ps_power_job_spectrum(const ps_power_job *job) {
     return &job->spectrum;
 }

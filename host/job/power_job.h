@@ -59,6 +59,7 @@ const ps_needs *ps_power_job_needs(const ps_power_job *job);
 const ps_problem *ps_power_job_problem(const ps_power_job *job);
 const ps_device_limits *ps_power_job_limits(const ps_power_job *job); /* NULL: no device */
 const char *ps_power_job_source_format(const ps_power_job *job);
+const char *ps_power_job_source_columns(const ps_power_job *job);
 const ps_sampler_request *ps_power_job_sampler(const ps_power_job *job); /* NULL: files */
 
 /* What is known after run. Borrowed. */

@@ -14,14 +14,14 @@ struct ps_source {
     size_t num_paths, next_path;
     const ps_point_options *options;
     ps_point_reader *reader;
-    const char *format;
+    const char *format, *columns;
 };
 
 static pspec_status create(ps_source **out, ps_error *error) {
     void *memory = NULL;
     PS_TRY(ps_allocate(&memory, 1, sizeof(ps_source), "a source of points", error));
     *out = memory;
-    (*out)->format = "";
+    (*out)->format = (*out)->columns = "";
     return PSPEC_OK;
 }
 
@@ -77,6 +77,7 @@ static pspec_status next_from_files(ps_source *source, ps_point_set *set, bool *
             source->format = ps_points_format(source->reader);
         }
         PS_TRY(ps_points_next(source->reader, set, has_set, error));
+        source->columns = ps_points_columns(source->reader);
         if (!*has_set) {
             ps_points_close(source->reader);
             source->reader = NULL;
@@ -112,6 +113,10 @@ pspec_status ps_source_rewind(ps_source *source, ps_error *error) {
 
 const char *ps_source_format(const ps_source *source) {
     return source->format;
+}
+
+const char *ps_source_columns(const ps_source *source) {
+    return source->columns;
 }
 
 void ps_source_destroy(ps_source *source) {
