@@ -31,7 +31,8 @@ typedef enum ps_format_ability {
     PS_HOLDS_TORUS = 4,
     PS_HOLDS_VECTORS = 8,
     PS_HOLDS_ANGLES = 16,
-    PS_NEEDS_COUNTS = 32 /* in its header */
+    PS_NEEDS_COUNTS = 32, /* in its header */
+    PS_EQUAL_SETS = 64    /* does not say where a set ends: all have the same number of points */
 } ps_format_ability;
 
 typedef struct ps_point_format {

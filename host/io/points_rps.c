@@ -107,6 +107,6 @@ const ps_point_format ps_format_rps = {.name = "rps",
                                        .open = open_rps,
                                        .read = read_rps,
                                        .close = close_rps,
-                                       .abilities = PS_HOLDS_SETS | PS_HOLDS_TORUS,
+                                       .abilities = PS_HOLDS_SETS | PS_HOLDS_TORUS | PS_EQUAL_SETS,
                                        .begin = begin_rps,
                                        .write = write_rps};

@@ -130,7 +130,7 @@ static pspec_status end_set(ps_point_writer *writer, ps_error *error) {
     if (shape->num_points == 0) {
         shape->num_points = writer->rows_in_set;
     }
-    if ((writer->format->abilities & PS_NEEDS_COUNTS) != 0 &&
+    if ((writer->format->abilities & (PS_NEEDS_COUNTS | PS_EQUAL_SETS)) != 0 &&
         writer->rows_in_set != shape->num_points) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "set %zu has %zu points instead of %zu, and all sets of %s have the same "
