@@ -163,6 +163,23 @@ static bool looks_like_sphere(const ps_columns_question *question) {
            (options->normalize_vectors || ps_is_unit_vector(question->first));
 }
 
+/* Directions taken mod 1 would be points of no meaning. */
+static pspec_status check_wrap(const ps_columns_question *question, ps_error *error) {
+    const ps_point_options *options = question->options;
+    const double *const first = question->first;
+    bool is_inside = true;
+    for (unsigned j = 0; j < question->columns && j < 3; j++) {
+        is_inside = is_inside && first[j] >= 0 && first[j] < 1;
+    }
+    return options->wrap && options->dimension == 0 && question->columns >= 3 && !is_inside &&
+                   ps_is_unit_vector(first)
+               ? ps_fail(error, PSPEC_ERROR_INPUT,
+                         "%s: a unit vector? --wrap is about points of the torus; -d %u says that "
+                         "this is one",
+                         question->where, question->columns - options->weight_column)
+               : PSPEC_OK;
+}
+
 pspec_status ps_columns_resolve(ps_layout *out, const ps_columns_question *question,
                                 ps_error *error) {
     const ps_point_options *options = question->options;
@@ -178,6 +195,7 @@ pspec_status ps_columns_resolve(ps_layout *out, const ps_columns_question *quest
                (options->domain == PS_DOMAIN_ANY && looks_like_sphere(question))) {
         PS_TRY(resolve_sphere(out, question, error));
     } else {
+        PS_TRY(check_wrap(question, error));
         PS_TRY(set_torus(out, question, options->weight_column, error));
     }
     out->drops_weight = options->ignore_weights;

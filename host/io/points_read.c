@@ -192,10 +192,11 @@ static pspec_status check_count(const ps_point_reader *reader, bool ends_set, ps
         return PSPEC_OK;
     }
     return ps_fail(error, PSPEC_ERROR_INPUT,
-                   "%s: set %llu has %s%zu points, but -n asks for %zu; %s says itself how many "
-                   "points its sets have",
+                   "%s: set %llu has %s%zu point%s, but -n asks for %zu; %s says itself how many "
+                   "its sets have",
                    reader->input.name, (unsigned long long)reader->num_sets + 1,
-                   ends_set ? "" : "at least ", there, wanted, reader->format->name);
+                   ends_set ? "" : "at least ", there, there == 1 ? "" : "s", wanted,
+                   reader->format->name);
 }
 
 /* Counts the rows that came, and the set when it is over. */

@@ -143,6 +143,9 @@ static pspec_status open_edat(ps_point_reader *reader, ps_error *error) {
         state->is_scaled = state->is_scaled || state->origin[j] != 0 || state->size[j] != 1;
     }
     PS_TRY(fix_columns(reader, error));
+    if (reader->columns == state->num_corners + 1) {
+        reader->options.weight_column = true; /* the corners tell that it is no coordinate */
+    }
     return reader->columns == state->num_corners || reader->columns == state->num_corners + 1
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INPUT,
