@@ -1,0 +1,217 @@
+#!/usr/bin/env bash
+# cli_formats.sh PROGRAM: files as other tools write them, made here byte by byte, and the points that
+# come out; and files that could be two things, refused with the options that settle it.
+set -euo pipefail
+program=$(realpath "$1")
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch"
+export ASAN_OPTIONS=${ASAN_OPTIONS-}:detect_leaks=0 # other tests' business
+
+checked=0 bad=0
+complain() { # LINE...
+    printf '%s\n' "$@" >&2
+    bad=1
+}
+# file NAME TEXT: TEXT with escapes as printf %b takes them.
+file() {
+    printf '%b' "$2" >"$1"
+}
+# reads "LINE|LINE..." ARGS...: the text that comes out.
+reads() {
+    local expected=$1 code=0
+    shift
+    "$program" convert "$@" </dev/null >out 2>err || code=$?
+    checked=$((checked + 1))
+    [[ $code == 0 && $(tr '\n' '|' <out) == "$expected|" ]] ||
+        complain "exit $code: convert $*: $(tr '\n' '|' <out), not $expected" "    $(<err)"
+}
+# near "LINE|LINE..." ARGS...: the same with 6 decimals, for what is computed.
+near() {
+    local expected=$1 code=0 said
+    shift
+    "$program" convert "$@" </dev/null 2>err |
+        awk '/^#/ { print; next } { for (i = 1; i <= NF; i++) { $i = sprintf("%.6f", $i + 0); sub(/^-0.000000$/, "0.000000", $i) }
+             print }' >out || code=$?
+    said=$(tr '\n' '|' <out)
+    checked=$((checked + 1))
+    [[ $code == 0 && $said == "$expected|" ]] ||
+        complain "exit $code: convert $*: $said, not $expected" "    $(<err)"
+}
+# refuses PART[;PART...] ARGS...: exit 2 and one line with these parts.
+refuses() {
+    local parts part code=0
+    IFS=';' read -ra parts <<<"$1"
+    shift
+    "$program" convert "$@" </dev/null >out 2>err || code=$?
+    checked=$((checked + 1))
+    [[ $code == 2 && $(wc -l <err) == 1 ]] || complain "exit $code: convert $*" "    $(<err)"
+    for part in "${parts[@]}"; do
+        [[ $(<err) == *"$part"* ]] || complain "\"$part\" is missing: convert $*" "    $(<err)"
+    done
+}
+
+# ---- UTK text: sets, marks in front, a mark at the end, CR LF, tabs, no end of line
+square='0.5 0.25|0.75 0.125'
+file utk.dat '0.5 0.25\n0.75 0.125\n'
+file sets.dat '#\n# two\n0.5 0.25\n0.75 0.125\n#\n0 0.5\n#\n'
+file loose.dat '0.5\t0.25\r\n 0.75   0.125 '
+file blank.dat '0.5 0.25\n\n0.75 0.125\n'
+reads "$square" utk.dat
+reads "$square|#|0 0.5" sets.dat
+reads "$square" loose.dat
+refuses 'line 2: a blank line;sets are separated by a' blank.dat
+# pbrt: stdin.dat is text, stdin.binary float32 pairs; the number of points comes with both
+reads "$square" -n 2 utk.dat
+refuses 'set 2 has 1 point, but -n asks for 2' -n 2 sets.dat -o none
+
+# ---- UTK binary: every type, sets, repeated sets, long double
+word() { printf '\\x%02x' $(($1 & 255)) $(($1 >> 8 & 255)) $(($1 >> 16 & 255)) $(($1 >> 24 & 255)); }
+header() { # TYPE SETS POINTS DIMENSION
+    printf 'UTK!\\x%02x\\0\\0\\0%s%s%s' "$1" "$(word "$2")" "$(word "$3")" "$(word "$4")"
+}
+zero4='\0\0\0\0' zero8='\0\0\0\0\0\0\0\0'
+half='\0\0\0\0\0\0\xe0\x3f' quarter='\0\0\0\0\0\0\xd0\x3f' # float64
+half4='\0\0\0\x3f' quarter4='\0\0\x80\x3e'                 # float32
+minus4='\xff\xff\xff\xff'
+for type in 0 2; do file whole$type.bin "$(header $type 1 2 1)$zero4$zero4"; done
+for type in 1 3; do file whole$type.bin "$(header $type 1 2 1)$zero8$zero8"; done
+for type in 0 1 2 3; do reads '0|0' whole$type.bin; done
+file int32.bin "$(header 0 1 3 3)$(word 1)$zero4$zero4$zero4$minus4$zero4$zero4$zero4$(word 1)"
+file uint64.bin "$(header 3 1 1 3)$zero8$zero8\1\0\0\0\0\0\0\0"
+file uint32.bin "$(header 2 1 1 1)$minus4"
+file float32.bin "$(header 4 1 2 2)$half4$quarter4$quarter4$half4"
+file double.bin "$(header 5 2 1 2)$half$quarter$quarter$half"
+file repeated.bin "$(header 5 2 1 2)$half$quarter$half$quarter"
+file long.bin "$(header 5 1 1 1)$zero8$zero8"
+file short.bin "$(header 5 2 1 1)$zero8"
+file future.bin "$(header 6 1 1 1)$zero8"
+reads '1 0 0|0 -1 0|0 0 1' int32.bin # -1 in a signed type, and not scaled
+reads '0 0 1' uint64.bin
+refuses 'coordinate 4294967295 is outside [0,1)' uint32.bin
+reads '0.5 0.25|0.25 0.5' float32.bin
+reads '0.5 0.25|#|0.25 0.5' double.bin
+refuses 'set 2 repeats set 1;UTK 2.0.1;--select-sets 1;1..2' repeated.bin
+reads '0.5 0.25' --select-sets 1 repeated.bin
+reads '0.5 0.25|#|0.5 0.25' --select-sets 1..2 repeated.bin
+refuses '16 bytes (long double)' long.bin
+refuses 'is truncated' short.bin
+refuses 'type 6' future.bin
+
+# ---- PSA text and GBN
+file psa.txt '2\n0.5 0.25\n0.75 0.125\n'
+file one_line.txt '2 0.5 0.25 0.75 0.125\n'
+file few_lines.txt '3\n0.5 0.25 0.75\n0.125 0 0.5\n'
+file extra.txt '2\n0.5 0.25\n0.75 0.125\n0.9 0.9\n'
+file gbnw.txt '2\n0.5 0.25 3\n0.75 0.125 -1\n'
+file gbn3.txt '2 3\n0.5 0.25 0.125\n0.75 0.125 0\n'
+file gbn1.txt '2 1\n0.5\n0.75\n'
+file gbn_or_point.txt '2 2\n0.5 0.25\n0.75 0.125\n'
+file promised.txt '3\n0.5 0.25\n0.75 0.125\n'
+reads "$square" psa.txt
+reads "$square" --input-format psa-text one_line.txt
+reads "$square|0 0.5" --input-format psa-text --columns xy few_lines.txt
+reads "$square" extra.txt
+reads '0.5 0.25 3|0.75 0.125 -1' --columns xyw gbnw.txt
+reads '0.5 0.25 3|0.75 0.125 -1' --weights column gbnw.txt
+reads "$square" --columns xyw --weights equal gbnw.txt
+reads '0.5 0.25 0.125|0.75 0.125 0' gbn3.txt
+reads '0.5|0.75' gbn1.txt
+reads "$square" gbn_or_point.txt
+reads "$square" --input-format gbn --wrap gbn_or_point.txt
+reads "0 0|$square" --input-format utk-text --wrap gbn_or_point.txt
+refuses 'promises 3 points, and point 3 is not there' promised.txt
+
+# ---- PSA raw, pbrt's binary, EPS
+file points.rps "$half4$quarter4$quarter4$half4"
+cp points.rps stdin.binary
+cp points.rps unnamed
+file odd.rps "$half4$quarter4$half4"
+file points.eps '%!PS-Adobe-3.0 EPSF-3.0\n/p { 0 360 arc fill } def\n500 500 scale\n0.5 0.25 p\n0.75 0.125 p\nshowpage\n'
+reads '0.5 0.25|0.25 0.5' points.rps
+reads '0.5 0.25|#|0.25 0.5' -n 1 points.rps
+reads '0.5|0.25|0.25|0.5' -d 1 points.rps
+reads '0.5 0.25|#|0.25 0.5' -n 1 stdin.binary
+reads '0.5 0.25|0.25 0.5' --input-format rps unnamed
+refuses 'not whole sets of 3' -n 3 points.rps
+refuses 'not whole points' odd.rps
+reads "$square" points.eps
+
+# ---- deepsampling: bare text of 6 decimals, or numpy's %.18e
+file pcf.txt '0.500000 0.250000\n7.500000000000000000e-01 1.250000000000000000e-01\n'
+reads "$square" pcf.txt
+
+# ---- the sphere: P15, Womersley, Sloane
+file random_000001.txt '0 0 1\n0.6 0 0.8\n'
+file printed_000002.txt '0.577350 0.577350 0.577350\n-0.577350 0.577350 -0.577350\n'
+file sf003.00004 '0 0 1\n0.94280904158206336 0 -0.33333333333333333\n'
+file md001.00002 ' 0 0 1 6.2831853071795862\n 0 0 -1 6.2831853071795862\n'
+file des3-12-5.txt '0,0,1\n0.6,0,-0.8\n'
+file longer.txt '0 0 2\n3 0 4\n'
+reads '0 0 1|0.59999999999999998 0 0.80000000000000004' random_000001.txt
+near '0.577350 0.577350 0.577350|-0.577350 0.577350 -0.577350' printed_000002.txt
+near '0.000000 0.000000 1.000000|0.942809 0.000000 -0.333333' sf003.00004
+reads '0 0 1 6.2831853071795862|0 0 -1 6.2831853071795862' md001.00002
+reads '0 0 1|0 0 -1' --weights equal md001.00002
+reads '0 0 1|0.59999999999999998 0 -0.80000000000000004' des3-12-5.txt
+refuses 'line 1;not a unit vector; --normalize-vectors would' --domain sphere longer.txt
+near '0.000000 0.000000 1.000000|0.600000 0.000000 0.800000' --normalize-vectors longer.txt
+refuses 'a unit vector? --wrap is about points of the torus; -d 3' --wrap random_000001.txt
+
+# ---- angles: openquad, Graef, healpix
+npy() { # SHAPE DATA: version 1.0, float64, C order
+    local text="{'descr': '<f8', 'fortran_order': False, 'shape': $1, }"
+    text=$(printf '%-117s' "$text")
+    printf '\\x93NUMPY\\1\\0\\x76\\0%s\\n%s' "$text" "$2"
+}
+eight() { printf '%s' "$1$1$1$1$1$1$1$1"; }
+file gauss.npy "$(npy '(3, 8)' "$(eight "$zero8")$(eight "$zero8")$(eight "$half")")"
+file quad.npy "$(npy '(2, 8)' "$(eight "$half")$(eight "$quarter")")"
+file square.npy "$(npy '(2, 2)' "$half$quarter$quarter$zero8")"
+file torus.npy "$(npy '(1, 2, 2)' "$half$quarter$quarter$zero8")"
+file weighted.npy "$(npy '(2, 3)' "$half$quarter$quarter$zero8$half$half")"
+reads '0 0 1 0.5|0 0 1 0.5|0 0 1 0.5|0 0 1 0.5|0 0 1 0.5|0 0 1 0.5|0 0 1 0.5|0 0 1 0.5' gauss.npy
+reads '0.5 0.25' --select-points 8 --to-columns theta-phi quad.npy
+reads '0.25 0.5' --select-points 8 --to-columns phi-theta quad.npy
+refuses 'points, or rows of angles?;--input-format npy or openquad' square.npy
+reads '0.5 0.25|0.25 0' --input-format npy square.npy
+reads '0.5 0.25|0.25 0' -d 2 square.npy
+reads '0.5 0.25|0.25 0' --domain torus square.npy
+reads '0.5 0.25|0.25 0' --input-format openquad --to-columns theta-phi square.npy
+reads '0.5 0.25|0.25 0' torus.npy
+refuses '--input-format npy or openquad' weighted.npy
+reads '0.5 0.25 0.25|0 0.5 0.5' --columns xyw weighted.npy
+file graef.dat '0 0\n1.5707963267948966 1.5707963267948966\n'
+file healpix.txt '0 90\n90 0\n180 0\n270 -90\n'
+refuses '2 columns; which angles are they?;theta-phi, phi-theta or lon-lat' --domain sphere graef.dat
+near '0.000000 0.000000 1.000000|0.000000 1.000000 0.000000' --columns phi-theta graef.dat
+reads '0 0|1.5707963267948966 1.5707963267948966' --columns phi-theta --to-columns theta-phi graef.dat
+near '0.000000 0.000000 1.000000|0.000000 1.000000 0.000000|-1.000000 0.000000 0.000000|0.000000 0.000000 -1.000000' \
+    --columns lon-lat healpix.txt
+refuses 'line 3: 180, 0 are not theta (0 to pi)' --columns theta-phi <(sed '1,2s/.*/0 0/' healpix.txt) -o none
+refuses 'coordinate 90 is outside [0,1)' healpix.txt
+
+# ---- UTK edat: corners of the domain in front
+file corners.edat '-1 -1\n1 1\n0 -0.5\n0.5 -0.75\n'
+file weights.edat '0 0\n1 1\n0.5 0.25 0.5\n0.75 0.125 0.25\n'
+file wrong.edat '1 1\n0 0\n0.5 0.25\n'
+reads "$square" corners.edat
+reads '0.5 0.25 0.5|0.75 0.125 0.25' weights.edat
+reads "$square" --weights equal weights.edat
+refuses 'enclose nothing' wrong.edat
+
+# ---- what is nothing of all that
+file picture.txt 'GIF89a\1\0\n'
+cp utk.dat text.bin
+cp double.bin double.npy
+refuses 'neither text nor begins like a format that is known;--input-format rps' picture.txt
+refuses 'ends in .bin, but does not begin like utk-binary;--input-format' text.bin
+reads "$square" --input-format utk-text text.bin
+reads '0.5 0.25|#|0.25 0.5' double.npy # what it begins with counts, not its name
+gzip -c utk.dat | head -c 20 >cut.gz
+refuses 'cut.gz' cut.gz
+printf 'x' | gzip -c >word.gz
+refuses '"x" is not a number' word.gz
+
+echo "cli_formats: $checked conversions"
+exit $bad
