@@ -51,6 +51,7 @@ printf '0.1 0.2\ninf 0.4\n' >"$in/inf.txt"
 printf '0.1 0.2\n0.3 0.4 0.5\n' >"$in/columns.txt"
 printf '0.1 0.2\n1.5 0.4\n' >"$in/outside.txt"
 printf '0.1 0.2 1\n0.3 0.4 -1\n' >"$in/balanced.txt"
+printf '0.6 0 -0.8\n0 0 1\n' >"$in/sphere.txt"
 printf '0.1 0.2\n0.3 x\n' >"$in/word.txt"
 printf '\x89PNG\r\n\x1a\n\x00\x00' >"$in/picture.txt"
 printf '1 2\n3 4.5\n' >"$in/vectors.txt"
@@ -132,7 +133,13 @@ fi
 
 # ---- requests that do not fit together, or cannot be met
 power 2 '--sampler' --sampler white "$in/good.txt"
-power 2 '--points' -n 5 "$in/good.txt"
+power 2 'set 1 has 2 points, but -n asks for 5' -n 5 "$in/good.txt"
+power 2 'it says how point files are read' --columns xy --sampler white
+power 2 'holds 1 set; set 2 is asked for' --select-sets 2 "$in/good.txt"
+power 2 'Points of the torus are meant here' "$in/sphere.txt"
+power 2 'a unit vector?' --wrap "$in/sphere.txt"
+power 2 'columns theta-phi are points of the sphere; this is about the torus' --columns theta-phi "$in/good.txt"
+power 2 '2 columns, but xyw means 3' --columns xyw "$in/good.txt"
 power 2 '--weights column' --weights column --sampler white
 power 2 'nearest is torus_direct' --sampler white --engine torus_drect
 refuses 2 'vectors.txt' power --frequencies "$in/vectors.txt" "$in/good.txt"

@@ -77,6 +77,35 @@ grep -v '^# ' out | cmp -s - from_npy || complain "UTK text and NPY have differe
     ASAN_OPTIONS=${ASAN_OPTIONS-}:detect_leaks=0 "$program" power -k 4 --no-self-check - |
     grep -v '^# ' | cmp -s - from_npy || complain "standard input has another spectrum"
 
+# ---- weights of files: named by --columns, dropped by --weights equal; the header tells what was read
+printf '0.5 0.25 2\n0.75 0.5 1\n' >weighted.txt
+printf '0.5 0.25\n0.75 0.5\n' >plain.txt
+spectrum() { # ARGS...: rows of the table
+    quietly power -k 4 --engine host_direct "$@"
+    grep -v '^# ' out
+}
+spectrum --columns xyw weighted.txt >by_columns
+grep -q '^# input_columns: xyw$' out || complain "columns in the header: $(grep input_ out)"
+spectrum --weights column weighted.txt | cmp -s - by_columns || complain "--columns xyw drops weights"
+spectrum plain.txt >without
+cmp -s by_columns without && complain "weights change nothing"
+spectrum --columns xyw --weights equal weighted.txt | cmp -s - without ||
+    complain "--weights equal keeps the weights of the file"
+printf '2\n1\n' >list.txt
+spectrum --weights list.txt plain.txt | cmp -s - by_columns || complain "--weights FILE"
+spectrum --columns xyw --weights list.txt weighted.txt | cmp -s - by_columns ||
+    complain "--weights FILE beside a column"
+
+# ---- float32 pairs, as many as -n says; some of the sets
+quietly sample --sampler white -n 64 -m 3 --format rps -o three.rps --quiet
+quietly convert -n 64 three.rps -o three.txt
+spectrum three.txt >of_text
+spectrum -n 64 three.rps | cmp -s - of_text || complain "-n of rps"
+grep -q '^# realizations: 3$' out || complain "-n of rps: $(grep realizations out)"
+quietly convert --select-sets 2.. three.txt -o two.txt
+spectrum two.txt >of_two
+spectrum -n 64 --select-sets 2.. three.rps | cmp -s - of_two || complain "--select-sets"
+
 # ---- devices, and POINTSPEC_DEVICE as the default of --device
 quietly devices
 grep -q '^index,default,name,type,' out || complain "columns of devices"

@@ -209,13 +209,62 @@ static void words_are_checked(void **state) {
         {"--format cs", "--format: \"cs\" is not one of csv, json, npy"},
         {"--format csv|json", "--format: \"csv|json\" is not one of csv, json, npy"},
         {"--format=", "--format: \"\" is not one of csv, json, npy"},
-        {"--input-format exr", "--input-format: \"exr\" is not one of utk-text, csv, psa-text, "
-                               "gbn, edat, eps, utk-binary, rps, npy, openquad"},
+        {"--input-format exr",
+         "--input-format: \"exr\" is not one of utk-text, csv, psa-text, gbn, "
+         "edat, eps, utk-binary, rps, npy, openquad"},
+        {"--to-columns xy", "--to-columns: \"xy\" is not one of xyz, xyzw, theta-phi, theta-phi-w, "
+                            "phi-theta, phi-theta-w, lon-lat, lon-lat-w"},
+        {"--domain plane", "--domain: \"plane\" is not one of torus, sphere"},
     };
     static const bad_line bad_small[] = {
         {"--format csv", "--format: \"csv\" is not one of utk-text, npy"}};
     must_refuse(&large, bad, sizeof bad / sizeof bad[0]);
     must_refuse(&small, bad_small, 1);
+}
+
+static void ranges_have_ends(void **state) {
+    (void)state;
+    static const struct {
+        const char *text;
+        uint64_t first, last;
+    } good[] = {{"3..7", 3, 7},
+                {"3", 3, 3},
+                {"3..", 3, UINT64_MAX},
+                {"..7", 1, 7},
+                {"1e3..2e3", 1000, 2000}};
+    for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
+        line l;
+        char text[64];
+        snprintf(text, sizeof text, "--select-sets %s --select-points=%s", good[i].text,
+                 good[i].text);
+        must_parse(&l, text);
+        assert_int_equal(l.arguments.sets.first, good[i].first);
+        assert_int_equal(l.arguments.sets.last, good[i].last);
+        assert_int_equal(l.arguments.points.first, good[i].first);
+        assert_int_equal(l.arguments.points.last, good[i].last);
+    }
+    static const bad_line bad[] = {
+        {"--select-sets ..", "--select-sets: \"..\" says neither end: A..B, or A, A.., ..B"},
+        {"--select-sets=", "--select-sets: \"\" says neither end: A..B, or A, A.., ..B"},
+        {"--select-points 7..3", "--select-points: \"7..3\": the first number is the larger one"},
+        {"--select-points 0..3", "points: 0 is not between 1 and 18446744073709551614"},
+        {"--select-points 1..2..3", "points: \"2..3\" is not a whole number"},
+        {"--select-points 1-3", "points: \"1-3\" is not a whole number"},
+    };
+    must_refuse(&large, bad, sizeof bad / sizeof bad[0]);
+}
+
+static void weights_are_words_where_no_file_is_taken(void **state) {
+    (void)state;
+    static const ps_option_id options[] = {PS_OPTION_WEIGHTS, PS_NUM_OPTIONS};
+    static const ps_command words_only = {
+        .name = "words", .options = options, .weights = "equal|column"};
+    static const bad_line bad[] = {
+        {"--weights file.txt", "--weights: \"file.txt\" is not one of equal, column"}};
+    line l;
+    must_refuse(&words_only, bad, 1);
+    must_parse(&l, "--weights file.txt");
+    assert_string_equal(l.arguments.weights, "file.txt");
 }
 
 static void unknown_options_name_the_nearest(void **state) {
@@ -283,6 +332,8 @@ int main(void) {
         cmocka_unit_test(help_ends_the_line),
         cmocka_unit_test(numbers_have_limits),
         cmocka_unit_test(words_are_checked),
+        cmocka_unit_test(ranges_have_ends),
+        cmocka_unit_test(weights_are_words_where_no_file_is_taken),
         cmocka_unit_test(unknown_options_name_the_nearest),
         cmocka_unit_test(missing_values_are_said),
         cmocka_unit_test(many_samplers_fit_and_one_more_does_not),
