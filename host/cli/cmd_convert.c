@@ -88,6 +88,7 @@ const ps_command ps_command_convert = {
     .formats = PS_POINT_FORMATS,
     .weights = "equal|column",
     .examples = {"pointspec sample --sampler white -n 64 -m 3 | pointspec convert - -o sets.npy",
-                 "printf '0.5,0.25\\n0.75,0.125\\n' | pointspec convert --input-format csv -"},
+                 "pointspec sample --sampler halton -n 8 | pointspec convert --select-points 2.. "
+                 "--format csv -"},
     .run = run,
 };
