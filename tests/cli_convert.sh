@@ -184,6 +184,7 @@ refuses 'the first number is the larger one' --select-sets 3..2 three.txt
 refuses 'set 1 has 4 points, but -n asks for 5' -n 5 three.txt
 refuses 'set 1 has 4 points, but -n asks for 3' -n 3 three.txt -o out.txt
 refuses 'nothing to convert' --merge
+refuses 'gzip is read, but not written' three.txt -o out.txt.gz
 refuses 'are the same file' three.txt -o ./three.txt
 refuses 'eps holds one set per file, and there are more; --select-sets takes one, --merge' \
     three.txt -o out.eps
