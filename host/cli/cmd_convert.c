@@ -1,6 +1,7 @@
 /* pointspec convert: point files into another format, block by block. */
 #include "cli/command.h"
 #include "cli/output_check.h"
+#include "cli/question.h"
 #include "job/convert.h"
 
 #include <string.h>
@@ -25,22 +26,6 @@ static ps_progress *begin_progress(const ps_arguments *arguments, const char *pa
     return shares_terminal ? NULL : ps_progress_begin(arguments, "points");
 }
 
-static ps_point_options read_options(const ps_arguments *arguments) {
-    const char *const weights = arguments->weights;
-    return (ps_point_options){
-        .format = arguments->input_format,
-        .columns = arguments->columns,
-        .dimension = arguments->is_given[PS_OPTION_DIMENSION] ? arguments->dimension : 0,
-        .points_per_set = arguments->is_given[PS_OPTION_POINTS] ? (size_t)arguments->num_points : 0,
-        .sets = arguments->sets,
-        .domain = arguments->domain,
-        .weight_column = weights != NULL && strcmp(weights, "column") == 0,
-        .ignore_weights = weights != NULL && strcmp(weights, "equal") == 0,
-        .wrap = arguments->wrap,
-        .normalize_vectors = arguments->normalize_vectors,
-    };
-}
-
 static pspec_status run(const ps_arguments *arguments, ps_error *error) {
     const char *const output = arguments->output != NULL ? arguments->output : "-";
     ps_text loss = {0};
@@ -49,7 +34,7 @@ static pspec_status run(const ps_arguments *arguments, ps_error *error) {
     const ps_conversion conversion = {
         .paths = arguments->files,
         .num_paths = arguments->num_files,
-        .options = read_options(arguments),
+        .options = ps_point_options_make(arguments),
         .points = arguments->points,
         .merge = arguments->merge,
         .output = output,

@@ -1,214 +1,19 @@
 #include "cli/options.h"
 
 #include "base/text.h"
+#include "cli/option_setters.h"
 #include "engines/frequencies.h"
 #include "io/points.h"
 
-#include <float.h>
 #include <string.h>
-
-/* ---- setters ------------------------------------------------------------------------------- */
-
-static void *find_field(const ps_option *option, ps_arguments *arguments) {
-    return (char *)arguments + option->offset;
-}
-
-static pspec_status set_flag(const ps_option *option, const char *words, const char *value,
-                             ps_arguments *arguments, ps_error *error) {
-    (void)words, (void)value, (void)error;
-    bool *const field = find_field(option, arguments);
-    *field = true;
-    return PSPEC_OK;
-}
-
-static pspec_status set_text(const ps_option *option, const char *words, const char *value,
-                             ps_arguments *arguments, ps_error *error) {
-    (void)words, (void)error;
-    const char **const field = find_field(option, arguments);
-    *field = value;
-    return PSPEC_OK;
-}
-
-static pspec_status set_nothing(const ps_option *option, const char *words, const char *value,
-                                ps_arguments *arguments, ps_error *error) {
-    (void)option, (void)words, (void)value, (void)arguments, (void)error;
-    return PSPEC_OK;
-}
-
-static pspec_status set_count(const ps_option *option, const char *words, const char *value,
-                              ps_arguments *arguments, ps_error *error) {
-    (void)words;
-    return ps_parse_count(value, option->what, option->minimum, option->maximum,
-                          find_field(option, arguments), error);
-}
-
-/* One end of a range; an empty text leaves *out as it is. */
-static pspec_status parse_end(const ps_option *option, const char *text, size_t length,
-                              uint64_t *out, ps_error *error) {
-    enum { MOST_DIGITS = 31 };
-    char number[MOST_DIGITS + 1];
-    snprintf(number, sizeof number, "%.*s", (int)(length < MOST_DIGITS ? length : MOST_DIGITS),
-             text);
-    return length == 0 ? PSPEC_OK
-                       : ps_parse_count(number, option->what, 1, UINT64_MAX - 1, out, error);
-}
-
-/* "A..B", "A", "A.." or "..B" */
-static pspec_status set_range(const ps_option *option, const char *words, const char *value,
-                              ps_arguments *arguments, ps_error *error) {
-    static const char dots[] = "..";
-    ps_point_range *const field = find_field(option, arguments);
-    ps_point_range range = {1, UINT64_MAX};
-    const char *const middle = strstr(value, dots);
-    const char *const last = middle != NULL ? middle + sizeof dots - 1 : value;
-    const size_t first_length = middle != NULL ? (size_t)(middle - value) : strlen(value);
-    if (first_length + strlen(last) == 0) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "--%s: \"%s\" says neither end: %s, or A, A.., ..B", option->name, value,
-                       words);
-    }
-    PS_TRY(parse_end(option, value, first_length, &range.first, error));
-    PS_TRY(parse_end(option, last, strlen(last), &range.last, error));
-    if (range.first > range.last) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "--%s: \"%s\": the first number is the larger one", option->name, value);
-    }
-    *field = range;
-    return PSPEC_OK;
-}
-
-static pspec_status set_dimension(const ps_option *option, const char *words, const char *value,
-                                  ps_arguments *arguments, ps_error *error) {
-    uint64_t count = 0;
-    (void)words;
-    PS_TRY(ps_parse_count(value, option->what, option->minimum, option->maximum, &count, error));
-    arguments->dimension = (unsigned)count;
-    return PSPEC_OK;
-}
-
-static pspec_status set_max_frequency(const ps_option *option, const char *words, const char *value,
-                                      ps_arguments *arguments, ps_error *error) {
-    uint64_t count = 0;
-    (void)words;
-    PS_TRY(ps_parse_count(value, option->what, option->minimum, option->maximum, &count, error));
-    arguments->max_frequency = (int32_t)count;
-    return PSPEC_OK;
-}
-
-/* A number above 0, up to maximum. */
-static pspec_status parse_positive(const ps_option *option, const char *value, double maximum,
-                                   double *out, ps_error *error) {
-    double number = 0;
-    PS_TRY(ps_parse_number(value, option->what, -DBL_MAX, DBL_MAX, &number, error));
-    if (number <= 0 || number > maximum) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: %s is not above 0%s", option->what,
-                       value, maximum < DBL_MAX ? " and at most 1" : "");
-    }
-    *out = number;
-    return PSPEC_OK;
-}
-
-static pspec_status set_tolerance(const ps_option *option, const char *words, const char *value,
-                                  ps_arguments *arguments, ps_error *error) {
-    (void)words;
-    return parse_positive(option, value, 1, &arguments->tolerance, error);
-}
-
-static pspec_status set_floor(const ps_option *option, const char *words, const char *value,
-                              ps_arguments *arguments, ps_error *error) {
-    (void)words;
-    return parse_positive(option, value, DBL_MAX, &arguments->floor, error);
-}
-
-static pspec_status add_sampler(const ps_option *option, const char *words, const char *value,
-                                ps_arguments *arguments, ps_error *error) {
-    (void)option, (void)words;
-    if (arguments->num_samplers == PS_MAX_SAMPLERS) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "more than %d samplers",
-                       PS_MAX_SAMPLERS);
-    }
-    arguments->samplers[arguments->num_samplers++] = value;
-    return PSPEC_OK;
-}
-
-/* ---- values that are one of a few words ---------------------------------------------------- */
-
-static pspec_status fail_word(const ps_option *option, const char *words, const char *value,
-                              ps_error *error) {
-    ps_text list = {0};
-    for (const char *word = words; *word != '\0';) {
-        const size_t length = strcspn(word, "|");
-        ps_text_append(&list, "%s%.*s", word == words ? "" : ", ", (int)length, word);
-        word += length + (word[length] == '|');
-    }
-    ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "--%s: \"%s\" is not one of %s", option->name,
-            value, ps_text_string(&list));
-    ps_text_free(&list);
-    return PSPEC_ERROR_INVALID_ARGUMENT;
-}
-
-/* Number of value among words, "one|two|three". */
-static pspec_status find_word(const ps_option *option, const char *words, const char *value,
-                              int *index, ps_error *error) {
-    *index = 0;
-    for (const char *word = words; *word != '\0';) {
-        const size_t length = strcspn(word, "|");
-        if (strlen(value) == length && strncmp(value, word, length) == 0) {
-            return PSPEC_OK;
-        }
-        word += length + (word[length] == '|');
-        ++*index;
-    }
-    return fail_word(option, words, value, error);
-}
-
-static pspec_status set_word(const ps_option *option, const char *words, const char *value,
-                             ps_arguments *arguments, ps_error *error) {
-    int index = 0;
-    PS_TRY(find_word(option, words, value, &index, error));
-    return set_text(option, words, value, arguments, error);
-}
-
-/* One of the words, or the name of a file where FILE is one of them. */
-static pspec_status set_weights(const ps_option *option, const char *words, const char *value,
-                                ps_arguments *arguments, ps_error *error) {
-    return strstr(words, "FILE") != NULL ? set_text(option, words, value, arguments, error)
-                                         : set_word(option, words, value, arguments, error);
-}
-
-/* The words stand in the order of ps_domain. */
-static pspec_status set_domain(const ps_option *option, const char *words, const char *value,
-                               ps_arguments *arguments, ps_error *error) {
-    int index = 0;
-    PS_TRY(find_word(option, words, value, &index, error));
-    arguments->domain = (ps_domain)index;
-    return PSPEC_OK;
-}
-
-static pspec_status set_normalize(const ps_option *option, const char *words, const char *value,
-                                  ps_arguments *arguments, ps_error *error) {
-    int index = 0;
-    PS_TRY(find_word(option, words, value, &index, error));
-    arguments->effective = index == 1;
-    return PSPEC_OK;
-}
-
-/* The words after "auto" stand in the order of ps_precision. */
-static pspec_status set_precision(const ps_option *option, const char *words, const char *value,
-                                  ps_arguments *arguments, ps_error *error) {
-    int index = 0;
-    PS_TRY(find_word(option, words, value, &index, error));
-    arguments->precision = index - 1;
-    return PSPEC_OK;
-}
 
 /* ---- the table ----------------------------------------------------------------------------- */
 
-#define FLAG(field) .set = set_flag, .offset = offsetof(ps_arguments, field)
-#define TEXT(field) .set = set_text, .offset = offsetof(ps_arguments, field)
-#define WORD(field) .set = set_word, .offset = offsetof(ps_arguments, field)
-#define RANGE(field) .set = set_range, .offset = offsetof(ps_arguments, field)
-#define COUNT(field) .set = set_count, .offset = offsetof(ps_arguments, field)
+#define FLAG(field) .set = ps_set_flag, .offset = offsetof(ps_arguments, field)
+#define TEXT(field) .set = ps_set_text, .offset = offsetof(ps_arguments, field)
+#define WORD(field) .set = ps_set_word, .offset = offsetof(ps_arguments, field)
+#define RANGE(field) .set = ps_set_range, .offset = offsetof(ps_arguments, field)
+#define COUNT(field) .set = ps_set_count, .offset = offsetof(ps_arguments, field)
 
 /* 10^10 points of the plane are 160 GB. */
 #define MOST_POINTS UINT64_C(10000000000)
@@ -238,7 +43,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                              .name = "dimension",
                              .metavar = "D",
                              .help = "dimension, 1 to 6 (default 2; of files: what they have)",
-                             .set = set_dimension,
+                             .set = ps_set_dimension,
                              .what = "dimension",
                              .minimum = 1,
                              .maximum = PS_MAX_DIMENSION},
@@ -253,13 +58,13 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_SAMPLER] = {.name = "sampler",
                            .metavar = "NAME[:key=value,...]",
                            .help = "what makes the points; the names are below",
-                           .set = add_sampler},
+                           .set = ps_add_sampler},
     [PS_OPTION_MAX_FREQUENCY] = {.letter = 'k',
                                  .name = "max-frequency",
                                  .metavar = "K",
                                  .help = "frequencies -K..K on every axis, rings 1..K (default "
                                          "ceil(5 N^(1/d)) for d <= 3)",
-                                 .set = set_max_frequency,
+                                 .set = ps_set_max_frequency,
                                  .what = "max frequency",
                                  .minimum = 1,
                                  .maximum = PS_MAX_FREQUENCY},
@@ -278,7 +83,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_NORMALIZE] = {.name = "normalize",
                              .metavar = "power|effective",
                              .help = "N |S|^2 / W^2, or |S|^2 / sum w^2 (default power)",
-                             .set = set_normalize},
+                             .set = ps_set_normalize},
     [PS_OPTION_HOMOGENIZE] = {.name = "homogenize",
                               .help = "shift every realization by one random vector, mod 1",
                               FLAG(homogenize)},
@@ -287,7 +92,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                            .help = "equal: all 1, weights of the files are dropped; column: the "
                                    "last one of the files (default: those that "
                                    "--columns names, else all 1)",
-                           .set = set_weights,
+                           .set = ps_set_weights,
                            .offset = offsetof(ps_arguments, weights)},
     [PS_OPTION_INPUT_FORMAT] = {.name = "input-format",
                                 .metavar = PS_POINT_FORMATS,
@@ -302,7 +107,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_DOMAIN] = {.name = "domain",
                           .metavar = "torus|sphere",
                           .help = "where the points lie (default: found out)",
-                          .set = set_domain},
+                          .set = ps_set_domain},
     [PS_OPTION_WRAP] = {.name = "wrap",
                         .help = "reduce coordinates outside [0,1) mod 1 instead of refusing them",
                         FLAG(wrap)},
@@ -332,18 +137,18 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                              .metavar = "T",
                              .help = "largest error of S relative to white noise, above 0 and at "
                                      "most 1 (default 1e-6)",
-                             .set = set_tolerance,
+                             .set = ps_set_tolerance,
                              .what = "tolerance"},
     [PS_OPTION_FLOOR] = {.name = "floor",
                          .metavar = "P",
                          .help = "powers down to P are right to 10 %",
-                         .set = set_floor,
+                         .set = ps_set_floor,
                          .what = "floor"},
     [PS_OPTION_PRECISION] = {.name = "precision",
                              .metavar = "auto|single|double|extended",
                              .help = "arithmetic of the engine (default auto: the cheapest that "
                                      "meets the tolerance)",
-                             .set = set_precision},
+                             .set = ps_set_precision},
     [PS_OPTION_ENGINE] = {.name = "engine",
                           .metavar = "NAME",
                           .help = "this engine; pointspec plan lists them (default: the cheapest)",
@@ -382,7 +187,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_VERBOSE] = {.name = "verbose",
                            .help = "say on standard error what is being done",
                            FLAG(verbose)},
-    [PS_OPTION_HELP] = {.letter = 'h', .name = "help", .help = "this text", .set = set_nothing},
+    [PS_OPTION_HELP] = {.letter = 'h', .name = "help", .help = "this text", .set = ps_set_nothing},
 };
 
 /* ---- what a command takes ------------------------------------------------------------------ */

@@ -70,23 +70,32 @@ static pspec_status check_results(const ps_arguments *arguments, ps_error *error
 }
 
 /* Weights of the files are used where their columns name them, unless others are given. */
-static void fill_points(ps_power_question *question, const ps_arguments *arguments) {
-    const char *weights = arguments->weights;
+ps_point_options ps_point_options_make(const ps_arguments *arguments) {
+    const char *const weights = arguments->weights;
     const bool is_column = weights != NULL && strcmp(weights, "column") == 0;
-    const bool is_word = is_column || weights == NULL || strcmp(weights, "equal") == 0;
-    question->paths = arguments->files;
-    question->num_paths = arguments->num_files;
-    question->weights_path = is_word ? NULL : weights;
-    question->point_options = (ps_point_options){
+    return (ps_point_options){
         .format = arguments->input_format,
         .columns = arguments->columns,
         .dimension = arguments->is_given[PS_OPTION_DIMENSION] ? arguments->dimension : 0,
         .points_per_set = arguments->is_given[PS_OPTION_POINTS] ? (size_t)arguments->num_points : 0,
         .sets = arguments->sets,
+        .domain = arguments->domain,
         .weight_column = is_column,
         .ignore_weights = weights != NULL && !is_column,
         .wrap = arguments->wrap,
+        .normalize_vectors = arguments->normalize_vectors,
     };
+}
+
+static void fill_points(ps_power_question *question, const ps_arguments *arguments) {
+    const char *const weights = arguments->weights;
+    const bool is_word =
+        weights == NULL || strcmp(weights, "column") == 0 || strcmp(weights, "equal") == 0;
+    question->paths = arguments->files;
+    question->num_paths = arguments->num_files;
+    question->weights_path = is_word ? NULL : weights;
+    question->point_options = ps_point_options_make(arguments);
+    question->point_options.domain = PS_DOMAIN_TORUS;
 }
 
 static ps_power_question make_question(const ps_arguments *arguments) {
