@@ -7,7 +7,6 @@ program=$(realpath "$1")
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cd "$scratch"
-export ASAN_OPTIONS=${ASAN_OPTIONS-}:detect_leaks=0 # other tests' business
 
 checked=0 bad=0
 complain() { # LINE...

@@ -78,6 +78,7 @@ grep -v '^# ' out | cmp -s - from_npy || complain "UTK text and NPY have differe
     grep -v '^# ' | cmp -s - from_npy || complain "standard input has another spectrum"
 
 # ---- weights of files: named by --columns, dropped by --weights equal; the header tells what was read
+quietly sample --sampler white -n 2 -m 3 -o three.npy
 printf '0.5 0.25 2\n0.75 0.5 1\n' >weighted.txt
 printf '0.5 0.25\n0.75 0.5\n' >plain.txt
 spectrum() { # ARGS...: rows of the table
@@ -91,6 +92,8 @@ spectrum plain.txt >without
 cmp -s by_columns without && complain "weights change nothing"
 spectrum --columns xyw --weights equal weighted.txt | cmp -s - without ||
     complain "--weights equal keeps the weights of the file"
+quietly power -k 4 --engine host_direct plain.txt three.npy plain.txt
+grep -q '^# input_format: utk-text, npy$' out || complain "formats in the header: $(grep input_ out)"
 printf '2\n1\n' >list.txt
 spectrum --weights list.txt plain.txt | cmp -s - by_columns || complain "--weights FILE"
 spectrum --columns xyw --weights list.txt weighted.txt | cmp -s - by_columns ||

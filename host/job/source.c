@@ -1,6 +1,7 @@
 #include "job/source.h"
 
 #include "base/memory.h"
+#include "base/text.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -14,14 +15,13 @@ struct ps_source {
     size_t num_paths, next_path;
     const ps_point_options *options;
     ps_point_reader *reader;
-    const char *format, *columns;
+    ps_text formats, columns; /* of the files read so far, each once */
 };
 
 static pspec_status create(ps_source **out, ps_error *error) {
     void *memory = NULL;
     PS_TRY(ps_allocate(&memory, 1, sizeof(ps_source), "a source of points", error));
     *out = memory;
-    (*out)->format = (*out)->columns = "";
     return PSPEC_OK;
 }
 
@@ -64,6 +64,21 @@ static pspec_status next_sample(ps_source *source, ps_point_set *set, bool *has_
     return ps_sampler_generate(request, source->next_realization++, set->points, error);
 }
 
+/* Appends a name to a list unless it is there. */
+static void add_name(ps_text *list, const char *name) {
+    static const char separator[] = ", ";
+    const size_t length = strlen(name);
+    for (const char *word = ps_text_string(list); *word != '\0';) {
+        const char *const end = strstr(word, separator);
+        const size_t word_length = end != NULL ? (size_t)(end - word) : strlen(word);
+        if (word_length == length && strncmp(word, name, length) == 0) {
+            return;
+        }
+        word += word_length + (end != NULL ? sizeof separator - 1 : 0);
+    }
+    ps_text_append(list, "%s%s", list->length > 0 && length > 0 ? separator : "", name);
+}
+
 static pspec_status next_from_files(ps_source *source, ps_point_set *set, bool *has_set,
                                     ps_error *error) {
     *has_set = false;
@@ -74,10 +89,10 @@ static pspec_status next_from_files(ps_source *source, ps_point_set *set, bool *
             }
             PS_TRY(ps_points_open(&source->reader, source->paths[source->next_path++],
                                   source->options, error));
-            source->format = ps_points_format(source->reader);
+            add_name(&source->formats, ps_points_format(source->reader));
         }
         PS_TRY(ps_points_next(source->reader, set, has_set, error));
-        source->columns = ps_points_columns(source->reader);
+        add_name(&source->columns, ps_points_columns(source->reader));
         if (!*has_set) {
             ps_points_close(source->reader);
             source->reader = NULL;
@@ -112,16 +127,18 @@ pspec_status ps_source_rewind(ps_source *source, ps_error *error) {
 }
 
 const char *ps_source_format(const ps_source *source) {
-    return source->format;
+    return ps_text_string(&source->formats);
 }
 
 const char *ps_source_columns(const ps_source *source) {
-    return source->columns;
+    return ps_text_string(&source->columns);
 }
 
 void ps_source_destroy(ps_source *source) {
     if (source != NULL) {
         ps_points_close(source->reader);
+        ps_text_free(&source->formats);
+        ps_text_free(&source->columns);
         free(source);
     }
 }
