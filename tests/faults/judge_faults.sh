@@ -1,0 +1,105 @@
+#!/usr/bin/env bash
+# judge_faults.sh NAME:CLASS:NUMBER[+]...: runs the command line NAME with each of these faults and prints
+# one line for each: NAME CLASS VERDICT FUNCTION REMARK. Started by run_faults.sh, which sets FAULTS_PROGRAM and
+# FAULTS_SCRATCH and has written, for every command line, cases/NAME/{words,stdin,things,expected/}.
+set -euo pipefail
+run=$FAULTS_SCRATCH/run.$$ initial=$FAULTS_SCRATCH/initial
+trap 'rm -rf "$run"' EXIT
+is_clean=no # the folder of the run is as it was before any
+
+reset() {
+    rm -rf "$run"
+    mkdir "$run"
+    cp -r "$initial" "$run/work"
+    is_clean=yes
+}
+
+# Runs the program; sets code, failed, leaks, and said, the lines on standard error.
+run_program() { # CASE FAULT
+    local key value words
+    mapfile -t words <"$1/words"
+    code=0 failed=none leaks=
+    rm -f "$run/report"
+    (cd "$run/work" &&
+        POINTSPEC_FAULT=$2 POINTSPEC_FAULT_REPORT=$run/report \
+            exec timeout 60 "$FAULTS_PROGRAM" "${words[@]}" <"$(<"$1/stdin")" \
+            >"$run/stdout" 2>"$run/stderr") || code=$?
+    mapfile -t said <"$run/stderr"
+    [[ -f $run/report ]] || return 0
+    while read -r key value; do
+        case $key in
+        failed) failed=$value ;;
+        leak) leaks+=" $value" ;;
+        unknown) leaks+=" (freed but never taken: $value)" ;;
+        esac
+    done <"$run/report"
+}
+
+# An output is what it was or complete. Sets remark to what is not.
+check_outputs() { # CASE
+    local file name
+    remark=
+    diff -rq "$run/work" "$initial" >/dev/null && return
+    is_clean=no
+    for file in "$run"/work/* "$run"/work/.pointspec-*; do
+        name=${file##*/}
+        [[ -e $file ]] || continue
+        cmp -s "$file" "$initial/$name" || cmp -s "$file" "$1/expected/work/$name" ||
+            remark="left behind or spoilt: $name"
+    done
+    for file in "$initial"/*; do
+        [[ -e $run/work/${file##*/} ]] || remark="lost: ${file##*/}"
+    done
+}
+
+# What the one sentence must say. Sets remark to what is wrong with it.
+check_sentence() { # CASE CLASS
+    local last=${said[-1]-} things
+    local -i sentences=0
+    things=$(<"$1/things")
+    remark=
+    for line in "${said[@]}"; do [[ $line != pointspec* ]] || sentences+=1; done
+    if ((sentences != 1)) || [[ $last != pointspec*:* ]]; then
+        remark="not one sentence"
+    elif ((${#said[@]} > 1)) && [[ ! -s $1/expected.stderr ]]; then
+        remark="more than the sentence"
+    fi
+    case $2 in
+    memory) [[ ${last,,} == *memory* ]] || remark="does not speak of memory" ;;
+    file) [[ $last =~ (cannot (read|write|create|run)|could not draw).*($things) ]] ||
+        remark="does not name the file" ;;
+    opencl) [[ $last == *"$failed failed: CL_"* ]] || remark="does not name the call and the error" ;;
+    esac
+}
+
+judge() { # NAME CLASS NUMBER[+]
+    local case=$FAULTS_SCRATCH/cases/$1
+    [[ $is_clean == yes ]] || reset
+    run_program "$case" "$2:$3"
+    verdict=refused
+    if [[ ! -f $run/report ]]; then
+        remark="crash or time-out"
+    elif [[ $failed == none ]]; then
+        remark="the call did not come"
+    elif [[ -n $leaks ]]; then
+        remark="leaks:$leaks"
+    elif [[ $code == 0 ]]; then
+        verdict=tolerated is_clean=no remark=
+        # A temporary file that cannot be removed stays; the sentence of a failure would have said so.
+        [[ $failed != unlink ]] || rm -f "$run"/work/.pointspec-*
+        diff -rq "$run/work" "$case/expected/work" >/dev/null &&
+            cmp -s "$run/stdout" "$case/expected/stdout" || remark="exit 0 with another output"
+    elif [[ $code != 1 ]]; then
+        remark="exit $code"
+    else
+        check_outputs "$case"
+        [[ -n $remark ]] || check_sentence "$case" "$2"
+    fi
+    [[ -z $remark ]] || is_clean=no verdict=FAILED remark+="; exit $code: ${said[*]-}"
+    printf '%s %s %s %s %s: %s\n' "$1" "$2" "$verdict" "$failed" "$3" "$remark"
+}
+
+for fault in "$@"; do
+    IFS=: read -r name class number <<<"$fault"
+    judge "$name" "$class" "$number"
+done

@@ -1,0 +1,131 @@
+#!/usr/bin/env bash
+# run_faults.sh PROGRAM [--sample N] [--only NAME] [--table]: makes the allocations, file calls and OpenCL calls
+# of every command line of commands.txt fail one by one, and judges what the program does then (see
+# docs/reliability.md). PROGRAM is pointspec_faults. --sample takes about N faults, evenly; --table prints
+# the table of docs/reliability.md.
+set -euo pipefail
+here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
+program=$(realpath "$1")
+shift
+sample=0 only='' wants_table=no
+while (($#)); do
+    case $1 in
+    --sample) sample=$2 && shift ;;
+    --only) only=$2 && shift ;;
+    --table) wants_table=yes ;;
+    *) sed -n '2,5s/^# //p' "$0" >&2 && exit 2 ;;
+    esac
+    shift
+done
+# All calls after the first that fails, too, for every 5th of them: what tidies up fails as well.
+every_lasting=5
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+export FAULTS_PROGRAM=$program FAULTS_SCRATCH=$scratch
+# The program's own table of what is outstanding tells leaks; the sanitizer's tracer trips over PoCL.
+export ASAN_OPTIONS=${ASAN_OPTIONS-}:detect_leaks=0:allocator_may_return_null=1
+unset POINTSPEC_FAULT POINTSPEC_FAULT_REPORT POINTSPEC_DEVICE POINTSPEC_KERNEL_DIR
+
+# Whatever our code calls is wrapped or listed as not worth it.
+check_symbols() {
+    local unknown folder
+    folder=$(dirname "$program")
+    unknown=$(xargs nm -u <"$folder/objects.txt" | awk '$1 == "U" { print $2 }' | sort -u |
+        grep -vxFf "$folder/wrapped.txt" | grep -vxEf <(grep -v '^#' "$here/harmless.txt")) || return 0
+    echo "run_faults: neither wrapped in tests/faults/wrap_*.c nor in tests/faults/harmless.txt:" "${unknown//$'\n'/ }" >&2
+    return 1
+}
+
+make_inputs() {
+    mkdir "$scratch/initial"
+    cd "$scratch/initial"
+    "$program" sample --sampler white -n 8 -o points.txt
+    "$program" sample --sampler white -n 6 -m 2 -s 2 -o more.txt
+    "$program" sample --sampler white -n 8 -m 2 -o points.npy
+    printf '1 2 -1 0.5 1 2 1 0.5\n' | tr ' ' '\n' >weights.txt
+    paste -d ' ' points.txt weights.txt | grep -v '#' >weighted.txt
+    printf '1 0\n0 1\n1000 -3\n' >vectors.txt
+    for ending in csv json npy png txt; do echo "an earlier result" >old.$ending; done
+    cd - >/dev/null
+}
+
+# The run without faults: its outputs, its calls, and again, for both must be the same every time.
+prepare_case() { # NAME STDIN WORD...
+    local case=$scratch/cases/$1 stdin=$2 words=("${@:3}") round
+    mkdir -p "$case"
+    printf '%s\n' "${words[@]}" >"$case/words"
+    { [[ $stdin == - ]] && echo /dev/null || echo "$scratch/initial/$stdin"; } >"$case/stdin"
+    # Names that a sentence about a file may have: files without endings, since some lie beside others.
+    { printf 'standard (in|out)put|temporary file|gnuplot'
+        printf '%s\n' "${words[@]}" | sed -n 's/^\([a-z]*\)\.[a-z]*$/|\1\\./p' | tr -d '\n'; } >"$case/things"
+    for round in expected again; do
+        mkdir "$case/$round"
+        cp -r "$scratch/initial" "$case/$round/work"
+        (cd "$case/$round/work" && POINTSPEC_FAULT_REPORT=$case/$round.report \
+            "$program" "${words[@]}" <"$(<"$case/stdin")" >"$case/$round/stdout" 2>"$case/$round.stderr") ||
+            { echo "run_faults: $1 fails without faults: $(<"$case/$round.stderr")" >&2; return 1; }
+    done
+    if grep -q '^leak\|^unknown' "$case/expected.report" || ! diff -r "$case/expected" "$case/again" ||
+        ! diff "$case/expected.report" "$case/again.report"; then
+        echo "run_faults: $1 leaks, or two runs differ:" "$(<"$case/expected.report")" >&2
+        return 1
+    fi
+    awk -v name="$1" -v every=$every_lasting '/^calls/ {
+        for (i = 1; i <= $3; i++) {
+            print name ":" $2 ":" i
+            if (i % every == 1) print name ":" $2 ":" i "+"
+        } }' "$case/expected.report" >>"$scratch/faults"
+}
+
+prepare_cases() {
+    local name words
+    while read -r -a words; do
+        name=${words[0]-#}
+        [[ $name == \#* || (-n $only && $name != "$only") ]] || prepare_case "${words[@]}" || return 1
+    done <"$here/commands.txt"
+}
+
+# Those that the program lived with must be known; a row of tolerated.txt that no run needed is no error,
+# for a sample meets few.
+check_tolerated() {
+    awk 'NR == FNR { if ($1 !~ /^#/) known[$1]; next }
+        $3 == "tolerated" && $5 !~ /[+]/ && !($4 in known) {
+            $3 = "FAILED"; $6 = "tolerated, but not in tolerated.txt" }
+        { print }' "$here/tolerated.txt" "$scratch/verdicts"
+}
+
+print_table() {
+    awk '{ count[$1, $2]++; verdicts[$1, $3]++; if (!($1 in seen)) { seen[$1]; name[++num] = $1 } }
+        function row(title, memory, file, opencl, tolerated, refused, failed) {
+            printf "%-16s %7s %7s %7s %10s %8s %7s\n", title, memory, file, opencl, tolerated, refused, failed
+        }
+        END {
+            row("command line", "memory", "file", "opencl", "tolerated", "refused", "failed")
+            for (i = 1; i <= num; i++) {
+                n = name[i]
+                row(n, m = count[n, "memory"] + 0, f = count[n, "file"] + 0, o = count[n, "opencl"] + 0,
+                    t = verdicts[n, "tolerated"] + 0, r = verdicts[n, "refused"] + 0,
+                    b = verdicts[n, "FAILED"] + 0)
+                sm += m; sf += f; so += o; st += t; sr += r; sb += b
+            }
+            row("all", sm, sf, so, st, sr, sb)
+        }' "$scratch/judged"
+}
+
+check_symbols
+make_inputs
+prepare_cases
+total=$(wc -l <"$scratch/faults")
+step=$((sample > 0 && total > sample ? total / sample : 1))
+# Neighbours go to different workers, which take 16 at a time.
+awk -v step=$step 'NR % step == int(step / 2)  || step == 1' "$scratch/faults" |
+    xargs -P "${JOBS:-$(nproc)}" -n 16 bash "$here/judge_faults.sh" >"$scratch/unsorted"
+sort -s -k 1,1 "$scratch/unsorted" | awk -v list="$here/commands.txt" '{ line[$1] = line[$1] $0 "\n" }
+    END { while ((getline row < list) > 0) { split(row, word); printf "%s", line[word[1]] } }' >"$scratch/verdicts"
+check_tolerated >"$scratch/judged"
+[[ -z ${FAULTS_VERDICTS-} ]] || cp "$scratch/judged" "$FAULTS_VERDICTS"
+grep ' FAILED ' "$scratch/judged" | head -n 200 >&2 || true
+[[ $wants_table == no ]] || print_table
+injected=$(wc -l <"$scratch/judged") failures=$(grep -c ' FAILED ' "$scratch/judged" || true)
+echo "run_faults: $injected of $total faults, $failures failures, $SECONDS s" >&2
+[[ $failures == 0 && $injected -gt 0 ]]

@@ -1,0 +1,158 @@
+/* Files, descriptors and child processes. A call that gives something up does so and then says that
+ * it failed, as close(2) does. */
+#include "faults.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <spawn.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static bool fails(const char *name, int reason) {
+    const bool is_due = fault_is_due(FAULT_FILE, name);
+    if (is_due) {
+        errno = reason;
+    }
+    return is_due;
+}
+
+/* A descriptor in the table of outstanding things: nothing has such a small address. */
+static const void *as_thing(int descriptor) {
+    return descriptor >= 0 ? (const char *)0 + descriptor + 1 : NULL;
+}
+
+/* A call that fails with -1 and errno, and takes and gives nothing. */
+#define CALL(name, type, reason, parameters, arguments)                                            \
+    WRAPPER(name, type, parameters) {                                                              \
+        return fails(#name, reason) ? -1 : __real_##name arguments;                                \
+    }
+
+/* ---- names --------------------------------------------------------------------------------- */
+
+CALL(stat64, int, EIO, (const char *path, struct stat *facts), (path, facts))
+CALL(lstat64, int, EIO, (const char *path, struct stat *facts), (path, facts))
+CALL(access, int, EACCES, (const char *path, int mode), (path, mode))
+CALL(rename, int, EIO, (const char *from, const char *to), (from, to))
+CALL(mkdir, int, ENOSPC, (const char *path, mode_t mode), (path, mode))
+
+/* Spared by N+: what cannot be removed stays, and no program can do anything about it. */
+WRAPPER(unlink, int, (const char *path)) {
+    if (fault_is_due_alone(FAULT_FILE, "unlink")) {
+        errno = EIO;
+        return -1;
+    }
+    return __real_unlink(path);
+}
+
+WRAPPER(realpath, char *, (const char *path, char *room)) {
+    char *const resolved = fails("realpath", EIO) ? NULL : __real_realpath(path, room);
+    fault_gain(room == NULL ? resolved : NULL, "realpath");
+    return resolved;
+}
+
+/* ---- descriptors --------------------------------------------------------------------------- */
+
+CALL(fstat64, int, EIO, (int descriptor, struct stat *facts), (descriptor, facts))
+CALL(fchmod, int, EPERM, (int descriptor, mode_t mode), (descriptor, mode))
+CALL(ftruncate64, int, EIO, (int descriptor, off_t length), (descriptor, length))
+CALL(read, ssize_t, EIO, (int descriptor, void *out, size_t bytes), (descriptor, out, bytes))
+CALL(write, ssize_t, ENOSPC, (int descriptor, const void *in, size_t bytes),
+     (descriptor, in, bytes))
+
+/* Reports tell folders apart: only there may a failure be tolerated. */
+static const char *name_of(int descriptor, const char *file, const char *folder) {
+    struct stat facts;
+    return __real_fstat64(descriptor, &facts) == 0 && S_ISDIR(facts.st_mode) ? folder : file;
+}
+
+WRAPPER(fsync, int, (int descriptor)) {
+    const bool is_due = fails(name_of(descriptor, "fsync", "fsync-folder"), EIO);
+    return is_due ? -1 : __real_fsync(descriptor);
+}
+
+WRAPPER(close, int, (int descriptor)) {
+    const bool is_due = fails(name_of(descriptor, "close", "close-folder"), EIO);
+    fault_lose(as_thing(descriptor));
+    const int status = __real_close(descriptor);
+    if (is_due) {
+        errno = EIO;
+    }
+    return is_due ? -1 : status;
+}
+
+WRAPPER(open64, int, (const char *path, int flags, ...)) {
+    va_list arguments;
+    va_start(arguments, flags);
+    const mode_t mode = (flags & O_CREAT) != 0 ? va_arg(arguments, mode_t) : 0;
+    va_end(arguments);
+    const char *const name = (flags & O_ACCMODE) == O_RDONLY ? "open-reading" : "open";
+    const int descriptor = fails(name, EMFILE) ? -1 : __real_open64(path, flags, mode);
+    fault_gain(as_thing(descriptor), "open");
+    return descriptor;
+}
+
+WRAPPER(dup, int, (int descriptor)) {
+    const int copy = fails("dup", EMFILE) ? -1 : __real_dup(descriptor);
+    fault_gain(as_thing(copy), "dup");
+    return copy;
+}
+
+WRAPPER(fcntl64, int, (int descriptor, int command, ...)) {
+    va_list arguments;
+    va_start(arguments, command);
+    const int value = command == F_SETFD ? va_arg(arguments, int) : 0; /* all that is in use */
+    va_end(arguments);
+    const char *const name = command == F_GETFD ? "fcntl-query" : "fcntl";
+    return fails(name, EIO) ? -1 : __real_fcntl64(descriptor, command, value);
+}
+
+/* ---- child processes ----------------------------------------------------------------------- */
+
+WRAPPER(pipe, int, (int ends[2])) {
+    if (fails("pipe", EMFILE)) {
+        return -1;
+    }
+    const int status = __real_pipe(ends);
+    if (status == 0) {
+        fault_gain(as_thing(ends[0]), "pipe");
+        fault_gain(as_thing(ends[1]), "pipe");
+    }
+    return status;
+}
+
+/* These return the error instead of setting errno. */
+WRAPPER(posix_spawn_file_actions_init, int, (posix_spawn_file_actions_t * actions)) {
+    if (fails("posix_spawn_file_actions_init", ENOMEM)) {
+        return ENOMEM;
+    }
+    fault_gain(actions, "posix_spawn_file_actions_init");
+    return __real_posix_spawn_file_actions_init(actions);
+}
+
+WRAPPER(posix_spawn_file_actions_destroy, int, (posix_spawn_file_actions_t * actions)) {
+    fault_lose(actions);
+    return __real_posix_spawn_file_actions_destroy(actions);
+}
+
+WRAPPER(posix_spawn_file_actions_adddup2, int,
+        (posix_spawn_file_actions_t * actions, int from, int to)) {
+    return fails("posix_spawn_file_actions_adddup2", ENOMEM)
+               ? ENOMEM
+               : __real_posix_spawn_file_actions_adddup2(actions, from, to);
+}
+
+WRAPPER(posix_spawnp, int,
+        (pid_t * child, const char *file, const posix_spawn_file_actions_t *actions,
+         const posix_spawnattr_t *attributes, char *const *arguments, char *const *environment)) {
+    return fails("posix_spawnp", EAGAIN)
+               ? EAGAIN
+               : __real_posix_spawnp(child, file, actions, attributes, arguments, environment);
+}
+
+WRAPPER(waitpid, pid_t, (pid_t child, int *state, int options)) {
+    const pid_t waited = __real_waitpid(child, state, options);
+    return fails("waitpid", ECHILD) ? -1 : waited;
+}

@@ -1,0 +1,50 @@
+/* Memory: what our code takes, also through functions of the C library and of cJSON that give memory
+ * away. */
+#include "faults.h"
+
+#include <cJSON.h>
+#include <errno.h>
+#include <stddef.h>
+
+static bool is_refused(const char *name) {
+    const bool is_due = fault_is_due(FAULT_MEMORY, name);
+    if (is_due) {
+        errno = ENOMEM;
+    }
+    return is_due;
+}
+
+#define ALLOCATION(name, type, parameters, arguments)                                              \
+    WRAPPER(name, type, parameters) {                                                              \
+        type taken = is_refused(#name) ? NULL : __real_##name arguments;                           \
+        fault_gain(taken, #name);                                                                  \
+        return taken;                                                                              \
+    }
+
+ALLOCATION(malloc, void *, (size_t bytes), (bytes))
+ALLOCATION(calloc, void *, (size_t count, size_t bytes), (count, bytes))
+ALLOCATION(aligned_alloc, void *, (size_t alignment, size_t bytes), (alignment, bytes))
+ALLOCATION(strdup, char *, (const char *text), (text))
+ALLOCATION(strndup, char *, (const char *text, size_t length), (text, length))
+ALLOCATION(cJSON_CreateString, cJSON *, (const char *text), (text))
+ALLOCATION(cJSON_PrintUnformatted, char *, (const cJSON *item), (item))
+
+WRAPPER(realloc, void *, (void *old, size_t bytes)) {
+    if (is_refused("realloc")) {
+        return NULL;
+    }
+    fault_lose(old);
+    void *const grown = __real_realloc(old, bytes);
+    fault_gain(grown, "realloc");
+    return grown;
+}
+
+#define DEALLOCATION(name, type)                                                                   \
+    WRAPPER(name, void, (type thing)) {                                                            \
+        fault_lose(thing);                                                                         \
+        __real_##name(thing);                                                                      \
+    }
+
+DEALLOCATION(free, void *)
+DEALLOCATION(cJSON_free, void *)
+DEALLOCATION(cJSON_Delete, cJSON *)

@@ -1,0 +1,118 @@
+/* Streams. A write or read that fails does what stdio does: nothing is moved, errno and the error
+ * indicator of the stream are set. */
+#include "faults.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <unistd.h>
+
+int __real_fcntl64(int descriptor, int command, ...);
+
+static bool is_for_reading(FILE *stream) {
+    return (__real_fcntl64(fileno(stream), F_GETFL) & O_ACCMODE) == O_RDONLY;
+}
+
+static bool fails(FILE *stream, const char *name, int reason) {
+    /* Without standard error a failure could not be told. */
+    const bool is_due = stream == stderr ? fault_is_due_alone(FAULT_FILE, "standard-error")
+                                         : fault_is_due(FAULT_FILE, name);
+    if (is_due) {
+        errno = reason;
+        if (stream != NULL) {
+            stream->_flags |= _IO_ERR_SEEN; /* glibc has no function for it */
+        }
+    }
+    return is_due;
+}
+
+/* ---- opening and closing ------------------------------------------------------------------- */
+
+WRAPPER(fopen64, FILE *, (const char *path, const char *mode)) {
+    FILE *const stream = fails(NULL, "fopen", EMFILE) ? NULL : __real_fopen64(path, mode);
+    fault_gain(stream, "fopen");
+    return stream;
+}
+
+WRAPPER(fdopen, FILE *, (int descriptor, const char *mode)) {
+    FILE *const stream = fails(NULL, "fdopen", ENOMEM) ? NULL : __real_fdopen(descriptor, mode);
+    if (stream != NULL) {
+        fault_lose(fault_descriptor(descriptor));
+        fault_gain(stream, "fdopen");
+    }
+    return stream;
+}
+
+WRAPPER(tmpfile64, FILE *, (void)) {
+    FILE *const stream = fails(NULL, "tmpfile", EACCES) ? NULL : __real_tmpfile64();
+    fault_gain(stream, "tmpfile");
+    return stream;
+}
+
+WRAPPER(fclose, int, (FILE * stream)) {
+    const bool is_due = fails(NULL, is_for_reading(stream) ? "fclose-reading" : "fclose", EIO);
+    fault_lose(stream);
+    const int status = __real_fclose(stream);
+    if (is_due) {
+        errno = EIO;
+    }
+    return is_due ? EOF : status;
+}
+
+/* ---- calls that fail with a value of their own --------------------------------------------- */
+
+#define CALL(name, type, failure, reason, parameters, arguments)                                   \
+    WRAPPER(name, type, parameters) {                                                              \
+        return fails(stream, #name, reason) ? failure : __real_##name arguments;                   \
+    }
+
+CALL(fflush, int, EOF, ENOSPC, (FILE * stream), (stream))
+CALL(fwrite, size_t, 0, ENOSPC, (const void *in, size_t bytes, size_t count, FILE *stream),
+     (in, bytes, count, stream))
+CALL(fputs, int, EOF, ENOSPC, (const char *text, FILE *stream), (text, stream))
+CALL(fputc, int, EOF, ENOSPC, (int byte, FILE *stream), (byte, stream))
+CALL(putc, int, EOF, ENOSPC, (int byte, FILE *stream), (byte, stream))
+CALL(fread, size_t, 0, EIO, (void *out, size_t bytes, size_t count, FILE *stream),
+     (out, bytes, count, stream))
+CALL(fgets, char *, NULL, EIO, (char *out, int bytes, FILE *stream), (out, bytes, stream))
+CALL(getc, int, EOF, EIO, (FILE * stream), (stream))
+CALL(ungetc, int, EOF, EIO, (int byte, FILE *stream), (byte, stream))
+
+/* These do not touch the error indicator. */
+#define QUIET_CALL(name, type, failure, reason, parameters, arguments)                             \
+    WRAPPER(name, type, parameters) {                                                              \
+        return fails(NULL, #name, reason) ? failure : __real_##name arguments;                     \
+    }
+
+QUIET_CALL(fseeko64, int, -1, ESPIPE, (FILE * stream, off_t offset, int whence),
+           (stream, offset, whence))
+QUIET_CALL(ftello64, off_t, -1, ESPIPE, (FILE * stream), (stream))
+QUIET_CALL(setvbuf, int, -1, ENOMEM, (FILE * stream, char *buffer, int mode, size_t bytes),
+           (stream, buffer, mode, bytes))
+
+/* ---- formatted output ---------------------------------------------------------------------- */
+
+#define PRINT(name, stream, parameters)                                                            \
+    WRAPPER(name, int, parameters) {                                                               \
+        va_list arguments;                                                                         \
+        if (fails(stream, #name, ENOSPC)) {                                                        \
+            return -1;                                                                             \
+        }                                                                                          \
+        va_start(arguments, format);                                                               \
+        const int length = vfprintf(stream, format, arguments);                                    \
+        va_end(arguments);                                                                         \
+        return length;                                                                             \
+    }
+
+PRINT(fprintf, stream, (FILE * stream, const char *format, ...))
+PRINT(printf, stdout, (const char *format, ...))
+
+WRAPPER(puts, int, (const char *text)) {
+    return fails(stdout, "puts", ENOSPC) ? EOF : __real_puts(text);
+}
+
+WRAPPER(putchar, int, (int byte)) {
+    return fails(stdout, "putchar", ENOSPC) ? EOF : __real_putchar(byte);
+}
