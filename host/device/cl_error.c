@@ -3,9 +3,6 @@
 
 #include <string.h>
 
-/* cl_ext.h: the loader's answer when no driver is installed. */
-enum { PLATFORM_NOT_FOUND_KHR = -1001 };
-
 static const struct {
     cl_int code;
     const char *name;
@@ -41,7 +38,7 @@ static const struct {
     {CL_INVALID_EVENT, "CL_INVALID_EVENT"},
     {CL_INVALID_OPERATION, "CL_INVALID_OPERATION"},
     {CL_INVALID_BUFFER_SIZE, "CL_INVALID_BUFFER_SIZE"},
-    {PLATFORM_NOT_FOUND_KHR, "CL_PLATFORM_NOT_FOUND_KHR"},
+    {PS_CL_PLATFORM_NOT_FOUND, "CL_PLATFORM_NOT_FOUND_KHR"},
 };
 
 const char *ps_cl_error_name(cl_int code) {

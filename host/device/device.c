@@ -20,76 +20,126 @@ static pspec_status fail_no_driver(ps_error *error) {
                    "or the driver package of your GPU");
 }
 
-/* Every device of every platform; *num_devices is 0 at most when it fails. */
+/* A driver that fails is not the same as none. */
+static pspec_status fail_listing(cl_int code, const char *call, ps_error *error) {
+    const bool is_absent =
+        code == CL_SUCCESS || code == PS_CL_PLATFORM_NOT_FOUND || code == CL_DEVICE_NOT_FOUND;
+    return is_absent ? fail_no_driver(error) : ps_device_fail(code, call, error);
+}
+
+/* Every device of every platform; *num_devices is 0 at most when it fails. A platform that cannot
+ * tell its devices is passed over as long as another has some. */
 static pspec_status find_devices(cl_device_id *devices, size_t *num_devices, ps_error *error) {
     cl_platform_id platforms[MAX_PLATFORMS];
     cl_uint num_platforms = 0;
     *num_devices = 0;
-    if (clGetPlatformIDs(MAX_PLATFORMS, platforms, &num_platforms) != CL_SUCCESS) {
-        return fail_no_driver(error);
+    cl_int code = clGetPlatformIDs(MAX_PLATFORMS, platforms, &num_platforms);
+    if (code != CL_SUCCESS) {
+        return fail_listing(code, "clGetPlatformIDs", error);
     }
     num_platforms = num_platforms < MAX_PLATFORMS ? num_platforms : MAX_PLATFORMS;
     for (cl_uint i = 0; i < num_platforms && *num_devices < MAX_DEVICES; i++) {
         cl_uint found = 0;
         const cl_uint room = (cl_uint)(MAX_DEVICES - *num_devices);
-        /* A platform without devices answers CL_DEVICE_NOT_FOUND: that is not a failure. */
-        if (clGetDeviceIDs(platforms[i], CL_DEVICE_TYPE_ALL, room, devices + *num_devices,
-                           &found) == CL_SUCCESS) {
+        const cl_int answer =
+            clGetDeviceIDs(platforms[i], CL_DEVICE_TYPE_ALL, room, devices + *num_devices, &found);
+        if (answer == CL_SUCCESS) {
             *num_devices += found < room ? found : room;
+        } else if (answer != CL_DEVICE_NOT_FOUND) { /* a platform without devices says that */
+            code = answer;
         }
     }
-    return *num_devices > 0 ? PSPEC_OK : fail_no_driver(error);
+    return *num_devices > 0 ? PSPEC_OK : fail_listing(code, "clGetDeviceIDs", error);
 }
 
-static void query_text(cl_device_id id, cl_device_info what, char *out, size_t out_bytes) {
-    char *text = NULL;
+/* Asks one device; after the first failure every answer is empty, so that callers look once. */
+typedef struct questions {
+    cl_device_id id;
+    pspec_status status;
+    ps_error *error;
+} questions;
+
+/* True when the answer is there. CL_INVALID_VALUE says that the driver does not know the question,
+ * which no driver has to: that answer is empty or 0. */
+static bool is_answered(questions *ask, cl_int code, const char *call) {
+    if (code != CL_SUCCESS && code != CL_INVALID_VALUE) {
+        ask->status = ps_device_fail(code, call, ask->error);
+    }
+    return code == CL_SUCCESS;
+}
+
+static void query_text(questions *ask, cl_device_info what, char *out, size_t out_bytes) {
+    void *text = NULL;
     size_t bytes = 0;
     out[0] = '\0';
-    if (clGetDeviceInfo(id, what, 0, NULL, &bytes) == CL_SUCCESS && bytes > 0 &&
-        (text = malloc(bytes)) != NULL &&
-        clGetDeviceInfo(id, what, bytes, text, NULL) == CL_SUCCESS) {
-        snprintf(out, out_bytes, "%.*s", (int)bytes, text);
+    if (ask->status != PSPEC_OK ||
+        !is_answered(ask, clGetDeviceInfo(ask->id, what, 0, NULL, &bytes), "clGetDeviceInfo")) {
+        return;
+    }
+    ask->status = ps_allocate(&text, bytes, 1, "the name of a device", ask->error);
+    if (ask->status == PSPEC_OK &&
+        is_answered(ask, clGetDeviceInfo(ask->id, what, bytes, text, NULL), "clGetDeviceInfo")) {
+        snprintf(out, out_bytes, "%.*s", (int)bytes, (const char *)text);
     }
     free(text);
 }
 
-static uint64_t query_number(cl_device_id id, cl_device_info what, size_t bytes) {
+static uint64_t query_number(questions *ask, cl_device_info what, size_t bytes) {
     uint64_t number = 0; /* little-endian hosts only: smaller types fill the low bytes */
-    return clGetDeviceInfo(id, what, bytes, &number, NULL) == CL_SUCCESS ? number : 0;
+    return ask->status == PSPEC_OK &&
+                   is_answered(ask, clGetDeviceInfo(ask->id, what, bytes, &number, NULL),
+                               "clGetDeviceInfo")
+               ? number
+               : 0;
 }
 
-static unsigned query_uint(cl_device_id id, cl_device_info what) {
-    return (unsigned)query_number(id, what, sizeof(cl_uint));
+static unsigned query_uint(questions *ask, cl_device_info what) {
+    return (unsigned)query_number(ask, what, sizeof(cl_uint));
 }
 
-static ps_device_limits read_limits(cl_device_id id) {
-    ps_device_limits limits = {0};
+static void query_platform(questions *ask, char *out, size_t out_bytes) {
     cl_platform_id platform = NULL;
-    query_text(id, CL_DEVICE_NAME, limits.name, sizeof limits.name);
-    query_text(id, CL_DRIVER_VERSION, limits.driver, sizeof limits.driver);
-    query_text(id, CL_DEVICE_VERSION, limits.version, sizeof limits.version);
-    if (clGetDeviceInfo(id, CL_DEVICE_PLATFORM, sizeof platform, &platform, NULL) == CL_SUCCESS) {
-        clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof limits.platform, limits.platform,
-                          NULL);
+    out[0] = '\0';
+    if (ask->status == PSPEC_OK &&
+        is_answered(ask,
+                    clGetDeviceInfo(ask->id, CL_DEVICE_PLATFORM, sizeof platform, &platform, NULL),
+                    "clGetDeviceInfo") &&
+        !is_answered(ask, clGetPlatformInfo(platform, CL_PLATFORM_NAME, out_bytes, out, NULL),
+                     "clGetPlatformInfo")) {
+        out[0] = '\0';
     }
-    const uint64_t type = query_number(id, CL_DEVICE_TYPE, sizeof(cl_device_type));
-    limits.is_gpu = (type & CL_DEVICE_TYPE_GPU) != 0;
-    limits.is_cpu = (type & CL_DEVICE_TYPE_CPU) != 0;
-    limits.has_fp64 =
-        query_number(id, CL_DEVICE_DOUBLE_FP_CONFIG, sizeof(cl_device_fp_config)) != 0;
-    limits.has_dedicated_local_memory =
-        query_number(id, CL_DEVICE_LOCAL_MEM_TYPE, sizeof(cl_device_local_mem_type)) == CL_LOCAL;
-    limits.compute_units = query_uint(id, CL_DEVICE_MAX_COMPUTE_UNITS);
-    limits.clock_mhz = query_uint(id, CL_DEVICE_MAX_CLOCK_FREQUENCY);
-    limits.native_float_lanes = query_uint(id, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT);
-    limits.native_double_lanes = query_uint(id, CL_DEVICE_NATIVE_VECTOR_WIDTH_DOUBLE);
-    limits.max_work_group_size =
-        (size_t)query_number(id, CL_DEVICE_MAX_WORK_GROUP_SIZE, sizeof(size_t));
-    limits.global_bytes = query_number(id, CL_DEVICE_GLOBAL_MEM_SIZE, sizeof(cl_ulong));
-    limits.max_allocation_bytes = query_number(id, CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof(cl_ulong));
-    limits.local_bytes = query_number(id, CL_DEVICE_LOCAL_MEM_SIZE, sizeof(cl_ulong));
-    limits.cache_bytes = query_number(id, CL_DEVICE_GLOBAL_MEM_CACHE_SIZE, sizeof(cl_ulong));
-    return limits;
+}
+
+static void query_kind(questions *ask, ps_device_limits *limits) {
+    query_text(ask, CL_DEVICE_NAME, limits->name, sizeof limits->name);
+    query_text(ask, CL_DRIVER_VERSION, limits->driver, sizeof limits->driver);
+    query_text(ask, CL_DEVICE_VERSION, limits->version, sizeof limits->version);
+    query_platform(ask, limits->platform, sizeof limits->platform);
+    const uint64_t type = query_number(ask, CL_DEVICE_TYPE, sizeof(cl_device_type));
+    limits->is_gpu = (type & CL_DEVICE_TYPE_GPU) != 0;
+    limits->is_cpu = (type & CL_DEVICE_TYPE_CPU) != 0;
+    limits->has_fp64 =
+        query_number(ask, CL_DEVICE_DOUBLE_FP_CONFIG, sizeof(cl_device_fp_config)) != 0;
+    limits->has_dedicated_local_memory =
+        query_number(ask, CL_DEVICE_LOCAL_MEM_TYPE, sizeof(cl_device_local_mem_type)) == CL_LOCAL;
+}
+
+static pspec_status read_limits(cl_device_id id, ps_device_limits *limits, ps_error *error) {
+    questions ask = {id, PSPEC_OK, error};
+    *limits = (ps_device_limits){0};
+    query_kind(&ask, limits);
+    limits->compute_units = query_uint(&ask, CL_DEVICE_MAX_COMPUTE_UNITS);
+    limits->clock_mhz = query_uint(&ask, CL_DEVICE_MAX_CLOCK_FREQUENCY);
+    limits->native_float_lanes = query_uint(&ask, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT);
+    limits->native_double_lanes = query_uint(&ask, CL_DEVICE_NATIVE_VECTOR_WIDTH_DOUBLE);
+    limits->max_work_group_size =
+        (size_t)query_number(&ask, CL_DEVICE_MAX_WORK_GROUP_SIZE, sizeof(size_t));
+    limits->global_bytes = query_number(&ask, CL_DEVICE_GLOBAL_MEM_SIZE, sizeof(cl_ulong));
+    limits->max_allocation_bytes =
+        query_number(&ask, CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof(cl_ulong));
+    limits->local_bytes = query_number(&ask, CL_DEVICE_LOCAL_MEM_SIZE, sizeof(cl_ulong));
+    limits->cache_bytes = query_number(&ask, CL_DEVICE_GLOBAL_MEM_CACHE_SIZE, sizeof(cl_ulong));
+    return ask.status;
 }
 
 pspec_status ps_device_list(ps_device_limits **limits, size_t *num_devices, ps_error *error) {
@@ -98,10 +148,14 @@ pspec_status ps_device_list(ps_device_limits **limits, size_t *num_devices, ps_e
     *limits = NULL;
     PS_TRY(find_devices(devices, num_devices, error));
     PS_TRY(ps_allocate(&memory, *num_devices, sizeof **limits, "the list of devices", error));
-    *limits = memory;
     for (size_t i = 0; i < *num_devices; i++) {
-        (*limits)[i] = read_limits(devices[i]);
+        const pspec_status status = read_limits(devices[i], (ps_device_limits *)memory + i, error);
+        if (status != PSPEC_OK) {
+            free(memory);
+            return status;
+        }
     }
+    *limits = memory;
     return PSPEC_OK;
 }
 
@@ -181,7 +235,7 @@ static pspec_status choose_among(const cl_device_id *devices, size_t num_devices
     ps_device_limits limits[MAX_DEVICES];
     size_t index = 0;
     for (size_t i = 0; i < num_devices; i++) {
-        limits[i] = read_limits(devices[i]);
+        PS_TRY(read_limits(devices[i], &limits[i], error));
     }
     PS_TRY(ps_device_choose(limits, num_devices, selector, &index, error));
     device->id = devices[index];

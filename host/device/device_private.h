@@ -4,6 +4,9 @@
 
 #include "device/device.h"
 
+/* cl_ext.h: the loader's answer when no driver is installed. */
+enum { PS_CL_PLATFORM_NOT_FOUND = -1001 };
+
 typedef struct ps_built_program {
     char *key; /* source name and options */
     cl_program program;
