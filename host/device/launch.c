@@ -112,6 +112,12 @@ pspec_status ps_launch_arguments(ps_device *device, cl_kernel kernel, const ps_r
                                      range->local[0] > 0 ? range->local : NULL, 0, NULL,
                                      device->has_profile ? &event : NULL),
               error);
-    PS_TRY_CL(clFlush(device->queue), error); /* the device works while the host prepares more */
+    const cl_int code = clFlush(device->queue); /* it works while the host prepares more */
+    if (code != CL_SUCCESS) {
+        if (event != NULL) {
+            clReleaseEvent(event);
+        }
+        return ps_device_fail(code, "clFlush", error);
+    }
     return device->has_profile ? ps_profile_add(device, kernel, range, event, error) : PSPEC_OK;
 }
