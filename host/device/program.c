@@ -11,8 +11,12 @@
 /* No relaxed maths: the error formulas count on IEEE arithmetic. */
 static const char common_options[] = "-cl-std=CL1.2";
 
-static pspec_status fail_build(const ps_device *device, cl_program program, const char *source,
-                               const char *options, ps_error *error) {
+/* Only a program at fault has a log to show; a driver may fail without looking at it. */
+static pspec_status fail_build(const ps_device *device, cl_program program, cl_int code,
+                               const char *source, const char *options, ps_error *error) {
+    if (code != CL_BUILD_PROGRAM_FAILURE && code != CL_INVALID_BUILD_OPTIONS) {
+        return ps_device_fail(code, "clBuildProgram", error);
+    }
     enum { LONGEST_LOG = 3000 }; /* leaves room for the sentence in PS_MESSAGE_BYTES */
     size_t bytes = 0;
     char *log = NULL;
@@ -44,7 +48,7 @@ static pspec_status build(ps_device *device, cl_program *out, const char *source
     }
     code = clBuildProgram(*out, 1, &device->id, ps_text_string(&all_options), NULL, NULL);
     if (code != CL_SUCCESS) {
-        status = fail_build(device, *out, source, ps_text_string(&all_options), error);
+        status = fail_build(device, *out, code, source, ps_text_string(&all_options), error);
         clReleaseProgram(*out);
         *out = NULL;
     }
