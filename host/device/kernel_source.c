@@ -17,27 +17,39 @@ typedef struct expansion {
     size_t num_included;
 } expansion;
 
-static pspec_status read_from_disk(const char *directory, const char *name, ps_text *text,
-                                   ps_error *error) {
+static pspec_status fail_memory(const char *name, ps_error *error) {
+    return ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for kernel \"%s\"", name);
+}
+
+static pspec_status fail_disk(const char *path, ps_error *error) {
+    return ps_fail(error, PSPEC_ERROR_IO,
+                   "cannot read kernel source \"%s\" (POINTSPEC_KERNEL_DIR): %s", path,
+                   strerror(errno));
+}
+
+static pspec_status read_path(const char *path, ps_text *text, ps_error *error) {
     char block[READ_BYTES];
-    ps_text path = {0};
-    ps_text_append(&path, "%s/%s", directory, name);
-    FILE *file = fopen(ps_text_string(&path), "rb");
+    FILE *const file = fopen(path, "rb");
     if (file == NULL) {
-        ps_fail(error, PSPEC_ERROR_IO,
-                "cannot read kernel source \"%s\" (POINTSPEC_KERNEL_DIR): %s",
-                ps_text_string(&path), strerror(errno));
-        ps_text_free(&path);
-        return PSPEC_ERROR_IO;
+        return fail_disk(path, error);
     }
     size_t length = 0;
     while ((length = fread(block, 1, sizeof block, file)) > 0) {
         ps_text_append_bytes(text, block, length);
     }
+    const pspec_status status = ferror(file) ? fail_disk(path, error) : PSPEC_OK;
     fclose(file);
+    return status;
+}
+
+static pspec_status read_from_disk(const char *directory, const char *name, ps_text *text,
+                                   ps_error *error) {
+    ps_text path = {0};
+    ps_text_append(&path, "%s/%s", directory, name);
+    const pspec_status status =
+        path.failed ? fail_memory(name, error) : read_path(ps_text_string(&path), text, error);
     ps_text_free(&path);
-    return text->failed ? ps_fail(error, PSPEC_ERROR_MEMORY, "no memory for kernel \"%s\"", name)
-                        : PSPEC_OK;
+    return status;
 }
 
 static pspec_status read_source(const char *name, ps_text *text, ps_error *error) {
@@ -86,6 +98,9 @@ static pspec_status expand(expansion *state, const char *name, ps_error *error) 
     ps_text text = {0};
     char included[MAX_NAME];
     pspec_status status = read_source(name, &text, error);
+    if (status == PSPEC_OK && text.failed) {
+        status = fail_memory(name, error);
+    }
     if (status == PSPEC_OK) {
         ps_text_append(state->out, "#line 1 \"%s\"\n", name);
     }
@@ -111,6 +126,5 @@ pspec_status ps_kernel_source_expand(const char *name, ps_text *out, ps_error *e
     expansion state = {.out = out};
     already_included(&state, name); /* marks it: a file that includes itself appears once */
     PS_TRY(expand(&state, name, error));
-    return out->failed ? ps_fail(error, PSPEC_ERROR_MEMORY, "no memory for kernel \"%s\"", name)
-                       : PSPEC_OK;
+    return out->failed ? fail_memory(name, error) : PSPEC_OK;
 }
