@@ -4,6 +4,7 @@
 #include "cli/command.h"
 #include "cli/options.h"
 
+#include <errno.h>
 #include <fcntl.h>
 #include <gsl/gsl_errno.h>
 #include <stdlib.h>
@@ -38,7 +39,7 @@ static void handle_signal(int signal_number) {
  * that cannot be written are an error. */
 static void occupy_standard_streams(void) {
     for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; descriptor++) {
-        if (fcntl(descriptor, F_GETFD) == -1) {
+        if (fcntl(descriptor, F_GETFD) == -1 && errno == EBADF) {
             (void)!open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
         }
     }
@@ -127,7 +128,7 @@ static int run_command(int num_words, char **words) {
     const bool wants_help = status == PSPEC_OK && arguments.is_given[PS_OPTION_HELP];
     if (wants_help) {
         ps_help_command(stdout, command);
-    } else if (status == PSPEC_OK) {
+    } else if (status == PSPEC_OK && (status = ps_text_check(&line, &error)) == PSPEC_OK) {
         arguments.command_line = ps_text_string(&line);
         status = run_parsed(command, &arguments, &error);
     }

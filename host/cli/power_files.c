@@ -126,6 +126,7 @@ pspec_status ps_power_write_plot(const ps_arguments *arguments, const ps_power_j
         PS_TRY_OUT(status, make_image(&image, &array, first, error));
     }
     write_title(&title, arguments, first, num);
+    PS_TRY_OUT(status, ps_text_check(&title, error));
     const double realizations = (double)first->num_realizations;
     const ps_plot plot = {ps_text_string(&title), num, curves, has_image ? &image : NULL,
                           realizations > 1 ? -10 * log10(realizations) : NAN};

@@ -95,6 +95,9 @@ static void put_job(header *to, const ps_arguments *arguments, const ps_power_jo
     }
     put_self_check(to, ps_power_job_accuracy(job));
     ps_needs_describe(ps_power_job_needs(job), &skipped);
+    if (to->status == PSPEC_OK) {
+        to->status = ps_text_check(&skipped, to->error);
+    }
     put(to, "skipped", PS_TEXT(ps_text_string(&skipped)));
     ps_text_free(&skipped);
 }

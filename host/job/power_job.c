@@ -287,6 +287,7 @@ static pspec_status run_again(ps_power_job *job, ps_error *error) {
 
 static pspec_status finish(ps_power_job *job, ps_error *error) {
     ps_estimator_describe(job->estimator, &job->description);
+    PS_TRY(ps_text_check(&job->description, error));
     PS_TRY(ps_estimator_spectrum(job->estimator, &job->spectrum, error));
     if (job->needs.one_realization) {
         ps_spectrum_repeat(&job->spectrum, job->question->num_realizations);
