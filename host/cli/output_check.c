@@ -3,6 +3,7 @@
 #include "base/text.h"
 #include "io/output_file.h"
 
+#include <errno.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -11,24 +12,39 @@ typedef struct named_path {
     const char *option, *path;
 } named_path;
 
+/* What stands under a name. What is not there yet is no failure: *exists is false. */
+static pspec_status look_up(const char *path, struct stat *facts, bool *exists, ps_error *error) {
+    *exists = stat(path, facts) == 0;
+    return *exists || errno == ENOENT
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_IO, "cannot read %s: %s", path, strerror(errno));
+}
+
 /* The same file, whatever the two names are; files that do not exist yet are compared by name. */
-static bool is_same_file(const char *a, const char *b) {
+static pspec_status compare_files(const char *a, const char *b, bool *are_same, ps_error *error) {
     struct stat first;
     struct stat second;
-    if (stat(a, &first) == 0 && stat(b, &second) == 0) {
-        return first.st_dev == second.st_dev && first.st_ino == second.st_ino &&
-               S_ISREG(first.st_mode);
-    }
-    return strcmp(a, b) == 0;
+    bool has_first = false;
+    bool has_second = false;
+    PS_TRY(look_up(a, &first, &has_first, error));
+    PS_TRY(look_up(b, &second, &has_second, error));
+    *are_same = has_first && has_second
+                    ? first.st_dev == second.st_dev && first.st_ino == second.st_ino &&
+                          S_ISREG(first.st_mode)
+                    : strcmp(a, b) == 0;
+    return PSPEC_OK;
 }
 
 static pspec_status check_pair(const named_path *output, const named_path *other, ps_error *error) {
-    const bool is_stream = strcmp(output->path, "-") == 0 || strcmp(other->path, "-") == 0;
-    return is_stream || !is_same_file(output->path, other->path)
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "%s \"%s\" and %s \"%s\" are the same file", output->option, output->path,
-                         other->option, other->path);
+    bool are_same = false;
+    if (strcmp(output->path, "-") == 0 || strcmp(other->path, "-") == 0) {
+        return PSPEC_OK;
+    }
+    PS_TRY(compare_files(output->path, other->path, &are_same, error));
+    return are_same ? ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                              "%s \"%s\" and %s \"%s\" are the same file", output->option,
+                              output->path, other->option, other->path)
+                    : PSPEC_OK;
 }
 
 static pspec_status check_inputs(const named_path *output, const ps_arguments *arguments,
@@ -51,8 +67,10 @@ static pspec_status check_inputs(const named_path *output, const ps_arguments *a
 /* A missing folder or a lacking permission shows when the temporary file is made. */
 static pspec_status check_folder(const char *path, ps_error *error) {
     ps_output_file *file = NULL;
-    struct stat status;
-    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) {
+    struct stat facts;
+    bool exists = false;
+    PS_TRY(look_up(path, &facts, &exists, error));
+    if (exists && !S_ISREG(facts.st_mode) && !S_ISDIR(facts.st_mode)) {
         return PSPEC_OK;
     }
     PS_TRY(ps_output_open(&file, path, error));
@@ -110,8 +128,13 @@ pspec_status ps_outputs_check(const ps_arguments *arguments, bool is_table, ps_e
         {"the column names", is_npy ? ps_text_string(&sidecar) : NULL},
         {"the standard errors", arguments->full != NULL ? ps_text_string(&standard_errors) : NULL},
     };
-    const pspec_status status =
-        check_all(outputs, sizeof outputs / sizeof outputs[0], arguments, error);
+    pspec_status status = ps_text_check(&sidecar, error);
+    if (status == PSPEC_OK) {
+        status = ps_text_check(&standard_errors, error);
+    }
+    if (status == PSPEC_OK) {
+        status = check_all(outputs, sizeof outputs / sizeof outputs[0], arguments, error);
+    }
     ps_text_free(&sidecar);
     ps_text_free(&standard_errors);
     return status;

@@ -118,6 +118,9 @@ static pspec_status open_temporary(ps_output_file *file, ps_error *error) {
 static pspec_status open_path(ps_output_file *file, const char *path, ps_error *error) {
     struct stat facts;
     const bool exists = stat(path, &facts) == 0;
+    if (!exists && errno != ENOENT) { /* it may be there: nothing to be replaced blindly */
+        return fail_write(file->name, errno, error);
+    }
     if (exists && S_ISDIR(facts.st_mode)) {
         return fail_write(file->name, EISDIR, error);
     }
