@@ -98,9 +98,9 @@ static void read_complaint(FILE *complaints, char shown[PS_TOKEN_BYTES]) {
     }
 }
 
-/* Reads to the end, even without memory to keep it: gnuplot must not wait for us. A read that fails
- * leaves a picture that is not complete. */
-static void read_picture(int source, ps_text *picture) {
+/* Reads to the end, even without memory to keep it: gnuplot must not wait for us. 0, or the errno of a
+ * read that failed. */
+static int read_picture(int source, ps_text *picture) {
     char block[1 << 14];
     ssize_t got = 0;
     do {
@@ -109,6 +109,7 @@ static void read_picture(int source, ps_text *picture) {
             ps_text_append_bytes(picture, block, (size_t)got);
         }
     } while (got > 0 || (got < 0 && errno == EINTR)); /* the keyboard interrupts gnuplot, too */
+    return got < 0 ? errno : 0;
 }
 
 static bool is_complete(const ps_text *picture, const char *last) {
@@ -134,11 +135,15 @@ static bool ended_well(pid_t child) {
 /* Takes the picture and the child; closes source. */
 static pspec_status collect(int source, pid_t child, FILE *complaints, const char *last,
                             ps_text *picture, ps_error *error) {
-    read_picture(source, picture);
+    const int reason = read_picture(source, picture);
     close(source); /* before waiting: after a read that failed, gnuplot's writes must fail, too */
     const bool is_good = ended_well(child);
     if (picture->failed) {
         return ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for a picture");
+    }
+    if (reason != 0) {
+        return ps_fail(error, PSPEC_ERROR_IO, "cannot read the picture from gnuplot: %s",
+                       strerror(reason));
     }
     if (is_good && is_complete(picture, last)) {
         return PSPEC_OK;
