@@ -5,6 +5,7 @@
 set -euo pipefail
 run=$FAULTS_SCRATCH/run.$$ initial=$FAULTS_SCRATCH/initial
 trap 'rm -rf "$run"' EXIT
+same=(-I '^# engine: ') # tells the realizations at a time, on which no result depends
 is_clean=no # the folder of the run is as it was before any
 
 reset() {
@@ -21,9 +22,8 @@ run_program() { # CASE FAULT
     code=0 failed=none leaks=
     rm -f "$run/report"
     (cd "$run/work" &&
-        POINTSPEC_FAULT=$2 POINTSPEC_FAULT_REPORT=$run/report \
-            exec timeout 60 "$FAULTS_PROGRAM" "${words[@]}" <"$(<"$1/stdin")" \
-            >"$run/stdout" 2>"$run/stderr") || code=$?
+        POINTSPEC_FAULT=$2 POINTSPEC_FAULT_REPORT=$run/report exec timeout 60 env \
+            "${words[@]}" <"$(<"$1/stdin")" >"$run/stdout" 2>"$run/stderr") || code=$?
     mapfile -t said <"$run/stderr"
     [[ -f $run/report ]] || return 0
     while read -r key value; do
@@ -53,7 +53,7 @@ check_outputs() { # CASE
 }
 
 # What the one sentence must say. Sets remark to what is wrong with it.
-check_sentence() { # CASE CLASS
+check_sentence() { # CASE CLASS NUMBER[+]
     local last=${said[-1]-} things
     local -i sentences=0
     things=$(<"$1/things")
@@ -68,7 +68,11 @@ check_sentence() { # CASE CLASS
     memory) [[ ${last,,} == *memory* ]] || remark="does not speak of memory" ;;
     file) [[ $last =~ (cannot (read|write|create|run)|could not draw).*($things) ]] ||
         remark="does not name the file" ;;
-    opencl) [[ $last == *"$failed failed: CL_"* ]] || remark="does not name the call and the error" ;;
+    opencl)
+        # Where everything fails from there on, the sentence may tell of a later call.
+        [[ $last == *"$failed failed: CL_"* || ($3 == *+ && $last == *" cl"*" failed: CL_"*) ]] ||
+            remark="does not name the call and the error"
+        ;;
     esac
 }
 
@@ -87,13 +91,13 @@ judge() { # NAME CLASS NUMBER[+]
         verdict=tolerated is_clean=no remark=
         # A temporary file that cannot be removed stays; the sentence of a failure would have said so.
         [[ $failed != unlink ]] || rm -f "$run"/work/.pointspec-*
-        diff -rq "$run/work" "$case/expected/work" >/dev/null &&
-            cmp -s "$run/stdout" "$case/expected/stdout" || remark="exit 0 with another output"
+        diff -rq "${same[@]}" "$run/work" "$case/expected/work" >/dev/null &&
+            diff -q "${same[@]}" "$run/stdout" "$case/expected/stdout" >/dev/null || remark="exit 0 with another output"
     elif [[ $code != 1 ]]; then
         remark="exit $code"
     else
         check_outputs "$case"
-        [[ -n $remark ]] || check_sentence "$case" "$2"
+        [[ -n $remark ]] || check_sentence "$case" "$2" "$3"
     fi
     [[ -z $remark ]] || is_clean=no verdict=FAILED remark+="; exit $code: ${said[*]-}"
     printf '%s %s %s %s %s: %s\n' "$1" "$2" "$verdict" "$failed" "$3" "$remark"

@@ -62,19 +62,22 @@ CALL(read, ssize_t, EIO, (int descriptor, void *out, size_t bytes), (descriptor,
 CALL(write, ssize_t, ENOSPC, (int descriptor, const void *in, size_t bytes),
      (descriptor, in, bytes))
 
-/* Reports tell folders apart: only there may a failure be tolerated. */
-static const char *name_of(int descriptor, const char *file, const char *folder) {
+/* Reports tell folders and pipes apart: only there may a failure be tolerated. */
+static const char *name_of(int descriptor, const char *file, const char *folder, const char *pipe) {
     struct stat facts;
-    return __real_fstat64(descriptor, &facts) == 0 && S_ISDIR(facts.st_mode) ? folder : file;
+    const bool is_known = __real_fstat64(descriptor, &facts) == 0;
+    return is_known && S_ISDIR(facts.st_mode)    ? folder
+           : is_known && S_ISFIFO(facts.st_mode) ? pipe
+                                                 : file;
 }
 
 WRAPPER(fsync, int, (int descriptor)) {
-    const bool is_due = fails(name_of(descriptor, "fsync", "fsync-folder"), EIO);
+    const bool is_due = fails(name_of(descriptor, "fsync", "fsync-folder", "fsync"), EIO);
     return is_due ? -1 : __real_fsync(descriptor);
 }
 
 WRAPPER(close, int, (int descriptor)) {
-    const bool is_due = fails(name_of(descriptor, "close", "close-folder"), EIO);
+    const bool is_due = fails(name_of(descriptor, "close", "close-folder", "close-pipe"), EIO);
     fault_lose(as_thing(descriptor));
     const int status = __real_close(descriptor);
     if (is_due) {

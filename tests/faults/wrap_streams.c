@@ -7,12 +7,23 @@
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 int __real_fcntl64(int descriptor, int command, ...);
+int __real_fstat64(int descriptor, struct stat *facts);
 
-static bool is_for_reading(FILE *stream) {
-    return (__real_fcntl64(fileno(stream), F_GETFL) & O_ACCMODE) == O_RDONLY;
+/* Reports tell what is closed: after reading, without a name, and still empty (the trial of an output)
+ * there is nothing to lose. */
+static const char *name_of_close(FILE *stream) {
+    struct stat facts;
+    if ((__real_fcntl64(fileno(stream), F_GETFL) & O_ACCMODE) == O_RDONLY) {
+        return "fclose-reading";
+    }
+    return __real_fstat64(fileno(stream), &facts) != 0 ? "fclose"
+           : facts.st_nlink == 0                       ? "fclose-nameless"
+           : facts.st_size == 0                        ? "fclose-empty"
+                                                       : "fclose";
 }
 
 static bool fails(FILE *stream, const char *name, int reason) {
@@ -52,7 +63,7 @@ WRAPPER(tmpfile64, FILE *, (void)) {
 }
 
 WRAPPER(fclose, int, (FILE * stream)) {
-    const bool is_due = fails(NULL, is_for_reading(stream) ? "fclose-reading" : "fclose", EIO);
+    const bool is_due = fails(NULL, name_of_close(stream), EIO);
     fault_lose(stream);
     const int status = __real_fclose(stream);
     if (is_due) {
@@ -78,7 +89,6 @@ CALL(fread, size_t, 0, EIO, (void *out, size_t bytes, size_t count, FILE *stream
      (out, bytes, count, stream))
 CALL(fgets, char *, NULL, EIO, (char *out, int bytes, FILE *stream), (out, bytes, stream))
 CALL(getc, int, EOF, EIO, (FILE * stream), (stream))
-CALL(ungetc, int, EOF, EIO, (int byte, FILE *stream), (byte, stream))
 
 /* These do not touch the error indicator. */
 #define QUIET_CALL(name, type, failure, reason, parameters, arguments)                             \
@@ -89,8 +99,6 @@ CALL(ungetc, int, EOF, EIO, (int byte, FILE *stream), (byte, stream))
 QUIET_CALL(fseeko64, int, -1, ESPIPE, (FILE * stream, off_t offset, int whence),
            (stream, offset, whence))
 QUIET_CALL(ftello64, off_t, -1, ESPIPE, (FILE * stream), (stream))
-QUIET_CALL(setvbuf, int, -1, ENOMEM, (FILE * stream, char *buffer, int mode, size_t bytes),
-           (stream, buffer, mode, bytes))
 
 /* ---- formatted output ---------------------------------------------------------------------- */
 
