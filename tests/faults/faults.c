@@ -31,9 +31,9 @@ static bool is_at_same_place(fault_class kind) {
     place here = {.num_frames = 0};
     here.num_frames = backtrace(here.frames, MOST_FRAMES);
     place *const last = &plan.last[kind];
-    const bool is_same = here.num_frames == last->num_frames &&
-                         memcmp(here.frames, last->frames,
-                                (size_t)here.num_frames * sizeof here.frames[0]) == 0;
+    const bool is_same =
+        here.num_frames == last->num_frames &&
+        memcmp(here.frames, last->frames, (size_t)here.num_frames * sizeof here.frames[0]) == 0;
     *last = here;
     return is_same;
 }
