@@ -72,7 +72,7 @@ table_tolerance_summary() {
 # What the program does with every fault, by command line.
 table_faults() {
     need tests/faults/pointspec_faults || return 1
-    "$docs/../tests/faults/run_faults.sh" "$build/tests/faults/pointspec_faults" --table
+    POCL_CACHE_DIR=$build/pocl-cache "$docs/../tests/faults/run_faults.sh" "$build/tests/faults/pointspec_faults" --table
 }
 
 # Error and time against PS_TORUS_RUN: the kernels from disk, with the length of a run put in.
