@@ -36,6 +36,13 @@ check_symbols() {
     return 1
 }
 
+# Two points and their weights, zeros, column by column: magic, length of the header, header, numbers.
+make_fortran_array() {
+    local header="{'descr': '<f4', 'fortran_order': True, 'shape': (2, 3), }"
+    printf '\x93NUMPY\x01\x00\x76\x00%-117s\n' "$header"
+    head -c 24 /dev/zero
+}
+
 make_inputs() {
     mkdir "$scratch/initial"
     cd "$scratch/initial"
@@ -45,6 +52,9 @@ make_inputs() {
     printf '1 2 -1 0.5 1 2 1 0.5\n' | tr ' ' '\n' >weights.txt
     paste -d ' ' points.txt weights.txt | grep -v '#' >weighted.txt
     printf '1 0\n0 1\n1000 -3\n' >vectors.txt
+    gzip -n <points.txt >packed.gz
+    printf '0,90\n45,0\n-30,-60\n' >angles.csv
+    make_fortran_array >columns.npy
     for ending in csv json npy png txt; do echo "an earlier result" >old.$ending; done
     cd - >/dev/null
 }

@@ -58,9 +58,27 @@ WRAPPER(realpath, char *, (const char *path, char *room)) {
 CALL(fstat64, int, EIO, (int descriptor, struct stat *facts), (descriptor, facts))
 CALL(fchmod, int, EPERM, (int descriptor, mode_t mode), (descriptor, mode))
 CALL(ftruncate64, int, EIO, (int descriptor, off_t length), (descriptor, length))
+CALL(lseek64, off_t, EIO, (int descriptor, off_t offset, int whence), (descriptor, offset, whence))
 CALL(read, ssize_t, EIO, (int descriptor, void *out, size_t bytes), (descriptor, out, bytes))
 CALL(write, ssize_t, ENOSPC, (int descriptor, const void *in, size_t bytes),
      (descriptor, in, bytes))
+
+/* The commands in use: F_SETFD and F_DUPFD_CLOEXEC take a number, F_GETFD and F_GETFL do not. */
+WRAPPER(fcntl64, int, (int descriptor, int command, ...)) {
+    const bool takes_number = command == F_SETFD || command == F_DUPFD_CLOEXEC;
+    va_list arguments;
+    va_start(arguments, command);
+    const int value = takes_number ? va_arg(arguments, int) : 0;
+    va_end(arguments);
+    const char *const name = command == F_GETFD   ? "fcntl-query"
+                             : command == F_GETFL ? "fcntl-flags"
+                                                  : "fcntl";
+    const int result = fails(name, EIO) ? -1 : __real_fcntl64(descriptor, command, value);
+    if (command == F_DUPFD_CLOEXEC) {
+        fault_gain(as_thing(result), "fcntl");
+    }
+    return result;
+}
 
 /* Reports tell folders and pipes apart: only there may a failure be tolerated. */
 static const char *name_of(int descriptor, const char *file, const char *folder, const char *pipe) {
@@ -77,7 +95,9 @@ WRAPPER(fsync, int, (int descriptor)) {
 }
 
 WRAPPER(close, int, (int descriptor)) {
-    const bool is_due = fails(name_of(descriptor, "close", "close-folder", "close-pipe"), EIO);
+    const bool is_read = (__real_fcntl64(descriptor, F_GETFL, 0) & O_ACCMODE) == O_RDONLY;
+    const char *const file = is_read ? "close-reading" : "close";
+    const bool is_due = fails(name_of(descriptor, file, "close-folder", "close-pipe"), EIO);
     fault_lose(as_thing(descriptor));
     const int status = __real_close(descriptor);
     if (is_due) {
@@ -101,15 +121,6 @@ WRAPPER(dup, int, (int descriptor)) {
     const int copy = fails("dup", EMFILE) ? -1 : __real_dup(descriptor);
     fault_gain(as_thing(copy), "dup");
     return copy;
-}
-
-WRAPPER(fcntl64, int, (int descriptor, int command, ...)) {
-    va_list arguments;
-    va_start(arguments, command);
-    const int value = command == F_SETFD ? va_arg(arguments, int) : 0; /* all that is in use */
-    va_end(arguments);
-    const char *const name = command == F_GETFD ? "fcntl-query" : "fcntl";
-    return fails(name, EIO) ? -1 : __real_fcntl64(descriptor, command, value);
 }
 
 /* ---- child processes ----------------------------------------------------------------------- */

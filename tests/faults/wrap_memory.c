@@ -2,6 +2,8 @@
  * away. */
 #include "faults.h"
 
+#include <zlib.h>
+
 #include <cJSON.h>
 #include <errno.h>
 #include <stddef.h>
@@ -48,3 +50,17 @@ WRAPPER(realloc, void *, (void *old, size_t bytes)) {
 DEALLOCATION(free, void *)
 DEALLOCATION(cJSON_free, void *)
 DEALLOCATION(cJSON_Delete, cJSON *)
+
+/* zlib allocates its window here, and gives it back there. */
+WRAPPER(inflateInit2_, int, (z_stream * stream, int bits, const char *version, int bytes)) {
+    if (is_refused("inflateInit2_")) {
+        return Z_MEM_ERROR;
+    }
+    fault_gain(stream, "inflateInit2_");
+    return __real_inflateInit2_(stream, bits, version, bytes);
+}
+
+WRAPPER(inflateEnd, int, (z_stream * stream)) {
+    fault_lose(stream);
+    return __real_inflateEnd(stream);
+}
