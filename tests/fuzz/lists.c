@@ -1,0 +1,61 @@
+/* Frequency vectors and weights. The first byte: does the rest come through a pipe? */
+#include "fuzz.h"
+
+#include "io/points.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static fuzz_file make_input(fuzz_bytes input) {
+    const bool is_pipe = (fuzz_take(&input) & 1) != 0;
+    return is_pipe ? fuzz_pipe_make(input) : fuzz_file_make(input);
+}
+
+static void check_frequencies(const int *vectors, size_t num_vectors, unsigned dimension) {
+    enum { LARGEST = 1 << 30, MOST_DIMENSIONS = 6 };
+    if (num_vectors == 0 || dimension < 1 || dimension > MOST_DIMENSIONS) {
+        fuzz_fail("%zu vectors of dimension %u", num_vectors, dimension);
+    }
+    for (size_t i = 0; i < num_vectors * dimension; i++) {
+        if (vectors[i] < -LARGEST || vectors[i] > LARGEST) {
+            fuzz_fail("frequency %d", vectors[i]);
+        }
+    }
+}
+
+void fuzz_frequencies(const char *argument, fuzz_bytes input) {
+    (void)argument;
+    fuzz_file file = make_input(input);
+    int *vectors = NULL;
+    size_t num_vectors = 0;
+    unsigned dimension = 0;
+    ps_error error = {0};
+    const pspec_status status =
+        ps_read_frequencies(file.path, &vectors, &num_vectors, &dimension, &error);
+    fuzz_check_error(status, &error, FUZZ_PRINTABLE);
+    if (status == PSPEC_OK) {
+        check_frequencies(vectors, num_vectors, dimension);
+    }
+    free(vectors);
+    fuzz_file_close(&file);
+}
+
+void fuzz_weights(const char *argument, fuzz_bytes input) {
+    (void)argument;
+    fuzz_file file = make_input(input);
+    double *weights = NULL;
+    size_t num_weights = 0;
+    ps_error error = {0};
+    const pspec_status status = ps_read_weights(file.path, &weights, &num_weights, &error);
+    fuzz_check_error(status, &error, FUZZ_PRINTABLE);
+    if (status == PSPEC_OK && num_weights == 0) {
+        fuzz_fail("no weights, and no error");
+    }
+    for (size_t i = 0; status == PSPEC_OK && i < num_weights; i++) {
+        if (!isfinite(weights[i])) {
+            fuzz_fail("weight %g", weights[i]);
+        }
+    }
+    free(weights);
+    fuzz_file_close(&file);
+}

@@ -1,0 +1,164 @@
+#!/usr/bin/env bash
+# make_corpus.sh: writes the seeds of all fuzz targets into corpus/TARGET/seed-*. Files of other names
+# there are inputs that once broke something, and stay. The option bytes in front of point files are
+# explained in points.c.
+set -euo pipefail
+cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")"
+corpus=$PWD/corpus
+
+# seed TARGET NAME OPTIONS: OPTIONS, in the notation of printf, and then standard input
+seed() {
+    mkdir -p "$corpus/$1"
+    { printf '%b' "$3"; cat; } >"$corpus/$1/seed-$2"
+}
+# The six bytes of options: FLAGS COLUMNS MORE POINTS_PER_SET SETS BLOCK, two hexadecimal digits each
+options() {
+    printf '\\x%s' "$@"
+}
+torus=$(options 00 00 00 00 00 01)
+sphere=$(options 01 00 20 00 00 00)
+any=$(options 02 00 28 00 00 02) # blocks through a pipe, counts told
+weights=$(options 04 00 10 00 00 00)
+wrap=$(options 12 00 00 00 00 03)
+normalize=$(options 22 00 08 00 00 00)
+second=$(options 00 00 08 02 22 01) # only set 2, sets of two points
+theta_phi=$(options 43 05 20 00 00 01)
+lon_lat=$(options 03 0a 20 00 00 01) # with weights
+
+# Little-endian numbers as bytes
+f64() { perl -e 'print pack("d<*", @ARGV)' "$@"; }
+f32() { perl -e 'print pack("f<*", @ARGV)' "$@"; }
+u32() { perl -e 'print pack("V*", @ARGV)' "$@"; }
+
+# npy DESCR FORTRAN SHAPE: a header of version 1
+npy() {
+    local text="{'descr': '$1', 'fortran_order': $2, 'shape': ($3), }"
+    perl -e 'my $text = $ARGV[0]; $text .= " " while (length($text) + 11) % 64;
+        print "\x93NUMPY\x01\x00", pack("v", length($text) + 1), $text, "\n"' "$text"
+}
+utk() { # TYPE SETS POINTS DIMENSION
+    printf 'UTK!%b\0\0\0' "\\x0$1"
+    u32 "$2" "$3" "$4"
+}
+
+# ---- text ------------------------------------------------------------------------------------
+
+points='0.5 0.25\n1e-3 0.75\n0 0.33333333333333331\n'
+printf '%b' "$points" | seed utk-text plane "$torus"
+printf '%b#\n%b' "$points" '0.1 0.2\n' | seed utk-text sets "$any"
+printf '# comment\r\n0.5\t.5 2\r\n0.1 0.9 -1e3\r\n\r\n' | seed utk-text weights "$weights"
+printf '%b#\n%b#\n' "$points" "$points" | seed utk-text second "$second"
+printf -- '-0.25 7.5 1e18\n1 1 -1e-20\n' | seed utk-text wrap "$wrap"
+printf '0 0 1\n0.6 0.8 0\n' | seed utk-text vectors "$sphere"
+printf '0 0 2\n1e-200 0 0\n' | seed utk-text normalize "$normalize"
+printf '0.5 6.2\n3.1 0\n' | seed utk-text angles "$theta_phi"
+printf '180 -90 2\n-360 45.5 0.5\n' | seed utk-text degrees "$lon_lat"
+printf '0.1 0.2 0.3 0.4 0.5 0.6\n' | seed utk-text six "$torus"
+printf '0.1 0.2 nan\n' | seed utk-text nan "$torus"
+
+printf '0.5, 0.25\n1e-3,0.75\n#\n0,0.1\n' | seed csv plane "$torus"
+printf '0,0,1,2.5\n0.6,0.8,0,-1\n' | seed csv vectors "$sphere"
+printf '1.5,0.1\n3,6' | seed csv angles "$theta_phi"
+printf '0.5,,0.25\n' | seed csv gap "$torus"
+
+printf '3\n%b' "$points" | seed psa-text plane "$torus"
+printf '2\n0.5 0.25 2\n0.5 0.75 -1\nand more' | seed psa-text weights "$weights"
+printf '2 0.5 0.25\n0.1\n\n0.2' | seed psa-text broken-lines "$any"
+printf '1000000000000000\n0.5 0.5\n' | seed psa-text promise "$torus"
+
+printf '2 3\n0.1 0.2 0.3\n0.4 0.5 0.6\n' | seed gbn space "$torus"
+printf '2 3\n0 0 1 1\n0 0\n' | seed gbn vectors "$sphere"
+printf '2 1\n0.5\n' | seed gbn short "$any"
+
+printf '0 0\n1 1\n%b' "$points" | seed edat unit "$torus"
+printf -- '-1 -2\n1 2\n0.5 1.5 3\n#\n-1 0 4\n' | seed edat weights "$weights"
+printf '0 0\n1e308 1e-320\n0.5 0\n' | seed edat extreme "$wrap"
+
+printf '%%!PS-Adobe\n%%%%EndComments\n500 500 scale\n0.5 0.25 p\n.1\t.2 p\r\nshowpage\n' |
+    seed eps picture "$torus"
+printf '%%!\n' | seed eps nothing "$any"
+
+# ---- binary ----------------------------------------------------------------------------------
+
+{ utk 5 1 2 2; f64 0.5 0.25 0 0.999; } | seed utk-binary double "$torus"
+{ utk 4 2 1 2; f32 0.5 0.25 0 0.75; } | seed utk-binary float "$any"
+{ utk 5 2 1 1; f64 0.5 0.5; } | seed utk-binary repeats "$torus"
+{ utk 2 1 1 2; u32 0 7; } | seed utk-binary whole-numbers "$torus"
+{ utk 5 1 1 3; f64 0 0 1; } | seed utk-binary vectors "$sphere"
+utk 5 4294967295 4294967295 6 | seed utk-binary promise "$any"
+
+f32 0.5 0.25 0 0.75 0.1 0.2 | seed rps plane "$torus"
+f32 0.5 0.25 0 0.75 0.1 0.2 0.3 0.4 | seed rps second "$second"
+f32 0.5 | seed rps half "$any"
+
+{ npy '<f8' False '2, 2'; f64 0.5 0.25 0 0.75; } | seed npy plane "$torus"
+{ npy '<f8' False '2, 2, 1'; f64 0.5 0.25 0 0.75; } | seed npy sets "$any"
+{ npy '<f8' True '2, 2, 2'; f64 0.5 0.25 0 0.75 0.1 0.2 0.3 0.4; } | seed npy fortran-sets "$any"
+{ npy '<f4' True '3, 2'; f32 0.5 0.25 0 0.75 0.1 0.2; } | seed npy fortran "$any"
+{ npy '<f8' False '2, 3'; f64 0.5 0.25 2 0 0.75 3; } | seed npy weights "$weights"
+{ npy '<f8' False '2, 3'; f64 0 0 1 0 1 0; } | seed npy vectors "$sphere"
+{ npy '>f8' False '1,'; printf '\x3f\xe0\0\0\0\0\0\0'; } | seed npy big-endian "$torus"
+npy '<f8' False '18446744073709551615, 2' | seed npy promise "$any"
+{ printf '\x93NUMPY\x02\x00\xff\xff\xff\xff'; } | seed npy long-header "$torus"
+
+angles=$(options 43 00 20 00 00 01)
+{ npy '<f8' False '2, 2'; f64 0.5 1.5 0 6; } | seed openquad angles "$angles"
+{ npy '<f8' False '3, 2'; f64 0.5 1.5 0 6 1 2; } | seed openquad weights "$sphere"
+{ npy '<f8' True '2, 2'; f64 0.5 1.5 0 6; } | seed openquad fortran "$any"
+
+# ---- what tells the format by itself ---------------------------------------------------------
+
+printf '%b' "$points" | seed detection text "$torus"
+printf '0.1,0.2\n' | seed detection csv "$any"
+printf '3\n%b' "$points" | seed detection psa "$any"
+printf '2 3\n0.1 0.2 0.3\n0.4 0.5 0.6\n' | seed detection gbn "$any"
+printf '%%!PS\n0.5 0.25 p\n' | seed detection eps "$any"
+{ utk 5 1 1 2; f64 0.5 0.25; } | seed detection utk "$any"
+{ npy '<f8' False '2, 8'; f64 0 1 2 3 0 1 2 3 0 1 2 3 4 5 6 0; } | seed detection openquad "$any"
+{ npy '<f8' False '1, 2'; f64 0 0.5; } | seed detection npy "$any"
+f32 0.3 0.7 | seed detection raw "$any"
+printf '%b' "$points" | gzip -n | seed detection gzip "$any"
+{ printf '0.5 0.25\n' | gzip -n; printf '0.1 0.2\n' | gzip -n; } | seed detection gzip-members "$torus"
+{ utk 5 1 64 1; f64 $(seq 0 0.01 0.63); } | gzip -n | seed detection gzip-utk "$any"
+printf '%b' "$points" | gzip -n | head -c 20 | seed detection gzip-short "$any"
+printf '\x1f\x8b' | seed detection gzip-magic "$torus"
+
+# ---- lists -----------------------------------------------------------------------------------
+
+printf '1 0\n-3 7\n' | seed frequencies plane '\0'
+printf '# k\n1,2,3\r\n4 , 5 , -1073741824\n' | seed frequencies commas '\1'
+printf '1e3\n1.5\n' | seed frequencies fraction '\0'
+printf '1\n2.5 -1e-3\n' | seed weights text '\0'
+{ npy '<f8' False '2,'; f64 1 -2; } | seed weights npy '\1'
+npy '<f8' False '1152921504606846976,' | seed weights promise '\1'
+printf '1\n2\n' | gzip -n | seed weights gzip '\0'
+
+# ---- numbers ---------------------------------------------------------------------------------
+
+i=0
+for number in 0.5 -0 .25 5. 1e23 9007199254740993 0.1e-5 1e400 4.9e-324 123456789.123456789 \
+    12345678901234567890123 0.000000000000000000000000000001 2.2250738585072011e-308 +1e+5x 1e nan; do
+    i=$((i + 1))
+    printf '%s' "$number" | seed decimal "$i" ''
+done
+f64 0.1 | seed decimal bits ''
+
+# ---- words -----------------------------------------------------------------------------------
+
+i=0
+for text in white sobol:scramble=owen,skip=3 jittered:strata=4x4 halton regular latin-hypercube \
+    hammersley larcher-pillichshammer:scramble=none wite 'sobol:skip=1,skip=2' 'white:x=' ':'; do
+    i=$((i + 1))
+    printf '%s' "$text" | seed sampler "$i" '\x10\0\2'
+done
+
+printf -- '--sampler\nwhite\n-n\n1e3\n-m16\n-k\n64\n-o\nout.csv' | seed arguments power '\0'
+printf -- '--sampler\nsobol:scramble=owen\n--sampler=jittered\n-n4096\n-d3\n--tol=1e-9\n--plot=a.png' |
+    seed arguments samplers '\0'
+printf -- '--frequencies=f.txt\n--weights\ncolumn\n--wrap\n-\n--\n-x' | seed arguments files '\0'
+printf -- '--sampler\nhalton\n-n\n1000\n--format\nnpy\n-s\n18446744073709551615' |
+    seed arguments sample '\1'
+printf -- 'power\n--precision\nextended\na\nb' | seed arguments plan '\2'
+printf -- '--verbose\n--help' | seed arguments devices '\3'
+printf -- 'pwer\n--pints=5' | seed arguments typing '\xff'
+printf -- '--points=0\n' | seed arguments range '\0'

@@ -1,0 +1,141 @@
+/* What people type: samplers with their parameters, and the words of commands. */
+#include "base/text.h"
+#include "cli/command.h"
+#include "cli/options.h"
+#include "cli/question.h"
+#include "fuzz.h"
+#include "samplers/sampler.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+volatile sig_atomic_t ps_interrupted = 0; /* main.c, which has it, is not part of this */
+
+/* ---- samplers ---------------------------------------------------------------------------- */
+
+static void check_points(const ps_sampler_request *request) {
+    const size_t count = request->num_points * request->dimension;
+    double *const points = fuzz_allocate(NULL, count, sizeof *points);
+    ps_error error = {0};
+    const pspec_status status = ps_sampler_generate(request, 0, points, &error);
+    fuzz_check_error(status, &error, FUZZ_QUOTES_INPUT);
+    for (size_t i = 0; status == PSPEC_OK && i < count; i++) {
+        if (!(points[i] >= 0 && points[i] < 1)) {
+            fuzz_fail("%s: coordinate %.17g", request->sampler->name, points[i]);
+        }
+    }
+    free(points);
+}
+
+/* Bytes: number of points (2), dimension, text. */
+void fuzz_sampler(const char *argument, fuzz_bytes input) {
+    enum { MOST_DIMENSIONS = 8, MOST_GENERATED = 1024 };
+    (void)argument;
+    ps_sampler_request request = {.seed = 1};
+    request.num_points = fuzz_take(&input);
+    request.num_points += (size_t)fuzz_take(&input) << 8;
+    request.dimension = fuzz_take(&input) % MOST_DIMENSIONS;
+    char *const text = fuzz_copy_text(input);
+    ps_error error = {0};
+    pspec_status status = ps_sampler_parse(&request, text, &error);
+    if (status == PSPEC_OK) {
+        for (unsigned i = 0; request.sampler->parameters[i].key != NULL; i++) {
+            if (memchr(request.values[i], '\0', PS_MAX_SAMPLER_VALUE) == NULL) {
+                fuzz_fail("%s: parameter %u has no end", text, i);
+            }
+        }
+        status = ps_sampler_check(&request, &error);
+    }
+    fuzz_check_error(status, &error, FUZZ_QUOTES_INPUT);
+    if (status == PSPEC_OK && request.num_points <= MOST_GENERATED) {
+        check_points(&request);
+    }
+    free(text);
+}
+
+/* ---- commands ---------------------------------------------------------------------------- */
+
+enum { MOST_WORDS = 64 };
+
+static int split_words(char *text, size_t size, char *words[MOST_WORDS]) {
+    int num_words = 0;
+    char *word = text;
+    for (size_t i = 0; i <= size && num_words < MOST_WORDS; i++) {
+        if (i == size || text[i] == '\n' || text[i] == '\0') {
+            text[i] = '\0';
+            words[num_words++] = word;
+            word = text + i + 1;
+        }
+    }
+    return num_words;
+}
+
+/* The limits of the options, which everything behind the parser relies on. */
+static void check_ranges(const ps_command *command, const ps_arguments *a, int num_words) {
+    enum { MOST_DIMENSIONS = 6, MOST_PRECISION = 2 };
+    const bool is_good = a->num_points >= 1 && a->num_realizations >= 1 && a->dimension >= 1 &&
+                         a->dimension <= MOST_DIMENSIONS && a->max_frequency >= 0 &&
+                         a->tolerance > 0 && a->tolerance <= 1 && a->floor >= 0 &&
+                         isfinite(a->floor) && a->precision >= -1 &&
+                         a->precision <= MOST_PRECISION && a->num_samplers <= PS_MAX_SAMPLERS &&
+                         a->num_files <= (size_t)num_words;
+    if (!is_good) {
+        fuzz_fail("%s: a value outside its limits", command->name);
+    }
+    for (int id = 0; id < PS_NUM_OPTIONS; id++) {
+        if (a->is_given[id] && !ps_command_takes(command, (ps_option_id)id)) {
+            fuzz_fail("%s: option %d is not its own", command->name, id);
+        }
+    }
+}
+
+static void check_questions(const ps_arguments *arguments) {
+    ps_question_list *const list = fuzz_allocate(NULL, 1, sizeof *list);
+    ps_error error = {0};
+    memset(list, 0, sizeof *list);
+    const pspec_status status = ps_questions_make(list, arguments, &error);
+    fuzz_check_error(status, &error, FUZZ_QUOTES_INPUT);
+    if (status == PSPEC_OK && (list->num < 1 || list->num > PS_MAX_SAMPLERS)) {
+        fuzz_fail("%zu questions", list->num);
+    }
+    free(list);
+}
+
+static void parse_words(const ps_command *command, int num_words, char **words) {
+    ps_arguments arguments;
+    ps_error error = {0};
+    const pspec_status status = ps_arguments_parse(&arguments, command, num_words, words, &error);
+    fuzz_check_error(status, &error, FUZZ_QUOTES_INPUT);
+    if (status == PSPEC_OK) {
+        check_ranges(command, &arguments, num_words);
+        check_questions(&arguments);
+    }
+    ps_arguments_free(&arguments);
+}
+
+/* The first byte is the number of the command; where there is none of that number, the first word is
+ * its name. */
+void fuzz_arguments(const char *argument, fuzz_bytes input) {
+    (void)argument;
+    const unsigned number = fuzz_take(&input);
+    size_t num_commands = 0;
+    while (ps_commands[num_commands] != NULL) {
+        num_commands++;
+    }
+    char *const text = fuzz_copy_text(input);
+    char *words[MOST_WORDS];
+    ps_error error = {0};
+    const int num_words = split_words(text, input.size, words);
+    if (number < num_commands) {
+        parse_words(ps_commands[number], num_words, words);
+    } else {
+        const ps_command *const command = ps_command_find(words[0], &error);
+        if (command == NULL) {
+            fuzz_check_error(PSPEC_ERROR_INVALID_ARGUMENT, &error, FUZZ_QUOTES_INPUT);
+        } else {
+            parse_words(command, num_words - 1, words + 1);
+        }
+    }
+    free(text);
+}
