@@ -217,7 +217,7 @@ static pspec_status count_rows(ps_point_reader *reader, const ps_rows_read *read
 }
 
 static pspec_status check_not_empty(const ps_point_reader *reader, ps_error *error) {
-    return reader->has_any_points
+    return !reader->is_at_end || reader->has_any_points
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INPUT, "%s holds no points", reader->input.name);
 }
@@ -238,6 +238,7 @@ static pspec_status skip_sets(ps_point_reader *reader, ps_error *error) {
     return PSPEC_OK;
 }
 
+/* Looked at after reading: the last set may turn out to be the last one only then. */
 static pspec_status check_range(const ps_point_reader *reader, ps_error *error) {
     const ps_point_range *sets = &reader->options.sets;
     const bool is_open = sets->last == UINT64_MAX;
@@ -254,7 +255,6 @@ pspec_status ps_points_next_block(ps_point_reader *reader, ps_point_set *set, si
                                   bool *has_set, bool *ends_set, ps_error *error) {
     *has_set = *ends_set = false;
     PS_TRY(skip_sets(reader, error));
-    PS_TRY(check_range(reader, error));
     while (!reader->is_at_end && !*has_set && !*ends_set &&
            is_wanted(&reader->options.sets, reader->num_sets + 1)) {
         ps_rows_read read;
@@ -264,7 +264,8 @@ pspec_status ps_points_next_block(ps_point_reader *reader, ps_point_set *set, si
         PS_TRY(count_rows(reader, &read, ends_set, error));
     }
     *has_set = *has_set || *ends_set;
-    return reader->is_at_end ? check_not_empty(reader, error) : PSPEC_OK;
+    PS_TRY(check_not_empty(reader, error));
+    return check_range(reader, error);
 }
 
 pspec_status ps_points_next(ps_point_reader *reader, ps_point_set *set, bool *has_set,
