@@ -123,7 +123,8 @@ static pspec_status resolve_named(ps_layout *out, const ps_columns_question *que
     const ps_point_options *options = question->options;
     PS_TRY(check_named(question, layout, error));
     const bool may_be_vectors = layout->columns - layout->has_weight == 3 &&
-                                options->dimension == 0 && options->domain != PS_DOMAIN_TORUS;
+                                (options->domain == PS_DOMAIN_SPHERE ||
+                                 (options->domain == PS_DOMAIN_ANY && options->dimension == 0));
     const bool are_vectors =
         may_be_vectors && (options->domain == PS_DOMAIN_SPHERE || options->normalize_vectors ||
                            ps_is_unit_vector(question->first));
