@@ -32,7 +32,7 @@ done
 # small quarantine of freed memory keeps AddressSanitizer from mapping these anew for every input.
 export ASAN_OPTIONS=quarantine_size_mb=16:${ASAN_OPTIONS-}
 export UBSAN_OPTIONS=print_stacktrace=1:${UBSAN_OPTIONS-}
-limits=(-malloc_limit_mb=100 -rss_limit_mb=1024 -timeout=10 -max_len=4096)
+limits=(-malloc_limit_mb=100 -rss_limit_mb=1024 -timeout=10 -max_len=8192)
 
 run_target() { # TARGET
     local folder=$output/$1 options=()

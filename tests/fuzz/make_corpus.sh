@@ -26,9 +26,9 @@ theta_phi=$(options 43 05 20 00 00 01)
 lon_lat=$(options 03 0a 20 00 00 01) # with weights
 
 # Little-endian numbers as bytes
-f64() { perl -e 'print pack("d<*", @ARGV)' "$@"; }
-f32() { perl -e 'print pack("f<*", @ARGV)' "$@"; }
-u32() { perl -e 'print pack("V*", @ARGV)' "$@"; }
+f64() { perl -e 'print pack("d<*", @ARGV)' -- "$@"; }
+f32() { perl -e 'print pack("f<*", @ARGV)' -- "$@"; }
+u32() { perl -e 'print pack("V*", @ARGV)' -- "$@"; }
 
 # npy DESCR FORTRAN SHAPE: a header of version 1
 npy() {
@@ -55,6 +55,10 @@ printf '0.5 6.2\n3.1 0\n' | seed utk-text angles "$theta_phi"
 printf '180 -90 2\n-360 45.5 0.5\n' | seed utk-text degrees "$lon_lat"
 printf '0.1 0.2 0.3 0.4 0.5 0.6\n' | seed utk-text six "$torus"
 printf '0.1 0.2 nan\n' | seed utk-text nan "$torus"
+printf '0.5 0.5\n0 1\n' | seed utk-text upper-edge "$torus"
+printf '0 0 1\n1.000003 0 0\n' | seed utk-text nearly-unit "$sphere"
+printf '0.5 0.5 1e400\n' | seed utk-text infinite-weight "$weights"
+printf '\x1f\x7f\n' | seed utk-text control "$torus"
 
 printf '0.5, 0.25\n1e-3,0.75\n#\n0,0.1\n' | seed csv plane "$torus"
 printf '0,0,1,2.5\n0.6,0.8,0,-1\n' | seed csv vectors "$sphere"
@@ -87,9 +91,16 @@ printf '%%!\n' | seed eps nothing "$any"
 { utk 5 1 1 3; f64 0 0 1; } | seed utk-binary vectors "$sphere"
 utk 5 4294967295 4294967295 6 | seed utk-binary promise "$any"
 
+# Sets of more than 1024 points, as many as are read before room is made for the whole set
+{ utk 4 1 1040 1; head -c 4160 /dev/zero; } | seed utk-binary long "$torus"
+{ utk 4 1 4294967295 1; head -c 4160 /dev/zero; } | seed utk-binary long-promise "$torus"
+{ npy '<f4' False '1040,'; head -c 4160 /dev/zero; } | seed npy long "$torus"
+{ npy '<f4' False '100000000000,'; head -c 4160 /dev/zero; } | seed npy long-promise "$torus"
+
 f32 0.5 0.25 0 0.75 0.1 0.2 | seed rps plane "$torus"
 f32 0.5 0.25 0 0.75 0.1 0.2 0.3 0.4 | seed rps second "$second"
 f32 0.5 | seed rps half "$any"
+f32 -1e-10 0.5 | seed rps below-1 "$wrap"
 
 { npy '<f8' False '2, 2'; f64 0.5 0.25 0 0.75; } | seed npy plane "$torus"
 { npy '<f8' False '2, 2, 1'; f64 0.5 0.25 0 0.75; } | seed npy sets "$any"
@@ -137,7 +148,7 @@ printf '1\n2\n' | gzip -n | seed weights gzip '\0'
 
 i=0
 for number in 0.5 -0 .25 5. 1e23 9007199254740993 0.1e-5 1e400 4.9e-324 123456789.123456789 \
-    12345678901234567890123 0.000000000000000000000000000001 2.2250738585072011e-308 +1e+5x 1e nan; do
+    12345678901234567890123 18446740742.00054741 0.000000000000000000000000000001 2.2250738585072011e-308 +1e+5x 1e nan; do
     i=$((i + 1))
     printf '%s' "$number" | seed decimal "$i" ''
 done
@@ -162,3 +173,4 @@ printf -- 'power\n--precision\nextended\na\nb' | seed arguments plan '\2'
 printf -- '--verbose\n--help' | seed arguments devices '\3'
 printf -- 'pwer\n--pints=5' | seed arguments typing '\xff'
 printf -- '--points=0\n' | seed arguments range '\0'
+printf -- '--tol=0\n' | seed arguments tolerance '\0'
