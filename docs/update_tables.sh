@@ -24,6 +24,9 @@ table_bench_torus() { bench torus; }
 table_bench_reading() { bench reading; }
 table_bench_memory() { bench memory; }
 
+# What the last ./dev fuzz printed.
+table_fuzzing() { cat "$docs/../fuzz-output/table.txt"; }
+
 # The examples of README.md: the first rows of jittered sampling, a list, a plan from the first skip on.
 power_rows() { # ARGUMENTS...
     "$build/pointspec" power --quiet "$@" | grep -v '^#'
