@@ -71,9 +71,10 @@ struct ps_point_reader {
     /* points_read.c */
     bool has_layout, is_at_end;
     ps_layout layout;
-    double *staging;    /* [block_values] */
-    uint64_t num_sets;  /* complete ones */
-    size_t rows_in_set; /* of the set that is being read */
+    double *staging;         /* rows on their way to points */
+    size_t staging_capacity; /* in doubles */
+    uint64_t num_sets;       /* complete ones */
+    size_t rows_in_set;      /* of the set that is being read */
     bool has_any_points;
 };
 

@@ -156,7 +156,11 @@ static pspec_status read_psa(ps_point_reader *reader, ps_rows_read *out, ps_erro
         double *const row = out->rows + out->num * reader->columns;
         PS_TRY(read_lines(reader, row, num - out->num, &num_rows, error));
         if (num_rows == 0) {
-            PS_TRY(read_point(reader, row, reader->rows_in_set + out->num, error));
+            const size_t index = reader->rows_in_set + out->num;
+            const pspec_status status = read_point(reader, row, index, error);
+            if (status != PSPEC_OK) { /* which the next call finds again */
+                return out->num > 0 ? PSPEC_OK : status;
+            }
             num_rows = 1;
         }
         out->num += num_rows;

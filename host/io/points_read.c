@@ -51,17 +51,6 @@ static size_t block_rows(const ps_point_reader *reader) {
     return (reader->block_values > 0 ? reader->block_values : BLOCK_VALUES) / reader->columns;
 }
 
-static pspec_status prepare_staging(ps_point_reader *reader, ps_error *error) {
-    void *memory = NULL;
-    if (reader->staging != NULL) {
-        return PSPEC_OK;
-    }
-    PS_TRY(
-        ps_allocate(&memory, block_rows(reader) * reader->columns, sizeof(double), "rows", error));
-    reader->staging = memory;
-    return PSPEC_OK;
-}
-
 static pspec_status read_rows(ps_point_reader *reader, double *rows, size_t capacity,
                               ps_rows_read *out, ps_error *error) {
     *out = (ps_rows_read){.rows = rows, .capacity = capacity};
@@ -73,9 +62,12 @@ static pspec_status read_rows(ps_point_reader *reader, double *rows, size_t capa
 static pspec_status read_staged(ps_point_reader *reader, size_t max_points, ps_rows_read *out,
                                 ps_error *error) {
     const size_t fitting = block_rows(reader);
-    PS_TRY(prepare_staging(reader, error));
-    return read_rows(reader, reader->staging, max_points < fitting ? max_points : fitting, out,
-                     error);
+    const size_t num = max_points < fitting ? max_points : fitting;
+    void *memory = reader->staging;
+    PS_TRY(ps_grow(&memory, &reader->staging_capacity, num * reader->columns, sizeof(double),
+                   "rows", error));
+    reader->staging = memory;
+    return read_rows(reader, reader->staging, num, out, error);
 }
 
 static pspec_status resolve_layout(ps_point_reader *reader, const double *first, ps_error *error) {

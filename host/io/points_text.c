@@ -208,6 +208,16 @@ static pspec_status end_set(ps_point_reader *reader, ps_rows_read *out, ps_error
     return PSPEC_OK;
 }
 
+/* Rows before a blank line, which may be an error, are handed out first. */
+static pspec_status end_input(ps_point_reader *reader, ps_rows_read *out, bool is_blank,
+                              ps_error *error) {
+    if (is_blank && out->num > 0) {
+        return PSPEC_OK;
+    }
+    out->end = PS_END_OF_INPUT;
+    return is_blank ? read_blank_end(reader->state, error) : PSPEC_OK;
+}
+
 static pspec_status read_text(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
     ps_text_state *const state = reader->state;
     ps_line_kind kind = PS_LINE_POINT;
@@ -218,8 +228,7 @@ static pspec_status read_text(ps_point_reader *reader, ps_rows_read *out, ps_err
             return end_set(reader, out, error);
         }
         if (kind == PS_LINE_NONE || kind == PS_LINE_BLANK) {
-            out->end = PS_END_OF_INPUT;
-            return kind == PS_LINE_BLANK ? read_blank_end(state, error) : PSPEC_OK;
+            return end_input(reader, out, kind == PS_LINE_BLANK, error);
         }
         const size_t before = out->num;
         read_rows(reader, out);

@@ -8,15 +8,16 @@
 #include <string.h>
 #include <strings.h>
 
-/* Large enough for several threads to share, small enough to stay in the cache they share. */
-enum { BUFFER_BYTES = 1 << 22 };
+/* The buffer grows with its input: small files are many, and of a large one several threads share a
+ * part that stays in their cache. */
+enum { FIRST_BYTES = 1 << 16, MOST_BYTES = 1 << 22, GROWTH = 8 };
 
 /* ---- lines ------------------------------------------------------------------------------- */
 
 pspec_status ps_lines_open(ps_lines *lines, ps_input *input, ps_error *error) {
     void *memory = NULL;
-    *lines = (ps_lines){.input = input, .line_number = 1};
-    PS_TRY(ps_allocate(&memory, BUFFER_BYTES + PS_DECIMAL_PADDING, 1, "text buffer", error));
+    *lines = (ps_lines){.input = input, .line_number = 1, .capacity = FIRST_BYTES};
+    PS_TRY(ps_allocate(&memory, FIRST_BYTES + PS_DECIMAL_PADDING, 1, "text buffer", error));
     lines->buffer = memory;
     lines->cursor = lines->lines_end = lines->buffer;
     return PSPEC_OK;
@@ -55,15 +56,37 @@ static void end_last_line(ps_lines *lines) {
 }
 
 /* One byte is kept for a missing '\n'. */
+static size_t free_bytes(const ps_lines *lines) {
+    return lines->capacity - 1 - lines->num_bytes;
+}
+
 static bool is_full(const ps_lines *lines) {
-    return lines->num_bytes == BUFFER_BYTES - 1;
+    return free_bytes(lines) == 0 && lines->capacity >= MOST_BYTES;
+}
+
+static pspec_status grow(ps_lines *lines, ps_error *error) {
+    const size_t capacity = lines->capacity * GROWTH;
+    char *const larger = realloc(lines->buffer, capacity + PS_DECIMAL_PADDING);
+    if (larger == NULL) {
+        return ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for a text buffer");
+    }
+    memset(larger + lines->capacity, 0, capacity + PS_DECIMAL_PADDING - lines->capacity);
+    lines->cursor = larger + (lines->cursor - lines->buffer);
+    lines->lines_end = larger + (lines->lines_end - lines->buffer);
+    lines->buffer = larger;
+    lines->capacity = capacity;
+    return PSPEC_OK;
 }
 
 static pspec_status read_more(ps_lines *lines, ps_error *error) {
+    if ((lines->wants_more || free_bytes(lines) == 0) && lines->capacity < MOST_BYTES) {
+        PS_TRY(grow(lines, error));
+    }
     const size_t first = lines->num_bytes;
+    const size_t room = free_bytes(lines);
     size_t count = 0;
-    PS_TRY(ps_input_read_some(lines->input, lines->buffer + first, BUFFER_BYTES - 1 - first, &count,
-                              error));
+    PS_TRY(ps_input_read_some(lines->input, lines->buffer + first, room, &count, error));
+    lines->wants_more = count == room; /* there would have been more */
     lines->num_bytes += count;
     find_lines(lines, first);
     if (count == 0) {
@@ -80,7 +103,7 @@ pspec_status ps_lines_fill(ps_lines *lines, bool *has_line, ps_error *error) {
         if (is_full(lines)) {
             return ps_fail(error, PSPEC_ERROR_INPUT,
                            "%s, line %zu: no end of line within %d bytes; is this a text file?",
-                           lines->input->name, lines->line_number, BUFFER_BYTES - 1);
+                           lines->input->name, lines->line_number, MOST_BYTES - 1);
         }
         PS_TRY(read_more(lines, error));
     }

@@ -12,6 +12,8 @@ typedef struct ps_lines {
     const char *cursor;    /* the caller moves it past each line it has read */
     const char *lines_end; /* end of the last whole line */
     size_t num_bytes;      /* of buffer in use */
+    size_t capacity;       /* of buffer, without the padding behind it */
+    bool wants_more;       /* the last read filled the buffer */
     size_t line_number;    /* of the line at cursor, counted from 1; the caller counts */
     bool is_at_end;
 } ps_lines;

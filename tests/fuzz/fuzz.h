@@ -63,6 +63,7 @@ void fuzz_file_close(fuzz_file *file);
 void fuzz_points(const char *argument, fuzz_bytes input);
 void fuzz_frequencies(const char *argument, fuzz_bytes input);
 void fuzz_weights(const char *argument, fuzz_bytes input);
+void fuzz_spectrum(const char *argument, fuzz_bytes input);
 void fuzz_decimal(const char *argument, fuzz_bytes input);
 void fuzz_sampler(const char *argument, fuzz_bytes input);
 void fuzz_arguments(const char *argument, fuzz_bytes input);

@@ -174,3 +174,21 @@ printf -- '--verbose\n--help' | seed arguments devices '\3'
 printf -- 'pwer\n--pints=5' | seed arguments typing '\xff'
 printf -- '--points=0\n' | seed arguments range '\0'
 printf -- '--tol=0\n' | seed arguments tolerance '\0'
+
+# ---- spectra: the harness adds the checksum --------------------------------------------------
+
+# spectrum FREQUENCIES MAX_FREQUENCY NUM_FREQUENCIES BINS NUM_BINS NORMALIZATION: header and totals
+spectrum() {
+    printf 'pointspec spectrum 1\npointspec_version: 0.1.0\ndimension: 2\nfrequencies: %s\n' "$1"
+    printf 'max_frequency: %s\nnum_frequencies: %s\nbins: %s\nnum_bins: %s\n' "$2" "$3" "$4" "$5"
+    printf 'normalization: %s\nrealizations: 2\nsmallest_points: 4\nlargest_points: 4\n\n' "$6"
+    f64 4 8 8 8 1e-7
+}
+sums() { # NUMBER
+    local i
+    for ((i = 0; i < $1; i++)); do f64 2 0 2.5 1e-20; done
+}
+{ spectrum box 1 4 rings 2 power; sums 6; } | seed spectrum box '\1'
+{ spectrum ball 2 10 shells 4 power; sums 14; } | seed spectrum ball '\1'
+{ spectrum list 7 1 rings 1 effective; u32 7 4294967293; sums 2; } | seed spectrum list '\1'
+{ spectrum box 1 4 rings 2 power; sums 6; } | seed spectrum unchecked '\0'

@@ -17,6 +17,7 @@ const fuzz_target fuzz_targets[] = {
     {"detection", fuzz_points, NULL, "binary.dict"},
     {"frequencies", fuzz_frequencies, NULL, "text.dict"},
     {"weights", fuzz_weights, NULL, "binary.dict"},
+    {"spectrum", fuzz_spectrum, NULL, "text.dict"},
     {"decimal", fuzz_decimal, NULL, "text.dict"},
     {"sampler", fuzz_sampler, NULL, "words.dict"},
     {"arguments", fuzz_arguments, NULL, "words.dict"},
