@@ -7,6 +7,10 @@
  * an EPYC, 2026-11; a thread parses 1.6 bytes per ns). */
 enum { LEAST_BYTES = 1 << 18 };
 
+/* Numbers that a worker has room for: half of a buffer of short ones, "0 1 ". Memory that is not used
+ * is not there. */
+enum { SPARE_VALUES = 1 << 20 };
+
 /* The part of one thread: lines from begin to end, at most capacity rows; stop is where it stopped. */
 typedef struct piece {
     const char *begin, *end, *stop;
@@ -37,12 +41,12 @@ static void parse_piece(void *payload, unsigned index) {
 }
 
 /* Threads and their memory, if there is any: without, the caller parses alone. */
-static void start(ps_row_parser *parser, size_t capacity) {
+static void start(ps_row_parser *parser) {
     parser->has_tried = true;
     parser->workers = ps_workers_create(PS_MOST_PARSERS);
-    parser->spare_rows = capacity;
+    parser->spare_rows = SPARE_VALUES / parser->columns;
     for (unsigned i = 1; i < ps_workers_count(parser->workers); i++) {
-        parser->spare[i] = malloc(capacity * parser->columns * sizeof(double));
+        parser->spare[i] = malloc(SPARE_VALUES * sizeof(double));
         if (parser->spare[i] == NULL) {
             ps_workers_destroy(parser->workers);
             parser->workers = NULL;
@@ -122,7 +126,7 @@ const char *ps_rows_parse(ps_row_parser *parser, const char *text, const char *e
         return parse_alone(parser, text, end, rows, capacity, num_rows);
     }
     if (!parser->has_tried) {
-        start(parser, capacity);
+        start(parser);
     }
     if (parser->workers == NULL) {
         return parse_alone(parser, text, end, rows, capacity, num_rows);
