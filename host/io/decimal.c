@@ -9,12 +9,22 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
 
 #if defined(__SIZEOF_INT128__)
 #define HAVE_WIDE_INTEGERS 1
 __extension__ typedef unsigned __int128 wide; /* -Wpedantic: not in ISO C, hence the #if */
 #else
 #define HAVE_WIDE_INTEGERS 0
+#endif
+
+/* Kept out of line, so that the fast path saves no registers for it. */
+#if defined(__GNUC__)
+#define PS_RARE __attribute__((noinline, cold))
+#else
+#define PS_RARE
 #endif
 
 enum {
@@ -58,6 +68,27 @@ static uint64_t join_eight(uint64_t v) {
     return ((v & mask) * weights_even + ((v >> 16) & mask) * weights_odd) >> 32;
 }
 
+#if defined(__SSE2__)
+/* Sixteen digits at once: 0 when one of the characters is none, else the number in *number. */
+static bool join_sixteen(const char *text, uint64_t *number) {
+    const __m128i digits =
+        _mm_sub_epi8(_mm_loadu_si128((const __m128i *)(const void *)text), _mm_set1_epi8('0'));
+    const __m128i are_digits = _mm_cmpeq_epi8(_mm_min_epu8(digits, _mm_set1_epi8(9)), digits);
+    if (_mm_movemask_epi8(are_digits) != 0xFFFF) {
+        return false;
+    }
+    const __m128i tens =
+        _mm_mullo_epi16(_mm_and_si128(digits, _mm_set1_epi16(0xFF)), _mm_set1_epi16(10));
+    const __m128i two = _mm_add_epi16(tens, _mm_srli_epi16(digits, 8));
+    const __m128i four = _mm_madd_epi16(two, _mm_set1_epi32(100 + (1 << 16)));
+    const __m128i packed = _mm_packs_epi32(four, four);
+    const __m128i eight = _mm_madd_epi16(packed, _mm_set1_epi32(10000 + (1 << 16)));
+    const uint64_t pair = (uint64_t)_mm_cvtsi128_si64(eight); /* the first eight in the low half */
+    *number = (pair & UINT32_MAX) * 100000000 + (pair >> 32);
+    return true;
+}
+#endif
+
 /* Appends the digits at text to *digits, which wraps around when they are too many. Eight at a time,
  * the last ones behind zeros in front: how many there are decides no branch, which would be guessed
  * wrong for every other number. */
@@ -66,6 +97,16 @@ static const char *scan_digits(const char *text, uint64_t *digits) {
     enum { BYTES = 8, BITS = 8 };
     uint64_t v = 0;
     uint64_t others = 0;
+#if defined(__SSE2__)
+    uint64_t sixteen = 0;
+    if (join_sixteen(text, &sixteen)) {
+        *digits = *digits * 10000000000000000 + sixteen;
+        for (text += 2 * BYTES; is_digit(*text); text++) { /* mostly one: the branch is guessed */
+            *digits = *digits * 10 + (uint64_t)(*text - '0');
+        }
+        return text;
+    }
+#endif
     memcpy(&v, text, BYTES);
     while ((others = find_others(v)) == 0) {
         *digits = *digits * 100000000 + join_eight(v);
@@ -87,7 +128,7 @@ static const char *scan_digits(const char *text, uint64_t *digits) {
 }
 #endif
 
-static const char *scan_exponent(const char *text, long *exponent) {
+PS_RARE static const char *scan_exponent(const char *text, long *exponent) {
     const char *digit = text + 1;
     const bool is_negative = *digit == '-';
     digit += *digit == '-' || *digit == '+';
@@ -103,7 +144,7 @@ static const char *scan_exponent(const char *text, long *exponent) {
 }
 
 /* Significant digits from first to end, the decimal point and leading zeros not counted. */
-static bool has_too_many_digits(const char *first, const char *end) {
+PS_RARE static bool has_too_many_digits(const char *first, const char *end) {
     while (first < end && (*first == '0' || *first == '.')) {
         first++;
     }
@@ -184,7 +225,8 @@ static const uint64_t reciprocal[NUM_RECIPROCALS] = {0, /* k = 0 is not a divisi
 static bool divide_by_power(uint64_t digits, unsigned k, double *value) {
     const int zeros = __builtin_clzll(digits);
     const uint64_t high = (uint64_t)(((wide)(digits << zeros) * reciprocal[k]) >> 64);
-    const int extra_bits = (high >> 63) != 0 ? 64 - MANTISSA_BITS : 63 - MANTISSA_BITS;
+    /* no branch: it would be guessed wrong every other time */
+    const int extra_bits = 63 - MANTISSA_BITS + (int)(high >> 63);
     const uint64_t half = UINT64_C(1) << (extra_bits - 1);
     const uint64_t low = high & (2 * half - 1);
     if (low == half || low == half - 1) {
@@ -243,7 +285,7 @@ static bool compute_in_locale(const char *text, size_t length, const char *point
     return *stop == '\0';
 }
 
-static bool compute_slow(const char *text, const char *end, double *value) {
+PS_RARE static bool compute_slow(const char *text, const char *end, double *value) {
     const char *const point = nl_langinfo(RADIXCHAR);
     if (strcmp(point, ".") != 0) {
         return compute_in_locale(text, (size_t)(end - text), point, value);

@@ -10,8 +10,9 @@
 #include <stddef.h>
 
 enum {
-    PS_DECIMAL_PADDING = 8, /* readable bytes that must follow any text given to ps_decimal_parse */
-    PS_DECIMAL_BYTES = 32   /* room for ps_decimal_format */
+    PS_DECIMAL_PADDING =
+        16,               /* readable bytes that must follow any text given to ps_decimal_parse */
+    PS_DECIMAL_BYTES = 32 /* room for ps_decimal_format */
 };
 
 /* Reads a number that starts at text: [+-] digits [. digits] [e [+-] digits]. Returns the first
