@@ -1,5 +1,7 @@
 #include "io/columns.h"
 
+#include "base/wide.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -34,7 +36,7 @@ static bool wrap(double *coordinate) {
 
 /* Are all values in [0,1)? In that range bits grow with the number, so the sign of a difference of
  * whole numbers tells, and compilers make vectors of that; -0 counts as bad here. */
-static bool are_inside(const double *values, size_t count) {
+PS_WIDE_BODY(bool, are_inside, (const double *values, size_t count)) {
     const uint64_t last_inside = 0x3FEFFFFFFFFFFFFF; /* the largest double below 1 */
     uint64_t signs = 0;
     for (size_t i = 0; i < count; i++) {
@@ -44,6 +46,7 @@ static bool are_inside(const double *values, size_t count) {
     }
     return signs >> 63 == 0;
 }
+PS_WIDE(bool, are_inside, (const double *values, size_t count), (values, count))
 
 /* Nearly always all are good. */
 static size_t accept_torus(unsigned dimension, bool wraps, double *values, size_t num) {

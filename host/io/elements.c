@@ -1,5 +1,7 @@
 #include "io/elements.h"
 
+#include "base/wide.h"
+
 #include <string.h>
 
 bool ps_host_is_big_endian(void) {
@@ -22,13 +24,17 @@ static void swap_bytes(unsigned char *bytes, size_t count, size_t element_bytes)
 
 /* Widens elements; raw and out do not overlap, so that compilers make vectors of this. */
 #define DEFINE_WIDEN(name, element)                                                                \
-    static void name(const unsigned char *restrict raw, double *restrict out, size_t count) {      \
+    PS_WIDE_BODY(size_t, name,                                                                     \
+                 (const unsigned char *restrict raw, double *restrict out, size_t count)) {        \
         for (size_t i = 0; i < count; i++) {                                                       \
             element narrow = 0;                                                                    \
             memcpy(&narrow, raw + i * sizeof narrow, sizeof narrow);                               \
             out[i] = (double)narrow;                                                               \
         }                                                                                          \
-    }
+        return count;                                                                              \
+    }                                                                                              \
+    PS_WIDE(size_t, name, (const unsigned char *restrict raw, double *restrict out, size_t count), \
+            (raw, out, count))
 
 DEFINE_WIDEN(widen_float, float)
 DEFINE_WIDEN(widen_int32, int32_t)
