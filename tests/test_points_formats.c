@@ -198,107 +198,69 @@ static void reads_the_files_of_the_field(void **state) {
 
 /* ---- what is refused --------------------------------------------------------------------- */
 
+static const struct bad_file {
+    const char *name, *text;
+    ps_point_options options;
+    const char *message;
+} bad_files[] = {
+    {"a.txt",
+     "3\n0.5 0.25\n0 0.75\n",
+     {0},
+     "a.txt is truncated: it promises 3 points, and point 3"},
+    {"a.txt", "2\n0.5 0.25\n0 x\n", {0}, "line 3: \"x\" is not a number"},
+    {"a.txt", "2\n0.5 0.25\n0 nan\n", {0}, "line 3: \"nan\" is not a finite number"},
+    {"a.txt", "2\n0.5 0.25\n0 1.5\n", {0}, "set 1, row 2: coordinate 1.5 is outside"},
+    {"a.txt", "2\n0.5 0.25 1\n0 0.5 2\n", {0}, "line 2: 3 columns after a count; --columns xyw"},
+    {"a.txt",
+     "99999999999999999999\n0.5 0.25\n",
+     {0},
+     "begins with 1e+20, which is not a number of"},
+    {"a.txt", "2 2\n0.5 0.25\n0 0.5\n", {.wrap = true}, "--input-format utk-text or gbn"},
+    {"a.txt", "2 9\n.1 .2 .3\n", {.format = "gbn"}, "begins with 9, which is not a number of dim"},
+    {"a.txt", "2 3\n.1 .2 .3\n.4 .5\n", {0}, "promises 2 points, and point 2 is not there"},
+    {"a.txt", "2 3\n.1 .2 .3\n.4 .5 .6", {.dimension = 2}, "3 columns, but the dimension asked"},
+    {"a.eps", "%!PS\nshowpage\n", {0}, "a.eps holds no points"},
+    {"a.eps", "0.5 0.5 p\n", {0}, "a.eps ends in .eps, but does not begin like eps"},
+    {"a.npy", "0.5 0.5\n", {0}, "a.npy ends in .npy, but does not begin like npy"},
+    {"a.bin", "0.5 0.5\n", {0}, "a.bin ends in .bin, but does not begin like utk-binary"},
+    {"a.txt", "0.5,0.5\n0.5\n", {0}, "line 2: 1 column, where line 1 has 2"},
+    {"a.txt", "0.5,0.5,\n", {0}, "line 1: \"\" is not a number"},
+    {"a.edat", "0 0\n", {0}, "a.edat holds no points"},
+    {"a.edat", "0 0\n1 1 1\n0.5 0.5\n", {0}, "line 2: not a corner of the domain"},
+    {"a.edat", "0 0\n1 0\n0.5 0.5\n", {0}, "the corners 0 and 0 of the domain enclose nothing"},
+    {"a.edat", "0 0\n1 1\n.5 .5 .5 .5\n", {0}, "line 3: 4 columns in a domain of dimension 2"},
+    {"a.txt", "0.6 0 -0.8\n", {0}, "line 1: coordinate -0.8 is outside [0,1); a unit vector?"},
+    {"a.txt", "0 0 1\n.1 .2 .3\n", {ANY}, "line 2: (0.1, 0.2, 0.3) is not a unit vector; --norm"},
+    {"a.txt", "0 0 1\n0 0 0\n", {ANY, .normalize_vectors = true}, "line 2: (0, 0, 0) has no dir"},
+    {"a.txt", "0 0 1e999\n", {ANY, .normalize_vectors = true}, "line 1: (0, 0, inf) has no dir"},
+    {"a.txt", ".1 .2\n", {.domain = PS_DOMAIN_SPHERE}, "line 1: 2 columns; which angles are they?"},
+    {"a.txt", ".1\n", {.domain = PS_DOMAIN_SPHERE}, "1 column; points of the sphere have 2 to 4"},
+    {"a.txt", ".1 .2\n", {.columns = "theta-phi"}, "columns theta-phi are points of the sphere"},
+    {"a.txt", ".1 .2\n", {.domain = PS_DOMAIN_SPHERE, .columns = "xy"}, "are points of the torus"},
+    {"a.txt", ".1 .2\n", {.columns = "xyw"}, "line 1: 2 columns, but xyw means 3"},
+    {"a.txt", ".1 .2\n", {.columns = "xy", .weight_column = true}, "columns xy have no weight"},
+    {"a.txt", "4 0\n", {ANY, .columns = "theta-phi"}, "line 1: 4, 0 are not theta (0 to pi) and"},
+    {"a.txt", "0 4\n", {ANY, .columns = "phi-theta"}, "line 1: 0, 4 are not phi (up to 2 pi) and"},
+    {"a.txt", "0 91\n", {ANY, .columns = "lon-lat"}, "0, 91 are not longitude and latitude"},
+    {"a.txt", "0 9 1e999\n", {ANY, .columns = "lon-lat-w"}, "weight inf is not a finite number"},
+    {"a.txt", ".1 .2\n", {.sets = {2, 3}}, "a.txt holds 1 set; set 2 is asked for"},
+    {"a.rps", "123456789", {0}, "a.rps: 9 bytes are not whole points of 2 float32"},
+    {"a.rps", "0000000011111111", {.points_per_set = 3}, "2 points are not whole sets of 3"},
+    {"a.bin", "UTK!", {0}, "a.bin does not begin with the header of UTK binary"},
+};
+
 static void refuses_bad_files(void **state) {
-    static const struct {
-        const char *name, *text;
-        ps_point_options options;
-        const char *message;
-    } cases[] = {
-        {"a.txt",
-         "3\n0.5 0.25\n0 0.75\n",
-         {0},
-         "a.txt is truncated: it promises 3 points, and point 3"},
-        {"a.txt", "2\n0.5 0.25\n0 x\n", {0}, "line 3: \"x\" is not a number"},
-        {"a.txt", "2\n0.5 0.25\n0 nan\n", {0}, "line 3: \"nan\" is not a finite number"},
-        {"a.txt", "2\n0.5 0.25\n0 1.5\n", {0}, "set 1, row 2: coordinate 1.5 is outside"},
-        {"a.txt",
-         "2\n0.5 0.25 1\n0 0.5 2\n",
-         {0},
-         "line 2: 3 columns after a count; --columns xyw"},
-        {"a.txt",
-         "99999999999999999999\n0.5 0.25\n",
-         {0},
-         "begins with 1e+20, which is not a number of"},
-        {"a.txt", "2 2\n0.5 0.25\n0 0.5\n", {.wrap = true}, "--input-format utk-text or gbn"},
-        {"a.txt",
-         "2 9\n.1 .2 .3\n",
-         {.format = "gbn"},
-         "begins with 9, which is not a number of dim"},
-        {"a.txt", "2 3\n.1 .2 .3\n.4 .5\n", {0}, "promises 2 points, and point 2 is not there"},
-        {"a.txt",
-         "2 3\n.1 .2 .3\n.4 .5 .6",
-         {.dimension = 2},
-         "3 columns, but the dimension asked"},
-        {"a.eps", "%!PS\nshowpage\n", {0}, "a.eps holds no points"},
-        {"a.eps", "0.5 0.5 p\n", {0}, "a.eps ends in .eps, but does not begin like eps"},
-        {"a.npy", "0.5 0.5\n", {0}, "a.npy ends in .npy, but does not begin like npy"},
-        {"a.bin", "0.5 0.5\n", {0}, "a.bin ends in .bin, but does not begin like utk-binary"},
-        {"a.txt", "0.5,0.5\n0.5\n", {0}, "line 2: 1 column, where line 1 has 2"},
-        {"a.txt", "0.5,0.5,\n", {0}, "line 1: \"\" is not a number"},
-        {"a.edat", "0 0\n", {0}, "a.edat holds no points"},
-        {"a.edat", "0 0\n1 1 1\n0.5 0.5\n", {0}, "line 2: not a corner of the domain"},
-        {"a.edat", "0 0\n1 0\n0.5 0.5\n", {0}, "the corners 0 and 0 of the domain enclose nothing"},
-        {"a.edat", "0 0\n1 1\n.5 .5 .5 .5\n", {0}, "line 3: 4 columns in a domain of dimension 2"},
-        {"a.txt", "0.6 0 -0.8\n", {0}, "line 1: coordinate -0.8 is outside [0,1); a unit vector?"},
-        {"a.txt",
-         "0 0 1\n.1 .2 .3\n",
-         {ANY},
-         "line 2: (0.1, 0.2, 0.3) is not a unit vector; --norm"},
-        {"a.txt",
-         "0 0 1\n0 0 0\n",
-         {ANY, .normalize_vectors = true},
-         "line 2: (0, 0, 0) has no dir"},
-        {"a.txt",
-         "0 0 1e999\n",
-         {ANY, .normalize_vectors = true},
-         "line 1: (0, 0, inf) has no dir"},
-        {"a.txt",
-         ".1 .2\n",
-         {.domain = PS_DOMAIN_SPHERE},
-         "line 1: 2 columns; which angles are they?"},
-        {"a.txt",
-         ".1\n",
-         {.domain = PS_DOMAIN_SPHERE},
-         "1 column; points of the sphere have 2 to 4"},
-        {"a.txt",
-         ".1 .2\n",
-         {.columns = "theta-phi"},
-         "columns theta-phi are points of the sphere"},
-        {"a.txt",
-         ".1 .2\n",
-         {.domain = PS_DOMAIN_SPHERE, .columns = "xy"},
-         "are points of the torus"},
-        {"a.txt", ".1 .2\n", {.columns = "xyw"}, "line 1: 2 columns, but xyw means 3"},
-        {"a.txt", ".1 .2\n", {.columns = "xy", .weight_column = true}, "columns xy have no weight"},
-        {"a.txt",
-         "4 0\n",
-         {ANY, .columns = "theta-phi"},
-         "line 1: 4, 0 are not theta (0 to pi) and"},
-        {"a.txt",
-         "0 4\n",
-         {ANY, .columns = "phi-theta"},
-         "line 1: 0, 4 are not phi (up to 2 pi) and"},
-        {"a.txt", "0 91\n", {ANY, .columns = "lon-lat"}, "0, 91 are not longitude and latitude"},
-        {"a.txt",
-         "0 9 1e999\n",
-         {ANY, .columns = "lon-lat-w"},
-         "weight inf is not a finite number"},
-        {"a.txt", ".1 .2\n", {.sets = {2, 3}}, "a.txt holds 1 set; set 2 is asked for"},
-        {"a.rps", "123456789", {0}, "a.rps: 9 bytes are not whole points of 2 float32"},
-        {"a.rps", "0000000011111111", {.points_per_set = 3}, "2 points are not whole sets of 3"},
-        {"a.bin", "UTK!", {0}, "a.bin does not begin with the header of UTK binary"},
-    };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < sizeof bad_files / sizeof bad_files[0]; i++) {
         char path[TEST_PATH_BYTES];
         ps_error error = {0};
         test_points all;
-        test_write_file(test_path(*state, cases[i].name, path), cases[i].text,
-                        strlen(cases[i].text));
-        const pspec_status status = test_points_read(&all, path, &cases[i].options, &error);
+        test_write_file(test_path(*state, bad_files[i].name, path), bad_files[i].text,
+                        strlen(bad_files[i].text));
+        const pspec_status status = test_points_read(&all, path, &bad_files[i].options, &error);
         test_points_free(&all);
-        if (status != PSPEC_ERROR_INPUT || strstr(error.message, cases[i].message) == NULL) {
-            fail_msg("%s: status %d, \"%s\", expected \"%s\"", cases[i].text, (int)status,
-                     error.message, cases[i].message);
+        if (status != PSPEC_ERROR_INPUT || strstr(error.message, bad_files[i].message) == NULL) {
+            fail_msg("%s: status %d, \"%s\", expected \"%s\"", bad_files[i].text, (int)status,
+                     error.message, bad_files[i].message);
         }
     }
 }
