@@ -19,6 +19,9 @@ options_of_help() { # COMMAND
 options_of_page() { # PAGE
     sed -nE '/^\.It Fl/ { s/^\.It //; s/ , /, /; s/Fl -/--/g; s/Fl /-/g; s/Ar //; p }' "$1" | sort
 }
+examples_of_page() { # PAGE
+    awk '/^\.Sh /{ on = /EXAMPLES/ } on && !/^\./' "$1"
+}
 lacks_examples() { # PAGE, with the text of a --help on standard input
     local text example
     text=$(sed 's/\\-/-/g' "$1")
@@ -39,6 +42,8 @@ for command in "${commands[@]}"; do
         complain "$page: other options than --help"
     missing=$("$program" "$command" --help | lacks_examples "$page")
     [[ -z $missing ]] || complain "$page lacks the example: $missing"
+    # The tests run the two examples of --help, so a page must have no others.
+    (($(examples_of_page "$page" | wc -l) == 2)) || complain "$page: examples that are not in --help"
     grep -q "^\.Xr pointspec-$command 1" "$folder/pointspec.1" ||
         complain "pointspec.1 does not name $command"
 done
