@@ -1,5 +1,4 @@
 /* --help: everything comes from the tables of commands, options and samplers. */
-#include "base/text.h"
 #include "cli/options.h"
 #include "samplers/sampler.h"
 
@@ -36,14 +35,18 @@ static void print_item(FILE *stream, const char *term, const char *text) {
     print_wrapped(stream, text, HELP_COLUMN, HELP_COLUMN);
 }
 
-/* The values that NAME stands for. */
-static void append_names(ps_text *text, const char *words, const char *metavar) {
+enum { TEXT_BYTES = 512 }; /* the longest text of an option with its names has half of that */
+
+/* The values that NAME stands for, behind what is in text. */
+static void append_names(char text[TEXT_BYTES], const char *words, const char *metavar) {
+    size_t used = strlen(text);
     if (words == metavar) {
         return;
     }
-    for (const char *separator = ": "; *words != '\0'; separator = ", ") {
+    for (const char *separator = ": "; *words != '\0' && used < TEXT_BYTES; separator = ", ") {
         const size_t length = strcspn(words, "|");
-        ps_text_append(text, "%s%.*s", separator, (int)length, words);
+        used += (size_t)snprintf(text + used, TEXT_BYTES - used, "%s%.*s", separator, (int)length,
+                                 words);
         words += length + (words[length] == '|');
     }
 }
@@ -55,17 +58,16 @@ static void print_option(FILE *stream, const ps_command *command, ps_option_id i
     const char letter[] = {'-', option->letter, ',', ' ', '\0'};
     snprintf(term, sizeof term, "%s--%s%s%s", option->letter != 0 ? letter : "    ", option->name,
              metavar != NULL ? " " : "", metavar != NULL ? metavar : "");
-    ps_text text = {0};
-    ps_text_append(&text, "%s", option->help);
-    append_names(&text, ps_option_words(command, id), metavar);
-    print_item(stream, term, ps_text_string(&text));
-    ps_text_free(&text);
+    char text[TEXT_BYTES];
+    snprintf(text, sizeof text, "%s", option->help);
+    append_names(text, ps_option_words(command, id), metavar);
+    print_item(stream, term, text);
 }
 
 /* ---- samplers ------------------------------------------------------------------------------ */
 
 static void print_sampler(FILE *stream, const ps_sampler *sampler) {
-    char text[512];
+    char text[TEXT_BYTES];
     int length = snprintf(text, sizeof text, "%s", sampler->summary);
     for (size_t i = 0; sampler->aliases[i] != NULL && length < (int)sizeof text; i++) {
         length += snprintf(text + length, sizeof text - (size_t)length, "%s%s",

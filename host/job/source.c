@@ -65,18 +65,19 @@ static pspec_status next_sample(ps_source *source, ps_point_set *set, bool *has_
 }
 
 /* Appends a name to a list unless it is there. */
-static void add_name(ps_text *list, const char *name) {
+static pspec_status add_name(ps_text *list, const char *name, ps_error *error) {
     static const char separator[] = ", ";
     const size_t length = strlen(name);
     for (const char *word = ps_text_string(list); *word != '\0';) {
         const char *const end = strstr(word, separator);
         const size_t word_length = end != NULL ? (size_t)(end - word) : strlen(word);
         if (word_length == length && strncmp(word, name, length) == 0) {
-            return;
+            return PSPEC_OK;
         }
         word += word_length + (end != NULL ? sizeof separator - 1 : 0);
     }
     ps_text_append(list, "%s%s", list->length > 0 && length > 0 ? separator : "", name);
+    return ps_text_check(list, error);
 }
 
 static pspec_status next_from_files(ps_source *source, ps_point_set *set, bool *has_set,
@@ -89,10 +90,10 @@ static pspec_status next_from_files(ps_source *source, ps_point_set *set, bool *
             }
             PS_TRY(ps_points_open(&source->reader, source->paths[source->next_path++],
                                   source->options, error));
-            add_name(&source->formats, ps_points_format(source->reader));
+            PS_TRY(add_name(&source->formats, ps_points_format(source->reader), error));
         }
         PS_TRY(ps_points_next(source->reader, set, has_set, error));
-        add_name(&source->columns, ps_points_columns(source->reader));
+        PS_TRY(add_name(&source->columns, ps_points_columns(source->reader), error));
         if (!*has_set) {
             ps_points_close(source->reader);
             source->reader = NULL;
