@@ -23,6 +23,7 @@ bench() { # NAME
 table_bench_torus() { bench torus; }
 table_bench_reading() { bench reading; }
 table_bench_memory() { bench memory; }
+table_bench_library() { bench library; }
 
 # What the last ./dev fuzz printed.
 table_fuzzing() { cat "$docs/../fuzz-output/table.txt"; }

@@ -118,8 +118,10 @@ void ps_workers_run(ps_workers *workers, void (*task)(void *payload, unsigned in
     workers->payload = payload;
     workers->num_busy = workers->num_threads;
     workers->round++;
-    pthread_cond_broadcast(&workers->has_work);
     pthread_mutex_unlock(&workers->mutex);
+    /* Not before: a thread that wakes to find the mutex taken sleeps again, and its next waking puts it
+     * on the caller's processor (Linux 6.18). */
+    pthread_cond_broadcast(&workers->has_work);
     task(payload, 0);
     pthread_mutex_lock(&workers->mutex);
     while (workers->num_busy > 0) {
