@@ -25,13 +25,24 @@ refuses() {
     [[ $code == 2 && $(wc -l <err) == 1 && $(<err) == *"$part"* && ! -s out ]] ||
         complain "exit $code, \"$part\" expected: convert $*" "    $(<err)"
 }
-# same EXPECTED ARGS...: the text that comes out of standard input or a file, and no message.
-same() {
-    local expected=$1 code=0
+# refuses_pipe PART ARGS...: the same of standard input
+refuses_pipe() {
+    local part=$1 code=0
     shift
     convert "$@" >out 2>err || code=$?
+    [[ $code == 2 && $(<err) == *"$part"* ]] ||
+        complain "exit $code, \"$part\" expected: convert $*" "    $(<err)"
+}
+# same EXPECTED ARGS...: the text that comes out of standard input or a file, and no message but, with
+# weights of the torus, how they are read.
+same() {
+    local expected=$1 code=0 remark=
+    shift
+    [[ " $* " != *' --weights column '* ]] ||
+        remark='pointspec convert: the file does not say that its last column holds weights: read it with --weights column'
+    convert "$@" >out 2>err || code=$?
     checked=$((checked + 1))
-    if [[ $code != 0 || -s err ]] || ! cmp -s "$expected" out; then
+    if [[ $code != 0 || (-s err && $(<err) != "$remark") ]] || ! cmp -s "$expected" out; then
         complain "exit $code or other points than $expected: convert $*" "    $(<err)"
     fi
 }
@@ -226,6 +237,22 @@ kill $feeder 2>/dev/null || true
 wait $feeder 2>/dev/null || true
 [[ $code == 130 && $(wc -l <err) == 1 && -z $(ls -A interrupted) ]] ||
     complain "interrupted: exit $code: $(<err) $(ls -A interrupted)"
+
+# ---- standard output that is an input would grow without an end
+cp torus.txt grows.txt
+code=0
+input=grows.txt
+convert $input >>grows.txt 2>err || code=$?
+if [[ $code != 2 || $(<err) != *'also the standard output'* ]] || ! cmp -s torus.txt grows.txt; then
+    complain "appending to the input: exit $code: $(<err)"
+fi
+# two signals of one moment, as timeout sends them, are one
+mkdir twice
+code=0
+timeout -s INT 0.5 "$program" convert --input-format rps /dev/zero -o twice/x.npy 2>err || code=$?
+[[ -z $(ls -A twice) ]] || complain "timeout leaves $(ls -A twice)"
+# a pipe that ends inside a number
+head -c 17 /dev/zero | refuses_pipe 'ends inside a number' --input-format rps -
 
 # ---- all test data
 data=${POINTSPEC_TEST_DATA-}

@@ -216,6 +216,8 @@ static const struct bad_file {
      {0},
      "begins with 1e+20, which is not a number of"},
     {"a.txt", "2 2\n0.5 0.25\n0 0.5\n", {.wrap = true}, "--input-format utk-text or gbn"},
+    {"a.txt", "-1 -1\n1 1\n0.5 0.5\n", {.wrap = true}, "--input-format utk-text or edat"},
+    {"a.csv", "0.5 0.5\n", {0}, "line 1: no comma between two columns"},
     {"a.txt", "2 9\n.1 .2 .3\n", {.format = "gbn"}, "begins with 9, which is not a number of dim"},
     {"a.txt", "2 3\n.1 .2 .3\n.4 .5\n", {0}, "promises 2 points, and point 2 is not there"},
     {"a.txt", "2 3\n.1 .2 .3\n.4 .5 .6", {.dimension = 2}, "3 columns, but the dimension asked"},

@@ -9,26 +9,35 @@
 #include <gsl/gsl_errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 volatile sig_atomic_t ps_interrupted = 0;
 
 /* ---- the process --------------------------------------------------------------------------- */
 
+/* The first signal asks the command to stop and clean up; a later one ends the process. Not one of the
+ * same moment: timeout(1) signals a program and then its process group. */
 static void interrupt(int signal_number) {
-    (void)signal_number;
+    enum { MOMENT = 1 }; /* seconds, of a clock that ticks once a second: up to 2 s */
+    static volatile sig_atomic_t first = 0;
+    const sig_atomic_t now = (sig_atomic_t)time(NULL);
+    if (!ps_interrupted) {
+        first = now;
+    } else if (now - first > MOMENT) {
+        signal(signal_number, SIG_DFL);
+        raise(signal_number);
+    }
     ps_interrupted = 1;
 }
 
-/* The first signal asks the command to stop and clean up, the second ends the process: no
- * SA_RESTART, so that a read or write that waits returns. A signal that our parent had ignored, as
+/* No SA_RESTART, so that a read or write that waits returns. A signal that our parent had ignored, as
  * nohup and shells do for background jobs, stays ignored. */
 static void handle_signal(int signal_number) {
     struct sigaction action;
     if (sigaction(signal_number, NULL, &action) == 0 && action.sa_handler != SIG_IGN) {
         memset(&action, 0, sizeof action);
         action.sa_handler = interrupt;
-        action.sa_flags = (int)SA_RESETHAND;
         sigemptyset(&action.sa_mask);
         sigaction(signal_number, &action, NULL);
     }

@@ -6,6 +6,7 @@
 #include <errno.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 /* One path of the command line and the option that named it. */
 typedef struct named_path {
@@ -64,6 +65,30 @@ static pspec_status check_inputs(const named_path *output, const ps_arguments *a
     return PSPEC_OK;
 }
 
+/* "convert a >>a" would read what it writes, without an end. */
+static pspec_status check_standard_output(const ps_arguments *arguments, ps_error *error) {
+    struct stat output;
+    struct stat input;
+    if (fstat(STDOUT_FILENO, &output) != 0 || !S_ISREG(output.st_mode)) {
+        return PSPEC_OK;
+    }
+    for (size_t i = 0; i < arguments->num_files; i++) {
+        const char *const path = arguments->files[i];
+        const bool is_known =
+            strcmp(path, "-") == 0 ? fstat(STDIN_FILENO, &input) == 0 : stat(path, &input) == 0;
+        if (is_known && input.st_dev == output.st_dev && input.st_ino == output.st_ino) {
+            return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                           "the input \"%s\" is also the standard output", path);
+        }
+    }
+    return PSPEC_OK;
+}
+
+static bool ends_in(const char *path, const char *ending) {
+    const size_t length = strlen(path);
+    return length >= strlen(ending) && strcmp(path + length - strlen(ending), ending) == 0;
+}
+
 /* A missing folder or a lacking permission shows when the temporary file is made. */
 static pspec_status check_folder(const char *path, ps_error *error) {
     ps_output_file *file = NULL;
@@ -86,17 +111,17 @@ static void replace_ending(ps_text *out, const char *path, const char *ending) {
     ps_text_append(out, "%s", ending);
 }
 
-static bool ends_in_npy(const char *path) {
-    static const char ending[] = ".npy";
-    const size_t length = strlen(path);
-    return length >= sizeof ending - 1 && strcmp(path + length - (sizeof ending - 1), ending) == 0;
-}
-
 static pspec_status check_all(const named_path *outputs, size_t num, const ps_arguments *arguments,
                               ps_error *error) {
     for (size_t i = 0; i < num; i++) {
         if (outputs[i].path == NULL) {
             continue;
+        }
+        if (ends_in(outputs[i].path, ".gz")) {
+            return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                           "%s \"%s\": gzip is read, but not written; write to standard output "
+                           "and pipe that through gzip",
+                           outputs[i].option, outputs[i].path);
         }
         for (size_t j = i + 1; j < num; j++) {
             if (outputs[j].path != NULL) {
@@ -114,7 +139,7 @@ pspec_status ps_outputs_check(const ps_arguments *arguments, bool is_table, ps_e
     ps_text standard_errors = {0}; /* beside the array of --full */
     const bool is_npy = is_table && arguments->output != NULL &&
                         (arguments->format != NULL ? strcmp(arguments->format, "npy") == 0
-                                                   : ends_in_npy(arguments->output));
+                                                   : ends_in(arguments->output, ".npy"));
     if (is_npy) {
         replace_ending(&sidecar, arguments->output, ".json");
     }
@@ -131,6 +156,9 @@ pspec_status ps_outputs_check(const ps_arguments *arguments, bool is_table, ps_e
     pspec_status status = ps_text_check(&sidecar, error);
     if (status == PSPEC_OK) {
         status = ps_text_check(&standard_errors, error);
+    }
+    if (status == PSPEC_OK && (arguments->output == NULL || strcmp(arguments->output, "-") == 0)) {
+        status = check_standard_output(arguments, error);
     }
     if (status == PSPEC_OK) {
         status = check_all(outputs, sizeof outputs / sizeof outputs[0], arguments, error);

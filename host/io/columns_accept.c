@@ -169,18 +169,22 @@ static pspec_status refuse_torus(const ps_layout *layout, const ps_point_options
     return PSPEC_OK;
 }
 
-static pspec_status refuse_vector(const char *where, const double *row, ps_error *error) {
+static pspec_status refuse_vector(const ps_point_options *options, const char *where,
+                                  const double *row, ps_error *error) {
     char text[3][NUMBER_BYTES];
     for (int axis = 0; axis < 3; axis++) {
         show_number(text[axis], row[axis]);
     }
     double vector[3] = {row[0], row[1], row[2]};
     const bool has_direction = normalize(vector);
-    return ps_fail(error, PSPEC_ERROR_INPUT, "%s: (%s, %s, %s) %s", where, text[0], text[1],
+    return ps_fail(error, PSPEC_ERROR_INPUT, "%s: (%s, %s, %s) %s%s", where, text[0], text[1],
                    text[2],
                    has_direction ? "is not a unit vector; --normalize-vectors would divide it by "
                                    "its length"
-                                 : "has no direction");
+                                 : "has no direction",
+                   has_direction && options->domain == PS_DOMAIN_ANY
+                       ? "; for points of the torus say --domain torus"
+                       : "");
 }
 
 static pspec_status refuse_angles(const ps_layout *layout, const char *where, const double *row,
@@ -203,7 +207,7 @@ pspec_status ps_columns_refuse(const ps_layout *layout, const ps_point_options *
     } else if (layout->angles == PS_NO_ANGLES) {
         double vector[3] = {row[0], row[1], row[2]};
         if (accept_vectors(options->normalize_vectors, vector, 1) == 0) {
-            return refuse_vector(where, row, error);
+            return refuse_vector(options, where, row, error);
         }
     }
     char text[NUMBER_BYTES];

@@ -68,6 +68,10 @@ static pspec_status read_step(ps_input *input, ps_element_type type, double *out
     unsigned char *const target = is_double ? (unsigned char *)out : raw;
     size_t num_bytes = 0;
     PS_TRY(ps_input_read(input, target, wanted * type.num_bytes, &num_bytes, error));
+    if (num_bytes % type.num_bytes != 0) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s is truncated: it ends inside a number",
+                       input->name);
+    }
     *count = num_bytes / type.num_bytes;
     if (type.is_big_endian != ps_host_is_big_endian()) {
         swap_bytes(target, *count, type.num_bytes);

@@ -2,6 +2,7 @@
 #include "io/decimal.h"
 #include "io/points_text.h"
 
+#include <math.h>
 #include <string.h>
 
 /* The first line as counts: one whole number ("N") or two ("N d"). */
@@ -46,6 +47,30 @@ static pspec_status detect_counts(ps_point_reader *reader, const char *second, p
     return PSPEC_OK;
 }
 
+/* "0 0" and "1 1" are corners of a domain, or points to be wrapped onto one place. */
+static pspec_status detect_corners(const ps_point_reader *reader, const char *second,
+                                   ps_error *error) {
+    const ps_text_state *const state = reader->state;
+    double lower[PS_MAX_COLUMNS];
+    double upper[PS_MAX_COLUMNS];
+    unsigned columns = PS_MAX_COLUMNS;
+    while (columns > 0 && ps_row_parse(state->lines.cursor, ' ', columns, lower) == NULL) {
+        columns--;
+    }
+    if (columns == 0 || ps_row_parse(second, ' ', columns, upper) == NULL) {
+        return PSPEC_OK;
+    }
+    for (unsigned j = 0; j < columns; j++) {
+        if (lower[j] != floor(lower[j]) || upper[j] != floor(upper[j]) || lower[j] >= upper[j]) {
+            return PSPEC_OK;
+        }
+    }
+    return ps_fail(error, PSPEC_ERROR_INPUT,
+                   "%s: are the first two lines points to be wrapped, or the corners of a domain? "
+                   "--input-format utk-text or edat",
+                   reader->input.name);
+}
+
 static bool is_text(const char *line) {
     while (*line == '\t' || *line == '\r' || (unsigned char)*line >= ' ') {
         line++;
@@ -69,6 +94,9 @@ pspec_status ps_text_detect(ps_point_reader *reader, ps_error *error) {
         reader->format = &ps_format_csv;
     } else if (second != NULL) {
         PS_TRY(detect_counts(reader, second, error));
+        if (reader->format == &ps_format_utk_text && reader->options.wrap) {
+            PS_TRY(detect_corners(reader, second, error));
+        }
     }
     return PSPEC_OK;
 }

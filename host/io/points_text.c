@@ -169,6 +169,10 @@ static pspec_status refuse_line(const ps_point_reader *reader, ps_error *error) 
     const ps_text_state *const state = reader->state;
     size_t num_columns = 0;
     PS_TRY(ps_row_count(&state->lines, state->separator, &num_columns, error));
+    if (num_columns == reader->columns) { /* blanks, in a file of commas */
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s, line %zu: no comma between two columns",
+                       reader->input.name, state->lines.line_number);
+    }
     return ps_fail(error, PSPEC_ERROR_INPUT, "%s, line %zu: %zu column%s, where line %zu has %u",
                    reader->input.name, state->lines.line_number, num_columns,
                    num_columns == 1 ? "" : "s", state->columns_line, reader->columns);

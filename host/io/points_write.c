@@ -14,8 +14,8 @@ static pspec_status check_counts(const ps_point_format *format, const ps_point_s
                                  ps_error *error) {
     if (shape->num_sets > 1 && (format->abilities & PS_HOLDS_SETS) == 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "%s holds one set per file, and there are %zu; --select-sets takes one",
-                       format->name, shape->num_sets);
+                       "%s holds one set per file, and there are %zu", format->name,
+                       shape->num_sets);
     }
     const uint64_t largest =
         shape->num_sets > shape->num_points ? shape->num_sets : shape->num_points;
@@ -199,6 +199,32 @@ pspec_status ps_points_write(ps_point_writer *writer, const ps_point_set *block,
 
 /* ---- the end ----------------------------------------------------------------------------- */
 
+static void append_hint(char *text, size_t text_bytes, const char *what, const char *option) {
+    const size_t used = strlen(text);
+    snprintf(text + used, text_bytes - used, "%sthe file does not say %s: read it with %s",
+             used > 0 ? "; " : "", what, option);
+}
+
+/* What the reader of the file must be told, since the file does not. */
+static void describe_reading(const ps_point_writer *writer, char *text, size_t text_bytes) {
+    char what[64];
+    char option[32];
+    const bool is_torus = writer->shape.coordinates == PS_TORUS_COORDINATES;
+    if (writer->format == &ps_format_rps && writer->num_sets > 1) {
+        snprintf(what, sizeof what, "that its sets have %zu points", writer->shape.num_points);
+        snprintf(option, sizeof option, "-n %zu", writer->shape.num_points);
+        append_hint(text, text_bytes, what, option);
+    }
+    if (writer->format == &ps_format_rps && writer->shape.dimension != 2) {
+        snprintf(what, sizeof what, "that its points have %u dimensions", writer->shape.dimension);
+        snprintf(option, sizeof option, "-d %u", writer->shape.dimension);
+        append_hint(text, text_bytes, what, option);
+    }
+    if (is_torus && writer->shape.has_weights && writer->format != &ps_format_edat) {
+        append_hint(text, text_bytes, "that its last column holds weights", "--weights column");
+    }
+}
+
 void ps_points_describe_loss(const ps_point_writer *writer, char *text, size_t text_bytes) {
     const bool turned = writer->layout.angles != PS_NO_ANGLES
                             ? writer->shape.coordinates == PS_UNIT_VECTORS
@@ -212,12 +238,7 @@ void ps_points_describe_loss(const ps_point_writer *writer, char *text, size_t t
     } else if (turned || writer->layout.angles == PS_LON_LAT) {
         snprintf(text, text_bytes, "directions were computed anew, rounded in their last digits");
     }
-    if (writer->format == &ps_format_rps && writer->num_sets > 1) {
-        const size_t used = strlen(text);
-        snprintf(text + used, text_bytes - used,
-                 "%sthe file does not say that its sets have %zu points: read it with -n %zu",
-                 used > 0 ? "; " : "", writer->shape.num_points, writer->shape.num_points);
-    }
+    describe_reading(writer, text, text_bytes);
 }
 
 static pspec_status complete_header(ps_point_writer *writer, ps_error *error) {

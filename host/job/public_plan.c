@@ -103,10 +103,14 @@ static pspec_status check_request(const pspec_power_request *request, ps_error *
     if (request->num_points == 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "num_points is 0");
     }
-    if (!(request->tolerance > 0) || !(request->floor >= 0)) {
+    if (!(request->tolerance > 0 && request->tolerance <= 1) || !(request->floor >= 0)) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "tolerance %g must be above 0, floor %g not below", request->tolerance,
-                       request->floor);
+                       "tolerance %g must be above 0 and at most 1, floor %g not below 0",
+                       request->tolerance, request->floor);
+    }
+    if (request->frequencies != NULL && (request->exact_shells != 0 || request->rings_only != 0)) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "exact_shells and rings_only are for grids; a list is not averaged");
     }
     if (request->normalization != PSPEC_NORMALIZATION_POWER &&
         request->normalization != PSPEC_NORMALIZATION_EFFECTIVE) {

@@ -100,8 +100,12 @@ void pspec_spectrum_destroy(pspec_spectrum *spectrum) {
 
 pspec_status pspec_spectrum_save(const pspec_spectrum *spectrum, pspec_context *context,
                                  const char *path) {
-    if (context == NULL || spectrum == NULL) {
+    if (context == NULL) {
         return PSPEC_ERROR_INVALID_ARGUMENT;
+    }
+    if (spectrum == NULL) {
+        return ps_fail(&context->error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "there is no spectrum to save");
     }
     if (path == NULL || strcmp(path, "-") == 0) {
         return ps_fail(&context->error, PSPEC_ERROR_INVALID_ARGUMENT,
@@ -117,8 +121,11 @@ pspec_status pspec_spectrum_load(pspec_spectrum **out, pspec_context *context, c
     ps_spectrum_sums sums = {0};
     ps_bins bins = {0};
     *out = NULL;
-    if (context == NULL || path == NULL) {
+    if (context == NULL) {
         return PSPEC_ERROR_INVALID_ARGUMENT;
+    }
+    if (path == NULL) {
+        return ps_fail(&context->error, PSPEC_ERROR_INVALID_ARGUMENT, "there is no name of a file");
     }
     PS_TRY(ps_spectrum_read(&sums, &bins, path, &context->error));
     ps_log_say(&context->log, "loaded a spectrum of %llu realizations from \"%s\"",
@@ -150,9 +157,15 @@ pspec_status pspec_spectrum_merge(pspec_spectrum **out, pspec_context *context,
     if (context == NULL) {
         return PSPEC_ERROR_INVALID_ARGUMENT;
     }
-    if (num_spectra == 0) {
+    if (num_spectra == 0 || spectra == NULL) {
         return ps_fail(&context->error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "there are no spectra to merge");
+    }
+    for (size_t i = 0; i < num_spectra; i++) {
+        if (spectra[i] == NULL) {
+            return ps_fail(&context->error, PSPEC_ERROR_INVALID_ARGUMENT,
+                           "spectrum %zu of those to merge is NULL", i + 1);
+        }
     }
     pspec_status status = merge_sums(&sums, spectra, num_spectra, &context->error);
     if (status == PSPEC_OK) {
@@ -185,12 +198,16 @@ double pspec_spectrum_error(const pspec_spectrum *spectrum) {
 }
 
 const pspec_bin *pspec_spectrum_bins(const pspec_spectrum *spectrum, size_t *num_bins) {
-    *num_bins = spectrum->num_bins;
+    if (num_bins != NULL) {
+        *num_bins = spectrum->num_bins;
+    }
     return spectrum->bins;
 }
 
 const int32_t *pspec_spectrum_frequencies(const pspec_spectrum *spectrum, size_t *num_frequencies) {
-    *num_frequencies = spectrum->sums.frequencies.num;
+    if (num_frequencies != NULL) {
+        *num_frequencies = spectrum->sums.frequencies.num;
+    }
     return spectrum->sums.frequencies.vectors;
 }
 

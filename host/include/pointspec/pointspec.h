@@ -175,7 +175,7 @@ PSPEC_EXPORT const char *pspec_plan_text(const pspec_plan *plan);
  * more points than the request said.
  *
  * #PSPEC_ERROR_INPUT names the pattern (sets count from 1, since the plan began) and the point. After
- * any error the plan takes no more: destroy it or begin again with pspec_plan_reset(). */
+ * any error but #PSPEC_ERROR_INVALID_ARGUMENT the plan takes no more: destroy it or begin again with pspec_plan_reset(). */
 PSPEC_EXPORT pspec_status pspec_plan_run(pspec_plan *plan, const pspec_pattern *patterns,
                                          size_t num_patterns);
 
