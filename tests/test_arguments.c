@@ -242,6 +242,7 @@ static void ranges_have_ends(void **state) {
         assert_int_equal(l.arguments.sets.last, good[i].last);
         assert_int_equal(l.arguments.points.first, good[i].first);
         assert_int_equal(l.arguments.points.last, good[i].last);
+        ps_arguments_free(&l.arguments);
     }
     static const bad_line bad[] = {
         {"--select-sets ..", "--select-sets: \"..\" says neither end: A..B, or A, A.., ..B"},
@@ -265,6 +266,7 @@ static void weights_are_words_where_no_file_is_taken(void **state) {
     must_refuse(&words_only, bad, 1);
     must_parse(&l, "--weights file.txt");
     assert_string_equal(l.arguments.weights, "file.txt");
+    ps_arguments_free(&l.arguments);
 }
 
 static void unknown_options_name_the_nearest(void **state) {

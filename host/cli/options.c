@@ -90,8 +90,8 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_WEIGHTS] = {.name = "weights",
                            .metavar = "equal|column|FILE",
                            .help = "equal: all 1, weights of the files are dropped; column: the "
-                                   "last one of the files (default: those that "
-                                   "--columns names, else all 1)",
+                                   "last one of the files (default: those that the format or "
+                                   "--columns has, else all 1)",
                            .set = ps_set_weights,
                            .offset = offsetof(ps_arguments, weights)},
     [PS_OPTION_INPUT_FORMAT] = {.name = "input-format",

@@ -74,8 +74,12 @@ static pspec_status check_standard_output(const ps_arguments *arguments, ps_erro
     }
     for (size_t i = 0; i < arguments->num_files; i++) {
         const char *const path = arguments->files[i];
-        const bool is_known =
-            strcmp(path, "-") == 0 ? fstat(STDIN_FILENO, &input) == 0 : stat(path, &input) == 0;
+        bool is_known = false;
+        if (strcmp(path, "-") == 0) {
+            is_known = fstat(STDIN_FILENO, &input) == 0;
+        } else {
+            PS_TRY(look_up(path, &input, &is_known, error));
+        }
         if (is_known && input.st_dev == output.st_dev && input.st_ino == output.st_ino) {
             return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                            "the input \"%s\" is also the standard output", path);

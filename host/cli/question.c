@@ -17,6 +17,7 @@ static pspec_status check_other_source(const ps_arguments *arguments, ps_error *
                    {PS_OPTION_HOMOGENIZE, "--homogenize", false},
                    {PS_OPTION_INPUT_FORMAT, "--input-format", true},
                    {PS_OPTION_COLUMNS, "--columns", true},
+                   {PS_OPTION_WRAP, "--wrap", true},
                    {PS_OPTION_SELECT_SETS, "--select-sets", true}};
     const bool are_files = arguments->num_files > 0;
     for (size_t i = 0; i < sizeof options / sizeof options[0]; i++) {

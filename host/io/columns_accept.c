@@ -160,10 +160,13 @@ static pspec_status refuse_torus(const ps_layout *layout, const ps_point_options
         const bool is_inside = row[j] >= 0 && row[j] < 1;
         if (!is_inside && !options->wrap) {
             const bool is_vector = layout->dimension >= 3 && ps_is_unit_vector(row);
-            return ps_fail(error, PSPEC_ERROR_INPUT, "%s: coordinate %s is outside [0,1); %s",
+            const bool may_be_weight = j > 0 && j + 1 == layout->dimension &&
+                                       !layout->has_weight_column && options->dimension == 0;
+            return ps_fail(error, PSPEC_ERROR_INPUT, "%s: coordinate %s is outside [0,1); %s%s",
                            where, show_number(text, row[j]),
                            is_vector ? "a unit vector? Points of the torus are meant here"
-                                     : "--wrap would reduce it mod 1");
+                                     : "--wrap would reduce it mod 1",
+                           may_be_weight && !is_vector ? " (a weight? --weights column)" : "");
         }
     }
     return PSPEC_OK;

@@ -19,11 +19,6 @@ static bool fails(const char *name, int reason) {
     return is_due;
 }
 
-/* A descriptor in the table of outstanding things: nothing has such a small address. */
-static const void *as_thing(int descriptor) {
-    return descriptor >= 0 ? (const char *)0 + descriptor + 1 : NULL;
-}
-
 /* A call that fails with -1 and errno, and takes and gives nothing. */
 #define CALL(name, type, reason, parameters, arguments)                                            \
     WRAPPER(name, type, parameters) {                                                              \
@@ -75,7 +70,7 @@ WRAPPER(fcntl64, int, (int descriptor, int command, ...)) {
                                                   : "fcntl";
     const int result = fails(name, EIO) ? -1 : __real_fcntl64(descriptor, command, value);
     if (command == F_DUPFD_CLOEXEC) {
-        fault_gain(as_thing(result), "fcntl");
+        fault_gain(fault_descriptor(result), "fcntl");
     }
     return result;
 }
@@ -98,7 +93,7 @@ WRAPPER(close, int, (int descriptor)) {
     const bool is_read = (__real_fcntl64(descriptor, F_GETFL, 0) & O_ACCMODE) == O_RDONLY;
     const char *const file = is_read ? "close-reading" : "close";
     const bool is_due = fails(name_of(descriptor, file, "close-folder", "close-pipe"), EIO);
-    fault_lose(as_thing(descriptor));
+    fault_lose(fault_descriptor(descriptor));
     const int status = __real_close(descriptor);
     if (is_due) {
         errno = EIO;
@@ -113,13 +108,13 @@ WRAPPER(open64, int, (const char *path, int flags, ...)) {
     va_end(arguments);
     const char *const name = (flags & O_ACCMODE) == O_RDONLY ? "open-reading" : "open";
     const int descriptor = fails(name, EMFILE) ? -1 : __real_open64(path, flags, mode);
-    fault_gain(as_thing(descriptor), "open");
+    fault_gain(fault_descriptor(descriptor), "open");
     return descriptor;
 }
 
 WRAPPER(dup, int, (int descriptor)) {
     const int copy = fails("dup", EMFILE) ? -1 : __real_dup(descriptor);
-    fault_gain(as_thing(copy), "dup");
+    fault_gain(fault_descriptor(copy), "dup");
     return copy;
 }
 
@@ -131,8 +126,8 @@ WRAPPER(pipe, int, (int ends[2])) {
     }
     const int status = __real_pipe(ends);
     if (status == 0) {
-        fault_gain(as_thing(ends[0]), "pipe");
-        fault_gain(as_thing(ends[1]), "pipe");
+        fault_gain(fault_descriptor(ends[0]), "pipe");
+        fault_gain(fault_descriptor(ends[1]), "pipe");
     }
     return status;
 }
