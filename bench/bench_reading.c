@@ -199,8 +199,8 @@ int main(int argc, char **argv) {
         points[i] = i % 2 == 0 ? points[i] : (double)(float)(points[i] / 2);
     }
     ps_text_append(&path, "%s/pointspec-bench-%ld", folder, (long)getpid());
-    printf("# points of the plane: %zu as text, %zu in binary; MB/s of the file, one thread\n",
-           num_text, num_binary);
+    printf("# points of the plane: %zu as text, %zu in binary; MB/s of the file\n", num_text,
+           num_binary);
     printf("%-10s %8s %8s | %8s %8s | %8s %7s | %8s %7s | %8s %7s\n", "format", "Mpoint/s", "wrong",
            "whole", "blocks", "fread", "whole/", "cat", "blocks/", "numpy", "whole/");
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {

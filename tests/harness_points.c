@@ -1,8 +1,7 @@
 #include "harness_points.h"
 
-static pspec_status append(test_points *out, const ps_point_set *set, size_t first) {
-    const size_t count = set->num_points - first;
-    const size_t total = out->num_points + count;
+static pspec_status append(test_points *out, const ps_point_set *set) {
+    const size_t total = out->num_points + set->num_points;
     double *const points = realloc(out->points, (total + 1) * set->dimension * sizeof(double));
     double *const weights = realloc(out->weights, (total + 1) * sizeof(double));
     if (points == NULL || weights == NULL) {
@@ -10,18 +9,30 @@ static pspec_status append(test_points *out, const ps_point_set *set, size_t fir
     }
     out->points = points;
     out->weights = weights;
-    if (count > 0) {
-        memcpy(points + out->num_points * set->dimension, set->points + first * set->dimension,
-               count * set->dimension * sizeof(double));
+    if (set->num_points > 0) {
+        memcpy(points + out->num_points * set->dimension, set->points,
+               set->num_points * set->dimension * sizeof(double));
     }
-    if (count > 0 && set->has_weights) {
-        memcpy(weights + out->num_points, set->weights + first, count * sizeof(double));
+    if (set->num_points > 0 && set->has_weights) {
+        memcpy(weights + out->num_points, set->weights, set->num_points * sizeof(double));
     }
     out->num_points = total;
     out->coordinates = set->coordinates;
     out->dimension = set->dimension;
     out->has_weights = set->has_weights;
     return PSPEC_OK;
+}
+
+/* max_points 0: whole sets. */
+static pspec_status read_step(ps_point_reader *reader, ps_point_set *set, size_t max_points,
+                              bool *has_set, bool *ends_set, ps_error *error) {
+    set->num_points = 0;
+    if (max_points > 0) {
+        return ps_points_next_block(reader, set, max_points, has_set, ends_set, error);
+    }
+    const pspec_status status = ps_points_next(reader, set, has_set, error);
+    *ends_set = *has_set;
+    return status;
 }
 
 pspec_status test_points_read_blocks(test_points *out, const char *path,
@@ -34,10 +45,9 @@ pspec_status test_points_read_blocks(test_points *out, const char *path,
     pspec_status status = ps_points_open(&reader, path, options, error);
     while (status == PSPEC_OK && has_set) {
         bool ends_set = false;
-        set.num_points = 0;
-        status = ps_points_next_block(reader, &set, max_points, &has_set, &ends_set, error);
+        status = read_step(reader, &set, max_points, &has_set, &ends_set, error);
         if (status == PSPEC_OK && has_set) {
-            status = append(out, &set, 0);
+            status = append(out, &set);
             out->num_sets += ends_set;
         }
     }
@@ -52,25 +62,7 @@ pspec_status test_points_read_blocks(test_points *out, const char *path,
 
 pspec_status test_points_read(test_points *out, const char *path, const ps_point_options *options,
                               ps_error *error) {
-    ps_point_reader *reader = NULL;
-    ps_point_set set = {0};
-    bool has_set = true;
-    *out = (test_points){0};
-    pspec_status status = ps_points_open(&reader, path, options, error);
-    while (status == PSPEC_OK && has_set) {
-        status = ps_points_next(reader, &set, &has_set, error);
-        if (status == PSPEC_OK && has_set) {
-            status = append(out, &set, 0);
-            out->num_sets++;
-        }
-    }
-    if (reader != NULL) {
-        snprintf(out->format, sizeof out->format, "%s", ps_points_format(reader));
-        snprintf(out->columns, sizeof out->columns, "%s", ps_points_columns(reader));
-    }
-    ps_point_set_free(&set);
-    ps_points_close(reader);
-    return status;
+    return test_points_read_blocks(out, path, options, 0, error);
 }
 
 void test_points_free(test_points *points) {

@@ -17,7 +17,7 @@ typedef struct test_points {
 
 pspec_status test_points_read(test_points *out, const char *path, const ps_point_options *options,
                               ps_error *error);
-/* The same in blocks of at most max_points. */
+/* The same in blocks of at most max_points (0: set by set, as above). */
 pspec_status test_points_read_blocks(test_points *out, const char *path,
                                      const ps_point_options *options, size_t max_points,
                                      ps_error *error);

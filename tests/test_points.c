@@ -1,6 +1,5 @@
 /* UTK text: what is read, what is refused and with which words, and what is written. */
-#include "io/points.h"
-#include "test_folder.h"
+#include "harness_points.h"
 
 #include <fcntl.h>
 #include <setjmp.h>
@@ -20,25 +19,12 @@ static const char *put(void **state, const char *text, char path[TEST_PATH_BYTES
 /* Reads all sets: their number, and the points of all in one array (freed by the caller). */
 static pspec_status read_all(const char *path, const ps_point_options *options, size_t *num_sets,
                              size_t *num_points, double **all, ps_error *error) {
-    ps_point_reader *reader = NULL;
-    ps_point_set set = {0};
-    bool has_set = true;
-    *num_sets = *num_points = 0;
-    *all = NULL;
-    pspec_status status = ps_points_open(&reader, path, options, error);
-    while (status == PSPEC_OK && has_set) {
-        status = ps_points_next(reader, &set, &has_set, error);
-        if (status == PSPEC_OK && has_set) {
-            *num_sets += 1;
-            *all = realloc(*all, (*num_points + set.num_points) * set.dimension * sizeof(double));
-            assert_non_null(*all);
-            memcpy(*all + *num_points * set.dimension, set.points,
-                   set.num_points * set.dimension * sizeof(double));
-            *num_points += set.num_points;
-        }
-    }
-    ps_point_set_free(&set);
-    ps_points_close(reader);
+    test_points read;
+    const pspec_status status = test_points_read(&read, path, options, error);
+    *num_sets = read.num_sets;
+    *num_points = read.num_points;
+    *all = read.points;
+    free(read.weights);
     return status;
 }
 

@@ -11,7 +11,7 @@ is_clean=no # the folder of the run is as it was before any
 reset() {
     rm -rf "$run"
     mkdir "$run"
-    cp -r "$initial" "$run/work"
+    cp -r "$initial" "$run/folder"
     is_clean=yes
 }
 
@@ -21,7 +21,7 @@ run_program() { # CASE FAULT
     mapfile -t words <"$1/words"
     code=0 failed=none leaks=
     rm -f "$run/report"
-    (cd "$run/work" &&
+    (cd "$run/folder" &&
         POINTSPEC_FAULT=$2 POINTSPEC_FAULT_REPORT=$run/report exec timeout 60 env \
             "${words[@]}" <"$(<"$1/stdin")" >"$run/stdout" 2>"$run/stderr") || code=$?
     mapfile -t said <"$run/stderr"
@@ -39,16 +39,16 @@ run_program() { # CASE FAULT
 check_outputs() { # CASE
     local file name
     remark=
-    diff -rq "$run/work" "$initial" >/dev/null && return
+    diff -rq "$run/folder" "$initial" >/dev/null && return
     is_clean=no
-    for file in "$run"/work/* "$run"/work/.pointspec-*; do
+    for file in "$run"/folder/* "$run"/folder/.pointspec-*; do
         name=${file##*/}
         [[ -e $file ]] || continue
-        cmp -s "$file" "$initial/$name" || cmp -s "$file" "$1/expected/work/$name" ||
+        cmp -s "$file" "$initial/$name" || cmp -s "$file" "$1/expected/folder/$name" ||
             remark="left behind or spoilt: $name"
     done
     for file in "$initial"/*; do
-        [[ -e $run/work/${file##*/} ]] || remark="lost: ${file##*/}"
+        [[ -e $run/folder/${file##*/} ]] || remark="lost: ${file##*/}"
     done
 }
 
@@ -90,8 +90,8 @@ judge() { # NAME CLASS NUMBER[+]
     elif [[ $code == 0 ]]; then
         verdict=tolerated is_clean=no remark=
         # A temporary file that cannot be removed stays; the sentence of a failure would have said so.
-        [[ $failed != unlink ]] || rm -f "$run"/work/.pointspec-*
-        diff -rq "${same[@]}" "$run/work" "$case/expected/work" >/dev/null &&
+        [[ $failed != unlink ]] || rm -f "$run"/folder/.pointspec-*
+        diff -rq "${same[@]}" "$run/folder" "$case/expected/folder" >/dev/null &&
             diff -q "${same[@]}" "$run/stdout" "$case/expected/stdout" >/dev/null || remark="exit 0 with another output"
     elif [[ $code != 1 ]]; then
         remark="exit $code"

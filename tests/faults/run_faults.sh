@@ -76,8 +76,8 @@ prepare_case() { # NAME STDIN [VARIABLE=VALUE...] WORD...
         printf '%s\n' "${words[@]}" | sed -n 's/^\([a-z]*\)\.[a-z]*$/|\1\\./p' | tr -d '\n'; } >"$case/things"
     for round in expected again; do
         mkdir "$case/$round"
-        cp -r "$scratch/initial" "$case/$round/work"
-        (cd "$case/$round/work" && POINTSPEC_FAULT_REPORT=$case/$round.report \
+        cp -r "$scratch/initial" "$case/$round/folder"
+        (cd "$case/$round/folder" && POINTSPEC_FAULT_REPORT=$case/$round.report \
             env "${words[@]}" <"$(<"$case/stdin")" >"$case/$round/stdout" 2>"$case/$round.stderr") ||
             { echo "run_faults: $name fails without faults: $(<"$case/$round.stderr")" >&2; return 1; }
     done
