@@ -30,8 +30,9 @@ static int compare_keys(const void *a, const void *b) {
 /* Keys of reported bins are positive; what is not reported sorts behind them. */
 static int64_t key_of(const ps_frequencies *set, const int32_t *k, bool exact_shells) {
     const int64_t norm2 = ps_frequency_norm2(k, set->dimension);
-    const int64_t ring = set->kind == PS_FREQUENCIES_LIST ? INT64_MAX : ps_ring_of_norm2(norm2);
-    if (ring > set->max_frequency) {
+    const bool has_rings = set->kind != PS_FREQUENCIES_LIST || set->rings != NULL;
+    const int64_t ring = ps_ring_of_norm2(norm2);
+    if (!has_rings || ring > set->max_frequency) {
         return INT64_MAX;
     }
     return exact_shells ? norm2 : ring;
@@ -43,6 +44,16 @@ static size_t count_bins(const keyed *keys, size_t num) {
         count += i == 0 || keys[i].key != keys[i - 1].key;
     }
     return count;
+}
+
+/* mean_frequency is the sum over the members. Of a subset, what is said of the bin is said of the ring. */
+static void finish_bin(ps_bin *bin, const ps_sampled_ring *ring) {
+    bin->num_frequencies = bin->end - bin->begin;
+    bin->mean_frequency /= (double)bin->num_frequencies;
+    if (ring != NULL) {
+        bin->num_frequencies = ring->num_frequencies;
+        bin->mean_frequency = ring->mean_frequency;
+    }
 }
 
 static void fill_bins(ps_bins *out, const ps_frequencies *set, const keyed *keys) {
@@ -60,10 +71,18 @@ static void fill_bins(ps_bins *out, const ps_frequencies *set, const keyed *keys
             set->vectors + (size_t)keys[i].index * set->dimension, set->dimension));
     }
     for (size_t i = 0; i < out->num; i++) {
-        out->bins[i].mean_frequency /= (double)(out->bins[i].end - out->bins[i].begin);
+        finish_bin(&out->bins[i], set->rings != NULL ? &set->rings[i] : NULL);
     }
     const bool has_rest = out->num > 0 && out->bins[out->num - 1].key == INT64_MAX;
     out->num_reported = has_rest ? out->num - 1 : out->num;
+}
+
+static pspec_status check_rings(const ps_bins *bins, const ps_frequencies *set, ps_error *error) {
+    return set->rings == NULL || bins->num == set->num_rings
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INPUT,
+                         "the frequencies lie in %zu rings or shells, but were drawn from %zu",
+                         bins->num, set->num_rings);
 }
 
 pspec_status ps_bins_create(ps_bins *out, const ps_frequencies *frequencies, bool exact_shells,
@@ -82,6 +101,7 @@ pspec_status ps_bins_create(ps_bins *out, const ps_frequencies *frequencies, boo
     }
     qsort(keys, out->num_members, sizeof *keys, compare_keys);
     out->num = count_bins(keys, out->num_members);
+    PS_TRY_OUT(status, check_rings(out, frequencies, error));
     PS_TRY_OUT(status, ps_allocate(&memory, out->num, sizeof *out->bins, "bins", error));
     out->bins = memory;
     PS_TRY_OUT(status, ps_allocate(&memory, out->num_members, sizeof *out->members, "bins", error));

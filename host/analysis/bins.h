@@ -1,7 +1,7 @@
 /* Bins of frequencies: rings of width 1 on the integer lattice, or exact shells |k|^2 = n.
  *
  * Ring b holds b^2 - b + 1 <= |k|^2 <= b^2 + b (mathematics.md 1.3): integer arithmetic, no ties.
- * What belongs to no reported bin (corners of a box, a list of frequencies) forms one more bin at
+ * What belongs to no reported bin (corners of a box, a list of frequencies that was not drawn from rings) forms one more bin at
  * the end, so that the power of a realization over all frequencies is always known. DC, which only a
  * list can hold, belongs to no bin at all.
  */
@@ -11,9 +11,10 @@
 #include "engines/frequencies.h"
 
 typedef struct ps_bin {
-    int64_t key;           /* ring number b, or |k|^2 of a shell */
-    size_t begin, end;     /* members[begin .. end - 1], half-lattice frequencies */
-    double mean_frequency; /* mean |k| */
+    int64_t key;              /* ring number b, or |k|^2 of a shell */
+    size_t begin, end;        /* members[begin .. end - 1], half-lattice frequencies */
+    uint64_t num_frequencies; /* half-lattice frequencies that it has; members may be a subset */
+    double mean_frequency;    /* mean |k| of all of them */
 } ps_bin;
 
 typedef struct ps_bins {
@@ -27,7 +28,8 @@ typedef struct ps_bins {
 /* The ring number of |k|^2 >= 1. */
 int64_t ps_ring_of_norm2(int64_t norm2);
 
-/* frequencies must be enumerated; a list is put into the unreported bin as a whole. */
+/* frequencies must be enumerated; a list is put into the unreported bin as a whole, unless it was drawn
+ * from rings or shells: exact_shells must then be what it was drawn from, else PSPEC_ERROR_INPUT. */
 pspec_status ps_bins_create(ps_bins *out, const ps_frequencies *frequencies, bool exact_shells,
                             ps_error *error) PS_MUST_CHECK;
 void ps_bins_free(ps_bins *bins);

@@ -1,28 +1,17 @@
 #include "analysis/spectrum.h"
 
+#include "analysis/ring_statistics.h"
 #include "base/memory.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-double ps_anisotropy_db(const ps_mean *powers, const uint32_t *members, size_t num_members) {
-    const double decibels = 10;
-    long double sum = 0;
-    long double squares = 0;
-    if (num_members < 2) {
-        return NAN;
-    }
-    for (size_t i = 0; i < num_members; i++) {
-        sum += powers[members[i]].mean;
-    }
-    const long double mean = sum / (long double)num_members;
-    for (size_t i = 0; i < num_members; i++) {
-        const long double deviation = powers[members[i]].mean - mean;
-        squares += deviation * deviation;
-    }
-    const double variance = (double)(squares / (long double)(num_members - 1));
-    const double ratio = variance / (double)(mean * mean);
-    return mean > 0 && ratio > 0 ? decibels * log10(ratio) : NAN;
+static void describe_ring(ps_spectrum_bin *out, const ps_mean *powers, const uint32_t *members,
+                          const ps_bin *bin) {
+    const size_t num = bin->end - bin->begin;
+    out->anisotropy_db = ps_anisotropy_db(powers, members, num);
+    out->standard_error =
+        ps_subset_standard_error(powers, members, num, bin->num_frequencies, out->standard_error);
 }
 
 static void fill_bins(ps_spectrum *out, const ps_bins *bins, const ps_mean *means, double factor) {
@@ -33,14 +22,14 @@ static void fill_bins(ps_spectrum *out, const ps_bins *bins, const ps_mean *mean
             .key = bin->key,
             .frequency = bin->mean_frequency,
             .normalized_frequency = bin->mean_frequency / unit,
-            .count = 2 * (uint64_t)(bin->end - bin->begin),
+            .count = 2 * bin->num_frequencies,
+            .num_computed = 2 * (uint64_t)(bin->end - bin->begin),
             .power = means[b].mean * factor,
             .standard_error = means[b].standard_error * factor,
             .anisotropy_db = NAN,
         };
         if (out->powers != NULL) {
-            out->bins[b].anisotropy_db =
-                ps_anisotropy_db(out->powers, bins->members + bin->begin, bin->end - bin->begin);
+            describe_ring(&out->bins[b], out->powers, bins->members + bin->begin, bin);
         }
     }
 }
@@ -113,7 +102,9 @@ void ps_spectrum_free(ps_spectrum *spectrum) {
 void ps_spectrum_repeat(ps_spectrum *spectrum, uint64_t num_realizations) {
     spectrum->num_realizations = num_realizations;
     for (size_t b = 0; b < spectrum->num_bins; b++) {
-        spectrum->bins[b].standard_error = 0;
+        if (spectrum->bins[b].num_computed == spectrum->bins[b].count) {
+            spectrum->bins[b].standard_error = 0;
+        }
     }
     for (size_t i = 0; spectrum->powers != NULL && i < spectrum->frequencies.num; i++) {
         spectrum->powers[i].standard_error = 0;

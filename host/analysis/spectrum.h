@@ -10,7 +10,8 @@ typedef struct ps_spectrum_bin {
     double frequency;             /* mean |k| */
     double normalized_frequency;  /* the same divided by N^(1/d) */
     uint64_t count;               /* lattice points of both signs */
-    double power, standard_error; /* nan: one realization */
+    uint64_t num_computed;        /* of them, both signs; fewer: a random subset */
+    double power, standard_error; /* nan: one realization, all computed */
     double anisotropy_db;         /* nan: fewer than two half-lattice frequencies, or power 0 */
 } ps_spectrum_bin;
 
@@ -46,14 +47,9 @@ pspec_status ps_spectrum_from_means(ps_spectrum *out, const ps_frequencies *freq
                                     ps_error *error) PS_MUST_CHECK;
 void ps_spectrum_free(ps_spectrum *spectrum);
 
-/* Marks the spectrum as that of num_realizations equal ones: standard errors become exactly 0
- * (a deterministic set, whose further realizations were skipped). */
+/* Marks the spectrum as that of num_realizations equal ones: standard errors become exactly 0, but for
+ * that of the choice of a subset (a deterministic set, whose further realizations were skipped). */
 void ps_spectrum_repeat(ps_spectrum *spectrum, uint64_t num_realizations);
-
-/* Anisotropy of one ring: 10 log10(s^2 / P^2), s^2 the sample variance of the averaged periodogram
- * over the ring's half-lattice frequencies, P their mean. nan when there are fewer than two of them
- * or P is 0. */
-double ps_anisotropy_db(const ps_mean *powers, const uint32_t *members, size_t num_members);
 
 /* The whole box as an array [2K+1]^d in C order, DC in the middle, axis i along x_i; DC itself is
  * dc_power with standard error 0. which: 0 power, 1 standard error. *array is freed by the caller. */

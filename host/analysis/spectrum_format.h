@@ -8,9 +8,12 @@
 enum { PS_SPECTRUM_VERSION = 1 };
 
 /* Values of the header lines, by the enumerators that they stand for. */
-static const char *const ps_spectrum_kinds[] = {"list", "box", "ball"};
+static const char *const ps_spectrum_kinds[] = {"list", "box", "ball", "sample"};
 static const char *const ps_spectrum_bins[] = {"rings", "shells"};
 static const char *const ps_spectrum_normalizations[] = {"power", "effective"};
+
+/* A sample is a list in memory (ps_frequencies.rings), and a kind of its own in files. */
+enum { PS_SPECTRUM_SAMPLE = 3, PS_SPECTRUM_NUM_KINDS };
 
 /* Doubles after the header, and per bin or frequency. */
 enum { PS_SPECTRUM_TOTALS = 5, PS_SPECTRUM_SUMS = 4 };

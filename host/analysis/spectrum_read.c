@@ -1,6 +1,7 @@
 #include "analysis/spectrum_file.h"
 #include "analysis/spectrum_format.h"
 #include "base/memory.h"
+#include "engines/frequency_sample.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -25,7 +26,7 @@ typedef struct reader {
 
 /* What the header says, before anything of that size is allocated. */
 typedef struct header {
-    uint64_t dimension, max_frequency, num_frequencies, num_bins;
+    uint64_t dimension, per_ring, max_frequency, num_frequencies, num_bins;
     uint64_t realizations, smallest_points, largest_points;
     size_t kind, bins, normalization; /* places in the tables of spectrum_format.h */
 } header;
@@ -173,7 +174,10 @@ static pspec_status read_header(reader *in, header *out) {
     PS_TRY(read_magic(in));
     PS_TRY(read_value(in, "pointspec_version", line, &value));
     PS_TRY(read_count(in, "dimension", 1, PS_MAX_TORUS_DIMENSION, &out->dimension));
-    PS_TRY(read_word(in, "frequencies", ps_spectrum_kinds, 3, &out->kind));
+    PS_TRY(read_word(in, "frequencies", ps_spectrum_kinds, PS_SPECTRUM_NUM_KINDS, &out->kind));
+    if (out->kind == PS_SPECTRUM_SAMPLE) {
+        PS_TRY(read_count(in, "per_ring", PS_MIN_PER_RING, PS_MAX_NUM_FREQUENCIES, &out->per_ring));
+    }
     PS_TRY(read_count(in, "max_frequency", 0, PS_MAX_FREQUENCY, &out->max_frequency));
     PS_TRY(read_count(in, "num_frequencies", 1, UINT32_MAX, &out->num_frequencies));
     PS_TRY(read_word(in, "bins", ps_spectrum_bins, 2, &out->bins));
@@ -187,14 +191,19 @@ static pspec_status read_header(reader *in, header *out) {
     return line[0] == '\0' ? PSPEC_OK : fail(in, "its header does not end where it should");
 }
 
+static bool is_list(const header *from) {
+    return from->kind == PS_FREQUENCIES_LIST || from->kind == PS_SPECTRUM_SAMPLE;
+}
+
 /* Everything after the header has a size that follows from it: nothing is allocated that the file does
  * not have. The numbers are below 2^32, so no product overflows. */
 static pspec_status check_size(const reader *in, const header *from) {
     const uint64_t sum_bytes = PS_SPECTRUM_SUMS * sizeof(double);
-    const uint64_t list_bytes = from->kind == PS_FREQUENCIES_LIST
-                                    ? from->num_frequencies * from->dimension * sizeof(int32_t)
-                                    : 0;
-    const uint64_t expected = PS_SPECTRUM_TOTALS * sizeof(double) + list_bytes +
+    const uint64_t list_bytes =
+        is_list(from) ? from->num_frequencies * from->dimension * sizeof(int32_t) : 0;
+    const uint64_t ring_bytes =
+        from->kind == PS_SPECTRUM_SAMPLE ? from->num_bins * 2 * sizeof(uint64_t) : 0;
+    const uint64_t expected = PS_SPECTRUM_TOTALS * sizeof(double) + list_bytes + ring_bytes +
                               sum_bytes * (from->num_bins + from->num_frequencies) +
                               sizeof(uint32_t);
     if (in->rest != expected) {
@@ -224,6 +233,52 @@ static pspec_status read_list(reader *in, const header *from, ps_frequencies *ou
     }
     return ps_frequencies_list(out, (unsigned)from->dimension, (size_t)from->num_frequencies,
                                vectors, in->error);
+}
+
+/* What a list was drawn from. */
+static pspec_status read_rings(reader *in, const header *from, ps_frequencies *set) {
+    void *memory = NULL;
+    uint64_t sum = 0;
+    PS_TRY(ps_allocate(&memory, from->num_bins, sizeof *set->rings, "rings", in->error));
+    set->rings = memory;
+    set->num_rings = (size_t)from->num_bins;
+    set->per_ring = from->per_ring;
+    if (set->max_frequency > (int64_t)from->max_frequency) {
+        return fail(in, "its frequencies are beyond its max_frequency");
+    }
+    set->max_frequency = (int32_t)from->max_frequency;
+    for (size_t i = 0; i < set->num_rings; i++) {
+        ps_sampled_ring *const ring = &set->rings[i];
+        PS_TRY(read_integer(in, sizeof ring->num_frequencies, &ring->num_frequencies));
+        PS_TRY(read_doubles(in, &ring->mean_frequency, 1));
+        if (ring->num_frequencies > UINT64_MAX / 2 - sum || !(ring->mean_frequency > 0)) {
+            return fail(in, "its rings are none");
+        }
+        sum += ring->num_frequencies;
+    }
+    return PSPEC_OK;
+}
+
+/* Every ring has as many of its frequencies in the list as were to be drawn. */
+static pspec_status make_bins(const reader *in, const header *from, const ps_frequencies *set,
+                              bool exact_shells, ps_bins *bins) {
+    ps_error inner = {0};
+    const pspec_status status = ps_bins_create(bins, set, exact_shells, &inner);
+    if (status == PSPEC_ERROR_MEMORY) {
+        return ps_fail(in->error, status, "%s", inner.message);
+    }
+    if (status != PSPEC_OK || bins->num != from->num_bins) {
+        return fail(in, "its num_bins does not fit its frequencies");
+    }
+    for (size_t b = 0; set->rings != NULL && b < bins->num; b++) {
+        const uint64_t size = bins->bins[b].num_frequencies;
+        const uint64_t num = bins->bins[b].end - bins->bins[b].begin;
+        if (num != (size < set->per_ring ? size : set->per_ring) ||
+            bins->bins[b].key == INT64_MAX) {
+            return fail(in, "its rings do not fit its frequencies");
+        }
+    }
+    return PSPEC_OK;
 }
 
 /* The number of a ball is known only approximately before it is enumerated: what is off by more than
@@ -272,12 +327,11 @@ static pspec_status read_body(reader *in, const header *from, ps_frequencies *se
                               ps_spectrum_sums *out, ps_bins *bins) {
     ps_spectrum_sums totals = {0};
     PS_TRY(read_totals(in, from, &totals));
-    PS_TRY(from->kind == PS_FREQUENCIES_LIST ? read_list(in, from, set)
-                                             : make_lattice(in, from, set));
-    PS_TRY(ps_bins_create(bins, set, totals.exact_shells, in->error));
-    if (bins->num != from->num_bins) {
-        return fail(in, "its num_bins does not fit its frequencies");
+    PS_TRY(is_list(from) ? read_list(in, from, set) : make_lattice(in, from, set));
+    if (from->kind == PS_SPECTRUM_SAMPLE) {
+        PS_TRY(read_rings(in, from, set));
     }
+    PS_TRY(make_bins(in, from, set, totals.exact_shells, bins));
     PS_TRY(ps_spectrum_sums_create(out, set, bins->num, in->error));
     out->exact_shells = totals.exact_shells;
     out->normalization = totals.normalization;

@@ -53,10 +53,23 @@ void ps_spectrum_sums_free(ps_spectrum_sums *sums) {
 /* What a double counts exactly, and a file may hold (spectrum_format.h). */
 #define MOST_REALIZATIONS ((uint64_t)1 << 53)
 
-static const char *kind_name(ps_frequency_kind kind) {
-    return kind == PS_FREQUENCIES_LIST  ? "a list of frequencies"
-           : kind == PS_FREQUENCIES_BOX ? "the frequencies of a box"
-                                        : "the frequencies of rings";
+static const char *kind_name(const ps_frequencies *set) {
+    return set->rings != NULL                 ? "a random subset of the frequencies of rings"
+           : set->kind == PS_FREQUENCIES_LIST ? "a list of frequencies"
+           : set->kind == PS_FREQUENCIES_BOX  ? "the frequencies of a box"
+                                              : "the frequencies of rings";
+}
+
+/* The same vectors: different only in files that somebody made up. */
+static pspec_status compare_rings(const ps_frequencies *a, const ps_frequencies *b,
+                                  const char *which, ps_error *error) {
+    bool is_same = a->num_rings == b->num_rings && a->per_ring == b->per_ring;
+    for (size_t i = 0; is_same && i < a->num_rings; i++) {
+        is_same = a->rings[i].num_frequencies == b->rings[i].num_frequencies;
+    }
+    return is_same ? PSPEC_OK
+                   : ps_fail(error, PSPEC_ERROR_INPUT,
+                             "%s has a random subset of other rings, or of another size", which);
 }
 
 static pspec_status compare_frequencies(const ps_frequencies *a, const ps_frequencies *b,
@@ -65,11 +78,12 @@ static pspec_status compare_frequencies(const ps_frequencies *a, const ps_freque
         return ps_fail(error, PSPEC_ERROR_INPUT, "%s has dimension %u instead of %u", which,
                        b->dimension, a->dimension);
     }
-    if (a->kind != b->kind) {
-        return ps_fail(error, PSPEC_ERROR_INPUT, "%s has %s instead of %s", which,
-                       kind_name(b->kind), kind_name(a->kind));
+    if (a->kind != b->kind || (a->rings == NULL) != (b->rings == NULL)) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s has %s instead of %s", which, kind_name(b),
+                       kind_name(a));
     }
-    if (a->kind != PS_FREQUENCIES_LIST && a->max_frequency != b->max_frequency) {
+    if ((a->kind != PS_FREQUENCIES_LIST || a->rings != NULL) &&
+        a->max_frequency != b->max_frequency) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "%s has max frequency %d instead of %d", which,
                        (int)b->max_frequency, (int)a->max_frequency);
     }
@@ -79,11 +93,12 @@ static pspec_status compare_frequencies(const ps_frequencies *a, const ps_freque
     }
     for (size_t i = 0; i < a->num * a->dimension; i++) {
         if (a->vectors[i] != b->vectors[i]) {
-            return ps_fail(error, PSPEC_ERROR_INPUT, "%s has another frequency %zu in its list",
-                           which, i / a->dimension + 1);
+            return ps_fail(error, PSPEC_ERROR_INPUT, "%s has another frequency %zu in its %s",
+                           which, i / a->dimension + 1,
+                           a->rings != NULL ? "random subset (another seed?)" : "list");
         }
     }
-    return PSPEC_OK;
+    return a->rings != NULL ? compare_rings(a, b, which, error) : PSPEC_OK;
 }
 
 static pspec_status compare(const ps_spectrum_sums *a, const ps_spectrum_sums *b, const char *which,

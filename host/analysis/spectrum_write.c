@@ -49,7 +49,11 @@ static void describe(const ps_spectrum_sums *sums, ps_text *text) {
     ps_text_append(text, PS_SPECTRUM_MAGIC " %d\n", PS_SPECTRUM_VERSION);
     ps_text_append(text, "pointspec_version: " PS_VERSION "\n");
     ps_text_append(text, "dimension: %u\n", set->dimension);
-    ps_text_append(text, "frequencies: %s\n", ps_spectrum_kinds[set->kind]);
+    ps_text_append(text, "frequencies: %s\n",
+                   ps_spectrum_kinds[set->rings != NULL ? PS_SPECTRUM_SAMPLE : (int)set->kind]);
+    if (set->rings != NULL) {
+        ps_text_append(text, "per_ring: %" PRIu64 "\n", set->per_ring);
+    }
     ps_text_append(text, "max_frequency: %" PRId32 "\n", set->max_frequency);
     ps_text_append(text, "num_frequencies: %zu\n", set->num);
     ps_text_append(text, "bins: %s\n", ps_spectrum_bins[sums->exact_shells]);
@@ -69,6 +73,10 @@ static void write_all(writer *out, const ps_spectrum_sums *sums, const ps_text *
     write_doubles(out, totals, PS_SPECTRUM_TOTALS);
     for (size_t i = 0; set->kind == PS_FREQUENCIES_LIST && i < set->num * set->dimension; i++) {
         write_integer(out, (uint32_t)set->vectors[i], sizeof set->vectors[i]);
+    }
+    for (size_t i = 0; i < set->num_rings; i++) {
+        write_integer(out, set->rings[i].num_frequencies, sizeof set->rings[i].num_frequencies);
+        write_doubles(out, &set->rings[i].mean_frequency, 1);
     }
     write_sums(out, sums->bins, sums->num_bins);
     write_sums(out, sums->powers, set->num);

@@ -23,6 +23,7 @@ typedef enum ps_option_id {
     PS_OPTION_MAX_FREQUENCY,     /* -k, --max-frequency K */
     PS_OPTION_FREQUENCIES,       /* --frequencies FILE */
     PS_OPTION_SHELLS,            /* --shells */
+    PS_OPTION_PER_RING,          /* --per-ring S */
     PS_OPTION_FULL,              /* --full FILE.npy */
     PS_OPTION_NORMALIZE,         /* --normalize power|effective */
     PS_OPTION_HOMOGENIZE,        /* --homogenize */
@@ -62,6 +63,7 @@ typedef struct ps_arguments {
     size_t num_samplers;
     const char *samplers[PS_MAX_SAMPLERS];
     int32_t max_frequency; /* 0 unless given: the default of design.md 3.1 */
+    uint64_t per_ring;     /* 0 unless given: all frequencies */
     const char *frequencies, *full, *weights, *input_format, *columns, *to_columns, *engine,
         *device, *output, *format, *plot; /* NULL unless given */
     ps_domain domain;                     /* PS_DOMAIN_ANY unless given */

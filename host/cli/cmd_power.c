@@ -7,14 +7,14 @@
 #include <stdio.h>
 
 const ps_option_id ps_power_options[] = {
-    PS_OPTION_SAMPLER,     PS_OPTION_POINTS,        PS_OPTION_REALIZATIONS, PS_OPTION_DIMENSION,
-    PS_OPTION_SEED,        PS_OPTION_HOMOGENIZE,    PS_OPTION_WEIGHTS,      PS_OPTION_INPUT_FORMAT,
-    PS_OPTION_COLUMNS,     PS_OPTION_SELECT_SETS,   PS_OPTION_WRAP,         PS_OPTION_MAX_FREQUENCY,
-    PS_OPTION_FREQUENCIES, PS_OPTION_SHELLS,        PS_OPTION_NORMALIZE,    PS_OPTION_TOLERANCE,
-    PS_OPTION_FLOOR,       PS_OPTION_PRECISION,     PS_OPTION_ENGINE,       PS_OPTION_DEVICE,
-    PS_OPTION_NO_SKIP,     PS_OPTION_NO_SELF_CHECK, PS_OPTION_OUTPUT,       PS_OPTION_FORMAT,
-    PS_OPTION_FULL,        PS_OPTION_PLOT,          PS_OPTION_PROFILE,      PS_OPTION_QUIET,
-    PS_OPTION_VERBOSE,     PS_OPTION_HELP,          PS_NUM_OPTIONS};
+    PS_OPTION_SAMPLER,     PS_OPTION_POINTS,      PS_OPTION_REALIZATIONS,  PS_OPTION_DIMENSION,
+    PS_OPTION_SEED,        PS_OPTION_HOMOGENIZE,  PS_OPTION_WEIGHTS,       PS_OPTION_INPUT_FORMAT,
+    PS_OPTION_COLUMNS,     PS_OPTION_SELECT_SETS, PS_OPTION_WRAP,          PS_OPTION_MAX_FREQUENCY,
+    PS_OPTION_FREQUENCIES, PS_OPTION_SHELLS,      PS_OPTION_PER_RING,      PS_OPTION_NORMALIZE,
+    PS_OPTION_TOLERANCE,   PS_OPTION_FLOOR,       PS_OPTION_PRECISION,     PS_OPTION_ENGINE,
+    PS_OPTION_DEVICE,      PS_OPTION_NO_SKIP,     PS_OPTION_NO_SELF_CHECK, PS_OPTION_OUTPUT,
+    PS_OPTION_FORMAT,      PS_OPTION_FULL,        PS_OPTION_PLOT,          PS_OPTION_PROFILE,
+    PS_OPTION_QUIET,       PS_OPTION_VERBOSE,     PS_OPTION_HELP,          PS_NUM_OPTIONS};
 
 static int on_progress(uint64_t done, uint64_t total, void *payload) {
     ps_progress_update(payload, done, total);
@@ -44,12 +44,28 @@ static void print_plan(const ps_power_job *job) {
     }
 }
 
+/* Lattices of many dimensions are larger than people think. */
+static void warn_of_hours(const ps_power_job *job) {
+    const double hour = 3600; /* seconds */
+    const ps_candidate *chosen = ps_power_job_plan(job)->chosen;
+    const ps_frequencies *set = ps_power_job_problem(job)->frequencies;
+    if (chosen != NULL && chosen->seconds > hour && set->kind != PS_FREQUENCIES_LIST) {
+        fprintf(stderr,
+                "pointspec power: %.3g frequencies will take about %.2g hours; a random subset of "
+                "every ring (--per-ring) takes less\n",
+                (double)set->num, chosen->seconds / hour);
+    }
+}
+
 static pspec_status run_job(const ps_arguments *arguments, ps_power_question *question,
                             ps_power_job **job, ps_error *error) {
     ps_progress *progress = ps_progress_begin(arguments, "realizations");
     question->progress = on_progress;
     question->payload = progress;
     pspec_status status = ps_power_job_create(job, question, error);
+    if (status == PSPEC_OK && !arguments->quiet) {
+        warn_of_hours(*job);
+    }
     if (status == PSPEC_OK && arguments->verbose) {
         print_plan(*job);
     }

@@ -2,7 +2,7 @@
 
 #include "base/text.h"
 #include "cli/option_setters.h"
-#include "engines/frequencies.h"
+#include "engines/frequency_sample.h"
 #include "io/points.h"
 
 #include <string.h>
@@ -75,6 +75,14 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_SHELLS] = {.name = "shells",
                           .help = "exact shells of |k|^2 instead of rings of width 1",
                           FLAG(shells)},
+    [PS_OPTION_PER_RING] = {.name = "per-ring",
+                            .metavar = "S",
+                            .help = "of every ring (or shell) with more than S frequencies of the "
+                                    "half lattice, only a random subset of S, from the seed",
+                            COUNT(per_ring),
+                            .what = "frequencies per ring",
+                            .minimum = PS_MIN_PER_RING,
+                            .maximum = PS_MAX_NUM_FREQUENCIES},
     [PS_OPTION_FULL] = {.name = "full",
                         .metavar = "FILE.npy",
                         .help = "write the whole array too, shape (2K+1)^D, DC in the middle, and "

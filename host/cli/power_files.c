@@ -116,7 +116,8 @@ pspec_status ps_power_write_plot(const ps_arguments *arguments, const ps_power_j
     ps_text title = {0};
     pspec_status status = PSPEC_OK;
     const ps_spectrum *first = ps_power_job_spectrum(jobs[0]);
-    const bool has_image = num == 1 && first->frequencies.dimension == 2;
+    const bool has_image =
+        num == 1 && first->frequencies.dimension == 2 && arguments->per_ring == 0;
     for (size_t i = 0; i < num; i++) {
         const char *label = arguments->num_samplers > 0 ? arguments->samplers[i] : "radial mean";
         PS_TRY_OUT(status, make_curve(&curves[i], label, ps_power_job_spectrum(jobs[i]), &blocks[i],

@@ -31,8 +31,10 @@ static void put_common(header *to, const ps_arguments *arguments) {
     put(to, "normalization",
         PS_TEXT(arguments->effective ? "effective: |S|^2 / sum w^2"
                                      : "power: N |S|^2 / (sum w)^2"));
-    if (arguments->num_samplers > 0) {
+    if (arguments->num_samplers > 0 || arguments->per_ring > 0) {
         put(to, "seed", PS_INTEGER(arguments->seed));
+    }
+    if (arguments->num_samplers > 0) {
         put(to, "homogenize", PS_TEXT(arguments->homogenize ? "yes" : "no"));
     }
 }
@@ -48,11 +50,28 @@ static void put_points(header *to, const ps_spectrum *spectrum, const ps_needs *
     }
     put(to, "realizations", PS_INTEGER(spectrum->num_realizations));
     if (spectrum->num_realizations == 1) {
-        put(to, "standard_error", PS_TEXT("none: one realization"));
+        put(to, "standard_error",
+            PS_TEXT(spectrum->frequencies.rings != NULL
+                        ? "one realization: that of the choice of frequencies, none for complete "
+                          "rings"
+                        : "none: one realization"));
     } else if (!needs->one_realization) {
         put(to, "noise_level_db", PS_NUMBER(-10 * log10((double)spectrum->num_realizations)));
     }
     put(to, "weight_sum", PS_NUMBER(spectrum->mean_weight_sum));
+}
+
+/* Both signs, as in the table. */
+static void put_subset(header *to, const ps_arguments *arguments, const ps_frequencies *set) {
+    char text[128];
+    if (arguments->per_ring == 0) {
+        return;
+    }
+    put(to, "per_ring", PS_INTEGER(arguments->per_ring));
+    snprintf(text, sizeof text, "%llu of %llu frequencies of the rings, both signs",
+             2 * (unsigned long long)set->num,
+             2 * (unsigned long long)ps_frequencies_population(set));
+    put(to, "computed", PS_TEXT(text));
 }
 
 static void put_self_check(header *to, const ps_accuracy *accuracy) {
@@ -84,6 +103,7 @@ static void put_job(header *to, const ps_arguments *arguments, const ps_power_jo
     put_points(to, ps_power_job_spectrum(job), ps_power_job_needs(job));
     put(to, "dimension", PS_INTEGER(ps_power_job_problem(job)->frequencies->dimension));
     put(to, "max_frequency", PS_INTEGER(ps_power_job_problem(job)->frequencies->max_frequency));
+    put_subset(to, arguments, ps_power_job_problem(job)->frequencies);
     put(to, "device",
         PS_TEXT(limits != NULL && chosen->engine->needs_device ? limits->name : "host"));
     put(to, "engine", PS_TEXT(ps_power_job_description(job)));

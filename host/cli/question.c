@@ -13,7 +13,7 @@ static pspec_status check_other_source(const ps_arguments *arguments, ps_error *
         const char *name;
         bool is_for_files;
     } options[] = {{PS_OPTION_REALIZATIONS, "--realizations", false},
-                   {PS_OPTION_SEED, "--seed", false},
+                   {PS_OPTION_SEED, "--seed", false}, /* but for --per-ring */
                    {PS_OPTION_HOMOGENIZE, "--homogenize", false},
                    {PS_OPTION_INPUT_FORMAT, "--input-format", true},
                    {PS_OPTION_COLUMNS, "--columns", true},
@@ -21,7 +21,9 @@ static pspec_status check_other_source(const ps_arguments *arguments, ps_error *
                    {PS_OPTION_SELECT_SETS, "--select-sets", true}};
     const bool are_files = arguments->num_files > 0;
     for (size_t i = 0; i < sizeof options / sizeof options[0]; i++) {
-        if (arguments->is_given[options[i].option] && options[i].is_for_files != are_files) {
+        const bool is_of_subset = options[i].option == PS_OPTION_SEED && arguments->per_ring > 0;
+        if (arguments->is_given[options[i].option] && options[i].is_for_files != are_files &&
+            !is_of_subset) {
             return are_files ? fail_conflict(options[i].name, "point files",
                                              "it says what a --sampler makes", error)
                              : fail_conflict(options[i].name, "--sampler",
@@ -63,6 +65,12 @@ static pspec_status check_results(const ps_arguments *arguments, ps_error *error
         if (arguments->plot != NULL) {
             return fail_conflict("--frequencies", "--plot", "only grids are drawn", error);
         }
+        if (arguments->per_ring > 0) {
+            return fail_conflict("--frequencies", "--per-ring", "the list says it all", error);
+        }
+    }
+    if (arguments->full != NULL && arguments->per_ring > 0) {
+        return fail_conflict("--full", "--per-ring", "a subset does not fill an array", error);
     }
     if (arguments->full != NULL && arguments->num_samplers > 1) {
         return fail_conflict("--full", "several samplers", "one array has one file", error);
@@ -104,10 +112,13 @@ static ps_power_question make_question(const ps_arguments *arguments) {
         .num_realizations = arguments->num_realizations,
         .max_frequency = arguments->max_frequency,
         .frequencies_path = arguments->frequencies,
+        .per_ring = arguments->per_ring,
+        .per_ring_seed = arguments->seed,
         .exact_shells = arguments->shells,
-        /* the picture of one spectrum shows the corners; several are drawn as curves only */
+        /* the picture of one spectrum shows the corners; several, and subsets, are curves only */
         .wants_full_array =
-            arguments->full != NULL || (arguments->plot != NULL && arguments->num_samplers <= 1),
+            arguments->full != NULL ||
+            (arguments->plot != NULL && arguments->num_samplers <= 1 && arguments->per_ring == 0),
         .normalization =
             arguments->effective ? PSPEC_NORMALIZATION_EFFECTIVE : PSPEC_NORMALIZATION_POWER,
         .tolerance = arguments->tolerance,

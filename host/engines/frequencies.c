@@ -6,9 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Slots of results are 32-bit indices on the device, with padding and both signs. */
-#define MAX_NUM_FREQUENCIES (((uint64_t)1 << 31) / 4)
-
 int64_t ps_frequency_norm2(const int32_t *k, unsigned dimension) {
     int64_t sum = 0;
     for (unsigned i = 0; i < dimension; i++) {
@@ -29,7 +26,7 @@ bool ps_frequency_is_in_half_lattice(const int32_t *k, unsigned dimension) {
 static uint64_t half_box_size(unsigned dimension, int64_t max_frequency) {
     uint64_t size = 1;
     for (unsigned i = 0; i < dimension; i++) {
-        if (size > 4 * MAX_NUM_FREQUENCIES) {
+        if (size > 4 * PS_MAX_NUM_FREQUENCIES) {
             return size;
         }
         size *= (uint64_t)(2 * max_frequency + 1);
@@ -50,7 +47,7 @@ static int32_t largest_allowed(unsigned dimension) {
     int32_t high = PS_MAX_FREQUENCY;
     while (low < high) {
         const int32_t middle = low + (high - low + 1) / 2;
-        if (half_box_size(dimension, middle) <= MAX_NUM_FREQUENCIES) {
+        if (half_box_size(dimension, middle) <= PS_MAX_NUM_FREQUENCIES) {
             low = middle;
         } else {
             high = middle - 1;
@@ -72,7 +69,8 @@ pspec_status ps_frequencies_lattice(ps_frequencies *out, unsigned dimension, int
     if (max_frequency < 1 || max_frequency > largest) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "max frequency %d is not between 1 and %d, the largest whose full grid in "
-                       "dimension %u can be indexed; lists of frequencies have no such limit",
+                       "dimension %u can be indexed; a random subset of every ring (--per-ring) "
+                       "and lists of frequencies have no such limit",
                        (int)max_frequency, (int)largest, dimension);
     }
     const size_t box = (size_t)half_box_size(dimension, max_frequency);
@@ -143,6 +141,14 @@ pspec_status ps_frequencies_enumerate(ps_frequencies *frequencies, ps_error *err
     return PSPEC_OK;
 }
 
+static pspec_status copy_rings(ps_frequencies *out, const ps_frequencies *from, ps_error *error) {
+    void *rings = NULL;
+    PS_TRY(ps_allocate(&rings, from->num_rings, sizeof *out->rings, "the rings", error));
+    memcpy(rings, from->rings, from->num_rings * sizeof *out->rings);
+    out->rings = rings;
+    return PSPEC_OK;
+}
+
 pspec_status ps_frequencies_copy(ps_frequencies *out, const ps_frequencies *from, ps_error *error) {
     void *vectors = NULL;
     const size_t num_components = from->num * from->dimension;
@@ -150,10 +156,24 @@ pspec_status ps_frequencies_copy(ps_frequencies *out, const ps_frequencies *from
     memcpy(vectors, from->vectors, num_components * sizeof(int32_t));
     *out = *from;
     out->vectors = vectors;
-    return PSPEC_OK;
+    out->rings = NULL;
+    const pspec_status status = from->rings != NULL ? copy_rings(out, from, error) : PSPEC_OK;
+    if (status != PSPEC_OK) {
+        ps_frequencies_free(out);
+    }
+    return status;
 }
 
 void ps_frequencies_free(ps_frequencies *frequencies) {
     free(frequencies->vectors);
+    free(frequencies->rings);
     *frequencies = (ps_frequencies){0};
+}
+
+uint64_t ps_frequencies_population(const ps_frequencies *frequencies) {
+    uint64_t sum = 0;
+    for (size_t i = 0; i < frequencies->num_rings; i++) {
+        sum += frequencies->rings[i].num_frequencies;
+    }
+    return frequencies->rings != NULL ? sum : frequencies->num;
 }

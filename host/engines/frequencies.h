@@ -26,13 +26,28 @@ typedef enum ps_frequency_kind {
     PS_FREQUENCIES_BALL
 } ps_frequency_kind;
 
+/* A ring or shell of which a list holds a part, or all. */
+typedef struct ps_sampled_ring {
+    uint64_t num_frequencies; /* half-lattice frequencies that the ring has */
+    double mean_frequency;    /* mean |k| of all of them */
+} ps_sampled_ring;
+
 typedef struct ps_frequencies {
     ps_frequency_kind kind;
     unsigned dimension;
     int32_t max_frequency; /* K; for a list the largest |k_i| in it */
     size_t num;            /* exact for lists and boxes, for balls once enumerated */
     int32_t *vectors;      /* [num][dimension]; NULL for boxes and balls not yet enumerated */
+
+    /* A list that holds at most per_ring frequencies of every ring 1..K, or of every shell that these
+     * rings have (engines/frequency_sample.h). Otherwise 0, 0 and NULL. */
+    uint64_t per_ring;
+    size_t num_rings;
+    ps_sampled_ring *rings; /* ascending */
 } ps_frequencies;
+
+/* Slots of results are 32-bit indices on the device, with padding and both signs. */
+#define PS_MAX_NUM_FREQUENCIES (((uint64_t)1 << 31) / 4)
 
 /* A box or ball, not enumerated: costs nothing, whatever the size. dimension 1..6, K >= 1. More
  * frequencies than an index holds: PSPEC_ERROR_INVALID_ARGUMENT with the largest K that fits. */
@@ -47,6 +62,8 @@ pspec_status ps_frequencies_enumerate(ps_frequencies *frequencies, ps_error *err
 pspec_status ps_frequencies_copy(ps_frequencies *out, const ps_frequencies *from,
                                  ps_error *error) PS_MUST_CHECK;
 void ps_frequencies_free(ps_frequencies *frequencies);
+/* Half-lattice frequencies of all rings that the list was drawn from; num when it was not. */
+uint64_t ps_frequencies_population(const ps_frequencies *frequencies);
 
 /* |k|^2 */
 int64_t ps_frequency_norm2(const int32_t *k, unsigned dimension);

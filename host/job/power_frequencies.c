@@ -1,5 +1,7 @@
 #include "job/power_frequencies.h"
 
+#include "engines/frequency_sample.h"
+
 #include <math.h>
 
 static pspec_status default_max_frequency(int32_t *out, unsigned dimension, size_t num_points,
@@ -9,7 +11,9 @@ static pspec_status default_max_frequency(int32_t *out, unsigned dimension, size
     enum { LARGEST_DIMENSION = 3 };
     if (dimension > LARGEST_DIMENSION) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "in dimension %u the largest frequency must be given: -k K", dimension);
+                       "in dimension %u the largest frequency must be given: -k K (and --per-ring "
+                       "S, when all frequencies up to K are too many)",
+                       dimension);
     }
     /* The root of an exact power may come out a rounding above it. */
     const double root = pow((double)num_points, 1.0 / dimension);
@@ -45,6 +49,14 @@ pspec_status ps_power_frequencies(ps_frequencies *out, const ps_power_question *
     }
     if (max_frequency == 0) {
         PS_TRY(default_max_frequency(&max_frequency, dimension, num_points, error));
+    }
+    if (question->per_ring > 0) {
+        const ps_frequency_sample sample = {.dimension = dimension,
+                                            .max_frequency = max_frequency,
+                                            .exact_shells = question->exact_shells,
+                                            .per_ring = question->per_ring,
+                                            .seed = question->per_ring_seed};
+        return ps_frequencies_sample(out, &sample, error);
     }
     const bool only_ball = !question->wants_full_array && !question->no_skip;
     return ps_frequencies_lattice(out, dimension, max_frequency, only_ball, error);

@@ -45,6 +45,8 @@ static void find_needs(ps_power_job *job) {
         .dimension = job->dimension,
         .max_frequency = is_grid ? job->frequencies.max_frequency : 0,
         .wants_full_array = question->wants_full_array,
+        .share_not_drawn =
+            1 - (double)job->frequencies.num / (double)ps_frequencies_population(&job->frequencies),
         .has_constant_power = sampler != NULL && ps_sampler_has_constant_power(sampler),
         .is_homogenized = sampler != NULL && sampler->homogenize,
         .num_realizations = question->num_realizations,

@@ -27,6 +27,8 @@ typedef struct ps_power_question {
     /* frequencies */
     int32_t max_frequency;        /* 0: ceil(5 N^(1/d)), for d <= 3 */
     const char *frequencies_path; /* NULL: a grid */
+    uint64_t per_ring; /* of every ring, at random; 0: all (engines/frequency_sample.h) */
+    uint64_t per_ring_seed;
     bool exact_shells;
     bool wants_full_array;
 

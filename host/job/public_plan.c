@@ -1,5 +1,6 @@
 /* The public library: plans over the estimator, and the callbacks of their context. */
 #include "base/memory.h"
+#include "engines/frequency_sample.h"
 #include "job/gather.h"
 #include "job/public_objects.h"
 
@@ -69,11 +70,25 @@ static pspec_status parse_precision(const char *name, int *out, ps_error *error)
                          "precision \"%s\" is none of single, double, extended", name);
 }
 
+static pspec_status draw_frequencies(pspec_plan *plan, const pspec_power_request *request,
+                                     ps_error *error) {
+    const ps_frequency_sample sample = {.dimension = request->dimension,
+                                        .max_frequency = request->max_frequency,
+                                        .exact_shells = request->exact_shells != 0,
+                                        .per_ring = request->per_ring,
+                                        .seed = request->per_ring_seed};
+    return ps_frequencies_sample(&plan->frequencies, &sample, error);
+}
+
 static pspec_status set_frequencies(pspec_plan *plan, const pspec_power_request *request,
                                     ps_error *error) {
     void *copy = NULL;
     size_t num_components = 0;
     const size_t num = request->num_frequencies;
+    if (request->per_ring > 0) {
+        PS_TRY(draw_frequencies(plan, request, error));
+        return ps_frequencies_enumerate(&plan->frequencies, error);
+    }
     if (request->frequencies == NULL) {
         PS_TRY(ps_frequencies_lattice(&plan->frequencies, request->dimension,
                                       request->max_frequency, request->rings_only != 0, error));
@@ -108,9 +123,11 @@ static pspec_status check_request(const pspec_power_request *request, ps_error *
                        "tolerance %g must be above 0 and at most 1, floor %g not below 0",
                        request->tolerance, request->floor);
     }
-    if (request->frequencies != NULL && (request->exact_shells != 0 || request->rings_only != 0)) {
+    if (request->frequencies != NULL &&
+        (request->exact_shells != 0 || request->rings_only != 0 || request->per_ring != 0)) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "exact_shells and rings_only are for grids; a list is not averaged");
+                       "exact_shells, rings_only and per_ring are for grids; a list is not "
+                       "averaged");
     }
     if (request->normalization != PSPEC_NORMALIZATION_POWER &&
         request->normalization != PSPEC_NORMALIZATION_EFFECTIVE) {

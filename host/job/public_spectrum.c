@@ -23,9 +23,9 @@ static pspec_status copy_bins(pspec_spectrum *spectrum, const ps_spectrum *from,
     spectrum->num_bins = from->num_bins;
     for (size_t b = 0; b < from->num_bins; b++) {
         const ps_spectrum_bin *bin = &from->bins[b];
-        spectrum->bins[b] =
-            (pspec_bin){bin->key,   bin->frequency,      bin->normalized_frequency, bin->count,
-                        bin->power, bin->standard_error, bin->anisotropy_db};
+        spectrum->bins[b] = (pspec_bin){
+            bin->key,   bin->frequency,      bin->normalized_frequency, bin->count,
+            bin->power, bin->standard_error, bin->anisotropy_db,        bin->num_computed};
     }
     return PSPEC_OK;
 }

@@ -32,7 +32,8 @@ typedef enum ps_random_stream {
     PS_STREAM_COORDINATES = 0,
     PS_STREAM_PERMUTATION = 1,
     PS_STREAM_SCRAMBLE = 2,
-    PS_STREAM_SHIFT = 3
+    PS_STREAM_SHIFT = 3,
+    PS_STREAM_FREQUENCIES = 4 /* which frequencies of a ring; the realization is the ring */
 } ps_random_stream;
 
 ps_random ps_random_init(uint64_t seed, ps_random_stream stream, uint64_t realization);

@@ -210,6 +210,10 @@ pspec_status ps_plan_require(const ps_plan *plan, const ps_problem *problem, ps_
                        ps_precision_name(best->precision));
     }
     const ps_candidate *smallest = find_smallest(plan, problem->tolerance);
-    return ps_fail(error, PSPEC_ERROR_MEMORY, "%s (%s) %s", smallest->engine->name,
-                   ps_precision_name(smallest->precision), smallest->reason);
+    return ps_fail(error, PSPEC_ERROR_MEMORY, "%s (%s) %s%s", smallest->engine->name,
+                   ps_precision_name(smallest->precision), smallest->reason,
+                   problem->frequencies->kind != PS_FREQUENCIES_LIST
+                       ? "; a random subset of the frequencies of every ring (--per-ring) needs "
+                         "less"
+                       : "");
 }

@@ -24,6 +24,11 @@ ps_needs ps_needs_find(const ps_needs_question *question) {
     if (is_grid) {
         add(&needs, "frequencies -k", "real weights: P(-k) = P(k), a symmetry", 0.5);
     }
+    if (question->share_not_drawn > 0) {
+        add(&needs, "frequencies outside the random subset of each ring",
+            "asked for by --per-ring; the standard error has the error of the choice",
+            question->share_not_drawn);
+    }
     if (question->no_skip) {
         return needs;
     }

@@ -144,13 +144,18 @@ typedef struct pspec_power_request {
     const char *engine;    /**< "torus_direct", "host_direct", or NULL: the planner chooses */
     const char *precision; /**< "single", "double", "extended", or NULL: likewise */
     int no_self_check;     /**< do not recompute a few entries of the first pattern */
+    uint64_t per_ring; /**< S >= 2: of every ring or shell with more than S frequencies of the half
+                          lattice only S, drawn at random without replacement; needs K <= 2000, not a
+                          list; implies rings_only. Default 0: all */
+    uint64_t
+        per_ring_seed; /**< what is drawn depends on it, on d, S and the ring alone; default 1 */
 } pspec_power_request;
 
 /** The defaults of a #pspec_power_request. */
 #define PSPEC_POWER_REQUEST_INIT                                                                   \
     {                                                                                              \
         sizeof(pspec_power_request), 2, 1024, 0, 0, 0, 0, 0, 0, PSPEC_NORMALIZATION_POWER, 1e-6,   \
-            0, 0, 0, 0                                                                             \
+            0, 0, 0, 0, 0, 1                                                                       \
     }
 
 /** Chooses the engine and allocates what it needs; opens the context's device if that may be needed.
@@ -194,8 +199,10 @@ typedef struct pspec_bin {
     double normalized_frequency; /**< the same divided by N^(1/d), N the mean number of points */
     uint64_t count;              /**< frequencies of both signs */
     double power;                /**< mean of P over the bin and the realizations */
-    double standard_error;       /**< over realizations; nan when there was only one */
-    double anisotropy_db;        /**< 10 log10(variance in the bin / power^2); nan: not defined */
+    double standard_error; /**< over realizations, and of the choice where only a random subset
+                                    was computed; nan for one realization and all computed */
+    double anisotropy_db;  /**< 10 log10(variance in the bin / power^2); nan: not defined */
+    uint64_t num_computed; /**< of count, those that were computed: fewer with per_ring */
 } pspec_bin;
 
 /** A snapshot of the averages; the plan goes on. #PSPEC_ERROR_INPUT when there are no realizations yet.
@@ -224,7 +231,8 @@ PSPEC_EXPORT pspec_status pspec_spectrum_load(pspec_spectrum **out, pspec_contex
  * last bits; powers of single frequencies in single precision agree to 1e-13. The error is the largest
  * of theirs.
  *
- * #PSPEC_ERROR_INPUT with the difference, when dimension, frequencies, bins or normalization differ.
+ * #PSPEC_ERROR_INPUT with the difference, when dimension, frequencies (with per_ring: what was drawn),
+ * bins or normalization differ.
  * Numbers of points, engines, precisions and tolerances may differ. */
 PSPEC_EXPORT pspec_status pspec_spectrum_merge(pspec_spectrum **out, pspec_context *context,
                                                const pspec_spectrum *const *spectra,
@@ -244,7 +252,8 @@ PSPEC_EXPORT double pspec_spectrum_error(const pspec_spectrum *spectrum);
 PSPEC_EXPORT const pspec_bin *pspec_spectrum_bins(const pspec_spectrum *spectrum, size_t *num_bins);
 
 /** The frequencies: the list as it was given, or the half lattice of the grid (first non-zero component
- * positive, lexicographic order, DC left out; P(-k) = P(k)). [*num_frequencies][dimension]. Belongs to
+ * positive, lexicographic order, DC left out; P(-k) = P(k)), or with per_ring what was drawn of it, ring by
+ * ring, unless that is everything. [*num_frequencies][dimension]. Belongs to
  * the spectrum. */
 PSPEC_EXPORT const int32_t *pspec_spectrum_frequencies(const pspec_spectrum *spectrum,
                                                        size_t *num_frequencies);
