@@ -46,10 +46,12 @@ static void print_plan(const ps_power_job *job) {
 
 /* Lattices of many dimensions are larger than people think. */
 static void warn_of_hours(const ps_power_job *job) {
-    const double hour = 3600; /* seconds */
+    const double hour = 3600;    /* seconds */
+    enum { FEW_DIMENSIONS = 3 }; /* where K has a default, and time is a matter of realizations */
     const ps_candidate *chosen = ps_power_job_plan(job)->chosen;
     const ps_frequencies *set = ps_power_job_problem(job)->frequencies;
-    if (chosen != NULL && chosen->seconds > hour && set->kind != PS_FREQUENCIES_LIST) {
+    if (chosen != NULL && chosen->seconds > hour && set->kind != PS_FREQUENCIES_LIST &&
+        set->dimension > FEW_DIMENSIONS) {
         fprintf(stderr,
                 "pointspec power: %.3g frequencies will take about %.2g hours; a random subset of "
                 "every ring (--per-ring) takes less\n",
