@@ -146,6 +146,15 @@ refuses 2 'vectors.txt' power --frequencies "$in/vectors.txt" "$in/good.txt"
 refuses 2 '--max-frequency' power --frequencies "$in/vectors.txt" -k 8 "$in/good.txt"
 power 3 'tolerance' --sampler white -n 64 --tol 1e-30
 power 2 'can be indexed' --sampler white -n 16 -d 6 -k 2e8
+power 2 '--per-ring' --sampler white -n 16 -d 6 -k 20
+refuses 2 '--per-ring' power --sampler white -n 16 -d 4
+power 2 'per ring: 0 is not between 2' --sampler white -n 16 -k 4 --per-ring 0
+power 2 'per ring: 1 is not between 2' --sampler white -n 16 -k 4 --per-ring 1
+power 2 'between 1 and 2000' --sampler white -n 16 -d 4 -k 2001 --per-ring 9
+power 2 'more than can be counted' --sampler white -n 16 -d 6 -k 1300 --per-ring 9
+power 2 '--full does not go with --per-ring' --sampler white -n 16 -k 4 --per-ring 9 --full full.npy
+refuses 2 '--frequencies does not go with --per-ring' power --frequencies "$in/vectors.txt" --per-ring 9 "$in/good.txt"
+refuses 2 '--seed does not go with point files' power -k 4 --seed 2 "$in/good.txt"
 refuses 2 'only power can be planned' plan
 refuses 2 'only power can be planned' plan sample --sampler white
 

@@ -99,6 +99,28 @@ spectrum --weights list.txt plain.txt | cmp -s - by_columns || complain "--weigh
 spectrum --columns xyw --weights list.txt weighted.txt | cmp -s - by_columns ||
     complain "--weights FILE beside a column"
 
+# ---- random subsets of rings: of files too, by the seed; the header and plan say what was left out
+quietly sample --sampler jittered -n 32 -d 5 -m 3 -o five.npy
+spectrum --per-ring 8 five.npy >of_subset
+grep -q '^# per_ring: 8$' out || complain "per_ring in the header: $(grep '^#' out)"
+grep -q '^# seed: 1$' out || complain "seed in the header: $(grep '^#' out)"
+grep -q '^# computed: 64 of 9904 frequencies of the rings, both signs$' out ||
+    complain "computed in the header: $(grep '^#' out)"
+spectrum --per-ring 8 --seed 1 five.npy | cmp -s - of_subset || complain "--per-ring: another subset"
+spectrum --per-ring 8 --seed 2 five.npy | cmp -s - of_subset && complain "--per-ring: same subset"
+spectrum --per-ring 8 --no-skip five.npy | cmp -s - of_subset || complain "--per-ring with --no-skip"
+spectrum five.npy >of_all
+spectrum --per-ring 1e6 five.npy | cmp -s - of_all || complain "--per-ring, complete"
+cut -d , -f 1,4 of_all >counts
+cut -d , -f 1,4 of_subset | cmp -s - counts || complain "--per-ring changes counts"
+quietly power -k 4 --per-ring 8 --shells --format json five.npy
+grep -q '"per_ring": *8' out || complain "per_ring in JSON"
+quietly power -k 4 --per-ring 8 --select-sets 1 -o one.npy five.npy
+grep -q 'one realization: that of the choice' one.json || complain "one realization: $(<one.json)"
+quietly plan power -k 4 --per-ring 8 five.npy
+grep -q '^# skip: frequencies outside the random subset of each ring; .*; 0\.99' out ||
+    complain "skip of --per-ring: $(grep skip out)"
+
 # ---- float32 pairs, as many as -n says; some of the sets
 quietly sample --sampler white -n 64 -m 3 --format rps -o three.rps --quiet
 quietly convert -n 64 three.rps -o three.txt

@@ -57,6 +57,21 @@ static void corners(void **state) {
     assert_null(find_skip(&full, "corners"));
 }
 
+/* What is left out because a random subset is asked for; that is no skip to be turned off. */
+static void subsets(void **state) {
+    (void)state;
+    ps_needs_question question = ordinary();
+    for (int no_skip = 0; no_skip <= 1; no_skip++) {
+        question.no_skip = no_skip != 0;
+        question.share_not_drawn = 0.75;
+        const ps_needs needs = ps_needs_find(&question);
+        assert_true(find_skip(&needs, "random subset")->share == 0.75);
+        question.share_not_drawn = 0;
+        const ps_needs all = ps_needs_find(&question);
+        assert_null(find_skip(&all, "random subset"));
+    }
+}
+
 static void one_realization_for_all(void **state) {
     (void)state;
     ps_needs_question question = ordinary();
@@ -112,9 +127,13 @@ static void description(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(symmetry_is_always_used),       cmocka_unit_test(corners),
-        cmocka_unit_test(one_realization_for_all),       cmocka_unit_test(shifts),
-        cmocka_unit_test(everything_is_done_on_request), cmocka_unit_test(description),
+        cmocka_unit_test(symmetry_is_always_used),
+        cmocka_unit_test(corners),
+        cmocka_unit_test(subsets),
+        cmocka_unit_test(one_realization_for_all),
+        cmocka_unit_test(shifts),
+        cmocka_unit_test(everything_is_done_on_request),
+        cmocka_unit_test(description),
     };
     return cmocka_run_group_tests_name("needs", tests, NULL, NULL);
 }

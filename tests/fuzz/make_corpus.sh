@@ -191,4 +191,11 @@ sums() { # NUMBER
 { spectrum box 1 4 rings 2 power; sums 6; } | seed spectrum box '\1'
 { spectrum ball 2 10 shells 4 power; sums 14; } | seed spectrum ball '\1'
 { spectrum list 7 1 rings 1 effective; u32 7 4294967293; sums 2; } | seed spectrum list '\1'
+{
+    spectrum $'sample\nper_ring: 2' 2 4 rings 2 power
+    u32 0 1 1 0 1 2 2 0
+    u32 4 0 && f64 1.25
+    u32 6 0 && f64 2.125
+    sums 6
+} | seed spectrum sample '\1'
 { spectrum box 1 4 rings 2 power; sums 6; } | seed spectrum unchecked '\0'
