@@ -117,6 +117,10 @@ quietly power -k 4 --per-ring 8 --shells --format json five.npy
 grep -q '"per_ring": *8' out || complain "per_ring in JSON"
 quietly power -k 4 --per-ring 8 --select-sets 1 -o one.npy five.npy
 grep -q 'one realization: that of the choice' one.json || complain "one realization: $(<one.json)"
+# a deterministic set has the error of the choice, however many realizations were asked for
+spectrum --sampler hammersley -n 32 -d 4 --per-ring 8 | tail -n 1 >one_row
+spectrum --sampler hammersley -n 32 -d 4 --per-ring 8 -m 5 | tail -n 1 | cmp -s - one_row ||
+    complain "--per-ring of a deterministic set: $(tail -n 1 out)"
 quietly plan power -k 4 --per-ring 8 five.npy
 grep -q '^# skip: frequencies outside the random subset of each ring; .*; 0\.99' out ||
     complain "skip of --per-ring: $(grep skip out)"

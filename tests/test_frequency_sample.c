@@ -201,7 +201,7 @@ static void complete_rings_are_the_ball(void **state) {
     ps_frequencies set = draw(3, 4, false, 1000, 1);
     assert_true(set.kind == PS_FREQUENCIES_BALL && set.rings == NULL && set.per_ring == 0);
     ps_frequencies_free(&set);
-    set = draw(1, 2000, false, 2, 1); /* a ring of the line has one frequency */
+    set = draw(1, 1000000, false, 2, 1); /* a ring of the line has one frequency */
     assert_true(set.kind == PS_FREQUENCIES_BALL);
     ps_frequencies_free(&set);
 }
@@ -216,6 +216,7 @@ static void hopeless_requests(void **state) {
                  {{0, 10, false, 9, 1}, "dimension 0"},
                  {{7, 10, false, 9, 1}, "dimension 7"},
                  {{4, 0, false, 9, 1}, "max frequency 0"},
+                 {{1, 0, false, 9, 1}, "max frequency 0"},
                  {{4, -1, false, 9, 1}, "max frequency -1"},
                  {{4, 2001, false, 9, 1}, "between 1 and 2000"},
                  {{6, 1236, false, 9, 1}, "more than can be counted"},

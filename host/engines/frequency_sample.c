@@ -152,7 +152,8 @@ static pspec_status check(const ps_frequency_sample *sample, ps_error *error) {
                        "%llu frequencies per ring have no variance: at least %d are needed",
                        (unsigned long long)sample->per_ring, PS_MIN_PER_RING);
     }
-    if (sample->max_frequency < 1 || sample->max_frequency > PS_MAX_SAMPLED_RING) {
+    if (sample->dimension > 1 &&
+        (sample->max_frequency < 1 || sample->max_frequency > PS_MAX_SAMPLED_RING)) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "max frequency %d is not between 1 and %d, the largest whose rings are "
                        "counted for a random subset of each",
@@ -166,6 +167,9 @@ pspec_status ps_frequencies_sample(ps_frequencies *out, const ps_frequency_sampl
     ps_lattice lattice;
     *out = (ps_frequencies){0};
     PS_TRY(check(sample, error));
+    if (sample->dimension == 1) { /* where a ring has one frequency of the half lattice */
+        return ps_frequencies_lattice(out, 1, sample->max_frequency, true, error);
+    }
     PS_TRY(ps_lattice_create(&lattice, sample->dimension, largest_norm2(sample), error));
     const pspec_status status = make(out, sample, &lattice, error);
     ps_lattice_free(&lattice);

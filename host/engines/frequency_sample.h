@@ -28,7 +28,7 @@ typedef struct ps_frequency_sample {
 } ps_frequency_sample;
 
 /* A list, ring by ring, lexicographic in each; or the ball up to K, not enumerated, when every ring is
- * complete. Too large a K, more frequencies than can be counted or indexed, or per_ring < 2:
+ * complete, as always in one dimension. Too large a K, more frequencies than can be counted or indexed, or per_ring < 2:
  * PSPEC_ERROR_INVALID_ARGUMENT. */
 pspec_status ps_frequencies_sample(ps_frequencies *out, const ps_frequency_sample *sample,
                                    ps_error *error) PS_MUST_CHECK;
