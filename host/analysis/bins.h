@@ -1,9 +1,9 @@
 /* Bins of frequencies: rings of width 1 on the integer lattice, or exact shells |k|^2 = n.
  *
  * Ring b holds b^2 - b + 1 <= |k|^2 <= b^2 + b (mathematics.md 1.3): integer arithmetic, no ties.
- * What belongs to no reported bin (corners of a box, a list of frequencies that was not drawn from rings) forms one more bin at
- * the end, so that the power of a realization over all frequencies is always known. DC, which only a
- * list can hold, belongs to no bin at all.
+ * What belongs to no reported bin (corners of a box, a list of frequencies that was not drawn from
+ * rings) forms one more bin at the end, so that the power of a realization over all frequencies is always
+ * known. DC, which only a list can hold, belongs to no bin at all.
  */
 #ifndef PS_ANALYSIS_BINS_H
 #define PS_ANALYSIS_BINS_H

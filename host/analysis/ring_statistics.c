@@ -5,7 +5,8 @@
 /* Mean of the averaged periodogram over the members, its sample variance, and the mean square of the
  * standard errors over the realizations (nan when there was one). */
 typedef struct moments {
-    double mean, variance, noise;
+    long double mean;
+    double variance, noise;
 } moments;
 
 static moments find_moments(const ps_mean *powers, const uint32_t *members, size_t num_members) {
@@ -22,7 +23,7 @@ static moments find_moments(const ps_mean *powers, const uint32_t *members, size
         squares += deviation * deviation;
         noise += error * error;
     }
-    return (moments){(double)mean, (double)(squares / (long double)(num_members - 1)),
+    return (moments){mean, (double)(squares / (long double)(num_members - 1)),
                      (double)(noise / (long double)num_members)};
 }
 
@@ -32,7 +33,7 @@ double ps_anisotropy_db(const ps_mean *powers, const uint32_t *members, size_t n
         return NAN;
     }
     const moments ring = find_moments(powers, members, num_members);
-    const double ratio = ring.variance / (ring.mean * ring.mean);
+    const double ratio = ring.variance / (double)(ring.mean * ring.mean);
     return ring.mean > 0 && ratio > 0 ? decibels * log10(ratio) : NAN;
 }
 

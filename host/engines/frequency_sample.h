@@ -3,9 +3,9 @@
  *
  * Rings with at most per_ring half-lattice frequencies are complete; of every other one, per_ring are
  * drawn without replacement, all subsets being equally probable, so that the mean over the subset is an
- * unbiased estimate of the mean over the ring. Nothing is listed: rings are counted, ranks are drawn, and
- * vectors made from ranks (math/lattice_rank.h). What is drawn from a ring or shell depends on the seed, the
- * dimension, its number and per_ring alone, not on K.
+ * unbiased estimate of the mean over the ring. Nothing is listed: rings are counted, ranks are drawn,
+ * and vectors made from ranks (math/lattice_rank.h). What is drawn from a ring or shell depends on the
+ * seed, the dimension, its number and per_ring alone, not on K.
  */
 #ifndef PS_ENGINES_FREQUENCY_SAMPLE_H
 #define PS_ENGINES_FREQUENCY_SAMPLE_H
@@ -28,8 +28,8 @@ typedef struct ps_frequency_sample {
 } ps_frequency_sample;
 
 /* A list, ring by ring, lexicographic in each; or the ball up to K, not enumerated, when every ring is
- * complete, as always in one dimension. Too large a K, more frequencies than can be counted or indexed, or per_ring < 2:
- * PSPEC_ERROR_INVALID_ARGUMENT. */
+ * complete, as always in one dimension. Too large a K, more frequencies than can be counted or indexed, or
+ * per_ring < 2: PSPEC_ERROR_INVALID_ARGUMENT. */
 pspec_status ps_frequencies_sample(ps_frequencies *out, const ps_frequency_sample *sample,
                                    ps_error *error) PS_MUST_CHECK;
 
