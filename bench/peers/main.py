@@ -25,7 +25,7 @@ PEERS = {"finufft": Finufft, "ducc0": Ducc0, "nfft": Nfft}
 LOOSE = "finufft fp32"  # single precision with eps as asked, whatever its error
 LOOSE_TOLERANCE = 1e-6  # single precision is asked for down to here
 SECONDS, QUICK_SECONDS = 2.0, 0.4
-SKIP_SECONDS = 20.0
+SKIP_SECONDS = 5.0
 
 
 def parse_arguments():
