@@ -98,9 +98,13 @@ install_finufft() {
     cp "$here"/cmake/*.cmake cpm/cpm/
     is_settled finufft-fftw || if build_finufft finufft-fftw OFF; then
         settle finufft-fftw source, -march=native, FFTW of Debian
+    else
+        give_up finufft-fftw
     fi
     is_settled finufft-ducc0 || if build_finufft finufft-ducc0 ON; then
         settle finufft-ducc0 source, -march=native, FFT of ducc0
+    else
+        give_up finufft-ducc0
     fi
     is_settled finufft-fftw || is_settled finufft-ducc0 || is_settled finufft-wheel && return
     if quietly finufft-wheel "$pip" install --only-binary :all: --no-deps --target finufft-wheel finufft; then

@@ -142,6 +142,8 @@ def main():
     if not arguments.no_pointspec:
         pointspec = Pointspec(arguments.build.resolve(), arguments.engine)
         print(f"# pointspec {pointspec.version}")
+    if not any(peer.name in ("finufft", "ducc0") for peer in peers):
+        sys.exit("peers: neither finufft nor ducc0 is there to compute a reference")
     csv_file = CsvFile(arguments.output)
     names = ["pointspec"] * (pointspec is not None)
     for peer in peers:
