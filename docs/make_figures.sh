@@ -125,3 +125,10 @@ plot "grid-single.txt" with linespoints pointtype 7 linecolor "#0072b2" \
      "list-single.txt" with linespoints pointtype 9 linecolor "#009e73" \
         title "list of 4096 frequencies, single"
 GNUPLOT
+
+# Time against error, pointspec and the libraries of others, from the last ./dev bench peers.
+peers=$docs/../bench-output/peers.csv
+if [[ -s $peers ]]; then
+    echo "figures: peers.png" >&2
+    "$docs/../bench/peers/plot.sh" "$peers" "$images/peers.png"
+fi

@@ -25,6 +25,11 @@ table_bench_reading() { bench reading; }
 table_bench_memory() { bench memory; }
 table_bench_library() { bench library; }
 
+# Minutes; it also writes bench-output/peers.csv, which make_figures.sh draws.
+table_bench_peers() {
+    need libpointspec.so && "$docs/../bench/bench_peers.sh" --build "$build"
+}
+
 # What the last ./dev fuzz printed.
 table_fuzzing() { cat "$docs/../fuzz-output/table.txt"; }
 

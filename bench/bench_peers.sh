@@ -1,0 +1,9 @@
+#!/usr/bin/env bash
+# bench_peers.sh [OPTIONS]: averaged periodograms by pointspec and by NUFFT libraries of others, at equal
+# measured error (docs/peers.md; --help lists the options). The libraries are installed into build/peers.
+set -euo pipefail
+bench=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
+cd "$bench/.."
+"$bench/peers/install.sh" build/peers
+# Python's byte code stays out of the sources.
+exec env PYTHONPYCACHEPREFIX="$PWD/build/peers/pycache" build/peers/venv/bin/python "$bench/peers/main.py" "$@"

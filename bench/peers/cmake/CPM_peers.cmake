@@ -1,0 +1,16 @@
+# In place of the package manager that finufft's build fetches: the sources are here already, so
+# that the build needs package registries and Debian alone. bench/peers/install.sh names the folders.
+function(CPMAddPackage)
+  cmake_parse_arguments(PACKAGE "" "NAME" "" ${ARGN})
+  if(PACKAGE_NAME STREQUAL "xsimd")
+    add_library(xsimd INTERFACE)
+    target_include_directories(xsimd SYSTEM INTERFACE $ENV{PEERS_XSIMD})
+  elseif(PACKAGE_NAME STREQUAL "findfftw")
+    set(findfftw_SOURCE_DIR ${CMAKE_CURRENT_FUNCTION_LIST_DIR} PARENT_SCOPE)
+  elseif(PACKAGE_NAME STREQUAL "ducc0")
+    set(ducc0_SOURCE_DIR $ENV{PEERS_DUCC0} PARENT_SCOPE)
+    set(ducc0_ADDED ON PARENT_SCOPE)
+  else()
+    message(FATAL_ERROR "nobody has put the sources of ${PACKAGE_NAME} here")
+  endif()
+endfunction()

@@ -1,0 +1,11 @@
+# Debian's FFTW, by the names that finufft's build expects.
+function(add_fftw TARGET LIBRARY)
+  find_library(FFTW_${LIBRARY} ${LIBRARY} REQUIRED)
+  add_library(FFTW::${TARGET} INTERFACE IMPORTED GLOBAL)
+  target_link_libraries(FFTW::${TARGET} INTERFACE ${FFTW_${LIBRARY}})
+endfunction()
+add_fftw(Float fftw3f)
+add_fftw(Double fftw3)
+add_fftw(FloatOpenMP fftw3f_omp)
+add_fftw(DoubleOpenMP fftw3_omp)
+set(FFTW_FOUND TRUE)

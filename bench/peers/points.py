@@ -1,0 +1,34 @@
+"""White points, the same for every peer, in the layout each peer likes best. Layouts are made outside
+of the clock; realizations that would take more than MOST_BYTES are not made, and the table says how many
+were used."""
+
+import numpy as np
+
+MOST_BYTES = 256 << 20
+
+
+class Points:
+    def __init__(self, case):
+        self.case = case
+        set_bytes = 8 * case.points * case.dimension
+        self.count = max(1, min(case.realizations, MOST_BYTES // set_bytes))
+        generator = np.random.default_rng(list(case))
+        self.rows = generator.random((self.count, case.points, case.dimension))
+        self._layouts = {"rows double": self.rows}
+
+    def layout(self, name):
+        if name not in self._layouts:
+            self._layouts[name] = self._make(name)
+        return self._layouts[name]
+
+    def _make(self, name):
+        kind, precision = name.split()
+        dtype = np.float32 if precision == "single" else np.float64
+        if kind == "rows":
+            return self.rows.astype(dtype)
+        centred = self.rows - (self.rows >= 0.5)  # exact
+        if kind == "centred":
+            return centred
+        assert kind == "radians"  # [realization][coordinate][point]
+        centred *= 2 * np.pi
+        return np.ascontiguousarray(centred.transpose(0, 2, 1), dtype=dtype)

@@ -1,0 +1,129 @@
+"""pointspec through its C library: one plan, all realizations in one call, then the spectrum. Start-up,
+which the peers' times do not have either, is outside of the clock."""
+
+import csv
+import ctypes
+import subprocess
+import time
+
+import numpy as np
+
+
+class Request(ctypes.Structure):
+    """pspec_power_request"""
+
+    _fields_ = [
+        ("struct_size", ctypes.c_size_t),
+        ("dimension", ctypes.c_uint),
+        ("num_points", ctypes.c_size_t),
+        ("num_realizations", ctypes.c_uint64),
+        ("max_frequency", ctypes.c_int32),
+        ("frequencies", ctypes.c_void_p),
+        ("num_frequencies", ctypes.c_size_t),
+        ("exact_shells", ctypes.c_int),
+        ("rings_only", ctypes.c_int),
+        ("normalization", ctypes.c_int),
+        ("tolerance", ctypes.c_double),
+        ("floor", ctypes.c_double),
+        ("engine", ctypes.c_char_p),
+        ("precision", ctypes.c_char_p),
+        ("no_self_check", ctypes.c_int),
+    ]
+
+
+class Pattern(ctypes.Structure):
+    """pspec_pattern"""
+
+    _fields_ = [
+        ("dimension", ctypes.c_uint),
+        ("num_points", ctypes.c_size_t),
+        ("points", ctypes.c_void_p),
+        ("weights", ctypes.c_void_p),
+    ]
+
+
+class Pointspec:
+    name = "pointspec"
+
+    def __init__(self, build, engine):
+        self.program = build / "pointspec"
+        self.engine = engine
+        self.library = library = ctypes.CDLL(str(build / "libpointspec.so"))
+        library.pspec_version.restype = ctypes.c_char_p
+        library.pspec_context_create.restype = ctypes.c_void_p
+        library.pspec_context_message.restype = ctypes.c_char_p
+        library.pspec_plan_text.restype = ctypes.c_char_p
+        library.pspec_spectrum_error.restype = ctypes.c_double
+        library.pspec_spectrum_powers.restype = ctypes.POINTER(ctypes.c_double)
+        self.context = ctypes.c_void_p(library.pspec_context_create())
+        self.version = library.pspec_version().decode()
+
+    def check(self, status):
+        if status:
+            raise RuntimeError(self.library.pspec_context_message(self.context).decode())
+
+    def planned_seconds(self, case, tolerance):
+        """Of one realization, as `pointspec plan` has it."""
+        command = [
+            self.program, "plan", "power", "--sampler", "white", "-n", case.points,
+            "-m", case.realizations, "-d", case.dimension, "-k", case.max_frequency,
+            "--tol", tolerance] + (["--engine", self.engine] if self.engine else [])
+        done = subprocess.run([str(word) for word in command], capture_output=True, text=True)
+        if done.returncode:
+            raise RuntimeError(done.stderr.strip().splitlines()[-1])
+        table = csv.DictReader(line for line in done.stdout.splitlines() if line[:1] != "#")
+        chosen = [row for row in table if row["verdict"] == "chosen"]
+        return float(chosen[0]["seconds"]) / case.realizations
+
+    def open(self, points, tolerance):
+        return PointspecRunner(self, points, tolerance)
+
+
+class PointspecRunner:
+    def __init__(self, peer, points, tolerance):
+        self.peer, self.points, self.library = peer, points, peer.library
+        case = points.case
+        self.request = Request(
+            struct_size=ctypes.sizeof(Request), dimension=case.dimension, num_points=case.points,
+            num_realizations=case.realizations, max_frequency=case.max_frequency,
+            tolerance=tolerance, engine=peer.engine.encode() if peer.engine else None, no_self_check=1)
+        self.plan = ctypes.c_void_p()
+        peer.check(self.library.pspec_plan_create(
+            ctypes.byref(self.plan), peer.context, ctypes.byref(self.request)))
+        self.text = self.library.pspec_plan_text(self.plan).decode().strip("()")
+        stride = 8 * case.points * case.dimension
+        start = points.rows.ctypes.data
+        self.patterns = (Pattern * points.count)(
+            *(Pattern(case.dimension, case.points, start + r * stride) for r in range(points.count)))
+
+    def average(self, first, count, use):
+        spectrum = ctypes.c_void_p()
+        patterns = ctypes.byref(self.patterns, first * ctypes.sizeof(Pattern))
+        self.peer.check(self.library.pspec_plan_reset(self.plan))
+        self.peer.check(self.library.pspec_plan_run(self.plan, patterns, ctypes.c_size_t(count)))
+        self.peer.check(self.library.pspec_spectrum_create(ctypes.byref(spectrum), self.plan))
+        result = use(spectrum)
+        self.library.pspec_spectrum_destroy(spectrum)
+        return result
+
+    def run(self, count):
+        begin = time.perf_counter()
+        self.average(0, count, lambda spectrum: None)
+        return time.perf_counter() - begin, float("nan")
+
+    def magnitudes(self, realization):
+        """(|S| of the half lattice, the error that pointspec claims)."""
+        case = self.points.case
+
+        def use(spectrum):
+            num = ctypes.c_size_t()
+            self.library.pspec_spectrum_frequencies.restype = ctypes.c_void_p
+            self.library.pspec_spectrum_frequencies(spectrum, ctypes.byref(num))
+            powers = self.library.pspec_spectrum_powers(spectrum)
+            powers = np.ctypeslib.as_array(powers, (num.value,))
+            return np.sqrt(powers * case.points), self.library.pspec_spectrum_error(spectrum)
+
+        return self.average(realization, 1, use)
+
+    def close(self):
+        self.library.pspec_plan_destroy(self.plan)
