@@ -84,8 +84,8 @@ void bench_peak_destroy(bench_peak *peak) {
 /* ---- jobs -------------------------------------------------------------------------------- */
 
 void bench_job_create(bench_job *job, const ps_engine *engine, ps_precision precision,
-                      ps_device *device, ps_frequencies frequencies, size_t num_points,
-                      size_t num_realizations) {
+                      double tolerance, ps_device *device, ps_frequencies frequencies,
+                      size_t num_points, size_t num_realizations) {
     *job = (bench_job){.engine = engine,
                        .precision = precision,
                        .device = device,
@@ -97,7 +97,7 @@ void bench_job_create(bench_job *job, const ps_engine *engine, ps_precision prec
     const ps_problem problem = {.frequencies = &job->frequencies,
                                 .num_points = num_points,
                                 .num_realizations = num_realizations,
-                                .tolerance = 1};
+                                .tolerance = tolerance};
     const ps_device_limits *limits = ps_device_get_limits(device);
     const ps_work work = engine->work(&problem, limits, precision);
     job->batch = ps_cost_batch(&work, limits, num_realizations);

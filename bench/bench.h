@@ -53,8 +53,8 @@ typedef struct bench_job {
 } bench_job;
 
 void bench_job_create(bench_job *job, const ps_engine *engine, ps_precision precision,
-                      ps_device *device, ps_frequencies frequencies, size_t num_points,
-                      size_t num_realizations);
+                      double tolerance, ps_device *device, ps_frequencies frequencies,
+                      size_t num_points, size_t num_realizations);
 /* All realizations once; seconds. rows are those of the last batch. */
 double bench_job_run(bench_job *job, ps_rows *rows);
 /* Root mean square of | |S| - |S_referee| | over some frequencies of the first realization, in units

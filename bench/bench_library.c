@@ -79,7 +79,7 @@ static double time_engine(const library_bench *bench, const library_case *which)
     }
     BENCH_TRY(ps_device_open(&device, getenv("POINTSPEC_DEVICE"), false, error));
     BENCH_TRY(ps_frequencies_lattice(&set, DIMENSION, bench->max_frequency, false, error));
-    bench_job_create(&job, find_engine(which->engine), (ps_precision)precision, device, set,
+    bench_job_create(&job, find_engine(which->engine), (ps_precision)precision, 1, device, set,
                      bench->num_points, bench->num_patterns);
     for (int i = 0; i < REPEATS; i++) {
         seconds[i] = bench_job_run(&job, &rows) / (double)bench->num_patterns;

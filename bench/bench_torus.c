@@ -149,7 +149,7 @@ static void run_case(const char *text, ps_device *device, bench_peak *peaks) {
     if (!parse_case(text, &what)) {
         bench_die(text);
     }
-    bench_job_create(&job, &ps_torus_direct, what.precision, device, make_frequencies(&what),
+    bench_job_create(&job, &ps_torus_direct, what.precision, 1, device, make_frequencies(&what),
                      what.num_points, what.num_realizations);
     timing found = measure(&what, &job, &peaks[what.precision]);
     const double median = bench_median(found.seconds, REPEATS);

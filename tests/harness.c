@@ -94,9 +94,9 @@ static double read_power(const ps_rows *rows, const void *data, size_t i) {
                                         : ((const double *)data)[i];
 }
 
-double *test_run_engine(const ps_engine *engine, ps_precision precision, ps_device *device,
-                        const ps_frequencies *frequencies, const pspec_pattern *patterns,
-                        size_t num_patterns, size_t batch) {
+double *test_run_engine_to(const ps_engine *engine, ps_precision precision, double tolerance,
+                           ps_device *device, const ps_frequencies *frequencies,
+                           const pspec_pattern *patterns, size_t num_patterns, size_t batch) {
     void *state = NULL;
     size_t longest = 1;
     for (size_t r = 0; r < num_patterns; r++) {
@@ -105,7 +105,7 @@ double *test_run_engine(const ps_engine *engine, ps_precision precision, ps_devi
     const ps_problem problem = {.frequencies = frequencies,
                                 .num_points = longest,
                                 .num_realizations = num_patterns,
-                                .tolerance = 1};
+                                .tolerance = tolerance};
     double *powers = calloc(num_patterns * frequencies->num, sizeof(double));
     double *scales = calloc(num_patterns, sizeof(double));
     uint32_t *slots = calloc(frequencies->num, sizeof(uint32_t));
@@ -139,6 +139,13 @@ double *test_run_engine(const ps_engine *engine, ps_precision precision, ps_devi
     free(scales);
     free(slots);
     return powers;
+}
+
+double *test_run_engine(const ps_engine *engine, ps_precision precision, ps_device *device,
+                        const ps_frequencies *frequencies, const pspec_pattern *patterns,
+                        size_t num_patterns, size_t batch) {
+    return test_run_engine_to(engine, precision, 1, device, frequencies, patterns, num_patterns,
+                              batch);
 }
 
 double test_uniform(uint64_t *state) {

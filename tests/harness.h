@@ -60,6 +60,11 @@ double *test_run_engine(const ps_engine *engine, ps_precision precision, ps_devi
                         const ps_frequencies *frequencies, const pspec_pattern *patterns,
                         size_t num_patterns, size_t batch);
 
+/* The same for engines that work as exactly as asked. */
+double *test_run_engine_to(const ps_engine *engine, ps_precision precision, double tolerance,
+                           ps_device *device, const ps_frequencies *frequencies,
+                           const pspec_pattern *patterns, size_t num_patterns, size_t batch);
+
 /* Reproducible numbers in [0,1) for tests that must not depend on math/random. */
 double test_uniform(uint64_t *state);
 

@@ -1,0 +1,240 @@
+#include "engines/nufft_choice.h"
+
+#include "engines/nufft_fft.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Fine grids from sigma = n / 2K on; there is always a length below 1.1 times the last. Below 1.2 windows
+ * become wider than 16, above 2.6 grids grow faster than windows shrink. */
+static const double least_sigma = 1.2;
+static const double largest_sigma = 2.6;
+
+/* Windows must not meet themselves. */
+enum { LEAST_CELLS = PS_NUFFT_MAX_WIDTH };
+
+/* In one dimension, where more tiles mean shorter transforms. */
+enum { MOST_TILES = 64 };
+
+/* Lengths between the two sigmas. */
+enum { MAX_CANDIDATES = 64 };
+
+/* Lanes to choose for, whatever the device has. */
+static const unsigned nominal_lanes[2] = {16, 8};
+
+/* Mean power to choose for: realizations of white noise vary by that much. */
+static const double nominal_power = 1.5;
+
+static const double unit_roundoff[2] = {0x1p-24, 0x1p-53};
+
+/* Errors in units of the root of sum w^2, measured in tests/test_torus_nufft.c, slack in
+ * docs/torus_nufft.md: of aliasing against its expectation for white sets (lattices may have their
+ * peaks where aliases are largest); of rounding, in units of
+ * roundoff: of windows and phases, of each pass of the transforms on both axes, of sums in dense cells
+ * (per point and cell of a window), of coincident points. */
+static const double alias_slack = 4.5;
+static const double coherent_aliases = 3; /* of |S|^2: aliases of coincident points are in step */
+static const double window_roundings = 4;
+static const double roundings_per_pass = 1;
+static const double dense_roundings = 2;
+static const double coherent_roundings = 0.35;
+
+static uint32_t divide_up(uint32_t a, uint32_t b) {
+    return (a + b - 1) / b;
+}
+
+uint32_t ps_nufft_base(const ps_nufft_choice *choice) {
+    return choice->stride * (uint32_t)choice->axes[0].max_frequency;
+}
+
+/* ---- error ------------------------------------------------------------------------------- */
+
+double ps_nufft_error(const ps_nufft_choice *choice, const ps_problem *problem,
+                      ps_precision precision, double mean_power) {
+    const double power = mean_power > 1 ? mean_power : 1;
+    const double unit = unit_roundoff[precision];
+    double amplification = 1;
+    double aliases = 0;
+    double passes = 0;
+    double dense = (double)problem->num_points;
+    for (unsigned i = 0; i < choice->num_axes; i++) {
+        const ps_nufft_axis *axis = &choice->axes[i];
+        amplification *= axis->loss.amplification;
+        aliases += axis->loss.aliasing;
+        passes += axis->passes * roundings_per_pass;
+        dense *= sqrt(axis->window.width) / axis->n;
+    }
+    const double aliasing =
+        alias_slack * sqrt(aliases) * sqrt(fmax(1, coherent_aliases * (power - 1)));
+    const double polynomials =
+        PS_NUFFT_POLYNOMIAL_SHARE * problem->tolerance * sqrt(choice->num_axes * power);
+    const double rounding = unit * amplification * (window_roundings + passes);
+    const double coherent = unit * coherent_roundings * power * sqrt(power);
+    return hypot(hypot(aliasing, polynomials),
+                 hypot(rounding * sqrt(power), unit * amplification * dense_roundings * dense)) +
+           coherent;
+}
+
+/* ---- cost -------------------------------------------------------------------------------- */
+
+/* Cycles on a core with vectors of `lanes` numbers (Zen 5, PoCL 3.1, 2026-11, profile of bench_nufft): of
+ * a point to be sorted, and for windows and phases; of a point in a tile, and of a cell of its window
+ * there; of an operation of a transform, and of a cell on its way through a pass. */
+static const double cycles_per_point = 60;
+static const double cycles_per_value = 6;
+static const double cycles_per_cell = 1.2;
+static const double cycles_per_operation = 0.5;
+static const double cycles_per_load = 2;
+
+static double transform_cycles(const ps_nufft_axis *axis) {
+    return cycles_per_operation * ps_fft_flops(axis->n) + cycles_per_load * axis->n * axis->passes;
+}
+
+double ps_nufft_cycles(const ps_nufft_choice *choice, unsigned lanes, double num_points) {
+    const ps_nufft_axis *last = &choice->axes[choice->num_axes - 1];
+    const double kept = 2.0 * last->max_frequency + 1;
+    double visits = num_points;
+    double transforms = transform_cycles(last);
+    if (choice->num_axes == PS_NUFFT_MAX_AXES) {
+        const ps_nufft_axis *first = &choice->axes[0];
+        visits *= first->window.width;
+        transforms = first->n * transforms + kept * transform_cycles(first);
+    }
+    return divide_up(choice->span, lanes) *
+               (visits * (cycles_per_value + cycles_per_cell * last->window.width) + transforms) +
+           num_points * cycles_per_point;
+}
+
+/* ---- choice ------------------------------------------------------------------------------ */
+
+static ps_nufft_axis make_axis(const ps_nufft_axis *what, uint32_t n, unsigned width) {
+    ps_nufft_axis axis = *what;
+    uint32_t radices[PS_FFT_MAX_PASSES];
+    axis.n = n;
+    axis.window = ps_nufft_window_make(width, axis.max_frequency, n);
+    axis.loss = ps_nufft_window_loss(&axis.window, axis.max_frequency, n);
+    axis.passes = 0;
+    ps_fft_radices(n, radices);
+    while (radices[axis.passes] != 0) {
+        axis.passes++;
+    }
+    return axis;
+}
+
+/* Widths below it fail: errors of the law exp(-pi w sqrt(1 - 1/sigma)) are smaller than real ones by far. */
+static unsigned first_width(double tolerance, int32_t max_frequency, uint32_t n) {
+    const double pi = 3.141592653589793;
+    const double inverse_sigma = 2.0 * max_frequency / n;
+    const double width = log(0.1 / tolerance) / (pi * sqrt(1 - inverse_sigma));
+    return width > PS_NUFFT_MAX_WIDTH - 1 ? PS_NUFFT_MAX_WIDTH - 1
+           : width > PS_NUFFT_MIN_WIDTH   ? (unsigned)width
+                                          : PS_NUFFT_MIN_WIDTH;
+}
+
+/* Of a length: the narrowest window that keeps the tolerance, else the most exact one. */
+static ps_nufft_axis choose_width(const ps_nufft_axis *what, unsigned num_axes, uint32_t n,
+                                  const ps_problem *problem, ps_precision precision) {
+    const double tolerance = problem->tolerance / sqrt(num_axes);
+    ps_nufft_axis best = {0};
+    double least_error = HUGE_VAL;
+    for (unsigned width = first_width(tolerance, what->max_frequency, n);
+         width <= PS_NUFFT_MAX_WIDTH && least_error > tolerance; width++) {
+        const ps_nufft_choice alone = {.num_axes = 1, .axes = {make_axis(what, n, width)}};
+        const ps_problem one_point = {.num_points = 1, .tolerance = tolerance};
+        const double error = ps_nufft_error(&alone, &one_point, precision, nominal_power);
+        if (error < least_error) {
+            best = alone.axes[0];
+            least_error = error;
+        }
+    }
+    return best;
+}
+
+static size_t list_candidates(const ps_nufft_axis *what, unsigned num_axes,
+                              const ps_problem *problem, ps_precision precision,
+                              ps_nufft_axis candidates[MAX_CANDIDATES]) {
+    const double twice_k = 2.0 * what->max_frequency;
+    const uint64_t least = (uint64_t)fmax(LEAST_CELLS, ceil(least_sigma * twice_k + 1));
+    const uint64_t last = ps_fft_length((uint64_t)fmax(LEAST_CELLS, largest_sigma * twice_k));
+    size_t num = 0;
+    for (uint32_t n = ps_fft_length(least); n != 0 && n <= last && num < MAX_CANDIDATES;
+         n = ps_fft_length(n + (n >> 5) + 1)) {
+        candidates[num++] = choose_width(what, num_axes, n, problem, precision);
+    }
+    return num;
+}
+
+typedef struct best_choice {
+    ps_nufft_choice choice;
+    double error, cycles;
+} best_choice;
+
+static void consider(best_choice *best, const ps_nufft_choice *choice, const ps_problem *problem,
+                     ps_precision precision) {
+    const double error = ps_nufft_error(choice, problem, precision, nominal_power);
+    const double cycles =
+        ps_nufft_cycles(choice, nominal_lanes[precision], (double)problem->num_points);
+    const bool is_enough = error <= problem->tolerance;
+    const bool was_enough = best->error <= problem->tolerance;
+    if (best->choice.num_axes == 0 ||
+        (was_enough ? is_enough && cycles < best->cycles : is_enough || error < best->error)) {
+        *best = (best_choice){*choice, error, cycles};
+    }
+}
+
+/* All fine grids of a choice whose axes have frequencies. */
+static void consider_grids(best_choice *best, ps_nufft_choice *choice, const ps_problem *problem,
+                           ps_precision precision) {
+    ps_nufft_axis candidates[PS_NUFFT_MAX_AXES][MAX_CANDIDATES];
+    size_t num[PS_NUFFT_MAX_AXES] = {1, 1};
+    for (unsigned i = 0; i < choice->num_axes; i++) {
+        num[i] =
+            list_candidates(&choice->axes[i], choice->num_axes, problem, precision, candidates[i]);
+    }
+    for (size_t i = 0; i < num[0]; i++) {
+        choice->axes[0] = candidates[0][i];
+        for (size_t j = 0; j < num[1]; j++) {
+            if (choice->num_axes == PS_NUFFT_MAX_AXES) {
+                choice->axes[1] = candidates[1][j];
+            }
+            consider(best, choice, problem, precision);
+        }
+    }
+}
+
+/* Direct phases for the whole of axis 0, transforms on all others. */
+static ps_nufft_choice direct_choice(uint32_t max_frequency, unsigned dimension) {
+    ps_nufft_choice choice = {.num_axes = dimension - 1, .span = max_frequency + 1};
+    for (unsigned i = 0; i < choice.num_axes; i++) {
+        choice.axes[i] =
+            (ps_nufft_axis){.axis = i + 1, .factor = 1, .max_frequency = (int32_t)max_frequency};
+    }
+    return choice;
+}
+
+/* One dimension: a transform of every stride-th frequency. */
+static ps_nufft_choice strided_choice(uint32_t max_frequency, uint32_t stride) {
+    const uint32_t needed = divide_up(max_frequency + 1, stride);
+    return (ps_nufft_choice){
+        .num_axes = 1,
+        .span = stride,
+        .stride = stride,
+        .axes = {{.axis = 0, .factor = stride, .max_frequency = (int32_t)(needed / 2)}}};
+}
+
+ps_nufft_choice ps_nufft_choose(const ps_problem *problem, ps_precision precision) {
+    const unsigned dimension = problem->frequencies->dimension;
+    const uint32_t max_frequency = (uint32_t)problem->frequencies->max_frequency;
+    best_choice best = {0};
+    if (dimension == 2 || dimension == 3) {
+        ps_nufft_choice choice = direct_choice(max_frequency, dimension);
+        consider_grids(&best, &choice, problem, precision);
+    } else {
+        for (uint32_t tiles = 1; tiles <= MOST_TILES; tiles *= 2) {
+            ps_nufft_choice choice =
+                strided_choice(max_frequency, tiles * nominal_lanes[precision]);
+            consider_grids(&best, &choice, problem, precision);
+        }
+    }
+    return best.choice;
+}

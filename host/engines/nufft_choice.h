@@ -1,0 +1,51 @@
+/* How torus_nufft treats a problem: which frequencies are summed by direct phases, on which axes points are
+ * spread, the fine grid and the window of each. A function of the problem and the precision alone, so that
+ * results depend on nothing else. docs/torus_nufft.md.
+ *
+ * A tile is `lanes` neighbouring frequencies of axis 0, by direct phases; a fast transform makes all
+ * frequencies of the other axes. Where axis 0 itself needs one (one dimension, very many points), its
+ * frequencies are k_0 = stride (q + K) + t lanes + lane: the transform makes q from stride x_0 mod 1.
+ */
+#ifndef PS_ENGINES_NUFFT_CHOICE_H
+#define PS_ENGINES_NUFFT_CHOICE_H
+
+#include "engines/engine.h"
+#include "engines/nufft_window.h"
+
+enum { PS_NUFFT_MAX_AXES = 2 };
+
+typedef struct ps_nufft_axis {
+    unsigned axis;         /* of the points */
+    uint64_t factor;       /* the coordinate is factor * x[axis] mod 1 */
+    int32_t max_frequency; /* K: its frequencies are -K .. K */
+    uint32_t n;            /* cells */
+    ps_nufft_window window;
+    ps_nufft_loss loss;
+    unsigned passes; /* of a transform */
+} ps_nufft_axis;
+
+typedef struct ps_nufft_choice {
+    unsigned num_axes;
+    uint32_t span;   /* frequencies of axis 0 by direct phases */
+    uint32_t stride; /* the same where axis 0 has a transform, else 0 */
+    ps_nufft_axis axes[PS_NUFFT_MAX_AXES];
+} ps_nufft_choice;
+
+/* The cheapest that keeps the tolerance; the most exact one when none does. */
+ps_nufft_choice ps_nufft_choose(const ps_problem *problem, ps_precision precision);
+
+/* ps_engine.error of a choice. */
+double ps_nufft_error(const ps_nufft_choice *choice, const ps_problem *problem,
+                      ps_precision precision, double mean_power);
+
+/* Clock cycles of a core for one realization of num_points points. */
+double ps_nufft_cycles(const ps_nufft_choice *choice, unsigned lanes, double num_points);
+
+/* The first frequency of axis 0 in tile 0. */
+uint32_t ps_nufft_base(const ps_nufft_choice *choice);
+
+/* Part of the tolerance (or of roundoff, if that is more) that polynomials of windows may be off by: little,
+ * since it adds up in step in sets as regular as the grid. One degree more costs a percent. */
+#define PS_NUFFT_POLYNOMIAL_SHARE 0.01
+
+#endif

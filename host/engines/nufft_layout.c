@@ -1,0 +1,106 @@
+#include "engines/nufft_layout.h"
+
+#include "engines/nufft_plan.h"
+
+/* Places and grids of the realizations that are worked on at a time: on CPUs a share of the last-level
+ * cache, on GPUs enough to fill the device. */
+static const double work_share = 0.25;
+static const double gpu_work_bytes = 512.0 * 1024 * 1024;
+enum { DEFAULT_CACHE_BYTES = 8 << 20, MOST_AT_ONCE = 1024 };
+
+/* kernels/nufft/place.h */
+enum { PLACE_UNIT = 16 };
+
+static uint64_t round_up(uint64_t a, uint64_t unit) {
+    return (a + unit - 1) / unit * unit;
+}
+
+static uint64_t place_bytes(const ps_nufft_layout *layout, unsigned dimension) {
+    uint64_t bytes =
+        2 * (dimension * sizeof(uint64_t) + layout->real_bytes) + /* on the host, too */
+        sizeof(uint64_t) + 2 * sizeof(uint32_t) +                 /* along, orders */
+        2 * (uint64_t)layout->lanes * layout->real_bytes;
+    for (unsigned i = 0; i < layout->choice.num_axes; i++) {
+        bytes += sizeof(uint32_t) + ps_nufft_pitch(&layout->choice.axes[i]) * layout->real_bytes;
+    }
+    return bytes;
+}
+
+static void choose_at_once(ps_nufft_layout *layout, const ps_problem *problem,
+                           const ps_device_limits *limits) {
+    const uint64_t vector_bytes = 2 * layout->lanes * layout->real_bytes;
+    const uint64_t each =
+        layout->part_places * place_bytes(layout, problem->frequencies->dimension) +
+        layout->grid_cells * vector_bytes;
+    const double cache =
+        limits->cache_bytes > 0 ? (double)limits->cache_bytes : DEFAULT_CACHE_BYTES;
+    const double budget = limits->has_dedicated_local_memory ? gpu_work_bytes : work_share * cache;
+    const double fitting = budget / (double)each;
+    const uint64_t known = problem->num_realizations;
+    const size_t most = known > 0 && known < MOST_AT_ONCE ? (size_t)known : MOST_AT_ONCE;
+    layout->parts = fitting > (double)most ? most : fitting > 1 ? (size_t)fitting : 1;
+    layout->fixed_bytes = layout->parts * each;
+    const size_t largest =
+        layout->grid_cells > layout->part_places ? layout->grid_cells : layout->part_places;
+    layout->largest_buffer = layout->parts * largest * vector_bytes;
+}
+
+static void measure_axes(ps_nufft_layout *layout) {
+    const ps_nufft_choice *choice = &layout->choice;
+    layout->num_tiles = layout->lanes > 0 ? (choice->span + layout->lanes - 1) / layout->lanes : 0;
+    layout->row_local_bytes = 0;
+    layout->stride = (size_t)layout->num_tiles * layout->lanes;
+    for (unsigned i = 0; i < choice->num_axes; i++) {
+        const size_t bytes =
+            ps_nufft_row_cells(&choice->axes[i]) * 2 * layout->lanes * layout->real_bytes;
+        layout->row_local_bytes = bytes > layout->row_local_bytes ? bytes : layout->row_local_bytes;
+        layout->stride *= 2 * (size_t)choice->axes[i].max_frequency + 1;
+    }
+    if (choice->num_axes == PS_NUFFT_MAX_AXES) {
+        layout->grid_cells = (size_t)layout->num_tiles * choice->axes[0].n *
+                             (2 * (size_t)choice->axes[1].max_frequency + 1);
+    }
+}
+
+ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_limits *limits,
+                                     ps_precision precision) {
+    ps_nufft_layout layout = {.choice = ps_nufft_choose(problem, precision),
+                              .real_bytes =
+                                  precision == PS_SINGLE ? sizeof(float) : sizeof(double)};
+    layout.lanes = ps_engine_lanes(limits, precision);
+    measure_axes(&layout);
+    while (layout.lanes > 0 && layout.row_local_bytes > limits->local_bytes) {
+        layout.lanes /= 2;
+        measure_axes(&layout);
+    }
+    if (layout.lanes == 0) {
+        return layout;
+    }
+    layout.part_points = problem->num_points;
+    layout.part_places = (size_t)round_up(problem->num_points, PLACE_UNIT);
+    layout.bytes_per_realization = layout.stride * layout.real_bytes;
+    layout.largest_buffer_per_realization = layout.bytes_per_realization;
+    choose_at_once(&layout, problem, limits);
+    return layout;
+}
+
+uint32_t ps_nufft_slot(const ps_nufft_layout *layout, const int32_t *k, unsigned dimension) {
+    const ps_nufft_choice *choice = &layout->choice;
+    const int32_t sign = k[0] < 0 ? -1 : 1; /* |S(-k)| = |S(k)| */
+    const uint32_t along = (uint32_t)(sign * k[0]);
+    uint32_t within = along;
+    uint32_t cells[PS_NUFFT_MAX_AXES] = {0};
+    unsigned i = 0;
+    if (choice->stride != 0) {
+        cells[i++] = along / choice->stride;
+        within = along % choice->stride;
+    }
+    for (unsigned axis = 1; axis < dimension; axis++, i++) {
+        cells[i] = (uint32_t)(choice->axes[i].max_frequency + sign * k[axis]);
+    }
+    uint32_t slot = within / layout->lanes;
+    for (i = choice->num_axes; i-- > 0;) {
+        slot = slot * (2 * (uint32_t)choice->axes[i].max_frequency + 1) + cells[i];
+    }
+    return slot * layout->lanes + within % layout->lanes;
+}

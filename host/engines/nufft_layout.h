@@ -1,0 +1,28 @@
+/* Sizes of one torus_nufft job: how much memory of which kind, for planning and for allocation. */
+#ifndef PS_ENGINES_NUFFT_LAYOUT_H
+#define PS_ENGINES_NUFFT_LAYOUT_H
+
+#include "engines/nufft_choice.h"
+
+typedef struct ps_nufft_layout {
+    ps_nufft_choice choice;
+    unsigned lanes; /* 0: no row fits into local memory */
+    uint32_t num_tiles;
+    size_t real_bytes;
+    size_t row_local_bytes; /* of a work-group */
+    size_t stride;          /* powers in a row */
+    size_t grid_cells;      /* of a realization between two transforms, [..][re, im][lanes] */
+    size_t part_points;     /* points sorted together: all of a realization */
+    size_t part_places;     /* whole units of places for them */
+    size_t parts;           /* whose places are made at a time */
+    uint64_t fixed_bytes, bytes_per_realization;
+    uint64_t largest_buffer, largest_buffer_per_realization;
+} ps_nufft_layout;
+
+ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_limits *limits,
+                                     ps_precision precision);
+
+/* Where the power of a frequency stands in a row. */
+uint32_t ps_nufft_slot(const ps_nufft_layout *layout, const int32_t *k, unsigned dimension);
+
+#endif

@@ -1,0 +1,103 @@
+#include "engines/nufft_plan.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* kernels/nufft/place.h; numbers of a window are made in whole vectors of 8 and begin at half cache lines. */
+enum { GAP = 4, BIN_UNIT = 8, PITCH_UNIT = 8 };
+
+static uint32_t round_up(uint32_t a, uint32_t unit) {
+    return (a + unit - 1) / unit * unit;
+}
+
+uint32_t ps_nufft_bins(const ps_nufft_axis *axis) {
+    return round_up(axis->window.width, BIN_UNIT);
+}
+
+uint32_t ps_nufft_pitch(const ps_nufft_axis *axis) {
+    const uint32_t written = GAP + ps_nufft_bins(axis);
+    const uint32_t read = axis->window.width + 2 * GAP;
+    return round_up(written > read ? written : read, PITCH_UNIT);
+}
+
+size_t ps_nufft_row_cells(const ps_nufft_axis *axis) {
+    return (size_t)axis->n + axis->window.width + GAP;
+}
+
+/* ---- numbers ----------------------------------------------------------------------------- */
+
+static size_t real_bytes(ps_precision precision) {
+    return precision == PS_SINGLE ? sizeof(float) : sizeof(double);
+}
+
+pspec_status ps_nufft_write(ps_device *device, const ps_buffer *to, ps_precision precision,
+                            const double *numbers, size_t num, ps_error *error) {
+    if (precision == PS_DOUBLE) {
+        return ps_buffer_write(device, to, 0, numbers, num * sizeof(double), error);
+    }
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, num, sizeof(float), "numbers", error));
+    for (size_t i = 0; i < num; i++) {
+        ((float *)memory)[i] = (float)numbers[i];
+    }
+    const pspec_status status = ps_buffer_write(device, to, 0, memory, num * sizeof(float), error);
+    free(memory);
+    return status;
+}
+
+pspec_status ps_nufft_upload(ps_device *device, ps_buffer *out, ps_precision precision,
+                             const double *numbers, size_t num, const char *what, ps_error *error) {
+    PS_TRY(ps_buffer_create(device, out, num * real_bytes(precision), what, error));
+    return ps_nufft_write(device, out, precision, numbers, num, error);
+}
+
+/* ---- create ------------------------------------------------------------------------------ */
+
+static pspec_status create_polynomials(ps_nufft_plan *plan, double tolerance,
+                                       ps_precision precision, ps_device *device, ps_error *error) {
+    const ps_nufft_axis *axis = &plan->axis;
+    double coefficients[(PS_NUFFT_MAX_DEGREE + 1) * PS_NUFFT_MAX_WIDTH];
+    /* When all bins are off together, they are divided by the transform at the largest frequency. */
+    const double rounding = precision == PS_SINGLE ? 0x1p-24 : 0x1p-53;
+    const double edge = (double)axis->max_frequency / axis->n;
+    const double divisor = ps_nufft_window_transform(&axis->window, edge) / axis->window.width;
+    plan->degree = ps_nufft_window_degree(&axis->window, PS_NUFFT_POLYNOMIAL_SHARE * divisor *
+                                                             fmax(tolerance, rounding));
+    ps_nufft_window_polynomials(&axis->window, plan->degree, plan->bins, coefficients);
+    return ps_nufft_upload(device, &plan->coefficients, precision, coefficients,
+                           (plan->degree + 1) * (size_t)plan->bins, "window polynomials", error);
+}
+
+static pspec_status create_gains(ps_nufft_plan *plan, ps_precision precision, ps_device *device,
+                                 ps_error *error) {
+    const ps_nufft_axis *axis = &plan->axis;
+    const size_t num = (size_t)axis->max_frequency + 1;
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, num, sizeof(double), "gains", error));
+    double *gains = memory;
+    for (size_t k = 0; k < num; k++) {
+        const double transform = ps_nufft_window_transform(&axis->window, (long double)k / axis->n);
+        gains[k] = 1 / (transform * transform);
+    }
+    const pspec_status status =
+        ps_nufft_upload(device, &plan->gains, precision, gains, num, "gains", error);
+    free(memory);
+    return status;
+}
+
+pspec_status ps_nufft_plan_create(ps_nufft_plan *out, const ps_nufft_axis *axis, double tolerance,
+                                  ps_precision precision, ps_device *device, ps_error *error) {
+    *out =
+        (ps_nufft_plan){.axis = *axis, .bins = ps_nufft_bins(axis), .pitch = ps_nufft_pitch(axis)};
+    PS_TRY(create_polynomials(out, tolerance, precision, device, error));
+    PS_TRY(create_gains(out, precision, device, error));
+    return ps_fft_plan_create(&out->fft, axis->n, precision, device, error);
+}
+
+void ps_nufft_plan_free(ps_nufft_plan *plan) {
+    ps_buffer_release(&plan->coefficients);
+    ps_buffer_release(&plan->gains);
+    ps_fft_plan_free(&plan->fft);
+}

@@ -1,0 +1,38 @@
+/* One axis of the fine grid on the device: its transform, its window as polynomials, what undoes the window. */
+#ifndef PS_ENGINES_NUFFT_PLAN_H
+#define PS_ENGINES_NUFFT_PLAN_H
+
+#include "engines/nufft_choice.h"
+#include "engines/nufft_fft.h"
+
+typedef struct ps_nufft_plan {
+    ps_nufft_axis axis;
+    uint32_t bins, pitch; /* of a window, kernels/nufft/place.h */
+    unsigned degree;      /* of the polynomials */
+    ps_fft_plan fft;
+    ps_buffer coefficients; /* [degree + 1][bins] */
+    ps_buffer gains;        /* [K + 1]: 1 / squared transform of the window */
+} ps_nufft_plan;
+
+/* tolerance: of the problem. */
+pspec_status ps_nufft_plan_create(ps_nufft_plan *out, const ps_nufft_axis *axis, double tolerance,
+                                  ps_precision precision, ps_device *device,
+                                  ps_error *error) PS_MUST_CHECK;
+void ps_nufft_plan_free(ps_nufft_plan *plan);
+
+/* Numbers of a window that are computed (whole vectors), and room for one. */
+uint32_t ps_nufft_bins(const ps_nufft_axis *axis);
+uint32_t ps_nufft_pitch(const ps_nufft_axis *axis);
+
+/* Cells of a row in memory: windows go on behind its end. */
+size_t ps_nufft_row_cells(const ps_nufft_axis *axis);
+
+/* A buffer with `num` numbers in working precision. */
+pspec_status ps_nufft_upload(ps_device *device, ps_buffer *out, ps_precision precision,
+                             const double *numbers, size_t num, const char *what,
+                             ps_error *error) PS_MUST_CHECK;
+/* The same into a buffer that is there. */
+pspec_status ps_nufft_write(ps_device *device, const ps_buffer *to, ps_precision precision,
+                            const double *numbers, size_t num, ps_error *error) PS_MUST_CHECK;
+
+#endif

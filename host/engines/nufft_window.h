@@ -1,0 +1,40 @@
+/* The window that spreads points over the cells of a fine grid: Kaiser-Bessel,
+ * phi(t) = I_0(beta sqrt(1 - (2t/w)^2)) / I_0(beta) for |t| <= w/2 cells, whose Fourier transform is known
+ * in closed form. Everything is per axis; windows are products over the axes.
+ */
+#ifndef PS_ENGINES_NUFFT_WINDOW_H
+#define PS_ENGINES_NUFFT_WINDOW_H
+
+#include "base/status.h"
+
+#include <stdint.h>
+
+typedef struct ps_nufft_window {
+    unsigned width; /* w */
+    double beta;
+} ps_nufft_window;
+
+enum { PS_NUFFT_MIN_WIDTH = 2, PS_NUFFT_MAX_WIDTH = 16, PS_NUFFT_MAX_DEGREE = 24 };
+
+/* The window of a width for frequencies up to K on n cells. */
+ps_nufft_window ps_nufft_window_make(unsigned width, int32_t max_frequency, uint32_t n);
+double ps_nufft_window_value(const ps_nufft_window *window, double t);
+/* Fourier transform at f cycles per cell. */
+double ps_nufft_window_transform(const ps_nufft_window *window, long double f);
+
+/* What the window does to a set with unit power at every frequency, by its transform. */
+typedef struct ps_nufft_loss {
+    double aliasing;      /* mean over |k| <= K of |error / S|^2 from frequencies k + m n, m != 0 */
+    double amplification; /* of white errors of the grid: root mean square, grid and frequencies */
+} ps_nufft_loss;
+ps_nufft_loss ps_nufft_window_loss(const ps_nufft_window *window, int32_t max_frequency,
+                                   uint32_t n);
+
+/* Bin i of the window at fraction f (kernels/nufft/cell.h) as a polynomial in u = 2 f - 1. The degree at
+ * which Chebyshev series of all bins are cut with an error below `error`, at most the largest. */
+unsigned ps_nufft_window_degree(const ps_nufft_window *window, double error);
+/* coefficients[degree + 1][bins], lowest degree first; zeros in bins from the width on. */
+void ps_nufft_window_polynomials(const ps_nufft_window *window, unsigned degree, unsigned bins,
+                                 double *coefficients);
+
+#endif

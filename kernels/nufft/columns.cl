@@ -1,0 +1,34 @@
+/* Columns of the transformed rows (nufft/rows.cl) into powers. Launch: (work-items of one group, tiles *
+ * columns, realizations).
+ *
+ *   grid       [realization][tile][column][row][re, im][LANES], columns -K .. K of the axis along rows
+ *   radices, twiddles, position, gains  of nufft/finish.h, of the axis across rows
+ *   column_gains [column_K + 1], of the axis along rows
+ *   scales     [realization]
+ *   power      [realization][stride], there [tile][column][2K + 1][LANES]
+ *   column     local, [n][re, im][LANES]
+ */
+#include "nufft/finish.h"
+
+__kernel void
+nufft_columns(__global const real *restrict grid, __global const uint *restrict radices,
+              __global const real *restrict twiddles, __global const uint *restrict position,
+              __global const real *restrict gains, __global const real *restrict column_gains,
+              __global const real *restrict scales, __global real *restrict power,
+              const uint first_row, const ulong stride, const uint n, const uint K,
+              const uint column_K, __local real *column) {
+    const size_t in_tiles = get_global_id(1);
+    const size_t realization = get_global_id(2);
+    const uint q = in_tiles % (2 * column_K + 1);
+    const transform_axis transform = {radices, twiddles, position, gains, n, K};
+    __global const real *from =
+        grid + (realization * get_global_size(1) + in_tiles) * n * (size_t)(2 * LANES);
+    for (uint i = get_local_id(0); i < n; i += get_local_size(0)) {
+        store_complex(column, i, load_global(from, i));
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);
+    write_powers(column, transform,
+                 scales[first_row + realization] *
+                     column_gains[q >= column_K ? q - column_K : column_K - q],
+                 power + (first_row + realization) * stride + in_tiles * (2 * K + 1) * LANES);
+}

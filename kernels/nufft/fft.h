@@ -1,0 +1,103 @@
+/* Fourier transforms of any length that has no prime factor above 7, LANES of them side by side, in
+ * place, by one work-group: passes of radix 8, 7, 5, 4, 3, 2, decimated in frequency.
+ *
+ * A buffer is [cell][re, im][LANES]. The work-items of a group share the butterflies of a pass; on
+ * CPUs a group has one work-item. The plan of a length is data, so one program serves all lengths:
+ *
+ *   radices   of the passes, ended by 0
+ *   twiddles  [pass][t][j][cosine, sine] of -2 pi t j / length, j = 1 .. radix - 1, for the transforms
+ *             of that pass: of the whole length first, then of a radix-th part, ...
+ *
+ * The result of frequency k stands in cell position[k] (host/engines/nufft_fft.c): putting it in order
+ * would be a pass of its own. Nothing depends on what stands in other lanes.
+ */
+#ifndef PS_NUFFT_FFT_H
+#define PS_NUFFT_FFT_H
+
+#include "nufft/butterfly.h"
+
+static inline complexv load_complex(__local const real *from, const size_t cell) {
+    return (complexv){LOADV(2 * cell, from), LOADV(2 * cell + 1, from)};
+}
+
+static inline complexv load_global(__global const real *from, const size_t cell) {
+    return (complexv){LOADV(2 * cell, from), LOADV(2 * cell + 1, from)};
+}
+
+static inline void store_global(__global real *to, const size_t cell, const complexv x) {
+    STOREV(x.re, 2 * cell, to);
+    STOREV(x.im, 2 * cell + 1, to);
+}
+
+static inline void store_complex(__local real *to, const size_t cell, const complexv x) {
+    STOREV(x.re, 2 * cell, to);
+    STOREV(x.im, 2 * cell + 1, to);
+}
+
+/* One pass: transforms of length RADIX m, one behind the other, into RADIX transforms of length m each.
+ * Pointers and strides are kept instead of indices: integer work would cost as much as the butterflies. */
+#define FFT_PASS(RADIX)                                                                            \
+    static inline void fft_pass_##RADIX(__local real *data, __global const real *twiddles,         \
+                                        const size_t m, const size_t length) {                     \
+        __local real *const end = data + length * 2 * LANES;                                       \
+        const size_t stride = m * 2 * LANES;                                                       \
+        size_t t = get_local_id(0);                                                                \
+        for (;;) {                                                                                 \
+            while (t >= m && data < end) {                                                         \
+                t -= m;                                                                            \
+                data += RADIX * stride;                                                            \
+            }                                                                                      \
+            if (data >= end) {                                                                     \
+                break;                                                                             \
+            }                                                                                      \
+            complexv x[RADIX];                                                                     \
+            __local real *at = data + t * 2 * LANES;                                               \
+            __global const real *factor = twiddles + t * (2 * (RADIX - 1));                        \
+            _Pragma("unroll") for (int j = 0; j < RADIX; j++) {                                    \
+                x[j] = (complexv){LOADV(0, at + j * stride), LOADV(1, at + j * stride)};           \
+            }                                                                                      \
+            butterfly_##RADIX(x);                                                                  \
+            _Pragma("unroll") for (int j = 0; j < RADIX; j++) {                                    \
+                if (j > 0) {                                                                       \
+                    x[j] = complex_multiply(x[j], factor[2 * j - 2], factor[2 * j - 1]);           \
+                }                                                                                  \
+                STOREV(x[j].re, 0, at + j * stride);                                               \
+                STOREV(x[j].im, 1, at + j * stride);                                               \
+            }                                                                                      \
+            t += get_local_size(0);                                                                \
+        }                                                                                          \
+    }
+
+FFT_PASS(2)
+FFT_PASS(3)
+FFT_PASS(4)
+FFT_PASS(5)
+FFT_PASS(7)
+FFT_PASS(8)
+
+#define FFT_CASE(RADIX)                                                                            \
+    case RADIX:                                                                                    \
+        fft_pass_##RADIX(data, twiddles, m, length);                                               \
+        break
+
+/* All work-items call it, and see the result when it returns. */
+static inline void fft_transform(__local real *data, const uint length,
+                                 __global const uint *radices, __global const real *twiddles) {
+    size_t m = length;
+    for (uint pass = 0; radices[pass] != 0; pass++) {
+        const uint radix = radices[pass];
+        m /= radix;
+        switch (radix) {
+            FFT_CASE(2);
+            FFT_CASE(3);
+            FFT_CASE(4);
+            FFT_CASE(5);
+            FFT_CASE(7);
+            FFT_CASE(8);
+        }
+        twiddles += 2 * m * (radix - 1);
+        barrier(CLK_LOCAL_MEM_FENCE);
+    }
+}
+
+#endif
