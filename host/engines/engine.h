@@ -34,9 +34,10 @@ typedef struct ps_problem {
 typedef struct ps_work {
     double phases;        /* (point, frequency) pairs for which a cosine and sine are made */
     double product_flops; /* additions and multiplications of products of tables */
-    double transform_flops; /* of fast transforms, and what else costs as much as so many */
-    double launches;      /* kernel launches */
-    double fixed_bytes;   /* memory on the device, whatever the batch */
+    double
+        transform_flops; /* what a device at its peak would do while spreading and transforming */
+    double launches;     /* kernel launches */
+    double fixed_bytes;  /* memory on the device, whatever the batch */
     double bytes_per_realization;          /* and for each realization of a batch */
     double largest_buffer_per_realization; /* part of that in one allocation */
 } ps_work;

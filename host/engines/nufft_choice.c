@@ -28,12 +28,13 @@ static const double nominal_power = 1.5;
 static const double unit_roundoff[2] = {0x1p-24, 0x1p-53};
 
 /* Errors in units of the root of sum w^2, measured in tests/test_torus_nufft.c, slack in
- * docs/torus_nufft.md: of aliasing against its expectation for white sets (lattices may have their
- * peaks where aliases are largest); of rounding, in units of
+ * docs/torus_nufft.md: of aliasing against its expectation for white sets, to which a peak of a lattice
+ * comes, in pairs and of power N, wherever it does most harm; of rounding, in units of
  * roundoff: of windows and phases, of each pass of the transforms on both axes, of sums in dense cells
  * (per point and cell of a window), of coincident points. */
-static const double alias_slack = 4.5;
-static const double coherent_aliases = 3; /* of |S|^2: aliases of coincident points are in step */
+static const double alias_slack = 1.6;
+static const double alias_peaks = 8;      /* for each axis */
+static const double coherent_aliases = 6; /* of |S|^2: aliases of coincident points are in step */
 static const double window_roundings = 4;
 static const double roundings_per_pass = 1;
 static const double dense_roundings = 2;
@@ -51,21 +52,27 @@ uint32_t ps_nufft_base(const ps_nufft_choice *choice) {
 
 double ps_nufft_error(const ps_nufft_choice *choice, const ps_problem *problem,
                       ps_precision precision, double mean_power) {
+    const ps_frequencies *set = problem->frequencies;
+    const double modes = pow(2.0 * set->max_frequency + 1, set->dimension);
     const double power = mean_power > 1 ? mean_power : 1;
     const double unit = unit_roundoff[precision];
     double amplification = 1;
     double aliases = 0;
+    double worst = 0;
     double passes = 0;
     double dense = (double)problem->num_points;
     for (unsigned i = 0; i < choice->num_axes; i++) {
         const ps_nufft_axis *axis = &choice->axes[i];
         amplification *= axis->loss.amplification;
         aliases += axis->loss.aliasing;
+        worst += axis->loss.worst;
         passes += axis->passes * roundings_per_pass;
         dense *= sqrt(axis->window.width) / axis->n;
     }
     const double aliasing =
-        alias_slack * sqrt(aliases) * sqrt(fmax(1, coherent_aliases * (power - 1)));
+        sqrt(alias_slack * alias_slack * aliases +
+             choice->num_axes * alias_peaks * worst * (double)problem->num_points / modes) *
+        sqrt(fmax(1, coherent_aliases * (power - 1)));
     const double polynomials =
         PS_NUFFT_POLYNOMIAL_SHARE * problem->tolerance * sqrt(choice->num_axes * power);
     const double rounding = unit * amplification * (window_roundings + passes);
@@ -137,11 +144,12 @@ static ps_nufft_axis choose_width(const ps_nufft_axis *what, unsigned num_axes, 
     const double tolerance = problem->tolerance / sqrt(num_axes);
     ps_nufft_axis best = {0};
     double least_error = HUGE_VAL;
+    ps_problem alone_problem = *problem;
+    alone_problem.tolerance = tolerance;
     for (unsigned width = first_width(tolerance, what->max_frequency, n);
          width <= PS_NUFFT_MAX_WIDTH && least_error > tolerance; width++) {
         const ps_nufft_choice alone = {.num_axes = 1, .axes = {make_axis(what, n, width)}};
-        const ps_problem one_point = {.num_points = 1, .tolerance = tolerance};
-        const double error = ps_nufft_error(&alone, &one_point, precision, nominal_power);
+        const double error = ps_nufft_error(&alone, &alone_problem, precision, nominal_power);
         if (error < least_error) {
             best = alone.axes[0];
             least_error = error;

@@ -53,23 +53,30 @@ double ps_nufft_window_transform(const ps_nufft_window *window, long double f) {
     return (double)(window->width * ratio / bessel_i0(window->beta));
 }
 
-/* Of frequency k: what aliases make of it, squared, and the square of what it is divided by. */
-static void add_frequency(const ps_nufft_window *window, double f, double share,
-                          ps_nufft_loss *sums) {
+/* What aliases make of frequency f, squared. */
+static double aliasing_at(const ps_nufft_window *window, double f) {
     enum { ALIASES = 3 }; /* more aliases add 2 % of the error */
     const double wanted = relative_transform(window, f);
+    double aliasing = 0;
     for (int m = 1; m <= ALIASES; m++) {
         const double above = relative_transform(window, f + m) / wanted;
         const double below = relative_transform(window, f - m) / wanted;
-        sums->aliasing += share * (above * above + below * below);
+        aliasing += above * above + below * below;
     }
+    return aliasing;
+}
+
+static void add_frequency(const ps_nufft_window *window, double f, double share,
+                          ps_nufft_loss *sums) {
+    const double wanted = relative_transform(window, f);
+    sums->aliasing += share * aliasing_at(window, f);
     sums->amplification += share / (wanted * wanted);
 }
 
 ps_nufft_loss ps_nufft_window_loss(const ps_nufft_window *window, int32_t max_frequency,
                                    uint32_t n) {
     enum { ALL = 24, SAMPLES = 24 }; /* every frequency, if so few; else dense near the largest */
-    ps_nufft_loss loss = {0};
+    ps_nufft_loss loss = {.worst = aliasing_at(window, (double)max_frequency / n)};
     double grid = 0;
     for (int k = 0; k <= max_frequency && max_frequency <= ALL; k++) {
         const double share = (k == 0 ? 1.0 : 2.0) / (2 * max_frequency + 1);

@@ -76,9 +76,11 @@ static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
     const ps_nufft_layout layout = ps_nufft_layout_make(problem, limits, precision);
     const double realizations =
         problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
-    const double num_kernels = 3;
-    return (ps_work){.transform_flops = realizations * ps_nufft_cycles(&layout.choice, layout.lanes,
-                                                                       (double)problem->num_points),
+    const double num_kernels = layout.choice.num_axes == 1 ? 3 : 6;
+    const double flops_per_cycle = 4.0 * layout.lanes; /* two fused operations on vectors */
+    return (ps_work){.transform_flops =
+                         realizations * flops_per_cycle *
+                         ps_nufft_cycles(&layout.choice, layout.lanes, (double)problem->num_points),
                      .launches = num_kernels * ceil(realizations / (double)layout.parts),
                      .fixed_bytes = (double)layout.fixed_bytes,
                      .bytes_per_realization = (double)layout.bytes_per_realization,
