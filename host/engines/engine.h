@@ -27,8 +27,15 @@ typedef struct ps_problem {
     uint64_t num_points;       /* of the largest realization */
     uint64_t num_realizations; /* 0: not known in advance */
     bool has_weights;
-    double tolerance; /* of S relative to white noise, see ps_engine.error */
+    double tolerance;      /* of S relative to white noise, see ps_engine.error */
+    double expected_power; /* mean effective power of the sets; 0: not known, 1 as of white noise */
+    uint64_t
+        planned_points; /* num_points when the job was planned, which later growth leaves alone, for
+                                choices that must be the same for all of it; 0: num_points */
 } ps_problem;
+
+/* 1 where nothing is known. */
+double ps_expected_power(const ps_problem *problem);
 
 /* Work and memory of a whole job. */
 typedef struct ps_work {

@@ -5,10 +5,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Fine grids from sigma = n / 2K on; there is always a length below 1.1 times the last. Below 1.2 windows
- * become wider than 16, above 2.6 grids grow faster than windows shrink. */
+/* Fine grids from sigma = n / 2K on. Below 1.2 windows become wider than 16, above 4 they hardly shrink. */
 static const double least_sigma = 1.2;
-static const double largest_sigma = 2.6;
+static const double largest_sigma = 4;
 
 /* Windows must not meet themselves. */
 enum { LEAST_CELLS = PS_NUFFT_MAX_WIDTH };
@@ -22,8 +21,16 @@ enum { MAX_CANDIDATES = 64 };
 /* Lanes to choose for, whatever the device has. */
 static const unsigned nominal_lanes[2] = {16, 8};
 
-/* Mean power to choose for: realizations of white noise vary by that much. */
+/* Least mean power to choose for: realizations of white noise vary by that much. */
 static const double nominal_power = 1.5;
+
+static double power_of(const ps_problem *problem) {
+    return fmax(nominal_power, ps_expected_power(problem));
+}
+
+static double points_of(const ps_problem *problem) {
+    return (double)(problem->planned_points > 0 ? problem->planned_points : problem->num_points);
+}
 
 static const double unit_roundoff[2] = {0x1p-24, 0x1p-53};
 
@@ -71,7 +78,7 @@ double ps_nufft_error(const ps_nufft_choice *choice, const ps_problem *problem,
     }
     const double aliasing =
         sqrt(alias_slack * alias_slack * aliases +
-             choice->num_axes * alias_peaks * worst * (double)problem->num_points / modes) *
+             choice->num_axes * alias_peaks * worst * points_of(problem) / modes) *
         sqrt(fmax(1, coherent_aliases * (power - 1)));
     const double polynomials =
         PS_NUFFT_POLYNOMIAL_SHARE * problem->tolerance * sqrt(choice->num_axes * power);
@@ -86,30 +93,29 @@ double ps_nufft_error(const ps_nufft_choice *choice, const ps_problem *problem,
 
 /* Cycles on a core with vectors of `lanes` numbers (Zen 5, PoCL 3.1, 2026-11, profile of bench_nufft): of
  * a point to be sorted, and for windows and phases; of a point in a tile, and of a cell of its window
- * there; of an operation of a transform, and of a cell on its way through a pass. */
+ * there. */
 static const double cycles_per_point = 60;
 static const double cycles_per_value = 6;
 static const double cycles_per_cell = 1.2;
-static const double cycles_per_operation = 0.5;
-static const double cycles_per_load = 2;
 
-static double transform_cycles(const ps_nufft_axis *axis) {
-    return cycles_per_operation * ps_fft_flops(axis->n) + cycles_per_load * axis->n * axis->passes;
-}
+/* Two fused operations in a cycle. */
+static const double flops_per_lane = 4;
 
-double ps_nufft_cycles(const ps_nufft_choice *choice, unsigned lanes, double num_points) {
+double ps_nufft_flops(const ps_nufft_choice *choice, ps_precision precision, double num_points) {
     const ps_nufft_axis *last = &choice->axes[choice->num_axes - 1];
     const double kept = 2.0 * last->max_frequency + 1;
     double visits = num_points;
-    double transforms = transform_cycles(last);
+    double transforms = ps_fft_cycles(last->n);
     if (choice->num_axes == PS_NUFFT_MAX_AXES) {
         const ps_nufft_axis *first = &choice->axes[0];
         visits *= first->window.width;
-        transforms = first->n * transforms + kept * transform_cycles(first);
+        transforms = first->n * transforms + kept * ps_fft_cycles(first->n);
     }
-    return divide_up(choice->span, lanes) *
-               (visits * (cycles_per_value + cycles_per_cell * last->window.width) + transforms) +
-           num_points * cycles_per_point;
+    const double cycles =
+        divide_up(choice->span, nominal_lanes[precision]) *
+            (visits * (cycles_per_value + cycles_per_cell * last->window.width) + transforms) +
+        num_points * cycles_per_point;
+    return cycles * nominal_lanes[precision] * flops_per_lane;
 }
 
 /* ---- choice ------------------------------------------------------------------------------ */
@@ -128,16 +134,6 @@ static ps_nufft_axis make_axis(const ps_nufft_axis *what, uint32_t n, unsigned w
     return axis;
 }
 
-/* Widths below it fail: errors of the law exp(-pi w sqrt(1 - 1/sigma)) are smaller than real ones by far. */
-static unsigned first_width(double tolerance, int32_t max_frequency, uint32_t n) {
-    const double pi = 3.141592653589793;
-    const double inverse_sigma = 2.0 * max_frequency / n;
-    const double width = log(0.1 / tolerance) / (pi * sqrt(1 - inverse_sigma));
-    return width > PS_NUFFT_MAX_WIDTH - 1 ? PS_NUFFT_MAX_WIDTH - 1
-           : width > PS_NUFFT_MIN_WIDTH   ? (unsigned)width
-                                          : PS_NUFFT_MIN_WIDTH;
-}
-
 /* Of a length: the narrowest window that keeps the tolerance, else the most exact one. */
 static ps_nufft_axis choose_width(const ps_nufft_axis *what, unsigned num_axes, uint32_t n,
                                   const ps_problem *problem, ps_precision precision) {
@@ -146,10 +142,10 @@ static ps_nufft_axis choose_width(const ps_nufft_axis *what, unsigned num_axes, 
     double least_error = HUGE_VAL;
     ps_problem alone_problem = *problem;
     alone_problem.tolerance = tolerance;
-    for (unsigned width = first_width(tolerance, what->max_frequency, n);
+    for (unsigned width = PS_NUFFT_MIN_WIDTH;
          width <= PS_NUFFT_MAX_WIDTH && least_error > tolerance; width++) {
         const ps_nufft_choice alone = {.num_axes = 1, .axes = {make_axis(what, n, width)}};
-        const double error = ps_nufft_error(&alone, &alone_problem, precision, nominal_power);
+        const double error = ps_nufft_error(&alone, &alone_problem, precision, power_of(problem));
         if (error < least_error) {
             best = alone.axes[0];
             least_error = error;
@@ -163,10 +159,10 @@ static size_t list_candidates(const ps_nufft_axis *what, unsigned num_axes,
                               ps_nufft_axis candidates[MAX_CANDIDATES]) {
     const double twice_k = 2.0 * what->max_frequency;
     const uint64_t least = (uint64_t)fmax(LEAST_CELLS, ceil(least_sigma * twice_k + 1));
-    const uint64_t last = ps_fft_length((uint64_t)fmax(LEAST_CELLS, largest_sigma * twice_k));
+    const uint64_t last = ps_fft_good_length((uint64_t)fmax(LEAST_CELLS, largest_sigma * twice_k));
     size_t num = 0;
-    for (uint32_t n = ps_fft_length(least); n != 0 && n <= last && num < MAX_CANDIDATES;
-         n = ps_fft_length(n + (n >> 5) + 1)) {
+    for (uint32_t n = ps_fft_good_length(least); n != 0 && n <= last && num < MAX_CANDIDATES;
+         n = ps_fft_good_length((uint64_t)n + 1)) {
         candidates[num++] = choose_width(what, num_axes, n, problem, precision);
     }
     return num;
@@ -174,19 +170,18 @@ static size_t list_candidates(const ps_nufft_axis *what, unsigned num_axes,
 
 typedef struct best_choice {
     ps_nufft_choice choice;
-    double error, cycles;
+    double error, flops;
 } best_choice;
 
 static void consider(best_choice *best, const ps_nufft_choice *choice, const ps_problem *problem,
                      ps_precision precision) {
-    const double error = ps_nufft_error(choice, problem, precision, nominal_power);
-    const double cycles =
-        ps_nufft_cycles(choice, nominal_lanes[precision], (double)problem->num_points);
+    const double error = ps_nufft_error(choice, problem, precision, power_of(problem));
+    const double flops = ps_nufft_flops(choice, precision, points_of(problem));
     const bool is_enough = error <= problem->tolerance;
     const bool was_enough = best->error <= problem->tolerance;
     if (best->choice.num_axes == 0 ||
-        (was_enough ? is_enough && cycles < best->cycles : is_enough || error < best->error)) {
-        *best = (best_choice){*choice, error, cycles};
+        (was_enough ? is_enough && flops < best->flops : is_enough || error < best->error)) {
+        *best = (best_choice){*choice, error, flops};
     }
 }
 

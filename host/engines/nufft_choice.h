@@ -38,8 +38,8 @@ ps_nufft_choice ps_nufft_choose(const ps_problem *problem, ps_precision precisio
 double ps_nufft_error(const ps_nufft_choice *choice, const ps_problem *problem,
                       ps_precision precision, double mean_power);
 
-/* Clock cycles of a core for one realization of num_points points. */
-double ps_nufft_cycles(const ps_nufft_choice *choice, unsigned lanes, double num_points);
+/* What a device at its peak would do while it works on one realization of num_points points. */
+double ps_nufft_flops(const ps_nufft_choice *choice, ps_precision precision, double num_points);
 
 /* The first frequency of axis 0 in tile 0. */
 uint32_t ps_nufft_base(const ps_nufft_choice *choice);

@@ -63,6 +63,33 @@ double ps_fft_flops(uint32_t length) {
     return flops;
 }
 
+/* Zen 5, PoCL 3.1, 2026-11, profile of bench_nufft: of an operation on vectors, and of a cell on its way
+ * through a pass. */
+static const double cycles_per_operation = 0.5;
+static const double cycles_per_cell = 2;
+
+double ps_fft_cycles(uint32_t length) {
+    uint32_t radices[PS_FFT_MAX_PASSES];
+    double passes = 0;
+    if (!ps_fft_radices(length, radices)) {
+        return HUGE_VAL;
+    }
+    for (const uint32_t *radix = radices; *radix != 0; radix++) {
+        passes++;
+    }
+    return cycles_per_operation * ps_fft_flops(length) + cycles_per_cell * passes * length;
+}
+
+uint32_t ps_fft_good_length(uint64_t least) {
+    const uint32_t beyond_share = 4; /* a quarter longer costs more in any case */
+    uint32_t best = ps_fft_length(least);
+    const uint64_t last = best + (uint64_t)best / beyond_share;
+    for (uint32_t n = best; n != 0 && n <= last; n = ps_fft_length((uint64_t)n + 1)) {
+        best = ps_fft_cycles(n) <= ps_fft_cycles(best) ? n : best;
+    }
+    return best;
+}
+
 /* Cosine and sine of -2 pi t / n, the angle reduced to an eighth of a turn so that symmetric factors
  * are equal to the bit. */
 static void twiddle(uint32_t t, uint32_t n, long double *cosine, long double *sine) {

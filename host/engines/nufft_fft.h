@@ -12,11 +12,17 @@ enum { PS_FFT_MAX_PASSES = 32 };
 /* The smallest length >= least without prime factors above 7; 0 when that is beyond 32 bits. */
 uint32_t ps_fft_length(uint64_t least);
 
+/* The same among lengths that pay: no longer transform is cheaper. */
+uint32_t ps_fft_good_length(uint64_t least);
+
 /* Radices of the passes, ended by 0; false when the length has other prime factors (or is 0). */
 bool ps_fft_radices(uint32_t length, uint32_t radices[PS_FFT_MAX_PASSES]);
 
 /* Additions and multiplications of one complex transform, as the kernels make them. */
 double ps_fft_flops(uint32_t length);
+
+/* Cycles of a core for one transform in vectors. */
+double ps_fft_cycles(uint32_t length);
 
 /* Cell where the result of frequency k = 0 .. length - 1 stands. */
 uint32_t ps_fft_position(uint32_t length, const uint32_t *radices, uint32_t k);

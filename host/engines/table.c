@@ -29,6 +29,10 @@ pspec_status ps_batch_go_on(const ps_batch *batch, ps_error *error) {
                : PSPEC_OK;
 }
 
+double ps_expected_power(const ps_problem *problem) {
+    return problem->expected_power > 0 ? problem->expected_power : 1;
+}
+
 const char *ps_precision_name(ps_precision precision) {
     static const char *const names[] = {"single", "double", "extended"};
     return names[precision];

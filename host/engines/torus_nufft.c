@@ -77,15 +77,13 @@ static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
     const double realizations =
         problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
     const double num_kernels = layout.choice.num_axes == 1 ? 3 : 6;
-    const double flops_per_cycle = 4.0 * layout.lanes; /* two fused operations on vectors */
-    return (ps_work){.transform_flops =
-                         realizations * flops_per_cycle *
-                         ps_nufft_cycles(&layout.choice, layout.lanes, (double)problem->num_points),
-                     .launches = num_kernels * ceil(realizations / (double)layout.parts),
-                     .fixed_bytes = (double)layout.fixed_bytes,
-                     .bytes_per_realization = (double)layout.bytes_per_realization,
-                     .largest_buffer_per_realization =
-                         (double)layout.largest_buffer_per_realization};
+    return (ps_work){
+        .transform_flops =
+            realizations * ps_nufft_flops(&layout.choice, precision, (double)problem->num_points),
+        .launches = num_kernels * ceil(realizations / (double)layout.parts),
+        .fixed_bytes = (double)layout.fixed_bytes,
+        .bytes_per_realization = (double)layout.bytes_per_realization,
+        .largest_buffer_per_realization = (double)layout.largest_buffer_per_realization};
 }
 
 static double error_of(const ps_problem *problem, ps_precision precision, double mean_power) {

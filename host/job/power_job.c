@@ -93,10 +93,9 @@ static pspec_status open_device(ps_power_job *job, ps_error *error) {
                : PSPEC_OK;
 }
 
-static pspec_status make_plan(ps_power_job *job, double mean_power, ps_error *error) {
-    ps_plan_constraints constraints = job->question->constraints;
-    constraints.mean_power = mean_power;
-    return ps_plan_make(&job->plan, &job->problem, ps_power_job_limits(job), &constraints, error);
+static pspec_status make_plan(ps_power_job *job, ps_error *error) {
+    return ps_plan_make(&job->plan, &job->problem, ps_power_job_limits(job),
+                        &job->question->constraints, error);
 }
 
 static pspec_status prepare(ps_power_job *job, ps_error *error) {
@@ -114,12 +113,13 @@ static pspec_status prepare(ps_power_job *job, ps_error *error) {
     job->problem = (ps_problem){
         .frequencies = &job->frequencies,
         .num_points = job->num_points,
+        .planned_points = job->num_points,
         .num_realizations = job->num_realizations,
         .has_weights = job->first.has_weights || job->weights != NULL,
         .tolerance = ps_plan_tolerance(question->tolerance, question->floor),
     };
     PS_TRY(open_device(job, error));
-    return make_plan(job, 1, error);
+    return make_plan(job, error);
 }
 
 pspec_status ps_power_job_create(ps_power_job **out, const ps_power_question *question,
@@ -272,7 +272,8 @@ static pspec_status run_once(ps_power_job *job, ps_error *error) {
 
 /* The measured powers make the error larger than the tolerance: plan again with them. */
 static pspec_status run_again(ps_power_job *job, ps_error *error) {
-    PS_TRY(make_plan(job, job->accuracy.largest_mean_power, error));
+    job->problem.expected_power = job->accuracy.largest_mean_power;
+    PS_TRY(make_plan(job, error));
     PS_TRY(ps_plan_require(&job->plan, &job->problem, error));
     if (!ps_source_can_rewind(job->source)) {
         return ps_fail(error, PSPEC_ERROR_TOLERANCE,

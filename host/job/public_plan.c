@@ -152,8 +152,8 @@ static void log_choice(const pspec_plan *plan) {
 static pspec_status choose_engine(pspec_plan *plan, const pspec_power_request *request,
                                   ps_error *error) {
     pspec_context *context = plan->context;
-    ps_plan_constraints constraints = {
-        .engine = request->engine, .mean_power = 1, .memory_limit = context->memory_limit};
+    ps_plan_constraints constraints = {.engine = request->engine,
+                                       .memory_limit = context->memory_limit};
     PS_TRY(parse_precision(request->precision, &constraints.precision, error));
     if (ps_plan_may_need_device(&constraints)) {
         PS_TRY(ps_context_open_device(context));
@@ -200,6 +200,7 @@ static pspec_status fill_plan(pspec_plan *plan, const pspec_power_request *reque
     plan->problem = (ps_problem){
         .frequencies = &plan->frequencies,
         .num_points = request->num_points,
+        .planned_points = request->num_points,
         .num_realizations = request->num_realizations,
         .has_weights = true,
         .tolerance = ps_plan_tolerance(request->tolerance, request->floor),

@@ -32,7 +32,7 @@ static double host_bytes_per_frequency(unsigned dimension) {
 /* Seconds, bytes and error of a candidate that applies. A realization of a batch is kept on the host,
  * too, as coordinates and weights. A limit that somebody set makes batches smaller. */
 static void estimate(ps_candidate *candidate, const ps_problem *problem,
-                     const ps_device_limits *limits, double mean_power, uint64_t memory_limit) {
+                     const ps_device_limits *limits, uint64_t memory_limit) {
     const unsigned dimension = problem->frequencies->dimension;
     const ps_device_limits *used = candidate->engine->needs_device ? limits : NULL;
     ps_work work = candidate->engine->work(problem, used, candidate->precision);
@@ -47,7 +47,8 @@ static void estimate(ps_candidate *candidate, const ps_problem *problem,
     }
     candidate->seconds = ps_cost_seconds(&work, used, candidate->precision);
     candidate->bytes = work.fixed_bytes + work.bytes_per_realization * (double)candidate->batch;
-    candidate->error = candidate->engine->error(problem, candidate->precision, mean_power);
+    candidate->error =
+        candidate->engine->error(problem, candidate->precision, ps_expected_power(problem));
 }
 
 /* Does the user's choice of engine or precision rule it out? */
@@ -87,7 +88,7 @@ static void judge(ps_candidate *candidate, const ps_problem *problem,
     candidate->is_applicable =
         candidate->engine->applicable(problem, limits, candidate->precision, &why_not);
     if (candidate->is_applicable) {
-        estimate(candidate, problem, limits, constraints->mean_power, constraints->memory_limit);
+        estimate(candidate, problem, limits, constraints->memory_limit);
     }
     if (candidate->is_excluded) {
         return;

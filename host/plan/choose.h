@@ -27,7 +27,6 @@ typedef struct ps_plan {
 typedef struct ps_plan_constraints {
     const char *engine;    /* NULL: any */
     int precision;         /* a ps_precision, or -1: any */
-    double mean_power;     /* effective power to expect; 1 unless measured, see ps_engine.error */
     uint64_t memory_limit; /* bytes; 0: what the device reports, or no limit on the host */
 } ps_plan_constraints;
 
