@@ -30,7 +30,8 @@ static double measure(ps_device *device, ps_precision precision, int32_t k, size
     ps_frequencies grid = {0};
     bench_job job;
     BENCH_TRY(ps_frequencies_lattice(&grid, 2, k, false, error));
-    bench_job_create(&job, &ps_torus_direct, precision, 1, device, grid, num_points, num_realizations);
+    bench_job_create(&job, &ps_torus_direct, precision, 1, device, grid, num_points,
+                     num_realizations);
     const ps_problem problem = {.frequencies = &job.frequencies,
                                 .num_points = num_points,
                                 .num_realizations = num_realizations};
