@@ -38,13 +38,15 @@ static const double unit_roundoff[2] = {0x1p-24, 0x1p-53};
  * docs/torus_nufft.md: of aliasing against its expectation for white sets, to which a peak of a lattice
  * comes, in pairs and of power N, wherever it does most harm; of rounding, in units of
  * roundoff: of windows and phases, of each pass of the transforms on both axes, of sums in dense cells
- * (per point and cell of a window), of coincident points. */
+ * (root of the number of terms; where axis 0 has frequency 0, terms are in step and it is the number of points
+ * in a cell that counts), of coincident points. */
 static const double alias_slack = 1.6;
 static const double alias_peaks = 8;      /* for each axis */
 static const double coherent_aliases = 6; /* of |S|^2: aliases of coincident points are in step */
 static const double window_roundings = 4;
 static const double roundings_per_pass = 1;
-static const double dense_roundings = 2;
+static const double dense_roundings = 1;
+static const double dense_roundings_at_zero = 2;
 static const double coherent_roundings = 0.35;
 
 static uint32_t divide_up(uint32_t a, uint32_t b) {
@@ -67,7 +69,8 @@ double ps_nufft_error(const ps_nufft_choice *choice, const ps_problem *problem,
     double aliases = 0;
     double worst = 0;
     double passes = 0;
-    double dense = (double)problem->num_points;
+    double dense = (double)problem->num_points; /* points in a cell, */
+    double touching = dense;                    /* and those whose windows touch it */
     for (unsigned i = 0; i < choice->num_axes; i++) {
         const ps_nufft_axis *axis = &choice->axes[i];
         amplification *= axis->loss.amplification;
@@ -75,6 +78,7 @@ double ps_nufft_error(const ps_nufft_choice *choice, const ps_problem *problem,
         worst += axis->loss.worst;
         passes += axis->passes * roundings_per_pass;
         dense *= sqrt(axis->window.width) / axis->n;
+        touching *= (double)axis->window.width / axis->n;
     }
     const double aliasing =
         sqrt(alias_slack * alias_slack * aliases +
@@ -82,11 +86,12 @@ double ps_nufft_error(const ps_nufft_choice *choice, const ps_problem *problem,
         sqrt(fmax(1, coherent_aliases * (power - 1)));
     const double polynomials =
         PS_NUFFT_POLYNOMIAL_SHARE * problem->tolerance * sqrt(choice->num_axes * power);
-    const double rounding = unit * amplification * (window_roundings + passes);
+    const double sums = dense_roundings * sqrt(touching);
+    const double rounding = unit * amplification * (window_roundings + passes + sums);
+    const double at_zero =
+        unit * amplification * dense_roundings_at_zero * dense / sqrt(choice->span);
     const double coherent = unit * coherent_roundings * power * sqrt(power);
-    return hypot(hypot(aliasing, polynomials),
-                 hypot(rounding * sqrt(power), unit * amplification * dense_roundings * dense)) +
-           coherent;
+    return hypot(hypot(aliasing, polynomials), hypot(rounding * sqrt(power), at_zero)) + coherent;
 }
 
 /* ---- cost -------------------------------------------------------------------------------- */
@@ -135,16 +140,17 @@ static ps_nufft_axis make_axis(const ps_nufft_axis *what, uint32_t n, unsigned w
 }
 
 /* Of a length: the narrowest window that keeps the tolerance, else the most exact one. */
-static ps_nufft_axis choose_width(const ps_nufft_axis *what, unsigned num_axes, uint32_t n,
+static ps_nufft_axis choose_width(const ps_nufft_choice *whole, unsigned which, uint32_t n,
                                   const ps_problem *problem, ps_precision precision) {
-    const double tolerance = problem->tolerance / sqrt(num_axes);
+    const double tolerance = problem->tolerance / sqrt(whole->num_axes);
     ps_nufft_axis best = {0};
     double least_error = HUGE_VAL;
     ps_problem alone_problem = *problem;
     alone_problem.tolerance = tolerance;
     for (unsigned width = PS_NUFFT_MIN_WIDTH;
          width <= PS_NUFFT_MAX_WIDTH && least_error > tolerance; width++) {
-        const ps_nufft_choice alone = {.num_axes = 1, .axes = {make_axis(what, n, width)}};
+        const ps_nufft_choice alone = {
+            .num_axes = 1, .span = whole->span, .axes = {make_axis(&whole->axes[which], n, width)}};
         const double error = ps_nufft_error(&alone, &alone_problem, precision, power_of(problem));
         if (error < least_error) {
             best = alone.axes[0];
@@ -154,16 +160,16 @@ static ps_nufft_axis choose_width(const ps_nufft_axis *what, unsigned num_axes, 
     return best;
 }
 
-static size_t list_candidates(const ps_nufft_axis *what, unsigned num_axes,
+static size_t list_candidates(const ps_nufft_choice *whole, unsigned which,
                               const ps_problem *problem, ps_precision precision,
                               ps_nufft_axis candidates[MAX_CANDIDATES]) {
-    const double twice_k = 2.0 * what->max_frequency;
+    const double twice_k = 2.0 * whole->axes[which].max_frequency;
     const uint64_t least = (uint64_t)fmax(LEAST_CELLS, ceil(least_sigma * twice_k + 1));
     const uint64_t last = ps_fft_good_length((uint64_t)fmax(LEAST_CELLS, largest_sigma * twice_k));
     size_t num = 0;
     for (uint32_t n = ps_fft_good_length(least); n != 0 && n <= last && num < MAX_CANDIDATES;
          n = ps_fft_good_length((uint64_t)n + 1)) {
-        candidates[num++] = choose_width(what, num_axes, n, problem, precision);
+        candidates[num++] = choose_width(whole, which, n, problem, precision);
     }
     return num;
 }
@@ -191,8 +197,7 @@ static void consider_grids(best_choice *best, ps_nufft_choice *choice, const ps_
     ps_nufft_axis candidates[PS_NUFFT_MAX_AXES][MAX_CANDIDATES];
     size_t num[PS_NUFFT_MAX_AXES] = {1, 1};
     for (unsigned i = 0; i < choice->num_axes; i++) {
-        num[i] =
-            list_candidates(&choice->axes[i], choice->num_axes, problem, precision, candidates[i]);
+        num[i] = list_candidates(choice, i, problem, precision, candidates[i]);
     }
     for (size_t i = 0; i < num[0]; i++) {
         choice->axes[0] = candidates[0][i];

@@ -8,22 +8,17 @@ static const double work_share = 0.25;
 static const double gpu_work_bytes = 512.0 * 1024 * 1024;
 enum { DEFAULT_CACHE_BYTES = 8 << 20, MOST_AT_ONCE = 1024 };
 
-/* kernels/nufft/place.h */
-enum { PLACE_UNIT = 16 };
+/* kernels/nufft/place.h, kernels/nufft/spread.h */
+enum { PLACE_UNIT = 16, CHUNK = PS_NUFFT_CHUNK };
 
 static uint64_t round_up(uint64_t a, uint64_t unit) {
     return (a + unit - 1) / unit * unit;
 }
 
+/* Points and weights on the host, as they came and sorted. */
 static uint64_t place_bytes(const ps_nufft_layout *layout, unsigned dimension) {
-    uint64_t bytes =
-        2 * (dimension * sizeof(uint64_t) + layout->real_bytes) + /* on the host, too */
-        sizeof(uint64_t) + 2 * sizeof(uint32_t) +                 /* along, orders */
-        2 * (uint64_t)layout->lanes * layout->real_bytes;
-    for (unsigned i = 0; i < layout->choice.num_axes; i++) {
-        bytes += sizeof(uint32_t) + ps_nufft_pitch(&layout->choice.axes[i]) * layout->real_bytes;
-    }
-    return bytes;
+    enum { COPIES = 3 };
+    return COPIES * (dimension * sizeof(uint64_t) + layout->real_bytes);
 }
 
 static void choose_at_once(ps_nufft_layout *layout, const ps_problem *problem,
@@ -40,20 +35,23 @@ static void choose_at_once(ps_nufft_layout *layout, const ps_problem *problem,
     const size_t most = known > 0 && known < MOST_AT_ONCE ? (size_t)known : MOST_AT_ONCE;
     layout->parts = fitting > (double)most ? most : fitting > 1 ? (size_t)fitting : 1;
     layout->fixed_bytes = layout->parts * each;
-    const size_t largest =
-        layout->grid_cells > layout->part_places ? layout->grid_cells : layout->part_places;
-    layout->largest_buffer = layout->parts * largest * vector_bytes;
+    const uint64_t places =
+        layout->part_places * problem->frequencies->dimension * sizeof(uint64_t);
+    const uint64_t grid = layout->grid_cells * vector_bytes;
+    layout->largest_buffer = layout->parts * (grid > places ? grid : places);
 }
 
 static void measure_axes(ps_nufft_layout *layout) {
     const ps_nufft_choice *choice = &layout->choice;
     layout->num_tiles = layout->lanes > 0 ? (choice->span + layout->lanes - 1) / layout->lanes : 0;
-    layout->row_local_bytes = 0;
+    layout->row_bytes = 0;
     layout->stride = (size_t)layout->num_tiles * layout->lanes;
     for (unsigned i = 0; i < choice->num_axes; i++) {
         const size_t bytes =
             ps_nufft_row_cells(&choice->axes[i]) * 2 * layout->lanes * layout->real_bytes;
-        layout->row_local_bytes = bytes > layout->row_local_bytes ? bytes : layout->row_local_bytes;
+        const size_t numbers = ps_nufft_pitch(&choice->axes[i]) + 2 * (size_t)layout->lanes + 2;
+        layout->row_bytes = bytes > layout->row_bytes ? bytes : layout->row_bytes;
+        layout->chunk_reals = CHUNK * numbers;
         layout->stride *= 2 * (size_t)choice->axes[i].max_frequency + 1;
     }
     if (choice->num_axes == PS_NUFFT_MAX_AXES) {
@@ -62,20 +60,40 @@ static void measure_axes(ps_nufft_layout *layout) {
     }
 }
 
+static size_t chunk_bytes(const ps_nufft_layout *layout) {
+    return layout->chunk_reals * layout->real_bytes + CHUNK * (sizeof(uint64_t) + sizeof(uint32_t));
+}
+
+/* Tiles of a work-group share windows and phases. One on GPUs, where there is little local memory; on CPUs
+ * what it holds, in groups of equal size, but work for all cores. */
+static uint32_t choose_group(const ps_nufft_layout *layout, const ps_problem *problem,
+                             const ps_device_limits *limits) {
+    if (limits->has_dedicated_local_memory) {
+        return 1;
+    }
+    const size_t room = (limits->local_bytes - chunk_bytes(layout)) / layout->row_bytes;
+    const uint32_t largest = room > 1 ? (uint32_t)room : 1;
+    uint32_t groups = (layout->num_tiles + largest - 1) / largest;
+    const bool has_one = problem->num_realizations == 1 && layout->choice.num_axes == 1;
+    groups = has_one && groups < limits->compute_units ? limits->compute_units : groups;
+    return (layout->num_tiles + groups - 1) / groups;
+}
+
 ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_limits *limits,
                                      ps_precision precision) {
     ps_nufft_layout layout = {.choice = ps_nufft_choose(problem, precision),
+                              .lanes = ps_engine_lanes(limits, precision),
                               .real_bytes =
                                   precision == PS_SINGLE ? sizeof(float) : sizeof(double)};
-    layout.lanes = ps_engine_lanes(limits, precision);
     measure_axes(&layout);
-    while (layout.lanes > 0 && layout.row_local_bytes > limits->local_bytes) {
+    while (layout.lanes > 0 && layout.row_bytes + chunk_bytes(&layout) > limits->local_bytes) {
         layout.lanes /= 2;
         measure_axes(&layout);
     }
     if (layout.lanes == 0) {
         return layout;
     }
+    layout.group = choose_group(&layout, problem, limits);
     layout.part_points = problem->num_points;
     layout.part_places = (size_t)round_up(problem->num_points, PLACE_UNIT);
     layout.bytes_per_realization = layout.stride * layout.real_bytes;

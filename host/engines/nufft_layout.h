@@ -4,17 +4,22 @@
 
 #include "engines/nufft_choice.h"
 
+/* Points of a chunk, kernels/nufft/spread.h. */
+enum { PS_NUFFT_CHUNK = 16 };
+
 typedef struct ps_nufft_layout {
     ps_nufft_choice choice;
     unsigned lanes; /* 0: no row fits into local memory */
     uint32_t num_tiles;
     size_t real_bytes;
-    size_t row_local_bytes; /* of a work-group */
-    size_t stride;          /* powers in a row */
-    size_t grid_cells;      /* of a realization between two transforms, [..][re, im][lanes] */
-    size_t part_points;     /* points sorted together: all of a realization */
-    size_t part_places;     /* whole units of places for them */
-    size_t parts;           /* whose places are made at a time */
+    size_t chunk_reals; /* kernels/nufft/spread.h: local memory of a work-group, */
+    size_t row_bytes;   /* and of each of its rows, the longest */
+    uint32_t group;     /* tiles of a work-group */
+    size_t stride;      /* powers in a row */
+    size_t grid_cells;  /* of a realization between two transforms, [..][re, im][lanes] */
+    size_t part_points; /* points sorted together: all of a realization */
+    size_t part_places; /* whole units of places for them */
+    size_t parts;       /* whose places are made at a time */
     uint64_t fixed_bytes, bytes_per_realization;
     uint64_t largest_buffer, largest_buffer_per_realization;
 } ps_nufft_layout;

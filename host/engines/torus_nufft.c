@@ -76,7 +76,7 @@ static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
     const ps_nufft_layout layout = ps_nufft_layout_make(problem, limits, precision);
     const double realizations =
         problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
-    const double num_kernels = layout.choice.num_axes == 1 ? 3 : 6;
+    const double num_kernels = layout.choice.num_axes == 1 ? 2 : 3;
     return (ps_work){
         .transform_flops =
             realizations * ps_nufft_flops(&layout.choice, precision, (double)problem->num_points),
@@ -184,9 +184,8 @@ static pspec_status create_parts(torus_nufft *self, const ps_problem *problem, p
     }
     PS_TRY(create_kernels(self, error));
     PS_TRY(create_pattern(self, error));
-    PS_TRY(ps_nufft_places_create(&self->places, &self->layout, self->plans,
-                                  self->frequencies->dimension, self->precision, self->device,
-                                  error));
+    PS_TRY(ps_nufft_places_create(&self->places, &self->layout, self->frequencies->dimension,
+                                  self->precision, self->device, error));
     return create_buffers(self, rows, error);
 }
 
@@ -252,8 +251,9 @@ static pspec_status upload_means(torus_nufft *self, const ps_batch *some, ps_err
 
 /* Work-groups of one item on CPUs, where lanes are vectors; of several that share a row on GPUs. */
 static ps_range group_range(const torus_nufft *self, size_t num_groups, size_t num_realizations,
-                            const ps_nufft_axis *axis) {
-    const double transforms = (double)num_groups * (double)num_realizations * self->layout.lanes;
+                            const ps_nufft_axis *axis, size_t rows_of_group) {
+    const double transforms =
+        (double)(num_groups * num_realizations * rows_of_group) * self->layout.lanes;
     ps_range range = ps_range_light(self->device, 1, num_groups, num_realizations,
                                     transforms * ps_fft_flops(axis->n), 0);
     if (!ps_device_get_limits(self->device)->has_dedicated_local_memory) {
@@ -262,54 +262,65 @@ static ps_range group_range(const torus_nufft *self, size_t num_groups, size_t n
     return range;
 }
 
-static size_t group_bytes(const torus_nufft *self, const ps_nufft_axis *axis) {
+static size_t row_bytes(const torus_nufft *self, const ps_nufft_axis *axis) {
     return ps_nufft_row_cells(axis) * 2 * self->layout.lanes * self->layout.real_bytes;
 }
 
 /* Neighbours in the order of cells are nearly always so close. */
 static uint32_t gap_of(const torus_nufft *self) {
     const double density = (double)self->layout.part_points / self->layout.choice.axes[0].n;
-    return density > 2 ? 1 : density > 1 ? 2 : 4;
+    return density > 5 ? 1 : density > 2.5 ? 2 : 4;
+}
+
+/* Arguments of an axis, as kernels/nufft/window.h has them. */
+#define WINDOW_ARGUMENTS(plan)                                                                     \
+    PS_U32((plan)->axis.n), PS_U32((plan)->axis.window.width), PS_U32((plan)->axis.axis),          \
+        PS_U64((plan)->axis.factor), PS_U32((plan)->degree), PS_U32((plan)->bins),                 \
+        PS_U32((plan)->pitch)
+
+/* Local memory of a work-group, as kernels/nufft/spread.h has it. */
+#define LOCAL_ARGUMENTS(self, axis)                                                                \
+    PS_LOCAL((self)->layout.group *row_bytes(self, axis)),                                         \
+        PS_LOCAL((self)->layout.chunk_reals *(self)->layout.real_bytes),                           \
+        PS_LOCAL(PS_NUFFT_CHUNK * sizeof(uint64_t)), PS_LOCAL(PS_NUFFT_CHUNK * sizeof(uint32_t))
+
+static size_t num_groups(const torus_nufft *self) {
+    return (self->layout.num_tiles + self->layout.group - 1) / self->layout.group;
 }
 
 static pspec_status make_tiles(torus_nufft *self, size_t num_realizations, size_t first_row,
                                ps_error *error) {
-    const ps_nufft_choice *choice = &self->layout.choice;
     const ps_nufft_plan *plan = &self->plans[0];
-    const ps_nufft_axis *axis = &plan->axis;
     const ps_nufft_places *places = &self->places;
-    const ps_range range = group_range(self, self->layout.num_tiles, num_realizations, axis);
-    return PS_LAUNCH(self->device, self->tile, &range, error, PS_BUFFER(places->places),
-                     PS_BUFFER(places->starts), PS_BUFFER(places->cells[0]),
-                     PS_BUFFER(places->windows[0]), PS_BUFFER(places->along),
-                     PS_BUFFER(places->phases), PS_BUFFER(self->grid), PS_BUFFER(self->grid),
-                     PS_U32(false), PS_BUFFER(plan->fft.radices), PS_BUFFER(plan->fft.twiddles),
-                     PS_BUFFER(plan->fft.position), PS_BUFFER(plan->gains), PS_BUFFER(self->means),
-                     PS_BUFFER(self->pattern), PS_BUFFER(self->scales), PS_BUFFER(self->power),
-                     PS_U32(first_row), PS_U64(self->layout.stride), PS_U32(ps_nufft_base(choice)),
-                     PS_U32(axis->n), PS_U32(axis->window.width), PS_U32(plan->pitch),
-                     PS_U32(gap_of(self)), PS_U32(axis->max_frequency),
-                     PS_LOCAL(group_bytes(self, axis)));
+    const ps_range range =
+        group_range(self, num_groups(self), num_realizations, &plan->axis, self->layout.group);
+    return PS_LAUNCH(
+        self->device, self->tile, &range, error, PS_BUFFER(places->places),
+        PS_BUFFER(places->sorted), PS_BUFFER(places->heights), PS_BUFFER(plan->coefficients),
+        PS_BUFFER(plan->fft.radices), PS_BUFFER(plan->fft.twiddles), PS_BUFFER(plan->fft.position),
+        PS_BUFFER(plan->gains), PS_BUFFER(self->means), PS_BUFFER(self->pattern),
+        PS_BUFFER(self->scales), PS_BUFFER(self->power), PS_U32(first_row),
+        PS_U64(self->layout.stride), PS_U32(ps_nufft_base(&self->layout.choice)),
+        PS_U32(self->layout.num_tiles), PS_U32(self->layout.group),
+        PS_U32(self->frequencies->dimension), WINDOW_ARGUMENTS(plan), PS_U32(gap_of(self)),
+        PS_U32(plan->axis.max_frequency), LOCAL_ARGUMENTS(self, &plan->axis));
 }
 
 static pspec_status make_rows(torus_nufft *self, size_t num_realizations, ps_error *error) {
-    const ps_nufft_choice *choice = &self->layout.choice;
     const ps_nufft_plan *across = &self->plans[0];
     const ps_nufft_plan *along = &self->plans[1];
     const ps_nufft_places *places = &self->places;
-    const ps_range range = group_range(self, (size_t)self->layout.num_tiles * across->axis.n,
-                                       num_realizations, &along->axis);
+    const ps_range range = group_range(self, num_groups(self) * across->axis.n, num_realizations,
+                                       &along->axis, self->layout.group);
     return PS_LAUNCH(
         self->device, self->rows, &range, error, PS_BUFFER(places->places),
-        PS_BUFFER(places->starts), PS_BUFFER(places->cells[0]), PS_BUFFER(places->windows[0]),
-        PS_BUFFER(places->cells[1]), PS_BUFFER(places->windows[1]), PS_BUFFER(places->along),
-        PS_BUFFER(places->phases), PS_BUFFER(self->grid), PS_BUFFER(self->grid), PS_U32(false),
-        PS_BUFFER(along->fft.radices), PS_BUFFER(along->fft.twiddles),
-        PS_BUFFER(along->fft.position), PS_BUFFER(self->means), PS_BUFFER(self->pattern),
-        PS_BUFFER(self->grid), PS_U32(ps_nufft_base(choice)), PS_U32(across->axis.n),
-        PS_U32(across->axis.window.width), PS_U32(across->pitch), PS_U32(along->axis.n),
-        PS_U32(along->axis.window.width), PS_U32(along->pitch), PS_U32(along->axis.max_frequency),
-        PS_U32(self->layout.num_tiles), PS_LOCAL(group_bytes(self, &along->axis)));
+        PS_BUFFER(places->sorted), PS_BUFFER(places->heights), PS_BUFFER(places->starts),
+        PS_BUFFER(across->coefficients), WINDOW_ARGUMENTS(across), PS_BUFFER(along->coefficients),
+        WINDOW_ARGUMENTS(along), PS_BUFFER(along->fft.radices), PS_BUFFER(along->fft.twiddles),
+        PS_BUFFER(along->fft.position), PS_BUFFER(self->means), PS_BUFFER(self->grid),
+        PS_U32(ps_nufft_base(&self->layout.choice)), PS_U32(self->layout.num_tiles),
+        PS_U32(self->layout.group), PS_U32(self->frequencies->dimension),
+        PS_U32(along->axis.max_frequency), LOCAL_ARGUMENTS(self, &along->axis));
 }
 
 static pspec_status make_columns(torus_nufft *self, size_t num_realizations, size_t first_row,
@@ -318,14 +329,14 @@ static pspec_status make_columns(torus_nufft *self, size_t num_realizations, siz
     const ps_nufft_plan *along = &self->plans[1];
     const size_t kept = 2 * (size_t)along->axis.max_frequency + 1;
     const ps_range range =
-        group_range(self, self->layout.num_tiles * kept, num_realizations, &across->axis);
+        group_range(self, self->layout.num_tiles * kept, num_realizations, &across->axis, 1);
     return PS_LAUNCH(self->device, self->columns, &range, error, PS_BUFFER(self->grid),
                      PS_BUFFER(across->fft.radices), PS_BUFFER(across->fft.twiddles),
                      PS_BUFFER(across->fft.position), PS_BUFFER(across->gains),
                      PS_BUFFER(along->gains), PS_BUFFER(self->scales), PS_BUFFER(self->power),
                      PS_U32(first_row), PS_U64(self->layout.stride), PS_U32(across->axis.n),
                      PS_U32(across->axis.max_frequency), PS_U32(along->axis.max_frequency),
-                     PS_LOCAL(group_bytes(self, &across->axis)));
+                     PS_LOCAL(row_bytes(self, &across->axis)));
 }
 
 static pspec_status transform(torus_nufft *self, const ps_batch *some, size_t first_row,
@@ -371,7 +382,8 @@ static void describe(const void *state, ps_text *text) {
                        axis->n / (2.0 * axis->max_frequency), axis->window.width,
                        self->plans[i].degree);
     }
-    ps_text_append(text, " at_once=%zu)", self->layout.parts);
+    ps_text_append(text, " group=%lu at_once=%zu)", (unsigned long)self->layout.group,
+                   self->layout.parts);
 }
 
 const ps_engine ps_torus_nufft = {

@@ -1,61 +1,86 @@
-/* Rows of a tile of a problem with two fast transforms: what touches a row of cells is spread along it and
- * transformed; 2K + 1 columns are kept. Launch: (work-items of one group, tiles * rows, realizations).
+/* Rows of tiles of a problem with two fast transforms: what touches a row of cells is spread along it and
+ * transformed; 2K + 1 columns are kept. Launch: (work-items of one group, groups of tiles * rows, realizations).
  *
- *   places, starts, along, phases  of nufft/sort.cl and nufft/place.cl, sorted by rows; a part for each
- *              realization, or ...
- *   sums, low  ... [tile][row][n + width + GAP][re, im][LANES], if has_sums: of nufft/add.cl
- *   row_cells, row_windows  [place]: of the axis across rows
- *   cells, windows          [place]: of the axis along rows
+ *   places, sorted, heights, starts  of nufft/sort.cl, sorted by rows
+ *   row_*, num_rows  of nufft/window.h, of the axis across rows
+ *   coefficients, n, width, axis, factor, degree, bins, pitch  of the axis along rows
+ *   radices, twiddles, position, K  of nufft/finish.h, of the axis along rows
  *   means      [realization]: what frequency 0 leaves in a cell
- *   pattern    [row][cosine, sine]: and how it turns from row to row
  *   grid       [realization][tile][column -K .. K][row][re, im][LANES]
- *   row        local, [n + width + GAP][re, im][LANES]
+ *   group      tiles of a work-group
+ *   rows       local, [group][n + width + GAP][re, im][LANES]
+ *   reals, along, cells  local, of a chunk: nufft/spread.h
  */
 #include "nufft/finish.h"
 #include "nufft/spread.h"
 
-__kernel void
-nufft_rows(__global const ulong *restrict places, __global const uint *restrict starts,
-           __global const uint *restrict row_cells, __global const real *restrict row_windows,
-           __global const uint *restrict cells, __global const real *restrict windows,
-           __global const ulong *restrict along, __global const real *restrict phases,
-           __global const real *restrict sums, __global const real *restrict low,
-           const uint has_sums, __global const uint *restrict radices,
-           __global const real *restrict twiddles, __global const uint *restrict position,
-           __global const real *restrict means, __global const real *restrict pattern,
-           __global real *restrict grid, const uint base, const uint num_rows, const uint row_width,
-           const uint row_pitch, const uint n, const uint width, const uint pitch, const uint K,
-           const uint num_tiles, __local real *row) {
-    const uint tile = get_global_id(1) / num_rows, m = get_global_id(1) % num_rows;
-    const size_t realization = get_global_id(2);
-    const row_axis axis = {cells, windows, n, width, pitch};
-    const transform_axis transform = {radices, twiddles, position, 0, n, K};
-    if (has_sums) {
-        load_sums(row, axis, sums, low, get_global_id(1));
-    } else {
-        const tile_values values = {along, phases, base + tile * LANES};
-        const sorted_rows rows = {starts + realization * (num_rows + 2),
-                                  row_cells,
-                                  row_windows,
-                                  num_rows,
-                                  row_width,
-                                  row_pitch};
-        clear_row(row, axis);
-        add_touching(row, axis, values, rows, m, places[realization]);
+/* The place, or nothing where the list has ended. */
+static inline void fill_touching(const chunk to, const uint i, __global const ulong *x,
+                                 const real weight, const window_axis axis,
+                                 const window_axis across, const uint bin) {
+    ulong fraction;
+    first_cell(across.factor * x[across.axis], across.n, across.width, &fraction);
+    fill_place(to, i, x, weight * window_bin(across, centred(fraction), bin), axis);
+}
+
+/* Places begin .. end, whose windows touch the row with `bin`. */
+static inline void add_places(__local real *rows, const chunk to, __global const ulong *sorted,
+                              __global const real *heights, const uint dimension,
+                              const size_t begin, const size_t end, const window_axis axis,
+                              const window_axis across, const uint bin, const uint k,
+                              const uint num_tiles) {
+    for (size_t place = begin; place < end; place += CHUNK) {
+        for (uint i = get_local_id(0); i < CHUNK; i += get_local_size(0)) {
+            const size_t at = min(place + i, end - 1);
+            fill_touching(to, i, sorted + at * dimension, place + i < end ? heights[at] : 0, axis,
+                          across, bin);
+        }
+        add_chunk(rows, to, axis, k, num_tiles, (uint)min(end - place, (size_t)CHUNK), false, 0);
     }
-    fold_row(row, axis);
-    if (tile == 0) {
-        const real mean = means[realization];
-        for (uint i = get_local_id(0); i < n; i += get_local_size(0)) {
-            row[i * 2 * LANES] -= mean * pattern[2 * m];
-            row[(i * 2 + 1) * LANES] -= mean * pattern[2 * m + 1];
+}
+
+__kernel void
+nufft_rows(__global const ulong *restrict places, __global const ulong *restrict sorted,
+           __global const real *restrict heights, __global const uint *restrict starts,
+           __global const real *restrict row_coefficients, const uint num_rows,
+           const uint row_width, const uint row_axis, const ulong row_factor, const uint row_degree,
+           const uint row_bins, const uint row_pitch, __global const real *restrict coefficients,
+           const uint n, const uint width, const uint axis, const ulong factor, const uint degree,
+           const uint bins, const uint pitch, __global const uint *restrict radices,
+           __global const real *restrict twiddles, __global const uint *restrict position,
+           __global const real *restrict means, __global real *restrict grid, const uint base,
+           const uint num_tiles, const uint group, const uint dimension, const uint K,
+           __local real *rows, __local real *reals, __local ulong *along, __local uint *cells) {
+    const uint m = get_global_id(1) % num_rows;
+    const uint first_tile = get_global_id(1) / num_rows * group;
+    const uint own_tiles = min(group, num_tiles - first_tile);
+    const size_t realization = get_global_id(2), first = places[realization];
+    const window_axis window = {coefficients, n, width, axis, degree, bins, pitch, factor};
+    const window_axis across = {row_coefficients, num_rows, row_width, row_axis,
+                                row_degree,       row_bins, row_pitch, row_factor};
+    const transform_axis transform = {radices, twiddles, position, 0, n, K};
+    const chunk chunk = make_chunk(reals, along, cells, pitch);
+    __global const uint *start = starts + realization * (num_rows + 2);
+    clear_rows(rows, own_tiles * row_cells(window));
+    for (uint bin = 0; bin < row_width; bin++) {
+        const uint begun = m >= bin ? m - bin : num_rows + m - bin;
+        add_places(rows, chunk, sorted, heights, dimension, first + start[begun],
+                   first + start[begun + 1], window, across, bin, base + first_tile * LANES,
+                   own_tiles);
+    }
+    for (uint t = 0; t < own_tiles; t++) {
+        __local real *row = rows + t * row_cells(window) * 2 * LANES;
+        const size_t tile = first_tile + t;
+        fold_row(row, window);
+        for (uint i = get_local_id(0); tile == 0 && i < n; i += get_local_size(0)) {
+            row[i * 2 * LANES] -= means[realization];
         }
         barrier(CLK_LOCAL_MEM_FENCE);
-    }
-    fft_transform(row, n, radices, twiddles);
-    __global real *out =
-        grid + ((realization * num_tiles + tile) * (2 * K + 1) * num_rows + m) * 2 * LANES;
-    for (uint i = get_local_id(0); i < 2 * K + 1; i += get_local_size(0)) {
-        store_global(out, (size_t)i * num_rows, kept_frequency(row, transform, i));
+        fft_transform(row, n, radices, twiddles);
+        __global real *out =
+            grid + ((realization * num_tiles + tile) * (2 * K + 1) * num_rows + m) * 2 * LANES;
+        for (uint i = get_local_id(0); i < 2 * K + 1; i += get_local_size(0)) {
+            store_global(out, (size_t)i * num_rows, kept_frequency(row, transform, i));
+        }
     }
 }

@@ -1,12 +1,16 @@
-/* Spreading: points times their windows into a row of cells [cell][re, im][LANES]. Device only.
+/* Spreading: points times their windows into rows of cells [cell][re, im][LANES], one row for each tile of
+ * a work-group. Device only.
  *
  * Lanes are frequencies of axis 0: the value of a point is exp(-2 pi i k x_0), k the first frequency of
  * the tile, times the phases of the lanes, which all tiles share.
  *
- * A row has room for `n + width + GAP` cells: windows that begin near the end go on behind it, and
- * fold_row() adds that to the beginning. On CPUs one work-item goes from point to point. The work-items of a group
- * each own cells and go through the points that touch them; every cell adds the same numbers in the same
- * order either way, so results are equal to the bit.
+ * A row has room for n + width + GAP cells: windows that begin near the end go on behind it, and fold_row()
+ * adds that to the beginning.
+ *
+ * Points come in chunks: windows and phases are made for a chunk, which then goes into every tile. On CPUs one
+ * work-item goes from point to point; the work-items of a group each own cells and go through the points
+ * of the chunk. Every cell adds the same numbers in the same order either way, so results are equal
+ * to the bit.
  */
 #ifndef PS_NUFFT_SPREAD_H
 #define PS_NUFFT_SPREAD_H
@@ -14,199 +18,192 @@
 #include "nufft/fft.h"
 #include "nufft/phase.h"
 #include "nufft/place.h"
+#include "nufft/window.h"
 
-/* The axis along a row. */
-typedef struct row_axis {
-    __global const uint *cells;
-    __global const real *windows;
-    uint n, width, pitch;
-} row_axis;
+/* Points of a chunk; PLACE_UNIT is a multiple of it, and LANES divides it. */
+#define CHUNK 16
 
-/* What a point is multiplied by. */
-typedef struct tile_values {
-    __global const ulong *along;
-    __global const real *phases;
-    uint k;
-} tile_values;
+/* Local memory of a chunk. */
+typedef struct chunk {
+    __local real *windows; /* [CHUNK][pitch], times the weights */
+    __local real *phases;  /* [CHUNK][re, im][LANES] */
+    __local real *turns;   /* [re, im][CHUNK]: exp(-2 pi i k x_0) of a tile */
+    __local ulong *along;  /* [CHUNK]: x_0 */
+    __local uint *cells;   /* [CHUNK] */
+} chunk;
 
-static inline complexv value_of_place(const tile_values tile, const size_t place, const real re,
-                                      const real im) {
-    return complex_multiply(load_global(tile.phases, place), re, im);
+#define CHUNK_REALS(pitch) (CHUNK * ((pitch) + 2 * LANES + 2))
+
+static inline chunk make_chunk(__local real *reals, __local ulong *along, __local uint *cells,
+                               const uint pitch) {
+    return (chunk){reals, reals + CHUNK * pitch, reals + CHUNK * (pitch + 2 * LANES), along, cells};
 }
 
-/* exp(-2 pi i k x) of LANES places. */
-static inline void make_turns(const tile_values tile, const size_t place, real *re, real *im) {
+__constant word lane_numbers[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+
+/* One place of a chunk; its weight as given. */
+static inline void fill_place(const chunk to, const uint i, __global const ulong *x,
+                              const real weight, const window_axis axis) {
+    ulong fraction;
     realv cosine, sine;
-    turn_cosine_sine(phases_of_points(tile.k, LOADV(0, tile.along + place)), &cosine, &sine);
-    STOREV(cosine, 0, re);
-    STOREV(-sine, 0, im);
+    to.cells[i] = first_cell(axis.factor * x[axis.axis], axis.n, axis.width, &fraction);
+    make_window(axis, centred(fraction), weight, to.windows + i * axis.pitch);
+    to.along[i] = x[0];
+    turn_cosine_sine(phases_of_lanes(LOADV(0, lane_numbers), x[0]), &cosine, &sine);
+    STOREV(cosine, 2 * i, to.phases);
+    STOREV(-sine, 2 * i + 1, to.phases);
+}
+
+static inline void fill_turns(const chunk to, const uint k) {
+    for (uint i = get_local_id(0) * LANES; i < CHUNK; i += get_local_size(0) * LANES) {
+        realv cosine, sine;
+        turn_cosine_sine(phases_of_points(k, LOADV(0, to.along + i)), &cosine, &sine);
+        STOREV(cosine, 0, to.turns + i);
+        STOREV(-sine, 0, to.turns + CHUNK + i);
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);
+}
+
+static inline complexv value_of(const chunk from, const uint i) {
+    return complex_multiply(load_complex(from.phases, i), from.turns[i], from.turns[CHUNK + i]);
 }
 
 /* ---- one work-item ------------------------------------------------------------------------- */
 
-static inline void add_one(__local real *row, const uint width, __global const real *window,
-                           const complexv value) {
-    for (uint i = 0; i < width; i++) {
-        const realv height = (realv)window[GAP + i];
+static inline void add_one(__local real *row, const uint width, const chunk from, const uint i,
+                           const uint pitch) {
+    const complexv value = value_of(from, i);
+    __local const real *window = from.windows + i * pitch + GAP;
+    row += from.cells[i] * 2 * LANES;
+    for (uint bin = 0; bin < width; bin++) {
+        const realv height = (realv)window[bin];
         STOREV(fma(height, value.re, LOADV(0, row)), 0, row);
         STOREV(fma(height, value.im, LOADV(1, row)), 1, row);
         row += 2 * LANES;
     }
 }
 
-/* Two neighbours, `apart` cells from each other, within num_cells: half the loads and stores. To the bit the
- * same as one after the other, since windows are zero outside. */
+/* Neighbours i and i + 1, `apart` cells from each other, within num_cells: half the loads and stores. To the bit
+ * the same as one after the other, since windows are zero outside. */
 static inline void add_two(__local real *row, const uint num_cells, const uint apart,
-                           __global const real *window, const complexv value,
-                           __global const real *next_window, const complexv next_value) {
-    for (uint i = 0; i < num_cells; i++) {
-        const realv height = (realv)window[GAP + i];
-        const realv next_height = (realv)next_window[GAP + i - apart];
+                           const chunk from, const uint i, const uint pitch) {
+    const complexv value = value_of(from, i), next = value_of(from, i + 1);
+    __local const real *window = from.windows + i * pitch + GAP;
+    __local const real *next_window = window + pitch - apart;
+    row += from.cells[i] * 2 * LANES;
+    for (uint bin = 0; bin < num_cells; bin++) {
+        const realv height = (realv)window[bin], next_height = (realv)next_window[bin];
         const realv re = fma(height, value.re, LOADV(0, row));
         const realv im = fma(height, value.im, LOADV(1, row));
-        STOREV(fma(next_height, next_value.re, re), 0, row);
-        STOREV(fma(next_height, next_value.im, im), 1, row);
+        STOREV(fma(next_height, next.re, re), 0, row);
+        STOREV(fma(next_height, next.im, im), 1, row);
         row += 2 * LANES;
     }
 }
 
-/* Places begin .. end, whole units, in the order of cells; neighbours up to gap <= GAP cells apart in one go. (Loops
- * of one length for all of them: others are mispredicted, which costs more than zeros.) */
-static inline void scatter_in_order(__local real *row, const row_axis axis, const tile_values tile,
-                                    const uint gap, const size_t begin, const size_t end) {
-    for (size_t place = begin; place < end; place += LANES) {
-        real re[LANES], im[LANES];
-        make_turns(tile, place, re, im);
-        for (uint i = 0; i + 1 < LANES; i += 2) {
-            const size_t at = place + i;
-            const complexv value = value_of_place(tile, at, re[i], im[i]);
-            const complexv next = value_of_place(tile, at + 1, re[i + 1], im[i + 1]);
-            const uint cell = axis.cells[at], apart = axis.cells[at + 1] - cell;
-            __local real *first = row + cell * 2 * LANES;
-            __global const real *window = axis.windows + at * axis.pitch;
-            if (apart <= gap) {
-                add_two(first, axis.width + gap, apart, window, value, window + axis.pitch, next);
-            } else {
-                add_one(first, axis.width, window, value);
-                add_one(first + apart * 2 * LANES, axis.width, window + axis.pitch, next);
-            }
-        }
-        if (LANES == 1) {
-            add_one(row + axis.cells[place] * 2, axis.width, axis.windows + place * axis.pitch,
-                    value_of_place(tile, place, re[0], im[0]));
-        }
+/* Four neighbours, within num_cells. */
+static inline void add_four(__local real *row, const uint num_cells, const chunk from, const uint i,
+                            const uint pitch) {
+    const uint cell = from.cells[i];
+    const complexv a = value_of(from, i), b = value_of(from, i + 1);
+    const complexv c = value_of(from, i + 2), d = value_of(from, i + 3);
+    __local const real *in_a = from.windows + i * pitch + GAP;
+    __local const real *in_b = in_a + pitch - (from.cells[i + 1] - cell);
+    __local const real *in_c = in_a + 2 * pitch - (from.cells[i + 2] - cell);
+    __local const real *in_d = in_a + 3 * pitch - (from.cells[i + 3] - cell);
+    row += cell * 2 * LANES;
+    for (uint bin = 0; bin < num_cells; bin++) {
+        const realv at_a = (realv)in_a[bin], at_b = (realv)in_b[bin];
+        const realv at_c = (realv)in_c[bin], at_d = (realv)in_d[bin];
+        realv re = fma(at_a, a.re, LOADV(0, row)), im = fma(at_a, a.im, LOADV(1, row));
+        re = fma(at_b, b.re, re);
+        im = fma(at_b, b.im, im);
+        re = fma(at_c, c.re, re);
+        im = fma(at_c, c.im, im);
+        STOREV(fma(at_d, d.re, re), 0, row);
+        STOREV(fma(at_d, d.im, im), 1, row);
+        row += 2 * LANES;
     }
 }
 
-/* Places begin .. end in any order, each times heights[place pitch]. */
-static inline void scatter_scaled(__local real *row, const row_axis axis, const tile_values tile,
-                                  __global const real *heights, const uint height_pitch,
-                                  const size_t begin, const size_t end) {
-    for (size_t place = begin; place < end; place += LANES) {
-        real re[LANES], im[LANES];
-        make_turns(tile, place, re, im);
-        for (uint i = 0; i < LANES && place + i < end; i++) {
-            const size_t at = place + i;
-            const real height = heights[at * height_pitch];
-            add_one(row + axis.cells[at] * 2 * LANES, axis.width, axis.windows + at * axis.pitch,
-                    value_of_place(tile, at, re[i] * height, im[i] * height));
+/* A chunk in the order of cells. Neighbours up to gap <= GAP cells apart go in one go. (Loops of one length for
+ * all of them: others are mispredicted, which costs more than zeros.) */
+static inline void scatter_in_order(__local real *row, const chunk from, const uint width,
+                                    const uint pitch, const uint gap) {
+    for (uint i = 0; i < CHUNK; i += 4) {
+        const uint apart = from.cells[i + 1] - from.cells[i];
+        const uint next_apart = from.cells[i + 3] - from.cells[i + 2];
+        if (from.cells[i + 3] - from.cells[i] <= gap) {
+            add_four(row, width + gap, from, i, pitch);
+        } else if (apart <= gap && next_apart <= gap) {
+            add_two(row, width + gap, apart, from, i, pitch);
+            add_two(row, width + gap, next_apart, from, i + 2, pitch);
+        } else {
+            for (uint j = i; j < i + 4; j++) {
+                add_one(row, width, from, j, pitch);
+            }
         }
     }
 }
 
 /* ---- work-items that share a row ----------------------------------------------------------- */
 
-/* What places begin .. end leave in a cell, added to sum. */
-static inline complexv gather(complexv sum, const row_axis axis, const tile_values tile,
-                              __global const real *heights, const uint height_pitch,
-                              const uint cell, const size_t begin, const size_t end) {
-    for (size_t at = begin; at < end; at++) {
-        const uint bin = cell - axis.cells[at];
-        if (bin < axis.width) {
-            realv cosine, sine;
-            turn_cosine_sine(phases_of_points(tile.k, (ulongv)tile.along[at]), &cosine, &sine);
-            const real scale = heights != 0 ? heights[at * height_pitch] : 1;
-            const complexv value = complex_multiply_lanes(
-                load_global(tile.phases, at), cosine * (realv)scale, -sine * (realv)scale);
-            const realv height = (realv)axis.windows[at * axis.pitch + GAP + bin];
-            sum.re = fma(height, value.re, sum.re);
-            sum.im = fma(height, value.im, sum.im);
+/* Cells first .. end of a row. */
+static inline void gather(__local real *row, const chunk from, const uint width, const uint pitch,
+                          const uint first, const uint end) {
+    for (uint cell = first + get_local_id(0); cell < end; cell += get_local_size(0)) {
+        complexv sum = load_complex(row, cell);
+        for (uint i = 0; i < CHUNK; i++) {
+            const uint bin = cell - from.cells[i];
+            if (bin < width) {
+                const complexv value = value_of(from, i);
+                const realv height = (realv)from.windows[i * pitch + GAP + bin];
+                sum.re = fma(height, value.re, sum.re);
+                sum.im = fma(height, value.im, sum.im);
+            }
         }
-    }
-    return sum;
-}
-
-/* ---- rows ---------------------------------------------------------------------------------- */
-
-static inline void clear_row(__local real *row, const row_axis axis) {
-    for (uint i = get_local_id(0); i < axis.n + axis.width + GAP; i += get_local_size(0)) {
-        store_complex(row, i, (complexv){(realv)0, (realv)0});
+        store_complex(row, cell, sum);
     }
     barrier(CLK_LOCAL_MEM_FENCE);
 }
 
-/* Row `index` of the sums of nufft/add.cl. */
-static inline void load_sums(__local real *row, const row_axis axis, __global const real *sums,
-                             __global const real *low, const size_t index) {
-    const size_t count = axis.n + axis.width + GAP;
-    for (uint i = get_local_id(0); i < count; i += get_local_size(0)) {
-        store_complex(
-            row, i,
-            complex_add(load_global(sums, index * count + i), load_global(low, index * count + i)));
-    }
+/* ---- rows ---------------------------------------------------------------------------------- */
+
+static inline uint row_cells(const window_axis axis) {
+    return axis.n + axis.width + GAP;
 }
 
-/* All points of a part: places first .. end, whole units, in the order of cells; cell m has the points
- * first + start[m] .. first + start[m + 1]. */
-static inline void add_sorted(__local real *row, const row_axis axis, const tile_values tile,
-                              const uint gap, const size_t first, const size_t end,
-                              __global const uint *start) {
-    if (get_local_size(0) == 1) {
-        scatter_in_order(row, axis, tile, gap, first, end);
-    } else {
-        for (uint m = get_local_id(0); m < axis.n + axis.width; m += get_local_size(0)) {
-            const uint begin = start[m + 1 < axis.width ? 0 : min(m + 1 - axis.width, axis.n)];
-            store_complex(row, m,
-                          gather(load_complex(row, m), axis, tile, 0, 0, m, first + begin,
-                                 first + start[min(m + 1, axis.n)]));
+/* num_cells cells: of one row, or of several. */
+static inline void clear_rows(__local real *rows, const uint num_cells) {
+    for (uint i = get_local_id(0); i < num_cells; i += get_local_size(0)) {
+        store_complex(rows, i, (complexv){(realv)0, (realv)0});
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);
+}
+
+/* A filled chunk of `count` places into the rows of num_tiles tiles, whose first frequencies are k, k + LANES, ... */
+static inline void add_chunk(__local real *rows, const chunk from, const window_axis axis,
+                             const uint k, const uint num_tiles, const uint count,
+                             const bool is_sorted, const uint gap) {
+    barrier(CLK_LOCAL_MEM_FENCE);
+    for (uint tile = 0; tile < num_tiles; tile++) {
+        __local real *row = rows + tile * row_cells(axis) * 2 * LANES;
+        fill_turns(from, k + tile * LANES);
+        if (get_local_size(0) > 1) {
+            gather(row, from, axis.width, axis.pitch, is_sorted ? from.cells[0] : 0,
+                   (is_sorted ? from.cells[CHUNK - 1] : axis.n) + axis.width);
+        } else if (is_sorted) {
+            scatter_in_order(row, from, axis.width, axis.pitch, gap);
+        } else {
+            for (uint i = 0; i < count; i++) {
+                add_one(row, axis.width, from, i, axis.pitch);
+            }
         }
-    }
-}
-
-/* Places begin .. end in any order, each times heights[place height_pitch]. */
-static inline void add_scaled(__local real *row, const row_axis axis, const tile_values tile,
-                              __global const real *heights, const uint height_pitch,
-                              const size_t begin, const size_t end) {
-    if (get_local_size(0) == 1) {
-        scatter_scaled(row, axis, tile, heights, height_pitch, begin, end);
-    } else {
-        for (uint m = get_local_id(0); m < axis.n + axis.width; m += get_local_size(0)) {
-            store_complex(
-                row, m,
-                gather(load_complex(row, m), axis, tile, heights, height_pitch, m, begin, end));
-        }
-    }
-}
-
-/* Places sorted by the rows where their windows begin, and their windows across rows. */
-typedef struct sorted_rows {
-    __global const uint *start, *cells;
-    __global const real *windows;
-    uint n, width, pitch;
-} sorted_rows;
-
-/* All points whose windows touch row m, places counted from `first` on. */
-static inline void add_touching(__local real *row, const row_axis axis, const tile_values tile,
-                                const sorted_rows rows, const uint m, const size_t first) {
-    for (uint i = 0; i < rows.width; i++) {
-        const uint begun = m >= i ? m - i : rows.n + m - i;
-        add_scaled(row, axis, tile, rows.windows + GAP + i, rows.pitch, first + rows.start[begun],
-                   first + rows.start[begun + 1]);
     }
 }
 
 /* The cells behind the end are the first ones again. */
-static inline void fold_row(__local real *row, const row_axis axis) {
+static inline void fold_row(__local real *row, const window_axis axis) {
     barrier(CLK_LOCAL_MEM_FENCE);
     for (uint i = get_local_id(0); i < axis.width; i += get_local_size(0)) {
         store_complex(row, i, complex_add(load_complex(row, i), load_complex(row, axis.n + i)));

@@ -1,48 +1,54 @@
-/* One tile of a problem with one fast transform: LANES frequencies of axis 0 by direct phases, those of the
- * transform by spreading. Launch: (work-items of one group, tiles, realizations).
+/* Tiles of a problem with one fast transform: LANES frequencies of axis 0 by direct phases, those of the
+ * transform by spreading. Launch: (work-items of one group, groups of tiles, realizations).
  *
- *   places, starts, cells, windows, along, phases  of nufft/sort.cl and nufft/place.cl, a part for each
- *              realization, or ...
- *   sums, low  ... [tile][n + width + GAP][re, im][LANES], if has_sums: of nufft/add.cl
- *   radices, twiddles, position, gains  of nufft/finish.h
+ *   places, sorted, heights  of nufft/sort.cl
+ *   coefficients, n, width, axis, factor, degree, bins, pitch  of nufft/window.h
+ *   radices, twiddles, position, gains, K  of nufft/finish.h
  *   means      [realization]: what frequency 0 leaves in a cell
  *   pattern    [n][cosine, sine]: and how it turns
  *   scales     [realization]
  *   power      [realization][stride]: frequency q of lane in slot ((tile (2K+1) + K + q) LANES + lane
  *   base       the first frequency of tile 0
- *   row        local, [n + width + GAP][re, im][LANES]
+ *   group      tiles of a work-group
+ *   rows       local, [group][n + width + GAP][re, im][LANES]
+ *   reals, along, cells  local, of a chunk: nufft/spread.h
  */
 #include "nufft/finish.h"
 #include "nufft/spread.h"
 
 __kernel void
-nufft_tile(__global const ulong *restrict places, __global const uint *restrict starts,
-           __global const uint *restrict cells, __global const real *restrict windows,
-           __global const ulong *restrict along, __global const real *restrict phases,
-           __global const real *restrict sums, __global const real *restrict low,
-           const uint has_sums, __global const uint *restrict radices,
-           __global const real *restrict twiddles, __global const uint *restrict position,
-           __global const real *restrict gains, __global const real *restrict means,
-           __global const real *restrict pattern, __global const real *restrict scales,
-           __global real *restrict power, const uint first_row, const ulong stride, const uint base,
-           const uint n, const uint width, const uint pitch, const uint gap, const uint K,
-           __local real *row) {
-    const uint tile = get_global_id(1);
+nufft_tile(__global const ulong *restrict places, __global const ulong *restrict sorted,
+           __global const real *restrict heights, __global const real *restrict coefficients,
+           __global const uint *restrict radices, __global const real *restrict twiddles,
+           __global const uint *restrict position, __global const real *restrict gains,
+           __global const real *restrict means, __global const real *restrict pattern,
+           __global const real *restrict scales, __global real *restrict power,
+           const uint first_row, const ulong stride, const uint base, const uint num_tiles,
+           const uint group, const uint dimension, const uint n, const uint width, const uint axis,
+           const ulong factor, const uint degree, const uint bins, const uint pitch, const uint gap,
+           const uint K, __local real *rows, __local real *reals, __local ulong *along,
+           __local uint *cells) {
+    const uint first_tile = get_global_id(1) * group;
+    const uint own_tiles = min(group, num_tiles - first_tile);
     const size_t realization = get_global_id(2);
-    const row_axis axis = {cells, windows, n, width, pitch};
+    const window_axis window = {coefficients, n, width, axis, degree, bins, pitch, factor};
     const transform_axis transform = {radices, twiddles, position, gains, n, K};
-    if (has_sums) {
-        load_sums(row, axis, sums, low, tile);
-    } else {
-        const tile_values values = {along, phases, base + tile * LANES};
-        clear_row(row, axis);
-        add_sorted(row, axis, values, gap, places[realization], places[realization + 1],
-                   starts + realization * (n + 2));
+    const chunk chunk = make_chunk(reals, along, cells, pitch);
+    clear_rows(rows, own_tiles * row_cells(window));
+    for (size_t place = places[realization]; place < places[realization + 1]; place += CHUNK) {
+        for (uint i = get_local_id(0); i < CHUNK; i += get_local_size(0)) {
+            fill_place(chunk, i, sorted + (place + i) * dimension, heights[place + i], window);
+        }
+        add_chunk(rows, chunk, window, base + first_tile * LANES, own_tiles, CHUNK, true, gap);
     }
-    fold_row(row, axis);
-    if (tile == 0) {
-        take_off_mean(row, means[realization], pattern, n);
+    for (uint i = 0; i < own_tiles; i++) {
+        __local real *row = rows + i * row_cells(window) * 2 * LANES;
+        const size_t tile = first_tile + i;
+        fold_row(row, window);
+        if (tile == 0) {
+            take_off_mean(row, means[realization], pattern, n);
+        }
+        write_powers(row, transform, scales[first_row + realization],
+                     power + (first_row + realization) * stride + tile * (2 * K + 1) * LANES);
     }
-    write_powers(row, transform, scales[first_row + realization],
-                 power + (first_row + realization) * stride + (size_t)tile * (2 * K + 1) * LANES);
 }

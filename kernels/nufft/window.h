@@ -9,28 +9,43 @@
 typedef PS_JOIN(REAL, 8) real8;
 typedef PS_JOIN(REAL, 4) real4;
 
+/* An axis of the fine grid, and its window: bin i is a polynomial in u = 2 f - 1, f as in nufft/cell.h.
+ * coefficients [degree + 1][bins], lowest degree first; bins, a multiple of 8, is at least the width, pitch at
+ * least 2 GAP + width. */
+typedef struct window_axis {
+    __global const real *coefficients;
+    uint n, width, axis, degree, bins, pitch;
+    ulong factor; /* the coordinate is factor * x[axis] mod 1 */
+} window_axis;
+
 static inline real centred(const ulong fraction) {
     const real two_to_minus_63 = (real)1.0842021724855044e-19;
     return (real)as_long(fraction ^ ((ulong)1 << 63)) * two_to_minus_63;
 }
 
-/* coefficients [degree + 1][bins] of polynomials in u = 2 f - 1, lowest degree first; bins, a multiple of
- * 8, is at least the width, pitch at least 2 GAP + width. */
-static inline void make_window(__global const real *coefficients, const uint degree,
-                               const uint bins, const uint pitch, const ulong fraction,
-                               const real weight, __global real *window) {
-    const real8 u = (real8)centred(fraction);
+static inline void make_window(const window_axis axis, const real centre, const real weight,
+                               __local real *window) {
+    const real8 u = (real8)centre;
     vstore4((real4)0, 0, window);
-    for (uint bin = 0; bin < bins; bin += 8) {
-        real8 value = vload8(0, coefficients + degree * bins + bin);
-        for (uint i = degree; i-- > 0;) {
-            value = fma(value, u, vload8(0, coefficients + i * bins + bin));
+    for (uint bin = 0; bin < axis.bins; bin += 8) {
+        real8 value = vload8(0, axis.coefficients + axis.degree * axis.bins + bin);
+        for (uint i = axis.degree; i-- > 0;) {
+            value = fma(value, u, vload8(0, axis.coefficients + i * axis.bins + bin));
         }
         vstore8(value * (real8)weight, 0, window + GAP + bin);
     }
-    for (uint i = GAP + bins; i < pitch; i++) {
+    for (uint i = GAP + axis.bins; i < axis.pitch; i++) {
         window[i] = 0;
     }
+}
+
+/* One value. */
+static inline real window_bin(const window_axis axis, const real centre, const uint bin) {
+    real value = axis.coefficients[axis.degree * axis.bins + bin];
+    for (uint i = axis.degree; i-- > 0;) {
+        value = fma(value, centre, axis.coefficients[i * axis.bins + bin]);
+    }
+    return value;
 }
 
 #endif
