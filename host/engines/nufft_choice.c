@@ -12,6 +12,9 @@ static const double largest_sigma = 4;
 /* Windows must not meet themselves. */
 enum { LEAST_CELLS = PS_NUFFT_MAX_WIDTH };
 
+/* Grids take one set at a time: never worth while for fewer points. */
+static const double least_gridded_points = 30000;
+
 /* In one dimension, where more tiles mean shorter transforms. */
 enum { MOST_TILES = 64 };
 
@@ -47,6 +50,7 @@ static const double window_roundings = 4;
 static const double roundings_per_pass = 1;
 static const double dense_roundings = 1;
 static const double dense_roundings_at_zero = 2;
+static const double grid_roundings_at_zero = 0.05;
 static const double coherent_roundings = 0.35;
 
 static uint32_t divide_up(uint32_t a, uint32_t b) {
@@ -69,8 +73,12 @@ double ps_nufft_error(const ps_nufft_choice *choice, const ps_problem *problem,
     double aliases = 0;
     double worst = 0;
     double passes = 0;
-    double dense = (double)problem->num_points; /* points in a cell, */
-    double touching = dense;                    /* and those whose windows touch it */
+    const uint64_t at_once = choice->chunk > 0 && choice->chunk < problem->num_points
+                                 ? choice->chunk
+                                 : problem->num_points;
+    double dense = (double)at_once; /* points in a cell, */
+    double touching = dense;        /* and those whose windows touch it */
+    double widths = 1;
     for (unsigned i = 0; i < choice->num_axes; i++) {
         const ps_nufft_axis *axis = &choice->axes[i];
         amplification *= axis->loss.amplification;
@@ -79,6 +87,7 @@ double ps_nufft_error(const ps_nufft_choice *choice, const ps_problem *problem,
         passes += axis->passes * roundings_per_pass;
         dense *= sqrt(axis->window.width) / axis->n;
         touching *= (double)axis->window.width / axis->n;
+        widths *= axis->window.width;
     }
     const double aliasing =
         sqrt(alias_slack * alias_slack * aliases +
@@ -89,7 +98,9 @@ double ps_nufft_error(const ps_nufft_choice *choice, const ps_problem *problem,
     const double sums = dense_roundings * sqrt(touching);
     const double rounding = unit * amplification * (window_roundings + passes + sums);
     const double at_zero =
-        unit * amplification * dense_roundings_at_zero * dense / sqrt(choice->span);
+        unit * amplification *
+        (choice->is_gridded ? grid_roundings_at_zero * touching * sqrt(widths)
+                            : dense_roundings_at_zero * dense / sqrt(choice->span));
     const double coherent = unit * coherent_roundings * power * sqrt(power);
     return hypot(hypot(aliasing, polynomials), hypot(rounding * sqrt(power), at_zero)) + coherent;
 }
@@ -106,21 +117,61 @@ static const double cycles_per_cell = 1.2;
 /* Two fused operations in a cycle. */
 static const double flops_per_lane = 4;
 
+/* A point on its way to a block of rows of a grid, and a row of the block. */
+static const double cycles_per_block = 80;
+static const double cycles_per_row = 6;
+
+/* A cell of a grid: cleared, taken into pairs for every chunk, fetched by the transform. */
+static const double cycles_per_grid_cell = 10;
+static const double cycles_per_pair = 2;
+
+/* kernels/nufft/grid.cl */
+enum { BLOCK_ROWS = 8 };
+
+const ps_nufft_axis *ps_nufft_last_axes(const ps_nufft_choice *choice, unsigned *num) {
+    *num = choice->num_axes - (choice->is_gridded ? 1 : 0);
+    return choice->axes + (choice->is_gridded ? 1 : 0);
+}
+
+/* Transforms of one tile after its rows are there. */
+static double tile_cycles(const ps_nufft_choice *choice) {
+    unsigned num = 0;
+    const ps_nufft_axis *axes = ps_nufft_last_axes(choice, &num);
+    const double kept = 2.0 * axes[num - 1].max_frequency + 1;
+    return num == 1 ? ps_fft_cycles(axes[0].n)
+                    : axes[0].n * ps_fft_cycles(axes[1].n) + kept * ps_fft_cycles(axes[0].n);
+}
+
+/* Without those: spreading on a grid and the transform along axis 0. */
+static double grid_cycles(const ps_nufft_choice *choice, unsigned lanes, double num_points) {
+    const ps_nufft_axis *axes = choice->axes;
+    const ps_nufft_axis *block = &axes[choice->num_axes - 2];
+    const ps_nufft_axis *last = &axes[choice->num_axes - 1];
+    const double outer = choice->num_axes == 3 ? axes[0].window.width : 1;
+    const double blocks = (BLOCK_ROWS + block->window.width - 1.0) / BLOCK_ROWS;
+    const double strips = last->window.width > BLOCK_ROWS ? 2 : 1;
+    const double columns = (choice->num_axes == 3 ? (double)block->n : 1) * last->n;
+    return num_points * outer *
+               (blocks * cycles_per_block + block->window.width * strips * cycles_per_row) +
+           columns / (2 * lanes) * ps_fft_cycles(axes[0].n) +
+           columns * axes[0].n *
+               (cycles_per_grid_cell + cycles_per_pair * ceil(num_points / (double)choice->chunk));
+}
+
+static double spread_cycles(const ps_nufft_choice *choice, double num_points) {
+    const double row =
+        cycles_per_value + cycles_per_cell * choice->axes[choice->num_axes - 1].window.width;
+    return num_points * row * (choice->num_axes == 2 ? choice->axes[0].window.width : 1);
+}
+
 double ps_nufft_flops(const ps_nufft_choice *choice, ps_precision precision, double num_points) {
-    const ps_nufft_axis *last = &choice->axes[choice->num_axes - 1];
-    const double kept = 2.0 * last->max_frequency + 1;
-    double visits = num_points;
-    double transforms = ps_fft_cycles(last->n);
-    if (choice->num_axes == PS_NUFFT_MAX_AXES) {
-        const ps_nufft_axis *first = &choice->axes[0];
-        visits *= first->window.width;
-        transforms = first->n * transforms + kept * ps_fft_cycles(first->n);
-    }
-    const double cycles =
-        divide_up(choice->span, nominal_lanes[precision]) *
-            (visits * (cycles_per_value + cycles_per_cell * last->window.width) + transforms) +
-        num_points * cycles_per_point;
-    return cycles * nominal_lanes[precision] * flops_per_lane;
+    const unsigned lanes = nominal_lanes[precision];
+    const double tiles = divide_up(choice->span, lanes);
+    const double cycles = tiles * tile_cycles(choice) +
+                          (choice->is_gridded ? grid_cycles(choice, lanes, num_points)
+                                              : tiles * spread_cycles(choice, num_points)) +
+                          num_points * cycles_per_point;
+    return cycles * lanes * flops_per_lane;
 }
 
 /* ---- choice ------------------------------------------------------------------------------ */
@@ -147,6 +198,8 @@ static ps_nufft_axis choose_width(const ps_nufft_choice *whole, unsigned which, 
     double least_error = HUGE_VAL;
     ps_problem alone_problem = *problem;
     alone_problem.tolerance = tolerance;
+    alone_problem.planned_points = (uint64_t)points_of(problem);
+    alone_problem.num_points = 1; /* dense cells are no matter of widths */
     for (unsigned width = PS_NUFFT_MIN_WIDTH;
          width <= PS_NUFFT_MAX_WIDTH && least_error > tolerance; width++) {
         const ps_nufft_choice alone = {
@@ -160,6 +213,18 @@ static ps_nufft_axis choose_width(const ps_nufft_choice *whole, unsigned which, 
     return best;
 }
 
+/* Cells of a grid's last axis fill whole vectors, twice. */
+static uint32_t length_for(const ps_nufft_choice *whole, unsigned which, uint64_t least,
+                           ps_precision precision) {
+    const uint32_t unit = 2 * nominal_lanes[precision];
+    uint32_t n = ps_fft_good_length(least);
+    if (whole->is_gridded && which + 1 == whole->num_axes) {
+        const uint64_t units = (least + unit - 1) / unit;
+        n = (uint32_t)(ps_fft_good_length(units) * unit);
+    }
+    return n;
+}
+
 static size_t list_candidates(const ps_nufft_choice *whole, unsigned which,
                               const ps_problem *problem, ps_precision precision,
                               ps_nufft_axis candidates[MAX_CANDIDATES]) {
@@ -167,8 +232,9 @@ static size_t list_candidates(const ps_nufft_choice *whole, unsigned which,
     const uint64_t least = (uint64_t)fmax(LEAST_CELLS, ceil(least_sigma * twice_k + 1));
     const uint64_t last = ps_fft_good_length((uint64_t)fmax(LEAST_CELLS, largest_sigma * twice_k));
     size_t num = 0;
-    for (uint32_t n = ps_fft_good_length(least); n != 0 && n <= last && num < MAX_CANDIDATES;
-         n = ps_fft_good_length((uint64_t)n + 1)) {
+    for (uint32_t n = length_for(whole, which, least, precision);
+         n != 0 && n <= last && num < MAX_CANDIDATES;
+         n = length_for(whole, which, (uint64_t)n + 1, precision)) {
         candidates[num++] = choose_width(whole, which, n, problem, precision);
     }
     return num;
@@ -191,22 +257,37 @@ static void consider(best_choice *best, const ps_nufft_choice *choice, const ps_
     }
 }
 
+/* Points added up before their sums go into pairs: so that what the mean of the cells rounds off stays small
+ * (about so many windows on a cell), without going over the grid too often. */
+static uint64_t choose_chunk(const ps_nufft_choice *choice) {
+    const double windows_on_a_cell = 16;
+    const double least = 4096;
+    const double most = 1 << 20;
+    double points = windows_on_a_cell;
+    for (unsigned i = 0; i < choice->num_axes; i++) {
+        points *= (double)choice->axes[i].n / choice->axes[i].window.width;
+    }
+    return (uint64_t)fmin(fmax(points, least), most);
+}
+
 /* All fine grids of a choice whose axes have frequencies. */
 static void consider_grids(best_choice *best, ps_nufft_choice *choice, const ps_problem *problem,
                            ps_precision precision) {
     ps_nufft_axis candidates[PS_NUFFT_MAX_AXES][MAX_CANDIDATES];
-    size_t num[PS_NUFFT_MAX_AXES] = {1, 1};
+    size_t num[PS_NUFFT_MAX_AXES] = {1, 1, 1};
+    size_t total = 1;
     for (unsigned i = 0; i < choice->num_axes; i++) {
         num[i] = list_candidates(choice, i, problem, precision, candidates[i]);
+        total *= num[i];
     }
-    for (size_t i = 0; i < num[0]; i++) {
-        choice->axes[0] = candidates[0][i];
-        for (size_t j = 0; j < num[1]; j++) {
-            if (choice->num_axes == PS_NUFFT_MAX_AXES) {
-                choice->axes[1] = candidates[1][j];
-            }
-            consider(best, choice, problem, precision);
+    for (size_t combination = 0; combination < total; combination++) {
+        size_t rest = combination;
+        for (unsigned i = 0; i < choice->num_axes; i++) {
+            choice->axes[i] = candidates[i][rest % num[i]];
+            rest /= num[i];
         }
+        choice->chunk = choice->is_gridded ? choose_chunk(choice) : 0;
+        consider(best, choice, problem, precision);
     }
 }
 
@@ -216,6 +297,16 @@ static ps_nufft_choice direct_choice(uint32_t max_frequency, unsigned dimension)
     for (unsigned i = 0; i < choice.num_axes; i++) {
         choice.axes[i] =
             (ps_nufft_axis){.axis = i + 1, .factor = 1, .max_frequency = (int32_t)max_frequency};
+    }
+    return choice;
+}
+
+/* A grid on all axes. */
+static ps_nufft_choice gridded_choice(uint32_t max_frequency, unsigned dimension) {
+    ps_nufft_choice choice = {.num_axes = dimension, .span = max_frequency + 1, .is_gridded = true};
+    for (unsigned i = 0; i < dimension; i++) {
+        choice.axes[i] =
+            (ps_nufft_axis){.axis = i, .factor = 1, .max_frequency = (int32_t)max_frequency};
     }
     return choice;
 }
@@ -237,6 +328,10 @@ ps_nufft_choice ps_nufft_choose(const ps_problem *problem, ps_precision precisio
     if (dimension == 2 || dimension == 3) {
         ps_nufft_choice choice = direct_choice(max_frequency, dimension);
         consider_grids(&best, &choice, problem, precision);
+        if (points_of(problem) >= least_gridded_points) {
+            choice = gridded_choice(max_frequency, dimension);
+            consider_grids(&best, &choice, problem, precision);
+        }
     } else {
         for (uint32_t tiles = 1; tiles <= MOST_TILES; tiles *= 2) {
             ps_nufft_choice choice =

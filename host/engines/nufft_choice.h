@@ -5,6 +5,9 @@
  * A tile is `lanes` neighbouring frequencies of axis 0, by direct phases; a fast transform makes all
  * frequencies of the other axes. Where axis 0 itself needs one (one dimension, very many points), its
  * frequencies are k_0 = stride (q + K) + t lanes + lane: the transform makes q from stride x_0 mod 1.
+ *
+ * One very large set is spread on all axes instead, as real numbers, chunk by chunk; a transform along axis 0
+ * makes the tiles, and the rest is the same.
  */
 #ifndef PS_ENGINES_NUFFT_CHOICE_H
 #define PS_ENGINES_NUFFT_CHOICE_H
@@ -12,7 +15,7 @@
 #include "engines/engine.h"
 #include "engines/nufft_window.h"
 
-enum { PS_NUFFT_MAX_AXES = 2 };
+enum { PS_NUFFT_MAX_AXES = 3 };
 
 typedef struct ps_nufft_axis {
     unsigned axis;         /* of the points */
@@ -28,8 +31,13 @@ typedef struct ps_nufft_choice {
     unsigned num_axes;
     uint32_t span;   /* frequencies of axis 0 by direct phases */
     uint32_t stride; /* the same where axis 0 has a transform, else 0 */
+    bool is_gridded; /* axis 0 is the first of the axes, spread like the others */
+    uint64_t chunk;  /* points whose numbers are added up in working precision; 0: all */
     ps_nufft_axis axes[PS_NUFFT_MAX_AXES];
 } ps_nufft_choice;
+
+/* The axes whose transforms make powers of tiles: all, but for axis 0 of a grid. */
+const ps_nufft_axis *ps_nufft_last_axes(const ps_nufft_choice *choice, unsigned *num);
 
 /* The cheapest that keeps the tolerance; the most exact one when none does. */
 ps_nufft_choice ps_nufft_choose(const ps_problem *problem, ps_precision precision);

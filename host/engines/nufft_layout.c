@@ -43,6 +43,8 @@ static void choose_at_once(ps_nufft_layout *layout, const ps_problem *problem,
 
 static void measure_axes(ps_nufft_layout *layout) {
     const ps_nufft_choice *choice = &layout->choice;
+    unsigned num_last = 0;
+    const ps_nufft_axis *last = ps_nufft_last_axes(choice, &num_last);
     layout->num_tiles = layout->lanes > 0 ? (choice->span + layout->lanes - 1) / layout->lanes : 0;
     layout->row_bytes = 0;
     layout->stride = (size_t)layout->num_tiles * layout->lanes;
@@ -52,12 +54,40 @@ static void measure_axes(ps_nufft_layout *layout) {
         const size_t numbers = ps_nufft_pitch(&choice->axes[i]) + 2 * (size_t)layout->lanes + 2;
         layout->row_bytes = bytes > layout->row_bytes ? bytes : layout->row_bytes;
         layout->chunk_reals = CHUNK * numbers;
-        layout->stride *= 2 * (size_t)choice->axes[i].max_frequency + 1;
     }
-    if (choice->num_axes == PS_NUFFT_MAX_AXES) {
-        layout->grid_cells = (size_t)layout->num_tiles * choice->axes[0].n *
-                             (2 * (size_t)choice->axes[1].max_frequency + 1);
+    for (unsigned i = 0; i < num_last; i++) {
+        layout->stride *= 2 * (size_t)last[i].max_frequency + 1;
     }
+    layout->num_keys = choice->axes[0].n;
+    if (num_last == 2) {
+        layout->grid_cells =
+            (size_t)layout->num_tiles * last[0].n * (2 * (size_t)last[1].max_frequency + 1);
+    }
+    if (choice->is_gridded) {
+        layout->grid_reals = choice->axes[0].n;
+        for (unsigned i = 1; i < choice->num_axes; i++) {
+            layout->grid_reals *= choice->axes[i].n;
+        }
+        layout->num_keys = (uint32_t)(layout->grid_reals / choice->axes[choice->num_axes - 1].n);
+    }
+}
+
+/* Memory of a large set: a chunk of points, the grid in pairs, rows of tiles, what two transforms leave. */
+static void measure_grid(ps_nufft_layout *layout, const ps_problem *problem) {
+    const uint64_t vector_bytes = 2 * layout->lanes * layout->real_bytes;
+    const uint64_t columns = layout->grid_reals / layout->choice.axes[0].n;
+    const uint64_t rows = layout->num_tiles * columns * vector_bytes;
+    const uint64_t transformed = layout->grid_cells * vector_bytes;
+    const uint64_t reals = layout->grid_reals * layout->real_bytes;
+    const uint64_t part =
+        layout->part_places * place_bytes(layout, problem->frequencies->dimension) +
+        ((uint64_t)layout->num_keys + 2) * sizeof(uint32_t);
+    const size_t parts = (problem->num_points + layout->part_points - 1) / layout->part_points;
+    layout->parts = parts < PS_NUFFT_MOST_PARTS ? parts : PS_NUFFT_MOST_PARTS;
+    layout->fixed_bytes = layout->parts * part + 2 * reals + rows + transformed;
+    layout->largest_buffer = rows > reals ? rows : reals;
+    layout->largest_buffer =
+        transformed > layout->largest_buffer ? transformed : layout->largest_buffer;
 }
 
 static size_t chunk_bytes(const ps_nufft_layout *layout) {
@@ -95,10 +125,18 @@ ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_
     }
     layout.group = choose_group(&layout, problem, limits);
     layout.part_points = problem->num_points;
-    layout.part_places = (size_t)round_up(problem->num_points, PLACE_UNIT);
+    if (layout.choice.is_gridded &&
+        layout.part_points > layout.choice.chunk / PS_NUFFT_MOST_PARTS) {
+        layout.part_points = layout.choice.chunk / PS_NUFFT_MOST_PARTS;
+    }
+    layout.part_places = (size_t)round_up(layout.part_points, PLACE_UNIT);
     layout.bytes_per_realization = layout.stride * layout.real_bytes;
     layout.largest_buffer_per_realization = layout.bytes_per_realization;
-    choose_at_once(&layout, problem, limits);
+    if (layout.choice.is_gridded) {
+        measure_grid(&layout, problem);
+    } else {
+        choose_at_once(&layout, problem, limits);
+    }
     return layout;
 }
 
@@ -106,19 +144,17 @@ uint32_t ps_nufft_slot(const ps_nufft_layout *layout, const int32_t *k, unsigned
     const ps_nufft_choice *choice = &layout->choice;
     const int32_t sign = k[0] < 0 ? -1 : 1; /* |S(-k)| = |S(k)| */
     const uint32_t along = (uint32_t)(sign * k[0]);
-    uint32_t within = along;
-    uint32_t cells[PS_NUFFT_MAX_AXES] = {0};
-    unsigned i = 0;
-    if (choice->stride != 0) {
-        cells[i++] = along / choice->stride;
-        within = along % choice->stride;
-    }
-    for (unsigned axis = 1; axis < dimension; axis++, i++) {
-        cells[i] = (uint32_t)(choice->axes[i].max_frequency + sign * k[axis]);
-    }
+    const uint32_t within = choice->stride != 0 ? along % choice->stride : along;
+    unsigned num = 0;
+    const ps_nufft_axis *last = ps_nufft_last_axes(choice, &num);
     uint32_t slot = within / layout->lanes;
-    for (i = choice->num_axes; i-- > 0;) {
-        slot = slot * (2 * (uint32_t)choice->axes[i].max_frequency + 1) + cells[i];
+    for (unsigned i = num;
+         i-- > 0;) { /* kernels/nufft/columns.cl writes the first axis innermost */
+        const int32_t q = choice->stride != 0
+                              ? (int32_t)(along / choice->stride) - last[i].max_frequency
+                              : sign * k[dimension - num + i];
+        slot = slot * (2 * (uint32_t)last[i].max_frequency + 1) +
+               (uint32_t)(last[i].max_frequency + q);
     }
     return slot * layout->lanes + within % layout->lanes;
 }

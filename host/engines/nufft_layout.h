@@ -7,6 +7,9 @@
 /* Points of a chunk, kernels/nufft/spread.h. */
 enum { PS_NUFFT_CHUNK = 16 };
 
+/* Parts of a chunk of a large set, which are sorted side by side. */
+enum { PS_NUFFT_MOST_PARTS = 8 };
+
 typedef struct ps_nufft_layout {
     ps_nufft_choice choice;
     unsigned lanes; /* 0: no row fits into local memory */
@@ -17,7 +20,9 @@ typedef struct ps_nufft_layout {
     uint32_t group;     /* tiles of a work-group */
     size_t stride;      /* powers in a row */
     size_t grid_cells;  /* of a realization between two transforms, [..][re, im][lanes] */
-    size_t part_points; /* points sorted together: all of a realization */
+    size_t grid_reals;  /* cells of the grid of a large set */
+    uint32_t num_keys;  /* cells that points are sorted by */
+    size_t part_points; /* points sorted together: all of a realization, or part of a chunk */
     size_t part_places; /* whole units of places for them */
     size_t parts;       /* whose places are made at a time */
     uint64_t fixed_bytes, bytes_per_realization;

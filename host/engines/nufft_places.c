@@ -10,7 +10,7 @@ enum { PLACE_UNIT = 16 };
 static pspec_status create_buffers(ps_nufft_places *self, ps_error *error) {
     const ps_nufft_layout *layout = self->layout;
     const size_t num = layout->parts * layout->part_places;
-    const size_t starts = layout->parts * ((size_t)layout->choice.axes[0].n + 2);
+    const size_t starts = layout->parts * ((size_t)layout->num_keys + 2);
     PS_TRY(ps_buffer_create(self->device, &self->places, (layout->parts + 1) * sizeof(uint64_t),
                             "places", error));
     PS_TRY(ps_buffer_create(self->device, &self->sorted, num * self->dimension * sizeof(uint64_t),
@@ -61,6 +61,9 @@ static pspec_status upload_places(ps_nufft_places *self, const ps_batch *parts, 
 
 pspec_status ps_nufft_places_make(ps_nufft_places *places, const ps_batch *parts, ps_error *error) {
     const ps_nufft_axis *axis = &places->layout->choice.axes[0];
+    static const ps_nufft_axis none = {.n = 1};
+    const ps_nufft_axis *second =
+        places->layout->num_keys > axis->n ? &places->layout->choice.axes[1] : &none;
     const double flops_per_point = 1000; /* work-groups of one work-item on CPUs */
     size_t num_points = 0;
     PS_TRY(ps_torus_points_upload(&places->points, places->device, parts, 0, &num_points, error));
@@ -72,5 +75,6 @@ pspec_status ps_nufft_places_make(ps_nufft_places *places, const ps_batch *parts
                      PS_BUFFER(places->places), PS_BUFFER(places->sorted),
                      PS_BUFFER(places->heights), PS_BUFFER(places->starts),
                      PS_U64(parts->num_patterns), PS_U32(places->dimension), PS_U32(axis->n),
-                     PS_U32(axis->window.width), PS_U32(axis->axis), PS_U64(axis->factor));
+                     PS_U32(axis->window.width), PS_U32(axis->axis), PS_U64(axis->factor),
+                     PS_U32(second->n), PS_U32(second->window.width), PS_U32(second->axis));
 }

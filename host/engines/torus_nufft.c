@@ -3,6 +3,7 @@
 #include "engines/torus_nufft.h"
 
 #include "base/memory.h"
+#include "engines/nufft_grid.h"
 #include "engines/nufft_layout.h"
 #include "engines/nufft_places.h"
 #include "engines/nufft_plan.h"
@@ -19,6 +20,7 @@ typedef struct torus_nufft {
     size_t batch;
     ps_nufft_plan plans[PS_NUFFT_MAX_AXES];
     ps_nufft_places places;
+    ps_nufft_grid large; /* gridded choices only */
     cl_kernel tile, rows, columns;
     ps_buffer means, pattern, grid, scales, power;
     double *means_of_parts;
@@ -112,6 +114,7 @@ static void destroy(void *state) {
     for (unsigned i = 0; i < PS_NUFFT_MAX_AXES; i++) {
         ps_nufft_plan_free(&self->plans[i]);
     }
+    ps_nufft_grid_free(&self->large);
     ps_nufft_places_free(&self->places);
     free(self->means_of_parts);
     free(self);
@@ -155,13 +158,14 @@ static pspec_status create_pattern(torus_nufft *self, ps_error *error) {
 static pspec_status create_buffers(torus_nufft *self, size_t rows, ps_error *error) {
     const ps_nufft_layout *layout = &self->layout;
     const size_t vector_bytes = 2 * layout->lanes * layout->real_bytes;
+    const size_t grid_cells = layout->choice.is_gridded ? 0 : layout->parts * layout->grid_cells;
     const struct {
         ps_buffer *buffer;
         size_t bytes;
         const char *what;
     } all[] = {
         {&self->means, layout->parts * layout->real_bytes, "means"},
-        {&self->grid, layout->parts * layout->grid_cells * vector_bytes, "transformed rows"},
+        {&self->grid, grid_cells * vector_bytes, "transformed rows"},
         {&self->scales, rows * layout->real_bytes, "scales"},
         {&self->power, rows * layout->stride * layout->real_bytes, "powers of a batch"},
     };
@@ -182,11 +186,15 @@ static pspec_status create_parts(torus_nufft *self, const ps_problem *problem, p
         PS_TRY(ps_nufft_plan_create(&self->plans[i], &choice->axes[i], problem->tolerance,
                                     self->precision, self->device, error));
     }
-    PS_TRY(create_kernels(self, error));
-    PS_TRY(create_pattern(self, error));
     PS_TRY(ps_nufft_places_create(&self->places, &self->layout, self->frequencies->dimension,
                                   self->precision, self->device, error));
-    return create_buffers(self, rows, error);
+    PS_TRY(create_buffers(self, rows, error));
+    if (choice->is_gridded) {
+        return ps_nufft_grid_create(&self->large, &self->layout, self->plans, &self->places,
+                                    self->precision, self->device, error);
+    }
+    PS_TRY(create_kernels(self, error));
+    return create_pattern(self, error);
 }
 
 static pspec_status create(void **state, const ps_problem *problem, ps_precision precision,
@@ -200,7 +208,9 @@ static pspec_status create(void **state, const ps_problem *problem, ps_precision
     self->precision = precision;
     self->batch = batch;
     self->layout = ps_nufft_layout_make(problem, ps_device_get_limits(device), precision);
-    self->layout.parts = self->layout.parts < batch ? self->layout.parts : batch;
+    if (!self->layout.choice.is_gridded && self->layout.parts > batch) {
+        self->layout.parts = batch;
+    }
     const pspec_status status = create_parts(self, problem, error);
     if (status != PSPEC_OK) {
         destroy(self);
@@ -249,17 +259,12 @@ static pspec_status upload_means(torus_nufft *self, const ps_batch *some, ps_err
                           some->num_patterns, error);
 }
 
-/* Work-groups of one item on CPUs, where lanes are vectors; of several that share a row on GPUs. */
 static ps_range group_range(const torus_nufft *self, size_t num_groups, size_t num_realizations,
                             const ps_nufft_axis *axis, size_t rows_of_group) {
     const double transforms =
         (double)(num_groups * num_realizations * rows_of_group) * self->layout.lanes;
-    ps_range range = ps_range_light(self->device, 1, num_groups, num_realizations,
-                                    transforms * ps_fft_flops(axis->n), 0);
-    if (!ps_device_get_limits(self->device)->has_dedicated_local_memory) {
-        range.global[0] = range.local[0] = 1;
-    }
-    return range;
+    return ps_nufft_group_range(self->device, num_groups, num_realizations,
+                                transforms * ps_fft_flops(axis->n));
 }
 
 static size_t row_bytes(const torus_nufft *self, const ps_nufft_axis *axis) {
@@ -350,18 +355,28 @@ static pspec_status transform(torus_nufft *self, const ps_batch *some, size_t fi
     return make_columns(self, some->num_patterns, first_row, error);
 }
 
+static pspec_status run_large(torus_nufft *self, const ps_batch *one, size_t row, ps_error *error) {
+    const ps_nufft_target target = {&self->power, &self->scales, row};
+    PS_TRY(ps_nufft_grid_begin(&self->large, error));
+    PS_TRY(ps_nufft_grid_add(&self->large, one, error));
+    PS_TRY(upload_means(self, one, error));
+    return ps_nufft_grid_finish(&self->large, &self->means, &target, error);
+}
+
 static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_error *error) {
     torus_nufft *self = state;
     PS_TRY(ps_nufft_write(self->device, &self->scales, self->precision, batch->scales,
                           batch->num_patterns, error));
-    for (size_t row = 0; row < batch->num_patterns; row += self->layout.parts) {
+    const bool is_large = self->layout.choice.is_gridded;
+    const size_t at_once = is_large ? 1 : self->layout.parts;
+    for (size_t row = 0; row < batch->num_patterns; row += at_once) {
         const size_t rest = batch->num_patterns - row;
         ps_batch some = *batch;
-        some.num_patterns = rest < self->layout.parts ? rest : self->layout.parts;
+        some.num_patterns = rest < at_once ? rest : at_once;
         some.patterns += row;
         some.exponents = batch->exponents != NULL ? batch->exponents + row : NULL;
         PS_TRY(ps_batch_go_on(batch, error));
-        PS_TRY(transform(self, &some, row, error));
+        PS_TRY(is_large ? run_large(self, &some, row, error) : transform(self, &some, row, error));
     }
     *rows = (ps_rows){.num_rows = batch->num_patterns,
                       .stride = self->layout.stride,
@@ -382,8 +397,8 @@ static void describe(const void *state, ps_text *text) {
                        axis->n / (2.0 * axis->max_frequency), axis->window.width,
                        self->plans[i].degree);
     }
-    ps_text_append(text, " group=%lu at_once=%zu)", (unsigned long)self->layout.group,
-                   self->layout.parts);
+    ps_text_append(text, "%s group=%lu at_once=%zu)", choice->is_gridded ? " gridded" : "",
+                   (unsigned long)self->layout.group, self->layout.parts);
 }
 
 const ps_engine ps_torus_nufft = {

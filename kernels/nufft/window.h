@@ -23,16 +23,21 @@ static inline real centred(const ulong fraction) {
     return (real)as_long(fraction ^ ((ulong)1 << 63)) * two_to_minus_63;
 }
 
+/* Bins bin .. bin + 7. */
+static inline real8 window_bins(const window_axis axis, const real centre, const uint bin) {
+    const real8 u = (real8)centre;
+    real8 value = vload8(0, axis.coefficients + axis.degree * axis.bins + bin);
+    for (uint i = axis.degree; i-- > 0;) {
+        value = fma(value, u, vload8(0, axis.coefficients + i * axis.bins + bin));
+    }
+    return value;
+}
+
 static inline void make_window(const window_axis axis, const real centre, const real weight,
                                __local real *window) {
-    const real8 u = (real8)centre;
     vstore4((real4)0, 0, window);
     for (uint bin = 0; bin < axis.bins; bin += 8) {
-        real8 value = vload8(0, axis.coefficients + axis.degree * axis.bins + bin);
-        for (uint i = axis.degree; i-- > 0;) {
-            value = fma(value, u, vload8(0, axis.coefficients + i * axis.bins + bin));
-        }
-        vstore8(value * (real8)weight, 0, window + GAP + bin);
+        vstore8(window_bins(axis, centre, bin) * (real8)weight, 0, window + GAP + bin);
     }
     for (uint i = GAP + axis.bins; i < axis.pitch; i++) {
         window[i] = 0;

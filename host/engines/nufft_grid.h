@@ -1,0 +1,41 @@
+/* One very large set on a grid of all axes: spread chunk by chunk, then transformed into powers
+ * (kernels/nufft/grid.cl, first.cl, finish.cl, columns.cl). Memory does not grow with the points.
+ */
+#ifndef PS_ENGINES_NUFFT_GRID_H
+#define PS_ENGINES_NUFFT_GRID_H
+
+#include "engines/nufft_places.h"
+#include "engines/nufft_plan.h"
+
+typedef struct ps_nufft_grid {
+    const ps_nufft_layout *layout;
+    const ps_nufft_plan *plans; /* of the axes */
+    ps_nufft_places *places;
+    ps_device *device;
+    cl_kernel spread, first, tile, rows, columns;
+    ps_buffer high, low, tile_rows, transformed;
+} ps_nufft_grid;
+
+/* Where powers go: row `realization` of power, times its entry in scales. */
+typedef struct ps_nufft_target {
+    const ps_buffer *power, *scales;
+    size_t realization;
+} ps_nufft_target;
+
+/* layout, plans and places are borrowed. */
+pspec_status ps_nufft_grid_create(ps_nufft_grid *out, const ps_nufft_layout *layout,
+                                  const ps_nufft_plan *plans, ps_nufft_places *places,
+                                  ps_precision precision, ps_device *device,
+                                  ps_error *error) PS_MUST_CHECK;
+void ps_nufft_grid_free(ps_nufft_grid *grid);
+
+/* An empty grid. */
+pspec_status ps_nufft_grid_begin(ps_nufft_grid *grid, ps_error *error) PS_MUST_CHECK;
+/* Any number of points more, the only pattern of the batch; it may be cancelled. */
+pspec_status ps_nufft_grid_add(ps_nufft_grid *grid, const ps_batch *batch,
+                               ps_error *error) PS_MUST_CHECK;
+/* means: a buffer whose first number is taken off every cell. */
+pspec_status ps_nufft_grid_finish(ps_nufft_grid *grid, const ps_buffer *means,
+                                  const ps_nufft_target *target, ps_error *error) PS_MUST_CHECK;
+
+#endif

@@ -1,0 +1,49 @@
+/* From rows of cells that are there (nufft/first.cl) to powers, or to the grid of nufft/columns.cl. Launch: (work-items
+ * of one group, tiles * rows); one row where there is one transform left.
+ *
+ *   rows       [tile][row][n][re, im][LANES]
+ *   radices, twiddles, position, gains, n, K  of nufft/finish.h, of the axis along rows
+ *   scales     [realization]
+ *   power      [realization][stride], there [tile][2K + 1][LANES]
+ *   grid       [tile][column -K .. K][row][re, im][LANES]
+ *   row        local, [n][re, im][LANES]
+ */
+#include "nufft/finish.h"
+
+static inline void load_row(__local real *row, __global const real *rows, const size_t index,
+                            const uint n) {
+    for (uint i = get_local_id(0); i < n; i += get_local_size(0)) {
+        store_complex(row, i, load_global(rows, index * n + i));
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);
+}
+
+__kernel void
+nufft_finish_tile(__global const real *restrict rows, __global const uint *restrict radices,
+                  __global const real *restrict twiddles, __global const uint *restrict position,
+                  __global const real *restrict gains, __global const real *restrict scales,
+                  __global real *restrict power, const uint realization, const ulong stride,
+                  const uint n, const uint K, __local real *row) {
+    const size_t tile = get_global_id(1);
+    const transform_axis axis = {radices, twiddles, position, gains, n, K};
+    load_row(row, rows, tile, n);
+    write_powers(row, axis, scales[realization],
+                 power + realization * stride + tile * (2 * K + 1) * LANES);
+}
+
+__kernel void nufft_finish_rows(__global const real *restrict rows,
+                                __global const uint *restrict radices,
+                                __global const real *restrict twiddles,
+                                __global const uint *restrict position,
+                                __global real *restrict grid, const uint num_rows, const uint n,
+                                const uint K, __local real *row) {
+    const size_t index = get_global_id(1);
+    const size_t tile = index / num_rows, m = index % num_rows;
+    const transform_axis axis = {radices, twiddles, position, 0, n, K};
+    load_row(row, rows, index, n);
+    fft_transform(row, n, radices, twiddles);
+    __global real *out = grid + (tile * (2 * K + 1) * num_rows + m) * 2 * LANES;
+    for (uint i = get_local_id(0); i < 2 * K + 1; i += get_local_size(0)) {
+        store_global(out, (size_t)i * num_rows, kept_frequency(row, axis, i));
+    }
+}
