@@ -7,6 +7,7 @@
 
 #include "engines/host_direct.h"
 #include "engines/torus_direct.h"
+#include "engines/torus_nufft.h"
 #include "plan/cost_model.h"
 
 #include <math.h>
@@ -25,35 +26,49 @@ static double best_run(bench_job *job) {
     return best;
 }
 
-static double measure(ps_device *device, ps_precision precision, int32_t k, size_t num_points,
-                      size_t num_realizations, ps_work *work) {
+/* Of fast transforms; it hardly matters to their rate. */
+#define TOLERANCE 1e-6
+
+static double measure(ps_device *device, const ps_engine *engine, ps_precision precision, int32_t k,
+                      size_t num_points, size_t num_realizations, ps_work *work) {
     ps_frequencies grid = {0};
     bench_job job;
     BENCH_TRY(ps_frequencies_lattice(&grid, 2, k, false, error));
-    bench_job_create(&job, &ps_torus_direct, precision, 1, device, grid, num_points,
+    bench_job_create(&job, engine, precision, TOLERANCE, device, grid, num_points,
                      num_realizations);
     const ps_problem problem = {.frequencies = &job.frequencies,
                                 .num_points = num_points,
-                                .num_realizations = num_realizations};
-    *work = ps_torus_direct.work(&problem, ps_device_get_limits(device), precision);
+                                .num_realizations = num_realizations,
+                                .tolerance = TOLERANCE};
+    *work = engine->work(&problem, ps_device_get_limits(device), precision);
     const double seconds = best_run(&job);
     bench_job_destroy(&job);
     return seconds;
+}
+
+/* Small and large grids: the geometric mean of what the cycles of host/engines/nufft_choice.c are worth. */
+static double transform_share(ps_device *device, ps_precision precision) {
+    const double peak = ps_cost_nominal_flops(ps_device_get_limits(device), precision);
+    ps_work small;
+    ps_work large;
+    const double a = measure(device, &ps_torus_nufft, precision, 32, 256, 1024, &small);
+    const double b = measure(device, &ps_torus_nufft, precision, 256, 4096, 32, &large);
+    return sqrt(small.transform_flops / (a * peak) * large.transform_flops / (b * peak));
 }
 
 /* Two grids, one where tables weigh most and one where products do: two equations for two rates. */
 static void calibrate(ps_device *device, ps_precision precision) {
     ps_work small;
     ps_work large;
-    const double a = measure(device, precision, 16, 1024, 1024, &small);
-    const double b = measure(device, precision, 256, 4096, 8, &large);
+    const double a = measure(device, &ps_torus_direct, precision, 16, 1024, 1024, &small);
+    const double b = measure(device, &ps_torus_direct, precision, 256, 4096, 8, &large);
     const double peak = ps_cost_nominal_flops(ps_device_get_limits(device), precision);
     const double determinant =
         small.phases * large.product_flops - large.phases * small.product_flops;
     const double phase = (a * large.product_flops - b * small.product_flops) / determinant;
     const double product = (small.phases * b - large.phases * a) / determinant;
-    printf("    [%s] = {%.3g, %.3g},\n", precision == PS_SINGLE ? "PS_SINGLE" : "PS_DOUBLE",
-           1 / (phase * peak), 1 / (product * peak));
+    printf("    [%s] = {%.3g, %.3g, %.3g},\n", precision == PS_SINGLE ? "PS_SINGLE" : "PS_DOUBLE",
+           1 / (phase * peak), 1 / (product * peak), transform_share(device, precision));
 }
 
 static double host_seconds_per_phase(void) {
@@ -79,7 +94,7 @@ int main(void) {
     const ps_device_limits *limits = ps_device_get_limits(device);
     printf("/* %s, %u compute units at %u MHz, %s */\n", limits->name, limits->compute_units,
            limits->clock_mhz, limits->version);
-    printf("device_rates (phases_per_flop, product_share):\n");
+    printf("device_rates (phases_per_flop, product_share, transform_share):\n");
     calibrate(device, PS_SINGLE);
     if (limits->has_fp64) {
         calibrate(device, PS_DOUBLE);
