@@ -275,13 +275,16 @@ static pspec_status run_again(ps_power_job *job, ps_error *error) {
     job->problem.expected_power = job->accuracy.largest_mean_power;
     PS_TRY(make_plan(job, error));
     PS_TRY(ps_plan_require(&job->plan, &job->problem, error));
+    const ps_precision precision = job->plan.chosen->precision;
     if (!ps_source_can_rewind(job->source)) {
-        return ps_fail(error, PSPEC_ERROR_TOLERANCE,
-                       "these sets have a mean power of %.3g, so single precision has an error of "
-                       "%.2g, above the tolerance %g, and standard input cannot be read twice: add "
-                       "--precision %s",
-                       job->accuracy.largest_mean_power, job->accuracy.error,
-                       job->problem.tolerance, ps_precision_name(job->plan.chosen->precision));
+        return ps_fail(
+            error, PSPEC_ERROR_TOLERANCE,
+            "these sets have a mean power of %.3g, so what was planned has an error of "
+            "%.2g, above the tolerance %g, and standard input cannot be read twice: give a "
+            "file%s%s",
+            job->accuracy.largest_mean_power, job->accuracy.error, job->problem.tolerance,
+            precision == PS_SINGLE ? "" : ", or --precision ",
+            precision == PS_SINGLE ? "" : ps_precision_name(precision));
     }
     job->was_replanned = true;
     PS_TRY(ps_source_rewind(job->source, error));
