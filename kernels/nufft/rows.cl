@@ -80,7 +80,7 @@ nufft_rows(__global const ulong *restrict places, __global const ulong *restrict
         __global real *out =
             grid + ((realization * num_tiles + tile) * (2 * K + 1) * num_rows + m) * 2 * LANES;
         for (uint i = get_local_id(0); i < 2 * K + 1; i += get_local_size(0)) {
-            store_global(out, (size_t)i * num_rows, kept_frequency(row, transform, i));
+            store_global_complex(out, (size_t)i * num_rows, kept_frequency(row, transform, i));
         }
     }
 }

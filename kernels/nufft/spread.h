@@ -50,16 +50,16 @@ static inline void fill_place(const chunk to, const uint i, __global const ulong
     make_window(axis, centred(fraction), weight, to.windows + i * axis.pitch);
     to.along[i] = x[0];
     turn_cosine_sine(phases_of_lanes(LOADV(0, lane_numbers), x[0]), &cosine, &sine);
-    STOREV(cosine, 2 * i, to.phases);
-    STOREV(-sine, 2 * i + 1, to.phases);
+    store_local(to.phases, 2 * i, cosine);
+    store_local(to.phases, 2 * i + 1, -sine);
 }
 
 static inline void fill_turns(const chunk to, const uint k) {
     for (uint i = get_local_id(0) * LANES; i < CHUNK; i += get_local_size(0) * LANES) {
         realv cosine, sine;
         turn_cosine_sine(phases_of_points(k, LOADV(0, to.along + i)), &cosine, &sine);
-        STOREV(cosine, 0, to.turns + i);
-        STOREV(-sine, 0, to.turns + CHUNK + i);
+        store_local(to.turns + i, 0, cosine);
+        store_local(to.turns + CHUNK + i, 0, -sine);
     }
     barrier(CLK_LOCAL_MEM_FENCE);
 }
@@ -77,8 +77,8 @@ static inline void add_one(__local real *row, const uint width, const chunk from
     row += from.cells[i] * 2 * LANES;
     for (uint bin = 0; bin < width; bin++) {
         const realv height = (realv)window[bin];
-        STOREV(fma(height, value.re, LOADV(0, row)), 0, row);
-        STOREV(fma(height, value.im, LOADV(1, row)), 1, row);
+        store_local(row, 0, fma(height, value.re, load_local(row, 0)));
+        store_local(row, 1, fma(height, value.im, load_local(row, 1)));
         row += 2 * LANES;
     }
 }
@@ -93,10 +93,10 @@ static inline void add_two(__local real *row, const uint num_cells, const uint a
     row += from.cells[i] * 2 * LANES;
     for (uint bin = 0; bin < num_cells; bin++) {
         const realv height = (realv)window[bin], next_height = (realv)next_window[bin];
-        const realv re = fma(height, value.re, LOADV(0, row));
-        const realv im = fma(height, value.im, LOADV(1, row));
-        STOREV(fma(next_height, next.re, re), 0, row);
-        STOREV(fma(next_height, next.im, im), 1, row);
+        const realv re = fma(height, value.re, load_local(row, 0));
+        const realv im = fma(height, value.im, load_local(row, 1));
+        store_local(row, 0, fma(next_height, next.re, re));
+        store_local(row, 1, fma(next_height, next.im, im));
         row += 2 * LANES;
     }
 }
@@ -115,13 +115,13 @@ static inline void add_four(__local real *row, const uint num_cells, const chunk
     for (uint bin = 0; bin < num_cells; bin++) {
         const realv at_a = (realv)in_a[bin], at_b = (realv)in_b[bin];
         const realv at_c = (realv)in_c[bin], at_d = (realv)in_d[bin];
-        realv re = fma(at_a, a.re, LOADV(0, row)), im = fma(at_a, a.im, LOADV(1, row));
+        realv re = fma(at_a, a.re, load_local(row, 0)), im = fma(at_a, a.im, load_local(row, 1));
         re = fma(at_b, b.re, re);
         im = fma(at_b, b.im, im);
         re = fma(at_c, c.re, re);
         im = fma(at_c, c.im, im);
-        STOREV(fma(at_d, d.re, re), 0, row);
-        STOREV(fma(at_d, d.im, im), 1, row);
+        store_local(row, 0, fma(at_d, d.re, re));
+        store_local(row, 1, fma(at_d, d.im, im));
         row += 2 * LANES;
     }
 }
