@@ -96,31 +96,60 @@ double ps_nufft_error(const ps_nufft_choice *choice, const ps_problem *problem,
 
 /* ---- cost -------------------------------------------------------------------------------- */
 
-/* Cycles on a core with vectors of `lanes` numbers (Zen 5, PoCL 3.1, 2026-11, profile of bench_nufft): of
- * a point to be sorted, and for windows and phases; of a point in a tile, and of a cell of its window
- * there. */
-static const double cycles_per_point = 60;
-static const double cycles_per_value = 6;
-static const double cycles_per_cell = 1.2;
+/* Cycles on a core with vectors of `lanes` numbers (Zen 5, PoCL 3.1, 2026-11, profile of bench_nufft, parts left
+ * out in turn): of a point to be sorted; for its phases, once for all tiles whose rows are in local memory
+ * together, and for its windows, where a fused operation makes a value of `lanes` points; of a point in a tile,
+ * and of a cell that it touches there; of a cell to be cleared, and of a frequency to be written. */
+static const double cycles_per_point = 16;
+static const double cycles_per_phase = 19;
+static const double cycles_per_coefficient = 0.5;
+static const double cycles_per_value = 2.5;
+static const double cycles_per_touched = 1;
+static const double cycles_per_cell = 2.3;
+static const double cycles_per_power = 12;
+
+/* Local memory to choose for, whatever the device has. */
+static const double nominal_local_bytes = 1 << 20;
 
 /* Two fused operations in a cycle. */
 static const double flops_per_lane = 4;
 
+/* Four neighbours are added together: to cells from the first of one window to the last of another. */
+static double touched_cells(const ps_nufft_axis *axis, double num_points) {
+    const double between = 3 * (double)axis->n / num_points;
+    return axis->window.width + fmin(between, axis->window.width);
+}
+
+/* Of a point: windows and phases, for all tiles. */
+static double cycles_of_point(const ps_nufft_axis *axis, double num_tiles, double lanes) {
+    const double vector_bytes = 64;
+    const double tiles_at_once = fmax(1, floor(nominal_local_bytes / (2 * vector_bytes * axis->n)));
+    const double degree = axis->window.width + 2;
+    return ceil(num_tiles / tiles_at_once) *
+           (cycles_per_phase + cycles_per_coefficient * axis->window.width * degree / lanes);
+}
+
 double ps_nufft_flops(const ps_nufft_choice *choice, ps_precision precision, double num_points) {
     const ps_nufft_axis *last = &choice->axes[choice->num_axes - 1];
+    const double lanes = nominal_lanes[precision];
+    const double num_tiles = divide_up(choice->span, nominal_lanes[precision]);
     const double kept = 2.0 * last->max_frequency + 1;
     double visits = num_points;
-    double transforms = ps_fft_cycles(last->n);
+    double rows = 1;
+    double columns = 0;
     if (choice->num_axes == PS_NUFFT_MAX_AXES) {
         const ps_nufft_axis *first = &choice->axes[0];
         visits *= first->window.width;
-        transforms = first->n * transforms + kept * ps_fft_cycles(first->n);
+        rows = first->n;
+        columns = kept * (ps_fft_cycles(first->n) + cycles_per_power * kept);
     }
+    const double touched = touched_cells(last, visits / rows);
+    const double row = ps_fft_cycles(last->n) + cycles_per_cell * last->n + cycles_per_power * kept;
     const double cycles =
-        divide_up(choice->span, nominal_lanes[precision]) *
-            (visits * (cycles_per_value + cycles_per_cell * last->window.width) + transforms) +
-        num_points * cycles_per_point;
-    return cycles * nominal_lanes[precision] * flops_per_lane;
+        num_points * cycles_per_point + visits * cycles_of_point(last, num_tiles, lanes) +
+        num_tiles *
+            (visits * (cycles_per_value + cycles_per_touched * touched) + rows * row + columns);
+    return cycles * lanes * flops_per_lane;
 }
 
 /* ---- choice ------------------------------------------------------------------------------ */
