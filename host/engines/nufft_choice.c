@@ -108,8 +108,8 @@ static const double cycles_per_touched = 1;
 static const double cycles_per_cell = 2.3;
 static const double cycles_per_power = 12;
 
-/* Local memory to choose for, whatever the device has. */
-static const double nominal_local_bytes = 1 << 20;
+/* Local memory for rows to choose for, whatever the device has; the rest is for a chunk of points. */
+static const double nominal_local_bytes = (1 << 20) - (8 << 10);
 
 /* Two fused operations in a cycle. */
 static const double flops_per_lane = 4;
@@ -120,19 +120,24 @@ static double touched_cells(const ps_nufft_axis *axis, double num_points) {
     return axis->window.width + fmin(between, axis->window.width);
 }
 
+/* Rows that fit into local memory; less than 1 where tiles must be narrower. */
+static double rows_at_once(const ps_nufft_axis *axis) {
+    const double vector_bytes = 64;
+    return nominal_local_bytes / (2 * vector_bytes * axis->n);
+}
+
 /* Of a point: windows and phases, for all tiles. */
 static double cycles_of_point(const ps_nufft_axis *axis, double num_tiles, double lanes) {
-    const double vector_bytes = 64;
-    const double tiles_at_once = fmax(1, floor(nominal_local_bytes / (2 * vector_bytes * axis->n)));
     const double degree = axis->window.width + 2;
-    return ceil(num_tiles / tiles_at_once) *
+    return ceil(num_tiles / fmax(1, floor(rows_at_once(axis)))) *
            (cycles_per_phase + cycles_per_coefficient * axis->window.width * degree / lanes);
 }
 
 double ps_nufft_flops(const ps_nufft_choice *choice, ps_precision precision, double num_points) {
     const ps_nufft_axis *last = &choice->axes[choice->num_axes - 1];
     const double lanes = nominal_lanes[precision];
-    const double num_tiles = divide_up(choice->span, nominal_lanes[precision]);
+    const double num_tiles =
+        divide_up(choice->span, nominal_lanes[precision]) * ceil(1 / fmin(1, rows_at_once(last)));
     const double kept = 2.0 * last->max_frequency + 1;
     double visits = num_points;
     double rows = 1;
