@@ -1,6 +1,6 @@
 /* Time and error of torus_nufft beside torus_direct, alternating in one run.
  *
- *     bench_nufft [CASE...]        a case is "N K R TOLERANCE single|double", two dimensions
+ *     bench_nufft [CASE...]        a case is "N K R TOLERANCE single|double [DIMENSION]", two dimensions by default
  *
  * The machine may be shared: minimum and median of each, and the median of the ratios. The passes are timed
  * in a run of their own, with the profile of the device. Errors as in bench_torus.
@@ -10,6 +10,7 @@
 #include "engines/torus_direct.h"
 #include "engines/torus_nufft.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -31,20 +32,22 @@ typedef struct bench_case {
     int k;
     double tolerance;
     ps_precision precision;
+    unsigned dimension;
 } bench_case;
 
 static bool parse_case(const char *text, bench_case *out) {
     char precision[8];
-    const int num = sscanf(text, "%zu %d %zu %lf %7s", &out->num_points, &out->k,
-                           &out->num_realizations, &out->tolerance, precision);
+    out->dimension = 2;
+    const int num = sscanf(text, "%zu %d %zu %lf %7s %u", &out->num_points, &out->k,
+                           &out->num_realizations, &out->tolerance, precision, &out->dimension);
     out->precision = strcmp(precision, "double") == 0 ? PS_DOUBLE : PS_SINGLE;
-    return num == 5;
+    return num >= 5;
 }
 
 static void create(bench_job *job, const ps_engine *engine, const bench_case *what,
                    size_t num_realizations, ps_device *device) {
     ps_frequencies grid = {0};
-    BENCH_TRY(ps_frequencies_lattice(&grid, 2, what->k, false, error));
+    BENCH_TRY(ps_frequencies_lattice(&grid, what->dimension, what->k, false, error));
     bench_job_create(job, engine, what->precision, what->tolerance, device, grid, what->num_points,
                      num_realizations);
 }
@@ -52,7 +55,7 @@ static void create(bench_job *job, const ps_engine *engine, const bench_case *wh
 /* torus_direct takes so much longer for large grids that fewer realizations must do. */
 static size_t fewer(const bench_case *what) {
     const double most_flops = 1e11;
-    const double each = 8.0 * what->k * what->k * (double)what->num_points;
+    const double each = 2 * pow(2.0 * what->k, what->dimension) * (double)what->num_points;
     const double num = most_flops / each;
     return num < 2                                ? 2
            : num < (double)what->num_realizations ? (size_t)num

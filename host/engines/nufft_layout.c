@@ -9,7 +9,7 @@ static const double gpu_work_bytes = 512.0 * 1024 * 1024;
 enum { DEFAULT_CACHE_BYTES = 8 << 20, MOST_AT_ONCE = 1024 };
 
 /* kernels/nufft/place.h, kernels/nufft/spread.h */
-enum { PLACE_UNIT = 16, CHUNK = PS_NUFFT_CHUNK };
+enum { PLACE_UNIT = 16, CHUNK = PS_NUFFT_CHUNK, TURN_REALS = 2 * CHUNK };
 
 static uint64_t round_up(uint64_t a, uint64_t unit) {
     return (a + unit - 1) / unit * unit;
@@ -90,6 +90,12 @@ static void measure_grid(ps_nufft_layout *layout, const ps_problem *problem) {
         transformed > layout->largest_buffer ? transformed : layout->largest_buffer;
 }
 
+/* Of a tile: its row, and how much each point of a chunk turns. */
+static size_t tile_bytes(const ps_nufft_layout *layout) {
+    return layout->row_bytes + TURN_REALS * layout->real_bytes;
+}
+
+/* Without turns. */
 static size_t chunk_bytes(const ps_nufft_layout *layout) {
     return layout->chunk_reals * layout->real_bytes + CHUNK * (sizeof(uint64_t) + sizeof(uint32_t));
 }
@@ -101,7 +107,7 @@ static uint32_t choose_group(const ps_nufft_layout *layout, const ps_problem *pr
     if (limits->has_dedicated_local_memory) {
         return 1;
     }
-    const size_t room = (limits->local_bytes - chunk_bytes(layout)) / layout->row_bytes;
+    const size_t room = (limits->local_bytes - chunk_bytes(layout)) / tile_bytes(layout);
     const uint32_t largest = room > 1 ? (uint32_t)room : 1;
     uint32_t groups = (layout->num_tiles + largest - 1) / largest;
     const bool has_one = problem->num_realizations == 1 && layout->choice.num_axes == 1;
@@ -116,7 +122,7 @@ ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_
                               .real_bytes =
                                   precision == PS_SINGLE ? sizeof(float) : sizeof(double)};
     measure_axes(&layout);
-    while (layout.lanes > 0 && layout.row_bytes + chunk_bytes(&layout) > limits->local_bytes) {
+    while (layout.lanes > 0 && tile_bytes(&layout) + chunk_bytes(&layout) > limits->local_bytes) {
         layout.lanes /= 2;
         measure_axes(&layout);
     }
@@ -124,6 +130,7 @@ ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_
         return layout;
     }
     layout.group = choose_group(&layout, problem, limits);
+    layout.chunk_reals += layout.group * TURN_REALS;
     layout.part_points = problem->num_points;
     if (layout.choice.is_gridded &&
         layout.part_points > layout.choice.chunk / PS_NUFFT_MOST_PARTS) {

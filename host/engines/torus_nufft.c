@@ -271,12 +271,6 @@ static size_t row_bytes(const torus_nufft *self, const ps_nufft_axis *axis) {
     return ps_nufft_row_cells(axis) * 2 * self->layout.lanes * self->layout.real_bytes;
 }
 
-/* Neighbours in the order of cells are nearly always so close. */
-static uint32_t gap_of(const torus_nufft *self) {
-    const double density = (double)self->layout.part_points / self->layout.choice.axes[0].n;
-    return density > 5 ? 1 : density > 2.5 ? 2 : 4;
-}
-
 /* Arguments of an axis, as kernels/nufft/window.h has them. */
 #define WINDOW_ARGUMENTS(plan)                                                                     \
     PS_U32((plan)->axis.n), PS_U32((plan)->axis.window.width), PS_U32((plan)->axis.axis),          \
@@ -299,16 +293,16 @@ static pspec_status make_tiles(torus_nufft *self, size_t num_realizations, size_
     const ps_nufft_places *places = &self->places;
     const ps_range range =
         group_range(self, num_groups(self), num_realizations, &plan->axis, self->layout.group);
-    return PS_LAUNCH(
-        self->device, self->tile, &range, error, PS_BUFFER(places->places),
-        PS_BUFFER(places->sorted), PS_BUFFER(places->heights), PS_BUFFER(plan->coefficients),
-        PS_BUFFER(plan->fft.radices), PS_BUFFER(plan->fft.twiddles), PS_BUFFER(plan->fft.position),
-        PS_BUFFER(plan->gains), PS_BUFFER(self->means), PS_BUFFER(self->pattern),
-        PS_BUFFER(self->scales), PS_BUFFER(self->power), PS_U32(first_row),
-        PS_U64(self->layout.stride), PS_U32(ps_nufft_base(&self->layout.choice)),
-        PS_U32(self->layout.num_tiles), PS_U32(self->layout.group),
-        PS_U32(self->frequencies->dimension), WINDOW_ARGUMENTS(plan), PS_U32(gap_of(self)),
-        PS_U32(plan->axis.max_frequency), LOCAL_ARGUMENTS(self, &plan->axis));
+    return PS_LAUNCH(self->device, self->tile, &range, error, PS_BUFFER(places->places),
+                     PS_BUFFER(places->sorted), PS_BUFFER(places->heights),
+                     PS_BUFFER(plan->coefficients), PS_BUFFER(plan->fft.radices),
+                     PS_BUFFER(plan->fft.twiddles), PS_BUFFER(plan->fft.position),
+                     PS_BUFFER(plan->gains), PS_BUFFER(self->means), PS_BUFFER(self->pattern),
+                     PS_BUFFER(self->scales), PS_BUFFER(self->power), PS_U32(first_row),
+                     PS_U64(self->layout.stride), PS_U32(ps_nufft_base(&self->layout.choice)),
+                     PS_U32(self->layout.num_tiles), PS_U32(self->layout.group),
+                     PS_U32(self->frequencies->dimension), WINDOW_ARGUMENTS(plan),
+                     PS_U32(plan->axis.max_frequency), LOCAL_ARGUMENTS(self, &plan->axis));
 }
 
 static pspec_status make_rows(torus_nufft *self, size_t num_realizations, ps_error *error) {

@@ -4,7 +4,7 @@
 #ifndef PS_NUFFT_BUTTERFLY_H
 #define PS_NUFFT_BUTTERFLY_H
 
-#include "shared/real.h"
+#include "nufft/lanes.h"
 
 typedef struct complexv {
     realv re, im;

@@ -24,7 +24,7 @@ nufft_columns(__global const real *restrict grid, __global const uint *restrict 
     __global const real *from =
         grid + (realization * get_global_size(1) + in_tiles) * n * (size_t)(2 * LANES);
     for (uint i = get_local_id(0); i < n; i += get_local_size(0)) {
-        store_complex(column, i, load_global(from, i));
+        store_complex(column, i, load_global_complex(from, i));
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     write_powers(column, transform,

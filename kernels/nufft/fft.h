@@ -17,21 +17,21 @@
 #include "nufft/butterfly.h"
 
 static inline complexv load_complex(__local const real *from, const size_t cell) {
-    return (complexv){LOADV(2 * cell, from), LOADV(2 * cell + 1, from)};
+    return (complexv){load_local(from, 2 * cell), load_local(from, 2 * cell + 1)};
 }
 
-static inline complexv load_global(__global const real *from, const size_t cell) {
-    return (complexv){LOADV(2 * cell, from), LOADV(2 * cell + 1, from)};
-}
-
-static inline void store_global(__global real *to, const size_t cell, const complexv x) {
-    STOREV(x.re, 2 * cell, to);
-    STOREV(x.im, 2 * cell + 1, to);
+static inline complexv load_global_complex(__global const real *from, const size_t cell) {
+    return (complexv){load_global(from, 2 * cell), load_global(from, 2 * cell + 1)};
 }
 
 static inline void store_complex(__local real *to, const size_t cell, const complexv x) {
-    STOREV(x.re, 2 * cell, to);
-    STOREV(x.im, 2 * cell + 1, to);
+    store_local(to, 2 * cell, x.re);
+    store_local(to, 2 * cell + 1, x.im);
+}
+
+static inline void store_global_complex(__global real *to, const size_t cell, const complexv x) {
+    store_global(to, 2 * cell, x.re);
+    store_global(to, 2 * cell + 1, x.im);
 }
 
 /* One pass: transforms of length RADIX m, one behind the other, into RADIX transforms of length m each.
@@ -54,15 +54,14 @@ static inline void store_complex(__local real *to, const size_t cell, const comp
             __local real *at = data + t * 2 * LANES;                                               \
             __global const real *factor = twiddles + t * (2 * (RADIX - 1));                        \
             _Pragma("unroll") for (int j = 0; j < RADIX; j++) {                                    \
-                x[j] = (complexv){LOADV(0, at + j * stride), LOADV(1, at + j * stride)};           \
+                x[j] = load_complex(at + j * stride, 0);                                           \
             }                                                                                      \
             butterfly_##RADIX(x);                                                                  \
             _Pragma("unroll") for (int j = 0; j < RADIX; j++) {                                    \
                 if (j > 0) {                                                                       \
                     x[j] = complex_multiply(x[j], factor[2 * j - 2], factor[2 * j - 1]);           \
                 }                                                                                  \
-                STOREV(x[j].re, 0, at + j * stride);                                               \
-                STOREV(x[j].im, 1, at + j * stride);                                               \
+                store_complex(at + j * stride, 0, x[j]);                                           \
             }                                                                                      \
             t += get_local_size(0);                                                                \
         }                                                                                          \

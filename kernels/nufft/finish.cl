@@ -13,7 +13,7 @@
 static inline void load_row(__local real *row, __global const real *rows, const size_t index,
                             const uint n) {
     for (uint i = get_local_id(0); i < n; i += get_local_size(0)) {
-        store_complex(row, i, load_global(rows, index * n + i));
+        store_complex(row, i, load_global_complex(rows, index * n + i));
     }
     barrier(CLK_LOCAL_MEM_FENCE);
 }
@@ -44,6 +44,6 @@ __kernel void nufft_finish_rows(__global const real *restrict rows,
     fft_transform(row, n, radices, twiddles);
     __global real *out = grid + (tile * (2 * K + 1) * num_rows + m) * 2 * LANES;
     for (uint i = get_local_id(0); i < 2 * K + 1; i += get_local_size(0)) {
-        store_global(out, (size_t)i * num_rows, kept_frequency(row, axis, i));
+        store_global_complex(out, (size_t)i * num_rows, kept_frequency(row, axis, i));
     }
 }

@@ -39,7 +39,7 @@ static inline void write_powers(__local real *row, const transform_axis axis, co
     for (uint i = get_local_id(0); i < 2 * axis.K + 1; i += get_local_size(0)) {
         const complexv z = kept_frequency(row, axis, i);
         const real gain = axis.gains[i >= axis.K ? i - axis.K : axis.K - i] * scale;
-        STOREV(fma(z.re, z.re, z.im * z.im) * (realv)gain, i, power);
+        store_global(power, i, fma(z.re, z.re, z.im * z.im) * (realv)gain);
     }
 }
 

@@ -19,9 +19,10 @@ static inline void load_cells(__local real *cells, __global const real *high,
                               const size_t first, const uint n) {
     for (uint m = get_local_id(0); m < n; m += get_local_size(0)) {
         const size_t at = m * columns + first;
-        store_complex(cells, m,
-                      (complexv){LOADV(0, high + at) + LOADV(0, low + at) - (realv)mean,
-                                 LOADV(1, high + at) + LOADV(1, low + at) - (realv)mean});
+        store_complex(
+            cells, m,
+            (complexv){load_global(high + at, 0) + load_global(low + at, 0) - (realv)mean,
+                       load_global(high + at, 1) + load_global(low + at, 1) - (realv)mean});
     }
     barrier(CLK_LOCAL_MEM_FENCE);
 }
@@ -47,8 +48,8 @@ static inline void write_tile(__local const real *cells, const transform_axis ax
     transpose(b_im);
 #pragma unroll
     for (int i = 0; i < LANES; i++) {
-        store_global(rows, i, (complexv){a_re[i], a_im[i]});
-        store_global(rows, LANES + i, (complexv){b_re[i], b_im[i]});
+        store_global_complex(rows, i, (complexv){a_re[i], a_im[i]});
+        store_global_complex(rows, LANES + i, (complexv){b_re[i], b_im[i]});
     }
 }
 

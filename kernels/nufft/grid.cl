@@ -58,7 +58,8 @@ static inline void add_alone(__local real *rows, const grid_axes axes, const gri
         __local real *at = rows + first * pitch + point.cell + bin;
         for (uint row = first; row < end; row++) {
             const real8 height = (real8)across[first_bin + row - first];
-            vstore8(fma(height, values, vload8(0, at)), 0, at);
+            __local unaligned_real8 *cells = (__local unaligned_real8 *)at;
+            *cells = fma(height, values, *cells);
             at += pitch;
         }
     }
@@ -95,10 +96,10 @@ static inline void add_to_grid(__local real *rows, const uint num_rows, const wi
     for (uint row = 0; row < num_rows; row++) {
         for (size_t i = get_local_id(0); i < last.n / LANES; i += get_local_size(0)) {
             const size_t at = row * (size_t)(last.n / LANES) + i;
-            realv sum = LOADV(at, high), rest = LOADV(at, low);
-            pair_add(&sum, &rest, LOADV(i, rows + row * pitch));
-            STOREV(sum, at, high);
-            STOREV(rest, at, low);
+            realv sum = load_global(high, at), rest = load_global(low, at);
+            pair_add(&sum, &rest, load_local(rows + row * pitch, i));
+            store_global(high, at, sum);
+            store_global(low, at, rest);
         }
     }
 }

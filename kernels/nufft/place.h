@@ -4,7 +4,7 @@
  * of PLACE_UNIT.
  *
  * Window values of a place are [pitch] numbers: GAP zeros, `width` values, zeros up to the pitch, at least GAP.
- * Neighbours up to GAP cells apart can then be added in one go.
+ * Neighbours up to GAP cells apart can then be added in one go. Vectors hold the same number of LANES places.
  */
 #ifndef PS_NUFFT_PLACE_H
 #define PS_NUFFT_PLACE_H

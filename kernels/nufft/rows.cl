@@ -35,7 +35,7 @@ static inline void add_places(__local real *rows, const chunk to, __global const
             fill_touching(to, i, sorted + at * dimension, place + i < end ? heights[at] : 0, axis,
                           across, bin);
         }
-        add_chunk(rows, to, axis, k, num_tiles, (uint)min(end - place, (size_t)CHUNK), false, 0);
+        add_chunk(rows, to, axis, k, num_tiles, (uint)min(end - place, (size_t)CHUNK), false);
     }
 }
 
@@ -59,7 +59,7 @@ nufft_rows(__global const ulong *restrict places, __global const ulong *restrict
     const window_axis across = {row_coefficients, num_rows, row_width, row_axis,
                                 row_degree,       row_bins, row_pitch, row_factor};
     const transform_axis transform = {radices, twiddles, position, 0, n, K};
-    const chunk chunk = make_chunk(reals, along, cells, pitch);
+    const chunk chunk = make_chunk(reals, along, cells, window);
     __global const uint *start = starts + realization * (num_rows + 2);
     clear_rows(rows, own_tiles * row_cells(window));
     for (uint bin = 0; bin < row_width; bin++) {
@@ -80,7 +80,7 @@ nufft_rows(__global const ulong *restrict places, __global const ulong *restrict
         __global real *out =
             grid + ((realization * num_tiles + tile) * (2 * K + 1) * num_rows + m) * 2 * LANES;
         for (uint i = get_local_id(0); i < 2 * K + 1; i += get_local_size(0)) {
-            store_global(out, (size_t)i * num_rows, kept_frequency(row, transform, i));
+            store_global_complex(out, (size_t)i * num_rows, kept_frequency(row, transform, i));
         }
     }
 }

@@ -25,122 +25,168 @@
 
 /* Local memory of a chunk. */
 typedef struct chunk {
-    __local real *windows; /* [CHUNK][pitch], times the weights */
+    __local real *windows; /* [GAP zeros, width, zeros up to the pitch][CHUNK], times the weights */
     __local real *phases;  /* [CHUNK][re, im][LANES] */
-    __local real *turns;   /* [re, im][CHUNK]: exp(-2 pi i k x_0) of a tile */
+    __local real *centres; /* [CHUNK]: where windows are made */
+    __local real *weights; /* [CHUNK] */
+    __local real *turns;   /* [tile][re, im][CHUNK]: exp(-2 pi i k x_0), k the first of a tile */
     __local ulong *along;  /* [CHUNK]: x_0 */
     __local uint *cells;   /* [CHUNK] */
 } chunk;
 
-#define CHUNK_REALS(pitch) (CHUNK * ((pitch) + 2 * LANES + 2))
-
+/* All work-items call it. */
 static inline chunk make_chunk(__local real *reals, __local ulong *along, __local uint *cells,
-                               const uint pitch) {
-    return (chunk){reals, reals + CHUNK * pitch, reals + CHUNK * (pitch + 2 * LANES), along, cells};
+                               const window_axis axis) {
+    __local real *phases = reals + CHUNK * axis.pitch;
+    __local real *centres = phases + CHUNK * 2 * LANES;
+    for (uint i = get_local_id(0); i < CHUNK * axis.pitch; i += get_local_size(0)) {
+        reals[i] = 0;
+    }
+    return (chunk){reals, phases, centres, centres + CHUNK, centres + 2 * CHUNK, along, cells};
 }
 
 __constant word lane_numbers[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
-/* One place of a chunk; its weight as given. */
+/* One place of a chunk. */
 static inline void fill_place(const chunk to, const uint i, __global const ulong *x,
                               const real weight, const window_axis axis) {
     ulong fraction;
     realv cosine, sine;
     to.cells[i] = first_cell(axis.factor * x[axis.axis], axis.n, axis.width, &fraction);
-    make_window(axis, centred(fraction), weight, to.windows + i * axis.pitch);
+    to.centres[i] = centred(fraction);
+    to.weights[i] = weight;
     to.along[i] = x[0];
     turn_cosine_sine(phases_of_lanes(LOADV(0, lane_numbers), x[0]), &cosine, &sine);
-    STOREV(cosine, 2 * i, to.phases);
-    STOREV(-sine, 2 * i + 1, to.phases);
+    store_local(to.phases, 2 * i, cosine);
+    store_local(to.phases, 2 * i + 1, -sine);
 }
 
-static inline void fill_turns(const chunk to, const uint k) {
-    for (uint i = get_local_id(0) * LANES; i < CHUNK; i += get_local_size(0) * LANES) {
+/* Windows and turns, LANES places at a time, once all places are filled. Tiles have the first frequencies k,
+ * k + LANES, ... */
+static inline void finish_chunk(const chunk to, const window_axis axis, const uint k,
+                                const uint num_tiles) {
+    const uint parts = CHUNK / LANES;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    for (uint job = get_local_id(0); job < (axis.width + 3) / 4 * parts; job += get_local_size(0)) {
+        const uint part = job % parts, bin = job / parts * 4;
+        make_four_bins(axis, bin, load_local(to.centres, part), load_local(to.weights, part),
+                       to.windows + (GAP + bin) * CHUNK + part * LANES, CHUNK);
+    }
+    for (uint job = get_local_id(0); job < num_tiles * parts; job += get_local_size(0)) {
+        const uint part = job % parts, tile = job / parts;
         realv cosine, sine;
-        turn_cosine_sine(phases_of_points(k, LOADV(0, to.along + i)), &cosine, &sine);
-        STOREV(cosine, 0, to.turns + i);
-        STOREV(-sine, 0, to.turns + CHUNK + i);
+        turn_cosine_sine(phases_of_points(k + tile * LANES, LOADV(part, to.along)), &cosine, &sine);
+        store_local(to.turns + tile * 2 * CHUNK, part, cosine);
+        store_local(to.turns + tile * 2 * CHUNK + CHUNK, part, -sine);
     }
     barrier(CLK_LOCAL_MEM_FENCE);
 }
 
-static inline complexv value_of(const chunk from, const uint i) {
-    return complex_multiply(load_complex(from.phases, i), from.turns[i], from.turns[CHUNK + i]);
+/* exp(-2 pi i k x_0) of place i for the lanes, from its phases; turns of the tile. */
+static inline complexv turned(const complexv phases, __local const real *turns, const uint i) {
+    return complex_multiply(phases, turns[i], turns[CHUNK + i]);
 }
 
 /* ---- one work-item ------------------------------------------------------------------------- */
 
-static inline void add_one(__local real *row, const uint width, const chunk from, const uint i,
-                           const uint pitch) {
-    const complexv value = value_of(from, i);
-    __local const real *window = from.windows + i * pitch + GAP;
-    row += from.cells[i] * 2 * LANES;
-    for (uint bin = 0; bin < width; bin++) {
-        const realv height = (realv)window[bin];
-        STOREV(fma(height, value.re, LOADV(0, row)), 0, row);
-        STOREV(fma(height, value.im, LOADV(1, row)), 1, row);
-        row += 2 * LANES;
+/* Rows of tiles: reals of a row, number of rows. */
+typedef struct tile_rows {
+    __local real *rows;
+    uint row_reals, num;
+} tile_rows;
+
+static inline void add_one(const tile_rows to, const chunk from, const uint i, const uint width) {
+    const complexv phases = load_complex(from.phases, i);
+    for (uint tile = 0; tile < to.num; tile++) {
+        const complexv value = turned(phases, from.turns + tile * 2 * CHUNK, i);
+        __local const real *window = from.windows + GAP * CHUNK + i;
+        __local real *row = to.rows + tile * to.row_reals + from.cells[i] * 2 * LANES;
+        for (uint bin = 0; bin < width; bin++) {
+            const realv height = (realv)window[0];
+            store_local(row, 0, fma(height, value.re, load_local(row, 0)));
+            store_local(row, 1, fma(height, value.im, load_local(row, 1)));
+            row += 2 * LANES;
+            window += CHUNK;
+        }
     }
 }
 
-/* Neighbours i and i + 1, `apart` cells from each other, within num_cells: half the loads and stores. To the bit
- * the same as one after the other, since windows are zero outside. */
-static inline void add_two(__local real *row, const uint num_cells, const uint apart,
-                           const chunk from, const uint i, const uint pitch) {
-    const complexv value = value_of(from, i), next = value_of(from, i + 1);
-    __local const real *window = from.windows + i * pitch + GAP;
-    __local const real *next_window = window + pitch - apart;
-    row += from.cells[i] * 2 * LANES;
-    for (uint bin = 0; bin < num_cells; bin++) {
-        const realv height = (realv)window[bin], next_height = (realv)next_window[bin];
-        const realv re = fma(height, value.re, LOADV(0, row));
-        const realv im = fma(height, value.im, LOADV(1, row));
-        STOREV(fma(next_height, next.re, re), 0, row);
-        STOREV(fma(next_height, next.im, im), 1, row);
-        row += 2 * LANES;
+/* Neighbours i and i + 1 in one go, half the loads and stores, when they are `apart` <= GAP cells from each other.
+ * To the bit the same as one after the other, since windows are zero outside. */
+static inline void add_two(const tile_rows to, const chunk from, const uint i, const uint width,
+                           const uint apart) {
+    const complexv phases = load_complex(from.phases, i);
+    const complexv next_phases = load_complex(from.phases, i + 1);
+    for (uint tile = 0; tile < to.num; tile++) {
+        __local const real *turns = from.turns + tile * 2 * CHUNK;
+        const complexv value = turned(phases, turns, i), next = turned(next_phases, turns, i + 1);
+        __local const real *window = from.windows + GAP * CHUNK + i;
+        __local const real *next_window = window + 1 - apart * CHUNK;
+        __local real *row = to.rows + tile * to.row_reals + from.cells[i] * 2 * LANES;
+        for (uint bin = 0; bin < width + apart; bin++) {
+            const realv height = (realv)window[0], next_height = (realv)next_window[0];
+            const realv re = fma(height, value.re, load_local(row, 0));
+            const realv im = fma(height, value.im, load_local(row, 1));
+            store_local(row, 0, fma(next_height, next.re, re));
+            store_local(row, 1, fma(next_height, next.im, im));
+            row += 2 * LANES;
+            window += CHUNK;
+            next_window += CHUNK;
+        }
     }
 }
 
-/* Four neighbours, within num_cells. */
-static inline void add_four(__local real *row, const uint num_cells, const chunk from, const uint i,
-                            const uint pitch) {
+/* Four neighbours, all within GAP cells. */
+static inline void add_four(const tile_rows to, const chunk from, const uint i, const uint width) {
     const uint cell = from.cells[i];
-    const complexv a = value_of(from, i), b = value_of(from, i + 1);
-    const complexv c = value_of(from, i + 2), d = value_of(from, i + 3);
-    __local const real *in_a = from.windows + i * pitch + GAP;
-    __local const real *in_b = in_a + pitch - (from.cells[i + 1] - cell);
-    __local const real *in_c = in_a + 2 * pitch - (from.cells[i + 2] - cell);
-    __local const real *in_d = in_a + 3 * pitch - (from.cells[i + 3] - cell);
-    row += cell * 2 * LANES;
-    for (uint bin = 0; bin < num_cells; bin++) {
-        const realv at_a = (realv)in_a[bin], at_b = (realv)in_b[bin];
-        const realv at_c = (realv)in_c[bin], at_d = (realv)in_d[bin];
-        realv re = fma(at_a, a.re, LOADV(0, row)), im = fma(at_a, a.im, LOADV(1, row));
-        re = fma(at_b, b.re, re);
-        im = fma(at_b, b.im, im);
-        re = fma(at_c, c.re, re);
-        im = fma(at_c, c.im, im);
-        STOREV(fma(at_d, d.re, re), 0, row);
-        STOREV(fma(at_d, d.im, im), 1, row);
-        row += 2 * LANES;
+    const complexv phases_a = load_complex(from.phases, i);
+    const complexv phases_b = load_complex(from.phases, i + 1);
+    const complexv phases_c = load_complex(from.phases, i + 2);
+    const complexv phases_d = load_complex(from.phases, i + 3);
+    const uint to_b = 1 - (from.cells[i + 1] - cell) * CHUNK;
+    const uint to_c = 2 - (from.cells[i + 2] - cell) * CHUNK;
+    const uint to_d = 3 - (from.cells[i + 3] - cell) * CHUNK;
+    const uint num_cells = width + from.cells[i + 3] - cell;
+    for (uint tile = 0; tile < to.num; tile++) {
+        __local const real *turns = from.turns + tile * 2 * CHUNK;
+        const complexv a = turned(phases_a, turns, i), b = turned(phases_b, turns, i + 1);
+        const complexv c = turned(phases_c, turns, i + 2), d = turned(phases_d, turns, i + 3);
+        __local const real *in_a = from.windows + GAP * CHUNK + i;
+        __local const real *in_b = in_a + (int)to_b;
+        __local const real *in_c = in_a + (int)to_c;
+        __local const real *in_d = in_a + (int)to_d;
+        __local real *row = to.rows + tile * to.row_reals + cell * 2 * LANES;
+        for (uint bin = 0; bin < num_cells * CHUNK; bin += CHUNK) {
+            const realv at_a = (realv)in_a[bin], at_b = (realv)in_b[bin];
+            const realv at_c = (realv)in_c[bin], at_d = (realv)in_d[bin];
+            realv re = fma(at_a, a.re, load_local(row, 0));
+            realv im = fma(at_a, a.im, load_local(row, 1));
+            re = fma(at_b, b.re, re);
+            im = fma(at_b, b.im, im);
+            re = fma(at_c, c.re, re);
+            im = fma(at_c, c.im, im);
+            store_local(row, 0, fma(at_d, d.re, re));
+            store_local(row, 1, fma(at_d, d.im, im));
+            row += 2 * LANES;
+        }
     }
 }
 
-/* A chunk in the order of cells. Neighbours up to gap <= GAP cells apart go in one go. (Loops of one length for
- * all of them: others are mispredicted, which costs more than zeros.) */
-static inline void scatter_in_order(__local real *row, const chunk from, const uint width,
-                                    const uint pitch, const uint gap) {
+/* A chunk in the order of cells. The lengths of loops depend on the points; the same points in all tiles one
+ * after the other make them predictable. */
+static inline void scatter_in_order(const tile_rows to, const chunk from, const uint width) {
     for (uint i = 0; i < CHUNK; i += 4) {
-        const uint apart = from.cells[i + 1] - from.cells[i];
-        const uint next_apart = from.cells[i + 3] - from.cells[i + 2];
-        if (from.cells[i + 3] - from.cells[i] <= gap) {
-            add_four(row, width + gap, from, i, pitch);
-        } else if (apart <= gap && next_apart <= gap) {
-            add_two(row, width + gap, apart, from, i, pitch);
-            add_two(row, width + gap, next_apart, from, i + 2, pitch);
-        } else {
-            for (uint j = i; j < i + 4; j++) {
-                add_one(row, width, from, j, pitch);
+        if (from.cells[i + 3] - from.cells[i] <= GAP) {
+            add_four(to, from, i, width);
+            continue;
+        }
+        for (uint j = i; j < i + 4; j += 2) {
+            const uint apart = from.cells[j + 1] - from.cells[j];
+            if (apart <= GAP) {
+                add_two(to, from, j, width, apart);
+            } else {
+                add_one(to, from, j, width);
+                add_one(to, from, j + 1, width);
             }
         }
     }
@@ -149,22 +195,21 @@ static inline void scatter_in_order(__local real *row, const chunk from, const u
 /* ---- work-items that share a row ----------------------------------------------------------- */
 
 /* Cells first .. end of a row. */
-static inline void gather(__local real *row, const chunk from, const uint width, const uint pitch,
-                          const uint first, const uint end) {
+static inline void gather(__local real *row, const chunk from, __local const real *turns,
+                          const uint width, const uint first, const uint end) {
     for (uint cell = first + get_local_id(0); cell < end; cell += get_local_size(0)) {
         complexv sum = load_complex(row, cell);
         for (uint i = 0; i < CHUNK; i++) {
             const uint bin = cell - from.cells[i];
             if (bin < width) {
-                const complexv value = value_of(from, i);
-                const realv height = (realv)from.windows[i * pitch + GAP + bin];
+                const complexv value = turned(load_complex(from.phases, i), turns, i);
+                const realv height = (realv)from.windows[(GAP + bin) * CHUNK + i];
                 sum.re = fma(height, value.re, sum.re);
                 sum.im = fma(height, value.im, sum.im);
             }
         }
         store_complex(row, cell, sum);
     }
-    barrier(CLK_LOCAL_MEM_FENCE);
 }
 
 /* ---- rows ---------------------------------------------------------------------------------- */
@@ -181,25 +226,26 @@ static inline void clear_rows(__local real *rows, const uint num_cells) {
     barrier(CLK_LOCAL_MEM_FENCE);
 }
 
-/* A filled chunk of `count` places into the rows of num_tiles tiles, whose first frequencies are k, k + LANES, ... */
+/* A chunk of `count` filled places into the rows of num_tiles tiles, whose first frequencies are k, k + LANES, ... */
 static inline void add_chunk(__local real *rows, const chunk from, const window_axis axis,
                              const uint k, const uint num_tiles, const uint count,
-                             const bool is_sorted, const uint gap) {
-    barrier(CLK_LOCAL_MEM_FENCE);
-    for (uint tile = 0; tile < num_tiles; tile++) {
-        __local real *row = rows + tile * row_cells(axis) * 2 * LANES;
-        fill_turns(from, k + tile * LANES);
-        if (get_local_size(0) > 1) {
-            gather(row, from, axis.width, axis.pitch, is_sorted ? from.cells[0] : 0,
+                             const bool is_sorted) {
+    const tile_rows to = {rows, row_cells(axis) * 2 * LANES, num_tiles};
+    finish_chunk(from, axis, k, num_tiles);
+    if (get_local_size(0) > 1) {
+        for (uint tile = 0; tile < num_tiles; tile++) {
+            gather(rows + tile * to.row_reals, from, from.turns + tile * 2 * CHUNK, axis.width,
+                   is_sorted ? from.cells[0] : 0,
                    (is_sorted ? from.cells[CHUNK - 1] : axis.n) + axis.width);
-        } else if (is_sorted) {
-            scatter_in_order(row, from, axis.width, axis.pitch, gap);
-        } else {
-            for (uint i = 0; i < count; i++) {
-                add_one(row, axis.width, from, i, axis.pitch);
-            }
+        }
+    } else if (is_sorted) {
+        scatter_in_order(to, from, axis.width);
+    } else {
+        for (uint i = 0; i < count; i++) {
+            add_one(to, from, i, axis.width);
         }
     }
+    barrier(CLK_LOCAL_MEM_FENCE);
 }
 
 /* The cells behind the end are the first ones again. */

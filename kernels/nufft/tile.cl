@@ -25,21 +25,20 @@ nufft_tile(__global const ulong *restrict places, __global const ulong *restrict
            __global const real *restrict scales, __global real *restrict power,
            const uint first_row, const ulong stride, const uint base, const uint num_tiles,
            const uint group, const uint dimension, const uint n, const uint width, const uint axis,
-           const ulong factor, const uint degree, const uint bins, const uint pitch, const uint gap,
-           const uint K, __local real *rows, __local real *reals, __local ulong *along,
-           __local uint *cells) {
+           const ulong factor, const uint degree, const uint bins, const uint pitch, const uint K,
+           __local real *rows, __local real *reals, __local ulong *along, __local uint *cells) {
     const uint first_tile = get_global_id(1) * group;
     const uint own_tiles = min(group, num_tiles - first_tile);
     const size_t realization = get_global_id(2);
     const window_axis window = {coefficients, n, width, axis, degree, bins, pitch, factor};
     const transform_axis transform = {radices, twiddles, position, gains, n, K};
-    const chunk chunk = make_chunk(reals, along, cells, pitch);
+    const chunk chunk = make_chunk(reals, along, cells, window);
     clear_rows(rows, own_tiles * row_cells(window));
     for (size_t place = places[realization]; place < places[realization + 1]; place += CHUNK) {
         for (uint i = get_local_id(0); i < CHUNK; i += get_local_size(0)) {
             fill_place(chunk, i, sorted + (place + i) * dimension, heights[place + i], window);
         }
-        add_chunk(rows, chunk, window, base + first_tile * LANES, own_tiles, CHUNK, true, gap);
+        add_chunk(rows, chunk, window, base + first_tile * LANES, own_tiles, CHUNK, true);
     }
     for (uint i = 0; i < own_tiles; i++) {
         __local real *row = rows + i * row_cells(window) * 2 * LANES;

@@ -3,11 +3,11 @@
 #define PS_NUFFT_WINDOW_H
 
 #include "nufft/cell.h"
+#include "nufft/lanes.h"
 #include "nufft/place.h"
-#include "shared/real.h"
 
 typedef PS_JOIN(REAL, 8) real8;
-typedef PS_JOIN(REAL, 4) real4;
+typedef real8 unaligned_real8 __attribute__((aligned(sizeof(real)))); /* nufft/lanes.h says why */
 
 /* An axis of the fine grid, and its window: bin i is a polynomial in u = 2 f - 1, f as in nufft/cell.h.
  * coefficients [degree + 1][bins], lowest degree first; bins, a multiple of 8, is at least the width, pitch at
@@ -33,15 +33,22 @@ static inline real8 window_bins(const window_axis axis, const real centre, const
     return value;
 }
 
-static inline void make_window(const window_axis axis, const real centre, const real weight,
-                               __local real *window) {
-    vstore4((real4)0, 0, window);
-    for (uint bin = 0; bin < axis.bins; bin += 8) {
-        vstore8(window_bins(axis, centre, bin) * (real8)weight, 0, window + GAP + bin);
+/* Bins bin .. bin + 3 of LANES points: to[bin - first][apart]. */
+static inline void make_four_bins(const window_axis axis, const uint bin, const realv centre,
+                                  const realv weight, __local real *to, const uint apart) {
+    __global const real *from = axis.coefficients + axis.degree * axis.bins + bin;
+    realv a = (realv)from[0], b = (realv)from[1], c = (realv)from[2], d = (realv)from[3];
+    for (uint i = 0; i < axis.degree; i++) {
+        from -= axis.bins;
+        a = fma(a, centre, (realv)from[0]);
+        b = fma(b, centre, (realv)from[1]);
+        c = fma(c, centre, (realv)from[2]);
+        d = fma(d, centre, (realv)from[3]);
     }
-    for (uint i = GAP + axis.bins; i < axis.pitch; i++) {
-        window[i] = 0;
-    }
+    store_local(to, 0, a * weight);
+    store_local(to + apart, 0, b * weight);
+    store_local(to + 2 * apart, 0, c * weight);
+    store_local(to + 3 * apart, 0, d * weight);
 }
 
 /* One value. */
