@@ -45,6 +45,7 @@ static const double unit_roundoff[2] = {0x1p-24, 0x1p-53};
  * in a cell that counts), of coincident points. */
 static const double alias_slack = 1.6;
 static const double alias_peaks = 8;      /* for each axis */
+static const double strided_peaks = 3;    /* of one lattice, more in one dimension */
 static const double coherent_aliases = 6; /* of |S|^2: aliases of coincident points are in step */
 static const double window_roundings = 4;
 static const double roundings_per_pass = 1;
@@ -89,10 +90,10 @@ double ps_nufft_error(const ps_nufft_choice *choice, const ps_problem *problem,
         touching *= (double)axis->window.width / axis->n;
         widths *= axis->window.width;
     }
-    const double aliasing =
-        sqrt(alias_slack * alias_slack * aliases +
-             choice->num_axes * alias_peaks * worst * points_of(problem) / modes) *
-        sqrt(fmax(1, coherent_aliases * (power - 1)));
+    const double peaks = alias_peaks * (choice->stride != 0 ? strided_peaks : 1);
+    const double aliasing = sqrt(alias_slack * alias_slack * aliases +
+                                 choice->num_axes * peaks * worst * points_of(problem) / modes) *
+                            sqrt(fmax(1, coherent_aliases * (power - 1)));
     const double polynomials =
         PS_NUFFT_POLYNOMIAL_SHARE * problem->tolerance * sqrt(choice->num_axes * power);
     const double sums = dense_roundings * sqrt(touching);

@@ -59,7 +59,8 @@ static void measure_axes(ps_nufft_layout *layout) {
         layout->stride *= 2 * (size_t)last[i].max_frequency + 1;
     }
     layout->num_keys = choice->axes[0].n;
-    if (num_last == 2) {
+    if (num_last == 2) { /* in the order of cells, rows are filled from end to end */
+        layout->num_keys = last[0].n * last[1].n;
         layout->grid_cells =
             (size_t)layout->num_tiles * last[0].n * (2 * (size_t)last[1].max_frequency + 1);
     }

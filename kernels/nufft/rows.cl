@@ -1,7 +1,7 @@
 /* Rows of tiles of a problem with two fast transforms: what touches a row of cells is spread along it and
  * transformed; 2K + 1 columns are kept. Launch: (work-items of one group, groups of tiles * rows, realizations).
  *
- *   places, sorted, heights, starts  of nufft/sort.cl, sorted by rows
+ *   places, sorted, heights, starts  of nufft/sort.cl, sorted by rows and by cells along them
  *   row_*, num_rows  of nufft/window.h, of the axis across rows
  *   coefficients, n, width, axis, factor, degree, bins, pitch  of the axis along rows
  *   radices, twiddles, position, K  of nufft/finish.h, of the axis along rows
@@ -23,7 +23,7 @@ static inline void fill_touching(const chunk to, const uint i, __global const ul
     fill_place(to, i, x, weight * window_bin(across, centred(fraction), bin), axis);
 }
 
-/* Places begin .. end, whose windows touch the row with `bin`. */
+/* Places begin .. end, in the order of cells, whose windows touch the row with `bin`. */
 static inline void add_places(__local real *rows, const chunk to, __global const ulong *sorted,
                               __global const real *heights, const uint dimension,
                               const size_t begin, const size_t end, const window_axis axis,
@@ -35,7 +35,7 @@ static inline void add_places(__local real *rows, const chunk to, __global const
             fill_touching(to, i, sorted + at * dimension, place + i < end ? heights[at] : 0, axis,
                           across, bin);
         }
-        add_chunk(rows, to, axis, k, num_tiles, (uint)min(end - place, (size_t)CHUNK), false);
+        add_chunk(rows, to, axis, k, num_tiles, CHUNK, true);
     }
 }
 
@@ -60,12 +60,12 @@ nufft_rows(__global const ulong *restrict places, __global const ulong *restrict
                                 row_degree,       row_bins, row_pitch, row_factor};
     const transform_axis transform = {radices, twiddles, position, 0, n, K};
     const chunk chunk = make_chunk(reals, along, cells, window);
-    __global const uint *start = starts + realization * (num_rows + 2);
+    __global const uint *start = starts + realization * ((size_t)num_rows * n + 2);
     clear_rows(rows, own_tiles * row_cells(window));
     for (uint bin = 0; bin < row_width; bin++) {
         const uint begun = m >= bin ? m - bin : num_rows + m - bin;
-        add_places(rows, chunk, sorted, heights, dimension, first + start[begun],
-                   first + start[begun + 1], window, across, bin, base + first_tile * LANES,
+        add_places(rows, chunk, sorted, heights, dimension, first + start[begun * n],
+                   first + start[(begun + 1) * n], window, across, bin, base + first_tile * LANES,
                    own_tiles);
     }
     for (uint t = 0; t < own_tiles; t++) {
