@@ -231,17 +231,23 @@ static ps_nufft_axis make_axis(const ps_nufft_axis *what, uint32_t n, unsigned w
 /* Of a length: the narrowest window that keeps the tolerance, else the most exact one. */
 static ps_nufft_axis choose_width(const ps_nufft_choice *whole, unsigned which, uint32_t n,
                                   const ps_problem *problem, ps_precision precision) {
-    const double tolerance = problem->tolerance / sqrt(whole->num_axes);
+    const double rest = 0.95; /* of the tolerance, where something else comes to it */
+    const double tolerance = whole->num_axes > 1 ? rest * problem->tolerance / sqrt(whole->num_axes)
+                                                 : problem->tolerance;
     ps_nufft_axis best = {0};
     double least_error = HUGE_VAL;
     ps_problem alone_problem = *problem;
     alone_problem.tolerance = tolerance;
     alone_problem.planned_points = (uint64_t)points_of(problem);
-    alone_problem.num_points = 1; /* dense cells are no matter of widths */
+    if (whole->num_axes > 1) {
+        alone_problem.num_points = 1; /* as many as touch a row would be another problem */
+    }
     for (unsigned width = PS_NUFFT_MIN_WIDTH;
          width <= PS_NUFFT_MAX_WIDTH && least_error > tolerance; width++) {
-        const ps_nufft_choice alone = {
-            .num_axes = 1, .span = whole->span, .axes = {make_axis(&whole->axes[which], n, width)}};
+        const ps_nufft_choice alone = {.num_axes = 1,
+                                       .span = whole->span,
+                                       .stride = whole->stride,
+                                       .axes = {make_axis(&whole->axes[which], n, width)}};
         const double error = ps_nufft_error(&alone, &alone_problem, precision, power_of(problem));
         if (error < least_error) {
             best = alone.axes[0];
