@@ -249,17 +249,14 @@ static pspec_status upload_means(torus_nufft *self, const ps_batch *some, ps_err
                           some->num_patterns, error);
 }
 
-/* Work-groups of one item on CPUs, where lanes are vectors; of several that share a row on GPUs. */
+/* Work-groups of one item on CPUs, where lanes are vectors; of several that share a row on GPUs, and where
+ * tests say so. */
 static ps_range group_range(const torus_nufft *self, size_t num_groups, size_t num_realizations,
                             const ps_nufft_axis *axis, size_t rows_of_group) {
     const double transforms =
         (double)(num_groups * num_realizations * rows_of_group) * self->layout.lanes;
-    ps_range range = ps_range_light(self->device, 1, num_groups, num_realizations,
-                                    transforms * ps_fft_flops(axis->n), 0);
-    if (!ps_device_get_limits(self->device)->has_dedicated_local_memory) {
-        range.global[0] = range.local[0] = 1;
-    }
-    return range;
+    return ps_range_heavy(self->device, 1, num_groups, num_realizations,
+                          transforms * ps_fft_flops(axis->n), 0);
 }
 
 static size_t row_bytes(const torus_nufft *self, const ps_nufft_axis *axis) {
