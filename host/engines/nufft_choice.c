@@ -230,9 +230,12 @@ static ps_nufft_choice strided_choice(uint32_t max_frequency, uint32_t stride) {
         .axes = {{.axis = 0, .factor = stride, .max_frequency = (int32_t)(needed / 2)}}};
 }
 
-ps_nufft_choice ps_nufft_choose(const ps_problem *problem, ps_precision precision) {
-    const unsigned dimension = problem->frequencies->dimension;
-    const uint32_t max_frequency = (uint32_t)problem->frequencies->max_frequency;
+ps_nufft_choice ps_nufft_choose(const ps_problem *whole, ps_precision precision) {
+    const unsigned dimension = whole->frequencies->dimension;
+    const uint32_t max_frequency = (uint32_t)whole->frequencies->max_frequency;
+    ps_problem planned = *whole; /* the error of a choice, too, is that of the points planned */
+    const ps_problem *problem = &planned;
+    planned.num_points = planned.planned_points > 0 ? planned.planned_points : planned.num_points;
     best_choice best = {0};
     if (dimension == 2 || dimension == 3) {
         ps_nufft_choice choice = direct_choice(max_frequency, dimension);
