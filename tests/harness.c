@@ -94,25 +94,18 @@ static double read_power(const ps_rows *rows, const void *data, size_t i) {
                                         : ((const double *)data)[i];
 }
 
-double *test_run_engine_to(const ps_engine *engine, ps_precision precision, double tolerance,
-                           ps_device *device, const ps_frequencies *frequencies,
-                           const pspec_pattern *patterns, size_t num_patterns, size_t batch) {
+double *test_run_problem(const ps_engine *engine, const ps_problem *problem, ps_precision precision,
+                         ps_device *device, const pspec_pattern *patterns, size_t num_patterns,
+                         size_t batch) {
     void *state = NULL;
-    size_t longest = 1;
-    for (size_t r = 0; r < num_patterns; r++) {
-        longest = patterns[r].num_points > longest ? patterns[r].num_points : longest;
-    }
-    const ps_problem problem = {.frequencies = frequencies,
-                                .num_points = longest,
-                                .num_realizations = num_patterns,
-                                .tolerance = tolerance};
+    const ps_frequencies *frequencies = problem->frequencies;
     double *powers = calloc(num_patterns * frequencies->num, sizeof(double));
     double *scales = calloc(num_patterns, sizeof(double));
     uint32_t *slots = calloc(frequencies->num, sizeof(uint32_t));
     for (size_t r = 0; r < num_patterns; r++) {
         scales[r] = 1;
     }
-    assert_ok(engine->create(&state, &problem, precision, batch, device, error));
+    assert_ok(engine->create(&state, problem, precision, batch, device, error));
     engine->get_slots(state, slots);
     for (size_t done = 0; done < num_patterns; done += batch) {
         const size_t count = num_patterns - done < batch ? num_patterns - done : batch;
@@ -139,6 +132,20 @@ double *test_run_engine_to(const ps_engine *engine, ps_precision precision, doub
     free(scales);
     free(slots);
     return powers;
+}
+
+double *test_run_engine_to(const ps_engine *engine, ps_precision precision, double tolerance,
+                           ps_device *device, const ps_frequencies *frequencies,
+                           const pspec_pattern *patterns, size_t num_patterns, size_t batch) {
+    size_t longest = 1;
+    for (size_t r = 0; r < num_patterns; r++) {
+        longest = patterns[r].num_points > longest ? patterns[r].num_points : longest;
+    }
+    const ps_problem problem = {.frequencies = frequencies,
+                                .num_points = longest,
+                                .num_realizations = num_patterns,
+                                .tolerance = tolerance};
+    return test_run_problem(engine, &problem, precision, device, patterns, num_patterns, batch);
 }
 
 double *test_run_engine(const ps_engine *engine, ps_precision precision, ps_device *device,
