@@ -133,8 +133,7 @@ static void weights(void **state) {
     for (unsigned dimension = 1; dimension <= 3; dimension++) {
         ps_frequencies grid = test_make_grid(dimension, reach[dimension]);
         pspec_pattern plain = test_make_pattern(&test_shapes[TEST_WHITE], dimension, POINTS, 3);
-        double ones[POINTS];
-        double twos[POINTS];
+        double ones[POINTS], twos[POINTS];
         for (size_t j = 0; j < POINTS; j++) {
             ones[j] = 1;
             twos[j] = 2;
