@@ -80,11 +80,11 @@ static void batches(void **state) {
 }
 
 /* One work-item goes from point to point, the items of a group from cell to cell: few and many points in a
- * cell take different ways. (Not groups of 2 and 3: PoCL 3.1 gets them wrong, docs/torus_nufft.md.) */
+ * cell take different ways. (Not groups of fewer items than lanes: PoCL 3.1 gets them wrong, docs/torus_nufft.md.) */
 static void work_groups(void **state) {
     (void)state;
     static const size_t most[] = {20, 150, 1500};
-    static const size_t sizes[2][3] = {{8, 32, 64}, {8}};
+    static const size_t sizes[2][3] = {{32, 64}, {8}};
     for (unsigned dimension = 1; dimension <= 3; dimension++) {
         for (size_t i = 0; i < sizeof most / sizeof most[0]; i++) {
             sample some = make_sample(dimension, 3, most[i] - 2, most[i]);
