@@ -81,6 +81,51 @@ table_tolerance_summary() {
     }'
 }
 
+# torus_nufft in tests/test_tolerance_sweep.c: error and bound at some tolerances, by kind of set.
+table_tolerance_nufft() {
+    need tests/test_tolerance_sweep || return 1
+    "$build/tests/test_tolerance_sweep" 2>&1 | awk '
+        /^torus_nufft .* tolerance .* bound / {
+            precision = $2
+            shape = substr($0, 21, 15)
+            for (i = 1; i < NF; i++) if ($i == "tolerance") at = i
+            if (precision == "single" ? $(at + 1) + 0 < 1e-7 : $(at + 1) + 0 > 1.1e-8 || $(at + 1) + 0 < 1e-13) next
+            key = precision " " shape
+            if (!(key in row)) order[++num] = key
+            row[key] = row[key] sprintf("  %9s %9s", $(at + 3), $(at + 5))
+            if (!(precision in head) || head[precision] !~ $(at + 1))
+                head[precision] = head[precision] sprintf("  %9s %9s", $(at + 1), "bound")
+        }
+        END {
+            for (i = 1; i <= num; i++) {
+                precision = substr(order[i], 1, 6)
+                if (precision != last) printf "%-22s%s\n", precision " --tol", head[precision]
+                last = precision
+                printf "%-22s%s\n", substr(order[i], 8), row[order[i]]
+            }
+        }'
+}
+
+# The smallest bound / error of every engine there, by kind of set.
+table_slack_nufft() {
+    need tests/test_tolerance_sweep || return 1
+    "$build/tests/test_tolerance_sweep" 2>&1 | awk '
+        /^torus_nufft .* smallest slack / {
+            shape = substr($0, 25, 15)
+            if (!(shape in seen)) order[++num] = shape
+            seen[shape] = 1
+            slack[shape " " $2 " " $3] = $NF
+        }
+        END {
+            printf "%-15s %10s %7s %7s %14s %7s %7s\n", "smallest slack", "single d=1", "d=2", "d=3", "double d=1", "d=2", "d=3"
+            for (i = 1; i <= num; i++) {
+                at = order[i] " "
+                printf "%-15s %10s %7s %7s %14s %7s %7s\n", order[i], slack[at "single d=1"], slack[at "single d=2"],
+                    slack[at "single d=3"], slack[at "double d=1"], slack[at "double d=2"], slack[at "double d=3"]
+            }
+        }'
+}
+
 # What the program does with every fault, by command line.
 table_faults() {
     need tests/faults/pointspec_faults || return 1

@@ -94,11 +94,11 @@ static double read_power(const ps_rows *rows, const void *data, size_t i) {
                                         : ((const double *)data)[i];
 }
 
-double *test_run_engine_on(const ps_engine *engine, ps_precision precision,
-                           const ps_problem *problem, ps_device *device,
-                           const pspec_pattern *patterns, size_t num_patterns, size_t batch) {
-    const ps_frequencies *frequencies = problem->frequencies;
+double *test_run_problem(const ps_engine *engine, const ps_problem *problem, ps_precision precision,
+                         ps_device *device, const pspec_pattern *patterns, size_t num_patterns,
+                         size_t batch) {
     void *state = NULL;
+    const ps_frequencies *frequencies = problem->frequencies;
     double *powers = calloc(num_patterns * frequencies->num, sizeof(double));
     double *scales = calloc(num_patterns, sizeof(double));
     uint32_t *slots = calloc(frequencies->num, sizeof(uint32_t));
@@ -145,7 +145,7 @@ double *test_run_engine_to(const ps_engine *engine, ps_precision precision, doub
                                 .num_points = longest,
                                 .num_realizations = num_patterns,
                                 .tolerance = tolerance};
-    return test_run_engine_on(engine, precision, &problem, device, patterns, num_patterns, batch);
+    return test_run_problem(engine, &problem, precision, device, patterns, num_patterns, batch);
 }
 
 double *test_run_engine(const ps_engine *engine, ps_precision precision, ps_device *device,

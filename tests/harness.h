@@ -65,10 +65,10 @@ double *test_run_engine_to(const ps_engine *engine, ps_precision precision, doub
                            ps_device *device, const ps_frequencies *frequencies,
                            const pspec_pattern *patterns, size_t num_patterns, size_t batch);
 
-/* The same for a problem as it was planned, patterns being no larger. */
-double *test_run_engine_on(const ps_engine *engine, ps_precision precision,
-                           const ps_problem *problem, ps_device *device,
-                           const pspec_pattern *patterns, size_t num_patterns, size_t batch);
+/* The same for any problem; batch: patterns in one run. */
+double *test_run_problem(const ps_engine *engine, const ps_problem *problem, ps_precision precision,
+                         ps_device *device, const pspec_pattern *patterns, size_t num_patterns,
+                         size_t batch);
 
 /* Reproducible numbers in [0,1) for tests that must not depend on math/random. */
 double test_uniform(uint64_t *state);

@@ -67,7 +67,7 @@ static double run_case(const grid_case *what, ps_frequencies *grid, double **fou
                                 .num_realizations = 1,
                                 .tolerance = what->tolerance};
     assert_true(ps_nufft_choose(&problem, what->precision).is_gridded);
-    *found = test_run_engine_on(&ps_torus_nufft, what->precision, &problem, device, pattern, 1, 1);
+    *found = test_run_problem(&ps_torus_nufft, &problem, what->precision, device, pattern, 1, 1);
     return ps_torus_nufft.error(&problem, what->precision, 1.2);
 }
 
@@ -119,10 +119,10 @@ static void batches_change_nothing(void **state) {
     for (size_t r = 0; r < REALIZATIONS; r++) {
         patterns[r] = make_pattern(what, 20000 - 7000 * r);
     }
-    double *together = test_run_engine_on(&ps_torus_nufft, what->precision, &problem, device,
-                                          patterns, REALIZATIONS, REALIZATIONS);
-    double *alone = test_run_engine_on(&ps_torus_nufft, what->precision, &problem, device, patterns,
-                                       REALIZATIONS, 1);
+    double *together = test_run_problem(&ps_torus_nufft, &problem, what->precision, device,
+                                        patterns, REALIZATIONS, REALIZATIONS);
+    double *alone = test_run_problem(&ps_torus_nufft, &problem, what->precision, device, patterns,
+                                     REALIZATIONS, 1);
     assert_memory_equal(together, alone, REALIZATIONS * grid.num * sizeof(double));
     for (size_t r = 0; r < REALIZATIONS; r++) {
         free_pattern(&patterns[r]);

@@ -1,12 +1,14 @@
 /* Every row of every set of reference/torus.json, by the referee and by torus_direct in both
- * precisions, as lists of frequencies and on full grids; rings too. Tolerances: those of the
- * reference's README, "suggested acceptance tolerances".
+ * precisions, as lists of frequencies and on full grids; rings too. By torus_nufft in both precisions, the
+ * rings and the rows within a box. Tolerances: those of the reference's README, "suggested acceptance
+ * tolerances".
  */
 #include "harness.h"
 
 #include "analysis/bins.h"
 #include "engines/host_direct.h"
 #include "engines/torus_direct.h"
+#include "engines/torus_nufft.h"
 
 #include <float.h>
 #include <math.h>
@@ -24,6 +26,11 @@ static double tolerance_of(ps_precision precision, const int32_t *k, unsigned di
         sum_k += fabs((double)k[axis]);
     }
     return base + (precision == PS_EXTENDED ? 0 : two_pi * sum_k * ldexp(1, -65));
+}
+
+/* Asked of engines that can do with less. */
+static double asked_of(ps_precision precision) {
+    return precision == PS_SINGLE ? 4e-7 : 1e-15;
 }
 
 static ps_frequencies read_rows(const test_set *set) {
@@ -53,25 +60,72 @@ static void check_power(const test_set *set, const int32_t *k, ps_precision prec
     }
 }
 
+/* square: of row i */
+static void check_row(const test_set *set, const int32_t *k, ps_precision precision, size_t i,
+                      double square) {
+    const cJSON *row = cJSON_GetArrayItem(cJSON_GetObjectItem(set->json, "rows"), (int)i);
+    const double n = (double)set->num_points;
+    const double w2 = set->weight_sum * set->weight_sum;
+    const double re = test_number(cJSON_GetArrayItem(row, 1));
+    const double im = test_number(cJSON_GetArrayItem(row, 2));
+    check_power(set, k, precision, square, re * re + im * im);
+    check_power(set, k, precision, square, test_number(cJSON_GetArrayItem(row, 3)) / n * w2);
+    check_power(set, k, precision, square,
+                test_number(cJSON_GetArrayItem(row, 4)) * set->weight_square_sum);
+}
+
 static void check_rows(const test_set *set, const ps_engine *engine, ps_precision precision) {
     ps_frequencies list = read_rows(set);
     const pspec_pattern pattern = test_pattern(set);
-    const cJSON *rows = cJSON_GetObjectItem(set->json, "rows");
     double *squares = test_run_engine(engine, precision, device, &list, &pattern, 1, 1);
-    const double n = (double)set->num_points;
-    const double w2 = set->weight_sum * set->weight_sum;
     for (size_t i = 0; i < list.num; i++) {
-        const cJSON *row = cJSON_GetArrayItem(rows, (int)i);
-        const int32_t *k = list.vectors + i * set->dimension;
-        const double re = test_number(cJSON_GetArrayItem(row, 1));
-        const double im = test_number(cJSON_GetArrayItem(row, 2));
-        check_power(set, k, precision, squares[i], re * re + im * im);
-        check_power(set, k, precision, squares[i],
-                    test_number(cJSON_GetArrayItem(row, 3)) / n * w2);
-        check_power(set, k, precision, squares[i],
-                    test_number(cJSON_GetArrayItem(row, 4)) * set->weight_square_sum);
+        check_row(set, list.vectors + i * set->dimension, precision, i, squares[i]);
     }
     free(squares);
+    ps_frequencies_free(&list);
+}
+
+/* k or -k, whichever the half lattice of the grid has: true, and *at, where it has one. */
+static bool find_in_grid(const ps_frequencies *grid, const int32_t *k, size_t *at) {
+    for (*at = 0; *at < grid->num; (*at)++) {
+        const int32_t *vector = grid->vectors + *at * grid->dimension;
+        bool is_same = true;
+        bool is_opposite = true;
+        for (unsigned axis = 0; axis < grid->dimension; axis++) {
+            is_same = is_same && vector[axis] == k[axis];
+            is_opposite = is_opposite && vector[axis] == -k[axis];
+        }
+        if (is_same || is_opposite) {
+            return true;
+        }
+    }
+    return false; /* 0, or outside */
+}
+
+/* Largest |k_i| of the box, by dimension. */
+static const int32_t boxes[4] = {0, 1000000, 64, 24};
+
+/* Of engines for grids only: the rows in the box. */
+static void check_box(const test_set *set, const ps_engine *engine, ps_precision precision) {
+    const pspec_pattern pattern = test_pattern(set);
+    ps_frequencies list = read_rows(set);
+    ps_frequencies grid = {0};
+    size_t num_found = 0;
+    assert_ok(ps_frequencies_lattice(&grid, set->dimension, boxes[set->dimension], false, error));
+    assert_ok(ps_frequencies_enumerate(&grid, error));
+    double *squares =
+        test_run_engine_to(engine, precision, asked_of(precision), device, &grid, &pattern, 1, 1);
+    for (size_t i = 0; i < list.num; i++) {
+        const int32_t *k = list.vectors + i * set->dimension;
+        size_t at = 0;
+        if (find_in_grid(&grid, k, &at)) {
+            check_row(set, k, precision, i, squares[at]);
+            num_found++;
+        }
+    }
+    assert_true(num_found >= 30);
+    free(squares);
+    ps_frequencies_free(&grid);
     ps_frequencies_free(&list);
 }
 
@@ -85,7 +139,8 @@ static void check_rings(const test_set *set, const ps_engine *engine, ps_precisi
     assert_ok(ps_frequencies_lattice(&grid, set->dimension, num_rings, true, error));
     assert_ok(ps_frequencies_enumerate(&grid, error));
     assert_ok(ps_bins_create(&bins, &grid, false, error));
-    double *squares = test_run_engine(engine, precision, device, &grid, &pattern, 1, 1);
+    double *squares =
+        test_run_engine_to(engine, precision, asked_of(precision), device, &grid, &pattern, 1, 1);
     assert_int_equal(bins.num_reported, num_rings);
     for (int b = 0; b < num_rings; b++) {
         const cJSON *row = cJSON_GetArrayItem(radial, b);
@@ -117,7 +172,11 @@ static void check_all(const ps_engine *engine, ps_precision precision) {
     }
     cJSON_ArrayForEach(json, cJSON_GetObjectItem(reference, "sets")) {
         test_set set = test_read_set(json);
-        check_rows(&set, engine, precision);
+        if (engine == &ps_torus_nufft) {
+            check_box(&set, engine, precision);
+        } else {
+            check_rows(&set, engine, precision);
+        }
         check_rings(&set, engine, precision);
         test_free_set(&set);
     }
@@ -136,6 +195,16 @@ static void torus_direct_double(void **state) {
 static void torus_direct_single(void **state) {
     (void)state;
     check_all(&ps_torus_direct, PS_SINGLE);
+}
+
+static void torus_nufft_double(void **state) {
+    (void)state;
+    check_all(&ps_torus_nufft, PS_DOUBLE);
+}
+
+static void torus_nufft_single(void **state) {
+    (void)state;
+    check_all(&ps_torus_nufft, PS_SINGLE);
 }
 
 /* Real and imaginary part, which powers do not show. */
@@ -166,6 +235,8 @@ int main(void) {
         cmocka_unit_test(referee_sums),
         cmocka_unit_test(torus_direct_double),
         cmocka_unit_test(torus_direct_single),
+        cmocka_unit_test(torus_nufft_double),
+        cmocka_unit_test(torus_nufft_single),
     };
     device = test_open_device();
     reference = test_read_reference("torus.json");

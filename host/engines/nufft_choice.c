@@ -43,11 +43,11 @@ static const double unit_roundoff[2] = {0x1p-24, 0x1p-53};
  * roundoff: of windows and phases, of each pass of the transforms on both axes, of sums in dense cells
  * (root of the number of terms; where axis 0 has frequency 0, terms are in step and it is the number of points
  * in a cell that counts), of coincident points. */
-static const double alias_slack = 1.6;
+static const double alias_slack = 3.8;
 static const double alias_peaks = 8;      /* for each axis */
 static const double strided_peaks = 3;    /* of one lattice, more in one dimension */
 static const double coherent_aliases = 6; /* of |S|^2: aliases of coincident points are in step */
-static const double window_roundings = 4;
+static const double window_roundings = 5;
 static const double roundings_per_pass = 1;
 static const double dense_roundings = 1;
 static const double dense_roundings_at_zero = 2;
@@ -365,9 +365,12 @@ static ps_nufft_choice strided_choice(uint32_t max_frequency, uint32_t stride) {
         .axes = {{.axis = 0, .factor = stride, .max_frequency = (int32_t)(needed / 2)}}};
 }
 
-ps_nufft_choice ps_nufft_choose(const ps_problem *problem, ps_precision precision) {
-    const unsigned dimension = problem->frequencies->dimension;
-    const uint32_t max_frequency = (uint32_t)problem->frequencies->max_frequency;
+ps_nufft_choice ps_nufft_choose(const ps_problem *whole, ps_precision precision) {
+    const unsigned dimension = whole->frequencies->dimension;
+    const uint32_t max_frequency = (uint32_t)whole->frequencies->max_frequency;
+    ps_problem planned = *whole; /* the error of a choice, too, is that of the points planned */
+    const ps_problem *problem = &planned;
+    planned.num_points = planned.planned_points > 0 ? planned.planned_points : planned.num_points;
     best_choice best = {0};
     if (dimension == 2 || dimension == 3) {
         ps_nufft_choice choice = direct_choice(max_frequency, dimension);

@@ -28,11 +28,7 @@ size_t ps_nufft_row_cells(const ps_nufft_axis *axis) {
 
 ps_range ps_nufft_group_range(const ps_device *device, size_t num_groups, size_t num_realizations,
                               double flops) {
-    ps_range range = ps_range_light(device, 1, num_groups, num_realizations, flops, 0);
-    if (!ps_device_get_limits(device)->has_dedicated_local_memory) {
-        range.global[0] = range.local[0] = 1;
-    }
-    return range;
+    return ps_range_heavy(device, 1, num_groups, num_realizations, flops, 0);
 }
 
 /* ---- numbers ----------------------------------------------------------------------------- */
