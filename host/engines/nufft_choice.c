@@ -43,7 +43,7 @@ static const double unit_roundoff[2] = {0x1p-24, 0x1p-53};
  * roundoff: of windows and phases, of each pass of the transforms on both axes, of sums in dense cells
  * (root of the number of terms; where axis 0 has frequency 0, terms are in step and it is the number of points
  * in a cell that counts), of coincident points. */
-static const double alias_slack = 3.8;
+static const double alias_slack = 4;
 static const double alias_peaks = 8;      /* for each axis */
 static const double strided_peaks = 3;    /* of one lattice, more in one dimension */
 static const double coherent_aliases = 6; /* of |S|^2: aliases of coincident points are in step */
