@@ -28,6 +28,8 @@ class Request(ctypes.Structure):
         ("engine", ctypes.c_char_p),
         ("precision", ctypes.c_char_p),
         ("no_self_check", ctypes.c_int),
+        ("per_ring", ctypes.c_uint64),
+        ("per_ring_seed", ctypes.c_uint64),
     ]
 
 

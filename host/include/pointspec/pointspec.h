@@ -141,7 +141,7 @@ typedef struct pspec_power_request {
     pspec_normalization normalization; /**< which power */
     double tolerance;      /**< numerical error of S relative to white noise; default 1e-6 */
     double floor;          /**< smallest power that must be right to 10 %; default 0: none */
-    const char *engine;    /**< "torus_direct", "host_direct", or NULL: the planner chooses */
+    const char *engine;    /**< "torus_nufft", "torus_direct", "host_direct", or NULL: the best */
     const char *precision; /**< "single", "double", "extended", or NULL: likewise */
     int no_self_check;     /**< do not recompute a few entries of the first pattern */
     uint64_t per_ring; /**< S >= 2: of every ring or shell with more than S frequencies of the half
