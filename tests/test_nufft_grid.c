@@ -153,11 +153,29 @@ static void memory_does_not_grow(void **state) {
     ps_frequencies_free(&grid);
 }
 
+/* No row of a fine grid is so long: that is known without looking for lengths of transforms. */
+static void largest_frequencies(void **state) {
+    (void)state;
+    for (unsigned dimension = 1; dimension <= 3; dimension++) {
+        const ps_frequencies grid = {
+            .kind = PS_FREQUENCIES_BOX, .dimension = dimension, .max_frequency = PS_MAX_FREQUENCY};
+        const ps_problem problem = {.frequencies = &grid, .num_points = 1000000, .tolerance = 1e-6};
+        const char *why_not = NULL;
+        for (int precision = PS_SINGLE; precision <= PS_DOUBLE; precision++) {
+            assert_int_equal(ps_nufft_choose(&problem, (ps_precision)precision).num_axes, 0);
+        }
+        assert_false(
+            ps_torus_nufft.applicable(&problem, ps_device_get_limits(device), PS_SINGLE, &why_not));
+        assert_non_null(why_not);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(agrees_with_direct_sums),
         cmocka_unit_test(batches_change_nothing),
         cmocka_unit_test(memory_does_not_grow),
+        cmocka_unit_test(largest_frequencies),
     };
     device = test_open_device();
     const int failures = cmocka_run_group_tests_name("nufft_grid", tests, NULL, NULL);

@@ -12,6 +12,9 @@ static const double largest_sigma = 4;
 /* Windows must not meet themselves. */
 enum { LEAST_CELLS = PS_NUFFT_MAX_WIDTH };
 
+/* A row must fit into local memory, a megabyte at most, in one lane of 8 bytes. */
+enum { MOST_CELLS = 1 << 17 };
+
 /* Grids take one set at a time: never worth while for fewer points. */
 static const double least_gridded_points = 30000;
 
@@ -261,6 +264,9 @@ static ps_nufft_axis choose_width(const ps_nufft_choice *whole, unsigned which, 
 static uint32_t length_for(const ps_nufft_choice *whole, unsigned which, uint64_t least,
                            ps_precision precision) {
     const uint32_t unit = 2 * nominal_lanes[precision];
+    if (least > MOST_CELLS) {
+        return 0;
+    }
     uint32_t n = ps_fft_good_length(least);
     if (whole->is_gridded && which + 1 == whole->num_axes) {
         const uint64_t units = (least + unit - 1) / unit;
@@ -277,7 +283,7 @@ static size_t list_candidates(const ps_nufft_choice *whole, unsigned which,
     const uint64_t last = ps_fft_good_length((uint64_t)fmax(LEAST_CELLS, largest_sigma * twice_k));
     size_t num = 0;
     for (uint32_t n = length_for(whole, which, least, precision);
-         n != 0 && n <= last && num < MAX_CANDIDATES;
+         n != 0 && n <= last && num < MAX_CANDIDATES && n <= MOST_CELLS;
          n = length_for(whole, which, (uint64_t)n + 1, precision)) {
         candidates[num++] = choose_width(whole, which, n, problem, precision);
     }

@@ -39,7 +39,8 @@ typedef struct ps_nufft_choice {
 /* The axes whose transforms make powers of tiles: all, but for axis 0 of a grid. */
 const ps_nufft_axis *ps_nufft_last_axes(const ps_nufft_choice *choice, unsigned *num);
 
-/* The cheapest that keeps the tolerance; the most exact one when none does. */
+/* The cheapest that keeps the tolerance; the most exact one when none does. num_axes == 0: rows would be
+ * too long for any local memory. */
 ps_nufft_choice ps_nufft_choose(const ps_problem *problem, ps_precision precision);
 
 /* ps_engine.error of a choice. */

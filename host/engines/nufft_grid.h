@@ -16,12 +16,6 @@ typedef struct ps_nufft_grid {
     ps_buffer high, low, tile_rows, transformed;
 } ps_nufft_grid;
 
-/* Where powers go: row `realization` of power, times its entry in scales. */
-typedef struct ps_nufft_target {
-    const ps_buffer *power, *scales;
-    size_t realization;
-} ps_nufft_target;
-
 /* layout, plans and places are borrowed. */
 pspec_status ps_nufft_grid_create(ps_nufft_grid *out, const ps_nufft_layout *layout,
                                   const ps_nufft_plan *plans, ps_nufft_places *places,

@@ -122,6 +122,10 @@ ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_
                               .lanes = ps_engine_lanes(limits, precision),
                               .real_bytes =
                                   precision == PS_SINGLE ? sizeof(float) : sizeof(double)};
+    if (layout.choice.num_axes == 0) {
+        layout.lanes = 0;
+        return layout;
+    }
     measure_axes(&layout);
     while (layout.lanes > 0 && tile_bytes(&layout) + chunk_bytes(&layout) > limits->local_bytes) {
         layout.lanes /= 2;

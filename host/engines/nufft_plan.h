@@ -27,6 +27,12 @@ uint32_t ps_nufft_pitch(const ps_nufft_axis *axis);
 /* Cells of a row in memory: windows go on behind its end. */
 size_t ps_nufft_row_cells(const ps_nufft_axis *axis);
 
+/* Where powers go: rows from `realization` on of power, times their entries in scales. */
+typedef struct ps_nufft_target {
+    const ps_buffer *power, *scales;
+    size_t realization;
+} ps_nufft_target;
+
 /* Work-groups of one item on CPUs, where lanes are vectors; of several that share a row on GPUs, and where
  * tests say so. */
 ps_range ps_nufft_group_range(const ps_device *device, size_t num_groups, size_t num_realizations,

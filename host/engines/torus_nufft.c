@@ -7,9 +7,9 @@
 #include "engines/nufft_layout.h"
 #include "engines/nufft_places.h"
 #include "engines/nufft_plan.h"
+#include "engines/nufft_tiles.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 typedef struct torus_nufft {
@@ -20,9 +20,9 @@ typedef struct torus_nufft {
     size_t batch;
     ps_nufft_plan plans[PS_NUFFT_MAX_AXES];
     ps_nufft_places places;
-    ps_nufft_grid large; /* gridded choices only */
-    cl_kernel tile, rows, columns;
-    ps_buffer means, pattern, grid, scales, power;
+    ps_nufft_grid large;  /* gridded choices only */
+    ps_nufft_tiles tiles; /* all others */
+    ps_buffer means, scales, power;
     double *means_of_parts;
 } torus_nufft;
 
@@ -64,6 +64,10 @@ static bool applicable(const ps_problem *problem, const ps_device_limits *limits
         *why_not = "a row of the fine grid does not fit into local memory";
         return false;
     }
+    if (layout.stride > UINT32_MAX) {
+        *why_not = "too many frequencies for 32-bit slots";
+        return false;
+    }
     if (layout.largest_buffer > limits->max_allocation_bytes ||
         layout.largest_buffer_per_realization > limits->max_allocation_bytes) {
         *why_not = "needs a larger buffer than the device allows";
@@ -90,7 +94,8 @@ static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
 
 static double error_of(const ps_problem *problem, ps_precision precision, double mean_power) {
     const ps_nufft_choice choice = ps_nufft_choose(problem, precision);
-    return ps_nufft_error(&choice, problem, precision, mean_power);
+    return choice.num_axes == 0 ? HUGE_VAL
+                                : ps_nufft_error(&choice, problem, precision, mean_power);
 }
 
 /* ---- create and destroy ------------------------------------------------------------------ */
@@ -100,78 +105,27 @@ static void destroy(void *state) {
     if (self == NULL) {
         return;
     }
-    const cl_kernel kernels[] = {self->tile, self->rows, self->columns};
-    ps_buffer *const buffers[] = {&self->means, &self->pattern, &self->grid, &self->scales,
-                                  &self->power};
-    for (size_t i = 0; i < sizeof kernels / sizeof kernels[0]; i++) {
-        if (kernels[i] != NULL) {
-            clReleaseKernel(kernels[i]);
-        }
-    }
-    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
-        ps_buffer_release(buffers[i]);
-    }
+    ps_buffer_release(&self->means);
+    ps_buffer_release(&self->scales);
+    ps_buffer_release(&self->power);
     for (unsigned i = 0; i < PS_NUFFT_MAX_AXES; i++) {
         ps_nufft_plan_free(&self->plans[i]);
     }
     ps_nufft_grid_free(&self->large);
+    ps_nufft_tiles_free(&self->tiles);
     ps_nufft_places_free(&self->places);
     free(self->means_of_parts);
     free(self);
 }
 
-static pspec_status create_kernels(torus_nufft *self, ps_error *error) {
-    char options[64];
-    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u",
-             self->precision == PS_SINGLE ? 32u : 64u, self->layout.lanes);
-    if (self->layout.choice.num_axes == 1) {
-        return ps_kernel_create(self->device, &self->tile, "nufft/tile.cl", "nufft_tile", options,
-                                error);
-    }
-    PS_TRY(
-        ps_kernel_create(self->device, &self->rows, "nufft/rows.cl", "nufft_rows", options, error));
-    return ps_kernel_create(self->device, &self->columns, "nufft/columns.cl", "nufft_columns",
-                            options, error);
-}
-
-/* How frequency 0 turns from cell to cell of the first axis: by -K turns around it where that axis makes
- * frequencies of axis 0 (its frequency -K is that one), not at all otherwise. */
-static pspec_status create_pattern(torus_nufft *self, ps_error *error) {
-    const ps_nufft_choice *choice = &self->layout.choice;
-    const uint32_t n = choice->axes[0].n;
-    const uint64_t turns = choice->stride != 0 ? (uint64_t)choice->axes[0].max_frequency : 0;
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, n, 2 * sizeof(double), "a pattern", error));
-    double *pattern = memory;
-    for (uint32_t m = 0; m < n; m++) {
-        const double two_pi = 6.283185307179586;
-        const double angle = two_pi * (double)(turns * m % n) / n;
-        pattern[2 * m] = cos(angle);
-        pattern[2 * m + 1] = -sin(angle);
-    }
-    const pspec_status status = ps_nufft_upload(self->device, &self->pattern, self->precision,
-                                                pattern, 2 * (size_t)n, "a pattern", error);
-    free(memory);
-    return status;
-}
-
 static pspec_status create_buffers(torus_nufft *self, size_t rows, ps_error *error) {
     const ps_nufft_layout *layout = &self->layout;
-    const size_t vector_bytes = 2 * layout->lanes * layout->real_bytes;
-    const size_t grid_cells = layout->choice.is_gridded ? 0 : layout->parts * layout->grid_cells;
-    const struct {
-        ps_buffer *buffer;
-        size_t bytes;
-        const char *what;
-    } all[] = {
-        {&self->means, layout->parts * layout->real_bytes, "means"},
-        {&self->grid, grid_cells * vector_bytes, "transformed rows"},
-        {&self->scales, rows * layout->real_bytes, "scales"},
-        {&self->power, rows * layout->stride * layout->real_bytes, "powers of a batch"},
-    };
-    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
-        PS_TRY(ps_buffer_create(self->device, all[i].buffer, all[i].bytes, all[i].what, error));
-    }
+    PS_TRY(ps_buffer_create(self->device, &self->means, layout->parts * layout->real_bytes, "means",
+                            error));
+    PS_TRY(
+        ps_buffer_create(self->device, &self->scales, rows * layout->real_bytes, "scales", error));
+    PS_TRY(ps_buffer_create(self->device, &self->power, rows * layout->stride * layout->real_bytes,
+                            "powers of a batch", error));
     return ps_buffer_clear(self->device, &self->power, error);
 }
 
@@ -193,8 +147,8 @@ static pspec_status create_parts(torus_nufft *self, const ps_problem *problem, p
         return ps_nufft_grid_create(&self->large, &self->layout, self->plans, &self->places,
                                     self->precision, self->device, error);
     }
-    PS_TRY(create_kernels(self, error));
-    return create_pattern(self, error);
+    return ps_nufft_tiles_create(&self->tiles, &self->layout, self->plans, &self->places,
+                                 self->precision, self->device, error);
 }
 
 static pspec_status create(void **state, const ps_problem *problem, ps_precision precision,
@@ -259,102 +213,19 @@ static pspec_status upload_means(torus_nufft *self, const ps_batch *some, ps_err
                           some->num_patterns, error);
 }
 
-static ps_range group_range(const torus_nufft *self, size_t num_groups, size_t num_realizations,
-                            const ps_nufft_axis *axis, size_t rows_of_group) {
-    const double transforms =
-        (double)(num_groups * num_realizations * rows_of_group) * self->layout.lanes;
-    return ps_nufft_group_range(self->device, num_groups, num_realizations,
-                                transforms * ps_fft_flops(axis->n));
-}
-
-static size_t row_bytes(const torus_nufft *self, const ps_nufft_axis *axis) {
-    return ps_nufft_row_cells(axis) * 2 * self->layout.lanes * self->layout.real_bytes;
-}
-
-/* Arguments of an axis, as kernels/nufft/window.h has them. */
-#define WINDOW_ARGUMENTS(plan)                                                                     \
-    PS_U32((plan)->axis.n), PS_U32((plan)->axis.window.width), PS_U32((plan)->axis.axis),          \
-        PS_U64((plan)->axis.factor), PS_U32((plan)->degree), PS_U32((plan)->bins),                 \
-        PS_U32((plan)->pitch)
-
-/* Local memory of a work-group, as kernels/nufft/spread.h has it. */
-#define LOCAL_ARGUMENTS(self, axis)                                                                \
-    PS_LOCAL((self)->layout.group *row_bytes(self, axis)),                                         \
-        PS_LOCAL((self)->layout.chunk_reals *(self)->layout.real_bytes),                           \
-        PS_LOCAL(PS_NUFFT_CHUNK * sizeof(uint64_t)), PS_LOCAL(PS_NUFFT_CHUNK * sizeof(uint32_t))
-
-static size_t num_groups(const torus_nufft *self) {
-    return (self->layout.num_tiles + self->layout.group - 1) / self->layout.group;
-}
-
-static pspec_status make_tiles(torus_nufft *self, size_t num_realizations, size_t first_row,
-                               ps_error *error) {
-    const ps_nufft_plan *plan = &self->plans[0];
-    const ps_nufft_places *places = &self->places;
-    const ps_range range =
-        group_range(self, num_groups(self), num_realizations, &plan->axis, self->layout.group);
-    return PS_LAUNCH(self->device, self->tile, &range, error, PS_BUFFER(places->places),
-                     PS_BUFFER(places->sorted), PS_BUFFER(places->heights),
-                     PS_BUFFER(plan->coefficients), PS_BUFFER(plan->fft.radices),
-                     PS_BUFFER(plan->fft.twiddles), PS_BUFFER(plan->fft.position),
-                     PS_BUFFER(plan->gains), PS_BUFFER(self->means), PS_BUFFER(self->pattern),
-                     PS_BUFFER(self->scales), PS_BUFFER(self->power), PS_U32(first_row),
-                     PS_U64(self->layout.stride), PS_U32(ps_nufft_base(&self->layout.choice)),
-                     PS_U32(self->layout.num_tiles), PS_U32(self->layout.group),
-                     PS_U32(self->frequencies->dimension), WINDOW_ARGUMENTS(plan),
-                     PS_U32(plan->axis.max_frequency), LOCAL_ARGUMENTS(self, &plan->axis));
-}
-
-static pspec_status make_rows(torus_nufft *self, size_t num_realizations, ps_error *error) {
-    const ps_nufft_plan *across = &self->plans[0];
-    const ps_nufft_plan *along = &self->plans[1];
-    const ps_nufft_places *places = &self->places;
-    const ps_range range = group_range(self, num_groups(self) * across->axis.n, num_realizations,
-                                       &along->axis, self->layout.group);
-    return PS_LAUNCH(
-        self->device, self->rows, &range, error, PS_BUFFER(places->places),
-        PS_BUFFER(places->sorted), PS_BUFFER(places->heights), PS_BUFFER(places->starts),
-        PS_BUFFER(across->coefficients), WINDOW_ARGUMENTS(across), PS_BUFFER(along->coefficients),
-        WINDOW_ARGUMENTS(along), PS_BUFFER(along->fft.radices), PS_BUFFER(along->fft.twiddles),
-        PS_BUFFER(along->fft.position), PS_BUFFER(self->means), PS_BUFFER(self->grid),
-        PS_U32(ps_nufft_base(&self->layout.choice)), PS_U32(self->layout.num_tiles),
-        PS_U32(self->layout.group), PS_U32(self->frequencies->dimension),
-        PS_U32(along->axis.max_frequency), LOCAL_ARGUMENTS(self, &along->axis));
-}
-
-static pspec_status make_columns(torus_nufft *self, size_t num_realizations, size_t first_row,
-                                 ps_error *error) {
-    const ps_nufft_plan *across = &self->plans[0];
-    const ps_nufft_plan *along = &self->plans[1];
-    const size_t kept = 2 * (size_t)along->axis.max_frequency + 1;
-    const ps_range range =
-        group_range(self, self->layout.num_tiles * kept, num_realizations, &across->axis, 1);
-    return PS_LAUNCH(self->device, self->columns, &range, error, PS_BUFFER(self->grid),
-                     PS_BUFFER(across->fft.radices), PS_BUFFER(across->fft.twiddles),
-                     PS_BUFFER(across->fft.position), PS_BUFFER(across->gains),
-                     PS_BUFFER(along->gains), PS_BUFFER(self->scales), PS_BUFFER(self->power),
-                     PS_U32(first_row), PS_U64(self->layout.stride), PS_U32(across->axis.n),
-                     PS_U32(across->axis.max_frequency), PS_U32(along->axis.max_frequency),
-                     PS_LOCAL(row_bytes(self, &across->axis)));
-}
-
-static pspec_status transform(torus_nufft *self, const ps_batch *some, size_t first_row,
-                              ps_error *error) {
+static pspec_status run_some(torus_nufft *self, const ps_batch *some, const ps_nufft_target *target,
+                             ps_error *error) {
     PS_TRY(ps_nufft_places_make(&self->places, some, error));
     PS_TRY(upload_means(self, some, error));
-    if (self->layout.choice.num_axes == 1) {
-        return make_tiles(self, some->num_patterns, first_row, error);
-    }
-    PS_TRY(make_rows(self, some->num_patterns, error));
-    return make_columns(self, some->num_patterns, first_row, error);
+    return ps_nufft_tiles_run(&self->tiles, some->num_patterns, &self->means, target, error);
 }
 
-static pspec_status run_large(torus_nufft *self, const ps_batch *one, size_t row, ps_error *error) {
-    const ps_nufft_target target = {&self->power, &self->scales, row};
+static pspec_status run_large(torus_nufft *self, const ps_batch *one, const ps_nufft_target *target,
+                              ps_error *error) {
     PS_TRY(ps_nufft_grid_begin(&self->large, error));
     PS_TRY(ps_nufft_grid_add(&self->large, one, error));
     PS_TRY(upload_means(self, one, error));
-    return ps_nufft_grid_finish(&self->large, &self->means, &target, error);
+    return ps_nufft_grid_finish(&self->large, &self->means, target, error);
 }
 
 static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_error *error) {
@@ -370,7 +241,9 @@ static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_er
         some.patterns += row;
         some.exponents = batch->exponents != NULL ? batch->exponents + row : NULL;
         PS_TRY(ps_batch_go_on(batch, error));
-        PS_TRY(is_large ? run_large(self, &some, row, error) : transform(self, &some, row, error));
+        const ps_nufft_target target = {&self->power, &self->scales, row};
+        PS_TRY(is_large ? run_large(self, &some, &target, error)
+                        : run_some(self, &some, &target, error));
     }
     *rows = (ps_rows){.num_rows = batch->num_patterns,
                       .stride = self->layout.stride,
