@@ -280,10 +280,10 @@ static size_t list_candidates(const ps_nufft_choice *whole, unsigned which,
                               ps_nufft_axis candidates[MAX_CANDIDATES]) {
     const double twice_k = 2.0 * whole->axes[which].max_frequency;
     const uint64_t least = (uint64_t)fmax(LEAST_CELLS, ceil(least_sigma * twice_k + 1));
-    const uint64_t last = ps_fft_good_length((uint64_t)fmax(LEAST_CELLS, largest_sigma * twice_k));
+    const uint64_t last = (uint64_t)(largest_sigma * twice_k);
     size_t num = 0;
     for (uint32_t n = length_for(whole, which, least, precision);
-         n != 0 && n <= last && num < MAX_CANDIDATES && n <= MOST_CELLS;
+         n != 0 && n <= MOST_CELLS && (num == 0 || (n <= last && num < MAX_CANDIDATES));
          n = length_for(whole, which, (uint64_t)n + 1, precision)) {
         candidates[num++] = choose_width(whole, which, n, problem, precision);
     }
