@@ -15,18 +15,44 @@ static uint64_t round_up(uint64_t a, uint64_t unit) {
     return (a + unit - 1) / unit * unit;
 }
 
-/* Points and weights on the host, as they came and sorted. */
-static uint64_t place_bytes(const ps_nufft_layout *layout, unsigned dimension) {
-    enum { COPIES = 3 };
-    return COPIES * (dimension * sizeof(uint64_t) + layout->real_bytes);
+static uint64_t starts_bytes(const ps_nufft_layout *layout) {
+    return ((uint64_t)layout->num_keys + 2) * sizeof(uint32_t);
+}
+
+/* Points sorted together: on the host, as they came and sorted; where cells, places and points begin. */
+static uint64_t part_bytes(const ps_nufft_layout *layout, unsigned dimension) {
+    enum { COPIES = 3, BEGINNINGS = 4, MEANS = 2 };
+    const uint64_t point = dimension * sizeof(uint64_t) + layout->real_bytes;
+    return COPIES * layout->part_places * point + starts_bytes(layout) +
+           (BEGINNINGS + MEANS) * sizeof(uint64_t);
+}
+
+/* Whatever the number of points: plans of the axes (twiddles and pattern, gains, positions; polynomials and
+ * radices are a page), and rows of powers to fill whole groups of lanes. */
+static uint64_t table_bytes(const ps_nufft_layout *layout) {
+    enum { PAGE = 4096 };
+    uint64_t bytes = layout->lanes * layout->bytes_per_realization;
+    for (unsigned i = 0; i < layout->choice.num_axes; i++) {
+        const ps_nufft_axis *axis = &layout->choice.axes[i];
+        const uint64_t reals = 4 * (uint64_t)axis->n + (uint64_t)axis->max_frequency + 1;
+        bytes += reals * layout->real_bytes + axis->n * sizeof(uint32_t) + PAGE;
+    }
+    return bytes;
+}
+
+static uint64_t largest_of(const uint64_t *numbers, size_t num) {
+    uint64_t largest = 0;
+    for (size_t i = 0; i < num; i++) {
+        largest = numbers[i] > largest ? numbers[i] : largest;
+    }
+    return largest;
 }
 
 static void choose_at_once(ps_nufft_layout *layout, const ps_problem *problem,
                            const ps_device_limits *limits) {
-    const uint64_t vector_bytes = 2 * layout->lanes * layout->real_bytes;
-    const uint64_t each =
-        layout->part_places * place_bytes(layout, problem->frequencies->dimension) +
-        layout->grid_cells * vector_bytes;
+    const unsigned dimension = problem->frequencies->dimension;
+    const uint64_t grid = layout->grid_cells * 2 * layout->lanes * layout->real_bytes;
+    const uint64_t each = part_bytes(layout, dimension) + grid;
     const double cache =
         limits->cache_bytes > 0 ? (double)limits->cache_bytes : DEFAULT_CACHE_BYTES;
     const double budget = limits->has_dedicated_local_memory ? gpu_work_bytes : work_share * cache;
@@ -34,11 +60,11 @@ static void choose_at_once(ps_nufft_layout *layout, const ps_problem *problem,
     const uint64_t known = problem->num_realizations;
     const size_t most = known > 0 && known < MOST_AT_ONCE ? (size_t)known : MOST_AT_ONCE;
     layout->parts = fitting > (double)most ? most : fitting > 1 ? (size_t)fitting : 1;
-    layout->fixed_bytes = layout->parts * each;
-    const uint64_t places =
-        layout->part_places * problem->frequencies->dimension * sizeof(uint64_t);
-    const uint64_t grid = layout->grid_cells * vector_bytes;
-    layout->largest_buffer = layout->parts * (grid > places ? grid : places);
+    layout->fixed_bytes = layout->parts * each + table_bytes(layout);
+    const uint64_t buffers[] = {grid, layout->part_places * dimension * sizeof(uint64_t),
+                                starts_bytes(layout)};
+    layout->largest_buffer =
+        layout->parts * largest_of(buffers, sizeof buffers / sizeof buffers[0]);
 }
 
 static void measure_axes(ps_nufft_layout *layout) {
@@ -80,15 +106,13 @@ static void measure_grid(ps_nufft_layout *layout, const ps_problem *problem) {
     const uint64_t rows = layout->num_tiles * columns * vector_bytes;
     const uint64_t transformed = layout->grid_cells * vector_bytes;
     const uint64_t reals = layout->grid_reals * layout->real_bytes;
-    const uint64_t part =
-        layout->part_places * place_bytes(layout, problem->frequencies->dimension) +
-        ((uint64_t)layout->num_keys + 2) * sizeof(uint32_t);
+    const uint64_t part = part_bytes(layout, problem->frequencies->dimension);
     const size_t parts = (problem->num_points + layout->part_points - 1) / layout->part_points;
     layout->parts = parts < PS_NUFFT_MOST_PARTS ? parts : PS_NUFFT_MOST_PARTS;
-    layout->fixed_bytes = layout->parts * part + 2 * reals + rows + transformed;
-    layout->largest_buffer = rows > reals ? rows : reals;
-    layout->largest_buffer =
-        transformed > layout->largest_buffer ? transformed : layout->largest_buffer;
+    layout->fixed_bytes =
+        layout->parts * part + 2 * reals + rows + transformed + table_bytes(layout);
+    const uint64_t buffers[] = {rows, reals, transformed};
+    layout->largest_buffer = largest_of(buffers, sizeof buffers / sizeof buffers[0]);
 }
 
 /* Of a tile: its row, and how much each point of a chunk turns. */

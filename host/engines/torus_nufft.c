@@ -77,16 +77,28 @@ static bool applicable(const ps_problem *problem, const ps_device_limits *limits
     return true;
 }
 
+/* Sorting, then one or two launches that spread and transform, for some realizations at a time; for a large set
+ * sorting and spreading of every chunk, then a launch for each axis. */
+static double launches_of(const ps_nufft_layout *layout, double num_points, double realizations) {
+    unsigned num_last = 0;
+    ps_nufft_last_axes(&layout->choice, &num_last);
+    if (!layout->choice.is_gridded) {
+        const double rounds = ceil(realizations / (double)layout->parts);
+        return rounds * (1 + num_last);
+    }
+    const double chunks = ceil(num_points / ((double)layout->parts * (double)layout->part_points));
+    return realizations * (2 * chunks + 1 + num_last);
+}
+
 static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
                     ps_precision precision) {
     const ps_nufft_layout layout = ps_nufft_layout_make(problem, limits, precision);
     const double realizations =
         problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
-    const double num_kernels = layout.choice.num_axes == 1 ? 2 : 3;
     return (ps_work){
         .transform_flops =
             realizations * ps_nufft_flops(&layout.choice, precision, (double)problem->num_points),
-        .launches = num_kernels * ceil(realizations / (double)layout.parts),
+        .launches = launches_of(&layout, (double)problem->num_points, realizations),
         .fixed_bytes = (double)layout.fixed_bytes,
         .bytes_per_realization = (double)layout.bytes_per_realization,
         .largest_buffer_per_realization = (double)layout.largest_buffer_per_realization};
