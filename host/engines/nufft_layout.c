@@ -1,6 +1,7 @@
 #include "engines/nufft_layout.h"
 
 #include "engines/nufft_plan.h"
+#include "engines/reals.h"
 
 /* Places and grids of the realizations that are worked on at a time: on CPUs a share of the last-level
  * cache, on GPUs enough to fill the device. */
@@ -144,8 +145,7 @@ ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_
                                      ps_precision precision) {
     ps_nufft_layout layout = {.choice = ps_nufft_choose(problem, precision),
                               .lanes = ps_engine_lanes(limits, precision),
-                              .real_bytes =
-                                  precision == PS_SINGLE ? sizeof(float) : sizeof(double)};
+                              .real_bytes = ps_real_bytes(precision)};
     if (layout.choice.num_axes == 0) {
         layout.lanes = 0;
         return layout;

@@ -1,6 +1,7 @@
 #include "engines/nufft_tiles.h"
 
 #include "base/memory.h"
+#include "engines/reals.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -37,7 +38,7 @@ static pspec_status create_pattern(ps_nufft_tiles *self, ps_precision precision,
         pattern[2 * m] = cos(angle);
         pattern[2 * m + 1] = -sin(angle);
     }
-    const pspec_status status = ps_nufft_upload(self->device, &self->pattern, precision, pattern,
+    const pspec_status status = ps_reals_upload(self->device, &self->pattern, precision, pattern,
                                                 2 * (size_t)n, "a pattern", error);
     free(memory);
     return status;

@@ -3,6 +3,7 @@
 #include "engines/torus_direct.h"
 
 #include "base/memory.h"
+#include "engines/reals.h"
 #include "engines/torus_layout.h"
 #include "engines/torus_points.h"
 #include "engines/torus_sums.h"
@@ -23,7 +24,6 @@ typedef struct torus_direct {
     ps_torus_sums sums; /* of the list, or of the left and right factors of the grid */
     cl_kernel product;
     ps_buffer pairs, products, scales, power;
-    void *host_scales;
 } torus_direct;
 
 static size_t divide_up(size_t a, size_t b) {
@@ -125,7 +125,6 @@ static void destroy(void *state) {
     ps_buffer_release(&self->products);
     ps_buffer_release(&self->scales);
     ps_buffer_release(&self->power);
-    free(self->host_scales);
     free(self);
 }
 
@@ -192,9 +191,8 @@ static pspec_status create_rows(torus_direct *self, ps_error *error) {
                             num_rows * self->stride * self->layout.real_bytes, "powers of a batch",
                             error));
     PS_TRY(ps_buffer_clear(self->device, &self->power, error));
-    PS_TRY(ps_buffer_create(self->device, &self->scales, self->batch * self->layout.real_bytes,
-                            "scales", error));
-    return ps_allocate(&self->host_scales, self->batch, self->layout.real_bytes, "scales", error);
+    return ps_buffer_create(self->device, &self->scales, self->batch * self->layout.real_bytes,
+                            "scales", error);
 }
 
 static pspec_status create(void **state, const ps_problem *problem, ps_precision precision,
@@ -241,18 +239,6 @@ static size_t get_stride(const void *state) {
 }
 
 /* ---- run --------------------------------------------------------------------------------- */
-
-static pspec_status upload_scales(torus_direct *self, const ps_batch *batch, ps_error *error) {
-    for (size_t r = 0; r < batch->num_patterns; r++) {
-        if (self->precision == PS_SINGLE) {
-            ((float *)self->host_scales)[r] = (float)batch->scales[r];
-        } else {
-            ((double *)self->host_scales)[r] = batch->scales[r];
-        }
-    }
-    return ps_buffer_write(self->device, &self->scales, 0, self->host_scales,
-                           batch->num_patterns * self->layout.real_bytes, error);
-}
 
 /* Where a slab of a group of realizations stands in its job. */
 typedef struct slab_place {
@@ -321,7 +307,8 @@ static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_er
     torus_direct *self = state;
     const size_t num_slabs = divide_up(longest_pattern(batch), self->layout.slab);
     const size_t first_slot = self->layout.is_grid ? ps_split_left_slot(&self->split) : 0;
-    PS_TRY(upload_scales(self, batch, error));
+    PS_TRY(ps_reals_write(self->device, &self->scales, self->precision, batch->scales,
+                          batch->num_patterns, error));
     for (size_t row = 0; row < batch->num_patterns; row += self->layout.group) {
         const size_t rest = batch->num_patterns - row;
         ps_batch group = *batch;

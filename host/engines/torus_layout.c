@@ -1,5 +1,6 @@
 #include "engines/torus_layout.h"
 
+#include "engines/reals.h"
 #include "engines/torus_split.h"
 
 /* Share of a CPU's cache that the tables of a group of realizations, one slab of each, may take with
@@ -110,7 +111,7 @@ ps_torus_layout ps_torus_layout_make(const ps_problem *problem, const ps_device_
                                      ps_precision precision) {
     const ps_frequencies *set = problem->frequencies;
     ps_torus_layout layout = {.lanes = ps_engine_lanes(limits, precision),
-                              .real_bytes = precision == PS_SINGLE ? sizeof(float) : sizeof(double),
+                              .real_bytes = ps_real_bytes(precision),
                               .is_grid = set->kind != PS_FREQUENCIES_LIST};
     if (layout.is_grid) {
         layout.left_axes = ps_split_left_axes(set->dimension);

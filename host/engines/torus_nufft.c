@@ -8,6 +8,7 @@
 #include "engines/nufft_places.h"
 #include "engines/nufft_plan.h"
 #include "engines/nufft_tiles.h"
+#include "engines/reals.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -221,7 +222,7 @@ static pspec_status upload_means(torus_nufft *self, const ps_batch *some, ps_err
         self->means_of_parts[r] = mean_of_cells(self, &some->patterns[r],
                                                 some->exponents != NULL ? some->exponents[r] : 0);
     }
-    return ps_nufft_write(self->device, &self->means, self->precision, self->means_of_parts,
+    return ps_reals_write(self->device, &self->means, self->precision, self->means_of_parts,
                           some->num_patterns, error);
 }
 
@@ -242,7 +243,7 @@ static pspec_status run_large(torus_nufft *self, const ps_batch *one, const ps_n
 
 static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_error *error) {
     torus_nufft *self = state;
-    PS_TRY(ps_nufft_write(self->device, &self->scales, self->precision, batch->scales,
+    PS_TRY(ps_reals_write(self->device, &self->scales, self->precision, batch->scales,
                           batch->num_patterns, error));
     const bool is_large = self->layout.choice.is_gridded;
     const size_t at_once = is_large ? 1 : self->layout.parts;
