@@ -35,7 +35,7 @@ static inline void add_places(__local real *rows, const chunk to, __global const
             fill_touching(to, i, sorted + at * dimension, place + i < end ? heights[at] : 0, axis,
                           across, bin);
         }
-        add_chunk(rows, to, axis, k, num_tiles, CHUNK, true);
+        add_chunk(rows, to, axis, k, num_tiles);
     }
 }
 
