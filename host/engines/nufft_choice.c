@@ -1,6 +1,7 @@
 #include "engines/nufft_choice.h"
 
 #include "engines/nufft_fft.h"
+#include "engines/nufft_kernels.h"
 
 #include <math.h>
 #include <string.h>
@@ -137,9 +138,6 @@ static const double cycles_per_row = 6;
 static const double cycles_per_grid_cell = 10;
 static const double cycles_per_pair = 2;
 
-/* kernels/nufft/grid.cl */
-enum { BLOCK_ROWS = 8 };
-
 const ps_nufft_axis *ps_nufft_last_axes(const ps_nufft_choice *choice, unsigned *num) {
     *num = choice->num_axes - (choice->is_gridded ? 1 : 0);
     return choice->axes + (choice->is_gridded ? 1 : 0);
@@ -151,8 +149,8 @@ static double grid_cycles(const ps_nufft_choice *choice, unsigned lanes, double 
     const ps_nufft_axis *block = &axes[choice->num_axes - 2];
     const ps_nufft_axis *last = &axes[choice->num_axes - 1];
     const double outer = choice->num_axes == 3 ? axes[0].window.width : 1;
-    const double blocks = (BLOCK_ROWS + block->window.width - 1.0) / BLOCK_ROWS;
-    const double strips = last->window.width > BLOCK_ROWS ? 2 : 1;
+    const double blocks = (PS_NUFFT_BLOCK_ROWS + block->window.width - 1.0) / PS_NUFFT_BLOCK_ROWS;
+    const double strips = last->window.width > PS_NUFFT_BLOCK_ROWS ? 2 : 1;
     const double columns = (choice->num_axes == 3 ? (double)block->n : 1) * last->n;
     return num_points * outer *
                (blocks * cycles_per_block + block->window.width * strips * cycles_per_row) +

@@ -1,9 +1,8 @@
 #include "engines/nufft_grid.h"
 
-#include <stdio.h>
+#include "engines/nufft_kernels.h"
 
-/* kernels/nufft/grid.cl */
-enum { BLOCK_ROWS = 8 };
+#include <stdio.h>
 
 /* ---- create ------------------------------------------------------------------------------ */
 
@@ -86,7 +85,7 @@ static pspec_status spread(ps_nufft_grid *self, size_t num_parts, size_t num_poi
     const ps_nufft_plan none = {.coefficients = block->coefficients,
                                 .axis = {.n = 1, .window = {.width = 1}}};
     const ps_nufft_plan *outer = axes == 3 ? &self->plans[0] : &none;
-    const size_t blocks = (block->axis.n + BLOCK_ROWS - 1) / BLOCK_ROWS;
+    const size_t blocks = (block->axis.n + PS_NUFFT_BLOCK_ROWS - 1) / PS_NUFFT_BLOCK_ROWS;
     const double flops =
         2.0 * (double)num_points * outer->axis.window.width * block->axis.window.width * last->bins;
     const ps_range range = ps_nufft_group_range(self->device, blocks * outer->axis.n, 1, flops);
@@ -95,7 +94,7 @@ static pspec_status spread(ps_nufft_grid *self, size_t num_parts, size_t num_poi
                      PS_BUFFER(self->places->sorted), PS_BUFFER(self->places->heights),
                      PS_BUFFER(self->places->starts), PS_U32(num_parts), PS_U32(axes),
                      GRID_AXIS(outer), GRID_AXIS(block), GRID_AXIS(last), PS_BUFFER(self->high),
-                     PS_BUFFER(self->low), PS_LOCAL(BLOCK_ROWS * row_bytes));
+                     PS_BUFFER(self->low), PS_LOCAL(PS_NUFFT_BLOCK_ROWS * row_bytes));
 }
 
 /* Points first .. of a pattern that fit into a chunk, as parts; how many parts. */

@@ -1,5 +1,6 @@
 #include "engines/nufft_layout.h"
 
+#include "engines/nufft_kernels.h"
 #include "engines/nufft_plan.h"
 #include "engines/reals.h"
 
@@ -9,8 +10,8 @@ static const double work_share = 0.25;
 static const double gpu_work_bytes = 512.0 * 1024 * 1024;
 enum { DEFAULT_CACHE_BYTES = 8 << 20, MOST_AT_ONCE = 1024 };
 
-/* kernels/nufft/place.h, kernels/nufft/spread.h */
-enum { PLACE_UNIT = 16, CHUNK = PS_NUFFT_CHUNK, TURN_REALS = 2 * CHUNK };
+/* How much each point of a chunk turns, kernels/nufft/spread.h. */
+enum { TURN_REALS = 2 * PS_NUFFT_CHUNK };
 
 static uint64_t round_up(uint64_t a, uint64_t unit) {
     return (a + unit - 1) / unit * unit;
@@ -80,7 +81,7 @@ static void measure_axes(ps_nufft_layout *layout) {
             ps_nufft_row_cells(&choice->axes[i]) * 2 * layout->lanes * layout->real_bytes;
         const size_t numbers = ps_nufft_pitch(&choice->axes[i]) + 2 * (size_t)layout->lanes + 2;
         layout->row_bytes = bytes > layout->row_bytes ? bytes : layout->row_bytes;
-        layout->chunk_reals = CHUNK * numbers;
+        layout->chunk_reals = PS_NUFFT_CHUNK * numbers;
     }
     for (unsigned i = 0; i < num_last; i++) {
         layout->stride *= 2 * (size_t)last[i].max_frequency + 1;
@@ -123,7 +124,8 @@ static size_t tile_bytes(const ps_nufft_layout *layout) {
 
 /* Without turns. */
 static size_t chunk_bytes(const ps_nufft_layout *layout) {
-    return layout->chunk_reals * layout->real_bytes + CHUNK * (sizeof(uint64_t) + sizeof(uint32_t));
+    return layout->chunk_reals * layout->real_bytes +
+           PS_NUFFT_CHUNK * (sizeof(uint64_t) + sizeof(uint32_t));
 }
 
 /* Tiles of a work-group share windows and phases. One on GPUs, where there is little local memory; on CPUs
@@ -165,7 +167,7 @@ ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_
         layout.part_points > layout.choice.chunk / PS_NUFFT_MOST_PARTS) {
         layout.part_points = layout.choice.chunk / PS_NUFFT_MOST_PARTS;
     }
-    layout.part_places = (size_t)round_up(layout.part_points, PLACE_UNIT);
+    layout.part_places = (size_t)round_up(layout.part_points, PS_NUFFT_PLACE_UNIT);
     layout.bytes_per_realization = layout.stride * layout.real_bytes;
     layout.largest_buffer_per_realization = layout.bytes_per_realization;
     if (layout.choice.is_gridded) {

@@ -4,9 +4,6 @@
 
 #include "engines/nufft_choice.h"
 
-/* Points of a chunk, kernels/nufft/spread.h. */
-enum { PS_NUFFT_CHUNK = 16 };
-
 /* Parts of a chunk of a large set, which are sorted side by side. */
 enum { PS_NUFFT_MOST_PARTS = 8 };
 

@@ -1,13 +1,14 @@
 #include "engines/nufft_plan.h"
 
 #include "base/memory.h"
+#include "engines/nufft_kernels.h"
 #include "engines/reals.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* kernels/nufft/place.h; numbers of a window are made in whole vectors of 8 and begin at half cache lines. */
-enum { GAP = 4, BIN_UNIT = 8, PITCH_UNIT = 8 };
+/* Numbers of a window are made in whole vectors of 8 and begin at half cache lines. */
+enum { BIN_UNIT = 8, PITCH_UNIT = 8 };
 
 static uint32_t round_up(uint32_t a, uint32_t unit) {
     return (a + unit - 1) / unit * unit;
@@ -18,13 +19,13 @@ uint32_t ps_nufft_bins(const ps_nufft_axis *axis) {
 }
 
 uint32_t ps_nufft_pitch(const ps_nufft_axis *axis) {
-    const uint32_t written = GAP + ps_nufft_bins(axis);
-    const uint32_t read = axis->window.width + 2 * GAP;
+    const uint32_t written = PS_NUFFT_GAP + ps_nufft_bins(axis);
+    const uint32_t read = axis->window.width + 2 * PS_NUFFT_GAP;
     return round_up(written > read ? written : read, PITCH_UNIT);
 }
 
 size_t ps_nufft_row_cells(const ps_nufft_axis *axis) {
-    return (size_t)axis->n + axis->window.width + GAP;
+    return (size_t)axis->n + axis->window.width + PS_NUFFT_GAP;
 }
 
 ps_range ps_nufft_group_range(const ps_device *device, size_t num_groups, size_t num_realizations,

@@ -1,6 +1,7 @@
 #include "engines/nufft_tiles.h"
 
 #include "base/memory.h"
+#include "engines/nufft_kernels.h"
 #include "engines/reals.h"
 
 #include <math.h>
