@@ -1,5 +1,6 @@
 #include "engines/nufft_grid.h"
 
+#include "base/round.h"
 #include "engines/nufft_kernels.h"
 
 #include <stdio.h>
@@ -85,7 +86,7 @@ static pspec_status spread(ps_nufft_grid *self, size_t num_parts, size_t num_poi
     const ps_nufft_plan none = {.coefficients = block->coefficients,
                                 .axis = {.n = 1, .window = {.width = 1}}};
     const ps_nufft_plan *outer = axes == 3 ? &self->plans[0] : &none;
-    const size_t blocks = (block->axis.n + PS_NUFFT_BLOCK_ROWS - 1) / PS_NUFFT_BLOCK_ROWS;
+    const size_t blocks = ps_divide_up(block->axis.n, PS_NUFFT_BLOCK_ROWS);
     const double flops =
         2.0 * (double)num_points * outer->axis.window.width * block->axis.window.width * last->bins;
     const ps_range range = ps_nufft_group_range(self->device, blocks * outer->axis.n, 1, flops);

@@ -1,5 +1,6 @@
 #include "engines/nufft_layout.h"
 
+#include "base/round.h"
 #include "engines/nufft_kernels.h"
 #include "engines/nufft_plan.h"
 #include "engines/reals.h"
@@ -12,10 +13,6 @@ enum { DEFAULT_CACHE_BYTES = 8 << 20, MOST_AT_ONCE = 1024 };
 
 /* How much each point of a chunk turns, kernels/nufft/spread.h. */
 enum { TURN_REALS = 2 * PS_NUFFT_CHUNK };
-
-static uint64_t round_up(uint64_t a, uint64_t unit) {
-    return (a + unit - 1) / unit * unit;
-}
 
 static uint64_t starts_bytes(const ps_nufft_layout *layout) {
     return ((uint64_t)layout->num_keys + 2) * sizeof(uint32_t);
@@ -73,7 +70,7 @@ static void measure_axes(ps_nufft_layout *layout) {
     const ps_nufft_choice *choice = &layout->choice;
     unsigned num_last = 0;
     const ps_nufft_axis *last = ps_nufft_last_axes(choice, &num_last);
-    layout->num_tiles = layout->lanes > 0 ? (choice->span + layout->lanes - 1) / layout->lanes : 0;
+    layout->num_tiles = layout->lanes > 0 ? (uint32_t)ps_divide_up(choice->span, layout->lanes) : 0;
     layout->row_bytes = 0;
     layout->stride = (size_t)layout->num_tiles * layout->lanes;
     for (unsigned i = 0; i < choice->num_axes; i++) {
@@ -109,7 +106,7 @@ static void measure_grid(ps_nufft_layout *layout, const ps_problem *problem) {
     const uint64_t transformed = layout->grid_cells * vector_bytes;
     const uint64_t reals = layout->grid_reals * layout->real_bytes;
     const uint64_t part = part_bytes(layout, problem->frequencies->dimension);
-    const size_t parts = (problem->num_points + layout->part_points - 1) / layout->part_points;
+    const size_t parts = ps_divide_up(problem->num_points, layout->part_points);
     layout->parts = parts < PS_NUFFT_MOST_PARTS ? parts : PS_NUFFT_MOST_PARTS;
     layout->fixed_bytes =
         layout->parts * part + 2 * reals + rows + transformed + table_bytes(layout);
@@ -137,10 +134,10 @@ static uint32_t choose_group(const ps_nufft_layout *layout, const ps_problem *pr
     }
     const size_t room = (limits->local_bytes - chunk_bytes(layout)) / tile_bytes(layout);
     const uint32_t largest = room > 1 ? (uint32_t)room : 1;
-    uint32_t groups = (layout->num_tiles + largest - 1) / largest;
+    uint64_t groups = ps_divide_up(layout->num_tiles, largest);
     const bool has_one = problem->num_realizations == 1 && layout->choice.num_axes == 1;
     groups = has_one && groups < limits->compute_units ? limits->compute_units : groups;
-    return (layout->num_tiles + groups - 1) / groups;
+    return (uint32_t)ps_divide_up(layout->num_tiles, groups);
 }
 
 ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_limits *limits,
@@ -167,7 +164,7 @@ ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_
         layout.part_points > layout.choice.chunk / PS_NUFFT_MOST_PARTS) {
         layout.part_points = layout.choice.chunk / PS_NUFFT_MOST_PARTS;
     }
-    layout.part_places = (size_t)round_up(layout.part_points, PS_NUFFT_PLACE_UNIT);
+    layout.part_places = ps_round_up(layout.part_points, PS_NUFFT_PLACE_UNIT);
     layout.bytes_per_realization = layout.stride * layout.real_bytes;
     layout.largest_buffer_per_realization = layout.bytes_per_realization;
     if (layout.choice.is_gridded) {

@@ -1,6 +1,7 @@
 #include "engines/nufft_places.h"
 
 #include "base/memory.h"
+#include "base/round.h"
 #include "engines/nufft_kernels.h"
 
 #include <stdlib.h>
@@ -50,9 +51,7 @@ static pspec_status upload_places(ps_nufft_places *self, const ps_batch *parts, 
     self->host_places[0] = 0;
     for (size_t r = 0; r < parts->num_patterns; r++) {
         const size_t num = parts->patterns[r].num_points;
-        self->host_places[r + 1] = self->host_places[r] + (num + PS_NUFFT_PLACE_UNIT - 1) /
-                                                              PS_NUFFT_PLACE_UNIT *
-                                                              PS_NUFFT_PLACE_UNIT;
+        self->host_places[r + 1] = self->host_places[r] + ps_round_up(num, PS_NUFFT_PLACE_UNIT);
     }
     return ps_buffer_write(self->device, &self->places, 0, self->host_places,
                            (parts->num_patterns + 1) * sizeof(uint64_t), error);

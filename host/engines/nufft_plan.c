@@ -1,6 +1,7 @@
 #include "engines/nufft_plan.h"
 
 #include "base/memory.h"
+#include "base/round.h"
 #include "engines/nufft_kernels.h"
 #include "engines/reals.h"
 
@@ -10,18 +11,14 @@
 /* Numbers of a window are made in whole vectors of 8 and begin at half cache lines. */
 enum { BIN_UNIT = 8, PITCH_UNIT = 8 };
 
-static uint32_t round_up(uint32_t a, uint32_t unit) {
-    return (a + unit - 1) / unit * unit;
-}
-
 uint32_t ps_nufft_bins(const ps_nufft_axis *axis) {
-    return round_up(axis->window.width, BIN_UNIT);
+    return (uint32_t)ps_round_up(axis->window.width, BIN_UNIT);
 }
 
 uint32_t ps_nufft_pitch(const ps_nufft_axis *axis) {
     const uint32_t written = PS_NUFFT_GAP + ps_nufft_bins(axis);
     const uint32_t read = axis->window.width + 2 * PS_NUFFT_GAP;
-    return round_up(written > read ? written : read, PITCH_UNIT);
+    return (uint32_t)ps_round_up(written > read ? written : read, PITCH_UNIT);
 }
 
 size_t ps_nufft_row_cells(const ps_nufft_axis *axis) {

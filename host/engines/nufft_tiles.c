@@ -1,6 +1,7 @@
 #include "engines/nufft_tiles.h"
 
 #include "base/memory.h"
+#include "base/round.h"
 #include "engines/nufft_kernels.h"
 #include "engines/reals.h"
 
@@ -95,7 +96,7 @@ static size_t row_bytes(const ps_nufft_tiles *self, const ps_nufft_axis *axis) {
         PS_LOCAL(PS_NUFFT_CHUNK * sizeof(uint64_t)), PS_LOCAL(PS_NUFFT_CHUNK * sizeof(uint32_t))
 
 static size_t num_groups(const ps_nufft_tiles *self) {
-    return (self->layout->num_tiles + self->layout->group - 1) / self->layout->group;
+    return ps_divide_up(self->layout->num_tiles, self->layout->group);
 }
 
 static pspec_status make_tiles(ps_nufft_tiles *self, size_t num_realizations,

@@ -3,6 +3,7 @@
 #include "engines/torus_direct.h"
 
 #include "base/memory.h"
+#include "base/round.h"
 #include "engines/reals.h"
 #include "engines/torus_layout.h"
 #include "engines/torus_points.h"
@@ -25,10 +26,6 @@ typedef struct torus_direct {
     cl_kernel product;
     ps_buffer pairs, products, scales, power;
 } torus_direct;
-
-static size_t divide_up(size_t a, size_t b) {
-    return (a + b - 1) / b;
-}
 
 /* ---- what the planner asks --------------------------------------------------------------- */
 
@@ -87,7 +84,7 @@ static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
         .phases = num_points * lanes * (double)(layout.left_tiles + layout.right_tiles),
         .product_flops = 8 * num_points * box * (has_corners && share < 1 ? share : 1),
         .launches = ceil(realizations / (double)layout.group) *
-                    (double)divide_up((size_t)problem->num_points, layout.slab) *
+                    (double)ps_divide_up((size_t)problem->num_points, layout.slab) *
                     (layout.is_grid ? 2 : 1),
         .fixed_bytes = (double)layout.fixed_bytes,
         .bytes_per_realization = (double)layout.bytes_per_realization,
@@ -186,7 +183,7 @@ static pspec_status create_list(torus_direct *self, ps_error *error) {
 /* Rows are padded to whole groups of lanes and begin as zeros: accumulation reads whole groups. */
 static pspec_status create_rows(torus_direct *self, ps_error *error) {
     const size_t lanes = self->layout.lanes;
-    const size_t num_rows = (self->batch + lanes - 1) / lanes * lanes;
+    const size_t num_rows = ps_round_up(self->batch, lanes);
     PS_TRY(ps_buffer_create(self->device, &self->power,
                             num_rows * self->stride * self->layout.real_bytes, "powers of a batch",
                             error));
@@ -305,7 +302,7 @@ static pspec_status run_group(torus_direct *self, const ps_batch *group, size_t 
 
 static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_error *error) {
     torus_direct *self = state;
-    const size_t num_slabs = divide_up(longest_pattern(batch), self->layout.slab);
+    const size_t num_slabs = ps_divide_up(longest_pattern(batch), self->layout.slab);
     const size_t first_slot = self->layout.is_grid ? ps_split_left_slot(&self->split) : 0;
     PS_TRY(ps_reals_write(self->device, &self->scales, self->precision, batch->scales,
                           batch->num_patterns, error));

@@ -3,6 +3,7 @@
 #include "engines/torus_nufft.h"
 
 #include "base/memory.h"
+#include "base/round.h"
 #include "engines/nufft_grid.h"
 #include "engines/nufft_layout.h"
 #include "engines/nufft_places.h"
@@ -144,8 +145,7 @@ static pspec_status create_buffers(torus_nufft *self, size_t rows, ps_error *err
 
 static pspec_status create_parts(torus_nufft *self, const ps_problem *problem, ps_error *error) {
     const ps_nufft_choice *choice = &self->layout.choice;
-    const size_t rows =
-        (self->batch + self->layout.lanes - 1) / self->layout.lanes * self->layout.lanes;
+    const size_t rows = ps_round_up(self->batch, self->layout.lanes);
     void *memory = NULL;
     PS_TRY(ps_allocate(&memory, self->layout.parts, sizeof(double), "means", error));
     self->means_of_parts = memory;
