@@ -103,6 +103,11 @@ typedef struct ps_engine {
 /* All engines, ended by NULL, in the order in which plan lists them. */
 extern const ps_engine *const ps_engines[];
 
+/* Part of applicable of every engine whose kernels know single and double precision: is there a device that
+ * has this one? */
+bool ps_engine_on_device(const ps_device_limits *limits, ps_precision precision,
+                         const char **why_not);
+
 /* Lanes of the device kernels: frequencies (or realizations) side by side. The native vector width
  * on CPUs; on GPUs, where it means work per work-item, GPU_LANES. */
 unsigned ps_engine_lanes(const ps_device_limits *limits, ps_precision precision);

@@ -23,6 +23,20 @@ unsigned ps_engine_lanes(const ps_device_limits *limits, ps_precision precision)
     return lanes;
 }
 
+bool ps_engine_on_device(const ps_device_limits *limits, ps_precision precision,
+                         const char **why_not) {
+    if (limits == NULL) {
+        *why_not = "needs an OpenCL device";
+    } else if (precision == PS_EXTENDED) {
+        *why_not = "single and double precision only";
+    } else if (precision == PS_DOUBLE && !limits->has_fp64) {
+        *why_not = "the device has no double precision";
+    } else {
+        return true;
+    }
+    return false;
+}
+
 pspec_status ps_batch_go_on(const ps_batch *batch, ps_error *error) {
     return batch->should_stop != NULL && batch->should_stop(batch->payload)
                ? ps_fail(error, PSPEC_ERROR_CANCELLED, "cancelled")

@@ -39,16 +39,7 @@ static const double coherent_error[2] = {4.8e-7, 9.0e-16};
 
 static bool applicable(const ps_problem *problem, const ps_device_limits *limits,
                        ps_precision precision, const char **why_not) {
-    if (limits == NULL) {
-        *why_not = "needs an OpenCL device";
-        return false;
-    }
-    if (precision == PS_EXTENDED) {
-        *why_not = "single and double precision only";
-        return false;
-    }
-    if (precision == PS_DOUBLE && !limits->has_fp64) {
-        *why_not = "the device has no double precision";
+    if (!ps_engine_on_device(limits, precision, why_not)) {
         return false;
     }
     const ps_torus_layout layout = ps_torus_layout_make(problem, limits, precision);

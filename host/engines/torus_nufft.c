@@ -46,19 +46,8 @@ static bool applicable_to_problem(const ps_problem *problem, const char **why_no
 
 static bool applicable(const ps_problem *problem, const ps_device_limits *limits,
                        ps_precision precision, const char **why_not) {
-    if (limits == NULL) {
-        *why_not = "needs an OpenCL device";
-        return false;
-    }
-    if (precision == PS_EXTENDED) {
-        *why_not = "single and double precision only";
-        return false;
-    }
-    if (precision == PS_DOUBLE && !limits->has_fp64) {
-        *why_not = "the device has no double precision";
-        return false;
-    }
-    if (!applicable_to_problem(problem, why_not)) {
+    if (!ps_engine_on_device(limits, precision, why_not) ||
+        !applicable_to_problem(problem, why_not)) {
         return false;
     }
     const ps_nufft_layout layout = ps_nufft_layout_make(problem, limits, precision);
