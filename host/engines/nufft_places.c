@@ -4,6 +4,7 @@
 #include "base/round.h"
 #include "engines/nufft_kernels.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 
 static pspec_status create_buffers(ps_nufft_places *self, ps_error *error) {
@@ -20,6 +21,14 @@ static pspec_status create_buffers(ps_nufft_places *self, ps_error *error) {
                             "starts of cells", error);
 }
 
+static pspec_status create_sort(ps_nufft_places *self, ps_precision precision, ps_error *error) {
+    char options[64];
+    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u -DDIMENSION=%u",
+             precision == PS_SINGLE ? 32u : 64u, self->layout->lanes, self->dimension);
+    return ps_kernel_create(self->device, &self->sort, "nufft/sort.cl", "nufft_sort", options,
+                            error);
+}
+
 pspec_status ps_nufft_places_create(ps_nufft_places *out, const ps_nufft_layout *layout,
                                     unsigned dimension, ps_precision precision, ps_device *device,
                                     ps_error *error) {
@@ -27,8 +36,7 @@ pspec_status ps_nufft_places_create(ps_nufft_places *out, const ps_nufft_layout 
     *out = (ps_nufft_places){.layout = layout, .device = device, .dimension = dimension};
     PS_TRY(ps_allocate(&memory, layout->parts + 1, sizeof(uint64_t), "places", error));
     out->host_places = memory;
-    PS_TRY(ps_kernel_create(device, &out->sort, "nufft/sort.cl", "nufft_sort",
-                            precision == PS_SINGLE ? "-DPRECISION=32" : "-DPRECISION=64", error));
+    PS_TRY(create_sort(out, precision, error));
     PS_TRY(ps_torus_points_create(&out->points, dimension, layout->parts, layout->part_points,
                                   precision, false, device, error));
     return create_buffers(out, error);
@@ -72,7 +80,8 @@ pspec_status ps_nufft_places_make(ps_nufft_places *places, const ps_batch *parts
                      PS_BUFFER(places->points.weights), PS_BUFFER(places->points.offsets),
                      PS_BUFFER(places->places), PS_BUFFER(places->sorted),
                      PS_BUFFER(places->heights), PS_BUFFER(places->starts),
-                     PS_U64(parts->num_patterns), PS_U32(places->dimension), PS_U32(axis->n),
-                     PS_U32(axis->window.width), PS_U32(axis->axis), PS_U64(axis->factor),
-                     PS_U32(second->n), PS_U32(second->window.width), PS_U32(second->axis));
+                     PS_U64(parts->num_patterns), PS_U32(axis->n), PS_U32(axis->window.width),
+                     PS_U32(axis->axis), PS_U64(axis->factor), PS_U32(second->n),
+                     PS_U32(second->window.width), PS_U32(second->axis),
+                     PS_U32(places->points.has_unit_weights ? 0 : 1));
 }

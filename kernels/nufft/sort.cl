@@ -1,39 +1,100 @@
 /* Points of each realization in the order of the fine-grid cells where their windows begin: a counting
- * sort, stable, by one work-item for each realization. Launch: (realizations), rounded up at will.
+ * sort, stable, by one work-item for each realization. Launch: (realizations), rounded up at will. DIMENSION is a
+ * constant: loops over axes would cost as much as all the rest.
  *
- *   points, weights  [..][dimension] fixed point, realization r at offsets[r] .. offsets[r + 1]
+ *   points, weights  [..][DIMENSION] fixed point, realization r at offsets[r] .. offsets[r + 1]
  *   places           where the sorted points of realization r begin
- *   sorted, heights  [place][dimension], [place]: coordinates and weights; up to the next realization the
+ *   sorted, heights  [place][DIMENSION], [place]: coordinates and weights; up to the next realization the
  *                    last point again, without weight
  *   starts           [realization][n second_n + 2]: cell m has the points starts[m] .. starts[m + 1] of it
  *   n, width, axis, factor  of the fine grid: the coordinate is factor * x[axis] mod 1
  *   second_*         of another axis, for cells m = cell * second_n + second cell; second_n 1: none
+ *   has_weights      or all are 1
  */
-#include "nufft/cell.h"
-#include "nufft/place.h"
-#include "shared/real.h"
+#ifndef DIMENSION
+#define DIMENSION 2
+#endif
 
-/* One to three coordinates, without a loop: its branches cost as much as all the rest. */
-static inline void copy_point(__global ulong *to, __global const ulong *from,
-                              const uint dimension) {
-    const ulong first = from[0], second = from[dimension / 2], last = from[dimension - 1];
-    to[0] = first;
-    to[dimension / 2] = second;
-    to[dimension - 1] = last;
-}
+#include "nufft/cells.h"
+#include "nufft/place.h"
 
 typedef struct sorting_keys {
     uint n, width, axis, second_n, second_width, second_axis;
     ulong factor;
 } sorting_keys;
 
-static inline uint sorting_key(const sorting_keys keys, __global const ulong *x) {
-    ulong fraction;
-    const uint cell = first_cell(keys.factor * x[keys.axis], keys.n, keys.width, &fraction);
-    return keys.second_n == 1
-               ? cell
-               : cell * keys.second_n +
-                     first_cell(x[keys.second_axis], keys.second_n, keys.second_width, &fraction);
+typedef struct point_list {
+    __global const ulong *points;
+    __global const real *weights;
+    uint has_weights, count;
+} point_list;
+
+typedef struct sorted_list {
+    __global ulong *points;
+    __global real *heights;
+    __global uint *start;
+} sorted_list;
+
+/* Coordinates of points j .. j + LANES - 1, the last one again behind the end. */
+static inline ulongv next_coordinates(const point_list from, const uint j, const uint axis) {
+    __global const ulong *x = from.points + (size_t)j * DIMENSION;
+    return from.count - j < LANES ? load_some_coordinates(x, DIMENSION, axis, from.count - j)
+                                  : load_coordinates(x, DIMENSION, axis);
+}
+
+typedef union key_list {
+    uintv together;
+    uint key[LANES];
+} key_list;
+
+/* Of these points; how many there are. Inlined, its constants stay in registers. */
+__attribute__((always_inline)) static inline uint make_keys(key_list *to, const sorting_keys keys,
+                                                            const point_list from, const uint j) {
+    wordv fraction;
+    const ulongv x = next_coordinates(from, j, keys.axis);
+    uintv cell = first_cells((ulongv)keys.factor * x, keys.n, keys.width, &fraction);
+    if (keys.second_n != 1) {
+        const ulongv second = next_coordinates(from, j, keys.second_axis);
+        cell = cell * (uintv)keys.second_n +
+               first_cells(second, keys.second_n, keys.second_width, &fraction);
+    }
+    to->together = cell;
+    return min((uint)LANES, from.count - j);
+}
+
+static inline void copy_point(__global ulong *to, __global const ulong *from) {
+#pragma unroll
+    for (uint axis = 0; axis < DIMENSION; axis++) {
+        to[axis] = from[axis];
+    }
+}
+
+static inline void sort_points(const sorted_list to, const point_list from,
+                               const sorting_keys keys) {
+    const uint num_keys = keys.n * keys.second_n;
+    key_list next;
+    for (uint m = 0; m < num_keys + 2; m++) {
+        to.start[m] = 0;
+    }
+    for (uint j = 0; j < from.count; j += LANES) { /* cell m is counted two places on, ... */
+        const uint num = make_keys(&next, keys, from, j);
+        for (uint i = 0; i < num; i++) {
+            to.start[next.key[i] + 2]++;
+        }
+    }
+    for (uint m = 2; m < num_keys + 2; m++) { /* ... so that its beginning comes one place on ... */
+        to.start[m] += to.start[m - 1];
+    }
+    for (uint j = 0; j < from.count; j += LANES) { /* ... and has moved to its end, the next */
+        const uint num = make_keys(&next, keys, from, j); /* beginning, here */
+        for (uint i = 0; i < num; i++) {
+            const size_t place = to.start[next.key[i] + 1]++;
+            copy_point(to.points + place * DIMENSION, from.points + (size_t)(j + i) * DIMENSION);
+            if (from.has_weights) {
+                to.heights[place] = from.weights[j + i];
+            }
+        }
+    }
 }
 
 __kernel void nufft_sort(__global const ulong *restrict points,
@@ -41,39 +102,25 @@ __kernel void nufft_sort(__global const ulong *restrict points,
                          __global const ulong *restrict offsets,
                          __global const ulong *restrict places, __global ulong *restrict sorted,
                          __global real *restrict heights, __global uint *restrict starts,
-                         const ulong num_realizations, const uint dimension, const uint n,
-                         const uint width, const uint axis, const ulong factor, const uint second_n,
-                         const uint second_width, const uint second_axis) {
+                         const ulong num_realizations, const uint n, const uint width,
+                         const uint axis, const ulong factor, const uint second_n,
+                         const uint second_width, const uint second_axis, const uint has_weights) {
     const size_t realization = get_global_id(0);
     if (realization >= num_realizations) {
         return;
     }
-    const uint num_keys = n * second_n;
     const size_t first = offsets[realization];
     const uint count = (uint)(offsets[realization + 1] - first);
-    __global const ulong *own = points + first * dimension;
-    __global ulong *out = sorted + places[realization] * dimension;
-    __global real *height = heights + places[realization];
-    __global uint *start = starts + realization * ((size_t)num_keys + 2);
     const sorting_keys keys = {n, width, axis, second_n, second_width, second_axis, factor};
-    for (uint m = 0; m < num_keys + 2; m++) {
-        start[m] = 0;
-    }
-    for (uint j = 0; j < count; j++) { /* cell m is counted two places on, ... */
-        start[sorting_key(keys, own + (size_t)j * dimension) + 2]++;
-    }
-    for (uint m = 2; m < num_keys + 2; m++) { /* ... so that its beginning comes one place on ... */
-        start[m] += start[m - 1];
-    }
-    for (uint j = 0; j < count; j++) { /* ... and has moved to its end, the next beginning, here */
-        __global const ulong *x = own + (size_t)j * dimension;
-        const uint m = sorting_key(keys, x);
-        const size_t place = start[m + 1]++;
-        copy_point(out + place * dimension, x, dimension);
-        height[place] = weights[first + j];
+    const point_list from = {points + first * DIMENSION, weights + first, has_weights, count};
+    const sorted_list to = {sorted + places[realization] * DIMENSION, heights + places[realization],
+                            starts + realization * ((size_t)n * second_n + 2)};
+    sort_points(to, from, keys);
+    for (uint place = 0; !has_weights && place < count; place++) {
+        to.heights[place] = 1;
     }
     for (size_t place = count; place < places[realization + 1] - places[realization]; place++) {
-        copy_point(out + place * dimension, out + (count - 1) * (size_t)dimension, dimension);
-        height[place] = 0;
+        copy_point(to.points + place * DIMENSION, to.points + (count - 1) * (size_t)DIMENSION);
+        to.heights[place] = 0;
     }
 }

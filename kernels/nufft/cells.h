@@ -1,0 +1,60 @@
+/* Coordinates and cells of LANES points at a time. Device only. */
+#ifndef PS_NUFFT_CELLS_H
+#define PS_NUFFT_CELLS_H
+
+#include "shared/real.h"
+
+typedef PS_VECTOR(uint) uintv;
+typedef PS_VECTOR(ulong) ulongv;
+#define TO_UINTV(x) PS_JOIN(convert_, PS_VECTOR(uint))(x)
+#define TO_WORDV(x) PS_JOIN(convert_, PS_VECTOR(WORD))(x)
+
+/* Buffers are aligned as numbers, not always as vectors. */
+typedef ulongv unaligned_ulongv __attribute__((aligned(sizeof(ulong))));
+
+/* As first_cell() of nufft/cell.h, to the bit; the upper bits of the fraction, as many as a word has. */
+static inline uintv first_cells(const ulongv x, const uint n, const uint width, wordv *fraction) {
+    const ulong half_cell = width % 2 != 0 ? (ulong)1 << 31 : 0;
+    const ulongv low = (x & (ulongv)0xFFFFFFFF) * (ulongv)n;
+    const ulongv high = (x >> (ulongv)32) * (ulongv)n + (low >> (ulongv)32) + (ulongv)half_cell;
+    const uintv cell = TO_UINTV(high >> (ulongv)32) + (uintv)(1 - (width + 1) / 2);
+#if PRECISION == 64
+    *fraction = high << (ulongv)32 | (low & (ulongv)0xFFFFFFFF);
+#else
+    *fraction = TO_WORDV(high);
+#endif
+    return min(cell, cell + (uintv)n);
+}
+
+/* Coordinate `axis` of LANES points [point][dimension], as few instructions as that takes. */
+static inline ulongv load_coordinates(__global const ulong *from, const uint dimension,
+                                      const uint axis) {
+#if LANES > 1
+    if (dimension <= 2) {
+        const ulongv a = *(__global const unaligned_ulongv *)from;
+        if (dimension == 1) {
+            return a;
+        }
+        const ulongv b = *(__global const unaligned_ulongv *)(from + LANES);
+        return axis == 0 ? (ulongv)(a.even, b.even) : (ulongv)(a.odd, b.odd);
+    }
+#endif
+    ulong x[LANES];
+#pragma unroll
+    for (uint i = 0; i < LANES; i++) {
+        x[i] = from[i * dimension + axis];
+    }
+    return LOADV(0, x);
+}
+
+/* The first `num` < LANES of them, the last one again for the rest. */
+static inline ulongv load_some_coordinates(__global const ulong *from, const uint dimension,
+                                           const uint axis, const uint num) {
+    ulong x[LANES];
+    for (uint i = 0; i < LANES; i++) {
+        x[i] = from[min(i, num - 1) * dimension + axis];
+    }
+    return LOADV(0, x);
+}
+
+#endif
