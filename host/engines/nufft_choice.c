@@ -112,8 +112,8 @@ double ps_nufft_error(const ps_nufft_choice *choice, const ps_problem *problem,
  * out in turn): of a point to be sorted; for its phases, once for all tiles whose rows are in local memory
  * together, and for its windows, where a fused operation makes a value of `lanes` points; of a point in a tile,
  * and of a cell that it touches there; of a cell to be cleared, and of a frequency to be written. */
-static const double cycles_per_point = 16;
-static const double cycles_per_phase = 19;
+static const double cycles_per_point = 8;
+static const double cycles_per_phase = 13;
 static const double cycles_per_coefficient = 0.5;
 static const double cycles_per_value = 2.5;
 static const double cycles_per_touched = 1;

@@ -132,8 +132,8 @@ static pspec_status make_rows(ps_nufft_tiles *self, size_t num_realizations, con
         WINDOW_ARGUMENTS(along), PS_BUFFER(along->fft.radices), PS_BUFFER(along->fft.twiddles),
         PS_BUFFER(along->fft.position), PS_BUFFER(*means), PS_BUFFER(self->grid),
         PS_U32(ps_nufft_base(&self->layout->choice)), PS_U32(self->layout->num_tiles),
-        PS_U32(self->layout->group), PS_U32(self->places->dimension),
-        PS_U32(along->axis.max_frequency), LOCAL_ARGUMENTS(self, &along->axis));
+        PS_U32(self->layout->group), PS_U32(along->axis.max_frequency),
+        LOCAL_ARGUMENTS(self, &along->axis));
 }
 
 static pspec_status make_columns(ps_nufft_tiles *self, size_t num_realizations,

@@ -10,6 +10,7 @@ typedef PS_VECTOR(ulong) ulongv;
 #define TO_WORDV(x) PS_JOIN(convert_, PS_VECTOR(WORD))(x)
 
 /* Buffers are aligned as numbers, not always as vectors. */
+typedef uintv unaligned_uintv __attribute__((aligned(sizeof(uint))));
 typedef ulongv unaligned_ulongv __attribute__((aligned(sizeof(ulong))));
 
 /* As first_cell() of nufft/cell.h, to the bit; the upper bits of the fraction, as many as a word has. */
@@ -24,6 +25,16 @@ static inline uintv first_cells(const ulongv x, const uint n, const uint width, 
     *fraction = TO_WORDV(high);
 #endif
     return min(cell, cell + (uintv)n);
+}
+
+/* u = 2 f - 1 (nufft/window.h). */
+static inline realv centred_fractions(const wordv fractions) {
+#if PRECISION == 64
+    const real unit = 1.0842021724855044e-19; /* 2^-63 */
+#else
+    const real unit = 4.656612873077393e-10f; /* 2^-31 */
+#endif
+    return TO_REALV(AS_SWORDV(fractions ^ (wordv)((word)1 << (PRECISION - 1)))) * (realv)unit;
 }
 
 /* Coordinate `axis` of LANES points [point][dimension], as few instructions as that takes. */
@@ -47,9 +58,12 @@ static inline ulongv load_coordinates(__global const ulong *from, const uint dim
     return LOADV(0, x);
 }
 
-/* The first `num` < LANES of them, the last one again for the rest. */
+/* The first `num` of them, the last one again for the rest. */
 static inline ulongv load_some_coordinates(__global const ulong *from, const uint dimension,
                                            const uint axis, const uint num) {
+    if (num >= LANES) {
+        return load_coordinates(from, dimension, axis);
+    }
     ulong x[LANES];
     for (uint i = 0; i < LANES; i++) {
         x[i] = from[min(i, num - 1) * dimension + axis];

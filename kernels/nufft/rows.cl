@@ -14,26 +14,36 @@
 #include "nufft/finish.h"
 #include "nufft/spread.h"
 
-/* The place, or nothing where the list has ended. */
-static inline void fill_touching(const chunk to, const uint i, __global const ulong *x,
-                                 const real weight, const window_axis axis,
-                                 const window_axis across, const uint bin) {
-    ulong fraction;
-    first_cell(across.factor * x[across.axis], across.n, across.width, &fraction);
-    fill_place(to, i, x, weight * window_bin(across, centred(fraction), bin), axis);
+#define DIMENSION 3 /* two axes are transformed */
+
+/* LANES places from `place` on, nothing where the list has ended. */
+static inline void fill_touching(const chunk to, const uint part, __global const ulong *sorted,
+                                 __global const real *heights, const size_t place, const size_t end,
+                                 const window_axis axis, const window_axis across, const uint bin) {
+    const size_t first = min(place, end - 1);
+    const uint num = (uint)min(end - first, (size_t)LANES);
+    __global const ulong *x = sorted + first * DIMENSION;
+    real weights[LANES];
+    for (uint i = 0; i < LANES; i++) {
+        weights[i] = place + i < end ? heights[place + i] : 0;
+    }
+    wordv fractions;
+    first_cells((ulongv)across.factor * load_some_coordinates(x, DIMENSION, across.axis, num),
+                across.n, across.width, &fractions);
+    fill_places(to, part, load_some_coordinates(x, DIMENSION, 0, num),
+                load_some_coordinates(x, DIMENSION, axis.axis, num),
+                LOADV(0, weights) * window_bin_of_points(across, centred_fractions(fractions), bin),
+                axis);
 }
 
 /* Places begin .. end, in the order of cells, whose windows touch the row with `bin`. */
 static inline void add_places(__local real *rows, const chunk to, __global const ulong *sorted,
-                              __global const real *heights, const uint dimension,
-                              const size_t begin, const size_t end, const window_axis axis,
-                              const window_axis across, const uint bin, const uint k,
-                              const uint num_tiles) {
+                              __global const real *heights, const size_t begin, const size_t end,
+                              const window_axis axis, const window_axis across, const uint bin,
+                              const uint k, const uint num_tiles) {
     for (size_t place = begin; place < end; place += CHUNK) {
-        for (uint i = get_local_id(0); i < CHUNK; i += get_local_size(0)) {
-            const size_t at = min(place + i, end - 1);
-            fill_touching(to, i, sorted + at * dimension, place + i < end ? heights[at] : 0, axis,
-                          across, bin);
+        for (uint part = get_local_id(0); part < CHUNK / LANES; part += get_local_size(0)) {
+            fill_touching(to, part, sorted, heights, place + part * LANES, end, axis, across, bin);
         }
         add_chunk(rows, to, axis, k, num_tiles);
     }
@@ -49,8 +59,8 @@ nufft_rows(__global const ulong *restrict places, __global const ulong *restrict
            const uint bins, const uint pitch, __global const uint *restrict radices,
            __global const real *restrict twiddles, __global const uint *restrict position,
            __global const real *restrict means, __global real *restrict grid, const uint base,
-           const uint num_tiles, const uint group, const uint dimension, const uint K,
-           __local real *rows, __local real *reals, __local ulong *along, __local uint *cells) {
+           const uint num_tiles, const uint group, const uint K, __local real *rows,
+           __local real *reals, __local ulong *along, __local uint *cells) {
     const uint m = get_global_id(1) % num_rows;
     const uint first_tile = get_global_id(1) / num_rows * group;
     const uint own_tiles = min(group, num_tiles - first_tile);
@@ -64,7 +74,7 @@ nufft_rows(__global const ulong *restrict places, __global const ulong *restrict
     clear_rows(rows, own_tiles * row_cells(window));
     for (uint bin = 0; bin < row_width; bin++) {
         const uint begun = m >= bin ? m - bin : num_rows + m - bin;
-        add_places(rows, chunk, sorted, heights, dimension, first + start[begun * n],
+        add_places(rows, chunk, sorted, heights, first + start[begun * n],
                    first + start[(begun + 1) * n], window, across, bin, base + first_tile * LANES,
                    own_tiles);
     }

@@ -35,31 +35,26 @@ typedef struct sorted_list {
     __global uint *start;
 } sorted_list;
 
-/* Coordinates of points j .. j + LANES - 1, the last one again behind the end. */
-static inline ulongv next_coordinates(const point_list from, const uint j, const uint axis) {
-    __global const ulong *x = from.points + (size_t)j * DIMENSION;
-    return from.count - j < LANES ? load_some_coordinates(x, DIMENSION, axis, from.count - j)
-                                  : load_coordinates(x, DIMENSION, axis);
-}
-
 typedef union key_list {
     uintv together;
     uint key[LANES];
 } key_list;
 
-/* Of these points; how many there are. Inlined, its constants stay in registers. */
+/* Of points j .. j + LANES - 1; how many of them there are. Inlined, its constants stay in registers. */
 __attribute__((always_inline)) static inline uint make_keys(key_list *to, const sorting_keys keys,
                                                             const point_list from, const uint j) {
+    __global const ulong *points = from.points + (size_t)j * DIMENSION;
+    const uint rest = from.count - j;
     wordv fraction;
-    const ulongv x = next_coordinates(from, j, keys.axis);
+    const ulongv x = load_some_coordinates(points, DIMENSION, keys.axis, rest);
     uintv cell = first_cells((ulongv)keys.factor * x, keys.n, keys.width, &fraction);
     if (keys.second_n != 1) {
-        const ulongv second = next_coordinates(from, j, keys.second_axis);
+        const ulongv second = load_some_coordinates(points, DIMENSION, keys.second_axis, rest);
         cell = cell * (uintv)keys.second_n +
                first_cells(second, keys.second_n, keys.second_width, &fraction);
     }
     to->together = cell;
-    return min((uint)LANES, from.count - j);
+    return min((uint)LANES, rest);
 }
 
 static inline void copy_point(__global ulong *to, __global const ulong *from) {

@@ -45,28 +45,29 @@ static inline chunk make_chunk(__local real *reals, __local ulong *along, __loca
     return (chunk){reals, phases, centres, centres + CHUNK, centres + 2 * CHUNK, along, cells};
 }
 
-__constant word lane_numbers[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-
-/* One place of a chunk. */
-static inline void fill_place(const chunk to, const uint i, __global const ulong *x,
-                              const real weight, const window_axis axis) {
-    ulong fraction;
-    realv cosine, sine;
-    to.cells[i] = first_cell(axis.factor * x[axis.axis], axis.n, axis.width, &fraction);
-    to.centres[i] = centred(fraction);
-    to.weights[i] = weight;
-    to.along[i] = x[0];
-    turn_cosine_sine(phases_of_lanes(LOADV(0, lane_numbers), x[0]), &cosine, &sine);
-    store_local(to.phases, 2 * i, cosine);
-    store_local(to.phases, 2 * i + 1, -sine);
+/* LANES places of a chunk: coordinates of axis 0 and of the axis that is spread, weights. */
+static inline void fill_places(const chunk to, const uint part, const ulongv along, const ulongv x,
+                               const realv weights, const window_axis axis) {
+    wordv fractions;
+    const uintv cells = first_cells((ulongv)axis.factor * x, axis.n, axis.width, &fractions);
+    *(__local unaligned_uintv *)(to.cells + part * LANES) = cells;
+    *(__local unaligned_ulongv *)(to.along + part * LANES) = along;
+    store_local(to.centres, part, centred_fractions(fractions));
+    store_local(to.weights, part, weights);
 }
 
-/* Windows and turns, LANES places at a time, once all places are filled. Tiles have the first frequencies k,
- * k + LANES, ... */
+/* Windows and turns, LANES places at a time, and phases, once all places are filled. Tiles have the first
+ * frequencies k, k + LANES, ... */
 static inline void finish_chunk(const chunk to, const window_axis axis, const uint k,
                                 const uint num_tiles) {
     const uint parts = CHUNK / LANES;
     barrier(CLK_LOCAL_MEM_FENCE);
+    for (uint i = 2 * get_local_id(0); i < CHUNK; i += 2 * get_local_size(0)) {
+        complexv lanes, next_lanes;
+        lanes_of_two(to.along[i], to.along[i + 1], &lanes, &next_lanes);
+        store_complex(to.phases, i, lanes);
+        store_complex(to.phases, i + 1, next_lanes);
+    }
     for (uint job = get_local_id(0); job < (axis.width + 3) / 4 * parts; job += get_local_size(0)) {
         const uint part = job % parts, bin = job / parts * 4;
         make_four_bins(axis, bin, load_local(to.centres, part), load_local(to.weights, part),
@@ -74,8 +75,9 @@ static inline void finish_chunk(const chunk to, const window_axis axis, const ui
     }
     for (uint job = get_local_id(0); job < num_tiles * parts; job += get_local_size(0)) {
         const uint part = job % parts, tile = job / parts;
+        const ulongv along = *(__local const unaligned_ulongv *)(to.along + part * LANES);
         realv cosine, sine;
-        turn_cosine_sine(phases_of_points(k + tile * LANES, LOADV(part, to.along)), &cosine, &sine);
+        turn_cosine_sine(phases_of_points(k + tile * LANES, along), &cosine, &sine);
         store_local(to.turns + tile * 2 * CHUNK, part, cosine);
         store_local(to.turns + tile * 2 * CHUNK + CHUNK, part, -sine);
     }

@@ -35,8 +35,11 @@ nufft_tile(__global const ulong *restrict places, __global const ulong *restrict
     const chunk chunk = make_chunk(reals, along, cells, window);
     clear_rows(rows, own_tiles * row_cells(window));
     for (size_t place = places[realization]; place < places[realization + 1]; place += CHUNK) {
-        for (uint i = get_local_id(0); i < CHUNK; i += get_local_size(0)) {
-            fill_place(chunk, i, sorted + (place + i) * dimension, heights[place + i], window);
+        for (uint part = get_local_id(0); part < CHUNK / LANES; part += get_local_size(0)) {
+            const size_t at = place + part * LANES;
+            fill_places(chunk, part, load_coordinates(sorted + at * dimension, dimension, 0),
+                        load_coordinates(sorted + at * dimension, dimension, axis),
+                        load_global(heights + at, 0), window);
         }
         add_chunk(rows, chunk, window, base + first_tile * LANES, own_tiles);
     }

@@ -51,6 +51,16 @@ static inline void make_four_bins(const window_axis axis, const uint bin, const 
     store_local(to + 3 * apart, 0, d * weight);
 }
 
+/* One bin of LANES points. */
+static inline realv window_bin_of_points(const window_axis axis, const realv centre,
+                                         const uint bin) {
+    realv value = (realv)axis.coefficients[axis.degree * axis.bins + bin];
+    for (uint i = axis.degree; i-- > 0;) {
+        value = fma(value, centre, (realv)axis.coefficients[i * axis.bins + bin]);
+    }
+    return value;
+}
+
 /* One value. */
 static inline real window_bin(const window_axis axis, const real centre, const uint bin) {
     real value = axis.coefficients[axis.degree * axis.bins + bin];
