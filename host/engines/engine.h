@@ -32,6 +32,8 @@ typedef struct ps_problem {
     uint64_t
         planned_points; /* num_points when the job was planned, which later growth leaves alone, for
                                 choices that must be the same for all of it; 0: num_points */
+    uint64_t
+        block_points; /* of a set in host memory at a time, where the engine allows it; 0: all */
 } ps_problem;
 
 /* 1 where nothing is known. */
@@ -47,6 +49,7 @@ typedef struct ps_work {
     double fixed_bytes;  /* memory on the device, whatever the batch */
     double bytes_per_realization;          /* and for each realization of a batch */
     double largest_buffer_per_realization; /* part of that in one allocation */
+    bool takes_blocks;                     /* ps_engine.stream will */
 } ps_work;
 
 /* A batch of realizations. power = scales[r] |S|^2, S with weights w 2^-exponents[r] (NULL: 0).
@@ -72,6 +75,18 @@ typedef struct ps_rows {
     ps_buffer device;        /* else rows in device memory, padded to a multiple of the lanes */
 } ps_rows;
 
+/* One realization whose points come in blocks, for sets larger than memory: begin, add any number of
+ * times, finish. Bits are those of run. */
+typedef struct ps_engine_stream {
+    /* All blocks but the last have a multiple of so many points. 0: this state takes whole sets only. */
+    size_t (*unit)(const void *state);
+    pspec_status (*begin)(void *state, ps_error *);
+    /* The only pattern of the batch: more points. Its exponent is that of the whole set; scales are not
+     * looked at. */
+    pspec_status (*add)(void *state, const ps_batch *block, ps_error *);
+    pspec_status (*finish)(void *state, double scale, ps_rows *, ps_error *);
+} ps_engine_stream;
+
 typedef struct ps_engine {
     const char *name;
     const char *summary; /* one line, for plan and docs */
@@ -95,6 +110,7 @@ typedef struct ps_engine {
     /* Entries in a row. */
     size_t (*get_stride)(const void *state);
     pspec_status (*run)(void *state, const ps_batch *, ps_rows *, ps_error *);
+    const ps_engine_stream *stream; /* NULL: whole sets only */
     /* "(torus_direct precision=single split=33x32 lanes=16)" */
     void (*describe)(const void *state, ps_text *);
     void (*destroy)(void *state); /* NULL allowed */

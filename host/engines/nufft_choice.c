@@ -18,6 +18,10 @@ enum { MOST_CELLS = 1 << 17 };
 /* Grids take one set at a time: never worth while for fewer points. */
 static const double least_gridded_points = 30000;
 
+/* Sets of more points always go on a grid, in two and three dimensions: the places of all others take memory for
+ * every point, up to 96 bytes of it. */
+static const double most_sorted_points = 1 << 23;
+
 /* In one dimension, where more tiles mean shorter transforms. */
 enum { MOST_TILES = 64 };
 
@@ -280,7 +284,8 @@ static size_t list_candidates(const ps_nufft_choice *whole, unsigned which,
                               ps_nufft_axis candidates[MAX_CANDIDATES]) {
     const double twice_k = 2.0 * whole->axes[which].max_frequency;
     const uint64_t least = (uint64_t)fmax(LEAST_CELLS, ceil(least_sigma * twice_k + 1));
-    const uint64_t last = ps_fft_good_length((uint64_t)fmax(LEAST_CELLS, largest_sigma * twice_k));
+    const double largest = fmin(fmax(LEAST_CELLS, largest_sigma * twice_k), MOST_CELLS);
+    const uint64_t last = ps_fft_good_length((uint64_t)largest);
     size_t num = 0;
     for (uint32_t n = length_for(whole, which, least, precision);
          n != 0 && n <= last && num < MAX_CANDIDATES && n <= MOST_CELLS;
@@ -380,7 +385,9 @@ ps_nufft_choice ps_nufft_choose(const ps_problem *whole, ps_precision precision)
     best_choice best = {0};
     if (dimension == 2 || dimension == 3) {
         ps_nufft_choice choice = direct_choice(max_frequency, dimension);
-        consider_grids(&best, &choice, problem, precision);
+        if (points_of(problem) <= most_sorted_points) {
+            consider_grids(&best, &choice, problem, precision);
+        }
         if (points_of(problem) >= least_gridded_points) {
             choice = gridded_choice(max_frequency, dimension);
             consider_grids(&best, &choice, problem, precision);

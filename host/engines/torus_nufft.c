@@ -24,6 +24,7 @@ typedef struct torus_nufft {
     ps_nufft_tiles tiles; /* all others */
     ps_buffer means, scales, power;
     double *means_of_parts;
+    double large_sum; /* of the weights added so far */
 } torus_nufft;
 
 /* ---- what the planner asks --------------------------------------------------------------- */
@@ -89,7 +90,8 @@ static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
         .launches = num_kernels * ceil(realizations / (double)layout.parts),
         .fixed_bytes = (double)layout.fixed_bytes,
         .bytes_per_realization = (double)layout.bytes_per_realization,
-        .largest_buffer_per_realization = (double)layout.largest_buffer_per_realization};
+        .largest_buffer_per_realization = (double)layout.largest_buffer_per_realization,
+        .takes_blocks = layout.choice.is_gridded};
 }
 
 static double error_of(const ps_problem *problem, ps_precision precision, double mean_power) {
@@ -188,14 +190,21 @@ static size_t get_stride(const void *state) {
 
 /* ---- run --------------------------------------------------------------------------------- */
 
-/* What frequency 0 leaves in a cell, to be taken off: it then does not round into the others. */
-static double mean_of_cells(const torus_nufft *self, const pspec_pattern *pattern, int exponent) {
-    const ps_nufft_choice *choice = &self->layout.choice;
-    double mean = 0;
-    for (size_t j = 0; pattern->weights != NULL && j < pattern->num_points; j++) {
-        mean += ldexp(pattern->weights[j], -exponent);
+/* A sum of weights, and more of them. */
+static double add_weights(double sum, const pspec_pattern *pattern, int exponent) {
+    if (pattern->weights == NULL) {
+        return sum + (double)pattern->num_points;
     }
-    mean = pattern->weights != NULL ? mean : (double)pattern->num_points;
+    for (size_t j = 0; j < pattern->num_points; j++) {
+        sum += ldexp(pattern->weights[j], -exponent);
+    }
+    return sum;
+}
+
+/* What frequency 0 leaves in a cell, to be taken off: it then does not round into the others. */
+static double mean_of_cells(const torus_nufft *self, double weight_sum) {
+    const ps_nufft_choice *choice = &self->layout.choice;
+    double mean = weight_sum;
     for (unsigned i = 0; i < choice->num_axes; i++) {
         const ps_nufft_axis *axis = &choice->axes[i];
         const double q = i == 0 && choice->stride != 0 ? axis->max_frequency : 0;
@@ -204,10 +213,14 @@ static double mean_of_cells(const torus_nufft *self, const pspec_pattern *patter
     return mean;
 }
 
+static int exponent_of(const ps_batch *batch, size_t pattern) {
+    return batch->exponents != NULL ? batch->exponents[pattern] : 0;
+}
+
 static pspec_status upload_means(torus_nufft *self, const ps_batch *some, ps_error *error) {
     for (size_t r = 0; r < some->num_patterns; r++) {
-        self->means_of_parts[r] = mean_of_cells(self, &some->patterns[r],
-                                                some->exponents != NULL ? some->exponents[r] : 0);
+        self->means_of_parts[r] =
+            mean_of_cells(self, add_weights(0, &some->patterns[r], exponent_of(some, r)));
     }
     return ps_nufft_write(self->device, &self->means, self->precision, self->means_of_parts,
                           some->num_patterns, error);
@@ -220,12 +233,54 @@ static pspec_status run_some(torus_nufft *self, const ps_batch *some, const ps_n
     return ps_nufft_tiles_run(&self->tiles, some->num_patterns, &self->means, target, error);
 }
 
+/* ---- very large sets --------------------------------------------------------------------- */
+
+static pspec_status begin_large(void *state, ps_error *error) {
+    torus_nufft *self = state;
+    self->large_sum = 0;
+    return ps_nufft_grid_begin(&self->large, error);
+}
+
+static pspec_status add_large(void *state, const ps_batch *block, ps_error *error) {
+    torus_nufft *self = state;
+    self->large_sum = add_weights(self->large_sum, &block->patterns[0], exponent_of(block, 0));
+    return ps_nufft_grid_add(&self->large, block, error);
+}
+
+static pspec_status end_large(torus_nufft *self, const ps_nufft_target *target, ps_error *error) {
+    const double mean = mean_of_cells(self, self->large_sum);
+    PS_TRY(ps_nufft_write(self->device, &self->means, self->precision, &mean, 1, error));
+    return ps_nufft_grid_finish(&self->large, &self->means, target, error);
+}
+
+static size_t stream_unit(const void *state) {
+    const torus_nufft *self = state;
+    return self->layout.choice.is_gridded ? self->layout.parts * self->layout.part_points : 0;
+}
+
+static ps_rows show_rows(const torus_nufft *self, size_t num_rows) {
+    return (ps_rows){.num_rows = num_rows,
+                     .stride = self->layout.stride,
+                     .precision = self->precision,
+                     .device = self->power};
+}
+
+static pspec_status finish_large(void *state, double scale, ps_rows *rows, ps_error *error) {
+    torus_nufft *self = state;
+    const ps_nufft_target target = {&self->power, &self->scales, 0};
+    PS_TRY(ps_nufft_write(self->device, &self->scales, self->precision, &scale, 1, error));
+    *rows = show_rows(self, 1);
+    return end_large(self, &target, error);
+}
+
+static const ps_engine_stream stream = {
+    .unit = stream_unit, .begin = begin_large, .add = add_large, .finish = finish_large};
+
 static pspec_status run_large(torus_nufft *self, const ps_batch *one, const ps_nufft_target *target,
                               ps_error *error) {
-    PS_TRY(ps_nufft_grid_begin(&self->large, error));
-    PS_TRY(ps_nufft_grid_add(&self->large, one, error));
-    PS_TRY(upload_means(self, one, error));
-    return ps_nufft_grid_finish(&self->large, &self->means, target, error);
+    PS_TRY(begin_large(self, error));
+    PS_TRY(add_large(self, one, error));
+    return end_large(self, target, error);
 }
 
 static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_error *error) {
@@ -245,10 +300,7 @@ static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_er
         PS_TRY(is_large ? run_large(self, &some, &target, error)
                         : run_some(self, &some, &target, error));
     }
-    *rows = (ps_rows){.num_rows = batch->num_patterns,
-                      .stride = self->layout.stride,
-                      .precision = self->precision,
-                      .device = self->power};
+    *rows = show_rows(self, batch->num_patterns);
     return PSPEC_OK;
 }
 
@@ -281,6 +333,7 @@ const ps_engine ps_torus_nufft = {
     .get_slots = get_slots,
     .get_stride = get_stride,
     .run = run,
+    .stream = &stream,
     .describe = describe,
     .destroy = destroy,
 };

@@ -23,6 +23,7 @@ typedef struct ps_power_question {
     size_t num_paths;
     ps_point_options point_options;
     const char *weights_path; /* NULL: none; the same weights for every set */
+    uint64_t whole_bytes;     /* of a set of a file, see ps_source_options */
 
     /* frequencies */
     int32_t max_frequency;        /* 0: ceil(5 N^(1/d)), for d <= 3 */

@@ -37,7 +37,9 @@ static void estimate(ps_candidate *candidate, const ps_problem *problem,
     const ps_device_limits *used = candidate->engine->needs_device ? limits : NULL;
     ps_work work = candidate->engine->work(problem, used, candidate->precision);
     const double columns = dimension + (problem->has_weights ? 1 : 0);
-    work.bytes_per_realization += (double)problem->num_points * columns * (double)sizeof(double);
+    const uint64_t points = work.takes_blocks && problem->block_points > 0 ? problem->block_points
+                                                                           : problem->num_points;
+    work.bytes_per_realization += (double)points * columns * (double)sizeof(double);
     work.fixed_bytes += (double)problem->frequencies->num * host_bytes_per_frequency(dimension);
     candidate->batch = ps_cost_batch(&work, used, problem->num_realizations);
     while (memory_limit > 0 && candidate->batch > 1 &&
