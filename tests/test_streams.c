@@ -13,21 +13,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* So many points are always a grid (host/engines/nufft_choice.c), and more than the self-check takes. */
-enum { NUM_POINTS = 200000, K = 7, BYTES = 16 * 50000 };
+/* A grid is chosen, and its chunks have 307200 points: two and a part. */
+enum { NUM_POINTS = 700000, K = 250, BYTES = 16 * 50000 };
 
-static char path[128];
+static char path[TEST_PATH_BYTES];
+static const test_folder *folder;
 static uint64_t calls;
 
 static void write_sets(const char *name, size_t num_sets, size_t num_points, bool has_weights) {
     uint64_t state = 5;
     ps_point_writer *writer = NULL;
     ps_point_set set = {.dimension = 2, .num_points = num_points, .has_weights = has_weights};
-    const ps_point_shape shape = {.num_sets = num_sets,
-                                  .num_points = num_points,
-                                  .dimension = 2,
-                                  .has_weights = has_weights};
-    snprintf(path, sizeof path, "%s/%s", test_folder, name);
+    const ps_point_shape shape = {
+        .num_sets = num_sets, .num_points = num_points, .dimension = 2, .has_weights = has_weights};
+    test_path(folder, name, path);
     assert_ok(ps_points_reserve(&set, num_points, error));
     assert_ok(ps_points_create(&writer, path, NULL, &shape, error));
     for (size_t r = 0; r < num_sets; r++) {
@@ -67,7 +66,7 @@ static pspec_status run(uint64_t whole_bytes, bool weight_column, uint64_t most_
         .point_options = {.weight_column = weight_column},
         .whole_bytes = whole_bytes,
         .max_frequency = K,
-        .tolerance = 1e-3,
+        .tolerance = 1e-4,
         .constraints = {.engine = "torus_nufft", .precision = PS_SINGLE},
         .device = getenv("POINTSPEC_DEVICE"),
         .progress = count_calls,
@@ -92,7 +91,7 @@ static pspec_status run(uint64_t whole_bytes, bool weight_column, uint64_t most_
 }
 
 static void compare(bool weight_column) {
-    static const uint64_t blocks[] = {BYTES, 1, 3 * BYTES + 8};
+    static const uint64_t blocks[] = {BYTES, 1, 8 * BYTES + 8};
     result expected = {0};
     assert_ok(run(0, weight_column, UINT64_MAX, &expected, error));
     for (size_t i = 0; i < sizeof blocks / sizeof blocks[0]; i++) {
@@ -107,7 +106,7 @@ static void compare(bool weight_column) {
 
 /* One reading where the file tells the size, two where it does not or where there are weights. */
 static void blocks_change_nothing(void **state) {
-    (void)state;
+    folder = *state;
     write_sets("points.npy", 2, NUM_POINTS, false);
     compare(false);
     write_sets("points.bin", 1, NUM_POINTS, false);
@@ -120,29 +119,29 @@ static void blocks_change_nothing(void **state) {
 
 /* Line `line` of the file becomes another one. */
 static void spoil_line(size_t line, const char *text) {
-    char command[512];
+    char command[2 * TEST_PATH_BYTES];
     snprintf(command, sizeof command, "sed -i '%zus/.*/%s/' %s", line, text, path);
     assert_int_equal(system(command), 0);
 }
 
 static void errors_have_a_place(void **state) {
-    (void)state;
+    folder = *state;
     ps_error error = {0};
     write_sets("spoiled.csv", 1, NUM_POINTS, false);
-    spoil_line(150001, "0.5,1.5");
+    spoil_line(650001, "0.5,1.5");
     assert_int_equal(run(BYTES, false, UINT64_MAX, NULL, &error), PSPEC_ERROR_INPUT);
-    assert_non_null(strstr(error.message, "line 150001"));
+    assert_non_null(strstr(error.message, "line 650001"));
     assert_non_null(strstr(error.message, "1.5"));
-    spoil_line(150001, "0.5,word");
+    spoil_line(650001, "0.5,word");
     assert_int_equal(run(BYTES, false, UINT64_MAX, NULL, &error), PSPEC_ERROR_INPUT);
-    assert_non_null(strstr(error.message, "line 150001"));
+    assert_non_null(strstr(error.message, "line 650001"));
     assert_null(strchr(error.message, '\n'));
 }
 
 /* Where the size is known, the bad point comes when others are on the device already. */
 static void errors_in_mid_stream(void **state) {
-    (void)state;
-    enum { HEADER_BYTES = 128, ROW = 180000 };
+    folder = *state;
+    enum { HEADER_BYTES = 128, ROW = 680000 };
     ps_error error = {0};
     const double bad = -0.25;
     write_sets("spoiled.npy", 1, NUM_POINTS, false);
@@ -152,13 +151,13 @@ static void errors_in_mid_stream(void **state) {
     assert_int_equal(fwrite(&bad, sizeof bad, 1, file), 1);
     assert_int_equal(fclose(file), 0);
     assert_int_equal(run(BYTES, false, UINT64_MAX, NULL, &error), PSPEC_ERROR_INPUT);
-    assert_non_null(strstr(error.message, "row 180001"));
+    assert_non_null(strstr(error.message, "row 680001"));
     assert_non_null(strstr(error.message, "-0.25"));
 }
 
 /* Wherever a job is cancelled, it says so and nothing else. */
 static void cancelled_anywhere(void **state) {
-    (void)state;
+    folder = *state;
     write_sets("points.csv", 1, NUM_POINTS, false);
     result whole = {0};
     assert_ok(run(BYTES, false, UINT64_MAX, &whole, error));
@@ -179,5 +178,5 @@ int main(void) {
         cmocka_unit_test(cancelled_anywhere),
     };
     ps_device_close(test_open_device());
-    return cmocka_run_group_tests_name("streams", tests, test_make_folder, test_remove_folder);
+    return cmocka_run_group_tests_name("streams", tests, test_folder_create, test_folder_remove);
 }

@@ -143,7 +143,9 @@ static pspec_status scout_ahead(ps_source *source, ps_pattern_count *count, ps_e
 }
 
 static size_t points_of(const ps_point_set *set, uint64_t bytes) {
-    return (size_t)(bytes / ((set->dimension + (set->has_weights ? 1 : 0)) * sizeof(double)));
+    const size_t columns = set->dimension + (set->has_weights ? 1 : 0);
+    const size_t num = (size_t)(bytes / (columns * sizeof(double)));
+    return num > FIRST_POINTS ? num : FIRST_POINTS;
 }
 
 pspec_status ps_source_more(ps_source *source, ps_point_set *set, size_t max_points, bool *ends,
