@@ -13,7 +13,9 @@ typedef struct ps_nufft_grid {
     ps_nufft_places *places;
     ps_device *device;
     cl_kernel spread, first, tile, rows, columns;
-    ps_buffer high, low, tile_rows, transformed;
+    ps_buffer high[PS_NUFFT_MOST_SLABS], low[PS_NUFFT_MOST_SLABS]; /* [num_slabs] */
+    ps_buffer high_strip, low_strip;                               /* of more than one slab */
+    ps_buffer tile_rows, transformed;                              /* of tiles_at_once */
 } ps_nufft_grid;
 
 /* layout, plans and places are borrowed. */

@@ -73,22 +73,66 @@ static void measure_axes(ps_nufft_layout *layout) {
     }
 }
 
+/* Equal shares of a whole, at most `most` each and whole units; one unit when not even that fits. */
+static uint64_t share_out(uint64_t whole, uint64_t most, uint64_t unit) {
+    const uint64_t fitting = most / unit > 0 ? most / unit * unit : unit;
+    const uint64_t shares = (whole + fitting - 1) / fitting;
+    const uint64_t share = round_up((whole + shares - 1) / shares, unit);
+    return share < whole ? share : whole;
+}
+
+/* The grid of a large set in buffers that the device allows: slabs of axis 0 where points are spread, which are
+ * copied together for strips of columns where axis 0 is transformed, into some tiles at a time. */
+static void split_grid(ps_nufft_layout *layout, uint64_t limit) {
+    enum { STRIPS = 16 };
+    const uint64_t n = layout->choice.axes[0].n;
+    const uint64_t columns = layout->grid_reals / n;
+    const uint64_t unit = layout->choice.num_axes == 2 ? PS_NUFFT_BLOCK_ROWS : 1;
+    const uint64_t lanes = 2 * layout->lanes;
+    const uint64_t tile_rows = columns * lanes * layout->real_bytes;
+    const uint64_t tile_transformed =
+        layout->grid_cells / layout->num_tiles * lanes * layout->real_bytes;
+    const uint64_t tile = tile_rows > tile_transformed ? tile_rows : tile_transformed;
+    layout->slab_rows = (uint32_t)share_out(n, limit / (columns * layout->real_bytes), unit);
+    layout->num_slabs = (uint32_t)((n + layout->slab_rows - 1) / layout->slab_rows);
+    layout->tiles_at_once = (uint32_t)share_out(layout->num_tiles, limit / tile, 1);
+    if (layout->num_slabs > 1) {
+        const uint64_t fitting = limit / (n * layout->real_bytes);
+        const uint64_t wanted = round_up((columns + STRIPS - 1) / STRIPS, lanes);
+        layout->strip_columns = share_out(columns, wanted < fitting ? wanted : fitting, lanes);
+    }
+}
+
+static uint64_t larger(uint64_t a, uint64_t b) {
+    return a > b ? a : b;
+}
+
 /* Memory of a large set: a chunk of points, the grid in pairs, rows of tiles, what two transforms leave. */
-static void measure_grid(ps_nufft_layout *layout, const ps_problem *problem) {
+static void measure_grid(ps_nufft_layout *layout, const ps_problem *problem, uint64_t limit) {
+    split_grid(layout, limit);
     const uint64_t vector_bytes = 2 * layout->lanes * layout->real_bytes;
-    const uint64_t columns = layout->grid_reals / layout->choice.axes[0].n;
-    const uint64_t rows = layout->num_tiles * columns * vector_bytes;
-    const uint64_t transformed = layout->grid_cells * vector_bytes;
+    const uint64_t n = layout->choice.axes[0].n;
+    const uint64_t columns = layout->grid_reals / n;
+    const uint64_t rows = layout->tiles_at_once * columns * vector_bytes;
+    const uint64_t transformed =
+        layout->grid_cells / layout->num_tiles * layout->tiles_at_once * vector_bytes;
     const uint64_t reals = layout->grid_reals * layout->real_bytes;
-    const uint64_t part =
-        layout->part_places * place_bytes(layout, problem->frequencies->dimension) +
-        ((uint64_t)layout->num_keys + 2) * sizeof(uint32_t);
+    const uint64_t slab = layout->slab_rows * columns * layout->real_bytes;
+    const uint64_t strip = layout->strip_columns * n * layout->real_bytes;
+    const uint64_t starts = ((uint64_t)layout->num_keys + 2) * sizeof(uint32_t);
+    const uint64_t points =
+        layout->part_places * problem->frequencies->dimension * sizeof(uint64_t);
     const size_t parts = (problem->num_points + layout->part_points - 1) / layout->part_points;
     layout->parts = parts < PS_NUFFT_MOST_PARTS ? parts : PS_NUFFT_MOST_PARTS;
-    layout->fixed_bytes = layout->parts * part + 2 * reals + rows + transformed;
-    layout->largest_buffer = rows > reals ? rows : reals;
-    layout->largest_buffer =
-        transformed > layout->largest_buffer ? transformed : layout->largest_buffer;
+    layout->fixed_bytes =
+        layout->parts *
+            (layout->part_places * place_bytes(layout, problem->frequencies->dimension) + starts) +
+        2 * (reals + strip) + rows + transformed;
+    layout->largest_buffer = larger(larger(larger(rows, slab), larger(transformed, strip)),
+                                    layout->parts * larger(starts, points));
+    if (layout->num_slabs > PS_NUFFT_MOST_SLABS) {
+        layout->largest_buffer = reals;
+    }
 }
 
 /* Of a tile: its row, and how much each point of a chunk turns. */
@@ -145,7 +189,7 @@ ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_
     layout.bytes_per_realization = layout.stride * layout.real_bytes;
     layout.largest_buffer_per_realization = layout.bytes_per_realization;
     if (layout.choice.is_gridded) {
-        measure_grid(&layout, problem);
+        measure_grid(&layout, problem, limits->max_allocation_bytes);
     } else {
         choose_at_once(&layout, problem, limits);
     }

@@ -7,6 +7,9 @@
 /* Points of a chunk, kernels/nufft/spread.h. */
 enum { PS_NUFFT_CHUNK = 16 };
 
+/* Buffers of the grid of a large set; rows of its blocks, kernels/nufft/grid.cl. */
+enum { PS_NUFFT_MOST_SLABS = 16, PS_NUFFT_BLOCK_ROWS = 8 };
+
 /* Parts of a chunk of a large set, which are sorted side by side. */
 enum { PS_NUFFT_MOST_PARTS = 8 };
 
@@ -21,10 +24,15 @@ typedef struct ps_nufft_layout {
     size_t stride;      /* powers in a row */
     size_t grid_cells;  /* of a realization between two transforms, [..][re, im][lanes] */
     size_t grid_reals;  /* cells of the grid of a large set */
-    uint32_t num_keys;  /* cells that points are sorted by */
-    size_t part_points; /* points sorted together: all of a realization, or part of a chunk */
-    size_t part_places; /* whole units of places for them */
-    size_t parts;       /* whose places are made at a time */
+    uint32_t
+        slab_rows; /* cells of axis 0 whose part of that grid is in one buffer; all, where that fits */
+    uint32_t num_slabs;
+    size_t strip_columns;   /* cells of the other axes transformed along axis 0 at a time; 0: all */
+    uint32_t tiles_at_once; /* made of the grid at a time */
+    uint32_t num_keys;      /* cells that points are sorted by */
+    size_t part_points;     /* points sorted together: all of a realization, or part of a chunk */
+    size_t part_places;     /* whole units of places for them */
+    size_t parts;           /* whose places are made at a time */
     uint64_t fixed_bytes, bytes_per_realization;
     uint64_t largest_buffer, largest_buffer_per_realization;
 } ps_nufft_layout;

@@ -5,10 +5,11 @@
  * = (Z(k) + conj Z(-k)) / 2 and B(k) = (Z(k) - conj Z(-k)) / 2i. The result is turned, so that lanes are
  * frequencies, as nufft/finish.cl wants it.
  *
- *   high, low  [cell of axis 0][column]; columns are cells of all other axes, a multiple of 2 LANES
+ *   high, low  [cell of axis 0][column], some columns: cells of all other axes, a multiple of 2 LANES
  *   mean       taken off every cell: frequency 0
  *   radices, twiddles, position, K, n  of nufft/finish.h; gains [K + 1]: 1 / squared transform of the window
- *   rows       [tile][column][re, im][LANES]: frequencies tile LANES + lane; what exceeds K is 0
+ *   rows       [tile][column][re, im][LANES]: frequencies tile LANES + lane from first_tile on; what exceeds K is 0;
+ *              all_columns of them, these from first_column on
  *   cells      local, [n][re, im][LANES]
  */
 #include "nufft/finish.h"
@@ -59,12 +60,15 @@ __kernel void nufft_first(__global const real *restrict high, __global const rea
                           __global const real *restrict twiddles,
                           __global const uint *restrict position,
                           __global const real *restrict gains, const uint n, const uint K,
-                          const uint num_tiles, __global real *restrict rows, __local real *cells) {
+                          const uint first_tile, const uint num_tiles, const ulong first_column,
+                          const ulong all_columns, __global real *restrict rows,
+                          __local real *cells) {
     const size_t first = get_global_id(1) * (size_t)(2 * LANES);
     const transform_axis axis = {radices, twiddles, position, gains, n, K};
     load_cells(cells, high, low, mean[0], columns, first, n);
     fft_transform(cells, n, radices, twiddles);
     for (uint tile = get_local_id(0); tile < num_tiles; tile += get_local_size(0)) {
-        write_tile(cells, axis, tile * LANES, rows + (tile * columns + first) * (2 * LANES));
+        write_tile(cells, axis, (first_tile + tile) * LANES,
+                   rows + (tile * all_columns + first_column + first) * (2 * LANES));
     }
 }
