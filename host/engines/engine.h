@@ -32,6 +32,8 @@ typedef struct ps_problem {
     uint64_t
         planned_points; /* num_points when the job was planned, which later growth leaves alone, for
                                 choices that must be the same for all of it; 0: num_points */
+    size_t
+        row_unit; /* rows of powers on the device come in multiples of it, see ps_engine_row_unit; 0: 1 */
     uint64_t
         block_points; /* of a set in host memory at a time, where the engine allows it; 0: all */
 } ps_problem;
@@ -46,8 +48,10 @@ typedef struct ps_work {
     double
         transform_flops; /* what a device at its peak would do while spreading and transforming */
     double launches;     /* kernel launches */
-    double fixed_bytes;  /* memory on the device, whatever the batch */
-    double bytes_per_realization;          /* and for each realization of a batch */
+    double fixed_bytes;  /* memory, whatever the batch */
+    double host_bytes;   /* part of that on the host */
+    double bytes_per_realization;          /* on the device, for each realization of a batch */
+    double row_bytes;                      /* part of that for its powers */
     double largest_buffer_per_realization; /* part of that in one allocation */
     bool takes_blocks;                     /* ps_engine.stream will */
 } ps_work;
@@ -122,5 +126,12 @@ extern const ps_engine *const ps_engines[];
 /* Lanes of the device kernels: frequencies (or realizations) side by side. The native vector width
  * on CPUs; on GPUs, where it means work per work-item, GPU_LANES. */
 unsigned ps_engine_lanes(const ps_device_limits *limits, ps_precision precision);
+
+/* Rows of powers that are read together, in batches of at most so many: the lanes, or fewer where most would be
+ * empty. */
+size_t ps_engine_row_unit(const ps_device_limits *limits, ps_precision precision, size_t batch);
+
+/* Rows of a batch in whole units. */
+size_t ps_engine_rows(const ps_problem *problem, size_t batch);
 
 #endif

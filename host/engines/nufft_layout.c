@@ -193,6 +193,8 @@ ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_
     } else {
         choose_at_once(&layout, problem, limits);
     }
+    layout.host_bytes = layout.parts * layout.part_places *
+                        (problem->frequencies->dimension * sizeof(uint64_t) + layout.real_bytes);
     return layout;
 }
 

@@ -34,6 +34,7 @@ typedef struct ps_nufft_layout {
     size_t part_places;     /* whole units of places for them */
     size_t parts;           /* whose places are made at a time */
     uint64_t fixed_bytes, bytes_per_realization;
+    uint64_t host_bytes; /* part of fixed_bytes: points and weights as they came */
     uint64_t largest_buffer, largest_buffer_per_realization;
 } ps_nufft_layout;
 

@@ -23,6 +23,19 @@ unsigned ps_engine_lanes(const ps_device_limits *limits, ps_precision precision)
     return lanes;
 }
 
+size_t ps_engine_row_unit(const ps_device_limits *limits, ps_precision precision, size_t batch) {
+    size_t unit = ps_engine_lanes(limits, precision);
+    while (unit > 1 && unit / 2 >= batch) {
+        unit /= 2;
+    }
+    return unit;
+}
+
+size_t ps_engine_rows(const ps_problem *problem, size_t batch) {
+    const size_t unit = problem->row_unit > 0 ? problem->row_unit : 1;
+    return (batch + unit - 1) / unit * unit;
+}
+
 pspec_status ps_batch_go_on(const ps_batch *batch, ps_error *error) {
     return batch->should_stop != NULL && batch->should_stop(batch->payload)
                ? ps_fail(error, PSPEC_ERROR_CANCELLED, "cancelled")

@@ -90,7 +90,9 @@ static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
                     (double)divide_up((size_t)problem->num_points, layout.slab) *
                     (layout.is_grid ? 2 : 1),
         .fixed_bytes = (double)layout.fixed_bytes,
+        .host_bytes = (double)layout.host_bytes,
         .bytes_per_realization = (double)layout.bytes_per_realization,
+        .row_bytes = (double)(layout.max_stride * layout.real_bytes),
         .largest_buffer_per_realization = (double)layout.largest_buffer_per_realization};
 }
 
@@ -184,10 +186,9 @@ static pspec_status create_list(torus_direct *self, ps_error *error) {
     return PSPEC_OK;
 }
 
-/* Rows are padded to whole groups of lanes and begin as zeros: accumulation reads whole groups. */
-static pspec_status create_rows(torus_direct *self, ps_error *error) {
-    const size_t lanes = self->layout.lanes;
-    const size_t num_rows = (self->batch + lanes - 1) / lanes * lanes;
+/* Rows are padded to whole units and begin as zeros: accumulation reads whole units. */
+static pspec_status create_rows(torus_direct *self, const ps_problem *problem, ps_error *error) {
+    const size_t num_rows = ps_engine_rows(problem, self->batch);
     PS_TRY(ps_buffer_create(self->device, &self->power,
                             num_rows * self->stride * self->layout.real_bytes, "powers of a batch",
                             error));
@@ -216,7 +217,7 @@ static pspec_status create(void **state, const ps_problem *problem, ps_precision
         status = self->layout.is_grid ? create_grid(self, error) : create_list(self, error);
     }
     if (status == PSPEC_OK) {
-        status = create_rows(self, error);
+        status = create_rows(self, problem, error);
     }
     if (status != PSPEC_OK) {
         destroy(self);

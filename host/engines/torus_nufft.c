@@ -89,7 +89,9 @@ static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
             realizations * ps_nufft_flops(&layout.choice, precision, (double)problem->num_points),
         .launches = num_kernels * ceil(realizations / (double)layout.parts),
         .fixed_bytes = (double)layout.fixed_bytes,
+        .host_bytes = (double)layout.host_bytes,
         .bytes_per_realization = (double)layout.bytes_per_realization,
+        .row_bytes = (double)layout.bytes_per_realization,
         .largest_buffer_per_realization = (double)layout.largest_buffer_per_realization,
         .takes_blocks = layout.choice.is_gridded};
 }
@@ -133,8 +135,7 @@ static pspec_status create_buffers(torus_nufft *self, size_t rows, ps_error *err
 
 static pspec_status create_parts(torus_nufft *self, const ps_problem *problem, ps_error *error) {
     const ps_nufft_choice *choice = &self->layout.choice;
-    const size_t rows =
-        (self->batch + self->layout.lanes - 1) / self->layout.lanes * self->layout.lanes;
+    const size_t rows = ps_engine_rows(problem, self->batch);
     void *memory = NULL;
     PS_TRY(ps_allocate(&memory, self->layout.parts, sizeof(double), "means", error));
     self->means_of_parts = memory;

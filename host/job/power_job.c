@@ -299,6 +299,10 @@ bool ps_power_job_was_replanned(const ps_power_job *job) {
     return job->was_replanned;
 }
 
+uint64_t ps_power_job_buffer_bytes(const ps_power_job *job) {
+    return job->device != NULL ? ps_device_most_buffer_bytes(job->device) : 0;
+}
+
 const ps_profile_row *ps_power_job_profile(const ps_power_job *job, size_t *num_rows) {
     *num_rows = 0;
     return job->device != NULL ? ps_device_profile(job->device, num_rows) : NULL;

@@ -72,6 +72,8 @@ const ps_accuracy *ps_power_job_accuracy(const ps_power_job *job);
 const char *ps_power_job_description(const ps_power_job *job);
 /* True when the first run missed the tolerance and the plan was made again. */
 bool ps_power_job_was_replanned(const ps_power_job *job);
+/* The most bytes that buffers of the device had at a time. */
+uint64_t ps_power_job_buffer_bytes(const ps_power_job *job);
 const ps_profile_row *ps_power_job_profile(const ps_power_job *job, size_t *num_rows);
 
 #endif

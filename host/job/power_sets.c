@@ -76,12 +76,16 @@ static pspec_pattern show(const ps_power_sets *sets, const ps_point_set *set, si
                            sets->weights != NULL ? sets->weights + position : own};
 }
 
-/* The next set becomes number `at` of the batch, its memory that of the next one. */
+static void exchange(ps_point_set *a, ps_point_set *b) {
+    const ps_point_set kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
+/* The next set becomes number `at` of the batch. */
 static pspec_status take_next(ps_power_sets *sets, size_t at, ps_error *error) {
     ps_point_set *const set = &sets->sets[at];
-    const ps_point_set free_set = *set;
-    *set = sets->next;
-    sets->next = free_set;
+    exchange(set, &sets->next);
     sets->has_next = false;
     sets->patterns[at] = show(sets, set, 0, set->num_points, 0);
     return check_weights(sets, set->num_points, error);
@@ -96,6 +100,9 @@ static pspec_status load_next(ps_power_sets *sets, ps_error *error) {
 static pspec_status fill_batch(ps_power_sets *sets, bool can_stream, size_t *num, ps_error *error) {
     for (*num = 0; *num < sets->capacity; (*num)++) {
         bool has_set = false;
+        if (!sets->has_next) { /* read to where it will stay */
+            exchange(&sets->next, &sets->sets[*num]);
+        }
         PS_TRY(ps_power_sets_peek(sets, &has_set, error));
         if (!has_set || (!sets->part.is_whole && can_stream)) {
             return PSPEC_OK;
