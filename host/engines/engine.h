@@ -50,8 +50,9 @@ typedef struct ps_work {
     double launches;     /* kernel launches */
     double fixed_bytes;  /* memory, whatever the batch */
     double host_bytes;   /* part of that on the host */
-    double bytes_per_realization;          /* on the device, for each realization of a batch */
-    double row_bytes;                      /* part of that for its powers */
+    double bytes_per_realization; /* on the device, for each realization of a batch */
+    double row_bytes;             /* part of that for its powers */
+    double point_bytes; /* of points of each realization besides, on the device and on the host */
     double largest_buffer_per_realization; /* part of that in one allocation */
     bool takes_blocks;                     /* ps_engine.stream will */
 } ps_work;

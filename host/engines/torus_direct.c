@@ -90,7 +90,7 @@ static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
                     (double)divide_up((size_t)problem->num_points, layout.slab) *
                     (layout.is_grid ? 2 : 1),
         .fixed_bytes = (double)layout.fixed_bytes,
-        .host_bytes = (double)layout.host_bytes,
+        .point_bytes = (double)layout.point_bytes,
         .bytes_per_realization = (double)layout.bytes_per_realization,
         .row_bytes = (double)(layout.max_stride * layout.real_bytes),
         .largest_buffer_per_realization = (double)layout.largest_buffer_per_realization};

@@ -103,9 +103,10 @@ static void count_bytes(ps_torus_layout *layout, unsigned dimension) {
     const uint64_t sums = (layout->num_chunks + 1) * tiles * 4 * row;
     layout->bytes_per_realization = power + sums + 2 * layout->real_bytes;
     layout->largest_buffer_per_realization = power > sums ? power : sums;
-    layout->fixed_bytes = layout->group * group_member_bytes(layout, dimension) +
-                          tiles * dimension * row + layout->max_pairs * 2 * sizeof(uint32_t);
-    layout->host_bytes = layout->group * point_bytes(layout, dimension);
+    layout->point_bytes = point_bytes(layout, dimension);
+    layout->fixed_bytes =
+        layout->group * (group_member_bytes(layout, dimension) - 2 * layout->point_bytes) +
+        tiles * dimension * row + layout->max_pairs * 2 * sizeof(uint32_t);
     layout->largest_buffer = layout->group * largest(buffers, sizeof buffers / sizeof buffers[0]);
 }
 

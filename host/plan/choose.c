@@ -53,8 +53,9 @@ static memory count_memory(const ps_candidate *candidate, const ps_problem *prob
     const double num = (double)problem->frequencies->num;
     /* of every frequency twice its vector and its slot, its place in a bin, mean and standard error */
     memory sum = {.device = work->fixed_bytes - work->host_bytes +
-                            work->bytes_per_realization * (double)batch,
-                  .host = work->host_bytes + set_bytes(problem, work) * (double)batch +
+                            (work->bytes_per_realization + work->point_bytes) * (double)batch,
+                  .host = work->host_bytes +
+                          (set_bytes(problem, work) + work->point_bytes) * (double)batch +
                           num * (2 * dimension * (double)sizeof(int32_t) +
                                  3 * (double)sizeof(uint32_t) + 2 * (double)sizeof(double))};
     if (limits == NULL) {
@@ -80,7 +81,7 @@ static void estimate(ps_candidate *candidate, const ps_problem *problem,
     const memory one = count_memory(candidate, problem, &work, used, 1);
     ps_work whole = work; /* with host memory */
     whole.bytes_per_realization += set_bytes(problem, &work);
-    whole.fixed_bytes = one.device + one.host - whole.bytes_per_realization;
+    whole.fixed_bytes = one.device + one.host - whole.bytes_per_realization - work.point_bytes;
     candidate->batch = ps_cost_batch(&whole, used, problem->num_realizations);
     memory sum = count_memory(candidate, problem, &work, used, candidate->batch);
     while (memory_limit > 0 && candidate->batch > 1 &&
