@@ -1,9 +1,10 @@
 /* Sets that come in blocks: the same bits as sets in memory, whatever the blocks, in any file; one clear error
  * for what is wrong in the middle of them.
  */
-#include "harness.h"
+#include "harness_estimator.h"
 
 #include "engines/torus_nufft.h"
+#include "io/npy.h"
 #include "io/points.h"
 #include "job/power_job.h"
 
@@ -19,6 +20,7 @@ enum { NUM_POINTS = 700000, K = 250, BYTES = 16 * 50000 };
 static char path[TEST_PATH_BYTES];
 static const test_folder *folder;
 static uint64_t calls;
+static const char *weights_path; /* of a file besides, or NULL */
 
 static void write_sets(const char *name, size_t num_sets, size_t num_points, bool has_weights) {
     uint64_t state = 5;
@@ -65,6 +67,7 @@ static pspec_status run(uint64_t whole_bytes, bool weight_column, uint64_t most_
         .num_paths = 1,
         .point_options = {.weight_column = weight_column},
         .whole_bytes = whole_bytes,
+        .weights_path = weights_path,
         .max_frequency = K,
         .tolerance = 1e-4,
         .constraints = {.engine = "torus_nufft", .precision = PS_SINGLE},
@@ -115,6 +118,73 @@ static void blocks_change_nothing(void **state) {
     compare(false);
     write_sets("weights.npy", 2, NUM_POINTS, true);
     compare(true);
+}
+
+/* The same weights for every set, as many as it has points. */
+static void weights_of_a_file(void **state) {
+    folder = *state;
+    char name[TEST_PATH_BYTES];
+    double *weights = calloc(NUM_POINTS, sizeof *weights);
+    uint64_t random = 9;
+    for (size_t j = 0; j < NUM_POINTS; j++) {
+        weights[j] = (test_uniform(&random) - 0.25) * (double)(NUM_POINTS - j);
+    }
+    const size_t shape[] = {NUM_POINTS};
+    assert_ok(ps_npy_write(test_path(folder, "alone.npy", name), 1, shape, weights, error));
+    weights_path = name;
+    write_sets("points.npy", 2, NUM_POINTS, false);
+    compare(false);
+    write_sets("points.npy", 1, NUM_POINTS - 1, false);
+    ps_error error = {0};
+    assert_int_equal(run(BYTES, false, UINT64_MAX, NULL, &error), PSPEC_ERROR_INPUT);
+    assert_non_null(strstr(error.message, "holds 700000 weights, but a set has 699999 points"));
+    weights_path = NULL;
+    free(weights);
+}
+
+typedef struct blocks {
+    pspec_pattern pattern;
+    size_t position;
+} blocks;
+
+static pspec_status next_block(void *payload, size_t unit, pspec_pattern *block, ps_error *error) {
+    blocks *from = payload;
+    (void)error;
+    const size_t left = from->pattern.num_points - from->position;
+    *block = from->pattern;
+    block->num_points = left < unit ? left : unit;
+    block->points += from->position * block->dimension;
+    from->position += block->num_points;
+    return PSPEC_OK;
+}
+
+/* What was announced and what comes are not the same: nothing is added. */
+static void sets_that_change(void **state) {
+    (void)state;
+    enum { MANY = 5000000, SOME = 300000 };
+    ps_device *device = test_open_device();
+    ps_frequencies grid = test_make_lattice(2, 9, true);
+    test_sample what = test_make_sample(1, 2, SOME, 0, false);
+    ps_estimator_options options = test_make_options(&grid, &ps_torus_nufft, PS_SINGLE, MANY, 1);
+    options.problem.tolerance = 1e-6;
+    ps_estimator *estimator = NULL;
+    assert_ok(ps_estimator_create(&estimator, &options, device, error));
+    assert_true(ps_estimator_can_stream(estimator));
+    for (uint64_t announced = SOME - 1; announced <= SOME + 1; announced++) {
+        ps_error error = {0};
+        blocks from = {.pattern = what.patterns[0]};
+        const double sum = (double)announced;
+        const ps_pattern_stream stream = {2, announced, {0, sum, sum}, next_block, &from};
+        const bool is_right = announced == SOME;
+        assert_int_equal(ps_estimator_add_stream(estimator, &stream, &error),
+                         is_right ? PSPEC_OK : PSPEC_ERROR_INPUT);
+        assert_true(is_right || strstr(error.message, "changed while it was read") != NULL);
+    }
+    assert_int_equal(ps_estimator_num_realizations(estimator), 1);
+    ps_estimator_destroy(estimator);
+    test_free_sample(&what);
+    ps_frequencies_free(&grid);
+    ps_device_close(device);
 }
 
 /* Line `line` of the file becomes another one. */
@@ -172,10 +242,9 @@ static void cancelled_anywhere(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(blocks_change_nothing),
-        cmocka_unit_test(errors_have_a_place),
-        cmocka_unit_test(errors_in_mid_stream),
-        cmocka_unit_test(cancelled_anywhere),
+        cmocka_unit_test(blocks_change_nothing), cmocka_unit_test(weights_of_a_file),
+        cmocka_unit_test(sets_that_change),      cmocka_unit_test(errors_have_a_place),
+        cmocka_unit_test(errors_in_mid_stream),  cmocka_unit_test(cancelled_anywhere),
     };
     ps_device_close(test_open_device());
     return cmocka_run_group_tests_name("streams", tests, test_folder_create, test_folder_remove);
