@@ -2,8 +2,8 @@
  * vector cannot be forwarded from the store to the next load of the whole, which waits for memory then (spreading
  * took 1.4 times as long). Device only.
  */
-#ifndef PS_NUFFT_LANES_H
-#define PS_NUFFT_LANES_H
+#ifndef PS_SHARED_LANES_H
+#define PS_SHARED_LANES_H
 
 #include "shared/real.h"
 

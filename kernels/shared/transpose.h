@@ -3,8 +3,8 @@
  * Interleaving the first half of the vectors with the second half, log2(LANES) times, is the
  * transposition; every interleaving is one shuffle for each vector.
  */
-#ifndef PS_NUFFT_TRANSPOSE_H
-#define PS_NUFFT_TRANSPOSE_H
+#ifndef PS_SHARED_TRANSPOSE_H
+#define PS_SHARED_TRANSPOSE_H
 
 #include "shared/real.h"
 
