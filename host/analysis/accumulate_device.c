@@ -21,12 +21,18 @@ static double get_real(const ps_device_accumulator *self, const void *array, siz
 
 /* ---- create ------------------------------------------------------------------------------ */
 
+static size_t block_bytes(unsigned lanes, size_t real_bytes) {
+    return PS_ACCUMULATE_BLOCK * lanes * real_bytes;
+}
+
 /* Results do not depend on it. Rows are whole vectors, and an engine may have had fewer lanes than suit the
  * device. For few realizations a vector that they do not fill costs memory and time; one that they fill by
  * more than a quarter is faster than a shorter one. */
-static unsigned choose_lanes(const ps_accumulator_options *options) {
+static unsigned choose_lanes(const ps_accumulator_options *options, size_t real_bytes,
+                             const ps_device_limits *limits) {
     unsigned lanes = options->lanes;
-    while (options->stride % lanes != 0 || lanes >= 4 * options->batch) {
+    while (lanes > 1 && (options->stride % lanes != 0 || lanes >= 4 * options->batch ||
+                         block_bytes(lanes, real_bytes) > limits->local_bytes)) {
         lanes /= 2;
     }
     return lanes;
@@ -78,6 +84,11 @@ out:
     return status;
 }
 
+/* Every bin is one piece (none is empty, analysis/bins.h), as in one dimension: nothing to add up. */
+static bool is_whole(const ps_device_accumulator *self) {
+    return self->num_pieces == self->options.bins->num;
+}
+
 static pspec_status create_buffers(ps_device_accumulator *self, ps_error *error) {
     const ps_accumulator_options *options = &self->options;
     const size_t pair_bytes = self->num_groups * 2 * options->lanes * self->real_bytes;
@@ -85,8 +96,10 @@ static pspec_status create_buffers(ps_device_accumulator *self, ps_error *error)
     size_t staging = bin_entries;
     PS_TRY(ps_buffer_create(self->device, &self->piece_sums, pair_bytes * self->num_pieces,
                             "sums of bins", error));
-    PS_TRY(ps_buffer_create(self->device, &self->bin_sums, bin_entries * self->real_bytes,
-                            "sums of bins", error));
+    if (!is_whole(self)) {
+        PS_TRY(ps_buffer_create(self->device, &self->bin_sums, bin_entries * self->real_bytes,
+                                "sums of bins", error));
+    }
     if (options->want_frequencies) {
         PS_TRY(ps_buffer_create(self->device, &self->state, 4 * options->stride * self->real_bytes,
                                 "sums of frequencies", error));
@@ -106,7 +119,7 @@ pspec_status ps_device_accumulator_create(ps_device_accumulator **out,
     self->device = device;
     self->options = *options;
     self->real_bytes = options->precision == PS_SINGLE ? sizeof(float) : sizeof(double);
-    self->options.lanes = choose_lanes(options);
+    self->options.lanes = choose_lanes(options, self->real_bytes, ps_device_get_limits(device));
     self->num_groups = (options->batch + self->options.lanes - 1) / self->options.lanes;
     pspec_status status = create_kernels(self, error);
     if (status == PSPEC_OK) {
@@ -161,8 +174,7 @@ static pspec_status sum_blocks(ps_device_accumulator *self, const ps_rows *rows,
         ps_range_heavy(self->device, 1, self->num_blocks, 1,
                        (BIN_FLOPS + (with_frequencies ? FREQUENCY_FLOPS : 0)) * powers,
                        powers * (double)self->real_bytes);
-    const ps_argument block =
-        PS_LOCAL(PS_ACCUMULATE_BLOCK * self->options.lanes * self->real_bytes);
+    const ps_argument block = PS_LOCAL(block_bytes(self->options.lanes, self->real_bytes));
     return with_frequencies ? PS_LAUNCH(self->device, self->blocks, &range, error,
                                         BLOCK_ARGUMENTS(self, rows), PS_BUFFER(self->state), block)
                             : PS_LAUNCH(self->device, self->blocks, &range, error,
@@ -183,7 +195,8 @@ static pspec_status read_bins(ps_device_accumulator *self, const ps_rows *rows, 
                               double *bin_powers, ps_error *error) {
     const ps_bins *bins = self->options.bins;
     const size_t lanes = self->options.lanes;
-    PS_TRY(ps_buffer_read(self->device, &self->bin_sums, 0, self->host,
+    const ps_buffer *sums = is_whole(self) ? &self->piece_sums : &self->bin_sums;
+    PS_TRY(ps_buffer_read(self->device, sums, 0, self->host,
                           num_groups * bins->num * 2 * lanes * self->real_bytes, error));
     for (size_t r = 0; r < rows->num_rows; r++) {
         for (size_t b = 0; b < bins->num; b++) {
@@ -202,7 +215,9 @@ pspec_status ps_device_accumulator_add(ps_device_accumulator *accumulator, const
     const size_t lanes = self->options.lanes;
     const size_t num_groups = (rows->num_rows + lanes - 1) / lanes;
     PS_TRY(sum_blocks(self, rows, error));
-    PS_TRY(fold(self, num_groups, error));
+    if (!is_whole(self)) {
+        PS_TRY(fold(self, num_groups, error));
+    }
     return read_bins(self, rows, num_groups, bin_powers, error);
 }
 
