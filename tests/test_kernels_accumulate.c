@@ -21,7 +21,7 @@ typedef struct build {
     size_t num_groups; /* how many work-group sizes */
 } build;
 
-static const build builds[] = {{32, 0, 3}, {64, 0, 1}, {32, 1, 1}, {64, 4, 1}};
+static const build builds[] = {{32, 0, 3}, {64, 0, 1}, {32, 4, 3}, {32, 1, 1}, {64, 4, 1}};
 
 static void for_all_builds(void (*check)(const build *)) {
     for (size_t i = 0; i < sizeof builds / sizeof builds[0]; i++) {
