@@ -55,6 +55,7 @@ static void buffers_are_announced(void **state) {
         {2, 256, 4096, 4, NULL},
         {2, 512, 16384, 1, NULL},
         {3, 32, 4096, 3, NULL},
+        {1, 32768, 65536, 30, NULL},
         {2, 1024, 10000000, 1, NULL},
         {3, 32, 20000000, 1, NULL},
         {2, 64, 1024, 1, "torus_direct"},

@@ -32,8 +32,6 @@ typedef struct ps_problem {
     uint64_t
         planned_points; /* num_points when the job was planned, which later growth leaves alone, for
                                 choices that must be the same for all of it; 0: num_points */
-    size_t
-        row_unit; /* rows of powers on the device come in multiples of it, see ps_engine_row_unit; 0: 1 */
     uint64_t
         block_points; /* of a set in host memory at a time, where the engine allows it; 0: all */
 } ps_problem;
@@ -124,15 +122,13 @@ typedef struct ps_engine {
 /* All engines, ended by NULL, in the order in which plan lists them. */
 extern const ps_engine *const ps_engines[];
 
+/* Part of applicable of every engine whose kernels know single and double precision: is there a device that
+ * has this one? */
+bool ps_engine_on_device(const ps_device_limits *limits, ps_precision precision,
+                         const char **why_not);
+
 /* Lanes of the device kernels: frequencies (or realizations) side by side. The native vector width
  * on CPUs; on GPUs, where it means work per work-item, GPU_LANES. */
 unsigned ps_engine_lanes(const ps_device_limits *limits, ps_precision precision);
-
-/* Rows of powers that are read together, in batches of at most so many: the lanes, or fewer where most would be
- * empty. */
-size_t ps_engine_row_unit(const ps_device_limits *limits, ps_precision precision, size_t batch);
-
-/* Rows of a batch in whole units. */
-size_t ps_engine_rows(const ps_problem *problem, size_t batch);
 
 #endif

@@ -1,9 +1,10 @@
 #include "engines/nufft_choice.h"
 
+#include "base/round.h"
 #include "engines/nufft_fft.h"
+#include "engines/nufft_kernels.h"
 
 #include <math.h>
-#include <string.h>
 
 /* Fine grids from sigma = n / 2K on. Below 1.2 windows become wider than 16, above 4 they hardly shrink. */
 static const double least_sigma = 1.2;
@@ -44,7 +45,7 @@ static double points_of(const ps_problem *problem) {
 
 static const double unit_roundoff[2] = {0x1p-24, 0x1p-53};
 
-/* Errors in units of the root of sum w^2, measured in tests/test_torus_nufft.c, slack in
+/* Errors in units of the root of sum w^2, measured in tests/test_tolerance_sweep.c, slack in
  * docs/torus_nufft.md: of aliasing against its expectation for white sets, to which a peak of a lattice
  * comes, in pairs and of power N, wherever it does most harm; of rounding, in units of
  * roundoff: of windows and phases, of each pass of the transforms on both axes, of sums in dense cells
@@ -60,10 +61,6 @@ static const double dense_roundings = 1;
 static const double dense_roundings_at_zero = 2;
 static const double grid_roundings_at_zero = 0.05;
 static const double coherent_roundings = 0.35;
-
-static uint32_t divide_up(uint32_t a, uint32_t b) {
-    return (a + b - 1) / b;
-}
 
 uint32_t ps_nufft_base(const ps_nufft_choice *choice) {
     return choice->stride * (uint32_t)choice->axes[0].max_frequency;
@@ -141,9 +138,6 @@ static const double cycles_per_row = 6;
 static const double cycles_per_grid_cell = 10;
 static const double cycles_per_pair = 2;
 
-/* kernels/nufft/grid.cl */
-enum { BLOCK_ROWS = 8 };
-
 const ps_nufft_axis *ps_nufft_last_axes(const ps_nufft_choice *choice, unsigned *num) {
     *num = choice->num_axes - (choice->is_gridded ? 1 : 0);
     return choice->axes + (choice->is_gridded ? 1 : 0);
@@ -155,8 +149,8 @@ static double grid_cycles(const ps_nufft_choice *choice, unsigned lanes, double 
     const ps_nufft_axis *block = &axes[choice->num_axes - 2];
     const ps_nufft_axis *last = &axes[choice->num_axes - 1];
     const double outer = choice->num_axes == 3 ? axes[0].window.width : 1;
-    const double blocks = (BLOCK_ROWS + block->window.width - 1.0) / BLOCK_ROWS;
-    const double strips = last->window.width > BLOCK_ROWS ? 2 : 1;
+    const double blocks = (PS_NUFFT_BLOCK_ROWS + block->window.width - 1.0) / PS_NUFFT_BLOCK_ROWS;
+    const double strips = last->window.width > PS_NUFFT_BLOCK_ROWS ? 2 : 1;
     const double columns = (choice->num_axes == 3 ? (double)block->n : 1) * last->n;
     return num_points * outer *
                (blocks * cycles_per_block + block->window.width * strips * cycles_per_row) +
@@ -211,7 +205,7 @@ double ps_nufft_flops(const ps_nufft_choice *choice, ps_precision precision, dou
     const ps_nufft_axis *last = &choice->axes[choice->num_axes - 1];
     const unsigned lanes = nominal_lanes[precision];
     const double narrower = ceil(1 / fmin(1, rows_at_once(last)));
-    const double num_tiles = divide_up(choice->span, lanes) * narrower;
+    const double num_tiles = (double)ps_divide_up(choice->span, lanes) * narrower;
     const double cycles =
         num_points * cycles_per_point + num_tiles * tile_cycles(choice) +
         (choice->is_gridded ? grid_cycles(choice, lanes, num_points)
@@ -273,8 +267,7 @@ static uint32_t length_for(const ps_nufft_choice *whole, unsigned which, uint64_
     }
     uint32_t n = ps_fft_good_length(least);
     if (whole->is_gridded && which + 1 == whole->num_axes) {
-        const uint64_t units = (least + unit - 1) / unit;
-        n = (uint32_t)(ps_fft_good_length(units) * unit);
+        n = ps_fft_good_length(ps_divide_up(least, unit)) * unit;
     }
     return n;
 }
@@ -284,11 +277,10 @@ static size_t list_candidates(const ps_nufft_choice *whole, unsigned which,
                               ps_nufft_axis candidates[MAX_CANDIDATES]) {
     const double twice_k = 2.0 * whole->axes[which].max_frequency;
     const uint64_t least = (uint64_t)fmax(LEAST_CELLS, ceil(least_sigma * twice_k + 1));
-    const double largest = fmin(fmax(LEAST_CELLS, largest_sigma * twice_k), MOST_CELLS);
-    const uint64_t last = ps_fft_good_length((uint64_t)largest);
+    const uint64_t last = (uint64_t)(largest_sigma * twice_k);
     size_t num = 0;
     for (uint32_t n = length_for(whole, which, least, precision);
-         n != 0 && n <= last && num < MAX_CANDIDATES && n <= MOST_CELLS;
+         n != 0 && n <= MOST_CELLS && (num == 0 || (n <= last && num < MAX_CANDIDATES));
          n = length_for(whole, which, (uint64_t)n + 1, precision)) {
         candidates[num++] = choose_width(whole, which, n, problem, precision);
     }
@@ -368,7 +360,7 @@ static ps_nufft_choice gridded_choice(uint32_t max_frequency, unsigned dimension
 
 /* One dimension: a transform of every stride-th frequency. */
 static ps_nufft_choice strided_choice(uint32_t max_frequency, uint32_t stride) {
-    const uint32_t needed = divide_up(max_frequency + 1, stride);
+    const uint64_t needed = ps_divide_up((uint64_t)max_frequency + 1, stride);
     return (ps_nufft_choice){
         .num_axes = 1,
         .span = stride,

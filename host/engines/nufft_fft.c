@@ -1,6 +1,7 @@
 #include "engines/nufft_fft.h"
 
 #include "base/memory.h"
+#include "engines/reals.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -109,9 +110,7 @@ static void twiddle(uint32_t t, uint32_t n, long double *cosine, long double *si
 }
 
 /* [pass][t][j - 1]: as the passes read them. */
-static size_t fill_twiddles(uint32_t length, const uint32_t *radices, ps_precision precision,
-                            void *out) {
-    size_t count = 0;
+static void fill_twiddles(uint32_t length, const uint32_t *radices, double *out) {
     uint32_t step = 1; /* of twiddles of the whole length */
     for (uint32_t rest = length; *radices != 0; radices++) {
         const uint32_t radix = *radices;
@@ -120,33 +119,22 @@ static size_t fill_twiddles(uint32_t length, const uint32_t *radices, ps_precisi
             for (uint32_t j = 1; j < radix; j++) {
                 long double value[2];
                 twiddle((uint32_t)((uint64_t)t * j * step % length), length, &value[0], &value[1]);
-                for (size_t part = 0; part < 2 && out != NULL; part++) {
-                    if (precision == PS_SINGLE) {
-                        ((float *)out)[count + part] = (float)value[part];
-                    } else {
-                        ((double *)out)[count + part] = (double)value[part];
-                    }
-                }
-                count += 2;
+                *out++ = (double)value[0];
+                *out++ = (double)value[1];
             }
         }
         step *= radix;
     }
-    return count;
 }
 
 static pspec_status upload_twiddles(ps_fft_plan *plan, const uint32_t *radices,
                                     ps_precision precision, ps_device *device, ps_error *error) {
     void *memory = NULL;
-    const size_t real_bytes = precision == PS_SINGLE ? sizeof(float) : sizeof(double);
-    const size_t count = fill_twiddles(plan->length, radices, precision, NULL);
-    PS_TRY(ps_allocate(&memory, count, real_bytes, "twiddle factors", error));
-    fill_twiddles(plan->length, radices, precision, memory);
-    pspec_status status =
-        ps_buffer_create(device, &plan->twiddles, count * real_bytes, "twiddle factors", error);
-    if (status == PSPEC_OK) {
-        status = ps_buffer_write(device, &plan->twiddles, 0, memory, count * real_bytes, error);
-    }
+    const size_t count = 2 * ((size_t)plan->length - 1); /* n - n/r_1 + n/r_1 - n/(r_1 r_2) + ... */
+    PS_TRY(ps_allocate(&memory, count, sizeof(double), "twiddle factors", error));
+    fill_twiddles(plan->length, radices, memory);
+    const pspec_status status = ps_reals_upload(device, &plan->twiddles, precision, memory, count,
+                                                "twiddle factors", error);
     free(memory);
     return status;
 }

@@ -12,7 +12,7 @@ enum { PS_FFT_MAX_PASSES = 32 };
 /* The smallest length >= least without prime factors above 7; 0 when that is beyond 32 bits. */
 uint32_t ps_fft_length(uint64_t least);
 
-/* The same among lengths that pay: no longer transform is cheaper. */
+/* The same among lengths that pay: no transform up to a quarter longer is cheaper. */
 uint32_t ps_fft_good_length(uint64_t least);
 
 /* Radices of the passes, ended by 0; false when the length has other prime factors (or is 0). */

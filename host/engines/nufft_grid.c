@@ -1,5 +1,8 @@
 #include "engines/nufft_grid.h"
 
+#include "base/round.h"
+#include "engines/nufft_kernels.h"
+
 #include <stdio.h>
 
 /* ---- create ------------------------------------------------------------------------------ */
@@ -105,10 +108,9 @@ static pspec_status spread_on(ps_nufft_grid *self, uint32_t slab, size_t num_par
     const ps_nufft_plan none = {.coefficients = block->coefficients,
                                 .axis = {.n = 1, .window = {.width = 1}}};
     const ps_nufft_plan *outer = axes == 3 ? &self->plans[0] : &none;
-    const size_t across = (block->axis.n + PS_NUFFT_BLOCK_ROWS - 1) / PS_NUFFT_BLOCK_ROWS;
+    const size_t across = ps_divide_up(block->axis.n, PS_NUFFT_BLOCK_ROWS);
     const size_t rows = slab_rows(self->layout, slab);
-    const size_t num_blocks =
-        axes == 3 ? rows * across : (rows + PS_NUFFT_BLOCK_ROWS - 1) / PS_NUFFT_BLOCK_ROWS;
+    const size_t num_blocks = axes == 3 ? rows * across : ps_divide_up(rows, PS_NUFFT_BLOCK_ROWS);
     const size_t first_row = (size_t)slab * self->layout->slab_rows;
     const size_t first_block = axes == 3 ? first_row * across : first_row / PS_NUFFT_BLOCK_ROWS;
     const double flops = 2.0 * (double)num_points * outer->axis.window.width *

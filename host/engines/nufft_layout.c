@@ -1,6 +1,9 @@
 #include "engines/nufft_layout.h"
 
+#include "base/round.h"
+#include "engines/nufft_kernels.h"
 #include "engines/nufft_plan.h"
+#include "engines/reals.h"
 
 /* Places and grids of the realizations that are worked on at a time: on CPUs a share of the last-level
  * cache, on GPUs enough to fill the device. */
@@ -8,25 +11,47 @@ static const double work_share = 0.25;
 static const double gpu_work_bytes = 512.0 * 1024 * 1024;
 enum { DEFAULT_CACHE_BYTES = 8 << 20, MOST_AT_ONCE = 1024 };
 
-/* kernels/nufft/place.h, kernels/nufft/spread.h */
-enum { PLACE_UNIT = 16, CHUNK = PS_NUFFT_CHUNK, TURN_REALS = 2 * CHUNK };
+/* How much each point of a chunk turns, kernels/nufft/spread.h. */
+enum { TURN_REALS = 2 * PS_NUFFT_CHUNK };
 
-static uint64_t round_up(uint64_t a, uint64_t unit) {
-    return (a + unit - 1) / unit * unit;
+static uint64_t starts_bytes(const ps_nufft_layout *layout) {
+    return ((uint64_t)layout->num_keys + 2) * sizeof(uint32_t);
 }
 
-/* Points and weights on the host, as they came and sorted. */
-static uint64_t place_bytes(const ps_nufft_layout *layout, unsigned dimension) {
-    enum { COPIES = 3 };
-    return COPIES * (dimension * sizeof(uint64_t) + layout->real_bytes);
+/* Points sorted together: on the host, as they came and sorted; where cells, places and points begin. */
+static uint64_t part_bytes(const ps_nufft_layout *layout, unsigned dimension) {
+    enum { COPIES = 3, BEGINNINGS = 4, MEANS = 2 };
+    const uint64_t point = dimension * sizeof(uint64_t) + layout->real_bytes;
+    return COPIES * layout->part_places * point + starts_bytes(layout) +
+           (BEGINNINGS + MEANS) * sizeof(uint64_t);
+}
+
+/* Whatever the number of points: plans of the axes (twiddles and pattern, gains, positions; polynomials and
+ * radices are small). */
+static uint64_t table_bytes(const ps_nufft_layout *layout) {
+    enum { SMALL = 1536 };
+    uint64_t bytes = 0;
+    for (unsigned i = 0; i < layout->choice.num_axes; i++) {
+        const ps_nufft_axis *axis = &layout->choice.axes[i];
+        const uint64_t reals = 4 * (uint64_t)axis->n + (uint64_t)axis->max_frequency + 1;
+        bytes += reals * layout->real_bytes + axis->n * sizeof(uint32_t) + SMALL;
+    }
+    return bytes;
+}
+
+static uint64_t largest_of(const uint64_t *numbers, size_t num) {
+    uint64_t largest = 0;
+    for (size_t i = 0; i < num; i++) {
+        largest = numbers[i] > largest ? numbers[i] : largest;
+    }
+    return largest;
 }
 
 static void choose_at_once(ps_nufft_layout *layout, const ps_problem *problem,
                            const ps_device_limits *limits) {
-    const uint64_t vector_bytes = 2 * layout->lanes * layout->real_bytes;
-    const uint64_t each =
-        layout->part_places * place_bytes(layout, problem->frequencies->dimension) +
-        layout->grid_cells * vector_bytes;
+    const unsigned dimension = problem->frequencies->dimension;
+    const uint64_t grid = layout->grid_cells * 2 * layout->lanes * layout->real_bytes;
+    const uint64_t each = part_bytes(layout, dimension) + grid;
     const double cache =
         limits->cache_bytes > 0 ? (double)limits->cache_bytes : DEFAULT_CACHE_BYTES;
     const double budget = limits->has_dedicated_local_memory ? gpu_work_bytes : work_share * cache;
@@ -34,18 +59,18 @@ static void choose_at_once(ps_nufft_layout *layout, const ps_problem *problem,
     const uint64_t known = problem->num_realizations;
     const size_t most = known > 0 && known < MOST_AT_ONCE ? (size_t)known : MOST_AT_ONCE;
     layout->parts = fitting > (double)most ? most : fitting > 1 ? (size_t)fitting : 1;
-    layout->fixed_bytes = layout->parts * each;
-    const uint64_t places =
-        layout->part_places * problem->frequencies->dimension * sizeof(uint64_t);
-    const uint64_t grid = layout->grid_cells * vector_bytes;
-    layout->largest_buffer = layout->parts * (grid > places ? grid : places);
+    layout->fixed_bytes = layout->parts * each + table_bytes(layout);
+    const uint64_t buffers[] = {grid, layout->part_places * dimension * sizeof(uint64_t),
+                                starts_bytes(layout)};
+    layout->largest_buffer =
+        layout->parts * largest_of(buffers, sizeof buffers / sizeof buffers[0]);
 }
 
 static void measure_axes(ps_nufft_layout *layout) {
     const ps_nufft_choice *choice = &layout->choice;
     unsigned num_last = 0;
     const ps_nufft_axis *last = ps_nufft_last_axes(choice, &num_last);
-    layout->num_tiles = layout->lanes > 0 ? (choice->span + layout->lanes - 1) / layout->lanes : 0;
+    layout->num_tiles = layout->lanes > 0 ? (uint32_t)ps_divide_up(choice->span, layout->lanes) : 0;
     layout->row_bytes = 0;
     layout->stride = (size_t)layout->num_tiles * layout->lanes;
     for (unsigned i = 0; i < choice->num_axes; i++) {
@@ -53,7 +78,7 @@ static void measure_axes(ps_nufft_layout *layout) {
             ps_nufft_row_cells(&choice->axes[i]) * 2 * layout->lanes * layout->real_bytes;
         const size_t numbers = ps_nufft_pitch(&choice->axes[i]) + 2 * (size_t)layout->lanes + 2;
         layout->row_bytes = bytes > layout->row_bytes ? bytes : layout->row_bytes;
-        layout->chunk_reals = CHUNK * numbers;
+        layout->chunk_reals = PS_NUFFT_CHUNK * numbers;
     }
     for (unsigned i = 0; i < num_last; i++) {
         layout->stride *= 2 * (size_t)last[i].max_frequency + 1;
@@ -76,8 +101,8 @@ static void measure_axes(ps_nufft_layout *layout) {
 /* Equal shares of a whole, at most `most` each and whole units; one unit when not even that fits. */
 static uint64_t share_out(uint64_t whole, uint64_t most, uint64_t unit) {
     const uint64_t fitting = most / unit > 0 ? most / unit * unit : unit;
-    const uint64_t shares = (whole + fitting - 1) / fitting;
-    const uint64_t share = round_up((whole + shares - 1) / shares, unit);
+    const uint64_t shares = ps_divide_up(whole, fitting);
+    const uint64_t share = ps_round_up(ps_divide_up(whole, shares), unit);
     return share < whole ? share : whole;
 }
 
@@ -94,17 +119,13 @@ static void split_grid(ps_nufft_layout *layout, uint64_t limit) {
         layout->grid_cells / layout->num_tiles * lanes * layout->real_bytes;
     const uint64_t tile = tile_rows > tile_transformed ? tile_rows : tile_transformed;
     layout->slab_rows = (uint32_t)share_out(n, limit / (columns * layout->real_bytes), unit);
-    layout->num_slabs = (uint32_t)((n + layout->slab_rows - 1) / layout->slab_rows);
+    layout->num_slabs = (uint32_t)ps_divide_up(n, layout->slab_rows);
     layout->tiles_at_once = (uint32_t)share_out(layout->num_tiles, limit / tile, 1);
     if (layout->num_slabs > 1) {
         const uint64_t fitting = limit / (n * layout->real_bytes);
-        const uint64_t wanted = round_up((columns + STRIPS - 1) / STRIPS, lanes);
+        const uint64_t wanted = ps_round_up(ps_divide_up(columns, STRIPS), lanes);
         layout->strip_columns = share_out(columns, wanted < fitting ? wanted : fitting, lanes);
     }
-}
-
-static uint64_t larger(uint64_t a, uint64_t b) {
-    return a > b ? a : b;
 }
 
 /* Memory of a large set: a chunk of points, the grid in pairs, rows of tiles, what two transforms leave. */
@@ -119,20 +140,21 @@ static void measure_grid(ps_nufft_layout *layout, const ps_problem *problem, uin
     const uint64_t reals = layout->grid_reals * layout->real_bytes;
     const uint64_t slab = layout->slab_rows * columns * layout->real_bytes;
     const uint64_t strip = layout->strip_columns * n * layout->real_bytes;
-    const uint64_t starts = ((uint64_t)layout->num_keys + 2) * sizeof(uint32_t);
-    const uint64_t points =
-        layout->part_places * problem->frequencies->dimension * sizeof(uint64_t);
-    const size_t parts = (problem->num_points + layout->part_points - 1) / layout->part_points;
+    const unsigned dimension = problem->frequencies->dimension;
+    const uint64_t part = part_bytes(layout, dimension);
+    const size_t parts = ps_divide_up(problem->num_points, layout->part_points);
     layout->parts = parts < PS_NUFFT_MOST_PARTS ? parts : PS_NUFFT_MOST_PARTS;
     layout->fixed_bytes =
-        layout->parts *
-            (layout->part_places * place_bytes(layout, problem->frequencies->dimension) + starts) +
-        2 * (reals + strip) + rows + transformed;
-    layout->largest_buffer = larger(larger(larger(rows, slab), larger(transformed, strip)),
-                                    layout->parts * larger(starts, points));
-    if (layout->num_slabs > PS_NUFFT_MOST_SLABS) {
-        layout->largest_buffer = reals;
-    }
+        layout->parts * part + 2 * (reals + strip) + rows + transformed + table_bytes(layout);
+    const uint64_t buffers[] = {rows,
+                                slab,
+                                transformed,
+                                strip,
+                                layout->parts * starts_bytes(layout),
+                                layout->parts * layout->part_places * dimension * sizeof(uint64_t)};
+    layout->largest_buffer = layout->num_slabs > PS_NUFFT_MOST_SLABS
+                                 ? reals
+                                 : largest_of(buffers, sizeof buffers / sizeof buffers[0]);
 }
 
 /* Of a tile: its row, and how much each point of a chunk turns. */
@@ -142,7 +164,8 @@ static size_t tile_bytes(const ps_nufft_layout *layout) {
 
 /* Without turns. */
 static size_t chunk_bytes(const ps_nufft_layout *layout) {
-    return layout->chunk_reals * layout->real_bytes + CHUNK * (sizeof(uint64_t) + sizeof(uint32_t));
+    return layout->chunk_reals * layout->real_bytes +
+           PS_NUFFT_CHUNK * (sizeof(uint64_t) + sizeof(uint32_t));
 }
 
 /* Tiles of a work-group share windows and phases. One on GPUs, where there is little local memory; on CPUs
@@ -154,18 +177,17 @@ static uint32_t choose_group(const ps_nufft_layout *layout, const ps_problem *pr
     }
     const size_t room = (limits->local_bytes - chunk_bytes(layout)) / tile_bytes(layout);
     const uint32_t largest = room > 1 ? (uint32_t)room : 1;
-    uint32_t groups = (layout->num_tiles + largest - 1) / largest;
+    uint64_t groups = ps_divide_up(layout->num_tiles, largest);
     const bool has_one = problem->num_realizations == 1 && layout->choice.num_axes == 1;
     groups = has_one && groups < limits->compute_units ? limits->compute_units : groups;
-    return (layout->num_tiles + groups - 1) / groups;
+    return (uint32_t)ps_divide_up(layout->num_tiles, groups);
 }
 
 ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_limits *limits,
                                      ps_precision precision) {
     ps_nufft_layout layout = {.choice = ps_nufft_choose(problem, precision),
                               .lanes = ps_engine_lanes(limits, precision),
-                              .real_bytes =
-                                  precision == PS_SINGLE ? sizeof(float) : sizeof(double)};
+                              .real_bytes = ps_real_bytes(precision)};
     if (layout.choice.num_axes == 0) {
         layout.lanes = 0;
         return layout;
@@ -185,7 +207,7 @@ ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_
         layout.part_points > layout.choice.chunk / PS_NUFFT_MOST_PARTS) {
         layout.part_points = layout.choice.chunk / PS_NUFFT_MOST_PARTS;
     }
-    layout.part_places = (size_t)round_up(layout.part_points, PLACE_UNIT);
+    layout.part_places = ps_round_up(layout.part_points, PS_NUFFT_PLACE_UNIT);
     layout.bytes_per_realization = layout.stride * layout.real_bytes;
     layout.largest_buffer_per_realization = layout.bytes_per_realization;
     if (layout.choice.is_gridded) {

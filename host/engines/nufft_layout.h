@@ -4,11 +4,8 @@
 
 #include "engines/nufft_choice.h"
 
-/* Points of a chunk, kernels/nufft/spread.h. */
-enum { PS_NUFFT_CHUNK = 16 };
-
-/* Buffers of the grid of a large set; rows of its blocks, kernels/nufft/grid.cl. */
-enum { PS_NUFFT_MOST_SLABS = 16, PS_NUFFT_BLOCK_ROWS = 8 };
+/* Buffers of the grid of a large set. */
+enum { PS_NUFFT_MOST_SLABS = 16 };
 
 /* Parts of a chunk of a large set, which are sorted side by side. */
 enum { PS_NUFFT_MOST_PARTS = 8 };

@@ -1,11 +1,10 @@
 #include "engines/nufft_places.h"
 
 #include "base/memory.h"
+#include "base/round.h"
+#include "engines/nufft_kernels.h"
 
 #include <stdlib.h>
-
-/* kernels/nufft/place.h */
-enum { PLACE_UNIT = 16 };
 
 static pspec_status create_buffers(ps_nufft_places *self, ps_error *error) {
     const ps_nufft_layout *layout = self->layout;
@@ -52,8 +51,7 @@ static pspec_status upload_places(ps_nufft_places *self, const ps_batch *parts, 
     self->host_places[0] = 0;
     for (size_t r = 0; r < parts->num_patterns; r++) {
         const size_t num = parts->patterns[r].num_points;
-        self->host_places[r + 1] =
-            self->host_places[r] + (num + PLACE_UNIT - 1) / PLACE_UNIT * PLACE_UNIT;
+        self->host_places[r + 1] = self->host_places[r] + ps_round_up(num, PS_NUFFT_PLACE_UNIT);
     }
     return ps_buffer_write(self->device, &self->places, 0, self->host_places,
                            (parts->num_patterns + 1) * sizeof(uint64_t), error);

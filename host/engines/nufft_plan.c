@@ -1,61 +1,33 @@
 #include "engines/nufft_plan.h"
 
 #include "base/memory.h"
+#include "base/round.h"
+#include "engines/nufft_kernels.h"
+#include "engines/reals.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* kernels/nufft/place.h; numbers of a window are made in whole vectors of 8 and begin at half cache lines. */
-enum { GAP = 4, BIN_UNIT = 8, PITCH_UNIT = 8 };
-
-static uint32_t round_up(uint32_t a, uint32_t unit) {
-    return (a + unit - 1) / unit * unit;
-}
+/* Numbers of a window are made in whole vectors of 8 and begin at half cache lines. */
+enum { BIN_UNIT = 8, PITCH_UNIT = 8 };
 
 uint32_t ps_nufft_bins(const ps_nufft_axis *axis) {
-    return round_up(axis->window.width, BIN_UNIT);
+    return (uint32_t)ps_round_up(axis->window.width, BIN_UNIT);
 }
 
 uint32_t ps_nufft_pitch(const ps_nufft_axis *axis) {
-    const uint32_t written = GAP + ps_nufft_bins(axis);
-    const uint32_t read = axis->window.width + 2 * GAP;
-    return round_up(written > read ? written : read, PITCH_UNIT);
+    const uint32_t written = PS_NUFFT_GAP + ps_nufft_bins(axis);
+    const uint32_t read = axis->window.width + 2 * PS_NUFFT_GAP;
+    return (uint32_t)ps_round_up(written > read ? written : read, PITCH_UNIT);
 }
 
 size_t ps_nufft_row_cells(const ps_nufft_axis *axis) {
-    return (size_t)axis->n + axis->window.width + GAP;
+    return (size_t)axis->n + axis->window.width + PS_NUFFT_GAP;
 }
 
 ps_range ps_nufft_group_range(const ps_device *device, size_t num_groups, size_t num_realizations,
                               double flops) {
     return ps_range_heavy(device, 1, num_groups, num_realizations, flops, 0);
-}
-
-/* ---- numbers ----------------------------------------------------------------------------- */
-
-static size_t real_bytes(ps_precision precision) {
-    return precision == PS_SINGLE ? sizeof(float) : sizeof(double);
-}
-
-pspec_status ps_nufft_write(ps_device *device, const ps_buffer *to, ps_precision precision,
-                            const double *numbers, size_t num, ps_error *error) {
-    if (precision == PS_DOUBLE) {
-        return ps_buffer_write(device, to, 0, numbers, num * sizeof(double), error);
-    }
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, num, sizeof(float), "numbers", error));
-    for (size_t i = 0; i < num; i++) {
-        ((float *)memory)[i] = (float)numbers[i];
-    }
-    const pspec_status status = ps_buffer_write(device, to, 0, memory, num * sizeof(float), error);
-    free(memory);
-    return status;
-}
-
-pspec_status ps_nufft_upload(ps_device *device, ps_buffer *out, ps_precision precision,
-                             const double *numbers, size_t num, const char *what, ps_error *error) {
-    PS_TRY(ps_buffer_create(device, out, num * real_bytes(precision), what, error));
-    return ps_nufft_write(device, out, precision, numbers, num, error);
 }
 
 /* ---- create ------------------------------------------------------------------------------ */
@@ -71,7 +43,7 @@ static pspec_status create_polynomials(ps_nufft_plan *plan, double tolerance,
     plan->degree = ps_nufft_window_degree(&axis->window, PS_NUFFT_POLYNOMIAL_SHARE * divisor *
                                                              fmax(tolerance, rounding));
     ps_nufft_window_polynomials(&axis->window, plan->degree, plan->bins, coefficients);
-    return ps_nufft_upload(device, &plan->coefficients, precision, coefficients,
+    return ps_reals_upload(device, &plan->coefficients, precision, coefficients,
                            (plan->degree + 1) * (size_t)plan->bins, "window polynomials", error);
 }
 
@@ -87,7 +59,7 @@ static pspec_status create_gains(ps_nufft_plan *plan, ps_precision precision, ps
         gains[k] = 1 / (transform * transform);
     }
     const pspec_status status =
-        ps_nufft_upload(device, &plan->gains, precision, gains, num, "gains", error);
+        ps_reals_upload(device, &plan->gains, precision, gains, num, "gains", error);
     free(memory);
     return status;
 }

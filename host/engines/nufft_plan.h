@@ -38,12 +38,4 @@ typedef struct ps_nufft_target {
 ps_range ps_nufft_group_range(const ps_device *device, size_t num_groups, size_t num_realizations,
                               double flops);
 
-/* A buffer with `num` numbers in working precision. */
-pspec_status ps_nufft_upload(ps_device *device, ps_buffer *out, ps_precision precision,
-                             const double *numbers, size_t num, const char *what,
-                             ps_error *error) PS_MUST_CHECK;
-/* The same into a buffer that is there. */
-pspec_status ps_nufft_write(ps_device *device, const ps_buffer *to, ps_precision precision,
-                            const double *numbers, size_t num, ps_error *error) PS_MUST_CHECK;
-
 #endif

@@ -1,6 +1,9 @@
 #include "engines/nufft_tiles.h"
 
 #include "base/memory.h"
+#include "base/round.h"
+#include "engines/nufft_kernels.h"
+#include "engines/reals.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -37,7 +40,7 @@ static pspec_status create_pattern(ps_nufft_tiles *self, ps_precision precision,
         pattern[2 * m] = cos(angle);
         pattern[2 * m + 1] = -sin(angle);
     }
-    const pspec_status status = ps_nufft_upload(self->device, &self->pattern, precision, pattern,
+    const pspec_status status = ps_reals_upload(self->device, &self->pattern, precision, pattern,
                                                 2 * (size_t)n, "a pattern", error);
     free(memory);
     return status;
@@ -93,7 +96,7 @@ static size_t row_bytes(const ps_nufft_tiles *self, const ps_nufft_axis *axis) {
         PS_LOCAL(PS_NUFFT_CHUNK * sizeof(uint64_t)), PS_LOCAL(PS_NUFFT_CHUNK * sizeof(uint32_t))
 
 static size_t num_groups(const ps_nufft_tiles *self) {
-    return (self->layout->num_tiles + self->layout->group - 1) / self->layout->group;
+    return ps_divide_up(self->layout->num_tiles, self->layout->group);
 }
 
 static pspec_status make_tiles(ps_nufft_tiles *self, size_t num_realizations,

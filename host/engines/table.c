@@ -23,17 +23,18 @@ unsigned ps_engine_lanes(const ps_device_limits *limits, ps_precision precision)
     return lanes;
 }
 
-size_t ps_engine_row_unit(const ps_device_limits *limits, ps_precision precision, size_t batch) {
-    size_t unit = ps_engine_lanes(limits, precision);
-    while (unit > 1 && unit / 2 >= batch) {
-        unit /= 2;
+bool ps_engine_on_device(const ps_device_limits *limits, ps_precision precision,
+                         const char **why_not) {
+    if (limits == NULL) {
+        *why_not = "needs an OpenCL device";
+    } else if (precision == PS_EXTENDED) {
+        *why_not = "single and double precision only";
+    } else if (precision == PS_DOUBLE && !limits->has_fp64) {
+        *why_not = "the device has no double precision";
+    } else {
+        return true;
     }
-    return unit;
-}
-
-size_t ps_engine_rows(const ps_problem *problem, size_t batch) {
-    const size_t unit = problem->row_unit > 0 ? problem->row_unit : 1;
-    return (batch + unit - 1) / unit * unit;
+    return false;
 }
 
 pspec_status ps_batch_go_on(const ps_batch *batch, ps_error *error) {

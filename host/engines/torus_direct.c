@@ -3,6 +3,8 @@
 #include "engines/torus_direct.h"
 
 #include "base/memory.h"
+#include "base/round.h"
+#include "engines/reals.h"
 #include "engines/torus_layout.h"
 #include "engines/torus_points.h"
 #include "engines/torus_sums.h"
@@ -23,12 +25,7 @@ typedef struct torus_direct {
     ps_torus_sums sums; /* of the list, or of the left and right factors of the grid */
     cl_kernel product;
     ps_buffer pairs, products, scales, power;
-    void *host_scales;
 } torus_direct;
-
-static size_t divide_up(size_t a, size_t b) {
-    return (a + b - 1) / b;
-}
 
 /* ---- what the planner asks --------------------------------------------------------------- */
 
@@ -42,16 +39,7 @@ static const double coherent_error[2] = {4.8e-7, 9.0e-16};
 
 static bool applicable(const ps_problem *problem, const ps_device_limits *limits,
                        ps_precision precision, const char **why_not) {
-    if (limits == NULL) {
-        *why_not = "needs an OpenCL device";
-        return false;
-    }
-    if (precision == PS_EXTENDED) {
-        *why_not = "single and double precision only";
-        return false;
-    }
-    if (precision == PS_DOUBLE && !limits->has_fp64) {
-        *why_not = "the device has no double precision";
+    if (!ps_engine_on_device(limits, precision, why_not)) {
         return false;
     }
     const ps_torus_layout layout = ps_torus_layout_make(problem, limits, precision);
@@ -87,7 +75,7 @@ static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
         .phases = num_points * lanes * (double)(layout.left_tiles + layout.right_tiles),
         .product_flops = 8 * num_points * box * (has_corners && share < 1 ? share : 1),
         .launches = ceil(realizations / (double)layout.group) *
-                    (double)divide_up((size_t)problem->num_points, layout.slab) *
+                    (double)ps_divide_up((size_t)problem->num_points, layout.slab) *
                     (layout.is_grid ? 2 : 1),
         .fixed_bytes = (double)layout.fixed_bytes,
         .point_bytes = (double)layout.point_bytes,
@@ -127,7 +115,6 @@ static void destroy(void *state) {
     ps_buffer_release(&self->products);
     ps_buffer_release(&self->scales);
     ps_buffer_release(&self->power);
-    free(self->host_scales);
     free(self);
 }
 
@@ -186,16 +173,15 @@ static pspec_status create_list(torus_direct *self, ps_error *error) {
     return PSPEC_OK;
 }
 
-/* Rows are padded to whole units and begin as zeros: accumulation reads whole units. */
-static pspec_status create_rows(torus_direct *self, const ps_problem *problem, ps_error *error) {
-    const size_t num_rows = ps_engine_rows(problem, self->batch);
+/* Rows begin as zeros: accumulation reads what stands between the frequencies, too. */
+static pspec_status create_rows(torus_direct *self, ps_error *error) {
+    const size_t num_rows = self->batch;
     PS_TRY(ps_buffer_create(self->device, &self->power,
                             num_rows * self->stride * self->layout.real_bytes, "powers of a batch",
                             error));
     PS_TRY(ps_buffer_clear(self->device, &self->power, error));
-    PS_TRY(ps_buffer_create(self->device, &self->scales, self->batch * self->layout.real_bytes,
-                            "scales", error));
-    return ps_allocate(&self->host_scales, self->batch, self->layout.real_bytes, "scales", error);
+    return ps_buffer_create(self->device, &self->scales, self->batch * self->layout.real_bytes,
+                            "scales", error);
 }
 
 static pspec_status create(void **state, const ps_problem *problem, ps_precision precision,
@@ -217,7 +203,7 @@ static pspec_status create(void **state, const ps_problem *problem, ps_precision
         status = self->layout.is_grid ? create_grid(self, error) : create_list(self, error);
     }
     if (status == PSPEC_OK) {
-        status = create_rows(self, problem, error);
+        status = create_rows(self, error);
     }
     if (status != PSPEC_OK) {
         destroy(self);
@@ -242,18 +228,6 @@ static size_t get_stride(const void *state) {
 }
 
 /* ---- run --------------------------------------------------------------------------------- */
-
-static pspec_status upload_scales(torus_direct *self, const ps_batch *batch, ps_error *error) {
-    for (size_t r = 0; r < batch->num_patterns; r++) {
-        if (self->precision == PS_SINGLE) {
-            ((float *)self->host_scales)[r] = (float)batch->scales[r];
-        } else {
-            ((double *)self->host_scales)[r] = batch->scales[r];
-        }
-    }
-    return ps_buffer_write(self->device, &self->scales, 0, self->host_scales,
-                           batch->num_patterns * self->layout.real_bytes, error);
-}
 
 /* Where a slab of a group of realizations stands in its job. */
 typedef struct slab_place {
@@ -320,9 +294,10 @@ static pspec_status run_group(torus_direct *self, const ps_batch *group, size_t 
 
 static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_error *error) {
     torus_direct *self = state;
-    const size_t num_slabs = divide_up(longest_pattern(batch), self->layout.slab);
+    const size_t num_slabs = ps_divide_up(longest_pattern(batch), self->layout.slab);
     const size_t first_slot = self->layout.is_grid ? ps_split_left_slot(&self->split) : 0;
-    PS_TRY(upload_scales(self, batch, error));
+    PS_TRY(ps_reals_write(self->device, &self->scales, self->precision, batch->scales,
+                          batch->num_patterns, error));
     for (size_t row = 0; row < batch->num_patterns; row += self->layout.group) {
         const size_t rest = batch->num_patterns - row;
         ps_batch group = *batch;

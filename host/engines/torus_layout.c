@@ -1,5 +1,7 @@
 #include "engines/torus_layout.h"
 
+#include "base/round.h"
+#include "engines/reals.h"
 #include "engines/torus_split.h"
 
 /* Share of a CPU's cache that the tables of a group of realizations, one slab of each, may take with
@@ -23,10 +25,6 @@ enum { LARGEST_SLAB_CHUNKS = 64 };
 /* Cache to plan with when a device does not tell. */
 enum { DEFAULT_CACHE_BYTES = 8 << 20 };
 
-static size_t divide_up(size_t a, size_t b) {
-    return (a + b - 1) / b;
-}
-
 static double cache_bytes(const ps_device_limits *limits) {
     return limits->cache_bytes > 0 ? (double)limits->cache_bytes : DEFAULT_CACHE_BYTES;
 }
@@ -46,7 +44,7 @@ static void choose_slab(ps_torus_layout *layout, const ps_problem *problem,
                         : known < ROOM_FOR_REALIZATIONS ? (double)known
                                                         : ROOM_FOR_REALIZATIONS;
     const double fitting = group_share * cache_bytes(limits) / room / chunk_bytes(layout);
-    const size_t needed = divide_up((size_t)problem->num_points, PS_TORUS_CHUNK);
+    const size_t needed = ps_divide_up((size_t)problem->num_points, PS_TORUS_CHUNK);
     size_t chunks = needed < LARGEST_SLAB_CHUNKS ? needed : LARGEST_SLAB_CHUNKS;
     if (fitting < (double)chunks) {
         chunks = fitting > 1 ? (size_t)fitting : 1;
@@ -114,7 +112,7 @@ ps_torus_layout ps_torus_layout_make(const ps_problem *problem, const ps_device_
                                      ps_precision precision) {
     const ps_frequencies *set = problem->frequencies;
     ps_torus_layout layout = {.lanes = ps_engine_lanes(limits, precision),
-                              .real_bytes = precision == PS_SINGLE ? sizeof(float) : sizeof(double),
+                              .real_bytes = ps_real_bytes(precision),
                               .is_grid = set->kind != PS_FREQUENCIES_LIST};
     if (layout.is_grid) {
         layout.left_axes = ps_split_left_axes(set->dimension);
@@ -122,8 +120,8 @@ ps_torus_layout ps_torus_layout_make(const ps_problem *problem, const ps_device_
     } else {
         layout.num_left = set->num;
     }
-    layout.left_tiles = divide_up(layout.num_left, layout.lanes);
-    layout.right_tiles = divide_up(layout.num_right, layout.lanes);
+    layout.left_tiles = ps_divide_up(layout.num_left, layout.lanes);
+    layout.right_tiles = ps_divide_up(layout.num_right, layout.lanes);
     layout.max_pairs = layout.left_tiles * layout.right_tiles;
     layout.max_stride = layout.max_pairs * 2 * layout.lanes * layout.lanes +
                         (layout.left_tiles + layout.right_tiles) * layout.lanes;

@@ -3,11 +3,13 @@
 #include "engines/torus_nufft.h"
 
 #include "base/memory.h"
+#include "base/round.h"
 #include "engines/nufft_grid.h"
 #include "engines/nufft_layout.h"
 #include "engines/nufft_places.h"
 #include "engines/nufft_plan.h"
 #include "engines/nufft_tiles.h"
+#include "engines/reals.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -45,19 +47,8 @@ static bool applicable_to_problem(const ps_problem *problem, const char **why_no
 
 static bool applicable(const ps_problem *problem, const ps_device_limits *limits,
                        ps_precision precision, const char **why_not) {
-    if (limits == NULL) {
-        *why_not = "needs an OpenCL device";
-        return false;
-    }
-    if (precision == PS_EXTENDED) {
-        *why_not = "single and double precision only";
-        return false;
-    }
-    if (precision == PS_DOUBLE && !limits->has_fp64) {
-        *why_not = "the device has no double precision";
-        return false;
-    }
-    if (!applicable_to_problem(problem, why_not)) {
+    if (!ps_engine_on_device(limits, precision, why_not) ||
+        !applicable_to_problem(problem, why_not)) {
         return false;
     }
     const ps_nufft_layout layout = ps_nufft_layout_make(problem, limits, precision);
@@ -78,16 +69,28 @@ static bool applicable(const ps_problem *problem, const ps_device_limits *limits
     return true;
 }
 
+/* Sorting, then one or two launches that spread and transform, for some realizations at a time; for a large set
+ * sorting and spreading of every chunk, then a launch for each axis. */
+static double launches_of(const ps_nufft_layout *layout, double num_points, double realizations) {
+    unsigned num_last = 0;
+    ps_nufft_last_axes(&layout->choice, &num_last);
+    if (!layout->choice.is_gridded) {
+        const double rounds = ceil(realizations / (double)layout->parts);
+        return rounds * (1 + num_last);
+    }
+    const double chunks = ceil(num_points / ((double)layout->parts * (double)layout->part_points));
+    return realizations * (2 * chunks + 1 + num_last);
+}
+
 static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
                     ps_precision precision) {
     const ps_nufft_layout layout = ps_nufft_layout_make(problem, limits, precision);
     const double realizations =
         problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
-    const double num_kernels = layout.choice.num_axes == 1 ? 2 : 3;
     return (ps_work){
         .transform_flops =
             realizations * ps_nufft_flops(&layout.choice, precision, (double)problem->num_points),
-        .launches = num_kernels * ceil(realizations / (double)layout.parts),
+        .launches = launches_of(&layout, (double)problem->num_points, realizations),
         .fixed_bytes = (double)layout.fixed_bytes,
         .host_bytes = (double)layout.host_bytes,
         .bytes_per_realization = (double)layout.bytes_per_realization,
@@ -135,7 +138,6 @@ static pspec_status create_buffers(torus_nufft *self, size_t rows, ps_error *err
 
 static pspec_status create_parts(torus_nufft *self, const ps_problem *problem, ps_error *error) {
     const ps_nufft_choice *choice = &self->layout.choice;
-    const size_t rows = ps_engine_rows(problem, self->batch);
     void *memory = NULL;
     PS_TRY(ps_allocate(&memory, self->layout.parts, sizeof(double), "means", error));
     self->means_of_parts = memory;
@@ -145,7 +147,7 @@ static pspec_status create_parts(torus_nufft *self, const ps_problem *problem, p
     }
     PS_TRY(ps_nufft_places_create(&self->places, &self->layout, self->frequencies->dimension,
                                   self->precision, self->device, error));
-    PS_TRY(create_buffers(self, rows, error));
+    PS_TRY(create_buffers(self, self->batch, error));
     if (choice->is_gridded) {
         return ps_nufft_grid_create(&self->large, &self->layout, self->plans, &self->places,
                                     self->precision, self->device, error);
@@ -223,7 +225,7 @@ static pspec_status upload_means(torus_nufft *self, const ps_batch *some, ps_err
         self->means_of_parts[r] =
             mean_of_cells(self, add_weights(0, &some->patterns[r], exponent_of(some, r)));
     }
-    return ps_nufft_write(self->device, &self->means, self->precision, self->means_of_parts,
+    return ps_reals_write(self->device, &self->means, self->precision, self->means_of_parts,
                           some->num_patterns, error);
 }
 
@@ -250,7 +252,7 @@ static pspec_status add_large(void *state, const ps_batch *block, ps_error *erro
 
 static pspec_status end_large(torus_nufft *self, const ps_nufft_target *target, ps_error *error) {
     const double mean = mean_of_cells(self, self->large_sum);
-    PS_TRY(ps_nufft_write(self->device, &self->means, self->precision, &mean, 1, error));
+    PS_TRY(ps_reals_write(self->device, &self->means, self->precision, &mean, 1, error));
     return ps_nufft_grid_finish(&self->large, &self->means, target, error);
 }
 
@@ -269,7 +271,7 @@ static ps_rows show_rows(const torus_nufft *self, size_t num_rows) {
 static pspec_status finish_large(void *state, double scale, ps_rows *rows, ps_error *error) {
     torus_nufft *self = state;
     const ps_nufft_target target = {&self->power, &self->scales, 0};
-    PS_TRY(ps_nufft_write(self->device, &self->scales, self->precision, &scale, 1, error));
+    PS_TRY(ps_reals_write(self->device, &self->scales, self->precision, &scale, 1, error));
     *rows = show_rows(self, 1);
     return end_large(self, &target, error);
 }
@@ -286,7 +288,7 @@ static pspec_status run_large(torus_nufft *self, const ps_batch *one, const ps_n
 
 static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_error *error) {
     torus_nufft *self = state;
-    PS_TRY(ps_nufft_write(self->device, &self->scales, self->precision, batch->scales,
+    PS_TRY(ps_reals_write(self->device, &self->scales, self->precision, batch->scales,
                           batch->num_patterns, error));
     const bool is_large = self->layout.choice.is_gridded;
     const size_t at_once = is_large ? 1 : self->layout.parts;

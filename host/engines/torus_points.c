@@ -1,16 +1,13 @@
 #include "engines/torus_points.h"
 
 #include "base/memory.h"
+#include "engines/reals.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 __extension__ typedef unsigned __int128 wide; /* not in ISO C */
-
-static size_t real_bytes(ps_precision precision) {
-    return precision == PS_SINGLE ? sizeof(float) : sizeof(double);
-}
 
 static uint64_t bits_of(double x) {
     uint64_t bits = 0;
@@ -38,7 +35,7 @@ static pspec_status create_host(ps_torus_points *out, ps_error *error) {
     const size_t count = out->batch * out->slab;
     PS_TRY(ps_allocate(&memory, count, out->dimension * sizeof(uint64_t), "points", error));
     out->host_points = memory;
-    PS_TRY(ps_allocate(&memory, count, real_bytes(out->precision), "weights", error));
+    PS_TRY(ps_allocate(&memory, count, ps_real_bytes(out->precision), "weights", error));
     out->host_weights = memory;
     PS_TRY(ps_allocate(&memory, out->batch + 1, sizeof(uint64_t), "offsets", error));
     out->host_offsets = memory;
@@ -62,7 +59,7 @@ static pspec_status upload_unit_weights(ps_torus_points *points, ps_device *devi
     }
     points->has_unit_weights = true;
     return ps_buffer_write(device, &points->weights, 0, points->host_weights,
-                           count * real_bytes(points->precision), error);
+                           count * ps_real_bytes(points->precision), error);
 }
 
 pspec_status ps_torus_points_create(ps_torus_points *out, unsigned dimension, size_t batch,
@@ -77,8 +74,8 @@ pspec_status ps_torus_points_create(ps_torus_points *out, unsigned dimension, si
     PS_TRY(create_host(out, error));
     PS_TRY(ps_buffer_create(device, &out->points, count * dimension * sizeof(uint64_t), "points",
                             error));
-    PS_TRY(
-        ps_buffer_create(device, &out->weights, count * real_bytes(precision), "weights", error));
+    PS_TRY(ps_buffer_create(device, &out->weights, count * ps_real_bytes(precision), "weights",
+                            error));
     PS_TRY(
         ps_buffer_create(device, &out->offsets, (batch + 1) * sizeof(uint64_t), "offsets", error));
     return upload_unit_weights(out, device, error);
@@ -177,7 +174,7 @@ pspec_status ps_torus_points_upload(ps_torus_points *points, ps_device *device,
                            at * points->dimension * sizeof(uint64_t), error));
     if (!points->has_unit_weights) {
         PS_TRY(ps_buffer_write(device, &points->weights, 0, points->host_weights,
-                               at * real_bytes(points->precision), error));
+                               at * ps_real_bytes(points->precision), error));
     }
     return ps_buffer_write(device, &points->offsets, 0, points->host_offsets,
                            (batch->num_patterns + 1) * sizeof(uint64_t), error);

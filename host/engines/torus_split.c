@@ -1,6 +1,7 @@
 #include "engines/torus_split.h"
 
 #include "base/memory.h"
+#include "base/round.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -23,7 +24,7 @@ static size_t half_lattice_size(unsigned axes, int32_t max_frequency) {
  * A^2 frequencies, so A = sqrt(K / 2), rounded up to whole tiles. */
 static size_t right_size_1d(int32_t max_frequency, unsigned lanes) {
     const size_t wanted = (size_t)ceil(sqrt(max_frequency / 2.0));
-    const size_t tiled = (wanted + lanes - 1) / lanes * lanes;
+    const size_t tiled = ps_round_up(wanted, lanes);
     return tiled < (size_t)max_frequency ? tiled : (size_t)max_frequency;
 }
 
@@ -70,7 +71,7 @@ static pspec_status fill_half_lattice(ps_split_side *side, const ps_split *split
 static pspec_status fill_side(ps_split_side *side, const ps_split *split, bool is_left,
                               ps_error *error) {
     void *memory = NULL;
-    side->num_tiles = (side->num + split->lanes - 1) / split->lanes;
+    side->num_tiles = ps_divide_up(side->num, split->lanes);
     PS_TRY(ps_allocate(&memory, side->num * split->dimension, sizeof(int32_t),
                        "the factors of a grid", error));
     side->vectors = memory;

@@ -1,6 +1,7 @@
 #include "engines/torus_sums.h"
 
 #include "base/memory.h"
+#include "base/round.h"
 
 #include <stdlib.h>
 
@@ -77,7 +78,7 @@ pspec_status ps_torus_sums_create(ps_torus_sums *out, const ps_torus_layout *lay
                                   size_t batch, size_t group, bool with_table,
                                   size_t weighted_tiles, ps_device *device, ps_error *error) {
     *out = (ps_torus_sums){.num = num,
-                           .num_tiles = (num + layout->lanes - 1) / layout->lanes,
+                           .num_tiles = ps_divide_up(num, layout->lanes),
                            .num_chunks = layout->num_chunks,
                            .table_points = layout->table_points,
                            .weighted_tiles = weighted_tiles,

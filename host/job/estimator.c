@@ -45,7 +45,9 @@ static pspec_status create_accumulator(ps_estimator *self, ps_error *error) {
         .batch = self->batch,
         .is_on_device = is_on_device,
         .precision = options->precision == PS_SINGLE ? PS_SINGLE : PS_DOUBLE,
-        .lanes = (unsigned)options->problem.row_unit,
+        .lanes = is_on_device
+                     ? ps_engine_lanes(ps_device_get_limits(self->device), options->precision)
+                     : 1,
         .want_frequencies = options->want_frequencies,
     };
     return ps_accumulator_create(&self->accumulator, &accumulator, self->device, error);
@@ -89,10 +91,6 @@ pspec_status ps_estimator_create(ps_estimator **out, const ps_estimator_options 
     self->device = device;
     self->batch = options->batch;
     self->reference_points = (double)options->problem.num_points;
-    self->options.problem.row_unit =
-        options->engine->needs_device
-            ? ps_engine_row_unit(ps_device_get_limits(device), options->precision, options->batch)
-            : 1;
     pspec_status status = create_arrays(self, error);
     if (status == PSPEC_OK) {
         status = create_parts(self, error);

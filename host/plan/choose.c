@@ -1,6 +1,7 @@
 #include "plan/choose.h"
 
 #include "base/memory.h"
+#include "base/round.h"
 #include "base/text.h"
 #include "plan/cost_model.h"
 
@@ -29,13 +30,29 @@ typedef struct memory {
     double device, host;
 } memory;
 
-/* Of rows of powers on the device: their sums and sums of squares in pairs, also read back; members of bins;
- * sums of pieces of bins, of 64 frequencies each, in pairs. */
-static void add_accumulator(memory *sum, const ps_work *work, double num_frequencies, double rows,
-                            double real_bytes) {
-    const double piece = 64;
-    sum->device += 4 * work->row_bytes + num_frequencies * (double)sizeof(uint32_t) +
-                   2 * rows * real_bytes * num_frequencies / piece;
+/* Realizations side by side in sums of pieces of bins: whole vectors, shorter ones where most lanes would be empty
+ * (analysis/accumulate_device). */
+static double padded_rows(const ps_device_limits *limits, ps_precision precision, size_t batch) {
+    unsigned lanes = ps_engine_lanes(limits, precision);
+    while (lanes > 1 && lanes >= 4 * batch) {
+        lanes /= 2;
+    }
+    return (double)ps_round_up(batch, lanes);
+}
+
+/* Of rows of powers on the device: their sums and sums of squares in pairs, also read back; members of bins, and
+ * the pieces of bins in the blocks of 512 slots of a row: 3 numbers for each, and its sum in pairs. In one dimension
+ * every frequency is a piece; else rings cross a block in about 36 pieces. */
+static void add_accumulator(memory *sum, const ps_work *work, const ps_problem *problem,
+                            double rows, double real_bytes) {
+    const double block = 512;
+    const double pieces_of_block = 36;
+    const double num = (double)problem->frequencies->num;
+    const double blocks = ceil(work->row_bytes / real_bytes / block);
+    const double pieces =
+        problem->frequencies->dimension == 1 ? num : fmin(num, blocks * pieces_of_block);
+    sum->device += 4 * work->row_bytes + num * (double)sizeof(uint16_t) +
+                   pieces * (2 * rows * real_bytes + 3 * (double)sizeof(uint32_t));
     sum->host += 4 * work->row_bytes;
 }
 
@@ -63,11 +80,7 @@ static memory count_memory(const ps_candidate *candidate, const ps_problem *prob
         sum.device = 0;
         return sum;
     }
-    ps_problem padded = *problem;
-    padded.row_unit = ps_engine_row_unit(limits, candidate->precision, batch);
-    const double rows = (double)ps_engine_rows(&padded, batch);
-    sum.device += work->row_bytes * (rows - (double)batch);
-    add_accumulator(&sum, work, num, rows,
+    add_accumulator(&sum, work, problem, padded_rows(limits, candidate->precision, batch),
                     candidate->precision == PS_SINGLE ? sizeof(float) : sizeof(double));
     return sum;
 }

@@ -41,9 +41,5 @@ __kernel void nufft_finish_rows(__global const real *restrict rows,
     const size_t tile = index / num_rows, m = index % num_rows;
     const transform_axis axis = {radices, twiddles, position, 0, n, K};
     load_row(row, rows, index, n);
-    fft_transform(row, n, radices, twiddles);
-    __global real *out = grid + (tile * (2 * K + 1) * num_rows + m) * 2 * LANES;
-    for (uint i = get_local_id(0); i < 2 * K + 1; i += get_local_size(0)) {
-        store_global_complex(out, (size_t)i * num_rows, kept_frequency(row, axis, i));
-    }
+    write_columns(row, axis, num_rows, grid + (tile * (2 * K + 1) * num_rows + m) * 2 * LANES);
 }

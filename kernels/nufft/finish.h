@@ -43,4 +43,13 @@ static inline void write_powers(__local real *row, const transform_axis axis, co
     }
 }
 
+/* columns: frequency -K of this row; the next frequency is num_rows rows further. */
+static inline void write_columns(__local real *row, const transform_axis axis, const uint num_rows,
+                                 __global real *columns) {
+    fft_transform(row, axis.n, axis.radices, axis.twiddles);
+    for (uint i = get_local_id(0); i < 2 * axis.K + 1; i += get_local_size(0)) {
+        store_global_complex(columns, (size_t)i * num_rows, kept_frequency(row, axis, i));
+    }
+}
+
 #endif

@@ -13,7 +13,7 @@
  *   cells      local, [n][re, im][LANES]
  */
 #include "nufft/finish.h"
-#include "nufft/transpose.h"
+#include "shared/transpose.h"
 
 static inline void load_cells(__local real *cells, __global const real *high,
                               __global const real *low, const real mean, const size_t columns,

@@ -1,4 +1,4 @@
-/* Sorted points: what kernels/nufft/ agrees on with host/engines/nufft_*.c.
+/* Sorted points: what kernels/nufft/ agrees on with host/engines/nufft_kernels.h.
  *
  * The places of a realization are its points in the order of cells, and points without weight up to a multiple
  * of PLACE_UNIT.

@@ -35,7 +35,7 @@ static inline void add_places(__local real *rows, const chunk to, __global const
             fill_touching(to, i, sorted + at * dimension, place + i < end ? heights[at] : 0, axis,
                           across, bin);
         }
-        add_chunk(rows, to, axis, k, num_tiles, CHUNK, true);
+        add_chunk(rows, to, axis, k, num_tiles);
     }
 }
 
@@ -76,11 +76,7 @@ nufft_rows(__global const ulong *restrict places, __global const ulong *restrict
             row[i * 2 * LANES] -= means[realization];
         }
         barrier(CLK_LOCAL_MEM_FENCE);
-        fft_transform(row, n, radices, twiddles);
-        __global real *out =
-            grid + ((realization * num_tiles + tile) * (2 * K + 1) * num_rows + m) * 2 * LANES;
-        for (uint i = get_local_id(0); i < 2 * K + 1; i += get_local_size(0)) {
-            store_global_complex(out, (size_t)i * num_rows, kept_frequency(row, transform, i));
-        }
+        const size_t from = (realization * num_tiles + tile) * (2 * K + 1) * num_rows + m;
+        write_columns(row, transform, num_rows, grid + from * 2 * LANES);
     }
 }

@@ -226,24 +226,19 @@ static inline void clear_rows(__local real *rows, const uint num_cells) {
     barrier(CLK_LOCAL_MEM_FENCE);
 }
 
-/* A chunk of `count` filled places into the rows of num_tiles tiles, whose first frequencies are k, k + LANES, ... */
+/* A chunk whose places are filled, in the order of cells, into the rows of num_tiles tiles, whose first frequencies
+ * are k, k + LANES, ... */
 static inline void add_chunk(__local real *rows, const chunk from, const window_axis axis,
-                             const uint k, const uint num_tiles, const uint count,
-                             const bool is_sorted) {
+                             const uint k, const uint num_tiles) {
     const tile_rows to = {rows, row_cells(axis) * 2 * LANES, num_tiles};
     finish_chunk(from, axis, k, num_tiles);
     if (get_local_size(0) > 1) {
         for (uint tile = 0; tile < num_tiles; tile++) {
             gather(rows + tile * to.row_reals, from, from.turns + tile * 2 * CHUNK, axis.width,
-                   is_sorted ? from.cells[0] : 0,
-                   (is_sorted ? from.cells[CHUNK - 1] : axis.n) + axis.width);
+                   from.cells[0], from.cells[CHUNK - 1] + axis.width);
         }
-    } else if (is_sorted) {
-        scatter_in_order(to, from, axis.width);
     } else {
-        for (uint i = 0; i < count; i++) {
-            add_one(to, from, i, axis.width);
-        }
+        scatter_in_order(to, from, axis.width);
     }
     barrier(CLK_LOCAL_MEM_FENCE);
 }

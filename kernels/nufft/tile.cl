@@ -38,7 +38,7 @@ nufft_tile(__global const ulong *restrict places, __global const ulong *restrict
         for (uint i = get_local_id(0); i < CHUNK; i += get_local_size(0)) {
             fill_place(chunk, i, sorted + (place + i) * dimension, heights[place + i], window);
         }
-        add_chunk(rows, chunk, window, base + first_tile * LANES, own_tiles, CHUNK, true);
+        add_chunk(rows, chunk, window, base + first_tile * LANES, own_tiles);
     }
     for (uint i = 0; i < own_tiles; i++) {
         __local real *row = rows + i * row_cells(window) * 2 * LANES;
