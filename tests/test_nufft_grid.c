@@ -66,9 +66,9 @@ static double run_case(const grid_case *what, ps_frequencies *grid, double **fou
                                 .num_points = PLANNED_POINTS,
                                 .num_realizations = 1,
                                 .tolerance = what->tolerance};
-    assert_true(ps_nufft_choose(&problem, what->precision).is_gridded);
+    assert_true(ps_nufft_choose(&problem, NULL, what->precision).is_gridded);
     *found = test_run_problem(&ps_torus_nufft, &problem, what->precision, device, pattern, 1, 1);
-    return ps_torus_nufft.error(&problem, what->precision, 1.2);
+    return ps_torus_nufft.error(&problem, ps_device_get_limits(device), what->precision, 1.2);
 }
 
 static void check_case(const grid_case *what) {
@@ -208,7 +208,7 @@ static void largest_frequencies(void **state) {
         const ps_problem problem = {.frequencies = &grid, .num_points = 1000000, .tolerance = 1e-6};
         const char *why_not = NULL;
         for (int precision = PS_SINGLE; precision <= PS_DOUBLE; precision++) {
-            assert_int_equal(ps_nufft_choose(&problem, (ps_precision)precision).num_axes, 0);
+            assert_int_equal(ps_nufft_choose(&problem, NULL, (ps_precision)precision).num_axes, 0);
         }
         assert_false(
             ps_torus_nufft.applicable(&problem, ps_device_get_limits(device), PS_SINGLE, &why_not));

@@ -103,7 +103,8 @@ typedef struct ps_engine {
     /* Expected error e of S in sqrt(mean |dS|^2) = e sqrt(sum w^2), mean over the frequencies, for
      * sets whose effective power averaged over the frequencies is mean_power (1: white noise).
      * The formula and its measured slack are in the engine's page in docs/. */
-    double (*error)(const ps_problem *, ps_precision, double mean_power);
+    double (*error)(const ps_problem *, const ps_device_limits *limits, ps_precision,
+                    double mean_power);
     /* batch: the largest number of patterns in one run. The problem's frequencies are enumerated
      * and outlive the state. */
     pspec_status (*create)(void **state, const ps_problem *, ps_precision, size_t batch,

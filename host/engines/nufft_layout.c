@@ -5,6 +5,8 @@
 #include "engines/nufft_plan.h"
 #include "engines/reals.h"
 
+#include <math.h>
+
 /* Places and grids of the realizations that are worked on at a time: on CPUs a share of the last-level
  * cache, on GPUs enough to fill the device. */
 static const double work_share = 0.25;
@@ -183,13 +185,90 @@ static uint32_t choose_group(const ps_nufft_layout *layout, const ps_problem *pr
     return (uint32_t)ps_divide_up(layout->num_tiles, groups);
 }
 
+/* Work-groups for each core: so few that grids stay in the cache, so many that no core waits long for another. */
+enum { GROUPS_PER_CORE = 4 };
+
+/* Gains, turns of one dimension, plans of the windows and of the two transforms. */
+static uint64_t whole_table_bytes(const ps_nufft_layout *layout) {
+    enum { SMALL = 1536 };
+    const ps_nufft_choice *choice = &layout->choice;
+    const uint64_t turns = choice->num_axes == 1 ? 2 * (uint64_t)choice->lengths[1] *
+                                                       (layout->lanes + layout->num_tiles)
+                                                 : 0;
+    const uint64_t cells = (uint64_t)choice->lengths[0] + choice->lengths[1];
+    const uint64_t reals = layout->stride + turns + 2 * cells +
+                           choice->num_axes * ((uint64_t)choice->axes[0].max_frequency + 1);
+    return reals * layout->real_bytes + cells * sizeof(uint32_t) + choice->num_axes * SMALL;
+}
+
+static bool fits_whole(const ps_nufft_layout *layout, const ps_device_limits *limits) {
+    const ps_nufft_choice *choice = &layout->choice;
+    const size_t longest =
+        choice->lengths[0] > choice->lengths[1] ? choice->lengths[0] : choice->lengths[1];
+    const size_t reals = 2 * longest * layout->lanes + layout->whole.window_reals;
+    return reals * layout->real_bytes + 2 * PS_NUFFT_CHUNK * sizeof(uint32_t) <=
+           limits->local_bytes;
+}
+
+/* Points on the host and on the device, grids and tiles of the work-groups, tables. Parts are realizations: as many
+ * as keep all cores at work. */
+static void count_whole(ps_nufft_layout *layout, const ps_problem *problem,
+                        const ps_device_limits *limits) {
+    const size_t cores = limits->compute_units > 0 ? limits->compute_units : 1;
+    const uint64_t known = problem->num_realizations;
+    const uint64_t point = problem->frequencies->dimension * sizeof(uint64_t) + layout->real_bytes;
+    const double cache =
+        limits->cache_bytes > 0 ? (double)limits->cache_bytes : DEFAULT_CACHE_BYTES;
+    const double fitting = work_share * cache / (2 * (double)(layout->part_points * point));
+    const size_t most = known > 0 && known < MOST_AT_ONCE ? (size_t)known : MOST_AT_ONCE;
+    layout->parts = fitting > (double)cores ? (size_t)fmin(fitting, MOST_AT_ONCE) : cores;
+    layout->parts = layout->parts > most ? most : layout->parts;
+    layout->groups =
+        layout->parts < GROUPS_PER_CORE * cores ? layout->parts : GROUPS_PER_CORE * cores;
+    const uint64_t grids = layout->groups * layout->whole.grid_reals * layout->real_bytes;
+    const uint64_t rows = layout->groups * layout->whole.row_reals * layout->real_bytes;
+    layout->host_bytes = layout->parts * layout->part_points * point;
+    layout->fixed_bytes = 2 * layout->host_bytes + grids + rows + whole_table_bytes(layout) +
+                          layout->parts * (sizeof(uint64_t) + 2 * layout->real_bytes);
+    const uint64_t buffers[] = {grids, rows,
+                                layout->parts * layout->part_points *
+                                    problem->frequencies->dimension * sizeof(uint64_t)};
+    layout->largest_buffer = largest_of(buffers, sizeof buffers / sizeof buffers[0]);
+}
+
+static void measure_whole(ps_nufft_layout *layout, const ps_problem *problem,
+                          const ps_device_limits *limits) {
+    const ps_nufft_choice *choice = &layout->choice;
+    uint32_t kept[2];
+    ps_nufft_whole_kept(choice, kept);
+    layout->whole = ps_nufft_whole_measure(choice, layout->lanes);
+    while (layout->lanes > 0 && !fits_whole(layout, limits)) {
+        layout->lanes /= 2;
+        layout->whole =
+            layout->lanes > 0 ? ps_nufft_whole_measure(choice, layout->lanes) : layout->whole;
+    }
+    if (layout->lanes == 0) {
+        return;
+    }
+    layout->num_tiles = (uint32_t)ps_divide_up(choice->span, layout->lanes);
+    layout->stride = (size_t)layout->num_tiles * layout->lanes * (2 * (size_t)kept[1] + 1);
+    layout->bytes_per_realization = layout->stride * layout->real_bytes;
+    layout->largest_buffer_per_realization = layout->bytes_per_realization;
+    layout->part_points = problem->num_points;
+    count_whole(layout, problem, limits);
+}
+
 ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_limits *limits,
                                      ps_precision precision) {
-    ps_nufft_layout layout = {.choice = ps_nufft_choose(problem, precision),
+    ps_nufft_layout layout = {.choice = ps_nufft_choose(problem, limits, precision),
                               .lanes = ps_engine_lanes(limits, precision),
                               .real_bytes = ps_real_bytes(precision)};
     if (layout.choice.num_axes == 0) {
         layout.lanes = 0;
+        return layout;
+    }
+    if (layout.choice.is_whole) {
+        measure_whole(&layout, problem, limits);
         return layout;
     }
     measure_axes(&layout);
@@ -203,14 +282,14 @@ ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_
     layout.group = choose_group(&layout, problem, limits);
     layout.chunk_reals += layout.group * TURN_REALS;
     layout.part_points = problem->num_points;
-    if (layout.choice.is_gridded &&
+    if (ps_nufft_is_large(&layout.choice) &&
         layout.part_points > layout.choice.chunk / PS_NUFFT_MOST_PARTS) {
         layout.part_points = layout.choice.chunk / PS_NUFFT_MOST_PARTS;
     }
     layout.part_places = ps_round_up(layout.part_points, PS_NUFFT_PLACE_UNIT);
     layout.bytes_per_realization = layout.stride * layout.real_bytes;
     layout.largest_buffer_per_realization = layout.bytes_per_realization;
-    if (layout.choice.is_gridded) {
+    if (ps_nufft_is_large(&layout.choice)) {
         measure_grid(&layout, problem, limits->max_allocation_bytes);
     } else {
         choose_at_once(&layout, problem, limits);
@@ -220,6 +299,17 @@ ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_
     return layout;
 }
 
+/* k or -k, whichever has its rest modulo the first length in the first half. */
+static uint32_t line_slot(const ps_nufft_layout *layout, uint32_t k) {
+    const uint32_t first = layout->choice.lengths[0];
+    const uint32_t rest = k % first;
+    uint32_t kept[2];
+    ps_nufft_whole_kept(&layout->choice, kept);
+    const uint32_t k_1 = rest <= first / 2 ? rest : first - rest;
+    const uint32_t q = rest <= first / 2 ? kept[1] + k / first : kept[1] - k / first - 1;
+    return (k_1 / layout->lanes * (2 * kept[1] + 1) + q) * layout->lanes + k_1 % layout->lanes;
+}
+
 uint32_t ps_nufft_slot(const ps_nufft_layout *layout, const int32_t *k, unsigned dimension) {
     const ps_nufft_choice *choice = &layout->choice;
     const int32_t sign = k[0] < 0 ? -1 : 1; /* |S(-k)| = |S(k)| */
@@ -227,6 +317,9 @@ uint32_t ps_nufft_slot(const ps_nufft_layout *layout, const int32_t *k, unsigned
     const uint32_t within = choice->stride != 0 ? along % choice->stride : along;
     unsigned num = 0;
     const ps_nufft_axis *last = ps_nufft_last_axes(choice, &num);
+    if (choice->is_whole && dimension == 1) {
+        return line_slot(layout, along);
+    }
     uint32_t slot = within / layout->lanes;
     for (unsigned i = num;
          i-- > 0;) { /* kernels/nufft/columns.cl writes the first axis innermost */

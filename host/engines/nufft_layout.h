@@ -2,7 +2,7 @@
 #ifndef PS_ENGINES_NUFFT_LAYOUT_H
 #define PS_ENGINES_NUFFT_LAYOUT_H
 
-#include "engines/nufft_choice.h"
+#include "engines/nufft_whole_shape.h"
 
 /* Buffers of the grid of a large set. */
 enum { PS_NUFFT_MOST_SLABS = 16 };
@@ -30,6 +30,8 @@ typedef struct ps_nufft_layout {
     size_t part_points;     /* points sorted together: all of a realization, or part of a chunk */
     size_t part_places;     /* whole units of places for them */
     size_t parts;           /* whose places are made at a time */
+    ps_nufft_whole_sizes whole;
+    size_t groups; /* of whole realizations */
     uint64_t fixed_bytes, bytes_per_realization;
     uint64_t host_bytes; /* part of fixed_bytes: points and weights as they came */
     uint64_t largest_buffer, largest_buffer_per_realization;

@@ -84,7 +84,9 @@ static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
         .largest_buffer_per_realization = (double)layout.largest_buffer_per_realization};
 }
 
-static double error_of(const ps_problem *problem, ps_precision precision, double mean_power) {
+static double error_of(const ps_problem *problem, const ps_device_limits *limits,
+                       ps_precision precision, double mean_power) {
+    (void)limits;
     /* Fixed-point phases: 2 + (2 + d) 2^-24 sum |k| units of 2^-32 turns (float, torus/phase.h), 2^-65 |k|
      * turns (coordinates below 2^-11). Uniform errors: standard deviation 1/sqrt(12) of a unit. */
     const double dimension = problem->frequencies->dimension;

@@ -9,6 +9,7 @@
 #include "engines/nufft_places.h"
 #include "engines/nufft_plan.h"
 #include "engines/nufft_tiles.h"
+#include "engines/nufft_whole.h"
 #include "engines/reals.h"
 
 #include <math.h>
@@ -23,6 +24,7 @@ typedef struct torus_nufft {
     ps_nufft_plan plans[PS_NUFFT_MAX_AXES];
     ps_nufft_places places;
     ps_nufft_grid large;  /* gridded choices only */
+    ps_nufft_whole whole; /* whole realizations */
     ps_nufft_tiles tiles; /* all others */
     ps_buffer means, scales, power;
     double *means_of_parts;
@@ -74,9 +76,9 @@ static bool applicable(const ps_problem *problem, const ps_device_limits *limits
 static double launches_of(const ps_nufft_layout *layout, double num_points, double realizations) {
     unsigned num_last = 0;
     ps_nufft_last_axes(&layout->choice, &num_last);
-    if (!layout->choice.is_gridded) {
+    if (!ps_nufft_is_large(&layout->choice)) {
         const double rounds = ceil(realizations / (double)layout->parts);
-        return rounds * (1 + num_last);
+        return rounds * (layout->choice.is_whole ? 1 : 1 + num_last);
     }
     const double chunks = ceil(num_points / ((double)layout->parts * (double)layout->part_points));
     return realizations * (2 * chunks + 1 + num_last);
@@ -96,11 +98,12 @@ static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
         .bytes_per_realization = (double)layout.bytes_per_realization,
         .row_bytes = (double)layout.bytes_per_realization,
         .largest_buffer_per_realization = (double)layout.largest_buffer_per_realization,
-        .takes_blocks = layout.choice.is_gridded};
+        .takes_blocks = ps_nufft_is_large(&layout.choice)};
 }
 
-static double error_of(const ps_problem *problem, ps_precision precision, double mean_power) {
-    const ps_nufft_choice choice = ps_nufft_choose(problem, precision);
+static double error_of(const ps_problem *problem, const ps_device_limits *limits,
+                       ps_precision precision, double mean_power) {
+    const ps_nufft_choice choice = ps_nufft_choose(problem, limits, precision);
     return choice.num_axes == 0 ? HUGE_VAL
                                 : ps_nufft_error(&choice, problem, precision, mean_power);
 }
@@ -119,6 +122,7 @@ static void destroy(void *state) {
         ps_nufft_plan_free(&self->plans[i]);
     }
     ps_nufft_grid_free(&self->large);
+    ps_nufft_whole_free(&self->whole);
     ps_nufft_tiles_free(&self->tiles);
     ps_nufft_places_free(&self->places);
     free(self->means_of_parts);
@@ -142,13 +146,17 @@ static pspec_status create_parts(torus_nufft *self, const ps_problem *problem, p
     PS_TRY(ps_allocate(&memory, self->layout.parts, sizeof(double), "means", error));
     self->means_of_parts = memory;
     for (unsigned i = 0; i < choice->num_axes; i++) {
-        PS_TRY(ps_nufft_plan_create(&self->plans[i], &choice->axes[i], problem->tolerance,
-                                    self->precision, self->device, error));
+        PS_TRY(ps_nufft_plan_create(&self->plans[i], &choice->axes[i], !choice->is_whole,
+                                    problem->tolerance, self->precision, self->device, error));
+    }
+    PS_TRY(create_buffers(self, self->batch, error));
+    if (choice->is_whole) {
+        return ps_nufft_whole_create(&self->whole, &self->layout, self->plans, self->precision,
+                                     self->device, error);
     }
     PS_TRY(ps_nufft_places_create(&self->places, &self->layout, self->frequencies->dimension,
                                   self->precision, self->device, error));
-    PS_TRY(create_buffers(self, self->batch, error));
-    if (choice->is_gridded) {
+    if (ps_nufft_is_large(choice)) {
         return ps_nufft_grid_create(&self->large, &self->layout, self->plans, &self->places,
                                     self->precision, self->device, error);
     }
@@ -167,7 +175,7 @@ static pspec_status create(void **state, const ps_problem *problem, ps_precision
     self->precision = precision;
     self->batch = batch;
     self->layout = ps_nufft_layout_make(problem, ps_device_get_limits(device), precision);
-    if (!self->layout.choice.is_gridded && self->layout.parts > batch) {
+    if (!ps_nufft_is_large(&self->layout.choice) && self->layout.parts > batch) {
         self->layout.parts = batch;
     }
     const pspec_status status = create_parts(self, problem, error);
@@ -231,8 +239,11 @@ static pspec_status upload_means(torus_nufft *self, const ps_batch *some, ps_err
 
 static pspec_status run_some(torus_nufft *self, const ps_batch *some, const ps_nufft_target *target,
                              ps_error *error) {
-    PS_TRY(ps_nufft_places_make(&self->places, some, error));
     PS_TRY(upload_means(self, some, error));
+    if (self->layout.choice.is_whole) {
+        return ps_nufft_whole_run(&self->whole, some, &self->means, target, error);
+    }
+    PS_TRY(ps_nufft_places_make(&self->places, some, error));
     return ps_nufft_tiles_run(&self->tiles, some->num_patterns, &self->means, target, error);
 }
 
@@ -258,7 +269,8 @@ static pspec_status end_large(torus_nufft *self, const ps_nufft_target *target, 
 
 static size_t stream_unit(const void *state) {
     const torus_nufft *self = state;
-    return self->layout.choice.is_gridded ? self->layout.parts * self->layout.part_points : 0;
+    return ps_nufft_is_large(&self->layout.choice) ? self->layout.parts * self->layout.part_points
+                                                   : 0;
 }
 
 static ps_rows show_rows(const torus_nufft *self, size_t num_rows) {
@@ -290,7 +302,7 @@ static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_er
     torus_nufft *self = state;
     PS_TRY(ps_reals_write(self->device, &self->scales, self->precision, batch->scales,
                           batch->num_patterns, error));
-    const bool is_large = self->layout.choice.is_gridded;
+    const bool is_large = ps_nufft_is_large(&self->layout.choice);
     const size_t at_once = is_large ? 1 : self->layout.parts;
     for (size_t row = 0; row < batch->num_patterns; row += at_once) {
         const size_t rest = batch->num_patterns - row;
@@ -319,8 +331,15 @@ static void describe(const void *state, ps_text *text) {
                        axis->n / (2.0 * axis->max_frequency), axis->window.width,
                        self->plans[i].degree);
     }
-    ps_text_append(text, "%s group=%lu at_once=%zu)", choice->is_gridded ? " gridded" : "",
-                   (unsigned long)self->layout.group, self->layout.parts);
+    if (choice->is_whole) {
+        ps_text_append(text, " whole=%lux%lu", (unsigned long)choice->lengths[0],
+                       (unsigned long)choice->lengths[1]);
+    } else if (choice->is_gridded) {
+        ps_text_append(text, " gridded");
+    } else {
+        ps_text_append(text, " group=%lu", (unsigned long)self->layout.group);
+    }
+    ps_text_append(text, " at_once=%zu)", self->layout.parts);
 }
 
 const ps_engine ps_torus_nufft = {

@@ -217,7 +217,7 @@ static pspec_status compare_with_referee(ps_estimator *self, const ps_rows *rows
         .exponent = self->exponents[0],
         .scale = self->scales[0],
         .weight_square_sum = self->sums[0].weight_square_sum,
-        .engine_error = self->options.engine->error(problem, self->options.precision, 1),
+        .engine_error = ps_estimator_error_at(self, 1),
     };
     return ps_self_check(&input, self->device, &self->accuracy.self_check, error);
 }

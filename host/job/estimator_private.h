@@ -27,6 +27,9 @@ void ps_estimator_halve_batch(ps_estimator *self);
 pspec_status ps_estimator_get_ready(ps_estimator *self, uint64_t num_points,
                                     ps_error *error) PS_MUST_CHECK;
 
+/* Of the engine, for sets of some mean power (ps_engine.error). */
+double ps_estimator_error_at(const ps_estimator *self, double mean_power);
+
 /* Sums, scale and exponent of a pattern of the batch. */
 void ps_estimator_set_sums(ps_estimator *self, size_t pattern, const ps_pattern_sums *sums);
 ps_batch ps_estimator_make_batch(const ps_estimator *self, const pspec_pattern *patterns,

@@ -1,6 +1,13 @@
 /* What an estimator has found. */
 #include "job/estimator_private.h"
 
+double ps_estimator_error_at(const ps_estimator *self, double mean_power) {
+    const ps_device_limits *limits =
+        self->device != NULL ? ps_device_get_limits(self->device) : NULL;
+    return self->options.engine->error(&self->options.problem, limits, self->options.precision,
+                                       mean_power);
+}
+
 static pspec_status require_realizations(const ps_estimator *self, ps_error *error) {
     return self->totals.num_realizations > 0
                ? PSPEC_OK
@@ -43,8 +50,7 @@ const ps_bins *ps_estimator_bins(const ps_estimator *estimator) {
 
 ps_accuracy ps_estimator_accuracy(const ps_estimator *estimator) {
     ps_accuracy accuracy = estimator->accuracy;
-    accuracy.error = estimator->options.engine->error(
-        &estimator->options.problem, estimator->options.precision, accuracy.largest_mean_power);
+    accuracy.error = ps_estimator_error_at(estimator, accuracy.largest_mean_power);
     return accuracy;
 }
 

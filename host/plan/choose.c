@@ -106,7 +106,7 @@ static void estimate(ps_candidate *candidate, const ps_problem *problem,
     candidate->device_bytes = sum.device;
     candidate->bytes = sum.device + sum.host;
     candidate->error =
-        candidate->engine->error(problem, candidate->precision, ps_expected_power(problem));
+        candidate->engine->error(problem, used, candidate->precision, ps_expected_power(problem));
 }
 
 /* Does the user's choice of engine or precision rule it out? */

@@ -1,9 +1,8 @@
 /* The transform along axis 0 of a grid of real numbers (nufft/grid.cl). Launch: (work-items of one group, groups
  * of 2 LANES columns).
  *
- * Lanes are neighbouring columns here, half of them in real parts, half in imaginary parts: with Z = A + i B, A(k)
- * = (Z(k) + conj Z(-k)) / 2 and B(k) = (Z(k) - conj Z(-k)) / 2i. The result is turned, so that lanes are
- * frequencies, as nufft/finish.cl wants it.
+ * Lanes are neighbouring columns here (nufft/halves.h). The result is turned, so that lanes are frequencies, as
+ * nufft/finish.cl wants it.
  *
  *   high, low  [cell of axis 0][column], some columns: cells of all other axes, a multiple of 2 LANES
  *   mean       taken off every cell: frequency 0
@@ -12,8 +11,7 @@
  *              all_columns of them, these from first_column on
  *   cells      local, [n][re, im][LANES]
  */
-#include "nufft/finish.h"
-#include "shared/transpose.h"
+#include "nufft/halves.h"
 
 static inline void load_cells(__local real *cells, __global const real *high,
                               __global const real *low, const real mean, const size_t columns,
@@ -26,32 +24,6 @@ static inline void load_cells(__local real *cells, __global const real *high,
                        load_global(high + at, 1) + load_global(low + at, 1) - (realv)mean});
     }
     barrier(CLK_LOCAL_MEM_FENCE);
-}
-
-/* Frequencies k .. k + LANES - 1 of 2 LANES columns. */
-static inline void write_tile(__local const real *cells, const transform_axis axis, const uint k,
-                              __global real *rows) {
-    realv a_re[LANES], a_im[LANES], b_re[LANES], b_im[LANES];
-#pragma unroll
-    for (int i = 0; i < LANES; i++) {
-        const uint at = min(k + i, axis.K);
-        const complexv z = load_complex(cells, axis.position[at]);
-        const complexv other = load_complex(cells, axis.position[at == 0 ? 0 : axis.n - at]);
-        const realv half_gain = (realv)(k + i <= axis.K ? sqrt(axis.gains[at]) * (real)0.5 : 0);
-        a_re[i] = (z.re + other.re) * half_gain;
-        a_im[i] = (z.im - other.im) * half_gain;
-        b_re[i] = (z.im + other.im) * half_gain;
-        b_im[i] = (other.re - z.re) * half_gain;
-    }
-    transpose(a_re);
-    transpose(a_im);
-    transpose(b_re);
-    transpose(b_im);
-#pragma unroll
-    for (int i = 0; i < LANES; i++) {
-        store_global_complex(rows, i, (complexv){a_re[i], a_im[i]});
-        store_global_complex(rows, LANES + i, (complexv){b_re[i], b_im[i]});
-    }
 }
 
 __kernel void nufft_first(__global const real *restrict high, __global const real *restrict low,
@@ -68,7 +40,7 @@ __kernel void nufft_first(__global const real *restrict high, __global const rea
     load_cells(cells, high, low, mean[0], columns, first, n);
     fft_transform(cells, n, radices, twiddles);
     for (uint tile = get_local_id(0); tile < num_tiles; tile += get_local_size(0)) {
-        write_tile(cells, axis, (first_tile + tile) * LANES,
-                   rows + (tile * all_columns + first_column + first) * (2 * LANES));
+        turn_halves(cells, axis, (first_tile + tile) * LANES,
+                    rows + (tile * all_columns + first_column + first) * (2 * LANES));
     }
 }
