@@ -1,7 +1,9 @@
 /* Largest resident memory and seconds per realization of whole jobs against the number of realizations:
- * memory must not grow with it.
+ * memory must not grow with it. Then what plan announces against what there was: buffers of the device, and all
+ * memory.
  *
  *     bench_memory [M...]          default 100 1000 10000 of jittered, N = 256, K = 32
+ *     bench_memory plan            announced against measured only
  *
  * Every job runs in a process of its own, so that its largest memory is its own.
  */
@@ -11,6 +13,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -39,7 +42,69 @@ static void run_job(uint64_t num_realizations) {
     ps_power_job_destroy(job);
 }
 
+/* ---- announced and measured -------------------------------------------------------------- */
+
+typedef struct memory_case {
+    unsigned dimension;
+    size_t num_points;
+    int32_t k;
+} memory_case;
+
+static const memory_case cases[] = {{2, 256, 32},       {2, 1024, 128}, {2, 4096, 256},
+                                    {2, 16384, 512},    {3, 4096, 32},  {1, 65536, 32768},
+                                    {2, 10000000, 1024}};
+
+static long resident_kibibytes(void) {
+    struct rusage usage;
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;
+}
+
+/* What the driver and its compiler take shows in a job of nothing: it is left out. */
+static void compare_memory(const memory_case *what) {
+    ps_sampler_request request = {
+        .num_points = what->num_points, .dimension = what->dimension, .seed = 1};
+    BENCH_TRY(ps_sampler_parse(&request, "white", error));
+    const ps_power_question question = {.sampler = &request,
+                                        .num_realizations = 4,
+                                        .max_frequency = what->k,
+                                        .tolerance = 1e-6,
+                                        .constraints = {.precision = -1},
+                                        .device = getenv("POINTSPEC_DEVICE")};
+    ps_power_job *job = NULL;
+    BENCH_TRY(ps_power_job_create(&job, &question, error));
+    const long before = resident_kibibytes();
+    BENCH_TRY(ps_power_job_run(job, error));
+    const ps_candidate *chosen = ps_power_job_plan(job)->chosen;
+    const double mega = 1e6;
+    const double buffers = (double)ps_power_job_buffer_bytes(job);
+    printf("%2u %9zu %6d %-13s %10.3f %10.3f %6.3f %10.1f %10.1f\n", what->dimension,
+           what->num_points, (int)what->k, chosen->engine->name, chosen->device_bytes / mega,
+           buffers / mega, chosen->device_bytes / buffers, chosen->bytes / mega,
+           (double)(resident_kibibytes() - before) * 1024 / mega);
+    fflush(stdout);
+    ps_power_job_destroy(job);
+}
+
+static void compare_all(void) {
+    printf("\n%2s %9s %6s %-13s %10s %10s %6s %10s %10s\n", "d", "N", "K", "engine", "announced",
+           "buffers", "ratio", "all MB", "grown by");
+    fflush(stdout);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const pid_t child = fork();
+        if (child == 0) {
+            compare_memory(&cases[i]);
+            _exit(0);
+        }
+        waitpid(child, NULL, 0);
+    }
+}
+
 int main(int argc, char **argv) {
+    if (argc == 2 && strcmp(argv[1], "plan") == 0) {
+        compare_all();
+        return 0;
+    }
     static char *const defaults[] = {"100", "1000", "10000", "100000"};
     char *const *words = argc > 1 ? argv + 1 : defaults;
     const int num = argc > 1 ? argc - 1 : (int)(sizeof defaults / sizeof defaults[0]);
@@ -54,5 +119,6 @@ int main(int argc, char **argv) {
         }
         waitpid(child, NULL, 0);
     }
+    compare_all();
     return 0;
 }

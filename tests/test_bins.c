@@ -1,6 +1,7 @@
 /* Rings and shells against their definition. */
 #include "harness.h"
 
+#include "analysis/accumulate_blocks.h"
 #include "analysis/bins.h"
 
 #include <float.h>
@@ -163,11 +164,85 @@ static void bins_of_lists(void **state) {
     ps_frequencies_free(&set);
 }
 
+/* ---- blocks of slots --------------------------------------------------------------------- */
+
+/* Slots of a row with gaps, in an order far from that of frequencies. */
+static void make_slots(uint32_t *slots, size_t num, size_t stride, size_t step) {
+    for (size_t i = 0; i < num; i++) {
+        slots[i] = (uint32_t)(i * step % stride);
+    }
+}
+
+/* bin_of[slot] is 1 + the bin of the member there, 0 where there is none. */
+static void find_bins(uint32_t *bin_of, const ps_bins *bins, const uint32_t *slots) {
+    for (size_t b = 0; b < bins->num; b++) {
+        for (size_t i = bins->bins[b].begin; i < bins->bins[b].end; i++) {
+            bin_of[slots[bins->members[i]]] = (uint32_t)b + 1;
+        }
+    }
+}
+
+/* Every member is found once, in its block, in a piece of its bin; no piece is made twice. */
+static void check_blocks(const ps_accumulate_blocks *blocks, uint32_t *bin_of, size_t stride) {
+    bool *is_made = calloc(blocks->num_pieces, sizeof *is_made);
+    size_t num_members = 0;
+    for (size_t block = 0; block < blocks->num_blocks; block++) {
+        for (uint32_t r = blocks->first_rings[block]; r < blocks->first_rings[block + 1]; r++) {
+            const ps_block_ring *ring = &blocks->rings[r];
+            assert_true(ring->first < ring->end && ring->piece < blocks->num_pieces);
+            assert_false(is_made[ring->piece]);
+            is_made[ring->piece] = true;
+            for (uint32_t m = ring->first; m < ring->end; m++) {
+                const size_t slot = block * PS_ACCUMULATE_BLOCK + blocks->members[m];
+                assert_true(blocks->members[m] < PS_ACCUMULATE_BLOCK && slot < stride);
+                assert_true(bin_of[slot] > 0);
+                const uint32_t *pieces = blocks->bin_pieces[bin_of[slot] - 1];
+                assert_true(pieces[0] <= ring->piece && ring->piece < pieces[1]);
+                bin_of[slot] = 0;
+                num_members++;
+            }
+        }
+    }
+    assert_int_equal(blocks->first_rings[blocks->num_blocks], blocks->num_pieces);
+    assert_int_equal(num_members, blocks->num_members);
+    free(is_made);
+}
+
+static void blocks_of_slots(void **state) {
+    (void)state;
+    const struct {
+        unsigned dimension;
+        int32_t max_frequency;
+        size_t stride, step; /* no common divisor */
+    } cases[] = {{2, 40, 3328, 1}, {2, 40, 9999, 1234}, {1, 1600, 2048, 1}, {3, 9, 4096, 77}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        ps_frequencies set = {0};
+        ps_bins bins = {0};
+        ps_accumulate_blocks blocks = {0};
+        uint32_t *bin_of = calloc(cases[i].stride, sizeof *bin_of);
+        assert_ok(
+            ps_frequencies_lattice(&set, cases[i].dimension, cases[i].max_frequency, false, error));
+        assert_ok(ps_frequencies_enumerate(&set, error));
+        assert_ok(ps_bins_create(&bins, &set, false, error));
+        uint32_t *slots = calloc(set.num, sizeof *slots);
+        make_slots(slots, set.num, cases[i].stride, cases[i].step);
+        find_bins(bin_of, &bins, slots);
+        assert_ok(ps_accumulate_blocks_create(&blocks, &bins, slots, cases[i].stride, error));
+        assert_int_equal(blocks.num_members, bins.num_members);
+        check_blocks(&blocks, bin_of, cases[i].stride);
+        ps_accumulate_blocks_free(&blocks);
+        ps_bins_free(&bins);
+        ps_frequencies_free(&set);
+        free(slots);
+        free(bin_of);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rings_of_small_norms), cmocka_unit_test(rings_of_large_norms),
         cmocka_unit_test(bins_of_lattices),     cmocka_unit_test(known_counts),
-        cmocka_unit_test(bins_of_lists),
+        cmocka_unit_test(bins_of_lists),        cmocka_unit_test(blocks_of_slots),
     };
     return cmocka_run_group_tests_name("bins", tests, NULL, NULL);
 }

@@ -1,7 +1,9 @@
-/* accumulate/modes.cl and bins.cl alone, with whole numbers chosen so that every sum is exact in a
+/* accumulate/blocks.cl and fold.cl alone, with whole numbers chosen so that every sum is exact in a
  * pair and beyond the reach of one number: results must be equal, not near.
  */
 #include "harness_kernels.h"
+
+#include "analysis/accumulate_blocks.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -11,13 +13,15 @@ __extension__ typedef __int128 wide;
 static ps_device *device;
 static uint64_t seed = 5;
 
+enum { BLOCK = PS_ACCUMULATE_BLOCK };
+
 /* lanes 0 stands for the device's own. */
 typedef struct build {
     unsigned precision, lanes;
     size_t num_groups; /* how many work-group sizes */
 } build;
 
-static const build builds[] = {{32, 0, 3}, {64, 0, 1}, {32, 1, 1}, {64, 4, 1}};
+static const build builds[] = {{32, 0, 3}, {64, 0, 1}, {32, 4, 3}, {32, 1, 1}, {64, 4, 1}};
 
 static void for_all_builds(void (*check)(const build *)) {
     for (size_t i = 0; i < sizeof builds / sizeof builds[0]; i++) {
@@ -32,16 +36,141 @@ static void for_all_builds(void (*check)(const build *)) {
     }
 }
 
-/* ---- modes ------------------------------------------------------------------------------- */
+/* ---- rings of blocks --------------------------------------------------------------------- */
+
+/* Rings of any length in every block, one of them empty; members in any order, some of them twice; pieces
+ * in an order of their own. */
+enum { RINGS_OF_BLOCK = 9, MEMBERS_OF_RING = 41 };
+
+typedef struct ring_table {
+    size_t num_blocks, num_rings;
+    uint32_t *first_rings;
+    ps_block_ring *rings;
+    uint16_t *members;
+    size_t num_members;
+} ring_table;
+
+static size_t slots_of_block(size_t block, size_t stride) {
+    return stride - block * BLOCK < BLOCK ? stride - block * BLOCK : BLOCK;
+}
+
+static ring_table make_table(size_t stride) {
+    ring_table made = {.num_blocks = (stride + BLOCK - 1) / BLOCK};
+    made.num_rings = made.num_blocks * RINGS_OF_BLOCK;
+    made.first_rings = calloc(made.num_blocks + 1, sizeof *made.first_rings);
+    made.rings = calloc(made.num_rings, sizeof *made.rings);
+    made.members = calloc(made.num_rings * MEMBERS_OF_RING, sizeof *made.members);
+    for (size_t i = 0; i < made.num_rings; i++) {
+        const size_t slots = slots_of_block(i / RINGS_OF_BLOCK, stride);
+        const size_t length =
+            i % RINGS_OF_BLOCK == 3 ? 0 : 1 + (size_t)(test_uniform(&seed) * MEMBERS_OF_RING);
+        made.rings[i] =
+            (ps_block_ring){(uint32_t)made.num_members, (uint32_t)(made.num_members + length),
+                            (uint32_t)(made.num_rings - 1 - i)};
+        for (size_t m = 0; m < length; m++) {
+            made.members[made.num_members++] = (uint16_t)(test_uniform(&seed) * (double)slots);
+        }
+    }
+    for (size_t b = 0; b <= made.num_blocks; b++) {
+        made.first_rings[b] = (uint32_t)(b * RINGS_OF_BLOCK);
+    }
+    return made;
+}
+
+static void free_table(ring_table *table) {
+    free(table->first_rings);
+    free(table->rings);
+    free(table->members);
+}
+
+/* What a launch is given; state NULL: bins alone. */
+typedef struct launch {
+    const build *one;
+    size_t group, stride;
+    const ring_table *table;
+    const test_memory *sums, *state;
+} launch;
+
+static void launch_blocks(const launch *with, const double *power, size_t num_rows) {
+    const build *one = with->one;
+    const ring_table *table = with->table;
+    cl_kernel kernel =
+        test_kernel(device, "accumulate/blocks.cl",
+                    with->state != NULL ? "accumulate_bins_and_frequencies" : "accumulate_bins",
+                    "-DPRECISION=%u -DLANES=%u", one->precision, one->lanes);
+    test_memory rows = test_reals_create(device, one->precision, power, num_rows * with->stride);
+    test_memory first_rings = test_memory_create(
+        device, table->first_rings, (table->num_blocks + 1) * sizeof *table->first_rings);
+    test_memory rings =
+        test_memory_create(device, table->rings, table->num_rings * sizeof *table->rings);
+    test_memory members =
+        test_memory_create(device, table->members, table->num_members * sizeof *table->members);
+    const ps_argument block = PS_LOCAL(BLOCK * one->lanes * one->precision / 8);
+    if (with->state != NULL) {
+        TEST_LAUNCH(device, kernel, with->group, 1, table->num_blocks, 1, PS_BUFFER(rows.buffer),
+                    PS_U32(num_rows), PS_U64(with->stride), PS_BUFFER(first_rings.buffer),
+                    PS_BUFFER(rings.buffer), PS_BUFFER(members.buffer),
+                    PS_BUFFER(with->sums->buffer), PS_U64(table->num_rings),
+                    PS_BUFFER(with->state->buffer), block);
+    } else {
+        TEST_LAUNCH(device, kernel, with->group, 1, table->num_blocks, 1, PS_BUFFER(rows.buffer),
+                    PS_U32(num_rows), PS_U64(with->stride), PS_BUFFER(first_rings.buffer),
+                    PS_BUFFER(rings.buffer), PS_BUFFER(members.buffer),
+                    PS_BUFFER(with->sums->buffer), PS_U64(table->num_rings), block);
+    }
+    test_memory_free_unchanged(&rows);
+    test_memory_free_unchanged(&first_rings);
+    test_memory_free_unchanged(&rings);
+    test_memory_free_unchanged(&members);
+    clReleaseKernel(kernel);
+}
+
+static size_t count_groups(const build *one, size_t num_rows) {
+    return (num_rows + one->lanes - 1) / one->lanes;
+}
+
+static test_memory create_sums(const build *one, size_t num_rows, size_t num_pairs) {
+    return test_reals_create(device, one->precision, NULL,
+                             count_groups(one, num_rows) * num_pairs * 2 * one->lanes);
+}
+
+/* Sum of a ring's powers in a row; rows that there are not have none. */
+static int64_t sum_ring(const ring_table *table, size_t ring, const double *power, size_t stride,
+                        size_t row, size_t num_rows) {
+    int64_t sum = 0;
+    for (uint32_t m = table->rings[ring].first; row < num_rows && m < table->rings[ring].end; m++) {
+        const size_t slot = ring / RINGS_OF_BLOCK * BLOCK + table->members[m];
+        sum += (int64_t)power[row * stride + slot];
+    }
+    return sum;
+}
+
+static void check_pieces(const launch *with, const double *power, size_t num_rows) {
+    const ring_table *table = with->table;
+    const size_t lanes = with->one->lanes;
+    double *found = test_reals_read(with->sums, with->one->precision);
+    for (size_t row = 0; row < count_groups(with->one, num_rows) * lanes; row++) {
+        for (size_t i = 0; i < table->num_rings; i++) {
+            const size_t entry = row / lanes * table->num_rings + table->rings[i].piece;
+            const double *pair = found + entry * 2 * lanes + row % lanes;
+            assert_true(isfinite(pair[0]) && isfinite(pair[lanes]));
+            assert_true((int64_t)pair[0] + (int64_t)pair[lanes] ==
+                        sum_ring(table, i, power, with->stride, row, num_rows));
+        }
+    }
+    free(found);
+}
+
+/* ---- both kernels ------------------------------------------------------------------------ */
 
 /* Squares that need a pair themselves, and low parts that stay exact. */
 static double largest_power(unsigned precision) {
     return precision == 64 ? 0x1p32 : 0x1p16;
 }
 
-static void check_state(const build *one, const test_memory *sums, size_t stride,
-                        const double *power, size_t num_rows) {
-    double *found = test_reals_read(sums, one->precision);
+static void check_state(const launch *with, const double *power, size_t num_rows) {
+    const size_t stride = with->stride;
+    double *found = test_reals_read(with->state, with->one->precision);
     for (size_t i = 0; i < stride; i++) {
         wide sum = 0, squares = 0;
         for (size_t r = 0; r < num_rows; r++) {
@@ -55,145 +184,127 @@ static void check_state(const build *one, const test_memory *sums, size_t stride
     free(found);
 }
 
-static void launch_modes(const build *one, cl_kernel kernel, size_t group, const double *power,
-                         size_t num_rows, size_t stride, const test_memory *sums) {
-    test_memory rows = test_reals_create(device, one->precision, power, num_rows * stride);
-    TEST_LAUNCH(device, kernel, group, stride / one->lanes, 1, 1, PS_BUFFER(rows.buffer),
-                PS_BUFFER(sums->buffer), PS_U32(num_rows), PS_U64(stride));
-    test_memory_free_unchanged(&rows);
-}
-
 /* Batches of 7, 0, 1 and 32 realizations, one after the other. */
-static void check_modes(const build *one) {
-    const size_t batches[] = {7, 0, 1, 32}, tiles[] = {1, 2, 5, 67};
-    cl_kernel kernel = test_kernel(device, "accumulate/modes.cl", "accumulate_modes",
-                                   "-DPRECISION=%u -DLANES=%u", one->precision, one->lanes);
-    for (size_t t = 0; t < 4; t++) {
-        const size_t stride = tiles[t] * one->lanes;
-        double *power = test_whole_numbers(&seed, 40 * stride, largest_power(one->precision));
-        double *zeros = calloc(4 * stride, sizeof *zeros);
+static void run_batches(launch with, const double *power) {
+    const size_t batches[] = {7, 0, 1, 32};
+    double *zeros = calloc(4 * with.stride, sizeof *zeros);
+    test_memory state = test_reals_create(device, with.one->precision, zeros, 4 * with.stride);
+    size_t done = 0;
+    with.state = &state;
+    for (size_t b = 0; b < 4; b++) {
+        test_memory sums = create_sums(with.one, batches[b], with.table->num_rings);
+        with.sums = &sums;
+        launch_blocks(&with, power + done * with.stride, batches[b]);
+        check_pieces(&with, power + done * with.stride, batches[b]);
+        test_memory_free(&sums);
+        done += batches[b];
+        check_state(&with, power, done);
+    }
+    test_memory_free(&state);
+    free(zeros);
+}
+
+/* Less than a block, a block, two and a part. */
+static void check_frequencies(const build *one) {
+    const size_t strides[] = {one->lanes, 5 * one->lanes, BLOCK, 2 * BLOCK + 3 * one->lanes};
+    for (size_t i = 0; i < 4; i++) {
+        ring_table table = make_table(strides[i]);
+        double *power = test_whole_numbers(&seed, 40 * strides[i], largest_power(one->precision));
         for (size_t g = 0; g < one->num_groups; g++) {
-            test_memory sums = test_reals_create(device, one->precision, zeros, 4 * stride);
-            size_t done = 0;
-            for (size_t b = 0; b < 4; b++) {
-                launch_modes(one, kernel, test_group_sizes[g], power + done * stride, batches[b],
-                             stride, &sums);
-                done += batches[b];
-                check_state(one, &sums, stride, power, done);
-            }
-            test_memory_free(&sums);
+            run_batches((launch){.one = one,
+                                 .group = test_group_sizes[g],
+                                 .stride = strides[i],
+                                 .table = &table},
+                        power);
         }
-        free(zeros);
         free(power);
+        free_table(&table);
     }
-    clReleaseKernel(kernel);
 }
 
-static void modes(void **state) {
+static void bins_and_frequencies(void **state) {
     (void)state;
-    for_all_builds(check_modes);
+    for_all_builds(check_frequencies);
 }
 
-/* ---- bins -------------------------------------------------------------------------------- */
-
-/* Pieces of bins: two pieces, one, none at all, one of a single member, five. */
-enum { BINS = 5, PIECES = 9, MEMBERS = 101, STRIDE_TILES = 3, GROUPS = 2 };
-static const uint32_t pieces[PIECES][2] = {{0, 16},  {16, 20}, {20, 37}, {37, 38}, {38, 54},
-                                           {54, 70}, {70, 86}, {86, 86}, {86, 101}};
-static const uint32_t bins[BINS][2] = {{0, 2}, {2, 3}, {3, 3}, {3, 4}, {4, 9}};
-
-/* members: slots in any order, some of them twice. */
-static void make_members(uint32_t members[MEMBERS], size_t stride) {
-    for (size_t i = 0; i < MEMBERS; i++) {
-        members[i] = (uint32_t)(test_uniform(&seed) * (double)stride);
-    }
-}
-
-/* Sum over members[begin .. end - 1] of the row of one lane of a group. */
-static int64_t sum_members(const double *power, const uint32_t *members, size_t row, size_t stride,
-                           size_t begin, size_t end) {
-    int64_t sum = 0;
-    for (size_t i = begin; i < end; i++) {
-        sum += (int64_t)power[row * stride + members[i]];
-    }
-    return sum;
-}
-
-static void check_pairs(const build *one, const test_memory *sums, size_t num,
-                        const uint32_t (*ranges)[2], const double *power, const uint32_t *members,
-                        size_t stride) {
-    double *found = test_reals_read(sums, one->precision);
-    for (size_t i = 0; i < GROUPS * num * one->lanes; i++) {
-        const size_t lane = i % one->lanes, entry = i / one->lanes % num;
-        const size_t row = i / one->lanes / num * one->lanes + lane;
-        const double *pair = found + i / one->lanes * 2 * one->lanes + lane;
-        const int64_t sum =
-            sum_members(power, members, row, stride, ranges[entry][0], ranges[entry][1]);
-        assert_true(isfinite(pair[0]) && isfinite(pair[one->lanes]));
-        assert_true((int64_t)pair[0] + (int64_t)pair[one->lanes] == sum);
-    }
-    free(found);
-}
-
-static void launch_bins(const build *one, size_t group, const double *power,
-                        const uint32_t *members, size_t stride) {
-    cl_kernel first = test_kernel(device, "accumulate/bins.cl", "accumulate_bin_pieces",
-                                  "-DPRECISION=%u -DLANES=%u", one->precision, one->lanes);
-    cl_kernel second = test_kernel(device, "accumulate/bins.cl", "accumulate_bin_fold",
-                                   "-DPRECISION=%u -DLANES=%u", one->precision, one->lanes);
-    const size_t entry = 2 * one->lanes;
-    test_memory rows =
-        test_reals_create(device, one->precision, power, GROUPS * one->lanes * stride);
-    test_memory slots = test_memory_create(device, members, MEMBERS * sizeof *members);
-    test_memory ranges = test_memory_create(device, pieces, sizeof pieces);
-    test_memory bin_ranges = test_memory_create(device, bins, sizeof bins);
-    test_memory sums = test_reals_create(device, one->precision, NULL, GROUPS * PIECES * entry);
-    test_memory result = test_reals_create(device, one->precision, NULL, GROUPS * BINS * entry);
-    TEST_LAUNCH(device, first, group, PIECES, GROUPS, 1, PS_BUFFER(rows.buffer),
-                PS_BUFFER(slots.buffer), PS_BUFFER(ranges.buffer), PS_BUFFER(sums.buffer),
-                PS_U64(PIECES), PS_U64(stride));
-    TEST_LAUNCH(device, second, group, BINS, GROUPS, 1, PS_BUFFER(sums.buffer),
-                PS_BUFFER(bin_ranges.buffer), PS_BUFFER(result.buffer), PS_U64(BINS),
-                PS_U64(PIECES));
-    uint32_t bin_members[BINS][2];
-    for (size_t b = 0; b < BINS; b++) {
-        const bool is_empty = bins[b][0] == bins[b][1];
-        bin_members[b][0] = is_empty ? 0 : pieces[bins[b][0]][0];
-        bin_members[b][1] = is_empty ? 0 : pieces[bins[b][1] - 1][1];
-    }
-    check_pairs(one, &sums, PIECES, pieces, power, members, stride);
-    check_pairs(one, &result, BINS, (const uint32_t(*)[2])bin_members, power, members, stride);
-    test_memory_free_unchanged(&rows);
-    test_memory_free_unchanged(&slots);
-    test_memory_free_unchanged(&ranges);
-    test_memory_free_unchanged(&bin_ranges);
-    test_memory_free(&sums);
-    test_memory_free(&result);
-    clReleaseKernel(first);
-    clReleaseKernel(second);
-}
-
+/* Two groups of realizations, the second not full: numbers as large as there are whole ones. */
 static void check_bins(const build *one) {
-    const size_t stride = STRIDE_TILES * one->lanes;
-    uint32_t members[MEMBERS];
-    make_members(members, stride);
-    double *power = test_whole_numbers(&seed, GROUPS * one->lanes * stride,
-                                       one->precision == 64 ? 0x1p53 : 0x1p24);
+    const size_t stride = BLOCK + one->lanes, num_rows = one->lanes + (one->lanes + 1) / 2;
+    ring_table table = make_table(stride);
+    double *power =
+        test_whole_numbers(&seed, num_rows * stride, one->precision == 64 ? 0x1p53 : 0x1p24);
     for (size_t g = 0; g < one->num_groups; g++) {
-        launch_bins(one, test_group_sizes[g], power, members, stride);
+        test_memory sums = create_sums(one, num_rows, table.num_rings);
+        const launch with = {one, test_group_sizes[g], stride, &table, &sums, NULL};
+        launch_blocks(&with, power, num_rows);
+        check_pieces(&with, power, num_rows);
+        test_memory_free(&sums);
     }
     free(power);
+    free_table(&table);
 }
 
-static void bins_of_pieces(void **state) {
+static void bins_alone(void **state) {
     (void)state;
     for_all_builds(check_bins);
 }
 
+/* ---- fold -------------------------------------------------------------------------------- */
+
+/* Pieces of bins: two pieces, one, none at all, one, five. */
+enum { BINS = 5, PIECES = 9, GROUPS = 2 };
+static const uint32_t bins[BINS][2] = {{0, 2}, {2, 3}, {3, 3}, {3, 4}, {4, 9}};
+
+static void check_folded(const build *one, const double *pieces, const test_memory *result) {
+    const size_t lanes = one->lanes;
+    double *found = test_reals_read(result, one->precision);
+    for (size_t i = 0; i < GROUPS * BINS * lanes; i++) {
+        const size_t lane = i % lanes, bin = i / lanes % BINS, group = i / lanes / BINS;
+        const double *pair = found + i / lanes * 2 * lanes + lane;
+        int64_t sum = 0;
+        for (uint32_t piece = bins[bin][0]; piece < bins[bin][1]; piece++) {
+            const double *part = pieces + (group * PIECES + piece) * 2 * lanes + lane;
+            sum += (int64_t)part[0] + (int64_t)part[lanes];
+        }
+        assert_true(isfinite(pair[0]) && isfinite(pair[lanes]));
+        assert_true((int64_t)pair[0] + (int64_t)pair[lanes] == sum);
+    }
+    free(found);
+}
+
+static void check_fold(const build *one) {
+    const size_t pair = 2 * one->lanes;
+    cl_kernel kernel = test_kernel(device, "accumulate/fold.cl", "accumulate_fold",
+                                   "-DPRECISION=%u -DLANES=%u", one->precision, one->lanes);
+    double *pieces =
+        test_whole_numbers(&seed, GROUPS * PIECES * pair, one->precision == 64 ? 0x1p50 : 0x1p21);
+    for (size_t g = 0; g < one->num_groups; g++) {
+        test_memory sums =
+            test_reals_create(device, one->precision, pieces, GROUPS * PIECES * pair);
+        test_memory ranges = test_memory_create(device, bins, sizeof bins);
+        test_memory result = test_reals_create(device, one->precision, NULL, GROUPS * BINS * pair);
+        TEST_LAUNCH(device, kernel, test_group_sizes[g], BINS, GROUPS, 1, PS_BUFFER(sums.buffer),
+                    PS_BUFFER(ranges.buffer), PS_BUFFER(result.buffer), PS_U64(BINS),
+                    PS_U64(PIECES));
+        check_folded(one, pieces, &result);
+        test_memory_free_unchanged(&sums);
+        test_memory_free_unchanged(&ranges);
+        test_memory_free(&result);
+    }
+    free(pieces);
+    clReleaseKernel(kernel);
+}
+
+static void pieces_of_bins(void **state) {
+    (void)state;
+    for_all_builds(check_fold);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(modes),
-        cmocka_unit_test(bins_of_pieces),
+        cmocka_unit_test(bins_and_frequencies),
+        cmocka_unit_test(bins_alone),
+        cmocka_unit_test(pieces_of_bins),
     };
     device = test_open_device();
     const int failures = cmocka_run_group_tests_name("kernels_accumulate", tests, NULL, NULL);

@@ -3,7 +3,7 @@
  */
 #include "harness.h"
 
-#include "engines/nufft_choice.h"
+#include "engines/nufft_layout.h"
 #include "engines/torus_direct.h"
 #include "engines/torus_nufft.h"
 
@@ -66,9 +66,9 @@ static double run_case(const grid_case *what, ps_frequencies *grid, double **fou
                                 .num_points = PLANNED_POINTS,
                                 .num_realizations = 1,
                                 .tolerance = what->tolerance};
-    assert_true(ps_nufft_choose(&problem, what->precision).is_gridded);
+    assert_true(ps_nufft_choose(&problem, NULL, what->precision).is_gridded);
     *found = test_run_problem(&ps_torus_nufft, &problem, what->precision, device, pattern, 1, 1);
-    return ps_torus_nufft.error(&problem, what->precision, 1.2);
+    return ps_torus_nufft.error(&problem, ps_device_get_limits(device), what->precision, 1.2);
 }
 
 static void check_case(const grid_case *what) {
@@ -132,6 +132,52 @@ static void batches_change_nothing(void **state) {
     ps_frequencies_free(&grid);
 }
 
+/* A grid in buffers that the device allows, however small, has the bits of one in one piece. */
+static void split_grids(void **state) {
+    (void)state;
+    static const struct {
+        grid_case what;
+        uint64_t limits[2];
+    } splits[] = {
+        {{2, 241, PS_SINGLE, 1e-6, 3000, true}, {2000000, 600000}},
+        {{3, 20, PS_SINGLE, 2e-6, 3000, true}, {4300000, 2200000}},
+    };
+    for (size_t i = 0; i < sizeof splits / sizeof splits[0]; i++) {
+        const grid_case *what = &splits[i].what;
+        ps_frequencies grid = {0};
+        const pspec_pattern pattern = make_pattern(what, what->num_points);
+        assert_ok(ps_frequencies_lattice(&grid, what->dimension, what->k, false, error));
+        assert_ok(ps_frequencies_enumerate(&grid, error));
+        const ps_problem problem = {.frequencies = &grid,
+                                    .num_points = what->num_points,
+                                    .planned_points = PLANNED_POINTS,
+                                    .num_realizations = 1,
+                                    .tolerance = what->tolerance};
+        double *whole =
+            test_run_problem(&ps_torus_nufft, &problem, what->precision, device, &pattern, 1, 1);
+        for (size_t j = 0; j < 2; j++) {
+            const char *why_not = NULL;
+            ps_device_set_max_allocation(device, splits[i].limits[j]);
+            const ps_nufft_layout layout =
+                ps_nufft_layout_make(&problem, ps_device_get_limits(device), what->precision);
+            print_message("d=%u K=%d: %u slabs, %u of %u tiles at a time\n", what->dimension,
+                          (int)what->k, layout.num_slabs, layout.tiles_at_once, layout.num_tiles);
+            assert_true(layout.choice.is_gridded && layout.num_slabs > 1);
+            assert_true(j == 0 || layout.tiles_at_once < layout.num_tiles);
+            assert_true(ps_torus_nufft.applicable(&problem, ps_device_get_limits(device),
+                                                  what->precision, &why_not));
+            double *split = test_run_problem(&ps_torus_nufft, &problem, what->precision, device,
+                                             &pattern, 1, 1);
+            assert_memory_equal(split, whole, grid.num * sizeof(double));
+            ps_device_set_max_allocation(device, 0);
+            free(split);
+        }
+        free(whole);
+        free_pattern(&pattern);
+        ps_frequencies_free(&grid);
+    }
+}
+
 /* Memory does not grow with the points, but for finer grids: lattices of so many points have high peaks. */
 static void memory_does_not_grow(void **state) {
     (void)state;
@@ -162,7 +208,7 @@ static void largest_frequencies(void **state) {
         const ps_problem problem = {.frequencies = &grid, .num_points = 1000000, .tolerance = 1e-6};
         const char *why_not = NULL;
         for (int precision = PS_SINGLE; precision <= PS_DOUBLE; precision++) {
-            assert_int_equal(ps_nufft_choose(&problem, (ps_precision)precision).num_axes, 0);
+            assert_int_equal(ps_nufft_choose(&problem, NULL, (ps_precision)precision).num_axes, 0);
         }
         assert_false(
             ps_torus_nufft.applicable(&problem, ps_device_get_limits(device), PS_SINGLE, &why_not));
@@ -174,6 +220,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(agrees_with_direct_sums),
         cmocka_unit_test(batches_change_nothing),
+        cmocka_unit_test(split_grids),
         cmocka_unit_test(memory_does_not_grow),
         cmocka_unit_test(largest_frequencies),
     };

@@ -104,10 +104,12 @@ static void check_shape(tried *self, const sweep *at, size_t s, double tolerance
                         const double *found) {
     const double *expected = at->expected + s * at->grid.num;
     const ps_problem problem = problem_of(at, tolerance);
-    const double formula = self->engine->error(&problem, self->precision, at->power[s]);
+    const double formula =
+        self->engine->error(&problem, ps_device_get_limits(device), self->precision, at->power[s]);
     const double likely_power = 1.05; /* white sets, up to chance */
     const bool is_promised = formula <= tolerance || at->power[s] <= likely_power;
-    const double at_one = self->engine->error(&problem, self->precision, 1);
+    const double at_one =
+        self->engine->error(&problem, ps_device_get_limits(device), self->precision, 1);
     double error = 0;
     for (size_t i = 0; i < at->grid.num; i++) {
         error += pow(sqrt(found[i]) - sqrt(expected[i]), 2) / (double)at->grid.num;
@@ -135,8 +137,8 @@ static bool is_as_before(const tried *self, const sweep *at, double tolerance, d
     const ps_problem now = problem_of(at, tolerance);
     const ps_problem then = problem_of(at, before);
     return before > 0 && strcmp(self->engine->name, "torus_nufft") != 0 &&
-           self->engine->error(&now, self->precision, 1) ==
-               self->engine->error(&then, self->precision, 1);
+           self->engine->error(&now, ps_device_get_limits(device), self->precision, 1) ==
+               self->engine->error(&then, ps_device_get_limits(device), self->precision, 1);
 }
 
 static void sweep_tolerances(tried *self, const sweep *at) {
@@ -146,8 +148,9 @@ static void sweep_tolerances(tried *self, const sweep *at) {
         const double tolerance = most * pow(10, -i / at->what->steps_per_decade);
         const ps_problem problem = problem_of(at, tolerance);
         /* A little beyond what the engine can do, to see it say so. */
-        const bool is_hopeless =
-            self->engine->error(&problem, self->precision, 1) > 4 * tolerance && before > 0;
+        const bool is_hopeless = self->engine->error(&problem, ps_device_get_limits(device),
+                                                     self->precision, 1) > 4 * tolerance &&
+                                 before > 0;
         if (is_hopeless || is_as_before(self, at, tolerance, before)) {
             continue;
         }

@@ -286,7 +286,8 @@ static void a_million_in_a_cell(void **state) {
                 power += expected[i] / POINTS / (double)grid.num;
             }
             error = sqrt(2 * error / POINTS);
-            const double formula = ps_torus_nufft.error(&problem, precisions[p], power);
+            const double formula =
+                ps_torus_nufft.error(&problem, ps_device_get_limits(device), precisions[p], power);
             print_message("a million in a cell, %s d=%u: error %.2e bound %.2e\n",
                           ps_precision_name(precisions[p]), dimension, error, formula);
             assert_true(error <= formula);

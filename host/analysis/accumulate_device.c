@@ -1,19 +1,16 @@
 #include "analysis/accumulate_device.h"
 
+#include "analysis/accumulate_blocks.h"
 #include "base/memory.h"
 
 #include <stdlib.h>
 
-/* Frequencies that one work-item adds up: short enough to spread the largest ring over many
- * work-items, long enough that partial sums are few. Fixed: sums depend on it. */
-enum { PIECE_MEMBERS = 64 };
-
 struct ps_device_accumulator {
     ps_device *device;
-    ps_accumulator_options options;
-    size_t real_bytes, num_groups, num_pieces;
-    cl_kernel modes, pieces, fold;
-    ps_buffer members, piece_ranges, bin_ranges, piece_sums, bin_sums, state;
+    ps_accumulator_options options; /* lanes: those of the accumulator */
+    size_t real_bytes, num_groups, num_blocks, num_pieces, num_members;
+    cl_kernel blocks, fold;
+    ps_buffer first_rings, rings, members, bin_pieces, piece_sums, bin_sums, state;
     void *host; /* staging for bin sums, and for the state of one part */
 };
 
@@ -24,32 +21,21 @@ static double get_real(const ps_device_accumulator *self, const void *array, siz
 
 /* ---- create ------------------------------------------------------------------------------ */
 
-static size_t count_pieces(const ps_bins *bins) {
-    size_t count = 0;
-    for (size_t b = 0; b < bins->num; b++) {
-        count += (bins->bins[b].end - bins->bins[b].begin + PIECE_MEMBERS - 1) / PIECE_MEMBERS;
-    }
-    return count;
+static size_t block_bytes(unsigned lanes, size_t real_bytes) {
+    return PS_ACCUMULATE_BLOCK * lanes * real_bytes;
 }
 
-/* Slots of the members, the pieces [first, last) of every bin, and the pieces of each bin. */
-static void fill_ranges(const ps_device_accumulator *self, uint32_t *members, uint32_t (*pieces)[2],
-                        uint32_t (*bin_pieces)[2]) {
-    const ps_bins *bins = self->options.bins;
-    size_t piece = 0;
-    for (size_t i = 0; i < bins->num_members; i++) {
-        members[i] = self->options.slots[bins->members[i]];
+/* Results do not depend on it. Rows are whole vectors, and an engine may have had fewer lanes than suit the
+ * device. For few realizations a vector that they do not fill costs memory and time; one that they fill by
+ * more than a quarter is faster than a shorter one. */
+static unsigned choose_lanes(const ps_accumulator_options *options, size_t real_bytes,
+                             const ps_device_limits *limits) {
+    unsigned lanes = options->lanes;
+    while (lanes > 1 && (options->stride % lanes != 0 || lanes >= 4 * options->batch ||
+                         block_bytes(lanes, real_bytes) > limits->local_bytes)) {
+        lanes /= 2;
     }
-    for (size_t b = 0; b < bins->num; b++) {
-        bin_pieces[b][0] = (uint32_t)piece;
-        for (size_t i = bins->bins[b].begin; i < bins->bins[b].end; i += PIECE_MEMBERS) {
-            const size_t rest = bins->bins[b].end - i;
-            pieces[piece][0] = (uint32_t)i;
-            pieces[piece][1] = (uint32_t)(i + (rest < PIECE_MEMBERS ? rest : PIECE_MEMBERS));
-            piece++;
-        }
-        bin_pieces[b][1] = (uint32_t)piece;
-    }
+    return lanes;
 }
 
 static pspec_status upload(ps_device_accumulator *self, ps_buffer *buffer, const void *data,
@@ -58,26 +44,24 @@ static pspec_status upload(ps_device_accumulator *self, ps_buffer *buffer, const
     return ps_buffer_write(self->device, buffer, 0, data, bytes, error);
 }
 
-static pspec_status upload_ranges(ps_device_accumulator *self, ps_error *error) {
-    const ps_bins *bins = self->options.bins;
-    void *members = NULL;
-    void *pieces = NULL;
-    void *bin_pieces = NULL;
+static pspec_status upload_blocks(ps_device_accumulator *self, ps_error *error) {
+    ps_accumulate_blocks blocks = {0};
     pspec_status status = PSPEC_OK;
-    const size_t range_bytes = 2 * sizeof(uint32_t);
-    PS_TRY_OUT(status, ps_allocate(&members, bins->num_members, sizeof(uint32_t), "bins", error));
-    PS_TRY_OUT(status, ps_allocate(&pieces, self->num_pieces, range_bytes, "bins", error));
-    PS_TRY_OUT(status, ps_allocate(&bin_pieces, bins->num, range_bytes, "bins", error));
-    fill_ranges(self, members, pieces, bin_pieces);
-    PS_TRY_OUT(status,
-               upload(self, &self->members, members, bins->num_members * sizeof(uint32_t), error));
-    PS_TRY_OUT(status,
-               upload(self, &self->piece_ranges, pieces, self->num_pieces * range_bytes, error));
-    PS_TRY_OUT(status, upload(self, &self->bin_ranges, bin_pieces, bins->num * range_bytes, error));
+    PS_TRY(ps_accumulate_blocks_create(&blocks, self->options.bins, self->options.slots,
+                                       self->options.stride, error));
+    self->num_blocks = blocks.num_blocks;
+    self->num_pieces = blocks.num_pieces;
+    self->num_members = blocks.num_members;
+    PS_TRY_OUT(status, upload(self, &self->first_rings, blocks.first_rings,
+                              (blocks.num_blocks + 1) * sizeof *blocks.first_rings, error));
+    PS_TRY_OUT(status, upload(self, &self->rings, blocks.rings,
+                              blocks.num_pieces * sizeof *blocks.rings, error));
+    PS_TRY_OUT(status, upload(self, &self->members, blocks.members,
+                              blocks.num_members * sizeof *blocks.members, error));
+    PS_TRY_OUT(status, upload(self, &self->bin_pieces, blocks.bin_pieces,
+                              blocks.num_bins * sizeof *blocks.bin_pieces, error));
 out:
-    free(members);
-    free(pieces);
-    free(bin_pieces);
+    ps_accumulate_blocks_free(&blocks);
     return status;
 }
 
@@ -88,17 +72,21 @@ static pspec_status create_kernels(ps_device_accumulator *self, ps_error *error)
                    self->options.lanes);
     PS_TRY_OUT(status, ps_text_check(&options, error));
     const char *text = ps_text_string(&options);
-    PS_TRY_OUT(status, ps_kernel_create(self->device, &self->pieces, "accumulate/bins.cl",
-                                        "accumulate_bin_pieces", text, error));
-    PS_TRY_OUT(status, ps_kernel_create(self->device, &self->fold, "accumulate/bins.cl",
-                                        "accumulate_bin_fold", text, error));
-    if (self->options.want_frequencies) {
-        PS_TRY_OUT(status, ps_kernel_create(self->device, &self->modes, "accumulate/modes.cl",
-                                            "accumulate_modes", text, error));
-    }
+    PS_TRY_OUT(status,
+               ps_kernel_create(self->device, &self->blocks, "accumulate/blocks.cl",
+                                self->options.want_frequencies ? "accumulate_bins_and_frequencies"
+                                                               : "accumulate_bins",
+                                text, error));
+    PS_TRY_OUT(status, ps_kernel_create(self->device, &self->fold, "accumulate/fold.cl",
+                                        "accumulate_fold", text, error));
 out:
     ps_text_free(&options);
     return status;
+}
+
+/* Every bin is one piece (none is empty, analysis/bins.h), as in one dimension: nothing to add up. */
+static bool is_whole(const ps_device_accumulator *self) {
+    return self->num_pieces == self->options.bins->num;
 }
 
 static pspec_status create_buffers(ps_device_accumulator *self, ps_error *error) {
@@ -108,8 +96,10 @@ static pspec_status create_buffers(ps_device_accumulator *self, ps_error *error)
     size_t staging = bin_entries;
     PS_TRY(ps_buffer_create(self->device, &self->piece_sums, pair_bytes * self->num_pieces,
                             "sums of bins", error));
-    PS_TRY(ps_buffer_create(self->device, &self->bin_sums, bin_entries * self->real_bytes,
-                            "sums of bins", error));
+    if (!is_whole(self)) {
+        PS_TRY(ps_buffer_create(self->device, &self->bin_sums, bin_entries * self->real_bytes,
+                                "sums of bins", error));
+    }
     if (options->want_frequencies) {
         PS_TRY(ps_buffer_create(self->device, &self->state, 4 * options->stride * self->real_bytes,
                                 "sums of frequencies", error));
@@ -129,11 +119,11 @@ pspec_status ps_device_accumulator_create(ps_device_accumulator **out,
     self->device = device;
     self->options = *options;
     self->real_bytes = options->precision == PS_SINGLE ? sizeof(float) : sizeof(double);
-    self->num_groups = (options->batch + options->lanes - 1) / options->lanes;
-    self->num_pieces = count_pieces(options->bins);
+    self->options.lanes = choose_lanes(options, self->real_bytes, ps_device_get_limits(device));
+    self->num_groups = (options->batch + self->options.lanes - 1) / self->options.lanes;
     pspec_status status = create_kernels(self, error);
     if (status == PSPEC_OK) {
-        status = upload_ranges(self, error);
+        status = upload_blocks(self, error);
     }
     if (status == PSPEC_OK) {
         status = create_buffers(self, error);
@@ -150,10 +140,11 @@ void ps_device_accumulator_destroy(ps_device_accumulator *accumulator) {
     if (accumulator == NULL) {
         return;
     }
-    cl_kernel *const kernels[] = {&accumulator->modes, &accumulator->pieces, &accumulator->fold};
-    ps_buffer *const buffers[] = {&accumulator->members,    &accumulator->piece_ranges,
-                                  &accumulator->bin_ranges, &accumulator->piece_sums,
-                                  &accumulator->bin_sums,   &accumulator->state};
+    cl_kernel *const kernels[] = {&accumulator->blocks, &accumulator->fold};
+    ps_buffer *const buffers[] = {&accumulator->first_rings, &accumulator->rings,
+                                  &accumulator->members,     &accumulator->bin_pieces,
+                                  &accumulator->piece_sums,  &accumulator->bin_sums,
+                                  &accumulator->state};
     for (size_t i = 0; i < sizeof kernels / sizeof kernels[0]; i++) {
         if (*kernels[i] != NULL) {
             clReleaseKernel(*kernels[i]);
@@ -168,20 +159,35 @@ void ps_device_accumulator_destroy(ps_device_accumulator *accumulator) {
 
 /* ---- add --------------------------------------------------------------------------------- */
 
-static pspec_status sum_bins(ps_device_accumulator *self, const ps_rows *rows, size_t num_groups,
-                             ps_error *error) {
-    const ps_bins *bins = self->options.bins;
-    const double entries = (double)(num_groups * self->options.lanes * bins->num_members);
-    const ps_range pieces = ps_range_light(self->device, self->num_pieces, num_groups, 1,
-                                           7 * entries, entries * (double)self->real_bytes);
-    PS_TRY(PS_LAUNCH(self->device, self->pieces, &pieces, error, PS_BUFFER(rows->device),
-                     PS_BUFFER(self->members), PS_BUFFER(self->piece_ranges),
-                     PS_BUFFER(self->piece_sums), PS_U64(self->num_pieces), PS_U64(rows->stride)));
+/* Operations on one power: a sum; a sum and a sum of squares. */
+enum { BIN_FLOPS = 7, FREQUENCY_FLOPS = 16, FOLD_FLOPS = 8 };
+
+#define BLOCK_ARGUMENTS(self, rows)                                                                \
+    PS_BUFFER((rows)->device), PS_U32((rows)->num_rows), PS_U64((rows)->stride),                   \
+        PS_BUFFER((self)->first_rings), PS_BUFFER((self)->rings), PS_BUFFER((self)->members),      \
+        PS_BUFFER((self)->piece_sums), PS_U64((self)->num_pieces)
+
+static pspec_status sum_blocks(ps_device_accumulator *self, const ps_rows *rows, ps_error *error) {
+    const bool with_frequencies = self->options.want_frequencies;
+    const double powers = (double)(rows->num_rows * rows->stride);
+    const ps_range range =
+        ps_range_heavy(self->device, 1, self->num_blocks, 1,
+                       (BIN_FLOPS + (with_frequencies ? FREQUENCY_FLOPS : 0)) * powers,
+                       powers * (double)self->real_bytes);
+    const ps_argument block = PS_LOCAL(block_bytes(self->options.lanes, self->real_bytes));
+    return with_frequencies ? PS_LAUNCH(self->device, self->blocks, &range, error,
+                                        BLOCK_ARGUMENTS(self, rows), PS_BUFFER(self->state), block)
+                            : PS_LAUNCH(self->device, self->blocks, &range, error,
+                                        BLOCK_ARGUMENTS(self, rows), block);
+}
+
+static pspec_status fold(ps_device_accumulator *self, size_t num_groups, ps_error *error) {
+    const size_t num_bins = self->options.bins->num;
     const double sums = (double)(num_groups * self->options.lanes * self->num_pieces);
-    const ps_range fold = ps_range_light(self->device, bins->num, num_groups, 1, 8 * sums,
-                                         2 * sums * (double)self->real_bytes);
-    return PS_LAUNCH(self->device, self->fold, &fold, error, PS_BUFFER(self->piece_sums),
-                     PS_BUFFER(self->bin_ranges), PS_BUFFER(self->bin_sums), PS_U64(bins->num),
+    const ps_range range = ps_range_light(self->device, num_bins, num_groups, 1, FOLD_FLOPS * sums,
+                                          2 * sums * (double)self->real_bytes);
+    return PS_LAUNCH(self->device, self->fold, &range, error, PS_BUFFER(self->piece_sums),
+                     PS_BUFFER(self->bin_pieces), PS_BUFFER(self->bin_sums), PS_U64(num_bins),
                      PS_U64(self->num_pieces));
 }
 
@@ -189,7 +195,8 @@ static pspec_status read_bins(ps_device_accumulator *self, const ps_rows *rows, 
                               double *bin_powers, ps_error *error) {
     const ps_bins *bins = self->options.bins;
     const size_t lanes = self->options.lanes;
-    PS_TRY(ps_buffer_read(self->device, &self->bin_sums, 0, self->host,
+    const ps_buffer *sums = is_whole(self) ? &self->piece_sums : &self->bin_sums;
+    PS_TRY(ps_buffer_read(self->device, sums, 0, self->host,
                           num_groups * bins->num * 2 * lanes * self->real_bytes, error));
     for (size_t r = 0; r < rows->num_rows; r++) {
         for (size_t b = 0; b < bins->num; b++) {
@@ -207,13 +214,9 @@ pspec_status ps_device_accumulator_add(ps_device_accumulator *accumulator, const
     ps_device_accumulator *self = accumulator;
     const size_t lanes = self->options.lanes;
     const size_t num_groups = (rows->num_rows + lanes - 1) / lanes;
-    PS_TRY(sum_bins(self, rows, num_groups, error));
-    if (self->options.want_frequencies) {
-        const double entries = (double)(rows->num_rows * rows->stride);
-        const ps_range range = ps_range_light(self->device, rows->stride / lanes, 1, 1,
-                                              15 * entries, entries * (double)self->real_bytes);
-        PS_TRY(PS_LAUNCH(self->device, self->modes, &range, error, PS_BUFFER(rows->device),
-                         PS_BUFFER(self->state), PS_U32(rows->num_rows), PS_U64(rows->stride)));
+    PS_TRY(sum_blocks(self, rows, error));
+    if (!is_whole(self)) {
+        PS_TRY(fold(self, num_groups, error));
     }
     return read_bins(self, rows, num_groups, bin_powers, error);
 }

@@ -11,8 +11,8 @@
 #include "engines/frequencies.h"
 
 typedef struct ps_bin {
-    int64_t key;              /* ring number b, or |k|^2 of a shell */
-    size_t begin, end;        /* members[begin .. end - 1], half-lattice frequencies */
+    int64_t key;       /* ring number b, or |k|^2 of a shell */
+    size_t begin, end; /* members[begin .. end - 1], half-lattice frequencies, one at least */
     uint64_t num_frequencies; /* half-lattice frequencies that it has; members may be a subset */
     double mean_frequency;    /* mean |k| of all of them */
 } ps_bin;

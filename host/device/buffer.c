@@ -18,12 +18,18 @@ pspec_status ps_buffer_create(ps_device *device, ps_buffer *out, size_t bytes, c
         return ps_device_fail(code, "clCreateBuffer", error);
     }
     out->bytes = bytes;
+    out->device = device;
+    device->buffer_bytes += bytes;
+    if (device->buffer_bytes > device->most_buffer_bytes) {
+        device->most_buffer_bytes = device->buffer_bytes;
+    }
     return PSPEC_OK;
 }
 
 void ps_buffer_release(ps_buffer *buffer) {
     if (buffer->memory != NULL) {
         clReleaseMemObject(buffer->memory);
+        buffer->device->buffer_bytes -= buffer->bytes;
     }
     *buffer = (ps_buffer){0};
 }
@@ -59,4 +65,27 @@ pspec_status ps_buffer_clear(ps_device *device, const ps_buffer *buffer, ps_erro
                                   buffer->bytes, 0, NULL, NULL),
               error);
     return PSPEC_OK;
+}
+
+pspec_status ps_buffer_copy_rectangle(ps_device *device, const ps_buffer *from, const ps_buffer *to,
+                                      const ps_rectangle *rectangle, ps_error *error) {
+    const size_t from_origin[] = {rectangle->from_offset % rectangle->from_pitch,
+                                  rectangle->from_offset / rectangle->from_pitch, 0};
+    const size_t to_origin[] = {rectangle->to_offset % rectangle->to_pitch,
+                                rectangle->to_offset / rectangle->to_pitch, 0};
+    const size_t region[] = {rectangle->row_bytes, rectangle->num_rows, 1};
+    PS_TRY_CL(clEnqueueCopyBufferRect(device->queue, from->memory, to->memory, from_origin,
+                                      to_origin, region, rectangle->from_pitch, 0,
+                                      rectangle->to_pitch, 0, 0, NULL, NULL),
+              error);
+    return PSPEC_OK;
+}
+
+void ps_device_set_max_allocation(ps_device *device, uint64_t bytes) {
+    const bool is_smaller = bytes > 0 && bytes < device->own_max_allocation;
+    device->limits.max_allocation_bytes = is_smaller ? bytes : device->own_max_allocation;
+}
+
+uint64_t ps_device_most_buffer_bytes(const ps_device *device) {
+    return device->most_buffer_bytes;
 }

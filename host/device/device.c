@@ -240,6 +240,7 @@ static pspec_status choose_among(const cl_device_id *devices, size_t num_devices
     PS_TRY(ps_device_choose(limits, num_devices, selector, &index, error));
     device->id = devices[index];
     device->limits = limits[index];
+    device->own_max_allocation = limits[index].max_allocation_bytes;
     return PSPEC_OK;
 }
 

@@ -57,6 +57,7 @@ const char *ps_cl_error_name(cl_int code);
 typedef struct ps_buffer {
     cl_mem memory;
     size_t bytes;
+    ps_device *device; /* whose memory it is */
 } ps_buffer;
 
 /* At least one byte is allocated. Larger than the device allows: PSPEC_ERROR_MEMORY, not tried. */
@@ -70,6 +71,23 @@ pspec_status ps_buffer_read(ps_device *device, const ps_buffer *buffer, size_t o
                             void *data, size_t bytes, ps_error *error) PS_MUST_CHECK;
 pspec_status ps_buffer_clear(ps_device *device, const ps_buffer *buffer,
                              ps_error *error) PS_MUST_CHECK;
+
+/* Rows of bytes that stand `pitch` bytes apart. */
+typedef struct ps_rectangle {
+    size_t row_bytes, num_rows;
+    size_t from_offset, from_pitch, to_offset, to_pitch;
+} ps_rectangle;
+
+/* Between two buffers of the device, after everything enqueued before. */
+pspec_status ps_buffer_copy_rectangle(ps_device *device, const ps_buffer *from, const ps_buffer *to,
+                                      const ps_rectangle *rectangle, ps_error *error) PS_MUST_CHECK;
+
+/* The most bytes that buffers of the device have had at a time. */
+uint64_t ps_device_most_buffer_bytes(const ps_device *device);
+
+/* The largest allocation from now on, at most what the device allows; 0 restores that. For tests, too: results
+ * do not depend on it. */
+void ps_device_set_max_allocation(ps_device *device, uint64_t bytes);
 
 /* ---- programs and kernels -------------------------------------------------------------------- */
 

@@ -16,12 +16,14 @@ enum { PS_PROFILE_ROWS = 64 }; /* more kernels than the product has; further one
 
 struct ps_device {
     ps_device_limits limits;
+    uint64_t own_max_allocation; /* see ps_device_set_max_allocation */
     cl_device_id id;
     cl_context context;
     cl_command_queue queue;
     ps_built_program *programs;
     size_t num_programs, programs_capacity;
-    size_t group_size; /* see ps_device_set_group_size; 0: default */
+    size_t group_size;                        /* see ps_device_set_group_size; 0: default */
+    uint64_t buffer_bytes, most_buffer_bytes; /* of all buffers, now and at most */
     bool has_profile;
     ps_profile_row profile[PS_PROFILE_ROWS];
     size_t num_profile_rows;

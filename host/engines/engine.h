@@ -32,6 +32,8 @@ typedef struct ps_problem {
     uint64_t
         planned_points; /* num_points when the job was planned, which later growth leaves alone, for
                                 choices that must be the same for all of it; 0: num_points */
+    uint64_t
+        block_points; /* of a set in host memory at a time, where the engine allows it; 0: all */
 } ps_problem;
 
 /* 1 where nothing is known. */
@@ -44,9 +46,13 @@ typedef struct ps_work {
     double
         transform_flops; /* what a device at its peak would do while spreading and transforming */
     double launches;     /* kernel launches */
-    double fixed_bytes;  /* memory on the device, whatever the batch */
-    double bytes_per_realization;          /* and for each realization of a batch */
+    double fixed_bytes;  /* memory, whatever the batch */
+    double host_bytes;   /* part of that on the host */
+    double bytes_per_realization; /* on the device, for each realization of a batch */
+    double row_bytes;             /* part of that for its powers */
+    double point_bytes; /* of points of each realization besides, on the device and on the host */
     double largest_buffer_per_realization; /* part of that in one allocation */
+    bool takes_blocks;                     /* ps_engine.stream will */
 } ps_work;
 
 /* A batch of realizations. power = scales[r] |S|^2, S with weights w 2^-exponents[r] (NULL: 0).
@@ -72,6 +78,18 @@ typedef struct ps_rows {
     ps_buffer device;        /* else rows in device memory, padded to a multiple of the lanes */
 } ps_rows;
 
+/* One realization whose points come in blocks, for sets larger than memory: begin, add any number of
+ * times, finish. Bits are those of run. */
+typedef struct ps_engine_stream {
+    /* All blocks but the last have a multiple of so many points. 0: this state takes whole sets only. */
+    size_t (*unit)(const void *state);
+    pspec_status (*begin)(void *state, ps_error *);
+    /* The only pattern of the batch: more points. Its exponent is that of the whole set; scales are not
+     * looked at. */
+    pspec_status (*add)(void *state, const ps_batch *block, ps_error *);
+    pspec_status (*finish)(void *state, double scale, ps_rows *, ps_error *);
+} ps_engine_stream;
+
 typedef struct ps_engine {
     const char *name;
     const char *summary; /* one line, for plan and docs */
@@ -85,7 +103,8 @@ typedef struct ps_engine {
     /* Expected error e of S in sqrt(mean |dS|^2) = e sqrt(sum w^2), mean over the frequencies, for
      * sets whose effective power averaged over the frequencies is mean_power (1: white noise).
      * The formula and its measured slack are in the engine's page in docs/. */
-    double (*error)(const ps_problem *, ps_precision, double mean_power);
+    double (*error)(const ps_problem *, const ps_device_limits *limits, ps_precision,
+                    double mean_power);
     /* batch: the largest number of patterns in one run. The problem's frequencies are enumerated
      * and outlive the state. */
     pspec_status (*create)(void **state, const ps_problem *, ps_precision, size_t batch,
@@ -95,6 +114,7 @@ typedef struct ps_engine {
     /* Entries in a row. */
     size_t (*get_stride)(const void *state);
     pspec_status (*run)(void *state, const ps_batch *, ps_rows *, ps_error *);
+    const ps_engine_stream *stream; /* NULL: whole sets only */
     /* "(torus_direct precision=single split=33x32 lanes=16)" */
     void (*describe)(const void *state, ps_text *);
     void (*destroy)(void *state); /* NULL allowed */

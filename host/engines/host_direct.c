@@ -68,7 +68,9 @@ static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
 
 /* Results are handed on as doubles: their rounding, not the sums (below 1e-18), is the error. Where
  * long double is double, k low rounds at 2^-51 turns, 3e-15. */
-static double error_of(const ps_problem *problem, ps_precision precision, double mean_power) {
+static double error_of(const ps_problem *problem, const ps_device_limits *limits,
+                       ps_precision precision, double mean_power) {
+    (void)limits;
     (void)problem;
     (void)precision;
     const double sums = LDBL_MANT_DIG >= 64 ? 1e-18 : 1e-14;

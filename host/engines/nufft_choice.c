@@ -3,6 +3,7 @@
 #include "base/round.h"
 #include "engines/nufft_fft.h"
 #include "engines/nufft_kernels.h"
+#include "engines/nufft_whole_shape.h"
 
 #include <math.h>
 
@@ -19,14 +20,18 @@ enum { MOST_CELLS = 1 << 17 };
 /* Grids take one set at a time: never worth while for fewer points. */
 static const double least_gridded_points = 30000;
 
+/* Sets of more points always go on a grid, in two and three dimensions: the places of all others take memory for
+ * every point, up to 96 bytes of it. */
+static const double most_sorted_points = 1 << 23;
+
+/* Realizations that are done whole come to the device in one piece, and one core has each. */
+static const double most_whole_points[PS_NUFFT_MAX_AXES] = {1 << 20, 1 << 18, 0};
+
 /* In one dimension, where more tiles mean shorter transforms. */
 enum { MOST_TILES = 64 };
 
 /* Lengths between the two sigmas. */
 enum { MAX_CANDIDATES = 64 };
-
-/* Lanes to choose for, whatever the device has. */
-static const unsigned nominal_lanes[2] = {16, 8};
 
 /* Least mean power to choose for: realizations of white noise vary by that much. */
 static const double nominal_power = 1.5;
@@ -53,9 +58,11 @@ static const double strided_peaks = 3;    /* of one lattice, more in one dimensi
 static const double coherent_aliases = 6; /* of |S|^2: aliases of coincident points are in step */
 static const double window_roundings = 5;
 static const double roundings_per_pass = 1;
+static const double turning_roundings = 2; /* between two transforms in one dimension */
 static const double dense_roundings = 1;
 static const double dense_roundings_at_zero = 2;
 static const double grid_roundings_at_zero = 0.05;
+static const double line_roundings_at_zero = 0.1; /* the same in one dimension */
 static const double coherent_roundings = 0.35;
 
 uint32_t ps_nufft_base(const ps_nufft_choice *choice) {
@@ -90,7 +97,9 @@ double ps_nufft_error(const ps_nufft_choice *choice, const ps_problem *problem,
         touching *= (double)axis->window.width / axis->n;
         widths *= axis->window.width;
     }
-    const double peaks = alias_peaks * (choice->stride != 0 ? strided_peaks : 1);
+    const bool is_line = choice->stride != 0 || (choice->is_whole && choice->num_axes == 1);
+    const double peaks = alias_peaks * (is_line ? strided_peaks : 1);
+    passes += choice->is_whole && choice->num_axes == 1 ? turning_roundings : 0;
     const double aliasing = sqrt(alias_slack * alias_slack * aliases +
                                  choice->num_axes * peaks * worst * points_of(problem) / modes) *
                             sqrt(fmax(1, coherent_aliases * (power - 1)));
@@ -100,116 +109,23 @@ double ps_nufft_error(const ps_nufft_choice *choice, const ps_problem *problem,
     const double rounding = unit * amplification * (window_roundings + passes + sums);
     const double at_zero =
         unit * amplification *
-        (choice->is_gridded ? grid_roundings_at_zero * touching * sqrt(widths)
-                            : dense_roundings_at_zero * dense / sqrt(choice->span));
+        (choice->is_gridded
+             ? (is_line ? line_roundings_at_zero : grid_roundings_at_zero) * touching * sqrt(widths)
+             : dense_roundings_at_zero * dense / sqrt(choice->span));
     const double coherent = unit * coherent_roundings * power * sqrt(power);
     return hypot(hypot(aliasing, polynomials), hypot(rounding * sqrt(power), at_zero)) + coherent;
 }
 
-/* ---- cost -------------------------------------------------------------------------------- */
-
-/* Cycles on a core with vectors of `lanes` numbers (Zen 5, PoCL 3.1, 2026-11, profile of bench_nufft, parts left
- * out in turn): of a point to be sorted; for its phases, once for all tiles whose rows are in local memory
- * together, and for its windows, where a fused operation makes a value of `lanes` points; of a point in a tile,
- * and of a cell that it touches there; of a cell to be cleared, and of a frequency to be written. */
-static const double cycles_per_point = 8;
-static const double cycles_per_phase = 13;
-static const double cycles_per_coefficient = 0.5;
-static const double cycles_per_value = 2.5;
-static const double cycles_per_touched = 1;
-static const double cycles_per_cell = 2.3;
-static const double cycles_per_power = 12;
-
-/* Local memory for rows to choose for, whatever the device has; the rest is for a chunk of points. */
-static const double nominal_local_bytes = (1 << 20) - (8 << 10);
-
-/* Two fused operations in a cycle. */
-static const double flops_per_lane = 4;
-
-/* A point on its way to a block of rows of a grid, and a row of the block. */
-static const double cycles_per_block = 80;
-static const double cycles_per_row = 6;
-
-/* A cell of a grid: cleared, taken into pairs for every chunk, fetched by the transform. */
-static const double cycles_per_grid_cell = 10;
-static const double cycles_per_pair = 2;
+/* ---- choice ------------------------------------------------------------------------------ */
 
 const ps_nufft_axis *ps_nufft_last_axes(const ps_nufft_choice *choice, unsigned *num) {
     *num = choice->num_axes - (choice->is_gridded ? 1 : 0);
     return choice->axes + (choice->is_gridded ? 1 : 0);
 }
 
-/* Spreading on a grid and the transform along axis 0. */
-static double grid_cycles(const ps_nufft_choice *choice, unsigned lanes, double num_points) {
-    const ps_nufft_axis *axes = choice->axes;
-    const ps_nufft_axis *block = &axes[choice->num_axes - 2];
-    const ps_nufft_axis *last = &axes[choice->num_axes - 1];
-    const double outer = choice->num_axes == 3 ? axes[0].window.width : 1;
-    const double blocks = (PS_NUFFT_BLOCK_ROWS + block->window.width - 1.0) / PS_NUFFT_BLOCK_ROWS;
-    const double strips = last->window.width > PS_NUFFT_BLOCK_ROWS ? 2 : 1;
-    const double columns = (choice->num_axes == 3 ? (double)block->n : 1) * last->n;
-    return num_points * outer *
-               (blocks * cycles_per_block + block->window.width * strips * cycles_per_row) +
-           columns / (2 * lanes) * ps_fft_cycles(axes[0].n) +
-           columns * axes[0].n *
-               (cycles_per_grid_cell + cycles_per_pair * ceil(num_points / (double)choice->chunk));
+unsigned ps_nufft_nominal_lanes(ps_precision precision) {
+    return precision == PS_SINGLE ? 16 : 8;
 }
-
-/* Four neighbours are added together: to cells from the first of one window to the last of another. */
-static double touched_cells(const ps_nufft_axis *axis, double num_points) {
-    const double between = 3 * (double)axis->n / num_points;
-    return axis->window.width + fmin(between, axis->window.width);
-}
-
-/* Rows that fit into local memory; less than 1 where tiles must be narrower. */
-static double rows_at_once(const ps_nufft_axis *axis) {
-    const double vector_bytes = 64;
-    return nominal_local_bytes / (2 * vector_bytes * axis->n);
-}
-
-/* Of a point: windows and phases, for all tiles. */
-static double cycles_of_point(const ps_nufft_axis *axis, double num_tiles, double lanes) {
-    const double degree = axis->window.width + 2;
-    return ceil(num_tiles / fmax(1, floor(rows_at_once(axis)))) *
-           (cycles_per_phase + cycles_per_coefficient * axis->window.width * degree / lanes);
-}
-
-/* Transforms of the rows of one tile, all the way to powers. */
-static double tile_cycles(const ps_nufft_choice *choice) {
-    unsigned num = 0;
-    const ps_nufft_axis *axes = ps_nufft_last_axes(choice, &num);
-    const ps_nufft_axis *last = &axes[num - 1];
-    const double kept = 2.0 * last->max_frequency + 1;
-    const double row = ps_fft_cycles(last->n) + cycles_per_cell * last->n + cycles_per_power * kept;
-    return num == 1 ? row
-                    : axes[0].n * row + kept * (ps_fft_cycles(axes[0].n) + cycles_per_power * kept);
-}
-
-/* Spreading by direct phases on axis 0. */
-static double spread_cycles(const ps_nufft_choice *choice, double lanes, double num_tiles,
-                            double num_points) {
-    const ps_nufft_axis *first = &choice->axes[0];
-    const ps_nufft_axis *last = &choice->axes[choice->num_axes - 1];
-    const bool has_rows = choice->num_axes == 2;
-    const double visits = num_points * (has_rows ? first->window.width : 1);
-    const double touched = touched_cells(last, visits / (has_rows ? first->n : 1));
-    return visits * (cycles_of_point(last, num_tiles, lanes) +
-                     num_tiles * (cycles_per_value + cycles_per_touched * touched));
-}
-
-double ps_nufft_flops(const ps_nufft_choice *choice, ps_precision precision, double num_points) {
-    const ps_nufft_axis *last = &choice->axes[choice->num_axes - 1];
-    const unsigned lanes = nominal_lanes[precision];
-    const double narrower = ceil(1 / fmin(1, rows_at_once(last)));
-    const double num_tiles = (double)ps_divide_up(choice->span, lanes) * narrower;
-    const double cycles =
-        num_points * cycles_per_point + num_tiles * tile_cycles(choice) +
-        (choice->is_gridded ? grid_cycles(choice, lanes, num_points)
-                            : spread_cycles(choice, lanes, num_tiles, num_points));
-    return cycles * lanes * flops_per_lane;
-}
-
-/* ---- choice ------------------------------------------------------------------------------ */
 
 static ps_nufft_axis make_axis(const ps_nufft_axis *what, uint32_t n, unsigned width) {
     ps_nufft_axis axis = *what;
@@ -244,6 +160,7 @@ static ps_nufft_axis choose_width(const ps_nufft_choice *whole, unsigned which, 
         const ps_nufft_choice alone = {.num_axes = 1,
                                        .span = whole->span,
                                        .stride = whole->stride,
+                                       .is_whole = whole->is_whole && whole->num_axes == 1,
                                        .axes = {make_axis(&whole->axes[which], n, width)}};
         const double error = ps_nufft_error(&alone, &alone_problem, precision, power_of(problem));
         if (error < least_error) {
@@ -257,12 +174,12 @@ static ps_nufft_axis choose_width(const ps_nufft_choice *whole, unsigned which, 
 /* Cells of a grid's last axis fill whole vectors, twice. */
 static uint32_t length_for(const ps_nufft_choice *whole, unsigned which, uint64_t least,
                            ps_precision precision) {
-    const uint32_t unit = 2 * nominal_lanes[precision];
+    const uint32_t unit = 2 * ps_nufft_nominal_lanes(precision);
     if (least > MOST_CELLS) {
         return 0;
     }
     uint32_t n = ps_fft_good_length(least);
-    if (whole->is_gridded && which + 1 == whole->num_axes) {
+    if (whole->is_gridded && !whole->is_whole && which + 1 == whole->num_axes) {
         n = ps_fft_good_length(ps_divide_up(least, unit)) * unit;
     }
     return n;
@@ -277,7 +194,7 @@ static size_t list_candidates(const ps_nufft_choice *whole, unsigned which,
     size_t num = 0;
     for (uint32_t n = length_for(whole, which, least, precision);
          n != 0 && n <= MOST_CELLS && (num == 0 || (n <= last && num < MAX_CANDIDATES));
-         n = length_for(whole, which, (uint64_t)n + 1, precision)) {
+         n = length_for(whole, which, (uint64_t)n + 1 + n / MAX_CANDIDATES, precision)) {
         candidates[num++] = choose_width(whole, which, n, problem, precision);
     }
     return num;
@@ -323,14 +240,18 @@ static void consider_grids(best_choice *best, ps_nufft_choice *choice, const ps_
         num[i] = list_candidates(choice, i, problem, precision, candidates[i]);
         total *= num[i];
     }
+    total = choice->is_whole ? num[0] : total; /* the same on both axes */
     for (size_t combination = 0; combination < total; combination++) {
         size_t rest = combination;
         for (unsigned i = 0; i < choice->num_axes; i++) {
             choice->axes[i] = candidates[i][rest % num[i]];
-            rest /= num[i];
+            rest /= choice->is_whole ? 1 : num[i];
         }
-        choice->chunk = choice->is_gridded ? choose_chunk(choice) : 0;
-        consider(best, choice, problem, precision);
+        choice->chunk = choice->is_gridded && !choice->is_whole ? choose_chunk(choice) : 0;
+        if (!choice->is_whole ||
+            ps_nufft_whole_shape(choice, precision, ps_nufft_nominal_lanes(precision))) {
+            consider(best, choice, problem, precision);
+        }
     }
 }
 
@@ -364,7 +285,8 @@ static ps_nufft_choice strided_choice(uint32_t max_frequency, uint32_t stride) {
         .axes = {{.axis = 0, .factor = stride, .max_frequency = (int32_t)(needed / 2)}}};
 }
 
-ps_nufft_choice ps_nufft_choose(const ps_problem *whole, ps_precision precision) {
+ps_nufft_choice ps_nufft_choose(const ps_problem *whole, const ps_device_limits *limits,
+                                ps_precision precision) {
     const unsigned dimension = whole->frequencies->dimension;
     const uint32_t max_frequency = (uint32_t)whole->frequencies->max_frequency;
     ps_problem planned = *whole; /* the error of a choice, too, is that of the points planned */
@@ -373,7 +295,9 @@ ps_nufft_choice ps_nufft_choose(const ps_problem *whole, ps_precision precision)
     best_choice best = {0};
     if (dimension == 2 || dimension == 3) {
         ps_nufft_choice choice = direct_choice(max_frequency, dimension);
-        consider_grids(&best, &choice, problem, precision);
+        if (points_of(problem) <= most_sorted_points) {
+            consider_grids(&best, &choice, problem, precision);
+        }
         if (points_of(problem) >= least_gridded_points) {
             choice = gridded_choice(max_frequency, dimension);
             consider_grids(&best, &choice, problem, precision);
@@ -381,9 +305,15 @@ ps_nufft_choice ps_nufft_choose(const ps_problem *whole, ps_precision precision)
     } else {
         for (uint32_t tiles = 1; tiles <= MOST_TILES; tiles *= 2) {
             ps_nufft_choice choice =
-                strided_choice(max_frequency, tiles * nominal_lanes[precision]);
+                strided_choice(max_frequency, tiles * ps_nufft_nominal_lanes(precision));
             consider_grids(&best, &choice, problem, precision);
         }
+    }
+    if (points_of(problem) <= most_whole_points[dimension - 1] &&
+        (limits == NULL || !limits->has_dedicated_local_memory)) {
+        ps_nufft_choice choice = gridded_choice(max_frequency, dimension);
+        choice.is_whole = true;
+        consider_grids(&best, &choice, problem, precision);
     }
     return best.choice;
 }

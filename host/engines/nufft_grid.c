@@ -31,17 +31,32 @@ static size_t num_columns(const ps_nufft_layout *layout) {
     return layout->grid_reals / layout->choice.axes[0].n;
 }
 
+/* Cells of axis 0 in a slab. */
+static size_t slab_rows(const ps_nufft_layout *layout, uint32_t slab) {
+    const uint32_t rest = layout->choice.axes[0].n - slab * layout->slab_rows;
+    return rest < layout->slab_rows ? rest : layout->slab_rows;
+}
+
 static pspec_status create_buffers(ps_nufft_grid *self, ps_error *error) {
     const ps_nufft_layout *layout = self->layout;
-    const size_t reals = layout->grid_reals * layout->real_bytes;
     const size_t vector_bytes = 2 * layout->lanes * layout->real_bytes;
-    PS_TRY(ps_buffer_create(self->device, &self->high, reals, "the fine grid", error));
-    PS_TRY(ps_buffer_create(self->device, &self->low, reals, "the fine grid", error));
+    const size_t tile_cells = layout->grid_cells / layout->num_tiles;
+    const size_t strip = layout->strip_columns * layout->choice.axes[0].n * layout->real_bytes;
+    for (uint32_t slab = 0; slab < layout->num_slabs; slab++) {
+        const size_t bytes = slab_rows(layout, slab) * num_columns(layout) * layout->real_bytes;
+        PS_TRY(ps_buffer_create(self->device, &self->high[slab], bytes, "the fine grid", error));
+        PS_TRY(ps_buffer_create(self->device, &self->low[slab], bytes, "the fine grid", error));
+    }
+    if (strip > 0) {
+        PS_TRY(ps_buffer_create(self->device, &self->high_strip, strip, "the fine grid", error));
+        PS_TRY(ps_buffer_create(self->device, &self->low_strip, strip, "the fine grid", error));
+    }
     PS_TRY(ps_buffer_create(self->device, &self->tile_rows,
-                            layout->num_tiles * num_columns(layout) * vector_bytes, "rows of tiles",
-                            error));
-    return ps_buffer_create(self->device, &self->transformed, layout->grid_cells * vector_bytes,
-                            "transformed rows", error);
+                            layout->tiles_at_once * num_columns(layout) * vector_bytes,
+                            "rows of tiles", error));
+    return ps_buffer_create(self->device, &self->transformed,
+                            layout->tiles_at_once * tile_cells * vector_bytes, "transformed rows",
+                            error);
 }
 
 pspec_status ps_nufft_grid_create(ps_nufft_grid *out, const ps_nufft_layout *layout,
@@ -59,8 +74,12 @@ void ps_nufft_grid_free(ps_nufft_grid *grid) {
             clReleaseKernel(kernels[i]);
         }
     }
-    ps_buffer_release(&grid->high);
-    ps_buffer_release(&grid->low);
+    for (uint32_t slab = 0; slab < PS_NUFFT_MOST_SLABS; slab++) {
+        ps_buffer_release(&grid->high[slab]);
+        ps_buffer_release(&grid->low[slab]);
+    }
+    ps_buffer_release(&grid->high_strip);
+    ps_buffer_release(&grid->low_strip);
     ps_buffer_release(&grid->tile_rows);
     ps_buffer_release(&grid->transformed);
     *grid = (ps_nufft_grid){0};
@@ -69,8 +88,11 @@ void ps_nufft_grid_free(ps_nufft_grid *grid) {
 /* ---- add --------------------------------------------------------------------------------- */
 
 pspec_status ps_nufft_grid_begin(ps_nufft_grid *grid, ps_error *error) {
-    PS_TRY(ps_buffer_clear(grid->device, &grid->high, error));
-    return ps_buffer_clear(grid->device, &grid->low, error);
+    for (uint32_t slab = 0; slab < grid->layout->num_slabs; slab++) {
+        PS_TRY(ps_buffer_clear(grid->device, &grid->high[slab], error));
+        PS_TRY(ps_buffer_clear(grid->device, &grid->low[slab], error));
+    }
+    return PSPEC_OK;
 }
 
 /* Arguments of an axis, as kernels/nufft/grid.cl has them. */
@@ -78,24 +100,38 @@ pspec_status ps_nufft_grid_begin(ps_nufft_grid *grid, ps_error *error) {
     PS_BUFFER((plan)->coefficients), PS_U32((plan)->axis.n), PS_U32((plan)->axis.window.width),    \
         PS_U32((plan)->degree), PS_U32((plan)->bins)
 
-static pspec_status spread(ps_nufft_grid *self, size_t num_parts, size_t num_points,
-                           ps_error *error) {
+static pspec_status spread_on(ps_nufft_grid *self, uint32_t slab, size_t num_parts,
+                              size_t num_points, ps_error *error) {
     const unsigned axes = self->layout->choice.num_axes;
     const ps_nufft_plan *block = &self->plans[axes - 2];
     const ps_nufft_plan *last = &self->plans[axes - 1];
     const ps_nufft_plan none = {.coefficients = block->coefficients,
                                 .axis = {.n = 1, .window = {.width = 1}}};
     const ps_nufft_plan *outer = axes == 3 ? &self->plans[0] : &none;
-    const size_t blocks = ps_divide_up(block->axis.n, PS_NUFFT_BLOCK_ROWS);
-    const double flops =
-        2.0 * (double)num_points * outer->axis.window.width * block->axis.window.width * last->bins;
-    const ps_range range = ps_nufft_group_range(self->device, blocks * outer->axis.n, 1, flops);
+    const size_t across = ps_divide_up(block->axis.n, PS_NUFFT_BLOCK_ROWS);
+    const size_t rows = slab_rows(self->layout, slab);
+    const size_t num_blocks = axes == 3 ? rows * across : ps_divide_up(rows, PS_NUFFT_BLOCK_ROWS);
+    const size_t first_row = (size_t)slab * self->layout->slab_rows;
+    const size_t first_block = axes == 3 ? first_row * across : first_row / PS_NUFFT_BLOCK_ROWS;
+    const double flops = 2.0 * (double)num_points * outer->axis.window.width *
+                         block->axis.window.width * last->bins * (double)rows /
+                         self->plans[0].axis.n;
+    const ps_range range = ps_nufft_group_range(self->device, num_blocks, 1, flops);
     const size_t row_bytes = (last->axis.n + last->bins) * self->layout->real_bytes;
     return PS_LAUNCH(self->device, self->spread, &range, error, PS_BUFFER(self->places->places),
                      PS_BUFFER(self->places->sorted), PS_BUFFER(self->places->heights),
                      PS_BUFFER(self->places->starts), PS_U32(num_parts), PS_U32(axes),
-                     GRID_AXIS(outer), GRID_AXIS(block), GRID_AXIS(last), PS_BUFFER(self->high),
-                     PS_BUFFER(self->low), PS_LOCAL(PS_NUFFT_BLOCK_ROWS * row_bytes));
+                     GRID_AXIS(outer), GRID_AXIS(block), GRID_AXIS(last), PS_U32(first_block),
+                     PS_BUFFER(self->high[slab]), PS_BUFFER(self->low[slab]),
+                     PS_LOCAL(PS_NUFFT_BLOCK_ROWS * row_bytes));
+}
+
+static pspec_status spread(ps_nufft_grid *self, size_t num_parts, size_t num_points,
+                           ps_error *error) {
+    for (uint32_t slab = 0; slab < self->layout->num_slabs; slab++) {
+        PS_TRY(spread_on(self, slab, num_parts, num_points, error));
+    }
+    return PSPEC_OK;
 }
 
 /* Points first .. of a pattern that fit into a chunk, as parts; how many parts. */
@@ -148,38 +184,92 @@ static ps_range transform_range(const ps_nufft_grid *self, const ps_nufft_plan *
                                     ps_fft_flops(plan->axis.n));
 }
 
-static pspec_status transform_first(ps_nufft_grid *self, const ps_buffer *means, ps_error *error) {
-    const ps_nufft_plan *plan = &self->plans[0];
-    const size_t columns = num_columns(self->layout);
-    const ps_range range = transform_range(self, plan, columns / (2 * self->layout->lanes));
-    return PS_LAUNCH(self->device, self->first, &range, error, PS_BUFFER(self->high),
-                     PS_BUFFER(self->low), PS_BUFFER(*means), PS_U64(columns),
-                     PS_BUFFER(plan->fft.radices), PS_BUFFER(plan->fft.twiddles),
-                     PS_BUFFER(plan->fft.position), PS_BUFFER(plan->gains), PS_U32(plan->axis.n),
-                     PS_U32(plan->axis.max_frequency), PS_U32(self->layout->num_tiles),
-                     PS_BUFFER(self->tile_rows), PS_LOCAL(cells_bytes(self, plan)));
+/* Columns, and tiles, that are worked on. */
+typedef struct extent {
+    size_t first, num;
+} extent;
+
+static extent cut_extent(size_t first, size_t at_once, size_t whole) {
+    return (extent){first, whole - first < at_once ? whole - first : at_once};
 }
 
-static pspec_status finish_tiles(ps_nufft_grid *self, const ps_nufft_target *target,
+/* The same columns of all slabs, one below the other. */
+static pspec_status gather_strip(ps_nufft_grid *self, extent columns, ps_error *error) {
+    const ps_nufft_layout *layout = self->layout;
+    const size_t real = layout->real_bytes;
+    for (uint32_t slab = 0; slab < layout->num_slabs; slab++) {
+        const ps_rectangle rectangle = {
+            .row_bytes = columns.num * real,
+            .num_rows = slab_rows(layout, slab),
+            .from_offset = columns.first * real,
+            .from_pitch = num_columns(layout) * real,
+            .to_offset = (size_t)slab * layout->slab_rows * columns.num * real,
+            .to_pitch = columns.num * real,
+        };
+        PS_TRY(ps_buffer_copy_rectangle(self->device, &self->high[slab], &self->high_strip,
+                                        &rectangle, error));
+        PS_TRY(ps_buffer_copy_rectangle(self->device, &self->low[slab], &self->low_strip,
+                                        &rectangle, error));
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status transform_columns(ps_nufft_grid *self, const ps_buffer *means, extent columns,
+                                      extent tiles, ps_error *error) {
+    const ps_nufft_plan *plan = &self->plans[0];
+    const bool is_whole = self->layout->strip_columns == 0;
+    const ps_range range = transform_range(self, plan, columns.num / (2 * self->layout->lanes));
+    return PS_LAUNCH(self->device, self->first, &range, error,
+                     PS_BUFFER(*(is_whole ? &self->high[0] : &self->high_strip)),
+                     PS_BUFFER(*(is_whole ? &self->low[0] : &self->low_strip)), PS_BUFFER(*means),
+                     PS_U64(columns.num), PS_BUFFER(plan->fft.radices),
+                     PS_BUFFER(plan->fft.twiddles), PS_BUFFER(plan->fft.position),
+                     PS_BUFFER(plan->gains), PS_U32(plan->axis.n), PS_U32(plan->axis.max_frequency),
+                     PS_U32(tiles.first), PS_U32(tiles.num), PS_U64(columns.first),
+                     PS_U64(num_columns(self->layout)), PS_BUFFER(self->tile_rows),
+                     PS_LOCAL(cells_bytes(self, plan)));
+}
+
+static pspec_status transform_first(ps_nufft_grid *self, const ps_buffer *means, extent tiles,
+                                    ps_error *error) {
+    const size_t whole = num_columns(self->layout);
+    const size_t strip = self->layout->strip_columns;
+    if (strip == 0) {
+        return transform_columns(self, means, (extent){0, whole}, tiles, error);
+    }
+    for (size_t first = 0; first < whole; first += strip) {
+        const extent columns = cut_extent(first, strip, whole);
+        PS_TRY(gather_strip(self, columns, error));
+        PS_TRY(transform_columns(self, means, columns, tiles, error));
+    }
+    return PSPEC_OK;
+}
+
+/* Powers of a row in front of a tile. */
+static uint64_t powers_before(const ps_nufft_grid *self, extent tiles) {
+    return self->layout->stride / self->layout->num_tiles * tiles.first;
+}
+
+static pspec_status finish_tiles(ps_nufft_grid *self, extent tiles, const ps_nufft_target *target,
                                  ps_error *error) {
     const ps_nufft_plan *plan = &self->plans[1];
-    const ps_range range = transform_range(self, plan, self->layout->num_tiles);
-    return PS_LAUNCH(
-        self->device, self->tile, &range, error, PS_BUFFER(self->tile_rows),
-        PS_BUFFER(plan->fft.radices), PS_BUFFER(plan->fft.twiddles), PS_BUFFER(plan->fft.position),
-        PS_BUFFER(plan->gains), PS_BUFFER(*target->scales), PS_BUFFER(*target->power),
-        PS_U32(target->realization), PS_U64(self->layout->stride), PS_U32(plan->axis.n),
-        PS_U32(plan->axis.max_frequency), PS_LOCAL(cells_bytes(self, plan)));
+    const ps_range range = transform_range(self, plan, tiles.num);
+    return PS_LAUNCH(self->device, self->tile, &range, error, PS_BUFFER(self->tile_rows),
+                     PS_BUFFER(plan->fft.radices), PS_BUFFER(plan->fft.twiddles),
+                     PS_BUFFER(plan->fft.position), PS_BUFFER(plan->gains),
+                     PS_BUFFER(*target->scales), PS_BUFFER(*target->power),
+                     PS_U32(target->realization), PS_U64(self->layout->stride),
+                     PS_U32(plan->axis.n), PS_U32(plan->axis.max_frequency),
+                     PS_U64(powers_before(self, tiles)), PS_LOCAL(cells_bytes(self, plan)));
 }
 
-static pspec_status finish_rows(ps_nufft_grid *self, const ps_nufft_target *target,
+static pspec_status finish_rows(ps_nufft_grid *self, extent tiles, const ps_nufft_target *target,
                                 ps_error *error) {
     const ps_nufft_plan *across = &self->plans[1];
     const ps_nufft_plan *along = &self->plans[2];
-    const size_t num_tiles = self->layout->num_tiles;
     const size_t kept = 2 * (size_t)along->axis.max_frequency + 1;
-    const ps_range rows = transform_range(self, along, num_tiles * across->axis.n);
-    const ps_range columns = transform_range(self, across, num_tiles * kept);
+    const ps_range rows = transform_range(self, along, tiles.num * across->axis.n);
+    const ps_range columns = transform_range(self, across, tiles.num * kept);
     PS_TRY(PS_LAUNCH(self->device, self->rows, &rows, error, PS_BUFFER(self->tile_rows),
                      PS_BUFFER(along->fft.radices), PS_BUFFER(along->fft.twiddles),
                      PS_BUFFER(along->fft.position), PS_BUFFER(self->transformed),
@@ -191,12 +281,18 @@ static pspec_status finish_rows(ps_nufft_grid *self, const ps_nufft_target *targ
                      PS_BUFFER(along->gains), PS_BUFFER(*target->scales), PS_BUFFER(*target->power),
                      PS_U32(target->realization), PS_U64(self->layout->stride),
                      PS_U32(across->axis.n), PS_U32(across->axis.max_frequency),
-                     PS_U32(along->axis.max_frequency), PS_LOCAL(cells_bytes(self, across)));
+                     PS_U32(along->axis.max_frequency), PS_U64(powers_before(self, tiles)),
+                     PS_LOCAL(cells_bytes(self, across)));
 }
 
 pspec_status ps_nufft_grid_finish(ps_nufft_grid *grid, const ps_buffer *means,
                                   const ps_nufft_target *target, ps_error *error) {
-    PS_TRY(transform_first(grid, means, error));
-    return grid->layout->choice.num_axes == 2 ? finish_tiles(grid, target, error)
-                                              : finish_rows(grid, target, error);
+    const ps_nufft_layout *layout = grid->layout;
+    for (size_t first = 0; first < layout->num_tiles; first += layout->tiles_at_once) {
+        const extent tiles = cut_extent(first, layout->tiles_at_once, layout->num_tiles);
+        PS_TRY(transform_first(grid, means, tiles, error));
+        PS_TRY(layout->choice.num_axes == 2 ? finish_tiles(grid, tiles, target, error)
+                                            : finish_rows(grid, tiles, target, error));
+    }
+    return PSPEC_OK;
 }

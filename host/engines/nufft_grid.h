@@ -13,7 +13,9 @@ typedef struct ps_nufft_grid {
     ps_nufft_places *places;
     ps_device *device;
     cl_kernel spread, first, tile, rows, columns;
-    ps_buffer high, low, tile_rows, transformed;
+    ps_buffer high[PS_NUFFT_MOST_SLABS], low[PS_NUFFT_MOST_SLABS]; /* [num_slabs] */
+    ps_buffer high_strip, low_strip;                               /* of more than one slab */
+    ps_buffer tile_rows, transformed;                              /* of tiles_at_once */
 } ps_nufft_grid;
 
 /* layout, plans and places are borrowed. */
@@ -25,7 +27,8 @@ void ps_nufft_grid_free(ps_nufft_grid *grid);
 
 /* An empty grid. */
 pspec_status ps_nufft_grid_begin(ps_nufft_grid *grid, ps_error *error) PS_MUST_CHECK;
-/* Any number of points more, the only pattern of the batch; it may be cancelled. */
+/* Any number of points more, the only pattern of the batch; it may be cancelled. Bits are the same in several
+ * calls if all but the last have a multiple of layout->parts * layout->part_points of them. */
 pspec_status ps_nufft_grid_add(ps_nufft_grid *grid, const ps_batch *batch,
                                ps_error *error) PS_MUST_CHECK;
 /* means: a buffer whose first number is taken off every cell. */

@@ -5,6 +5,8 @@
 #include "engines/nufft_plan.h"
 #include "engines/reals.h"
 
+#include <math.h>
+
 /* Places and grids of the realizations that are worked on at a time: on CPUs a share of the last-level
  * cache, on GPUs enough to fill the device. */
 static const double work_share = 0.25;
@@ -27,14 +29,14 @@ static uint64_t part_bytes(const ps_nufft_layout *layout, unsigned dimension) {
 }
 
 /* Whatever the number of points: plans of the axes (twiddles and pattern, gains, positions; polynomials and
- * radices are a page), and rows of powers to fill whole groups of lanes. */
+ * radices are small). */
 static uint64_t table_bytes(const ps_nufft_layout *layout) {
-    enum { PAGE = 4096 };
-    uint64_t bytes = layout->lanes * layout->bytes_per_realization;
+    enum { SMALL = 1536 };
+    uint64_t bytes = 0;
     for (unsigned i = 0; i < layout->choice.num_axes; i++) {
         const ps_nufft_axis *axis = &layout->choice.axes[i];
         const uint64_t reals = 4 * (uint64_t)axis->n + (uint64_t)axis->max_frequency + 1;
-        bytes += reals * layout->real_bytes + axis->n * sizeof(uint32_t) + PAGE;
+        bytes += reals * layout->real_bytes + axis->n * sizeof(uint32_t) + SMALL;
     }
     return bytes;
 }
@@ -98,20 +100,63 @@ static void measure_axes(ps_nufft_layout *layout) {
     }
 }
 
+/* Equal shares of a whole, at most `most` each and whole units; one unit when not even that fits. */
+static uint64_t share_out(uint64_t whole, uint64_t most, uint64_t unit) {
+    const uint64_t fitting = most / unit > 0 ? most / unit * unit : unit;
+    const uint64_t shares = ps_divide_up(whole, fitting);
+    const uint64_t share = ps_round_up(ps_divide_up(whole, shares), unit);
+    return share < whole ? share : whole;
+}
+
+/* The grid of a large set in buffers that the device allows: slabs of axis 0 where points are spread, which are
+ * copied together for strips of columns where axis 0 is transformed, into some tiles at a time. */
+static void split_grid(ps_nufft_layout *layout, uint64_t limit) {
+    enum { STRIPS = 16 };
+    const uint64_t n = layout->choice.axes[0].n;
+    const uint64_t columns = layout->grid_reals / n;
+    const uint64_t unit = layout->choice.num_axes == 2 ? PS_NUFFT_BLOCK_ROWS : 1;
+    const uint64_t lanes = 2 * layout->lanes;
+    const uint64_t tile_rows = columns * lanes * layout->real_bytes;
+    const uint64_t tile_transformed =
+        layout->grid_cells / layout->num_tiles * lanes * layout->real_bytes;
+    const uint64_t tile = tile_rows > tile_transformed ? tile_rows : tile_transformed;
+    layout->slab_rows = (uint32_t)share_out(n, limit / (columns * layout->real_bytes), unit);
+    layout->num_slabs = (uint32_t)ps_divide_up(n, layout->slab_rows);
+    layout->tiles_at_once = (uint32_t)share_out(layout->num_tiles, limit / tile, 1);
+    if (layout->num_slabs > 1) {
+        const uint64_t fitting = limit / (n * layout->real_bytes);
+        const uint64_t wanted = ps_round_up(ps_divide_up(columns, STRIPS), lanes);
+        layout->strip_columns = share_out(columns, wanted < fitting ? wanted : fitting, lanes);
+    }
+}
+
 /* Memory of a large set: a chunk of points, the grid in pairs, rows of tiles, what two transforms leave. */
-static void measure_grid(ps_nufft_layout *layout, const ps_problem *problem) {
+static void measure_grid(ps_nufft_layout *layout, const ps_problem *problem, uint64_t limit) {
+    split_grid(layout, limit);
     const uint64_t vector_bytes = 2 * layout->lanes * layout->real_bytes;
-    const uint64_t columns = layout->grid_reals / layout->choice.axes[0].n;
-    const uint64_t rows = layout->num_tiles * columns * vector_bytes;
-    const uint64_t transformed = layout->grid_cells * vector_bytes;
+    const uint64_t n = layout->choice.axes[0].n;
+    const uint64_t columns = layout->grid_reals / n;
+    const uint64_t rows = layout->tiles_at_once * columns * vector_bytes;
+    const uint64_t transformed =
+        layout->grid_cells / layout->num_tiles * layout->tiles_at_once * vector_bytes;
     const uint64_t reals = layout->grid_reals * layout->real_bytes;
-    const uint64_t part = part_bytes(layout, problem->frequencies->dimension);
+    const uint64_t slab = layout->slab_rows * columns * layout->real_bytes;
+    const uint64_t strip = layout->strip_columns * n * layout->real_bytes;
+    const unsigned dimension = problem->frequencies->dimension;
+    const uint64_t part = part_bytes(layout, dimension);
     const size_t parts = ps_divide_up(problem->num_points, layout->part_points);
     layout->parts = parts < PS_NUFFT_MOST_PARTS ? parts : PS_NUFFT_MOST_PARTS;
     layout->fixed_bytes =
-        layout->parts * part + 2 * reals + rows + transformed + table_bytes(layout);
-    const uint64_t buffers[] = {rows, reals, transformed};
-    layout->largest_buffer = largest_of(buffers, sizeof buffers / sizeof buffers[0]);
+        layout->parts * part + 2 * (reals + strip) + rows + transformed + table_bytes(layout);
+    const uint64_t buffers[] = {rows,
+                                slab,
+                                transformed,
+                                strip,
+                                layout->parts * starts_bytes(layout),
+                                layout->parts * layout->part_places * dimension * sizeof(uint64_t)};
+    layout->largest_buffer = layout->num_slabs > PS_NUFFT_MOST_SLABS
+                                 ? reals
+                                 : largest_of(buffers, sizeof buffers / sizeof buffers[0]);
 }
 
 /* Of a tile: its row, and how much each point of a chunk turns. */
@@ -140,13 +185,90 @@ static uint32_t choose_group(const ps_nufft_layout *layout, const ps_problem *pr
     return (uint32_t)ps_divide_up(layout->num_tiles, groups);
 }
 
+/* Work-groups for each core: so few that grids stay in the cache, so many that no core waits long for another. */
+enum { GROUPS_PER_CORE = 4 };
+
+/* Gains, turns of one dimension, plans of the windows and of the two transforms. */
+static uint64_t whole_table_bytes(const ps_nufft_layout *layout) {
+    enum { SMALL = 1536 };
+    const ps_nufft_choice *choice = &layout->choice;
+    const uint64_t turns = choice->num_axes == 1 ? 2 * (uint64_t)choice->lengths[1] *
+                                                       (layout->lanes + layout->num_tiles)
+                                                 : 0;
+    const uint64_t cells = (uint64_t)choice->lengths[0] + choice->lengths[1];
+    const uint64_t reals = layout->stride + turns + 2 * cells +
+                           choice->num_axes * ((uint64_t)choice->axes[0].max_frequency + 1);
+    return reals * layout->real_bytes + cells * sizeof(uint32_t) + choice->num_axes * SMALL;
+}
+
+static bool fits_whole(const ps_nufft_layout *layout, const ps_device_limits *limits) {
+    const ps_nufft_choice *choice = &layout->choice;
+    const size_t longest =
+        choice->lengths[0] > choice->lengths[1] ? choice->lengths[0] : choice->lengths[1];
+    const size_t reals = 2 * longest * layout->lanes + layout->whole.window_reals;
+    return reals * layout->real_bytes + 2 * PS_NUFFT_CHUNK * sizeof(uint32_t) <=
+           limits->local_bytes;
+}
+
+/* Points on the host and on the device, grids and tiles of the work-groups, tables. Parts are realizations: as many
+ * as keep all cores at work. */
+static void count_whole(ps_nufft_layout *layout, const ps_problem *problem,
+                        const ps_device_limits *limits) {
+    const size_t cores = limits->compute_units > 0 ? limits->compute_units : 1;
+    const uint64_t known = problem->num_realizations;
+    const uint64_t point = problem->frequencies->dimension * sizeof(uint64_t) + layout->real_bytes;
+    const double cache =
+        limits->cache_bytes > 0 ? (double)limits->cache_bytes : DEFAULT_CACHE_BYTES;
+    const double fitting = work_share * cache / (2 * (double)(layout->part_points * point));
+    const size_t most = known > 0 && known < MOST_AT_ONCE ? (size_t)known : MOST_AT_ONCE;
+    layout->parts = fitting > (double)cores ? (size_t)fmin(fitting, MOST_AT_ONCE) : cores;
+    layout->parts = layout->parts > most ? most : layout->parts;
+    layout->groups =
+        layout->parts < GROUPS_PER_CORE * cores ? layout->parts : GROUPS_PER_CORE * cores;
+    const uint64_t grids = layout->groups * layout->whole.grid_reals * layout->real_bytes;
+    const uint64_t rows = layout->groups * layout->whole.row_reals * layout->real_bytes;
+    layout->host_bytes = layout->parts * layout->part_points * point;
+    layout->fixed_bytes = 2 * layout->host_bytes + grids + rows + whole_table_bytes(layout) +
+                          layout->parts * (sizeof(uint64_t) + 2 * layout->real_bytes);
+    const uint64_t buffers[] = {grids, rows,
+                                layout->parts * layout->part_points *
+                                    problem->frequencies->dimension * sizeof(uint64_t)};
+    layout->largest_buffer = largest_of(buffers, sizeof buffers / sizeof buffers[0]);
+}
+
+static void measure_whole(ps_nufft_layout *layout, const ps_problem *problem,
+                          const ps_device_limits *limits) {
+    const ps_nufft_choice *choice = &layout->choice;
+    uint32_t kept[2];
+    ps_nufft_whole_kept(choice, kept);
+    layout->whole = ps_nufft_whole_measure(choice, layout->lanes);
+    while (layout->lanes > 0 && !fits_whole(layout, limits)) {
+        layout->lanes /= 2;
+        layout->whole =
+            layout->lanes > 0 ? ps_nufft_whole_measure(choice, layout->lanes) : layout->whole;
+    }
+    if (layout->lanes == 0) {
+        return;
+    }
+    layout->num_tiles = (uint32_t)ps_divide_up(choice->span, layout->lanes);
+    layout->stride = (size_t)layout->num_tiles * layout->lanes * (2 * (size_t)kept[1] + 1);
+    layout->bytes_per_realization = layout->stride * layout->real_bytes;
+    layout->largest_buffer_per_realization = layout->bytes_per_realization;
+    layout->part_points = problem->num_points;
+    count_whole(layout, problem, limits);
+}
+
 ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_limits *limits,
                                      ps_precision precision) {
-    ps_nufft_layout layout = {.choice = ps_nufft_choose(problem, precision),
+    ps_nufft_layout layout = {.choice = ps_nufft_choose(problem, limits, precision),
                               .lanes = ps_engine_lanes(limits, precision),
                               .real_bytes = ps_real_bytes(precision)};
     if (layout.choice.num_axes == 0) {
         layout.lanes = 0;
+        return layout;
+    }
+    if (layout.choice.is_whole) {
+        measure_whole(&layout, problem, limits);
         return layout;
     }
     measure_axes(&layout);
@@ -160,19 +282,32 @@ ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_
     layout.group = choose_group(&layout, problem, limits);
     layout.chunk_reals += layout.group * TURN_REALS;
     layout.part_points = problem->num_points;
-    if (layout.choice.is_gridded &&
+    if (ps_nufft_is_large(&layout.choice) &&
         layout.part_points > layout.choice.chunk / PS_NUFFT_MOST_PARTS) {
         layout.part_points = layout.choice.chunk / PS_NUFFT_MOST_PARTS;
     }
     layout.part_places = ps_round_up(layout.part_points, PS_NUFFT_PLACE_UNIT);
     layout.bytes_per_realization = layout.stride * layout.real_bytes;
     layout.largest_buffer_per_realization = layout.bytes_per_realization;
-    if (layout.choice.is_gridded) {
-        measure_grid(&layout, problem);
+    if (ps_nufft_is_large(&layout.choice)) {
+        measure_grid(&layout, problem, limits->max_allocation_bytes);
     } else {
         choose_at_once(&layout, problem, limits);
     }
+    layout.host_bytes = layout.parts * layout.part_places *
+                        (problem->frequencies->dimension * sizeof(uint64_t) + layout.real_bytes);
     return layout;
+}
+
+/* k or -k, whichever has its rest modulo the first length in the first half. */
+static uint32_t line_slot(const ps_nufft_layout *layout, uint32_t k) {
+    const uint32_t first = layout->choice.lengths[0];
+    const uint32_t rest = k % first;
+    uint32_t kept[2];
+    ps_nufft_whole_kept(&layout->choice, kept);
+    const uint32_t k_1 = rest <= first / 2 ? rest : first - rest;
+    const uint32_t q = rest <= first / 2 ? kept[1] + k / first : kept[1] - k / first - 1;
+    return (k_1 / layout->lanes * (2 * kept[1] + 1) + q) * layout->lanes + k_1 % layout->lanes;
 }
 
 uint32_t ps_nufft_slot(const ps_nufft_layout *layout, const int32_t *k, unsigned dimension) {
@@ -182,6 +317,9 @@ uint32_t ps_nufft_slot(const ps_nufft_layout *layout, const int32_t *k, unsigned
     const uint32_t within = choice->stride != 0 ? along % choice->stride : along;
     unsigned num = 0;
     const ps_nufft_axis *last = ps_nufft_last_axes(choice, &num);
+    if (choice->is_whole && dimension == 1) {
+        return line_slot(layout, along);
+    }
     uint32_t slot = within / layout->lanes;
     for (unsigned i = num;
          i-- > 0;) { /* kernels/nufft/columns.cl writes the first axis innermost */

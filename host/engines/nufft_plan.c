@@ -64,13 +64,15 @@ static pspec_status create_gains(ps_nufft_plan *plan, ps_precision precision, ps
     return status;
 }
 
-pspec_status ps_nufft_plan_create(ps_nufft_plan *out, const ps_nufft_axis *axis, double tolerance,
-                                  ps_precision precision, ps_device *device, ps_error *error) {
+pspec_status ps_nufft_plan_create(ps_nufft_plan *out, const ps_nufft_axis *axis, bool has_transform,
+                                  double tolerance, ps_precision precision, ps_device *device,
+                                  ps_error *error) {
     *out =
         (ps_nufft_plan){.axis = *axis, .bins = ps_nufft_bins(axis), .pitch = ps_nufft_pitch(axis)};
     PS_TRY(create_polynomials(out, tolerance, precision, device, error));
     PS_TRY(create_gains(out, precision, device, error));
-    return ps_fft_plan_create(&out->fft, axis->n, precision, device, error);
+    return has_transform ? ps_fft_plan_create(&out->fft, axis->n, precision, device, error)
+                         : PSPEC_OK;
 }
 
 void ps_nufft_plan_free(ps_nufft_plan *plan) {

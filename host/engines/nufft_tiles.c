@@ -143,13 +143,13 @@ static pspec_status make_columns(ps_nufft_tiles *self, size_t num_realizations,
     const size_t kept = 2 * (size_t)along->axis.max_frequency + 1;
     const ps_range range =
         group_range(self, self->layout->num_tiles * kept, num_realizations, &across->axis, 1);
-    return PS_LAUNCH(self->device, self->columns, &range, error, PS_BUFFER(self->grid),
-                     PS_BUFFER(across->fft.radices), PS_BUFFER(across->fft.twiddles),
-                     PS_BUFFER(across->fft.position), PS_BUFFER(across->gains),
-                     PS_BUFFER(along->gains), PS_BUFFER(*target->scales), PS_BUFFER(*target->power),
-                     PS_U32(target->realization), PS_U64(self->layout->stride),
-                     PS_U32(across->axis.n), PS_U32(across->axis.max_frequency),
-                     PS_U32(along->axis.max_frequency), PS_LOCAL(row_bytes(self, &across->axis)));
+    return PS_LAUNCH(
+        self->device, self->columns, &range, error, PS_BUFFER(self->grid),
+        PS_BUFFER(across->fft.radices), PS_BUFFER(across->fft.twiddles),
+        PS_BUFFER(across->fft.position), PS_BUFFER(across->gains), PS_BUFFER(along->gains),
+        PS_BUFFER(*target->scales), PS_BUFFER(*target->power), PS_U32(target->realization),
+        PS_U64(self->layout->stride), PS_U32(across->axis.n), PS_U32(across->axis.max_frequency),
+        PS_U32(along->axis.max_frequency), PS_U64(0), PS_LOCAL(row_bytes(self, &across->axis)));
 }
 
 pspec_status ps_nufft_tiles_run(ps_nufft_tiles *tiles, size_t num_realizations,

@@ -78,11 +78,15 @@ static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
                     (double)ps_divide_up((size_t)problem->num_points, layout.slab) *
                     (layout.is_grid ? 2 : 1),
         .fixed_bytes = (double)layout.fixed_bytes,
+        .point_bytes = (double)layout.point_bytes,
         .bytes_per_realization = (double)layout.bytes_per_realization,
+        .row_bytes = (double)(layout.max_stride * layout.real_bytes),
         .largest_buffer_per_realization = (double)layout.largest_buffer_per_realization};
 }
 
-static double error_of(const ps_problem *problem, ps_precision precision, double mean_power) {
+static double error_of(const ps_problem *problem, const ps_device_limits *limits,
+                       ps_precision precision, double mean_power) {
+    (void)limits;
     /* Fixed-point phases: 2 + (2 + d) 2^-24 sum |k| units of 2^-32 turns (float, torus/phase.h), 2^-65 |k|
      * turns (coordinates below 2^-11). Uniform errors: standard deviation 1/sqrt(12) of a unit. */
     const double dimension = problem->frequencies->dimension;
@@ -171,10 +175,9 @@ static pspec_status create_list(torus_direct *self, ps_error *error) {
     return PSPEC_OK;
 }
 
-/* Rows are padded to whole groups of lanes and begin as zeros: accumulation reads whole groups. */
+/* Rows begin as zeros: accumulation reads what stands between the frequencies, too. */
 static pspec_status create_rows(torus_direct *self, ps_error *error) {
-    const size_t lanes = self->layout.lanes;
-    const size_t num_rows = ps_round_up(self->batch, lanes);
+    const size_t num_rows = self->batch;
     PS_TRY(ps_buffer_create(self->device, &self->power,
                             num_rows * self->stride * self->layout.real_bytes, "powers of a batch",
                             error));

@@ -55,15 +55,18 @@ static void choose_slab(ps_torus_layout *layout, const ps_problem *problem,
         problem->num_points < layout->slab ? (size_t)problem->num_points : layout->slab;
 }
 
+/* Points and weights of a realization of a group. */
+static uint64_t point_bytes(const ps_torus_layout *layout, unsigned dimension) {
+    return layout->table_points * (dimension * sizeof(uint64_t) + layout->real_bytes);
+}
+
 /* Bytes that every realization of a group takes on the device, and their host copies. */
 static uint64_t group_member_bytes(const ps_torus_layout *layout, unsigned dimension) {
     const uint64_t row = (uint64_t)layout->lanes * layout->real_bytes;
     const uint64_t tiles = layout->left_tiles + layout->right_tiles;
     const uint64_t tables = layout->is_grid ? tiles * layout->table_points * 2 * row : 0;
     const uint64_t products = layout->max_pairs * layout->lanes * 8 * row;
-    const uint64_t points =
-        2 * layout->table_points * (dimension * sizeof(uint64_t) + layout->real_bytes);
-    return tables + products + points; /* points and weights are on the host, too */
+    return tables + products + 2 * point_bytes(layout, dimension); /* on the host, too */
 }
 
 static void choose_group(ps_torus_layout *layout, const ps_problem *problem,
@@ -98,9 +101,10 @@ static void count_bytes(ps_torus_layout *layout, unsigned dimension) {
     const uint64_t sums = (layout->num_chunks + 1) * tiles * 4 * row;
     layout->bytes_per_realization = power + sums + 2 * layout->real_bytes;
     layout->largest_buffer_per_realization = power > sums ? power : sums;
-    layout->fixed_bytes = layout->group * group_member_bytes(layout, dimension) +
-                          tiles * dimension * row + layout->max_pairs * 2 * sizeof(uint32_t) +
-                          layout->lanes * power; /* rows are padded to whole groups of lanes */
+    layout->point_bytes = point_bytes(layout, dimension);
+    layout->fixed_bytes =
+        layout->group * (group_member_bytes(layout, dimension) - 2 * layout->point_bytes) +
+        tiles * dimension * row + layout->max_pairs * 2 * sizeof(uint32_t);
     layout->largest_buffer = layout->group * largest(buffers, sizeof buffers / sizeof buffers[0]);
 }
 

@@ -26,8 +26,9 @@ typedef struct ps_torus_layout {
     size_t num_chunks;   /* in a slab */
     size_t table_points; /* from table row to table row: no more than a slab or a pattern has */
     uint64_t fixed_bytes, bytes_per_realization; /* of the job; of each row of a batch */
-    uint64_t largest_buffer;                     /* of those that do not depend on the batch */
-    uint64_t largest_buffer_per_realization;     /* of the others */
+    uint64_t point_bytes;    /* of each realization besides, on the device and on the host */
+    uint64_t largest_buffer; /* of those that do not depend on the batch */
+    uint64_t largest_buffer_per_realization; /* of the others */
 } ps_torus_layout;
 
 /* Without enumerating frequencies: cheap for planning. */

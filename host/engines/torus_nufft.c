@@ -9,6 +9,7 @@
 #include "engines/nufft_places.h"
 #include "engines/nufft_plan.h"
 #include "engines/nufft_tiles.h"
+#include "engines/nufft_whole.h"
 #include "engines/reals.h"
 
 #include <math.h>
@@ -23,9 +24,11 @@ typedef struct torus_nufft {
     ps_nufft_plan plans[PS_NUFFT_MAX_AXES];
     ps_nufft_places places;
     ps_nufft_grid large;  /* gridded choices only */
+    ps_nufft_whole whole; /* whole realizations */
     ps_nufft_tiles tiles; /* all others */
     ps_buffer means, scales, power;
     double *means_of_parts;
+    double large_sum; /* of the weights added so far */
 } torus_nufft;
 
 /* ---- what the planner asks --------------------------------------------------------------- */
@@ -73,9 +76,9 @@ static bool applicable(const ps_problem *problem, const ps_device_limits *limits
 static double launches_of(const ps_nufft_layout *layout, double num_points, double realizations) {
     unsigned num_last = 0;
     ps_nufft_last_axes(&layout->choice, &num_last);
-    if (!layout->choice.is_gridded) {
+    if (!ps_nufft_is_large(&layout->choice)) {
         const double rounds = ceil(realizations / (double)layout->parts);
-        return rounds * (1 + num_last);
+        return rounds * (layout->choice.is_whole ? 1 : 1 + num_last);
     }
     const double chunks = ceil(num_points / ((double)layout->parts * (double)layout->part_points));
     return realizations * (2 * chunks + 1 + num_last);
@@ -91,12 +94,16 @@ static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
             realizations * ps_nufft_flops(&layout.choice, precision, (double)problem->num_points),
         .launches = launches_of(&layout, (double)problem->num_points, realizations),
         .fixed_bytes = (double)layout.fixed_bytes,
+        .host_bytes = (double)layout.host_bytes,
         .bytes_per_realization = (double)layout.bytes_per_realization,
-        .largest_buffer_per_realization = (double)layout.largest_buffer_per_realization};
+        .row_bytes = (double)layout.bytes_per_realization,
+        .largest_buffer_per_realization = (double)layout.largest_buffer_per_realization,
+        .takes_blocks = ps_nufft_is_large(&layout.choice)};
 }
 
-static double error_of(const ps_problem *problem, ps_precision precision, double mean_power) {
-    const ps_nufft_choice choice = ps_nufft_choose(problem, precision);
+static double error_of(const ps_problem *problem, const ps_device_limits *limits,
+                       ps_precision precision, double mean_power) {
+    const ps_nufft_choice choice = ps_nufft_choose(problem, limits, precision);
     return choice.num_axes == 0 ? HUGE_VAL
                                 : ps_nufft_error(&choice, problem, precision, mean_power);
 }
@@ -115,6 +122,7 @@ static void destroy(void *state) {
         ps_nufft_plan_free(&self->plans[i]);
     }
     ps_nufft_grid_free(&self->large);
+    ps_nufft_whole_free(&self->whole);
     ps_nufft_tiles_free(&self->tiles);
     ps_nufft_places_free(&self->places);
     free(self->means_of_parts);
@@ -134,18 +142,21 @@ static pspec_status create_buffers(torus_nufft *self, size_t rows, ps_error *err
 
 static pspec_status create_parts(torus_nufft *self, const ps_problem *problem, ps_error *error) {
     const ps_nufft_choice *choice = &self->layout.choice;
-    const size_t rows = ps_round_up(self->batch, self->layout.lanes);
     void *memory = NULL;
     PS_TRY(ps_allocate(&memory, self->layout.parts, sizeof(double), "means", error));
     self->means_of_parts = memory;
     for (unsigned i = 0; i < choice->num_axes; i++) {
-        PS_TRY(ps_nufft_plan_create(&self->plans[i], &choice->axes[i], problem->tolerance,
-                                    self->precision, self->device, error));
+        PS_TRY(ps_nufft_plan_create(&self->plans[i], &choice->axes[i], !choice->is_whole,
+                                    problem->tolerance, self->precision, self->device, error));
+    }
+    PS_TRY(create_buffers(self, self->batch, error));
+    if (choice->is_whole) {
+        return ps_nufft_whole_create(&self->whole, &self->layout, self->plans, self->precision,
+                                     self->device, error);
     }
     PS_TRY(ps_nufft_places_create(&self->places, &self->layout, self->frequencies->dimension,
                                   self->precision, self->device, error));
-    PS_TRY(create_buffers(self, rows, error));
-    if (choice->is_gridded) {
+    if (ps_nufft_is_large(choice)) {
         return ps_nufft_grid_create(&self->large, &self->layout, self->plans, &self->places,
                                     self->precision, self->device, error);
     }
@@ -164,7 +175,7 @@ static pspec_status create(void **state, const ps_problem *problem, ps_precision
     self->precision = precision;
     self->batch = batch;
     self->layout = ps_nufft_layout_make(problem, ps_device_get_limits(device), precision);
-    if (!self->layout.choice.is_gridded && self->layout.parts > batch) {
+    if (!ps_nufft_is_large(&self->layout.choice) && self->layout.parts > batch) {
         self->layout.parts = batch;
     }
     const pspec_status status = create_parts(self, problem, error);
@@ -190,14 +201,21 @@ static size_t get_stride(const void *state) {
 
 /* ---- run --------------------------------------------------------------------------------- */
 
-/* What frequency 0 leaves in a cell, to be taken off: it then does not round into the others. */
-static double mean_of_cells(const torus_nufft *self, const pspec_pattern *pattern, int exponent) {
-    const ps_nufft_choice *choice = &self->layout.choice;
-    double mean = 0;
-    for (size_t j = 0; pattern->weights != NULL && j < pattern->num_points; j++) {
-        mean += ldexp(pattern->weights[j], -exponent);
+/* A sum of weights, and more of them. */
+static double add_weights(double sum, const pspec_pattern *pattern, int exponent) {
+    if (pattern->weights == NULL) {
+        return sum + (double)pattern->num_points;
     }
-    mean = pattern->weights != NULL ? mean : (double)pattern->num_points;
+    for (size_t j = 0; j < pattern->num_points; j++) {
+        sum += ldexp(pattern->weights[j], -exponent);
+    }
+    return sum;
+}
+
+/* What frequency 0 leaves in a cell, to be taken off: it then does not round into the others. */
+static double mean_of_cells(const torus_nufft *self, double weight_sum) {
+    const ps_nufft_choice *choice = &self->layout.choice;
+    double mean = weight_sum;
     for (unsigned i = 0; i < choice->num_axes; i++) {
         const ps_nufft_axis *axis = &choice->axes[i];
         const double q = i == 0 && choice->stride != 0 ? axis->max_frequency : 0;
@@ -206,10 +224,14 @@ static double mean_of_cells(const torus_nufft *self, const pspec_pattern *patter
     return mean;
 }
 
+static int exponent_of(const ps_batch *batch, size_t pattern) {
+    return batch->exponents != NULL ? batch->exponents[pattern] : 0;
+}
+
 static pspec_status upload_means(torus_nufft *self, const ps_batch *some, ps_error *error) {
     for (size_t r = 0; r < some->num_patterns; r++) {
-        self->means_of_parts[r] = mean_of_cells(self, &some->patterns[r],
-                                                some->exponents != NULL ? some->exponents[r] : 0);
+        self->means_of_parts[r] =
+            mean_of_cells(self, add_weights(0, &some->patterns[r], exponent_of(some, r)));
     }
     return ps_reals_write(self->device, &self->means, self->precision, self->means_of_parts,
                           some->num_patterns, error);
@@ -217,24 +239,70 @@ static pspec_status upload_means(torus_nufft *self, const ps_batch *some, ps_err
 
 static pspec_status run_some(torus_nufft *self, const ps_batch *some, const ps_nufft_target *target,
                              ps_error *error) {
-    PS_TRY(ps_nufft_places_make(&self->places, some, error));
     PS_TRY(upload_means(self, some, error));
+    if (self->layout.choice.is_whole) {
+        return ps_nufft_whole_run(&self->whole, some, &self->means, target, error);
+    }
+    PS_TRY(ps_nufft_places_make(&self->places, some, error));
     return ps_nufft_tiles_run(&self->tiles, some->num_patterns, &self->means, target, error);
 }
 
+/* ---- very large sets --------------------------------------------------------------------- */
+
+static pspec_status begin_large(void *state, ps_error *error) {
+    torus_nufft *self = state;
+    self->large_sum = 0;
+    return ps_nufft_grid_begin(&self->large, error);
+}
+
+static pspec_status add_large(void *state, const ps_batch *block, ps_error *error) {
+    torus_nufft *self = state;
+    self->large_sum = add_weights(self->large_sum, &block->patterns[0], exponent_of(block, 0));
+    return ps_nufft_grid_add(&self->large, block, error);
+}
+
+static pspec_status end_large(torus_nufft *self, const ps_nufft_target *target, ps_error *error) {
+    const double mean = mean_of_cells(self, self->large_sum);
+    PS_TRY(ps_reals_write(self->device, &self->means, self->precision, &mean, 1, error));
+    return ps_nufft_grid_finish(&self->large, &self->means, target, error);
+}
+
+static size_t stream_unit(const void *state) {
+    const torus_nufft *self = state;
+    return ps_nufft_is_large(&self->layout.choice) ? self->layout.parts * self->layout.part_points
+                                                   : 0;
+}
+
+static ps_rows show_rows(const torus_nufft *self, size_t num_rows) {
+    return (ps_rows){.num_rows = num_rows,
+                     .stride = self->layout.stride,
+                     .precision = self->precision,
+                     .device = self->power};
+}
+
+static pspec_status finish_large(void *state, double scale, ps_rows *rows, ps_error *error) {
+    torus_nufft *self = state;
+    const ps_nufft_target target = {&self->power, &self->scales, 0};
+    PS_TRY(ps_reals_write(self->device, &self->scales, self->precision, &scale, 1, error));
+    *rows = show_rows(self, 1);
+    return end_large(self, &target, error);
+}
+
+static const ps_engine_stream stream = {
+    .unit = stream_unit, .begin = begin_large, .add = add_large, .finish = finish_large};
+
 static pspec_status run_large(torus_nufft *self, const ps_batch *one, const ps_nufft_target *target,
                               ps_error *error) {
-    PS_TRY(ps_nufft_grid_begin(&self->large, error));
-    PS_TRY(ps_nufft_grid_add(&self->large, one, error));
-    PS_TRY(upload_means(self, one, error));
-    return ps_nufft_grid_finish(&self->large, &self->means, target, error);
+    PS_TRY(begin_large(self, error));
+    PS_TRY(add_large(self, one, error));
+    return end_large(self, target, error);
 }
 
 static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_error *error) {
     torus_nufft *self = state;
     PS_TRY(ps_reals_write(self->device, &self->scales, self->precision, batch->scales,
                           batch->num_patterns, error));
-    const bool is_large = self->layout.choice.is_gridded;
+    const bool is_large = ps_nufft_is_large(&self->layout.choice);
     const size_t at_once = is_large ? 1 : self->layout.parts;
     for (size_t row = 0; row < batch->num_patterns; row += at_once) {
         const size_t rest = batch->num_patterns - row;
@@ -247,10 +315,7 @@ static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_er
         PS_TRY(is_large ? run_large(self, &some, &target, error)
                         : run_some(self, &some, &target, error));
     }
-    *rows = (ps_rows){.num_rows = batch->num_patterns,
-                      .stride = self->layout.stride,
-                      .precision = self->precision,
-                      .device = self->power};
+    *rows = show_rows(self, batch->num_patterns);
     return PSPEC_OK;
 }
 
@@ -266,8 +331,15 @@ static void describe(const void *state, ps_text *text) {
                        axis->n / (2.0 * axis->max_frequency), axis->window.width,
                        self->plans[i].degree);
     }
-    ps_text_append(text, "%s group=%lu at_once=%zu)", choice->is_gridded ? " gridded" : "",
-                   (unsigned long)self->layout.group, self->layout.parts);
+    if (choice->is_whole) {
+        ps_text_append(text, " whole=%lux%lu", (unsigned long)choice->lengths[0],
+                       (unsigned long)choice->lengths[1]);
+    } else if (choice->is_gridded) {
+        ps_text_append(text, " gridded");
+    } else {
+        ps_text_append(text, " group=%lu", (unsigned long)self->layout.group);
+    }
+    ps_text_append(text, " at_once=%zu)", self->layout.parts);
 }
 
 const ps_engine ps_torus_nufft = {
@@ -283,6 +355,7 @@ const ps_engine ps_torus_nufft = {
     .get_slots = get_slots,
     .get_stride = get_stride,
     .run = run,
+    .stream = &stream,
     .describe = describe,
     .destroy = destroy,
 };

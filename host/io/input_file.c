@@ -74,6 +74,7 @@ static pspec_status open_input(ps_input *input, const char *path, ps_error *erro
         return ps_input_fail(input->name, error);
     }
     PS_TRY(check_kind(input, error));
+    input->can_reopen = input->is_seekable && strcmp(path, "-") != 0;
     void *memory = NULL;
     PS_TRY(ps_allocate(&memory, BUFFER_BYTES, 1, "an input buffer", error));
     input->buffer = memory;

@@ -20,6 +20,7 @@ typedef struct ps_input {
     unsigned char *buffer; /* read, but not yet taken: [begin, end) */
     size_t begin, end;
     bool is_seekable; /* a regular file, not compressed */
+    bool can_reopen;  /* a regular file that has a path */
 } ps_input;
 
 /* Opens path, or standard input for "-". Folders and empty files are refused; gzip is recognised by

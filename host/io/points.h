@@ -85,6 +85,10 @@ pspec_status ps_points_next(ps_point_reader *reader, ps_point_set *set, bool *ha
  * the set is complete with them; at the end of the input no points come and *has_set is false. */
 pspec_status ps_points_next_block(ps_point_reader *reader, ps_point_set *set, size_t max_points,
                                   bool *has_set, bool *ends_set, ps_error *error) PS_MUST_CHECK;
+/* Points of every set, when the input tells before they come and they are really there; else 0. */
+size_t ps_points_per_set(const ps_point_reader *reader);
+/* Would another ps_points_open of the same path give the same points? Not of standard input, nor of a pipe. */
+bool ps_points_can_reopen(const ps_point_reader *reader);
 /* Names of the format and of the columns in use, for the header of results; static storage. The
  * columns are known after the first set. */
 const char *ps_points_format(const ps_point_reader *reader);

@@ -260,6 +260,14 @@ pspec_status ps_points_next_block(ps_point_reader *reader, ps_point_set *set, si
     return check_range(reader, error);
 }
 
+size_t ps_points_per_set(const ps_point_reader *reader) {
+    return reader->rows_per_set;
+}
+
+bool ps_points_can_reopen(const ps_point_reader *reader) {
+    return reader->input.can_reopen;
+}
+
 pspec_status ps_points_next(ps_point_reader *reader, ps_point_set *set, bool *has_set,
                             ps_error *error) {
     bool has_block = true;

@@ -1,26 +1,10 @@
-#include "job/estimator.h"
+#include "job/estimator_private.h"
 
 #include "base/memory.h"
 #include "job/self_check.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-struct ps_estimator {
-    ps_estimator_options options;
-    ps_device *device;
-    void *engine_state; /* NULL after a refused allocation, until it is made again */
-    size_t batch;
-    ps_bins bins;
-    uint32_t *slots;
-    ps_accumulator *accumulator;
-    double reference_points; /* N_ref */
-    double *scales;          /* [batch] */
-    int *exponents;          /* [batch] of the weights */
-    ps_pattern_sums *sums;   /* [batch] */
-    ps_pattern_totals totals;
-    ps_accuracy accuracy;
-};
 
 /* ---- create ------------------------------------------------------------------------------ */
 
@@ -33,20 +17,19 @@ static pspec_status create_engine(ps_estimator *self, ps_error *error) {
                                    self->batch, self->device, error);
 }
 
-static void halve_batch(ps_estimator *self) {
+void ps_estimator_halve_batch(ps_estimator *self) {
     self->batch /= 2;
     ps_log_say(&self->options.log, "memory was refused: %zu realizations at a time instead",
                self->batch);
 }
 
-/* The same, for half as many realizations as long as memory is refused. */
-static pspec_status create_fitting_engine(ps_estimator *self, ps_error *error) {
+pspec_status ps_estimator_make_engine(ps_estimator *self, ps_error *error) {
     for (;;) {
         const pspec_status status = create_engine(self, error);
         if (status != PSPEC_ERROR_MEMORY || self->batch == 1) {
             return status;
         }
-        halve_batch(self);
+        ps_estimator_halve_batch(self);
     }
 }
 
@@ -73,13 +56,13 @@ static pspec_status create_accumulator(ps_estimator *self, ps_error *error) {
 /* Engine and accumulator, for half as many realizations as long as memory is refused to either. */
 static pspec_status create_parts(ps_estimator *self, ps_error *error) {
     for (;;) {
-        PS_TRY(create_fitting_engine(self, error));
+        PS_TRY(ps_estimator_make_engine(self, error));
         self->options.engine->get_slots(self->engine_state, self->slots);
         const pspec_status status = create_accumulator(self, error);
         if (status != PSPEC_ERROR_MEMORY || self->batch == 1) {
             return status;
         }
-        halve_batch(self);
+        ps_estimator_halve_batch(self);
     }
 }
 
@@ -151,24 +134,28 @@ pspec_status ps_estimator_check(const ps_estimator *estimator, const pspec_patte
                             options->normalization, realization, sums, error);
 }
 
+void ps_estimator_set_sums(ps_estimator *self, size_t pattern, const ps_pattern_sums *sums) {
+    const double sum = sums->weight_sum;
+    self->sums[pattern] = *sums;
+    self->exponents[pattern] = sums->exponent;
+    self->scales[pattern] = self->options.normalization == PSPEC_NORMALIZATION_POWER
+                                ? self->reference_points / (sum * sum)
+                                : 1 / sums->weight_square_sum;
+}
+
 /* Scales of the patterns of a batch, whose sums are known or found here, and the largest number of
  * points. */
 static pspec_status prepare(ps_estimator *self, const pspec_pattern *patterns,
                             const ps_pattern_sums *sums, size_t num_patterns, uint64_t *longest,
                             ps_error *error) {
-    const pspec_normalization normalization = self->options.normalization;
+    *longest = 0;
     for (size_t r = 0; r < num_patterns; r++) {
-        if (sums != NULL) {
-            self->sums[r] = sums[r];
-        } else {
-            PS_TRY(ps_estimator_check(self, &patterns[r], self->totals.num_realizations + r,
-                                      &self->sums[r], error));
+        ps_pattern_sums found = {0};
+        if (sums == NULL) {
+            PS_TRY(ps_estimator_check(self, &patterns[r], self->totals.num_realizations + r, &found,
+                                      error));
         }
-        const double sum = self->sums[r].weight_sum;
-        self->exponents[r] = self->sums[r].exponent;
-        self->scales[r] = normalization == PSPEC_NORMALIZATION_POWER
-                              ? self->reference_points / (sum * sum)
-                              : 1 / self->sums[r].weight_square_sum;
+        ps_estimator_set_sums(self, r, sums != NULL ? &sums[r] : &found);
         *longest = patterns[r].num_points > *longest ? patterns[r].num_points : *longest;
     }
     return PSPEC_OK;
@@ -209,8 +196,8 @@ static void count_patterns(ps_estimator *self, const pspec_pattern *patterns, si
     }
 }
 
-static ps_batch make_batch(const ps_estimator *self, const pspec_pattern *patterns,
-                           size_t num_patterns) {
+ps_batch ps_estimator_make_batch(const ps_estimator *self, const pspec_pattern *patterns,
+                                 size_t num_patterns) {
     return (ps_batch){.num_patterns = num_patterns,
                       .patterns = patterns,
                       .scales = self->scales,
@@ -230,19 +217,19 @@ static pspec_status compare_with_referee(ps_estimator *self, const ps_rows *rows
         .exponent = self->exponents[0],
         .scale = self->scales[0],
         .weight_square_sum = self->sums[0].weight_square_sum,
-        .engine_error = self->options.engine->error(problem, self->options.precision, 1),
+        .engine_error = ps_estimator_error_at(self, 1),
     };
     return ps_self_check(&input, self->device, &self->accuracy.self_check, error);
 }
 
-/* A pattern too large for long double sums is checked by its first points, in a run of their own. */
-static pspec_status check_beginning(ps_estimator *self, const pspec_pattern *whole,
-                                    ps_error *error) {
-    pspec_pattern pattern = *whole;
+pspec_status ps_estimator_check_beginning(ps_estimator *self, const pspec_pattern *beginning,
+                                          ps_error *error) {
+    pspec_pattern pattern = *beginning;
     ps_rows rows = {0};
     const double scale = self->scales[0];
     const ps_pattern_sums sums = self->sums[0];
-    pattern.num_points = PS_SELF_CHECK_POINTS;
+    pattern.num_points =
+        pattern.num_points < PS_SELF_CHECK_POINTS ? pattern.num_points : PS_SELF_CHECK_POINTS;
     if (ps_pattern_check(&pattern, pattern.dimension, PSPEC_NORMALIZATION_EFFECTIVE, 0,
                          &self->sums[0], NULL) != PSPEC_OK) {
         self->sums[0] = sums; /* these weights are all 0: nothing to compare */
@@ -250,7 +237,7 @@ static pspec_status check_beginning(ps_estimator *self, const pspec_pattern *who
     }
     self->exponents[0] = self->sums[0].exponent;
     self->scales[0] = 1 / self->sums[0].weight_square_sum;
-    const ps_batch batch = make_batch(self, &pattern, 1);
+    const ps_batch batch = ps_estimator_make_batch(self, &pattern, 1);
     pspec_status status = self->options.engine->run(self->engine_state, &batch, &rows, error);
     if (status == PSPEC_OK) {
         status = compare_with_referee(self, &rows, &pattern, error);
@@ -267,14 +254,14 @@ static pspec_status run_batch(ps_estimator *self, const pspec_pattern *patterns,
                               size_t *num_patterns, ps_rows *rows, ps_error *error) {
     for (;;) {
         *num_patterns = *num_patterns < self->batch ? *num_patterns : self->batch;
-        const ps_batch batch = make_batch(self, patterns, *num_patterns);
+        const ps_batch batch = ps_estimator_make_batch(self, patterns, *num_patterns);
         const pspec_status status =
             self->options.engine->run(self->engine_state, &batch, rows, error);
         if (status != PSPEC_ERROR_MEMORY || self->batch == 1) {
             return status;
         }
-        halve_batch(self);
-        PS_TRY(create_fitting_engine(self, error));
+        ps_estimator_halve_batch(self);
+        PS_TRY(ps_estimator_make_engine(self, error));
     }
 }
 
@@ -284,7 +271,7 @@ static pspec_status run_checked(ps_estimator *self, const pspec_pattern *pattern
     const bool is_due = self->options.self_check && !self->accuracy.was_checked;
     const bool is_large = patterns[0].num_points > PS_SELF_CHECK_POINTS;
     if (is_due && is_large) {
-        PS_TRY(check_beginning(self, patterns, error));
+        PS_TRY(ps_estimator_check_beginning(self, patterns, error));
     }
     PS_TRY(run_batch(self, patterns, num_patterns, rows, error));
     if (is_due && !is_large) {
@@ -299,25 +286,36 @@ static pspec_status enlarge(ps_estimator *self, uint64_t num_points, ps_error *e
         &self->options.log, "a pattern has %llu points, more than %llu: the engine is made anew",
         (unsigned long long)num_points, (unsigned long long)self->options.problem.num_points);
     self->options.problem.num_points = num_points;
-    return create_fitting_engine(self, error);
+    return ps_estimator_make_engine(self, error);
+}
+
+pspec_status ps_estimator_get_ready(ps_estimator *self, uint64_t num_points, ps_error *error) {
+    if (num_points > self->options.problem.num_points) {
+        return enlarge(self, num_points, error);
+    }
+    return self->engine_state == NULL
+               ? ps_estimator_make_engine(self, error) /* refused before a reset */
+               : PSPEC_OK;
+}
+
+pspec_status ps_estimator_take(ps_estimator *self, const ps_rows *rows,
+                               const pspec_pattern *patterns, size_t num_patterns,
+                               ps_error *error) {
+    const double *bin_powers = NULL;
+    PS_TRY(ps_accumulator_add(self->accumulator, rows, &bin_powers, error));
+    measure_powers(self, bin_powers, num_patterns);
+    count_patterns(self, patterns, num_patterns);
+    return PSPEC_OK;
 }
 
 static pspec_status add_batch(ps_estimator *self, const pspec_pattern *patterns,
                               const ps_pattern_sums *sums, size_t *num_patterns, ps_error *error) {
-    uint64_t longest = self->options.problem.num_points;
+    uint64_t longest = 0;
     ps_rows rows = {0};
-    const double *bin_powers = NULL;
     PS_TRY(prepare(self, patterns, sums, *num_patterns, &longest, error));
-    if (longest > self->options.problem.num_points) {
-        PS_TRY(enlarge(self, longest, error));
-    } else if (self->engine_state == NULL) { /* refused before a reset */
-        PS_TRY(create_fitting_engine(self, error));
-    }
+    PS_TRY(ps_estimator_get_ready(self, longest, error));
     PS_TRY(run_checked(self, patterns, num_patterns, &rows, error));
-    PS_TRY(ps_accumulator_add(self->accumulator, &rows, &bin_powers, error));
-    measure_powers(self, bin_powers, *num_patterns);
-    count_patterns(self, patterns, *num_patterns);
-    return PSPEC_OK;
+    return ps_estimator_take(self, &rows, patterns, *num_patterns, error);
 }
 
 pspec_status ps_estimator_add_checked(ps_estimator *estimator, const pspec_pattern *patterns,
@@ -342,59 +340,4 @@ pspec_status ps_estimator_reset(ps_estimator *estimator, ps_error *error) {
     estimator->totals = (ps_pattern_totals){0};
     estimator->accuracy = (ps_accuracy){0};
     return ps_accumulator_reset(estimator->accumulator, error);
-}
-
-/* ---- results ----------------------------------------------------------------------------- */
-
-static pspec_status require_realizations(const ps_estimator *self, ps_error *error) {
-    return self->totals.num_realizations > 0
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INPUT, "there are no point sets to take a spectrum of");
-}
-
-pspec_status ps_estimator_spectrum(ps_estimator *estimator, ps_spectrum *out, ps_error *error) {
-    const ps_pattern_totals *totals = &estimator->totals;
-    PS_TRY(require_realizations(estimator, error));
-    const double mean_points = totals->sum_points / (double)totals->num_realizations;
-    const double factor = estimator->options.normalization == PSPEC_NORMALIZATION_POWER
-                              ? mean_points / estimator->reference_points
-                              : 1;
-    return ps_spectrum_create(out, estimator->options.problem.frequencies, &estimator->bins,
-                              estimator->accumulator, factor, totals,
-                              estimator->options.want_frequencies, error);
-}
-
-pspec_status ps_estimator_sums(ps_estimator *estimator, ps_spectrum_sums *out, ps_error *error) {
-    const ps_estimator_options *options = &estimator->options;
-    PS_TRY(require_realizations(estimator, error));
-    PS_TRY(ps_spectrum_sums_create(out, options->problem.frequencies, estimator->bins.num, error));
-    out->exact_shells = options->exact_shells;
-    out->normalization = options->normalization;
-    out->reference_points =
-        options->normalization == PSPEC_NORMALIZATION_POWER ? estimator->reference_points : 1;
-    out->totals = estimator->totals;
-    out->error = ps_estimator_accuracy(estimator).error;
-    const pspec_status status =
-        ps_accumulator_sums(estimator->accumulator, out->bins, out->powers, error);
-    if (status != PSPEC_OK) {
-        ps_spectrum_sums_free(out);
-    }
-    return status;
-}
-
-const ps_bins *ps_estimator_bins(const ps_estimator *estimator) {
-    return &estimator->bins;
-}
-
-ps_accuracy ps_estimator_accuracy(const ps_estimator *estimator) {
-    ps_accuracy accuracy = estimator->accuracy;
-    accuracy.error = estimator->options.engine->error(
-        &estimator->options.problem, estimator->options.precision, accuracy.largest_mean_power);
-    return accuracy;
-}
-
-void ps_estimator_describe(const ps_estimator *estimator, ps_text *text) {
-    if (estimator->engine_state != NULL) {
-        estimator->options.engine->describe(estimator->engine_state, text);
-    }
 }

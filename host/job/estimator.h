@@ -56,6 +56,23 @@ pspec_status ps_estimator_check(const ps_estimator *estimator, const pspec_patte
                                 uint64_t realization, ps_pattern_sums *sums,
                                 ps_error *error) PS_MUST_CHECK;
 
+/* A pattern that is never in memory as a whole. What its scale needs is known before its points come. */
+typedef struct ps_pattern_stream {
+    unsigned dimension;
+    uint64_t num_points;
+    ps_pattern_sums sums;
+    /* The next block: a multiple of `unit` points, any number of them at the end of the pattern, and none
+     * behind it. */
+    pspec_status (*next)(void *payload, size_t unit, pspec_pattern *block, ps_error *error);
+    void *payload;
+} ps_pattern_stream;
+
+/* May a pattern come in blocks? That depends on engine and problem, not on the pattern. */
+bool ps_estimator_can_stream(const ps_estimator *estimator);
+/* Adds one realization in blocks, to the bit as ps_estimator_add would. */
+pspec_status ps_estimator_add_stream(ps_estimator *estimator, const ps_pattern_stream *stream,
+                                     ps_error *error) PS_MUST_CHECK;
+
 /* Forgets all realizations, and any failure: what follows has the bits of a new estimator. Allocates
  * nothing. */
 pspec_status ps_estimator_reset(ps_estimator *estimator, ps_error *error) PS_MUST_CHECK;

@@ -3,68 +3,96 @@
 #include <float.h>
 #include <math.h>
 
-static pspec_status check_coordinates(const pspec_pattern *pattern, uint64_t realization,
+static pspec_status check_coordinates(const ps_pattern_count *count, const pspec_pattern *block,
                                       ps_error *error) {
-    const size_t count = pattern->num_points * pattern->dimension;
-    for (size_t i = 0; i < count; i++) {
-        const double x = pattern->points[i];
+    const size_t num = block->num_points * block->dimension;
+    for (size_t i = 0; i < num; i++) {
+        const double x = block->points[i];
         if (!(x >= 0 && x < 1)) {
             return ps_fail(error, PSPEC_ERROR_INPUT,
-                           "set %llu, point %zu: coordinate %.17g is outside [0,1)",
-                           (unsigned long long)realization + 1, i / pattern->dimension + 1, x);
+                           "set %llu, point %llu: coordinate %.17g is outside [0,1)",
+                           (unsigned long long)count->realization + 1,
+                           (unsigned long long)(count->num_points + i / block->dimension + 1), x);
         }
     }
     return PSPEC_OK;
 }
 
-/* The exponent of the largest |w|, or a failure when a weight is not finite or all are 0. */
-static pspec_status find_exponent(const pspec_pattern *pattern, uint64_t realization, int *exponent,
+/* The exponent of the largest |w| so far; sums are kept in step, which changes none of their bits. */
+static pspec_status raise_exponent(ps_pattern_count *count, const double *weights,
+                                   size_t num_weights, ps_error *error) {
+    double largest = count->largest;
+    int exponent = 0;
+    for (size_t j = 0; j < num_weights; j++) {
+        if (!isfinite(weights[j])) {
+            return ps_fail(error, PSPEC_ERROR_INPUT,
+                           "set %llu, point %llu: weight %g is not finite",
+                           (unsigned long long)count->realization + 1,
+                           (unsigned long long)(count->num_weights + j + 1), weights[j]);
+        }
+        largest = fabs(weights[j]) > largest ? fabs(weights[j]) : largest;
+    }
+    frexp(largest, &exponent);
+    if (count->largest > 0 && exponent > count->exponent) {
+        const int raised = exponent - count->exponent;
+        count->sum = ldexpl(count->sum, -raised);
+        count->squares = ldexpl(count->squares, -2 * raised);
+        count->sizes = ldexpl(count->sizes, -raised);
+    }
+    count->largest = largest;
+    count->exponent = exponent;
+    return PSPEC_OK;
+}
+
+pspec_status ps_pattern_count_weights(ps_pattern_count *count, const double *weights,
+                                      size_t num_weights, ps_error *error) {
+    PS_TRY(raise_exponent(count, weights, num_weights, error));
+    for (size_t j = 0; j < num_weights; j++) {
+        const long double weight = ldexpl(weights[j], -count->exponent);
+        count->sum += weight;
+        count->squares += weight * weight;
+        count->sizes += fabsl(weight);
+    }
+    count->num_weights += num_weights;
+    return PSPEC_OK;
+}
+
+pspec_status ps_pattern_count_add(ps_pattern_count *count, const pspec_pattern *block,
                                   ps_error *error) {
-    double largest = 0;
-    for (size_t j = 0; j < pattern->num_points; j++) {
-        const double weight = pattern->weights[j];
-        if (!isfinite(weight)) {
-            return ps_fail(error, PSPEC_ERROR_INPUT, "set %llu, point %zu: weight %g is not finite",
-                           (unsigned long long)realization + 1, j + 1, weight);
-        }
-        largest = fabs(weight) > largest ? fabs(weight) : largest;
-    }
-    if (largest == 0) {
-        return ps_fail(error, PSPEC_ERROR_INPUT, "set %llu: all weights are 0",
-                       (unsigned long long)realization + 1);
-    }
-    frexp(largest, exponent);
-    return PSPEC_OK;
+    PS_TRY(check_coordinates(count, block, error));
+    count->num_points += block->num_points;
+    return block->weights != NULL
+               ? ps_pattern_count_weights(count, block->weights, block->num_points, error)
+               : PSPEC_OK;
 }
 
-static pspec_status sum_weights(const pspec_pattern *pattern, pspec_normalization normalization,
-                                uint64_t realization, ps_pattern_sums *sums, ps_error *error) {
-    long double sum = 0;
-    long double squares = 0;
-    long double sizes = 0;
-    PS_TRY(find_exponent(pattern, realization, &sums->exponent, error));
-    for (size_t j = 0; j < pattern->num_points; j++) {
-        const long double weight = ldexp(pattern->weights[j], -sums->exponent);
-        sum += weight;
-        squares += weight * weight;
-        sizes += fabsl(weight);
+pspec_status ps_pattern_count_finish(const ps_pattern_count *count,
+                                     pspec_normalization normalization, ps_pattern_sums *sums,
+                                     ps_error *error) {
+    const unsigned long long set = (unsigned long long)count->realization + 1;
+    if (count->num_weights == 0) {
+        *sums = (ps_pattern_sums){0, (double)count->num_points, (double)count->num_points};
+        return PSPEC_OK;
+    }
+    if (count->largest == 0) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "set %llu: all weights are 0", set);
     }
     /* A sum this small is what rounding of the weights leaves of an exact zero. */
-    const long double rounding = (long double)DBL_EPSILON * sizes;
-    if (fabsl(sum) <= rounding && normalization == PSPEC_NORMALIZATION_POWER) {
+    const long double rounding = (long double)DBL_EPSILON * count->sizes;
+    if (fabsl(count->sum) <= rounding && normalization == PSPEC_NORMALIZATION_POWER) {
         return ps_fail(error, PSPEC_ERROR_INPUT,
                        "set %llu: the weights sum to 0, so N |S|^2 / W^2 does not exist; use "
                        "--normalize effective",
-                       (unsigned long long)realization + 1);
+                       set);
     }
-    sums->weight_sum = (double)sum;
-    sums->weight_square_sum = (double)squares;
+    *sums = (ps_pattern_sums){count->exponent, (double)count->sum, (double)count->squares};
     return PSPEC_OK;
 }
 
 pspec_status ps_pattern_check(const pspec_pattern *pattern, unsigned dimension,
                               pspec_normalization normalization, uint64_t realization,
                               ps_pattern_sums *sums, ps_error *error) {
+    ps_pattern_count count = {.realization = realization};
     if (pattern->dimension != dimension) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "set %llu has dimension %u instead of %u",
                        (unsigned long long)realization + 1, pattern->dimension, dimension);
@@ -73,8 +101,6 @@ pspec_status ps_pattern_check(const pspec_pattern *pattern, unsigned dimension,
         return ps_fail(error, PSPEC_ERROR_INPUT, "set %llu has no points",
                        (unsigned long long)realization + 1);
     }
-    PS_TRY(check_coordinates(pattern, realization, error));
-    *sums = (ps_pattern_sums){0, (double)pattern->num_points, (double)pattern->num_points};
-    return pattern->weights == NULL ? PSPEC_OK
-                                    : sum_weights(pattern, normalization, realization, sums, error);
+    PS_TRY(ps_pattern_count_add(&count, pattern, error));
+    return ps_pattern_count_finish(&count, normalization, sums, error);
 }

@@ -4,6 +4,9 @@
 
 #include "base/status.h"
 
+#include <stddef.h>
+#include <stdint.h>
+
 /* Weights count as w 2^-exponent, which makes the largest |w| a number in [1/2, 1): so neither the
  * squares of double weights nor sums in single precision overflow or vanish. */
 typedef struct ps_pattern_sums {
@@ -12,8 +15,28 @@ typedef struct ps_pattern_sums {
     double weight_square_sum; /* V 2^(-2 exponent) */
 } ps_pattern_sums;
 
-/* realization counts from 0 and is only for messages. W = 0 under the default normalization is
- * PSPEC_ERROR_INPUT. */
+/* What is known of a pattern of which some points have been seen; {.realization = r} before the first.
+ * realization counts from 0 and is only for messages. */
+typedef struct ps_pattern_count {
+    uint64_t realization;
+    uint64_t num_points, num_weights;
+    double largest;                  /* |w| */
+    int exponent;                    /* of the largest */
+    long double sum, squares, sizes; /* of w, w^2, |w|, divided by powers of two as in the sums */
+} ps_pattern_count;
+
+/* Checks coordinates and counts points and weights of a block. Results do not depend on the blocks. */
+pspec_status ps_pattern_count_add(ps_pattern_count *count, const pspec_pattern *block,
+                                  ps_error *error) PS_MUST_CHECK;
+/* The same for weights that come without points. */
+pspec_status ps_pattern_count_weights(ps_pattern_count *count, const double *weights,
+                                      size_t num_weights, ps_error *error) PS_MUST_CHECK;
+/* W = 0 under the default normalization is PSPEC_ERROR_INPUT. */
+pspec_status ps_pattern_count_finish(const ps_pattern_count *count,
+                                     pspec_normalization normalization, ps_pattern_sums *sums,
+                                     ps_error *error) PS_MUST_CHECK;
+
+/* All of it, for a pattern in memory. */
 pspec_status ps_pattern_check(const pspec_pattern *pattern, unsigned dimension,
                               pspec_normalization normalization, uint64_t realization,
                               ps_pattern_sums *sums, ps_error *error) PS_MUST_CHECK;

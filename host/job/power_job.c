@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "job/power_frequencies.h"
+#include "job/power_sets.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -9,16 +10,9 @@
 
 struct ps_power_job {
     const ps_power_question *question;
-    ps_source *source;
-    ps_point_set *sets; /* [capacity] a batch on its way */
-    pspec_pattern *patterns;
-    size_t capacity;
+    ps_power_sets sets; /* of files, the first is read for planning */
     unsigned dimension;
-    size_t num_points;  /* of the first set */
-    ps_point_set first; /* of files: read for planning, and used by the run */
-    bool first_is_pending;
-    double *weights;
-    size_t num_weights;
+    uint64_t num_points; /* of the first set */
     ps_frequencies frequencies;
     ps_needs needs;
     ps_sampler_request request; /* what is really sampled: without a shift nobody needs */
@@ -61,25 +55,44 @@ static pspec_status open_sampler(ps_power_job *job, ps_error *error) {
     job->request = *question->sampler;
     job->request.homogenize = question->sampler->homogenize && !job->needs.no_shift;
     job->num_realizations = job->needs.one_realization ? 1 : question->num_realizations;
-    return ps_source_sampler(&job->source, &job->request, job->num_realizations, error);
+    return ps_source_sampler(&job->sets.source, &job->request, job->num_realizations, error);
+}
+
+/* Asked by the engine while it works, and while points are counted: progress has not changed since the last
+ * batch. */
+static bool should_stop(void *payload) {
+    const ps_power_job *job = payload;
+    const ps_power_question *question = job->question;
+    return question->progress != NULL &&
+           question->progress(job->num_done, job->num_realizations, question->payload) != 0;
+}
+
+static pspec_status open_files(ps_power_job *job, ps_error *error) {
+    const ps_power_question *question = job->question;
+    const ps_source_options options = {.points = question->point_options,
+                                       .whole_bytes = question->whole_bytes,
+                                       .should_stop = should_stop,
+                                       .payload = job};
+    return ps_source_files(&job->sets.source, question->paths, question->num_paths, &options,
+                           error);
 }
 
 /* The shape of the first set: a sampler's is known, a file is read. */
 static pspec_status find_shape(ps_power_job *job, ps_error *error) {
     const ps_power_question *question = job->question;
+    bool has_set = false;
     if (question->sampler != NULL) {
         job->dimension = question->sampler->dimension;
         job->num_points = question->sampler->num_points;
         return PSPEC_OK;
     }
-    PS_TRY(ps_source_files(&job->source, question->paths, question->num_paths,
-                           &question->point_options, error));
-    PS_TRY(ps_source_next(job->source, &job->first, &job->first_is_pending, error));
-    if (!job->first_is_pending) {
+    PS_TRY(open_files(job, error));
+    PS_TRY(ps_power_sets_peek(&job->sets, &has_set, error));
+    if (!has_set) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "there are no point sets to take a spectrum of");
     }
-    job->dimension = job->first.dimension;
-    job->num_points = job->first.num_points;
+    job->dimension = job->sets.next.dimension;
+    job->num_points = ps_power_sets_next_points(&job->sets);
     return PSPEC_OK;
 }
 
@@ -101,21 +114,23 @@ static pspec_status make_plan(ps_power_job *job, ps_error *error) {
 static pspec_status prepare(ps_power_job *job, ps_error *error) {
     const ps_power_question *question = job->question;
     PS_TRY(find_shape(job, error));
-    PS_TRY(
-        ps_power_frequencies(&job->frequencies, question, job->dimension, job->num_points, error));
+    PS_TRY(ps_power_frequencies(&job->frequencies, question, job->dimension,
+                                (size_t)job->num_points, error));
     find_needs(job);
     if (question->sampler != NULL) {
         PS_TRY(open_sampler(job, error));
     }
     if (question->weights_path != NULL) {
-        PS_TRY(ps_read_weights(question->weights_path, &job->weights, &job->num_weights, error));
+        PS_TRY(ps_power_sets_read_weights(&job->sets, question->weights_path, error));
     }
     job->problem = (ps_problem){
         .frequencies = &job->frequencies,
         .num_points = job->num_points,
         .planned_points = job->num_points,
         .num_realizations = job->num_realizations,
-        .has_weights = job->first.has_weights || job->weights != NULL,
+        .has_weights = job->sets.next.has_weights || job->sets.weights != NULL,
+        .block_points =
+            question->sampler == NULL && !job->sets.part.is_whole ? job->sets.part.block_points : 0,
         .tolerance = ps_plan_tolerance(question->tolerance, question->floor),
     };
     PS_TRY(open_device(job, error));
@@ -138,17 +153,6 @@ pspec_status ps_power_job_create(ps_power_job **out, const ps_power_question *qu
     return PSPEC_OK;
 }
 
-static void free_sets(ps_power_job *job) {
-    for (size_t i = 0; i < job->capacity; i++) {
-        ps_point_set_free(&job->sets[i]);
-    }
-    free(job->sets);
-    free(job->patterns);
-    job->sets = NULL;
-    job->patterns = NULL;
-    job->capacity = 0;
-}
-
 void ps_power_job_destroy(ps_power_job *job) {
     if (job == NULL) {
         return;
@@ -157,23 +161,12 @@ void ps_power_job_destroy(ps_power_job *job) {
     ps_spectrum_free(&job->spectrum);
     ps_text_free(&job->description);
     ps_frequencies_free(&job->frequencies);
-    ps_source_destroy(job->source);
-    ps_point_set_free(&job->first);
-    free_sets(job);
-    free(job->weights);
+    ps_power_sets_free(&job->sets);
     ps_device_close(job->device);
     free(job);
 }
 
 /* ---- run --------------------------------------------------------------------------------- */
-
-/* Asked by the engine while it works: progress has not changed since the last batch. */
-static bool should_stop(void *payload) {
-    const ps_power_job *job = payload;
-    const ps_power_question *question = job->question;
-    return question->progress != NULL &&
-           question->progress(job->num_done, job->num_realizations, question->payload) != 0;
-}
 
 static pspec_status create_estimator(ps_power_job *job, ps_error *error) {
     const ps_power_question *question = job->question;
@@ -195,57 +188,6 @@ static pspec_status create_estimator(ps_power_job *job, ps_error *error) {
     return ps_estimator_create(&job->estimator, &options, job->device, error);
 }
 
-static pspec_status allocate_sets(ps_power_job *job, ps_error *error) {
-    void *memory = NULL;
-    const size_t count = ps_estimator_batch(job->estimator);
-    free_sets(job);
-    PS_TRY(ps_allocate(&memory, count, sizeof(pspec_pattern), "patterns", error));
-    job->patterns = memory;
-    PS_TRY(ps_allocate(&memory, count, sizeof(ps_point_set), "patterns", error));
-    job->sets = memory;
-    job->capacity = count;
-    return PSPEC_OK;
-}
-
-static pspec_status set_pattern(const ps_power_job *job, const ps_point_set *set,
-                                pspec_pattern *pattern, ps_error *error) {
-    *pattern = (pspec_pattern){set->dimension, set->num_points, set->points,
-                               set->has_weights ? set->weights : NULL};
-    if (job->weights == NULL) {
-        return PSPEC_OK;
-    }
-    if (job->num_weights != set->num_points) {
-        return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "\"%s\" holds %zu weights, but a set has %zu points",
-                       job->question->weights_path, job->num_weights, set->num_points);
-    }
-    pattern->weights = job->weights;
-    return PSPEC_OK;
-}
-
-/* Fills the batch from the source; the set read for planning comes first. */
-static pspec_status fill_batch(ps_power_job *job, size_t *count, ps_error *error) {
-    bool has_set = true;
-    *count = 0;
-    while (*count < job->capacity) {
-        ps_point_set *set = &job->sets[*count];
-        if (job->first_is_pending) {
-            const ps_point_set empty = *set;
-            *set = job->first;
-            job->first = empty;
-            job->first_is_pending = false;
-        } else {
-            PS_TRY(ps_source_next(job->source, set, &has_set, error));
-        }
-        if (!has_set) {
-            return PSPEC_OK;
-        }
-        PS_TRY(set_pattern(job, set, &job->patterns[*count], error));
-        (*count)++;
-    }
-    return PSPEC_OK;
-}
-
 static pspec_status report_progress(ps_power_job *job, ps_error *error) {
     return should_stop(job)
                ? ps_fail(error, PSPEC_ERROR_CANCELLED, "cancelled after %llu realizations",
@@ -254,16 +196,16 @@ static pspec_status report_progress(ps_power_job *job, ps_error *error) {
 }
 
 static pspec_status run_once(ps_power_job *job, ps_error *error) {
-    size_t count = 0;
+    size_t num = 1;
     job->num_done = 0;
     PS_TRY(create_estimator(job, error));
-    PS_TRY(allocate_sets(job, error));
-    do {
+    PS_TRY(ps_power_sets_allocate(&job->sets, ps_estimator_batch(job->estimator), error));
+    while (num > 0) {
         PS_TRY(report_progress(job, error));
-        PS_TRY(fill_batch(job, &count, error));
-        PS_TRY(ps_estimator_add(job->estimator, job->patterns, count, error));
-        job->num_done += count;
-    } while (count == job->capacity);
+        PS_TRY(ps_power_sets_give(&job->sets, job->estimator, job->question->normalization, &num,
+                                  error));
+        job->num_done += num;
+    }
     job->accuracy = ps_estimator_accuracy(job->estimator);
     return isfinite(job->accuracy.error)
                ? PSPEC_OK
@@ -276,7 +218,7 @@ static pspec_status run_again(ps_power_job *job, ps_error *error) {
     PS_TRY(make_plan(job, error));
     PS_TRY(ps_plan_require(&job->plan, &job->problem, error));
     const ps_precision precision = job->plan.chosen->precision;
-    if (!ps_source_can_rewind(job->source)) {
+    if (!ps_source_can_rewind(job->sets.source)) {
         return ps_fail(
             error, PSPEC_ERROR_TOLERANCE,
             "these sets have a mean power of %.3g, so what was planned has an error of "
@@ -287,7 +229,7 @@ static pspec_status run_again(ps_power_job *job, ps_error *error) {
             precision == PS_SINGLE ? "" : ps_precision_name(precision));
     }
     job->was_replanned = true;
-    PS_TRY(ps_source_rewind(job->source, error));
+    PS_TRY(ps_power_sets_rewind(&job->sets, error));
     return run_once(job, error);
 }
 
@@ -334,11 +276,11 @@ const ps_sampler_request *ps_power_job_sampler(const ps_power_job *job) {
 }
 
 const char *ps_power_job_source_format(const ps_power_job *job) {
-    return ps_source_format(job->source);
+    return ps_source_format(job->sets.source);
 }
 
 const char *ps_power_job_source_columns(const ps_power_job *job) {
-    return ps_source_columns(job->source);
+    return ps_source_columns(job->sets.source);
 }
 
 const ps_spectrum *ps_power_job_spectrum(const ps_power_job *job) {
@@ -355,6 +297,10 @@ const char *ps_power_job_description(const ps_power_job *job) {
 
 bool ps_power_job_was_replanned(const ps_power_job *job) {
     return job->was_replanned;
+}
+
+uint64_t ps_power_job_buffer_bytes(const ps_power_job *job) {
+    return job->device != NULL ? ps_device_most_buffer_bytes(job->device) : 0;
 }
 
 const ps_profile_row *ps_power_job_profile(const ps_power_job *job, size_t *num_rows) {

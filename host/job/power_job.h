@@ -23,6 +23,7 @@ typedef struct ps_power_question {
     size_t num_paths;
     ps_point_options point_options;
     const char *weights_path; /* NULL: none; the same weights for every set */
+    uint64_t whole_bytes;     /* of a set of a file, see ps_source_options */
 
     /* frequencies */
     int32_t max_frequency;        /* 0: ceil(5 N^(1/d)), for d <= 3 */
@@ -71,6 +72,8 @@ const ps_accuracy *ps_power_job_accuracy(const ps_power_job *job);
 const char *ps_power_job_description(const ps_power_job *job);
 /* True when the first run missed the tolerance and the plan was made again. */
 bool ps_power_job_was_replanned(const ps_power_job *job);
+/* The most bytes that buffers of the device had at a time. */
+uint64_t ps_power_job_buffer_bytes(const ps_power_job *job);
 const ps_profile_row *ps_power_job_profile(const ps_power_job *job, size_t *num_rows);
 
 #endif

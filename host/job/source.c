@@ -13,10 +13,21 @@ struct ps_source {
     /* files: paths is NULL for a sampler */
     const char *const *paths;
     size_t num_paths, next_path;
-    const ps_point_options *options;
+    ps_source_options options;
     ps_point_reader *reader;
+    uint64_t sets_of_file;    /* begun by the reader */
+    uint64_t num_sets;        /* begun of all files */
+    bool is_inside;           /* of a set, whose end has not come yet */
+    ps_point_reader *scout;   /* of the same file, ahead of the reader to count a set */
+    uint64_t sets_scouted;    /* passed by it */
     ps_text formats, columns; /* of the files read so far, each once */
 };
+
+/* Points that are only counted: few enough to stay in the cache. */
+enum { SCOUT_POINTS = 32768 };
+
+/* Read to learn how much memory a point takes. */
+enum { FIRST_POINTS = 1024 };
 
 static pspec_status create(ps_source **out, ps_error *error) {
     void *memory = NULL;
@@ -36,11 +47,14 @@ pspec_status ps_source_sampler(ps_source **out, const ps_sampler_request *reques
 }
 
 pspec_status ps_source_files(ps_source **out, const char *const *paths, size_t num_paths,
-                             const ps_point_options *options, ps_error *error) {
+                             const ps_source_options *options, ps_error *error) {
     PS_TRY(create(out, error));
     (*out)->paths = paths;
     (*out)->num_paths = num_paths;
-    (*out)->options = options;
+    (*out)->options = *options;
+    if (options->whole_bytes == 0) {
+        (*out)->options.whole_bytes = PS_SOURCE_WHOLE_BYTES;
+    }
     return PSPEC_OK;
 }
 
@@ -80,31 +94,137 @@ static pspec_status add_name(ps_text *list, const char *name, ps_error *error) {
     return ps_text_check(list, error);
 }
 
-static pspec_status next_from_files(ps_source *source, ps_point_set *set, bool *has_set,
-                                    ps_error *error) {
+/* ---- sets that are too large ------------------------------------------------------------- */
+
+static void close_scout(ps_source *source) {
+    ps_points_close(source->scout);
+    source->scout = NULL;
+    source->sets_scouted = 0;
+}
+
+static pspec_status go_on(const ps_source *source, ps_error *error) {
+    const ps_source_options *options = &source->options;
+    return options->should_stop != NULL && options->should_stop(options->payload)
+               ? ps_fail(error, PSPEC_ERROR_CANCELLED, "cancelled while points were counted")
+               : PSPEC_OK;
+}
+
+/* Counts one set of the scout's; *block is room. */
+static pspec_status scout_set(ps_source *source, ps_point_set *block, ps_pattern_count *count,
+                              ps_error *error) {
+    bool has_block = true;
+    for (bool ends_set = false; has_block && !ends_set;) {
+        block->num_points = 0;
+        PS_TRY(go_on(source, error));
+        PS_TRY(
+            ps_points_next_block(source->scout, block, SCOUT_POINTS, &has_block, &ends_set, error));
+        const pspec_pattern pattern = {block->dimension, block->num_points, block->points,
+                                       block->has_weights ? block->weights : NULL};
+        PS_TRY(ps_pattern_count_add(count, &pattern, error));
+    }
+    source->sets_scouted++;
+    return PSPEC_OK;
+}
+
+/* Sends a second reader through the set that the reader is in. */
+static pspec_status scout_ahead(ps_source *source, ps_pattern_count *count, ps_error *error) {
+    ps_point_set block = {0};
+    pspec_status status = PSPEC_OK;
+    if (source->scout == NULL) {
+        PS_TRY(ps_points_open(&source->scout, source->paths[source->next_path - 1],
+                              &source->options.points, error));
+    }
+    while (status == PSPEC_OK && source->sets_scouted < source->sets_of_file) {
+        *count = (ps_pattern_count){.realization = source->num_sets - 1};
+        status = scout_set(source, &block, count, error);
+    }
+    ps_point_set_free(&block);
+    return status;
+}
+
+static size_t points_of(const ps_point_set *set, uint64_t bytes) {
+    const size_t columns = set->dimension + (set->has_weights ? 1 : 0);
+    const size_t num = (size_t)(bytes / (columns * sizeof(double)));
+    return num > FIRST_POINTS ? num : FIRST_POINTS;
+}
+
+pspec_status ps_source_more(ps_source *source, ps_point_set *set, size_t max_points, bool *ends,
+                            ps_error *error) {
+    const size_t before = set->num_points;
+    bool has_block = source->is_inside;
+    *ends = !source->is_inside;
+    while (has_block && !*ends && set->num_points - before < max_points) {
+        PS_TRY(ps_points_next_block(source->reader, set, max_points - (set->num_points - before),
+                                    &has_block, ends, error));
+    }
+    *ends = *ends || !has_block;
+    source->is_inside = !*ends;
+    return PSPEC_OK;
+}
+
+/* A set that has begun: the rest of it, or what there is to know about the rest. */
+static pspec_status complete_set(ps_source *source, ps_point_set *set, ps_source_part *part,
+                                 ps_error *error) {
+    const bool is_counted = ps_points_per_set(source->reader) > 0 && !set->has_weights;
+    part->block_points = points_of(set, source->options.whole_bytes);
+    if (!is_counted && !ps_points_can_reopen(source->reader)) {
+        return ps_source_more(source, set, SIZE_MAX, &part->is_whole, error);
+    }
+    if (set->num_points < part->block_points) {
+        PS_TRY(ps_source_more(source, set, part->block_points - set->num_points, &part->is_whole,
+                              error));
+    }
+    if (part->is_whole) {
+        return PSPEC_OK;
+    }
+    part->count = (ps_pattern_count){.realization = source->num_sets - 1,
+                                     .num_points = ps_points_per_set(source->reader)};
+    return is_counted ? PSPEC_OK : scout_ahead(source, &part->count, error);
+}
+
+/* ---- files ------------------------------------------------------------------------------- */
+
+static pspec_status open_next(ps_source *source, ps_error *error) {
+    close_scout(source);
+    source->sets_of_file = 0;
+    PS_TRY(ps_points_open(&source->reader, source->paths[source->next_path++],
+                          &source->options.points, error));
+    return add_name(&source->formats, ps_points_format(source->reader), error);
+}
+
+static pspec_status next_from_files(ps_source *source, ps_point_set *set, ps_source_part *part,
+                                    bool *has_set, ps_error *error) {
     *has_set = false;
+    *part = (ps_source_part){0};
+    set->num_points = 0;
     while (!*has_set) {
         if (source->reader == NULL) {
             if (source->next_path == source->num_paths) {
                 return PSPEC_OK;
             }
-            PS_TRY(ps_points_open(&source->reader, source->paths[source->next_path++],
-                                  source->options, error));
-            PS_TRY(add_name(&source->formats, ps_points_format(source->reader), error));
+            PS_TRY(open_next(source, error));
         }
-        PS_TRY(ps_points_next(source->reader, set, has_set, error));
+        source->is_inside = true;
+        PS_TRY(ps_source_more(source, set, FIRST_POINTS, &part->is_whole, error));
+        *has_set = set->num_points > 0;
         PS_TRY(add_name(&source->columns, ps_points_columns(source->reader), error));
         if (!*has_set) {
             ps_points_close(source->reader);
             source->reader = NULL;
         }
     }
-    return PSPEC_OK;
+    source->sets_of_file++;
+    source->num_sets++;
+    return part->is_whole ? PSPEC_OK : complete_set(source, set, part, error);
 }
 
-pspec_status ps_source_next(ps_source *source, ps_point_set *set, bool *has_set, ps_error *error) {
-    return source->paths == NULL ? next_sample(source, set, has_set, error)
-                                 : next_from_files(source, set, has_set, error);
+pspec_status ps_source_next(ps_source *source, ps_point_set *set, ps_source_part *part,
+                            bool *has_set, ps_error *error) {
+    if (source->paths == NULL) {
+        *part = (ps_source_part){.is_whole = true};
+        return next_sample(source, set, has_set, error);
+    }
+    return next_from_files(source, set, part, has_set, error);
 }
 
 bool ps_source_can_rewind(const ps_source *source) {
@@ -120,10 +240,12 @@ pspec_status ps_source_rewind(ps_source *source, ps_error *error) {
     if (!ps_source_can_rewind(source)) {
         return ps_fail(error, PSPEC_ERROR_IO, "standard input cannot be read twice");
     }
+    close_scout(source);
     ps_points_close(source->reader);
     source->reader = NULL;
     source->next_path = 0;
     source->next_realization = 0;
+    source->num_sets = 0;
     return PSPEC_OK;
 }
 
@@ -137,6 +259,7 @@ const char *ps_source_columns(const ps_source *source) {
 
 void ps_source_destroy(ps_source *source) {
     if (source != NULL) {
+        close_scout(source);
         ps_points_close(source->reader);
         ps_text_free(&source->formats);
         ps_text_free(&source->columns);

@@ -1,6 +1,7 @@
 #include "plan/choose.h"
 
 #include "base/memory.h"
+#include "base/round.h"
 #include "base/text.h"
 #include "plan/cost_model.h"
 
@@ -23,32 +24,89 @@ static pspec_status check_engine_name(const char *name, ps_error *error) {
                                   "there is no engine \"%s\"; the nearest is %s", name, nearest);
 }
 
-/* Host memory of a job besides its engine, for every frequency: its vector, slot, place in a bin, sums
- * of the accumulator, mean and standard error (analysis/accumulate, bins, spectrum). */
-static double host_bytes_per_frequency(unsigned dimension) {
-    return (double)(dimension * sizeof(int32_t) + 2 * sizeof(uint32_t) + 6 * sizeof(double));
+/* Memory of a batch, on the device and on the host: that of the engine, and what else a job keeps
+ * (job/estimator, analysis/accumulate, bins, spectrum). */
+typedef struct memory {
+    double device, host;
+} memory;
+
+/* Realizations side by side in sums of pieces of bins: whole vectors, shorter ones where most lanes would be empty
+ * (analysis/accumulate_device). */
+static double padded_rows(const ps_device_limits *limits, ps_precision precision, size_t batch) {
+    unsigned lanes = ps_engine_lanes(limits, precision);
+    while (lanes > 1 && lanes >= 4 * batch) {
+        lanes /= 2;
+    }
+    return (double)ps_round_up(batch, lanes);
+}
+
+/* Of rows of powers on the device: their sums and sums of squares in pairs, also read back; members of bins, and
+ * the pieces of bins in the blocks of 512 slots of a row: 3 numbers for each, and its sum in pairs. In one dimension
+ * every frequency is a piece; else rings cross a block in about 36 pieces. */
+static void add_accumulator(memory *sum, const ps_work *work, const ps_problem *problem,
+                            double rows, double real_bytes) {
+    const double block = 512;
+    const double pieces_of_block = 36;
+    const double num = (double)problem->frequencies->num;
+    const double blocks = ceil(work->row_bytes / real_bytes / block);
+    const double pieces =
+        problem->frequencies->dimension == 1 ? num : fmin(num, blocks * pieces_of_block);
+    sum->device += 4 * work->row_bytes + num * (double)sizeof(uint16_t) +
+                   pieces * (2 * rows * real_bytes + 3 * (double)sizeof(uint32_t));
+    sum->host += 4 * work->row_bytes;
+}
+
+/* Coordinates and weights of a set on the host, or of a block. */
+static double set_bytes(const ps_problem *problem, const ps_work *work) {
+    const unsigned columns = problem->frequencies->dimension + (problem->has_weights ? 1 : 0);
+    const uint64_t points = work->takes_blocks && problem->block_points > 0 ? problem->block_points
+                                                                            : problem->num_points;
+    return (double)points * columns * (double)sizeof(double);
+}
+
+static memory count_memory(const ps_candidate *candidate, const ps_problem *problem,
+                           const ps_work *work, const ps_device_limits *limits, size_t batch) {
+    const unsigned dimension = problem->frequencies->dimension;
+    const double num = (double)problem->frequencies->num;
+    /* of every frequency twice its vector and its slot, its place in a bin, mean and standard error */
+    memory sum = {.device = work->fixed_bytes - work->host_bytes +
+                            (work->bytes_per_realization + work->point_bytes) * (double)batch,
+                  .host = work->host_bytes +
+                          (set_bytes(problem, work) + work->point_bytes) * (double)batch +
+                          num * (2 * dimension * (double)sizeof(int32_t) +
+                                 3 * (double)sizeof(uint32_t) + 2 * (double)sizeof(double))};
+    if (limits == NULL) {
+        sum.host += sum.device + num * 4 * (double)sizeof(double); /* the sums of the accumulator */
+        sum.device = 0;
+        return sum;
+    }
+    add_accumulator(&sum, work, problem, padded_rows(limits, candidate->precision, batch),
+                    candidate->precision == PS_SINGLE ? sizeof(float) : sizeof(double));
+    return sum;
 }
 
 /* Seconds, bytes and error of a candidate that applies. A realization of a batch is kept on the host,
  * too, as coordinates and weights. A limit that somebody set makes batches smaller. */
 static void estimate(ps_candidate *candidate, const ps_problem *problem,
                      const ps_device_limits *limits, uint64_t memory_limit) {
-    const unsigned dimension = problem->frequencies->dimension;
     const ps_device_limits *used = candidate->engine->needs_device ? limits : NULL;
-    ps_work work = candidate->engine->work(problem, used, candidate->precision);
-    const double columns = dimension + (problem->has_weights ? 1 : 0);
-    work.bytes_per_realization += (double)problem->num_points * columns * (double)sizeof(double);
-    work.fixed_bytes += (double)problem->frequencies->num * host_bytes_per_frequency(dimension);
-    candidate->batch = ps_cost_batch(&work, used, problem->num_realizations);
+    const ps_work work = candidate->engine->work(problem, used, candidate->precision);
+    const memory one = count_memory(candidate, problem, &work, used, 1);
+    ps_work whole = work; /* with host memory */
+    whole.bytes_per_realization += set_bytes(problem, &work);
+    whole.fixed_bytes = one.device + one.host - whole.bytes_per_realization - work.point_bytes;
+    candidate->batch = ps_cost_batch(&whole, used, problem->num_realizations);
+    memory sum = count_memory(candidate, problem, &work, used, candidate->batch);
     while (memory_limit > 0 && candidate->batch > 1 &&
-           work.fixed_bytes + work.bytes_per_realization * (double)candidate->batch >
-               (double)memory_limit) {
+           sum.device + sum.host > (double)memory_limit) {
         candidate->batch /= 2;
+        sum = count_memory(candidate, problem, &work, used, candidate->batch);
     }
     candidate->seconds = ps_cost_seconds(&work, used, candidate->precision);
-    candidate->bytes = work.fixed_bytes + work.bytes_per_realization * (double)candidate->batch;
+    candidate->device_bytes = sum.device;
+    candidate->bytes = sum.device + sum.host;
     candidate->error =
-        candidate->engine->error(problem, candidate->precision, ps_expected_power(problem));
+        candidate->engine->error(problem, used, candidate->precision, ps_expected_power(problem));
 }
 
 /* Does the user's choice of engine or precision rule it out? */

@@ -12,6 +12,7 @@ typedef struct ps_candidate {
     bool is_excluded; /* by the constraints: --engine, --precision */
     bool is_applicable, is_feasible, is_chosen;
     double seconds, bytes, error; /* of the whole job; meaningful when applicable */
+    double device_bytes;          /* part of bytes in buffers of the device */
     size_t batch;
     char reason[160]; /* one phrase: why chosen, why not */
 } ps_candidate;

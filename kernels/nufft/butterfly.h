@@ -4,7 +4,7 @@
 #ifndef PS_NUFFT_BUTTERFLY_H
 #define PS_NUFFT_BUTTERFLY_H
 
-#include "nufft/lanes.h"
+#include "shared/lanes.h"
 
 typedef struct complexv {
     realv re, im;

@@ -5,7 +5,7 @@
  *   radices, twiddles, position, gains  of nufft/finish.h, of the axis across rows
  *   column_gains [column_K + 1], of the axis along rows
  *   scales     [realization]
- *   power      [realization][stride], there [tile][column][2K + 1][LANES]
+ *   power      [realization][stride], there from first_power on [tile][column][2K + 1][LANES]
  *   column     local, [n][re, im][LANES]
  */
 #include "nufft/finish.h"
@@ -16,7 +16,7 @@ nufft_columns(__global const real *restrict grid, __global const uint *restrict 
               __global const real *restrict gains, __global const real *restrict column_gains,
               __global const real *restrict scales, __global real *restrict power,
               const uint first_row, const ulong stride, const uint n, const uint K,
-              const uint column_K, __local real *column) {
+              const uint column_K, const ulong first_power, __local real *column) {
     const size_t in_tiles = get_global_id(1);
     const size_t realization = get_global_id(2);
     const uint q = in_tiles % (2 * column_K + 1);
@@ -27,8 +27,8 @@ nufft_columns(__global const real *restrict grid, __global const uint *restrict 
         store_complex(column, i, load_global_complex(from, i));
     }
     barrier(CLK_LOCAL_MEM_FENCE);
-    write_powers(column, transform,
-                 scales[first_row + realization] *
-                     column_gains[q >= column_K ? q - column_K : column_K - q],
-                 power + (first_row + realization) * stride + in_tiles * (2 * K + 1) * LANES);
+    write_powers(
+        column, transform,
+        scales[first_row + realization] * column_gains[q >= column_K ? q - column_K : column_K - q],
+        power + (first_row + realization) * stride + first_power + in_tiles * (2 * K + 1) * LANES);
 }

@@ -4,7 +4,7 @@
  *   rows       [tile][row][n][re, im][LANES]
  *   radices, twiddles, position, gains, n, K  of nufft/finish.h, of the axis along rows
  *   scales     [realization]
- *   power      [realization][stride], there [tile][2K + 1][LANES]
+ *   power      [realization][stride], there from first_power on [tile][2K + 1][LANES]
  *   grid       [tile][column -K .. K][row][re, im][LANES]
  *   row        local, [n][re, im][LANES]
  */
@@ -23,12 +23,12 @@ nufft_finish_tile(__global const real *restrict rows, __global const uint *restr
                   __global const real *restrict twiddles, __global const uint *restrict position,
                   __global const real *restrict gains, __global const real *restrict scales,
                   __global real *restrict power, const uint realization, const ulong stride,
-                  const uint n, const uint K, __local real *row) {
+                  const uint n, const uint K, const ulong first_power, __local real *row) {
     const size_t tile = get_global_id(1);
     const transform_axis axis = {radices, twiddles, position, gains, n, K};
     load_row(row, rows, tile, n);
     write_powers(row, axis, scales[realization],
-                 power + realization * stride + tile * (2 * K + 1) * LANES);
+                 power + realization * stride + first_power + tile * (2 * K + 1) * LANES);
 }
 
 __kernel void nufft_finish_rows(__global const real *restrict rows,

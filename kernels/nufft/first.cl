@@ -1,18 +1,17 @@
 /* The transform along axis 0 of a grid of real numbers (nufft/grid.cl). Launch: (work-items of one group, groups
  * of 2 LANES columns).
  *
- * Lanes are neighbouring columns here, half of them in real parts, half in imaginary parts: with Z = A + i B, A(k)
- * = (Z(k) + conj Z(-k)) / 2 and B(k) = (Z(k) - conj Z(-k)) / 2i. The result is turned, so that lanes are
- * frequencies, as nufft/finish.cl wants it.
+ * Lanes are neighbouring columns here (nufft/halves.h). The result is turned, so that lanes are frequencies, as
+ * nufft/finish.cl wants it.
  *
- *   high, low  [cell of axis 0][column]; columns are cells of all other axes, a multiple of 2 LANES
+ *   high, low  [cell of axis 0][column], some columns: cells of all other axes, a multiple of 2 LANES
  *   mean       taken off every cell: frequency 0
  *   radices, twiddles, position, K, n  of nufft/finish.h; gains [K + 1]: 1 / squared transform of the window
- *   rows       [tile][column][re, im][LANES]: frequencies tile LANES + lane; what exceeds K is 0
+ *   rows       [tile][column][re, im][LANES]: frequencies tile LANES + lane from first_tile on; what exceeds K is 0;
+ *              all_columns of them, these from first_column on
  *   cells      local, [n][re, im][LANES]
  */
-#include "nufft/finish.h"
-#include "nufft/transpose.h"
+#include "nufft/halves.h"
 
 static inline void load_cells(__local real *cells, __global const real *high,
                               __global const real *low, const real mean, const size_t columns,
@@ -27,44 +26,21 @@ static inline void load_cells(__local real *cells, __global const real *high,
     barrier(CLK_LOCAL_MEM_FENCE);
 }
 
-/* Frequencies k .. k + LANES - 1 of 2 LANES columns. */
-static inline void write_tile(__local const real *cells, const transform_axis axis, const uint k,
-                              __global real *rows) {
-    realv a_re[LANES], a_im[LANES], b_re[LANES], b_im[LANES];
-#pragma unroll
-    for (int i = 0; i < LANES; i++) {
-        const uint at = min(k + i, axis.K);
-        const complexv z = load_complex(cells, axis.position[at]);
-        const complexv other = load_complex(cells, axis.position[at == 0 ? 0 : axis.n - at]);
-        const realv half_gain = (realv)(k + i <= axis.K ? sqrt(axis.gains[at]) * (real)0.5 : 0);
-        a_re[i] = (z.re + other.re) * half_gain;
-        a_im[i] = (z.im - other.im) * half_gain;
-        b_re[i] = (z.im + other.im) * half_gain;
-        b_im[i] = (other.re - z.re) * half_gain;
-    }
-    transpose(a_re);
-    transpose(a_im);
-    transpose(b_re);
-    transpose(b_im);
-#pragma unroll
-    for (int i = 0; i < LANES; i++) {
-        store_global_complex(rows, i, (complexv){a_re[i], a_im[i]});
-        store_global_complex(rows, LANES + i, (complexv){b_re[i], b_im[i]});
-    }
-}
-
 __kernel void nufft_first(__global const real *restrict high, __global const real *restrict low,
                           __global const real *restrict mean, const ulong columns,
                           __global const uint *restrict radices,
                           __global const real *restrict twiddles,
                           __global const uint *restrict position,
                           __global const real *restrict gains, const uint n, const uint K,
-                          const uint num_tiles, __global real *restrict rows, __local real *cells) {
+                          const uint first_tile, const uint num_tiles, const ulong first_column,
+                          const ulong all_columns, __global real *restrict rows,
+                          __local real *cells) {
     const size_t first = get_global_id(1) * (size_t)(2 * LANES);
     const transform_axis axis = {radices, twiddles, position, gains, n, K};
     load_cells(cells, high, low, mean[0], columns, first, n);
     fft_transform(cells, n, radices, twiddles);
     for (uint tile = get_local_id(0); tile < num_tiles; tile += get_local_size(0)) {
-        write_tile(cells, axis, tile * LANES, rows + (tile * columns + first) * (2 * LANES));
+        turn_halves(cells, axis, (first_tile + tile) * LANES,
+                    rows + (tile * all_columns + first_column + first) * (2 * LANES));
     }
 }

@@ -7,7 +7,8 @@
  *   places, sorted, heights  of nufft/sort.cl, in parts
  *   starts    [part][outer_n block_n + 2]: places in the order of outer cells and cells of the block's axis
  *   outer_*, block_*, last_*  axes of nufft/window.h; the coordinates are those of the points
- *   high, low [outer cell][cell of the block's axis][cell of the last axis]: pairs of numbers, continued
+ *   high, low [outer cell][cell of the block's axis][cell of the last axis]: pairs of numbers, continued; a slab of
+ *             them, the blocks from first_block on
  *   rows      local, [BLOCK_ROWS][last_n + last_bins]; last_n is a multiple of LANES
  */
 #include "nufft/window.h"
@@ -112,18 +113,21 @@ nufft_grid(__global const ulong *restrict places, __global const ulong *restrict
            const uint outer_bins, __global const real *restrict block_window, const uint block_n,
            const uint block_width, const uint block_degree, const uint block_bins,
            __global const real *restrict last_window, const uint last_n, const uint last_width,
-           const uint last_degree, const uint last_bins, __global real *restrict high,
-           __global real *restrict low, __local real *rows) {
+           const uint last_degree, const uint last_bins, const uint first_block,
+           __global real *restrict high, __global real *restrict low, __local real *rows) {
     const uint num_blocks = (block_n + BLOCK_ROWS - 1) / BLOCK_ROWS;
-    const uint outer_cell = get_global_id(1) / num_blocks;
-    const uint first_row = get_global_id(1) % num_blocks * BLOCK_ROWS;
+    const size_t block = first_block + get_global_id(1);
+    const uint outer_cell = block / num_blocks;
+    const uint first_row = block % num_blocks * BLOCK_ROWS;
     const uint num_rows = min((uint)BLOCK_ROWS, block_n - first_row);
     const grid_axes axes = {
         {outer_window, outer_n, outer_width, 0, outer_degree, outer_bins, 0, 1},
         {block_window, block_n, block_width, dimension - 2, block_degree, block_bins, 0, 1},
         {last_window, last_n, last_width, dimension - 1, last_degree, last_bins, 0, 1},
         dimension};
-    const size_t at = ((size_t)outer_cell * block_n + first_row) * last_n;
+    const size_t slab_row =
+        first_block / num_blocks * (size_t)block_n + first_block % num_blocks * BLOCK_ROWS;
+    const size_t at = ((size_t)outer_cell * block_n + first_row - slab_row) * last_n;
     for (uint i = get_local_id(0); i < num_rows * (last_n + last_bins); i += get_local_size(0)) {
         rows[i] = 0;
     }

@@ -3,11 +3,11 @@
 #define PS_NUFFT_WINDOW_H
 
 #include "nufft/cell.h"
-#include "nufft/lanes.h"
+#include "shared/lanes.h"
 #include "nufft/place.h"
 
 typedef PS_JOIN(REAL, 8) real8;
-typedef real8 unaligned_real8 __attribute__((aligned(sizeof(real)))); /* nufft/lanes.h says why */
+typedef real8 unaligned_real8 __attribute__((aligned(sizeof(real)))); /* shared/lanes.h says why */
 
 /* An axis of the fine grid, and its window: bin i is a polynomial in u = 2 f - 1, f as in nufft/cell.h.
  * coefficients [degree + 1][bins], lowest degree first; bins, a multiple of 8, is at least the width, pitch at

@@ -7,6 +7,7 @@
  *   totals  [row][tile][the same four][LANES]; begun anew when is_first is set
  */
 #include "shared/real.h"
+#include "shared/lanes.h"
 #include "shared/pair.h"
 
 __kernel void torus_fold(__global const real *restrict sums, __global real *restrict totals,
@@ -19,15 +20,15 @@ __kernel void torus_fold(__global const real *restrict sums, __global real *rest
     }
     __global real *total = totals + (row * num_tiles + tile) * 4 * LANES;
     for (int part = 0; part < 4; part += 2) {
-        realv high = is_first ? (realv)0 : LOADV(part, total);
-        realv low = is_first ? (realv)0 : LOADV(part + 1, total);
+        realv high = is_first ? (realv)0 : load_global(total, part);
+        realv low = is_first ? (realv)0 : load_global(total, part + 1);
         for (uint chunk = 0; chunk < num_chunks; chunk++) {
             __global const real *sum =
                 sums + ((row * num_chunks + chunk) * num_tiles + tile) * 4 * LANES;
-            pair_add(&high, &low, LOADV(part, sum));
-            low += LOADV(part + 1, sum);
+            pair_add(&high, &low, load_global(sum, part));
+            low += load_global(sum, part + 1);
         }
-        STOREV(high, part, total);
-        STOREV(low, part + 1, total);
+        store_global(total, part, high);
+        store_global(total, part + 1, low);
     }
 }

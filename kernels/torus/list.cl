@@ -20,6 +20,7 @@
  * precision, pairs above.
  */
 #include "shared/real.h"
+#include "shared/lanes.h"
 #include "shared/pair.h"
 #include "shared/turn.h"
 #include "torus/layout.h"
@@ -69,8 +70,8 @@ static inline void add_points(__global const ulong *points, __global const real 
                 cos_sum[i] = fma(weight, cosine, cos_sum[i]);
                 sin_sum[i] = fma(weight, sine, sin_sum[i]);
                 if (STORE_TABLE) {
-                    STOREV(is_weighted ? weight * cosine : cosine, 0, row);
-                    STOREV(is_weighted ? weight * sine : sine, 1, row);
+                    store_global(row, 0, is_weighted ? weight * cosine : cosine);
+                    store_global(row, 1, is_weighted ? weight * sine : sine);
                     row += 2 * LANES;
                 }
             }
@@ -125,7 +126,7 @@ __kernel void torus_list(__global const ulong *restrict points,
         sums + (((first_row + realization) * num_chunks + chunk) * num_tiles + tile) * 4 * LANES;
     for (size_t i = 0; i < SIDE_BY_SIDE && tile + i < num_tiles; i++) {
         for (int part = 0; part < 4; part++) {
-            STOREV(pairs[i][part], 4 * i + part, out);
+            store_global(out, 4 * i + part, pairs[i][part]);
         }
     }
 }

@@ -4,6 +4,7 @@
  * scales[row] turns |S|^2 into the normalization asked for.
  */
 #include "shared/real.h"
+#include "shared/lanes.h"
 
 /* Totals of torus/fold.cl. Launch: (tiles, realizations), tiles rounded up at will. */
 __kernel void torus_power_list(__global const real *restrict totals,
@@ -15,8 +16,8 @@ __kernel void torus_power_list(__global const real *restrict totals,
         return;
     }
     __global const real *total = totals + (realization * num_tiles + tile) * 4 * LANES;
-    const realv re = LOADV(0, total) + LOADV(1, total);
-    const realv im = LOADV(2, total) + LOADV(3, total);
+    const realv re = load_global(total, 0) + load_global(total, 1);
+    const realv im = load_global(total, 2) + load_global(total, 3);
     STOREV(fma(re, re, im * im) * (realv)scales[realization], tile,
            power + realization * stride + first_slot);
 }

@@ -21,6 +21,7 @@
  *            scales[row] |S|^2 in the slots [pair][left in tile][l + r, l - r][LANES]
  */
 #include "shared/real.h"
+#include "shared/lanes.h"
 #include "shared/pair.h"
 #include "torus/layout.h"
 
@@ -34,14 +35,14 @@
 
 /* Powers of l + r and l - r for one left frequency, from its finished sums. */
 static inline void store_powers(__global const real *sum, const realv scale, __global real *out) {
-    const realv cc = LOADV(0, sum), cc_low = LOADV(1, sum);
-    const realv sc = LOADV(2, sum), sc_low = LOADV(3, sum);
-    const realv cs = LOADV(4, sum), cs_low = LOADV(5, sum);
-    const realv ss = LOADV(6, sum), ss_low = LOADV(7, sum);
+    const realv cc = load_global(sum, 0), cc_low = load_global(sum, 1);
+    const realv sc = load_global(sum, 2), sc_low = load_global(sum, 3);
+    const realv cs = load_global(sum, 4), cs_low = load_global(sum, 5);
+    const realv ss = load_global(sum, 6), ss_low = load_global(sum, 7);
     const realv plus_re = (cc - ss) + (cc_low - ss_low), plus_im = (sc + cs) + (sc_low + cs_low);
     const realv minus_re = (cc + ss) + (cc_low + ss_low), minus_im = (sc - cs) + (sc_low - cs_low);
-    STOREV(fma(plus_re, plus_re, plus_im * plus_im) * scale, 0, out);
-    STOREV(fma(minus_re, minus_re, minus_im * minus_im) * scale, 1, out);
+    store_global(out, 0, fma(plus_re, plus_re, plus_im * plus_im) * scale);
+    store_global(out, 1, fma(minus_re, minus_re, minus_im * minus_im) * scale);
 }
 
 __kernel void torus_product(__global const real *restrict table,
@@ -67,7 +68,7 @@ __kernel void torus_product(__global const real *restrict table,
 
     if (is_first && count == 0) { /* a pattern without points: the loop below never starts */
         for (int i = 0; i < LANES * 8; i++) {
-            STOREV((realv)0, i, tile_sums);
+            store_global(tile_sums, i, (realv)0);
         }
     }
     for (ulong run = 0; run < count; run += RUN) {
@@ -80,8 +81,8 @@ __kernel void torus_product(__global const real *restrict table,
                 sum[i][0] = sum[i][1] = sum[i][2] = sum[i][3] = (realv)0;
             }
             for (ulong j = run; j < run_end; j++) {
-                const realv right_cos = LOADV(2 * j, right_tile);
-                const realv right_sin = LOADV(2 * j + 1, right_tile);
+                const realv right_cos = load_global(right_tile, 2 * j);
+                const realv right_sin = load_global(right_tile, 2 * j + 1);
                 __global const real *row = left_tile + j * 2 * LANES + strip;
 #pragma unroll
                 for (int i = 0; i < STRIP; i++) {
@@ -96,11 +97,11 @@ __kernel void torus_product(__global const real *restrict table,
 #pragma unroll
             for (int i = 0; i < STRIP * 4; i++) {
                 __global real *out = tile_sums + (strip * 4 + i) * 2 * LANES;
-                realv high = is_new ? (realv)0 : LOADV(0, out);
-                realv low = is_new ? (realv)0 : LOADV(1, out);
+                realv high = is_new ? (realv)0 : load_global(out, 0);
+                realv low = is_new ? (realv)0 : load_global(out, 1);
                 pair_add(&high, &low, sum[i / 4][i % 4]);
-                STOREV(high, 0, out);
-                STOREV(low, 1, out);
+                store_global(out, 0, high);
+                store_global(out, 1, low);
             }
         }
     }

@@ -121,6 +121,12 @@ ENQUEUE(clEnqueueFillBuffer, CL_MEM_OBJECT_ALLOCATION_FAILURE,
         (cl_command_queue queue, cl_mem memory, const void *pattern, size_t pattern_bytes,
          size_t offset, size_t bytes, cl_uint num_waits, const cl_event *waits, cl_event *event),
         (queue, memory, pattern, pattern_bytes, offset, bytes, num_waits, waits, event))
+ENQUEUE(clEnqueueCopyBufferRect, CL_OUT_OF_RESOURCES,
+        (cl_command_queue queue, cl_mem from, cl_mem to, const size_t *from_origin,
+         const size_t *to_origin, const size_t *region, size_t from_row, size_t from_slice,
+         size_t to_row, size_t to_slice, cl_uint num_waits, const cl_event *waits, cl_event *event),
+        (queue, from, to, from_origin, to_origin, region, from_row, from_slice, to_row, to_slice,
+         num_waits, waits, event))
 STATUS(clFlush, CL_OUT_OF_RESOURCES, (cl_command_queue queue), (queue))
 STATUS(clFinish, CL_DEVICE_NOT_AVAILABLE, (cl_command_queue queue), (queue))
 STATUS(clWaitForEvents, CL_OUT_OF_RESOURCES, (cl_uint num, const cl_event *events), (num, events))

@@ -1,11 +1,13 @@
 /* LANES numbers as one access of memory. vload and vstore of PoCL 3.1 fall into halves, down to pairs: half a
  * vector cannot be forwarded from the store to the next load of the whole, which waits for memory then (spreading
- * took 1.4 times as long). Device only.
+ * took 1.4 times as long). Nothing of it in C11.
  */
-#ifndef PS_NUFFT_LANES_H
-#define PS_NUFFT_LANES_H
+#ifndef PS_SHARED_LANES_H
+#define PS_SHARED_LANES_H
 
 #include "shared/real.h"
+
+#ifdef __OPENCL_C_VERSION__
 
 /* Buffers are aligned as numbers, not always as vectors. */
 typedef realv unaligned_realv __attribute__((aligned(sizeof(real))));
@@ -25,5 +27,7 @@ static inline void store_local(__local real *to, const size_t index, const realv
 static inline void store_global(__global real *to, const size_t index, const realv x) {
     *(__global unaligned_realv *)(to + index * LANES) = x;
 }
+
+#endif
 
 #endif

@@ -1,12 +1,14 @@
-/* A square of LANES vectors of LANES numbers, turned: v[i][j] <-> v[j][i], in registers. Device only.
+/* A square of LANES vectors of LANES numbers, turned: v[i][j] <-> v[j][i], in registers. Nothing of it in C11.
  *
  * Interleaving the first half of the vectors with the second half, log2(LANES) times, is the
  * transposition; every interleaving is one shuffle for each vector.
  */
-#ifndef PS_NUFFT_TRANSPOSE_H
-#define PS_NUFFT_TRANSPOSE_H
+#ifndef PS_SHARED_TRANSPOSE_H
+#define PS_SHARED_TRANSPOSE_H
 
 #include "shared/real.h"
+
+#ifdef __OPENCL_C_VERSION__
 
 #if LANES == 2
 #define INTERLEAVE_LOW(a, b) ((realv)((a).s0, (b).s0))
@@ -47,5 +49,7 @@ static inline void transpose(realv *v) {
     }
 #endif
 }
+
+#endif
 
 #endif

@@ -1,0 +1,33 @@
+/* Realizations done whole, each by one work-group: spread on a grid, transformed twice (kernels/nufft/whole.cl).
+ */
+#ifndef PS_ENGINES_NUFFT_WHOLE_H
+#define PS_ENGINES_NUFFT_WHOLE_H
+
+#include "engines/nufft_layout.h"
+#include "engines/nufft_plan.h"
+#include "engines/torus_points.h"
+
+typedef struct ps_nufft_whole {
+    const ps_nufft_layout *layout;
+    const ps_nufft_plan *plans; /* windows of the axes */
+    ps_device *device;
+    cl_kernel kernel;
+    ps_torus_points points;
+    ps_fft_plan transforms[2];
+    ps_buffer gains, lane_turns, tile_turns; /* of the kernel */
+    ps_buffer grids, rows;                   /* of work-groups */
+} ps_nufft_whole;
+
+/* layout and plans are borrowed. */
+pspec_status ps_nufft_whole_create(ps_nufft_whole *out, const ps_nufft_layout *layout,
+                                   const ps_nufft_plan *plans, ps_precision precision,
+                                   ps_device *device, ps_error *error) PS_MUST_CHECK;
+void ps_nufft_whole_free(ps_nufft_whole *whole);
+
+/* The realizations of a batch, into rows from target->realization on. means: what frequency 0 leaves in a
+ * cell, of each of them. */
+pspec_status ps_nufft_whole_run(ps_nufft_whole *whole, const ps_batch *batch,
+                                const ps_buffer *means, const ps_nufft_target *target,
+                                ps_error *error) PS_MUST_CHECK;
+
+#endif

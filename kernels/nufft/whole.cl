@@ -1,0 +1,215 @@
+/* Whole realizations, one by each work-group: points are spread on a grid of real numbers, in any order; two
+ * transforms, one behind the other, make powers of it. In two dimensions they are those of the axes. In one, the
+ * grid of first_n second_n cells is read as rows of second_n: with cell m = m_1 second_n + m_2, frequency
+ * k_1 + first_n k_2 is the transform over m_2, at k_2, of exp(-2 pi i k_1 m_2 / (first_n second_n)) times the transform
+ * over m_1, at k_1. For CPUs: the grid and what the first transform leaves stay in the cache of a core, so a work-group
+ * takes one realization after the other. Launch: (work-items of one group, groups).
+ *
+ *   points, weights, offsets  of engines/torus_points.h
+ *   across_*, along_*  of nufft/window.h, of axis 0 and axis 1; in one dimension there is no window across, and
+ *              across_width is 1
+ *   first_*, second_*  transforms of nufft/finish.h, K the largest frequency of which is kept
+ *   lane_turns [second_n][re, im][LANES], tile_turns [tile][second_n][re, im]: in one dimension, the factors
+ *              above of k_1 = lane and of k_1 = tile LANES
+ *   gains      [tile][2 second_K + 1][LANES]: 1 / squared transform of the window, 0 where nothing is asked for
+ *   means      [realization]: taken off every cell: frequency 0
+ *   scales     [realization]
+ *   power      [realization][stride], there as gains
+ *   grids      [group][grid_reals]: rows of `pitch`, some more than cells: windows go on behind them
+ *   rows       [group][tile][columns][re, im][LANES]; columns is second_n, up to a multiple of 2 LANES
+ *   row        local, [first_n or second_n][re, im][LANES]
+ *   windows, cells  local, of a chunk: nufft/chunk.h
+ */
+#include "nufft/chunk.h"
+#include "nufft/halves.h"
+
+typedef struct whole_grid {
+    __global real *cells;
+    uint pitch, rows; /* in memory */
+    bool is_line;     /* one dimension: rows follow each other without gaps */
+} whole_grid;
+
+/* Rows of a point whose values along them are one vector; row by row, weighted by across. */
+#define ADD_ROWS(BINS)                                                                             \
+    static inline void add_rows_##BINS(__global real *at, const uint pitch,                        \
+                                       __local const real *across, __local const real *along,      \
+                                       const uint num_rows) {                                      \
+        const real##BINS values = *(__local const unaligned_real##BINS *)along;                    \
+        for (uint row = 0; row < num_rows; row++) {                                                \
+            __global unaligned_real##BINS *to = (__global unaligned_real##BINS *)at;               \
+            *to = fma((real##BINS)across[row * CHUNK], values, *to);                               \
+            at += pitch;                                                                           \
+        }                                                                                          \
+    }
+
+ADD_ROWS(8)
+ADD_ROWS(16)
+
+/* A chunk by one work-item. */
+static inline void scatter(const whole_grid grid, const chunk from, const window_axis across,
+                           const window_axis along) {
+    for (uint i = 0; i < CHUNK; i++) {
+        __global real *at = grid.cells + from.cells[i];
+        __local const real *values = from.along + i * along.bins;
+        if (along.bins == 8) {
+            add_rows_8(at, grid.pitch, from.across + i, values, across.width);
+        } else {
+            add_rows_16(at, grid.pitch, from.across + i, values, across.width);
+        }
+    }
+}
+
+/* The same by all: each has the cells of a row that are its number modulo their number. */
+static inline void scatter_together(const whole_grid grid, const chunk from,
+                                    const window_axis across, const window_axis along) {
+    const uint size = get_local_size(0);
+    for (uint i = 0; i < CHUNK; i++) {
+        const uint own = (get_local_id(0) + size - from.columns[i] % size) % size;
+        for (uint bin = own; bin < along.bins; bin += size) {
+            for (uint row = 0; row < across.width; row++) {
+                __global real *to = grid.cells + from.cells[i] + row * grid.pitch + bin;
+                *to = fma(from.across[row * CHUNK + i], from.along[i * along.bins + bin], *to);
+            }
+        }
+    }
+}
+
+static inline void barrier_everywhere(void) {
+    barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
+}
+
+static inline void clear_grid(const whole_grid grid) {
+    for (size_t i = get_local_id(0); i < grid.rows * (size_t)grid.pitch / LANES;
+         i += get_local_size(0)) {
+        store_global(grid.cells, i, (realv)0);
+    }
+    barrier_everywhere();
+}
+
+/* Cells behind the last row and column are the first ones again. (No barrier under a condition: PoCL would copy
+ * all that follows.) */
+static inline void fold_grid(const whole_grid grid, const window_axis across,
+                             const window_axis along, const uint n) {
+    const uint behind = grid.is_line ? along.bins : across.width * grid.pitch;
+    const uint num_rows = grid.is_line ? 0 : across.n;
+    for (uint i = get_local_id(0); i < behind; i += get_local_size(0)) {
+        grid.cells[i] += grid.cells[n + i];
+    }
+    barrier_everywhere();
+    for (uint row = get_local_id(0); row < num_rows; row += get_local_size(0)) {
+        __global real *at = grid.cells + row * grid.pitch;
+        for (uint i = 0; i < along.bins; i++) {
+            at[i] += at[along.n + i];
+        }
+    }
+    barrier_everywhere();
+}
+
+/* 2 LANES columns of the grid. */
+static inline void load_columns(__local real *row, const whole_grid grid, const uint first_column,
+                                const real mean, const uint n) {
+    for (uint m = get_local_id(0); m < n; m += get_local_size(0)) {
+        __global const real *from = grid.cells + m * grid.pitch + first_column;
+        store_complex(
+            row, m,
+            (complexv){load_global(from, 0) - (realv)mean, load_global(from, 1) - (realv)mean});
+    }
+}
+
+/* A row of a tile, in one dimension turned on the way. */
+static inline void load_row(__local real *row, __global const real *from, const uint n,
+                            __global const real *lane_turns, __global const real *tile_turns,
+                            const bool is_line) {
+    for (uint i = get_local_id(0); i < n; i += get_local_size(0)) {
+        complexv z = load_global_complex(from, i);
+        if (is_line) {
+            const complexv turn = load_global_complex(lane_turns, i);
+            z = complex_multiply(z, tile_turns[2 * i], tile_turns[2 * i + 1]);
+            z = complex_multiply_lanes(z, turn.re, turn.im);
+        }
+        store_complex(row, i, z);
+    }
+}
+
+static inline void write_row(__local const real *row, const transform_axis second, const real scale,
+                             __global const real *gains, __global real *power) {
+    for (uint i = get_local_id(0); i < 2 * second.K + 1; i += get_local_size(0)) {
+        const complexv z = kept_frequency(row, second, i);
+        store_global(power, i,
+                     fma(z.re, z.re, z.im * z.im) * (load_global(gains, i) * (realv)scale));
+    }
+}
+
+__kernel void nufft_whole(
+    __global const ulong *restrict points, __global const real *restrict weights,
+    __global const ulong *restrict offsets, const uint num_realizations,
+    __global const real *restrict across_window, const uint across_n, const uint across_width,
+    const uint across_degree, const uint across_bins, __global const real *restrict along_window,
+    const uint along_n, const uint along_width, const uint along_degree, const uint along_bins,
+    __global const uint *restrict first_radices, __global const real *restrict first_twiddles,
+    __global const uint *restrict first_position, const uint first_n, const uint first_K,
+    __global const uint *restrict second_radices, __global const real *restrict second_twiddles,
+    __global const uint *restrict second_position, const uint second_n, const uint second_K,
+    __global const real *restrict lane_turns, __global const real *restrict tile_turns,
+    __global const real *restrict gains, __global const real *restrict means,
+    __global const real *restrict scales, __global real *restrict power, const uint first_row,
+    const ulong stride, const uint num_tiles, const uint dimension, const uint pitch,
+    const uint grid_rows, const ulong grid_reals, __global real *restrict grids,
+    __global real *restrict all_rows, __local real *row, __local real *windows,
+    __local uint *cells) {
+    const uint columns = (second_n + 2 * LANES - 1) / (2 * LANES) * (2 * LANES);
+    const window_axis across = {
+        across_window, across_n, across_width, 0, across_degree, across_bins, 0, 1};
+    const window_axis along = {along_window, along_n,    along_width, dimension - 1,
+                               along_degree, along_bins, 0,           1};
+    const transform_axis first = {first_radices, first_twiddles, first_position, 0,
+                                  first_n,       first_K};
+    const transform_axis second = {second_radices, second_twiddles, second_position, 0,
+                                   second_n,       second_K};
+    const whole_grid grid = {grids + get_global_id(1) * grid_reals, pitch, grid_rows,
+                             dimension == 1};
+    __global real *rows = all_rows + get_global_id(1) * num_tiles * (size_t)columns * 2 * LANES;
+    const chunk chunk = make_chunk(windows, cells, across, along);
+    for (size_t r = get_global_id(1); r < num_realizations; r += get_global_size(1)) {
+        clear_grid(grid);
+        for (size_t place = offsets[r]; place < offsets[r + 1]; place += CHUNK) {
+            const uint count = (uint)min((ulong)CHUNK, offsets[r + 1] - place);
+            fill_chunk(chunk, points + place * dimension, weights + place, count, pitch, across,
+                       along, dimension == 1);
+            if (get_local_size(0) == 1) {
+                scatter(grid, chunk, across, along);
+            } else {
+                scatter_together(grid, chunk, across, along);
+            }
+            barrier_everywhere();
+        }
+        fold_grid(grid, across, along, dimension == 1 ? along.n : across.n * pitch);
+        /* First groups of columns, then tiles: one loop, since a second copy of all transforms takes the compiler
+         * seconds. */
+        const uint groups = columns / (2 * LANES);
+        for (uint step = 0; step < groups + num_tiles; step++) {
+            const bool is_first = step < groups;
+            const transform_axis axis = is_first ? first : second;
+            const uint column = step * 2 * LANES, own_tile = step - groups;
+            if (is_first) {
+                load_columns(row, grid, column, means[r], first_n);
+            } else {
+                load_row(row, rows + own_tile * (size_t)columns * 2 * LANES, second_n, lane_turns,
+                         tile_turns + own_tile * (size_t)second_n * 2, dimension == 1);
+            }
+            barrier(CLK_LOCAL_MEM_FENCE);
+            fft_transform(row, axis.n, axis.radices, axis.twiddles);
+            for (uint tile = get_local_id(0); is_first && tile < num_tiles;
+                 tile += get_local_size(0)) {
+                turn_halves(row, first, tile * LANES,
+                            rows + (tile * (size_t)columns + column) * (2 * LANES));
+            }
+            if (!is_first) {
+                const size_t at = own_tile * (2 * (size_t)second_K + 1) * LANES;
+                write_row(row, second, scales[first_row + r], gains + at,
+                          power + (first_row + r) * stride + at);
+            }
+            barrier_everywhere();
+        }
+    }
+}
