@@ -30,90 +30,22 @@ static const double most_whole_points[PS_NUFFT_MAX_AXES] = {1 << 20, 1 << 18, 0}
 /* In one dimension, where more tiles mean shorter transforms. */
 enum { MOST_TILES = 64 };
 
-/* Lengths between the two sigmas. */
-enum { MAX_CANDIDATES = 64 };
+/* Lengths between the two sigmas, twice. */
+enum { MAX_CANDIDATES = 128 };
 
-/* Least mean power to choose for: realizations of white noise vary by that much. */
-static const double nominal_power = 1.5;
+/* Of long ones only some: they differ by this part at least, so that all sigmas are among the candidates. */
+enum { NEXT_LENGTH = 64 };
 
+/* Mean power to choose for at least: that of white sets, half of whose modes are independent, stays within
+ * four standard deviations. */
 static double power_of(const ps_problem *problem) {
-    return fmax(nominal_power, ps_expected_power(problem));
+    const double most = 1.5;
+    const double nominal = fmin(most, 1 + 4 * sqrt(2 / ps_nufft_modes(problem)));
+    return fmax(nominal, ps_expected_power(problem));
 }
-
-static double points_of(const ps_problem *problem) {
-    return (double)(problem->planned_points > 0 ? problem->planned_points : problem->num_points);
-}
-
-static const double unit_roundoff[2] = {0x1p-24, 0x1p-53};
-
-/* Errors in units of the root of sum w^2, measured in tests/test_tolerance_sweep.c, slack in
- * docs/torus_nufft.md: of aliasing against its expectation for white sets, to which a peak of a lattice
- * comes, in pairs and of power N, wherever it does most harm; of rounding, in units of
- * roundoff: of windows and phases, of each pass of the transforms on both axes, of sums in dense cells
- * (root of the number of terms; where axis 0 has frequency 0, terms are in step and it is the number of points
- * in a cell that counts), of coincident points. */
-static const double alias_slack = 4;
-static const double alias_peaks = 8;      /* for each axis */
-static const double strided_peaks = 3;    /* of one lattice, more in one dimension */
-static const double coherent_aliases = 6; /* of |S|^2: aliases of coincident points are in step */
-static const double window_roundings = 5;
-static const double roundings_per_pass = 1;
-static const double turning_roundings = 2; /* between two transforms in one dimension */
-static const double dense_roundings = 1;
-static const double dense_roundings_at_zero = 2;
-static const double grid_roundings_at_zero = 0.05;
-static const double line_roundings_at_zero = 0.1; /* the same in one dimension */
-static const double coherent_roundings = 0.35;
 
 uint32_t ps_nufft_base(const ps_nufft_choice *choice) {
     return choice->stride * (uint32_t)choice->axes[0].max_frequency;
-}
-
-/* ---- error ------------------------------------------------------------------------------- */
-
-double ps_nufft_error(const ps_nufft_choice *choice, const ps_problem *problem,
-                      ps_precision precision, double mean_power) {
-    const ps_frequencies *set = problem->frequencies;
-    const double modes = pow(2.0 * set->max_frequency + 1, set->dimension);
-    const double power = mean_power > 1 ? mean_power : 1;
-    const double unit = unit_roundoff[precision];
-    double amplification = 1;
-    double aliases = 0;
-    double worst = 0;
-    double passes = 0;
-    const uint64_t at_once = choice->chunk > 0 && choice->chunk < problem->num_points
-                                 ? choice->chunk
-                                 : problem->num_points;
-    double dense = (double)at_once; /* points in a cell, */
-    double touching = dense;        /* and those whose windows touch it */
-    double widths = 1;
-    for (unsigned i = 0; i < choice->num_axes; i++) {
-        const ps_nufft_axis *axis = &choice->axes[i];
-        amplification *= axis->loss.amplification;
-        aliases += axis->loss.aliasing;
-        worst += axis->loss.worst;
-        passes += axis->passes * roundings_per_pass;
-        dense *= sqrt(axis->window.width) / axis->n;
-        touching *= (double)axis->window.width / axis->n;
-        widths *= axis->window.width;
-    }
-    const bool is_line = choice->stride != 0 || (choice->is_whole && choice->num_axes == 1);
-    const double peaks = alias_peaks * (is_line ? strided_peaks : 1);
-    passes += choice->is_whole && choice->num_axes == 1 ? turning_roundings : 0;
-    const double aliasing = sqrt(alias_slack * alias_slack * aliases +
-                                 choice->num_axes * peaks * worst * points_of(problem) / modes) *
-                            sqrt(fmax(1, coherent_aliases * (power - 1)));
-    const double polynomials =
-        PS_NUFFT_POLYNOMIAL_SHARE * problem->tolerance * sqrt(choice->num_axes * power);
-    const double sums = dense_roundings * sqrt(touching);
-    const double rounding = unit * amplification * (window_roundings + passes + sums);
-    const double at_zero =
-        unit * amplification *
-        (choice->is_gridded
-             ? (is_line ? line_roundings_at_zero : grid_roundings_at_zero) * touching * sqrt(widths)
-             : dense_roundings_at_zero * dense / sqrt(choice->span));
-    const double coherent = unit * coherent_roundings * power * sqrt(power);
-    return hypot(hypot(aliasing, polynomials), hypot(rounding * sqrt(power), at_zero)) + coherent;
 }
 
 /* ---- choice ------------------------------------------------------------------------------ */
@@ -151,7 +83,7 @@ static ps_nufft_axis choose_width(const ps_nufft_choice *whole, unsigned which, 
     double least_error = HUGE_VAL;
     ps_problem alone_problem = *problem;
     alone_problem.tolerance = tolerance;
-    alone_problem.planned_points = (uint64_t)points_of(problem);
+    alone_problem.planned_points = (uint64_t)ps_nufft_points(problem);
     if (whole->num_axes > 1) {
         alone_problem.num_points = 1; /* as many as touch a row would be another problem */
     }
@@ -185,6 +117,7 @@ static uint32_t length_for(const ps_nufft_choice *whole, unsigned which, uint64_
     return n;
 }
 
+/* Where there are two axes, a window may be narrower if the other is wider. */
 static size_t list_candidates(const ps_nufft_choice *whole, unsigned which,
                               const ps_problem *problem, ps_precision precision,
                               ps_nufft_axis candidates[MAX_CANDIDATES]) {
@@ -193,9 +126,13 @@ static size_t list_candidates(const ps_nufft_choice *whole, unsigned which,
     const uint64_t last = (uint64_t)(largest_sigma * twice_k);
     size_t num = 0;
     for (uint32_t n = length_for(whole, which, least, precision);
-         n != 0 && n <= MOST_CELLS && (num == 0 || (n <= last && num < MAX_CANDIDATES));
-         n = length_for(whole, which, (uint64_t)n + 1 + n / MAX_CANDIDATES, precision)) {
-        candidates[num++] = choose_width(whole, which, n, problem, precision);
+         n != 0 && n <= MOST_CELLS && (num == 0 || (n <= last && num + 2 <= MAX_CANDIDATES));
+         n = length_for(whole, which, (uint64_t)n + 1 + n / NEXT_LENGTH, precision)) {
+        const ps_nufft_axis axis = choose_width(whole, which, n, problem, precision);
+        candidates[num++] = axis;
+        if (whole->num_axes == 2 && axis.window.width > PS_NUFFT_MIN_WIDTH) {
+            candidates[num++] = make_axis(&axis, n, axis.window.width - 1);
+        }
     }
     return num;
 }
@@ -208,7 +145,7 @@ typedef struct best_choice {
 static void consider(best_choice *best, const ps_nufft_choice *choice, const ps_problem *problem,
                      ps_precision precision) {
     const double error = ps_nufft_error(choice, problem, precision, power_of(problem));
-    const double flops = ps_nufft_flops(choice, precision, points_of(problem));
+    const double flops = ps_nufft_flops(choice, precision, ps_nufft_points(problem));
     const bool is_enough = error <= problem->tolerance;
     const bool was_enough = best->error <= problem->tolerance;
     if (best->choice.num_axes == 0 ||
@@ -295,10 +232,10 @@ ps_nufft_choice ps_nufft_choose(const ps_problem *whole, const ps_device_limits 
     best_choice best = {0};
     if (dimension == 2 || dimension == 3) {
         ps_nufft_choice choice = direct_choice(max_frequency, dimension);
-        if (points_of(problem) <= most_sorted_points) {
+        if (ps_nufft_points(problem) <= most_sorted_points) {
             consider_grids(&best, &choice, problem, precision);
         }
-        if (points_of(problem) >= least_gridded_points) {
+        if (ps_nufft_points(problem) >= least_gridded_points) {
             choice = gridded_choice(max_frequency, dimension);
             consider_grids(&best, &choice, problem, precision);
         }
@@ -309,7 +246,7 @@ ps_nufft_choice ps_nufft_choose(const ps_problem *whole, const ps_device_limits 
             consider_grids(&best, &choice, problem, precision);
         }
     }
-    if (points_of(problem) <= most_whole_points[dimension - 1] &&
+    if (ps_nufft_points(problem) <= most_whole_points[dimension - 1] &&
         (limits == NULL || !limits->has_dedicated_local_memory)) {
         ps_nufft_choice choice = gridded_choice(max_frequency, dimension);
         choice.is_whole = true;

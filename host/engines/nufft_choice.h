@@ -59,6 +59,10 @@ ps_nufft_choice ps_nufft_choose(const ps_problem *problem, const ps_device_limit
 double ps_nufft_error(const ps_nufft_choice *choice, const ps_problem *problem,
                       ps_precision precision, double mean_power);
 
+/* Of a problem: frequencies of both signs, and points planned. */
+double ps_nufft_modes(const ps_problem *problem);
+double ps_nufft_points(const ps_problem *problem);
+
 /* What a device at its peak would do while it works on one realization of num_points points. */
 double ps_nufft_flops(const ps_nufft_choice *choice, ps_precision precision, double num_points);
 

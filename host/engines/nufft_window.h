@@ -25,7 +25,7 @@ double ps_nufft_window_transform(const ps_nufft_window *window, long double f);
 /* What the window does to a set with unit power at every frequency, by its transform. */
 typedef struct ps_nufft_loss {
     double aliasing;      /* mean over |k| <= K of |error / S|^2 from frequencies k + m n, m != 0 */
-    double worst;         /* the same at the largest frequency, where it is largest */
+    double worst;         /* the same at the frequency where it is largest */
     double amplification; /* of white errors of the grid: root mean square, grid and frequencies */
 } ps_nufft_loss;
 ps_nufft_loss ps_nufft_window_loss(const ps_nufft_window *window, int32_t max_frequency,
