@@ -140,7 +140,7 @@ static void split_grids(void **state) {
         uint64_t limits[2];
     } splits[] = {
         {{2, 241, PS_SINGLE, 1e-6, 3000, true}, {2000000, 600000}},
-        {{3, 20, PS_SINGLE, 2e-6, 3000, true}, {4300000, 2200000}},
+        {{3, 20, PS_SINGLE, 2e-6, 3000, true}, {4300000, 3600000}},
     };
     for (size_t i = 0; i < sizeof splits / sizeof splits[0]; i++) {
         const grid_case *what = &splits[i].what;

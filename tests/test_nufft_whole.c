@@ -29,7 +29,7 @@ static const whole_case cases[] = {
     {1, 1000, PS_SINGLE, 1e-3, 3000}, {1, 37, PS_DOUBLE, 1e-12, 500},
     {1, 800, PS_DOUBLE, 1e-9, 900},   {2, 5, PS_SINGLE, 1e-3, 1000},
     {2, 15, PS_SINGLE, 1e-6, 4000},   {2, 16, PS_SINGLE, 1e-5, 4000},
-    {2, 33, PS_SINGLE, 1e-2, 9000},   {2, 30, PS_DOUBLE, 1e-10, 9000},
+    {2, 33, PS_SINGLE, 1e-2, 9000},   {2, 63, PS_DOUBLE, 1e-9, 20000},
     {2, 20, PS_DOUBLE, 1e-6, 4000},
 };
 
