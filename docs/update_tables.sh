@@ -25,6 +25,7 @@ table_bench_nufft() { bench nufft; }
 # The problems of the bench one by one would be a page of their own: those that went wrong, and the sum.
 table_bench_choice() { bench choice | awk 'NR == 1 || /^#/ || $NF > 1.3'; }
 table_bench_reading() { bench reading; }
+table_bench_errors() { bench errors; }
 table_bench_memory() { bench memory; }
 table_bench_library() { bench library; }
 

@@ -72,6 +72,43 @@ static void same_bits_for_large_sets(void **state) {
     ps_frequencies_free(&grid);
 }
 
+/* ---- mean only --------------------------------------------------------------------------- */
+
+/* Means without standard errors have the bits of those with them. */
+static void check_mean_only(const ps_frequencies *set, const ps_engine *engine,
+                            ps_precision precision) {
+    test_sample what = test_make_sample(23, set->dimension, 40, 3, true);
+    ps_estimator_options options = test_make_options(set, engine, precision, 200, 7);
+    ps_spectrum with = test_estimate(&options, &what, 23, device);
+    options.mean_only = true;
+    ps_spectrum without = test_estimate(&options, &what, 23, device);
+    assert_int_equal(with.num_bins, without.num_bins);
+    for (size_t b = 0; b < with.num_bins; b++) {
+        assert_true(with.bins[b].power == without.bins[b].power);
+        assert_true(with.bins[b].standard_error > 0);
+        assert_true(isnan(without.bins[b].standard_error));
+    }
+    for (size_t i = 0; i < set->num; i++) {
+        assert_true(with.powers[i].mean == without.powers[i].mean);
+        assert_true(with.powers[i].standard_error > 0);
+        assert_true(isnan(without.powers[i].standard_error));
+    }
+    ps_spectrum_free(&with);
+    ps_spectrum_free(&without);
+    test_free_sample(&what);
+}
+
+static void same_means_without_standard_errors(void **state) {
+    (void)state;
+    ps_frequencies grid = test_make_lattice(2, 9, false);
+    check_mean_only(&grid, &ps_torus_direct, PS_SINGLE);
+    if (ps_device_get_limits(device)->has_fp64) {
+        check_mean_only(&grid, &ps_torus_direct, PS_DOUBLE);
+    }
+    check_mean_only(&grid, &ps_host_direct, PS_EXTENDED);
+    ps_frequencies_free(&grid);
+}
+
 /* ---- laws -------------------------------------------------------------------------------- */
 
 /* Largest | sqrt(P) - sqrt(P') | over frequencies: what a tolerance of S allows. */
@@ -284,6 +321,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(same_bits_for_every_batch),
         cmocka_unit_test(same_bits_for_large_sets),
+        cmocka_unit_test(same_means_without_standard_errors),
         cmocka_unit_test(shifts_leave_the_power_unchanged),
         cmocka_unit_test(equal_points_have_power_n),
         cmocka_unit_test(merging_duplicates_changes_nothing),

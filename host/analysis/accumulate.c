@@ -39,6 +39,21 @@ static pspec_status allocate(ps_accumulator *self, ps_error *error) {
     return PSPEC_OK;
 }
 
+static void clear(ps_sums *sums, size_t num, bool mean_only) {
+    for (size_t i = 0; i < num; i++) {
+        sums[i] = mean_only ? PS_SUMS_MEAN_ONLY : (ps_sums){0};
+    }
+}
+
+static void clear_all(ps_accumulator *self) {
+    const ps_accumulator_options *options = &self->options;
+    self->num_realizations = 0;
+    clear(self->bin_sums, options->bins->num, options->mean_only);
+    if (self->frequency_sums != NULL) {
+        clear(self->frequency_sums, options->num_frequencies, options->mean_only);
+    }
+}
+
 pspec_status ps_accumulator_create(ps_accumulator **out, const ps_accumulator_options *options,
                                    ps_device *device, ps_error *error) {
     void *memory = NULL;
@@ -55,6 +70,7 @@ pspec_status ps_accumulator_create(ps_accumulator **out, const ps_accumulator_op
         ps_accumulator_destroy(self);
         return status;
     }
+    clear_all(self);
     *out = self;
     return PSPEC_OK;
 }
@@ -69,6 +85,14 @@ void ps_accumulator_destroy(ps_accumulator *accumulator) {
     free(accumulator->bin_sums);
     free(accumulator->frequency_sums);
     free(accumulator);
+}
+
+static void add(const ps_accumulator *self, ps_sums *sums, double power) {
+    if (self->options.mean_only) {
+        ps_sums_add_to_mean(sums, power);
+    } else {
+        ps_sums_add(sums, power);
+    }
 }
 
 /* Means over bins of one host row. */
@@ -88,7 +112,7 @@ static void add_host_rows(ps_accumulator *self, const ps_rows *rows) {
         const double *row = rows->host + r * rows->stride;
         average_bins(self, row, self->bin_powers + r * self->options.bins->num);
         for (size_t i = 0; self->frequency_sums != NULL && i < self->options.num_frequencies; i++) {
-            ps_sums_add(&self->frequency_sums[i], row[self->slots[i]]);
+            add(self, &self->frequency_sums[i], row[self->slots[i]]);
         }
     }
 }
@@ -104,7 +128,7 @@ pspec_status ps_accumulator_add(ps_accumulator *accumulator, const ps_rows *rows
     }
     for (size_t r = 0; r < rows->num_rows; r++) {
         for (size_t b = 0; b < num_bins; b++) {
-            ps_sums_add(&accumulator->bin_sums[b], accumulator->bin_powers[r * num_bins + b]);
+            add(accumulator, &accumulator->bin_sums[b], accumulator->bin_powers[r * num_bins + b]);
         }
     }
     accumulator->num_realizations += rows->num_rows;
@@ -115,12 +139,7 @@ pspec_status ps_accumulator_add(ps_accumulator *accumulator, const ps_rows *rows
 }
 
 pspec_status ps_accumulator_reset(ps_accumulator *accumulator, ps_error *error) {
-    const ps_accumulator_options *options = &accumulator->options;
-    accumulator->num_realizations = 0;
-    memset(accumulator->bin_sums, 0, options->bins->num * sizeof(ps_sums));
-    if (accumulator->frequency_sums != NULL) {
-        memset(accumulator->frequency_sums, 0, options->num_frequencies * sizeof(ps_sums));
-    }
+    clear_all(accumulator);
     return accumulator->on_device != NULL
                ? ps_device_accumulator_reset(accumulator->on_device, error)
                : PSPEC_OK;

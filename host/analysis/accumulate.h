@@ -14,7 +14,7 @@
 
 typedef struct ps_accumulator ps_accumulator;
 
-/* Mean and standard error of the mean, nan when there was only one realization. */
+/* Mean and standard error of the mean, nan when there was only one realization or with mean_only. */
 typedef struct ps_mean {
     double mean, standard_error;
 } ps_mean;
@@ -28,6 +28,7 @@ typedef struct ps_accumulator_options {
     ps_precision precision; /* of the rows */
     unsigned lanes;         /* of device rows */
     bool want_frequencies;  /* keep sums per frequency */
+    bool mean_only;         /* no sums of squares: standard errors are nan */
 } ps_accumulator_options;
 
 pspec_status ps_accumulator_create(ps_accumulator **out, const ps_accumulator_options *options,
@@ -42,7 +43,8 @@ pspec_status ps_accumulator_add(ps_accumulator *accumulator, const ps_rows *rows
 /* Forgets every realization; allocates nothing. */
 pspec_status ps_accumulator_reset(ps_accumulator *accumulator, ps_error *error) PS_MUST_CHECK;
 
-/* The sums themselves: bins[bins->num], frequencies[num_frequencies] or NULL when nobody asks. */
+/* The sums themselves: bins[bins->num], frequencies[num_frequencies] or NULL when nobody asks. With
+ * mean_only their squares are nan. */
 pspec_status ps_accumulator_sums(ps_accumulator *accumulator, ps_sums *bins, ps_sums *frequencies,
                                  ps_error *error) PS_MUST_CHECK;
 /* means[num_bins] */

@@ -70,6 +70,7 @@ static pspec_status create_kernels(ps_device_accumulator *self, ps_error *error)
     pspec_status status = PSPEC_OK;
     ps_text_append(&options, "-DPRECISION=%zu -DLANES=%u", self->real_bytes * 8,
                    self->options.lanes);
+    ps_text_append(&options, " -DSQUARES=%d", self->options.mean_only ? 0 : 1);
     PS_TRY_OUT(status, ps_text_check(&options, error));
     const char *text = ps_text_string(&options);
     PS_TRY_OUT(status,
@@ -89,6 +90,11 @@ static bool is_whole(const ps_device_accumulator *self) {
     return self->num_pieces == self->options.bins->num;
 }
 
+/* The state: sums per frequency, and of squares when they are asked for, in pairs. */
+static size_t state_entries(const ps_device_accumulator *self) {
+    return (self->options.mean_only ? 2 : 4) * self->options.stride;
+}
+
 static pspec_status create_buffers(ps_device_accumulator *self, ps_error *error) {
     const ps_accumulator_options *options = &self->options;
     const size_t pair_bytes = self->num_groups * 2 * options->lanes * self->real_bytes;
@@ -101,10 +107,11 @@ static pspec_status create_buffers(ps_device_accumulator *self, ps_error *error)
                                 "sums of bins", error));
     }
     if (options->want_frequencies) {
-        PS_TRY(ps_buffer_create(self->device, &self->state, 4 * options->stride * self->real_bytes,
+        const size_t entries = state_entries(self);
+        PS_TRY(ps_buffer_create(self->device, &self->state, entries * self->real_bytes,
                                 "sums of frequencies", error));
         PS_TRY(ps_buffer_clear(self->device, &self->state, error));
-        staging = staging > 4 * options->stride ? staging : 4 * options->stride;
+        staging = staging > entries ? staging : entries;
     }
     return ps_allocate(&self->host, staging, self->real_bytes, "sums of bins", error);
 }
@@ -159,8 +166,13 @@ void ps_device_accumulator_destroy(ps_device_accumulator *accumulator) {
 
 /* ---- add --------------------------------------------------------------------------------- */
 
-/* Operations on one power: a sum; a sum and a sum of squares. */
-enum { BIN_FLOPS = 7, FREQUENCY_FLOPS = 16, FOLD_FLOPS = 8 };
+/* Operations on one power: a sum in a bin, a sum and a sum of squares of a frequency. */
+enum { BIN_FLOPS = 7, SUM_FLOPS = 7, SQUARE_FLOPS = 9, FOLD_FLOPS = 8 };
+
+static double power_flops(const ps_accumulator_options *options) {
+    return BIN_FLOPS + (options->want_frequencies ? SUM_FLOPS : 0) +
+           (options->want_frequencies && !options->mean_only ? SQUARE_FLOPS : 0);
+}
 
 #define BLOCK_ARGUMENTS(self, rows)                                                                \
     PS_BUFFER((rows)->device), PS_U32((rows)->num_rows), PS_U64((rows)->stride),                   \
@@ -171,8 +183,7 @@ static pspec_status sum_blocks(ps_device_accumulator *self, const ps_rows *rows,
     const bool with_frequencies = self->options.want_frequencies;
     const double powers = (double)(rows->num_rows * rows->stride);
     const ps_range range =
-        ps_range_heavy(self->device, 1, self->num_blocks, 1,
-                       (BIN_FLOPS + (with_frequencies ? FREQUENCY_FLOPS : 0)) * powers,
+        ps_range_heavy(self->device, 1, self->num_blocks, 1, power_flops(&self->options) * powers,
                        powers * (double)self->real_bytes);
     const ps_argument block = PS_LOCAL(block_bytes(self->options.lanes, self->real_bytes));
     return with_frequencies ? PS_LAUNCH(self->device, self->blocks, &range, error,
@@ -230,15 +241,20 @@ pspec_status ps_device_accumulator_reset(ps_device_accumulator *accumulator, ps_
 /* Brings the sums per frequency into the staging memory. */
 static pspec_status read_state(const ps_device_accumulator *self, ps_error *error) {
     return ps_buffer_read(self->device, &self->state, 0, self->host,
-                          4 * self->options.stride * self->real_bytes, error);
+                          state_entries(self) * self->real_bytes, error);
 }
 
 static ps_sums get_sums(const ps_device_accumulator *self, size_t frequency) {
     const size_t stride = self->options.stride;
     const size_t slot = self->options.slots[frequency];
-    return (ps_sums){get_real(self, self->host, slot), get_real(self, self->host, stride + slot),
-                     get_real(self, self->host, 2 * stride + slot),
-                     get_real(self, self->host, 3 * stride + slot)};
+    ps_sums sums = PS_SUMS_MEAN_ONLY;
+    sums.sum = get_real(self, self->host, slot);
+    sums.sum_low = get_real(self, self->host, stride + slot);
+    if (!self->options.mean_only) {
+        sums.square = get_real(self, self->host, 2 * stride + slot);
+        sums.square_low = get_real(self, self->host, 3 * stride + slot);
+    }
+    return sums;
 }
 
 pspec_status ps_device_accumulator_sums(ps_device_accumulator *accumulator, ps_sums *sums,

@@ -11,6 +11,10 @@ void ps_sums_add(ps_sums *sums, double x) {
     pair_add_square(&sums->square, &sums->square_low, x);
 }
 
+void ps_sums_add_to_mean(ps_sums *sums, double x) {
+    pair_add(&sums->sum, &sums->sum_low, x);
+}
+
 /* (high, low) of the exact product of two doubles. */
 static void multiply(double a, double b, double *high, double *low) {
     *high = a * b;

@@ -49,6 +49,7 @@ static pspec_status create_accumulator(ps_estimator *self, ps_error *error) {
                      ? ps_engine_lanes(ps_device_get_limits(self->device), options->precision)
                      : 1,
         .want_frequencies = options->want_frequencies,
+        .mean_only = options->mean_only,
     };
     return ps_accumulator_create(&self->accumulator, &accumulator, self->device, error);
 }

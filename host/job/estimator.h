@@ -21,6 +21,7 @@ typedef struct ps_estimator_options {
     size_t batch; /* realizations at a time; halved when memory is refused */
     bool exact_shells;
     bool want_frequencies; /* keep sums per frequency */
+    bool mean_only; /* no sums of squares: every standard error is nan, means have the same bits */
     bool self_check;
     pspec_normalization normalization;
     bool (*should_stop)(void *payload); /* asked every second or so; may be NULL, see ps_batch */

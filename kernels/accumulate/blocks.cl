@@ -12,7 +12,8 @@
  *   rings    members of one bin in one block, and the piece that they make
  *   members  slots within their block
  *   sums     [group of LANES realizations][piece][high, low][LANES]
- *   state    [sum high, sum low, square sum high, square sum low][stride], continued
+ *   state    [sum high, sum low, square sum high, square sum low][stride], continued; the first two rows
+ *            alone without SQUARES
  *   block    local, [BLOCK][LANES]
  */
 #include "shared/lanes.h"
@@ -22,6 +23,11 @@
 /* Fixed: sums depend on it. Long enough that pieces are few, short enough for the local memory of any
  * device and for the nearest cache of a core. host/analysis/accumulate_device.c knows it too. */
 #define BLOCK 512
+
+/* 0: sums alone, nobody asks for standard errors of frequencies. */
+#ifndef SQUARES
+#define SQUARES 1
+#endif
 
 typedef struct ring {
     uint first, end; /* members */
@@ -40,19 +46,25 @@ static inline void load_rows(realv *powers, __global const real *rows, const ulo
 static inline void add_to_state(__global real *state, const ulong stride, const realv *powers,
                                 const uint count) {
     realv sum = load_global(state, 0), sum_low = load_global(state + stride, 0);
+#if SQUARES
     realv square = load_global(state + 2 * stride, 0);
     realv square_low = load_global(state + 3 * stride, 0);
+#endif
 #pragma unroll
     for (uint i = 0; i < LANES; i++) {
         if (i < count) {
             pair_add(&sum, &sum_low, powers[i]);
+#if SQUARES
             pair_add_square(&square, &square_low, powers[i]);
+#endif
         }
     }
     store_global(state, 0, sum);
     store_global(state + stride, 0, sum_low);
+#if SQUARES
     store_global(state + 2 * stride, 0, square);
     store_global(state + 3 * stride, 0, square_low);
+#endif
 }
 
 /* LANES realizations of a block: rows begin at its first slot, and so does the state, if any. */

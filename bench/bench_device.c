@@ -1,0 +1,215 @@
+/* One table of what a device does: engines beside its measured peaks of arithmetic and of memory.
+ *
+ *     bench_device [CASE...]       a case is "DIMENSION N K R TOLERANCE single|double"; on a GPU R times 16
+ *
+ * Times are medians, from points in host memory to powers on the device; errors as in bench_torus. GFLOP/s are
+ * of the operations that docs/torus_nufft.md and docs/torus_direct.md count. GB/s are of the traffic that no
+ * method can do without: points read, powers written, once each; `of peak` is its share of the bandwidth of
+ * a copy (probe/copy.cl, bytes read and written). torus_direct gets fewer realizations where it is slow.
+ */
+#include "bench.h"
+
+#include "engines/nufft_fft.h"
+#include "engines/nufft_layout.h"
+#include "engines/torus_direct.h"
+#include "engines/torus_nufft.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const default_cases[] = {
+    "2 256 32 2048 1e-6 single",    "2 256 32 1024 1e-12 double", "2 1024 128 256 1e-6 single",
+    "2 1024 128 128 1e-12 double",  "2 4096 64 256 1e-6 single",  "2 4096 64 128 1e-12 double",
+    "2 4096 256 64 1e-6 single",    "2 4096 256 32 1e-12 double", "2 16384 512 32 1e-6 single",
+    "2 16384 512 16 1e-12 double",  "2 65536 1024 4 1e-6 single", "2 65536 1024 4 1e-12 double",
+    "1 65536 32768 16 1e-6 double", "3 4096 32 16 1e-6 single",
+};
+
+enum { REPEATS = 5, GPU_REALIZATIONS = 16 };
+
+typedef struct device_case {
+    unsigned dimension;
+    size_t num_points, num_realizations;
+    int k;
+    double tolerance;
+    ps_precision precision;
+} device_case;
+
+static device_case parse_case(const char *text, const ps_device_limits *limits) {
+    device_case out = {0};
+    char precision[8];
+    if (sscanf(text, "%u %zu %d %zu %lf %7s", &out.dimension, &out.num_points, &out.k,
+               &out.num_realizations, &out.tolerance, precision) != 6) {
+        bench_die(text);
+    }
+    out.precision = strcmp(precision, "double") == 0 ? PS_DOUBLE : PS_SINGLE;
+    out.num_realizations *= limits->is_gpu ? GPU_REALIZATIONS : 1;
+    return out;
+}
+
+/* ---- bandwidth --------------------------------------------------------------------------- */
+
+/* Much more than any cache, and little of the memory. */
+static size_t copied_bytes(const ps_device_limits *limits) {
+    const size_t most = limits->has_dedicated_local_memory ? (size_t)1 << 30 : (size_t)1 << 27;
+    const size_t unit = 1 << 20;
+    return most < limits->max_allocation_bytes / 2
+               ? most
+               : (size_t)limits->max_allocation_bytes / 2 / unit * unit;
+}
+
+/* Bytes per second, read and written: nothing but disturbance makes a copy slower, so the best of some. */
+static double measure_bandwidth(ps_device *device) {
+    const ps_device_limits *limits = ps_device_get_limits(device);
+    const unsigned lanes = ps_engine_lanes(limits, PS_SINGLE);
+    const size_t bytes = copied_bytes(limits);
+    const ps_range range = ps_range_light(device, bytes / (lanes * sizeof(float)), 1, 1, 0, 0);
+    const float mark = 0.75F;
+    float found = 0;
+    double best = HUGE_VAL;
+    cl_kernel kernel = NULL;
+    ps_buffer from = {0};
+    ps_buffer to = {0};
+    ps_text options = {0};
+    ps_text_append(&options, "-DPRECISION=32 -DLANES=%u", lanes);
+    BENCH_TRY(ps_kernel_create(device, &kernel, "probe/copy.cl", "probe_copy",
+                               ps_text_string(&options), error));
+    BENCH_TRY(ps_buffer_create(device, &from, bytes, "a copy", error));
+    BENCH_TRY(ps_buffer_create(device, &to, bytes, "a copy", error));
+    BENCH_TRY(ps_buffer_clear(device, &from, error));
+    BENCH_TRY(ps_buffer_write(device, &from, bytes - sizeof mark, &mark, sizeof mark, error));
+    for (int i = 0; i <= 2 * REPEATS; i++) { /* the first builds the kernel and touches memory */
+        const double begin = bench_seconds();
+        BENCH_TRY(PS_LAUNCH(device, kernel, &range, error, PS_BUFFER(from), PS_BUFFER(to)));
+        BENCH_TRY(ps_device_finish(device, error));
+        best = fmin(best, bench_seconds() - begin);
+    }
+    BENCH_TRY(ps_buffer_read(device, &to, bytes - sizeof found, &found, sizeof found, error));
+    if (found != mark) {
+        bench_die("a copy differs from what was copied");
+    }
+    clReleaseKernel(kernel);
+    ps_buffer_release(&from);
+    ps_buffer_release(&to);
+    ps_text_free(&options);
+    return 2 * (double)bytes / best;
+}
+
+/* ---- counted work ------------------------------------------------------------------------ */
+
+static double direct_flops(const device_case *what, const bench_job *job) {
+    const double k1 = what->k + 1.0;
+    const double frequencies = (double)job->frequencies.num;
+    return (double)what->num_points * (what->dimension == 2 ? 8 * k1 * k1 : 4 * frequencies);
+}
+
+/* Of one realization: spreading, then the transforms of all tiles. */
+static double nufft_flops(const device_case *what, const bench_job *job) {
+    const ps_problem problem = {.frequencies = &job->frequencies,
+                                .num_points = what->num_points,
+                                .num_realizations = what->num_realizations,
+                                .tolerance = what->tolerance};
+    const ps_nufft_layout layout =
+        ps_nufft_layout_make(&problem, ps_device_get_limits(job->device), what->precision);
+    const ps_nufft_choice *choice = &layout.choice;
+    const double sums = (double)layout.num_tiles * layout.lanes;
+    unsigned num = 0;
+    const ps_nufft_axis *axes = ps_nufft_last_axes(choice, &num);
+    const ps_nufft_axis *last = &axes[num - 1];
+    const double rows = num == 2 ? axes[0].n : 1;
+    const double columns = num == 2 ? 2.0 * last->max_frequency + 1 : 0;
+    double spread = 2 * (double)what->num_points;
+    if (choice->is_gridded) { /* real numbers, and a real transform along axis 0 */
+        for (unsigned i = 0; i < choice->num_axes; i++) {
+            spread *= choice->axes[i].window.width;
+        }
+        spread += rows * last->n * ps_fft_flops(choice->axes[0].n) / 2;
+    } else {
+        spread *= (num == 2 ? axes[0].window.width : 1) * sums * (2.0 * last->window.width + 4);
+    }
+    return spread + sums * (rows * ps_fft_flops(last->n) +
+                            (num == 2 ? columns * ps_fft_flops(axes[0].n) : 0));
+}
+
+static double least_bytes(const device_case *what, const bench_job *job) {
+    const double real_bytes = what->precision == PS_SINGLE ? sizeof(float) : sizeof(double);
+    return (double)what->num_points * what->dimension * sizeof(double) +
+           (double)job->frequencies.num * real_bytes;
+}
+
+/* ---- cases ------------------------------------------------------------------------------- */
+
+/* torus_direct takes so much longer for large grids that fewer realizations must do. */
+static size_t fewer(const device_case *what) {
+    const double most_flops = 5e10;
+    const double each = 4 * pow(2.0 * what->k + 1, what->dimension) / 2 * (double)what->num_points;
+    const double num = fmax(2, most_flops / each);
+    return num < (double)what->num_realizations ? (size_t)num : what->num_realizations;
+}
+
+static void run_engine(const char *text, const device_case *what, const ps_engine *engine,
+                       ps_device *device, double bandwidth) {
+    const bool is_direct = engine == &ps_torus_direct;
+    bench_job job;
+    ps_frequencies grid = {0};
+    ps_rows rows = {0};
+    double seconds[REPEATS];
+    BENCH_TRY(ps_frequencies_lattice(&grid, what->dimension, what->k, false, error));
+    bench_job_create(&job, engine, what->precision, what->tolerance, device, grid, what->num_points,
+                     is_direct ? fewer(what) : what->num_realizations);
+    bench_job_run(&job, &rows); /* builds kernels, touches memory */
+    for (int i = 0; i < REPEATS; i++) {
+        seconds[i] = bench_job_run(&job, &rows) / (double)job.num_realizations;
+    }
+    const double each = bench_median(seconds, REPEATS);
+    const double flops = is_direct ? direct_flops(what, &job) : nufft_flops(what, &job);
+    const double rate = least_bytes(what, &job) / each;
+    printf("%-29s %-12s %7zu %11.2f %9.1e %9.1f %8.2f %8.4f\n", text, engine->name,
+           job.num_realizations, each * 1e6, bench_job_error(&job), flops / each * 1e-9,
+           rate * 1e-9, rate / bandwidth);
+    fflush(stdout);
+    bench_job_destroy(&job);
+}
+
+static void run_case(const char *text, ps_device *device, double bandwidth) {
+    const ps_device_limits *limits = ps_device_get_limits(device);
+    const device_case what = parse_case(text, limits);
+    if (what.precision == PS_DOUBLE && !limits->has_fp64) {
+        return;
+    }
+    run_engine(text, &what, &ps_torus_nufft, device, bandwidth);
+    run_engine(text, &what, &ps_torus_direct, device, bandwidth);
+}
+
+static double measure_peak(ps_device *device, ps_precision precision) {
+    bench_peak peak;
+    double best = 0;
+    bench_peak_create(&peak, device, precision);
+    for (int i = 0; i < REPEATS; i++) {
+        best = fmax(best, bench_peak_run(&peak));
+    }
+    bench_peak_destroy(&peak);
+    return best;
+}
+
+int main(int argc, char **argv) {
+    ps_device *device = NULL;
+    BENCH_TRY(ps_device_open(&device, getenv("POINTSPEC_DEVICE"), false, error));
+    const ps_device_limits *limits = ps_device_get_limits(device);
+    const double bandwidth = measure_bandwidth(device);
+    printf("# device: %s (%s, driver %s), %u compute units\n", limits->name, limits->version,
+           limits->driver, limits->compute_units);
+    printf("# measured peaks: %.0f GFLOP/s single, %.0f GFLOP/s double, copy %.1f GB/s\n",
+           measure_peak(device, PS_SINGLE) * 1e-9,
+           limits->has_fp64 ? measure_peak(device, PS_DOUBLE) * 1e-9 : 0.0, bandwidth * 1e-9);
+    printf("%-29s %-12s %7s %11s %9s %9s %8s %8s\n", "d N K R tolerance", "engine", "R", "us/R",
+           "error", "GFLOP/s", "GB/s", "of peak");
+    const int num = argc > 1 ? argc - 1 : (int)(sizeof default_cases / sizeof default_cases[0]);
+    for (int i = 0; i < num; i++) {
+        run_case(argc > 1 ? argv[i + 1] : default_cases[i], device, bandwidth);
+    }
+    ps_device_close(device);
+    return 0;
+}
