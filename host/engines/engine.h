@@ -105,6 +105,9 @@ typedef struct ps_engine {
      * The formula and its measured slack are in the engine's page in docs/. */
     double (*error)(const ps_problem *, const ps_device_limits *limits, ps_precision,
                     double mean_power);
+    /* The same for the problem that the state was made for, where that is much cheaper (what error() chooses is
+     * chosen by then); NULL: it is not. */
+    double (*error_of_state)(const void *state, double mean_power);
     /* batch: the largest number of patterns in one run. The problem's frequencies are enumerated
      * and outlive the state. */
     pspec_status (*create)(void **state, const ps_problem *, ps_precision, size_t batch,

@@ -17,7 +17,7 @@
 
 typedef struct torus_nufft {
     ps_device *device;
-    const ps_frequencies *frequencies;
+    ps_problem problem;
     ps_precision precision;
     ps_nufft_layout layout;
     size_t batch;
@@ -108,6 +108,11 @@ static double error_of(const ps_problem *problem, const ps_device_limits *limits
                                 : ps_nufft_error(&choice, problem, precision, mean_power);
 }
 
+static double error_of_state(const void *state, double mean_power) {
+    const torus_nufft *self = state;
+    return ps_nufft_error(&self->layout.choice, &self->problem, self->precision, mean_power);
+}
+
 /* ---- create and destroy ------------------------------------------------------------------ */
 
 static void destroy(void *state) {
@@ -154,8 +159,9 @@ static pspec_status create_parts(torus_nufft *self, const ps_problem *problem, p
         return ps_nufft_whole_create(&self->whole, &self->layout, self->plans, self->precision,
                                      self->device, error);
     }
-    PS_TRY(ps_nufft_places_create(&self->places, &self->layout, self->frequencies->dimension,
-                                  self->precision, self->device, error));
+    PS_TRY(ps_nufft_places_create(&self->places, &self->layout,
+                                  self->problem.frequencies->dimension, self->precision,
+                                  self->device, error));
     if (ps_nufft_is_large(choice)) {
         return ps_nufft_grid_create(&self->large, &self->layout, self->plans, &self->places,
                                     self->precision, self->device, error);
@@ -171,7 +177,7 @@ static pspec_status create(void **state, const ps_problem *problem, ps_precision
     PS_TRY(ps_allocate(&memory, 1, sizeof(torus_nufft), "an engine", error));
     torus_nufft *self = memory;
     self->device = device;
-    self->frequencies = problem->frequencies;
+    self->problem = *problem;
     self->precision = precision;
     self->batch = batch;
     self->layout = ps_nufft_layout_make(problem, ps_device_get_limits(device), precision);
@@ -189,7 +195,7 @@ static pspec_status create(void **state, const ps_problem *problem, ps_precision
 
 static void get_slots(const void *state, uint32_t *slots) {
     const torus_nufft *self = state;
-    const ps_frequencies *set = self->frequencies;
+    const ps_frequencies *set = self->problem.frequencies;
     for (size_t i = 0; i < set->num; i++) {
         slots[i] = ps_nufft_slot(&self->layout, set->vectors + i * set->dimension, set->dimension);
     }
@@ -351,6 +357,7 @@ const ps_engine ps_torus_nufft = {
     .applicable = applicable,
     .work = work,
     .error = error_of,
+    .error_of_state = error_of_state,
     .create = create,
     .get_slots = get_slots,
     .get_stride = get_stride,

@@ -2,6 +2,9 @@
 #include "job/estimator_private.h"
 
 double ps_estimator_error_at(const ps_estimator *self, double mean_power) {
+    if (self->engine_state != NULL && self->options.engine->error_of_state != NULL) {
+        return self->options.engine->error_of_state(self->engine_state, mean_power);
+    }
     const ps_device_limits *limits =
         self->device != NULL ? ps_device_get_limits(self->device) : NULL;
     return self->options.engine->error(&self->options.problem, limits, self->options.precision,
