@@ -222,6 +222,7 @@ static void count_whole(ps_nufft_layout *layout, const ps_problem *problem,
     const double fitting = work_share * cache / (2 * (double)(layout->part_points * point));
     const size_t most = known > 0 && known < MOST_AT_ONCE ? (size_t)known : MOST_AT_ONCE;
     layout->parts = fitting > (double)cores ? (size_t)fmin(fitting, MOST_AT_ONCE) : cores;
+    layout->parts -= layout->parts % cores;
     layout->parts = layout->parts > most ? most : layout->parts;
     layout->groups =
         layout->parts < GROUPS_PER_CORE * cores ? layout->parts : GROUPS_PER_CORE * cores;
