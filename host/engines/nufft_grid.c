@@ -118,12 +118,15 @@ static pspec_status spread_on(ps_nufft_grid *self, uint32_t slab, size_t num_par
                          self->plans[0].axis.n;
     const ps_range range = ps_nufft_group_range(self->device, num_blocks, 1, flops);
     const size_t row_bytes = (last->axis.n + last->bins) * self->layout->real_bytes;
+    const size_t windows = PS_NUFFT_CHUNK * (block->bins + last->bins + 3);
     return PS_LAUNCH(self->device, self->spread, &range, error, PS_BUFFER(self->places->places),
                      PS_BUFFER(self->places->sorted), PS_BUFFER(self->places->heights),
                      PS_BUFFER(self->places->starts), PS_U32(num_parts), PS_U32(axes),
                      GRID_AXIS(outer), GRID_AXIS(block), GRID_AXIS(last), PS_U32(first_block),
                      PS_BUFFER(self->high[slab]), PS_BUFFER(self->low[slab]),
-                     PS_LOCAL(PS_NUFFT_BLOCK_ROWS * row_bytes));
+                     PS_LOCAL(PS_NUFFT_BLOCK_ROWS * row_bytes),
+                     PS_LOCAL(windows * self->layout->real_bytes),
+                     PS_LOCAL(2 * PS_NUFFT_CHUNK * sizeof(uint32_t)));
 }
 
 static pspec_status spread(ps_nufft_grid *self, size_t num_parts, size_t num_points,

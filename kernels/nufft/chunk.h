@@ -24,6 +24,13 @@ typedef struct chunk {
     __local uint *columns; /* [CHUNK]: the first of its row */
 } chunk;
 
+/* Windows of a point: along rows of cells, across them, and in three dimensions those of axis 0, of which one bin
+ * counts. In one dimension there is only the first. */
+typedef struct chunk_axes {
+    window_axis outer, across, along;
+    uint dimension, outer_bin;
+} chunk_axes;
+
 static inline chunk make_chunk(__local real *windows, __local uint *cells, const window_axis across,
                                const window_axis along) {
     __local real *centres = windows + CHUNK * (across.bins + along.bins);
@@ -41,20 +48,30 @@ static inline realv load_few_weights(__global const real *weights, const uint co
     return *(realv *)few;
 }
 
-/* Coordinates of the first axis and of the last: the same in one dimension. */
-static inline void place_lanes(const chunk to, const uint part, const uint pitch, const ulongv x,
-                               const ulongv y, const realv weights, const window_axis across,
-                               const window_axis along, const bool is_line) {
+/* LANES places from the points that `from` begins with, `num` of them at most. pitch: of rows of cells. */
+static inline void place_lanes(const chunk to, const uint part, const uint pitch,
+                               __global const ulong *from, const uint num, const realv weights,
+                               const chunk_axes axes) {
+    const uint dimension = axes.dimension;
+    realv values = weights;
     wordv fractions;
-    const uintv columns = first_cells(y, along.n, along.width, &fractions);
+    const uintv columns = first_cells(load_some_coordinates(from, dimension, axes.along.axis, num),
+                                      axes.along.n, axes.along.width, &fractions);
     uintv cells = columns;
     store_local(to.centres + CHUNK, part, centred_fractions(fractions));
-    if (is_line) {
-        store_local(to.across, part, weights);
-    } else {
-        cells += first_cells(x, across.n, across.width, &fractions) * (uintv)pitch;
+    if (dimension == 3) {
+        first_cells(load_some_coordinates(from, dimension, axes.outer.axis, num), axes.outer.n,
+                    axes.outer.width, &fractions);
+        values *= window_bin_of_points(axes.outer, centred_fractions(fractions), axes.outer_bin);
+    }
+    if (dimension > 1) {
+        cells += first_cells(load_some_coordinates(from, dimension, axes.across.axis, num),
+                             axes.across.n, axes.across.width, &fractions) *
+                 (uintv)pitch;
         store_local(to.centres, part, centred_fractions(fractions));
-        store_local(to.weights, part, weights);
+        store_local(to.weights, part, values);
+    } else {
+        store_local(to.across, part, values);
     }
     *(__local unaligned_uintv *)(to.columns + part * LANES) = columns;
     *(__local unaligned_uintv *)(to.cells + part * LANES) = cells;
@@ -93,16 +110,17 @@ static inline void make_16_bins(const window_axis axis, const real a, const real
     *(__local unaligned_real16 *)(to + 16) = of_b;
 }
 
-static inline void make_windows(const chunk to, const window_axis across, const window_axis along,
-                                const bool is_line) {
+/* Of the first `count` points at least. */
+static inline void make_windows(const chunk to, const uint count, const chunk_axes axes) {
+    const window_axis across = axes.across, along = axes.along;
     const uint parts = CHUNK / LANES;
-    const uint jobs = is_line ? 0 : (across.width + 3) / 4 * parts;
+    const uint jobs = axes.dimension == 1 ? 0 : (across.width + 3) / 4 * parts;
     for (uint job = get_local_id(0); job < jobs; job += get_local_size(0)) {
         const uint part = job % parts, bin = job / parts * 4;
         make_four_bins(across, bin, load_local(to.centres, part), load_local(to.weights, part),
                        to.across + bin * CHUNK + part * LANES, CHUNK);
     }
-    for (uint i = 2 * get_local_id(0); i < CHUNK; i += 2 * get_local_size(0)) {
+    for (uint i = 2 * get_local_id(0); i < count; i += 2 * get_local_size(0)) {
         __local const real *centres = to.centres + CHUNK + i;
         if (along.bins == 8) {
             make_8_bins(along, centres[0], centres[1], to.along + i * 8);
@@ -114,27 +132,55 @@ static inline void make_windows(const chunk to, const window_axis across, const 
 
 /* ---- both ----------------------------------------------------------------------------------- */
 
-/* `count` points, at most CHUNK; the rest has no weight. All work-items call it. */
+/* `count` points, at most CHUNK; up to `made` of them, count or CHUNK, points without weight follow. All work-items
+ * call it. */
 static inline void fill_chunk(const chunk to, __global const ulong *points,
-                              __global const real *weights, const uint count, const uint pitch,
-                              const window_axis across, const window_axis along,
-                              const bool is_line) {
+                              __global const real *weights, const uint count, const uint made,
+                              const uint pitch, const chunk_axes axes) {
     for (uint part = get_local_id(0); part < CHUNK / LANES; part += get_local_size(0)) {
         const uint begin =
             min(part * LANES, count - 1); /* of those behind the end, the last point */
-        const uint own = count - begin;
-        const uint weighty = part * LANES < count ? own : 0;
-        const uint dimension = is_line ? 1 : 2;
-        __global const ulong *from = points + (size_t)begin * dimension;
-        const ulongv x = load_some_coordinates(from, dimension, 0, own);
-        const ulongv y = load_some_coordinates(from, dimension, dimension - 1, own);
+        const uint num = count - begin;
+        const uint weighty = part * LANES < count ? num : 0;
         const realv few = weighty >= LANES ? load_global(weights + begin, 0)
                                            : load_few_weights(weights + begin, weighty);
-        place_lanes(to, part, pitch, x, y, few, across, along, is_line);
+        place_lanes(to, part, pitch, points + (size_t)begin * axes.dimension, num, few, axes);
     }
     barrier(CLK_LOCAL_MEM_FENCE);
-    make_windows(to, across, along, is_line);
+    make_windows(to, made, axes);
     barrier(CLK_LOCAL_MEM_FENCE);
 }
+
+/* ---- adding --------------------------------------------------------------------------------- */
+
+/* A point into num_rows rows `pitch` apart, by one work-item: values along a row are one vector, weighted row by
+ * row by across. */
+#define ADD_ROWS(NAME, SPACE, BINS)                                                                \
+    static inline void add_##NAME##_rows_##BINS(SPACE real *at, const uint pitch,                  \
+                                                __local const real *across,                        \
+                                                __local const real *along, const uint num_rows) {  \
+        const real##BINS values = *(__local const unaligned_real##BINS *)along;                    \
+        for (uint row = 0; row < num_rows; row++) {                                                \
+            SPACE unaligned_real##BINS *to = (SPACE unaligned_real##BINS *)at;                     \
+            *to = fma((real##BINS)across[row * CHUNK], values, *to);                               \
+            at += pitch;                                                                           \
+        }                                                                                          \
+    }
+
+#define ADD_ANY_ROWS(NAME, SPACE)                                                                  \
+    ADD_ROWS(NAME, SPACE, 8)                                                                       \
+    ADD_ROWS(NAME, SPACE, 16)                                                                      \
+    static inline void add_##NAME##_rows(SPACE real *at, const uint pitch,                         \
+                                         __local const real *across, __local const real *along,    \
+                                         const uint num_rows, const uint bins) {                   \
+        if (bins == 8) {                                                                           \
+            add_##NAME##_rows_8(at, pitch, across, along, num_rows);                               \
+        } else {                                                                                   \
+            add_##NAME##_rows_16(at, pitch, across, along, num_rows);                              \
+        }                                                                                          \
+    }
+
+ADD_ANY_ROWS(global, __global)
+ADD_ANY_ROWS(local, __local)
 
 #endif

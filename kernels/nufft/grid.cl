@@ -10,75 +10,50 @@
  *   high, low [outer cell][cell of the block's axis][cell of the last axis]: pairs of numbers, continued; a slab of
  *             them, the blocks from first_block on
  *   rows      local, [BLOCK_ROWS][last_n + last_bins]; last_n is a multiple of LANES
+ *   windows, cells  local, of a chunk: nufft/chunk.h
  */
-#include "nufft/window.h"
+#include "nufft/chunk.h"
 #include "shared/pair.h"
 
 #define BLOCK_ROWS 8
 
-/* Largest number of window values. */
-#define MOST_BINS 16
+/* Rows of a block that a window touches which begins `row_before + 1 - width` rows from the first. */
+typedef struct touched_rows {
+    uint first, end, first_bin;
+} touched_rows;
 
-typedef struct grid_axes {
-    window_axis outer, block, last;
-    uint dimension;
-} grid_axes;
-
-/* Where a point falls. */
-typedef struct grid_point {
-    real scale;         /* weight, times the window of the outer axis */
-    real across, along; /* centred fractions, of the block's axis and the last */
-    uint cell;          /* of the last axis */
-} grid_point;
-
-static inline grid_point locate(const grid_axes axes, __global const ulong *x, const real weight,
-                                const uint outer_bin) {
-    ulong fraction;
-    grid_point point = {.scale = weight};
-    if (axes.dimension == 3) {
-        first_cell(x[axes.outer.axis], axes.outer.n, axes.outer.width, &fraction);
-        point.scale *= window_bin(axes.outer, centred(fraction), outer_bin);
-    }
-    first_cell(x[axes.block.axis], axes.block.n, axes.block.width, &fraction);
-    point.across = centred(fraction);
-    point.cell = first_cell(x[axes.last.axis], axes.last.n, axes.last.width, &fraction);
-    point.along = centred(fraction);
-    return point;
+static inline touched_rows rows_touched(const uint row_before, const uint num_rows,
+                                        const uint width) {
+    const uint first = max(row_before + 1, width) - width;
+    return (touched_rows){first, min(row_before + 1, num_rows), first + width - 1 - row_before};
 }
 
-/* Rows first .. end of a block take a point, row first with bin first_bin of the block's axis. */
-static inline void add_alone(__local real *rows, const grid_axes axes, const grid_point point,
-                             const uint first, const uint end, const uint first_bin) {
-    const uint pitch = axes.last.n + axes.last.bins;
-    real across[MOST_BINS];
-    for (uint bin = 0; bin < axes.block.bins; bin += 8) {
-        vstore8(window_bins(axes.block, point.across, bin) * (real8)point.scale, 0, across + bin);
-    }
-    for (uint bin = 0; bin < axes.last.bins; bin += 8) {
-        const real8 values = window_bins(axes.last, point.along, bin);
-        __local real *at = rows + first * pitch + point.cell + bin;
-        for (uint row = first; row < end; row++) {
-            const real8 height = (real8)across[first_bin + row - first];
-            __local unaligned_real8 *cells = (__local unaligned_real8 *)at;
-            *cells = fma(height, values, *cells);
-            at += pitch;
-        }
+/* `count` points of a chunk by one work-item. */
+static inline void add_alone(__local real *rows, const chunk from, const uint count,
+                             const touched_rows touched, const chunk_axes axes) {
+    const uint pitch = axes.along.n + axes.along.bins;
+    for (uint i = 0; i < count; i++) {
+        add_local_rows(rows + touched.first * pitch + from.columns[i], pitch,
+                       from.across + touched.first_bin * CHUNK + i,
+                       from.along + i * axes.along.bins, touched.end - touched.first,
+                       axes.along.bins);
     }
 }
 
 /* The same by all work-items: each has the cells that are its number modulo their number. */
-static inline void add_together(__local real *rows, const grid_axes axes, const grid_point point,
-                                const uint first, const uint end, const uint first_bin) {
-    const uint pitch = axes.last.n + axes.last.bins;
+static inline void add_together(__local real *rows, const chunk from, const uint count,
+                                const touched_rows touched, const chunk_axes axes) {
+    const uint pitch = axes.along.n + axes.along.bins;
     const uint size = get_local_size(0);
-    const uint own = (get_local_id(0) + size - point.cell % size) % size;
-    for (uint bin = own; bin < axes.last.width; bin += size) {
-        const real value = window_bin(axes.last, point.along, bin);
-        for (uint row = first; row < end; row++) {
-            const real height =
-                window_bin(axes.block, point.across, first_bin + row - first) * point.scale;
-            __local real *at = rows + row * pitch + point.cell + bin;
-            *at = fma(height, value, *at);
+    for (uint i = 0; i < count; i++) {
+        const uint own = (get_local_id(0) + size - from.columns[i] % size) % size;
+        for (uint bin = own; bin < axes.along.width; bin += size) {
+            for (uint row = touched.first; row < touched.end; row++) {
+                const uint across = touched.first_bin + row - touched.first;
+                __local real *at = rows + row * pitch + from.columns[i] + bin;
+                *at = fma(from.across[across * CHUNK + i], from.along[i * axes.along.bins + bin],
+                          *at);
+            }
         }
     }
 }
@@ -114,17 +89,23 @@ nufft_grid(__global const ulong *restrict places, __global const ulong *restrict
            const uint block_width, const uint block_degree, const uint block_bins,
            __global const real *restrict last_window, const uint last_n, const uint last_width,
            const uint last_degree, const uint last_bins, const uint first_block,
-           __global real *restrict high, __global real *restrict low, __local real *rows) {
+           __global real *restrict high, __global real *restrict low, __local real *rows,
+           __local real *windows, __local uint *cells) {
     const uint num_blocks = (block_n + BLOCK_ROWS - 1) / BLOCK_ROWS;
     const size_t block = first_block + get_global_id(1);
     const uint outer_cell = block / num_blocks;
     const uint first_row = block % num_blocks * BLOCK_ROWS;
     const uint num_rows = min((uint)BLOCK_ROWS, block_n - first_row);
-    const grid_axes axes = {
-        {outer_window, outer_n, outer_width, 0, outer_degree, outer_bins, 0, 1},
-        {block_window, block_n, block_width, dimension - 2, block_degree, block_bins, 0, 1},
-        {last_window, last_n, last_width, dimension - 1, last_degree, last_bins, 0, 1},
-        dimension};
+    const window_axis across = {block_window, block_n,    block_width, dimension - 2,
+                                block_degree, block_bins, 0,           1};
+    const window_axis along = {last_window, last_n,    last_width, dimension - 1,
+                               last_degree, last_bins, 0,          1};
+    chunk_axes axes = {{outer_window, outer_n, outer_width, 0, outer_degree, outer_bins, 0, 1},
+                       across,
+                       along,
+                       dimension,
+                       0};
+    const chunk chunk = make_chunk(windows, cells, across, along);
     const size_t slab_row =
         first_block / num_blocks * (size_t)block_n + first_block % num_blocks * BLOCK_ROWS;
     const size_t at = ((size_t)outer_cell * block_n + first_row - slab_row) * last_n;
@@ -134,27 +115,27 @@ nufft_grid(__global const ulong *restrict places, __global const ulong *restrict
     barrier(CLK_LOCAL_MEM_FENCE);
     for (uint outer_bin = 0; outer_bin < outer_width; outer_bin++) {
         const uint outer = (outer_cell + outer_n - outer_bin) % outer_n;
-        for (uint j = 0; j < num_rows + block_width - 1;
-             j++) { /* windows that begin j - width + 1 rows on */
+        axes.outer_bin = outer_bin;
+        for (uint before = 0; before < num_rows + block_width - 1; before++) {
             const uint key =
-                outer * block_n + (first_row + j + block_n - block_width + 1) % block_n;
-            const uint first = max(j + 1, block_width) - block_width;
-            const uint end = min(j + 1, num_rows);
-            const uint first_bin = first + block_width - 1 - j;
+                outer * block_n + (first_row + before + block_n - block_width + 1) % block_n;
+            const touched_rows touched = rows_touched(before, num_rows, block_width);
             for (uint part = 0; part < num_parts; part++) {
                 __global const uint *start = starts + part * ((size_t)outer_n * block_n + 2) + key;
-                for (size_t place = places[part] + start[0]; place < places[part] + start[1];
-                     place++) {
-                    const grid_point point =
-                        locate(axes, sorted + place * dimension, heights[place], outer_bin);
+                const size_t end = places[part] + start[1];
+                for (size_t place = places[part] + start[0]; place < end; place += CHUNK) {
+                    const uint count = (uint)min((size_t)CHUNK, end - place);
+                    fill_chunk(chunk, sorted + place * dimension, heights + place, count, count, 0,
+                               axes);
                     if (get_local_size(0) == 1) {
-                        add_alone(rows, axes, point, first, end, first_bin);
+                        add_alone(rows, chunk, count, touched, axes);
                     } else {
-                        add_together(rows, axes, point, first, end, first_bin);
+                        add_together(rows, chunk, count, touched, axes);
                     }
+                    barrier(CLK_LOCAL_MEM_FENCE);
                 }
             }
         }
     }
-    add_to_grid(rows, num_rows, axes.last, high + at, low + at);
+    add_to_grid(rows, num_rows, along, high + at, low + at);
 }

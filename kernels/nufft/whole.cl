@@ -29,46 +29,25 @@ typedef struct whole_grid {
     bool is_line;     /* one dimension: rows follow each other without gaps */
 } whole_grid;
 
-/* Rows of a point whose values along them are one vector; row by row, weighted by across. */
-#define ADD_ROWS(BINS)                                                                             \
-    static inline void add_rows_##BINS(__global real *at, const uint pitch,                        \
-                                       __local const real *across, __local const real *along,      \
-                                       const uint num_rows) {                                      \
-        const real##BINS values = *(__local const unaligned_real##BINS *)along;                    \
-        for (uint row = 0; row < num_rows; row++) {                                                \
-            __global unaligned_real##BINS *to = (__global unaligned_real##BINS *)at;               \
-            *to = fma((real##BINS)across[row * CHUNK], values, *to);                               \
-            at += pitch;                                                                           \
-        }                                                                                          \
-    }
-
-ADD_ROWS(8)
-ADD_ROWS(16)
-
-/* A chunk by one work-item. */
-static inline void scatter(const whole_grid grid, const chunk from, const window_axis across,
-                           const window_axis along) {
+/* A chunk by one work-item. (Not just its `count` points: what is known before a barrier and used in a loop behind it
+ * is more than PoCL 3.1 can do here.) */
+static inline void scatter(const whole_grid grid, const chunk from, const chunk_axes axes) {
     for (uint i = 0; i < CHUNK; i++) {
-        __global real *at = grid.cells + from.cells[i];
-        __local const real *values = from.along + i * along.bins;
-        if (along.bins == 8) {
-            add_rows_8(at, grid.pitch, from.across + i, values, across.width);
-        } else {
-            add_rows_16(at, grid.pitch, from.across + i, values, across.width);
-        }
+        add_global_rows(grid.cells + from.cells[i], grid.pitch, from.across + i,
+                        from.along + i * axes.along.bins, axes.across.width, axes.along.bins);
     }
 }
 
 /* The same by all: each has the cells of a row that are its number modulo their number. */
 static inline void scatter_together(const whole_grid grid, const chunk from,
-                                    const window_axis across, const window_axis along) {
+                                    const chunk_axes axes) {
     const uint size = get_local_size(0);
     for (uint i = 0; i < CHUNK; i++) {
         const uint own = (get_local_id(0) + size - from.columns[i] % size) % size;
-        for (uint bin = own; bin < along.bins; bin += size) {
-            for (uint row = 0; row < across.width; row++) {
+        for (uint bin = own; bin < axes.along.bins; bin += size) {
+            for (uint row = 0; row < axes.across.width; row++) {
                 __global real *to = grid.cells + from.cells[i] + row * grid.pitch + bin;
-                *to = fma(from.across[row * CHUNK + i], from.along[i * along.bins + bin], *to);
+                *to = fma(from.across[row * CHUNK + i], from.along[i * axes.along.bins + bin], *to);
             }
         }
     }
@@ -169,17 +148,18 @@ __kernel void nufft_whole(
     const whole_grid grid = {grids + get_global_id(1) * grid_reals, pitch, grid_rows,
                              dimension == 1};
     __global real *rows = all_rows + get_global_id(1) * num_tiles * (size_t)columns * 2 * LANES;
+    const chunk_axes axes = {across, across, along, dimension, 0};
     const chunk chunk = make_chunk(windows, cells, across, along);
     for (size_t r = get_global_id(1); r < num_realizations; r += get_global_size(1)) {
         clear_grid(grid);
         for (size_t place = offsets[r]; place < offsets[r + 1]; place += CHUNK) {
             const uint count = (uint)min((ulong)CHUNK, offsets[r + 1] - place);
-            fill_chunk(chunk, points + place * dimension, weights + place, count, pitch, across,
-                       along, dimension == 1);
+            fill_chunk(chunk, points + place * dimension, weights + place, count, CHUNK, pitch,
+                       axes);
             if (get_local_size(0) == 1) {
-                scatter(grid, chunk, across, along);
+                scatter(grid, chunk, axes);
             } else {
-                scatter_together(grid, chunk, across, along);
+                scatter_together(grid, chunk, axes);
             }
             barrier_everywhere();
         }

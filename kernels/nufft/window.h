@@ -2,14 +2,13 @@
 #ifndef PS_NUFFT_WINDOW_H
 #define PS_NUFFT_WINDOW_H
 
-#include "nufft/cell.h"
 #include "shared/lanes.h"
 #include "nufft/place.h"
 
 typedef PS_JOIN(REAL, 8) real8;
 typedef real8 unaligned_real8 __attribute__((aligned(sizeof(real)))); /* shared/lanes.h says why */
 
-/* An axis of the fine grid, and its window: bin i is a polynomial in u = 2 f - 1, f as in nufft/cell.h.
+/* An axis of the fine grid, and its window: bin i is a polynomial in u = 2 f - 1, f as in nufft/cells.h.
  * coefficients [degree + 1][bins], lowest degree first; bins, a multiple of 8, is at least the width, pitch at
  * least 2 GAP + width. */
 typedef struct window_axis {
@@ -17,21 +16,6 @@ typedef struct window_axis {
     uint n, width, axis, degree, bins, pitch;
     ulong factor; /* the coordinate is factor * x[axis] mod 1 */
 } window_axis;
-
-static inline real centred(const ulong fraction) {
-    const real two_to_minus_63 = (real)1.0842021724855044e-19;
-    return (real)as_long(fraction ^ ((ulong)1 << 63)) * two_to_minus_63;
-}
-
-/* Bins bin .. bin + 7. */
-static inline real8 window_bins(const window_axis axis, const real centre, const uint bin) {
-    const real8 u = (real8)centre;
-    real8 value = vload8(0, axis.coefficients + axis.degree * axis.bins + bin);
-    for (uint i = axis.degree; i-- > 0;) {
-        value = fma(value, u, vload8(0, axis.coefficients + i * axis.bins + bin));
-    }
-    return value;
-}
 
 /* Bins bin .. bin + 3 of LANES points: to[bin - first][apart]. */
 static inline void make_four_bins(const window_axis axis, const uint bin, const realv centre,
@@ -57,15 +41,6 @@ static inline realv window_bin_of_points(const window_axis axis, const realv cen
     realv value = (realv)axis.coefficients[axis.degree * axis.bins + bin];
     for (uint i = axis.degree; i-- > 0;) {
         value = fma(value, centre, (realv)axis.coefficients[i * axis.bins + bin]);
-    }
-    return value;
-}
-
-/* One value. */
-static inline real window_bin(const window_axis axis, const real centre, const uint bin) {
-    real value = axis.coefficients[axis.degree * axis.bins + bin];
-    for (uint i = axis.degree; i-- > 0;) {
-        value = fma(value, centre, axis.coefficients[i * axis.bins + bin]);
     }
     return value;
 }
