@@ -70,8 +70,10 @@ static inline void butterfly_8(complexv *x) {
 }
 
 /* An odd prime r: with sums and differences of x[j] and x[r - j], half of the products of each kind.
- * cosines and sines of 2 pi j / r. */
-static inline void butterfly_odd(complexv *x, const int r, const real *cosines, const real *sines) {
+ * cosines and sines of 2 pi j / r. Always inlined: loops of a copy for any r do not unroll, and users would see the
+ * compiler's warnings. */
+static inline __attribute__((always_inline)) void
+butterfly_odd(complexv *x, const int r, const real *cosines, const real *sines) {
     const int half_r = r / 2;
     const complexv first = x[0];
     complexv sum[3], difference[3];
