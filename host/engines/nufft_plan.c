@@ -47,6 +47,11 @@ static pspec_status create_polynomials(ps_nufft_plan *plan, double tolerance,
                            (plan->degree + 1) * (size_t)plan->bins, "window polynomials", error);
 }
 
+double ps_nufft_gain(const ps_nufft_axis *axis, uint32_t k) {
+    const double transform = ps_nufft_window_transform(&axis->window, (long double)k / axis->n);
+    return 1 / (transform * transform);
+}
+
 static pspec_status create_gains(ps_nufft_plan *plan, ps_precision precision, ps_device *device,
                                  ps_error *error) {
     const ps_nufft_axis *axis = &plan->axis;
@@ -55,8 +60,7 @@ static pspec_status create_gains(ps_nufft_plan *plan, ps_precision precision, ps
     PS_TRY(ps_allocate(&memory, num, sizeof(double), "gains", error));
     double *gains = memory;
     for (size_t k = 0; k < num; k++) {
-        const double transform = ps_nufft_window_transform(&axis->window, (long double)k / axis->n);
-        gains[k] = 1 / (transform * transform);
+        gains[k] = ps_nufft_gain(axis, (uint32_t)k);
     }
     const pspec_status status =
         ps_reals_upload(device, &plan->gains, precision, gains, num, "gains", error);

@@ -20,6 +20,9 @@ pspec_status ps_nufft_plan_create(ps_nufft_plan *out, const ps_nufft_axis *axis,
                                   ps_error *error) PS_MUST_CHECK;
 void ps_nufft_plan_free(ps_nufft_plan *plan);
 
+/* What undoes the window in the power of frequency k. */
+double ps_nufft_gain(const ps_nufft_axis *axis, uint32_t k);
+
 /* Numbers of a window that are computed (whole vectors), and room for one. */
 uint32_t ps_nufft_bins(const ps_nufft_axis *axis);
 uint32_t ps_nufft_pitch(const ps_nufft_axis *axis);

@@ -11,11 +11,7 @@
 /* ---- tables ------------------------------------------------------------------------------ */
 
 static double gain(const ps_nufft_axis *axis, uint32_t k) {
-    if (k > (uint32_t)axis->max_frequency) {
-        return 0;
-    }
-    const double transform = ps_nufft_window_transform(&axis->window, (long double)k / axis->n);
-    return 1 / (transform * transform);
+    return k <= (uint32_t)axis->max_frequency ? ps_nufft_gain(axis, k) : 0;
 }
 
 /* Of frequency k_1 of the first transform and k_2 of the second. */

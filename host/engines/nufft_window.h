@@ -31,7 +31,7 @@ typedef struct ps_nufft_loss {
 ps_nufft_loss ps_nufft_window_loss(const ps_nufft_window *window, int32_t max_frequency,
                                    uint32_t n);
 
-/* Bin i of the window at fraction f (kernels/nufft/cell.h) as a polynomial in u = 2 f - 1. The degree at
+/* Bin i of the window at fraction f (kernels/nufft/cells.h) as a polynomial in u = 2 f - 1. The degree at
  * which Chebyshev series of all bins are cut with an error below `error`, at most the largest. */
 unsigned ps_nufft_window_degree(const ps_nufft_window *window, double error);
 /* coefficients[degree + 1][bins], lowest degree first; zeros in bins from the width on. */
