@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "job/source.h"
 #include "math/random.h"
 #include "math/rotation.h"
 
@@ -278,6 +279,35 @@ static void homogenizing_rotates(void **state) {
     }
 }
 
+/* What jobs get. */
+static void sources_say_what_numbers_are(void **state) {
+    (void)state;
+    const struct {
+        const char *text;
+        ps_coordinates coordinates;
+        unsigned dimension;
+    } cases[] = {{"halton", PS_TORUS_COORDINATES, 2},
+                 {"halton:lift=hemisphere", PS_UNIT_VECTORS, 3},
+                 {"spiral", PS_UNIT_VECTORS, 3}};
+    for (unsigned i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const ps_sampler_request request = resolve_request(cases[i].text, 20);
+        double *points = generate_points(&request, 0);
+        ps_source *source = NULL;
+        ps_point_set set = {0};
+        ps_source_part part;
+        bool has_set = false;
+        assert_int_equal(ps_source_sampler(&source, &request, 1, NULL), PSPEC_OK);
+        assert_int_equal(ps_source_next(source, &set, &part, &has_set, NULL), PSPEC_OK);
+        assert_true(has_set && part.is_whole);
+        assert_int_equal(set.coordinates, cases[i].coordinates);
+        assert_int_equal(set.dimension, cases[i].dimension);
+        assert_memory_equal(set.points, points, 20 * set.dimension * sizeof(double));
+        ps_point_set_free(&set);
+        ps_source_destroy(source);
+        free(points);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_left_open_is_filled_in),
@@ -291,6 +321,7 @@ int main(void) {
         cmocka_unit_test(samplers_agree_with_their_lifted_kin),
         cmocka_unit_test(lifts_are_lamberts_map),
         cmocka_unit_test(homogenizing_rotates),
+        cmocka_unit_test(sources_say_what_numbers_are),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -146,15 +146,15 @@ pspec_status ps_sampler_request_make(ps_sampler_request *out, const ps_arguments
 
 static pspec_status make_torus_request(ps_sampler_request *out, const ps_arguments *arguments,
                                        size_t i_sampler, ps_error *error) {
-    PS_TRY(ps_sampler_request_make(out, arguments, i_sampler, error));
-    if (ps_sampler_is_on_sphere(out)) {
+    PS_TRY(ps_sampler_parse(out, arguments->samplers[i_sampler], error));
+    if (ps_sampler_is_on_sphere(out)) { /* before anything else that may be wrong with it */
         return ps_fail(
             error, PSPEC_ERROR_INVALID_ARGUMENT,
             "--sampler %s makes points of the sphere, and this spectrum is of the torus; "
             "pointspec angular is for the sphere",
             arguments->samplers[i_sampler]);
     }
-    return PSPEC_OK;
+    return ps_sampler_request_make(out, arguments, i_sampler, error);
 }
 
 pspec_status ps_questions_make(ps_question_list *out, const ps_arguments *arguments,
