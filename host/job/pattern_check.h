@@ -2,7 +2,7 @@
 #ifndef PS_JOB_PATTERN_CHECK_H
 #define PS_JOB_PATTERN_CHECK_H
 
-#include "base/status.h"
+#include "engines/frequencies.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -19,6 +19,7 @@ typedef struct ps_pattern_sums {
  * realization counts from 0 and is only for messages. */
 typedef struct ps_pattern_count {
     uint64_t realization;
+    bool on_sphere; /* points are unit vectors */
     uint64_t num_points, num_weights;
     double largest;                  /* |w| */
     int exponent;                    /* of the largest */
@@ -36,8 +37,12 @@ pspec_status ps_pattern_count_finish(const ps_pattern_count *count,
                                      pspec_normalization normalization, ps_pattern_sums *sums,
                                      ps_error *error) PS_MUST_CHECK;
 
-/* All of it, for a pattern in memory. */
-pspec_status ps_pattern_check(const pspec_pattern *pattern, unsigned dimension,
+/* How far from 1 the length of a vector may be that stands for a point on the sphere: what single precision and
+ * printed coordinates leave. */
+#define PS_UNIT_LENGTH_SLACK 1e-6
+
+/* All of it, for a pattern in memory whose spectrum at these frequencies is asked for. */
+pspec_status ps_pattern_check(const pspec_pattern *pattern, const ps_frequencies *frequencies,
                               pspec_normalization normalization, uint64_t realization,
                               ps_pattern_sums *sums, ps_error *error) PS_MUST_CHECK;
 
