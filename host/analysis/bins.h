@@ -1,4 +1,5 @@
-/* Bins of frequencies: rings of width 1 on the integer lattice, or exact shells |k|^2 = n.
+/* Bins of frequencies: rings of width 1 on the integer lattice, exact shells |k|^2 = n, or single degrees of
+ * the sphere.
  *
  * Ring b holds b^2 - b + 1 <= |k|^2 <= b^2 + b (mathematics.md 1.3): integer arithmetic, no ties.
  * What belongs to no reported bin (corners of a box, a list of frequencies that was not drawn from
@@ -11,11 +12,16 @@
 #include "engines/frequencies.h"
 
 typedef struct ps_bin {
-    int64_t key;       /* ring number b, or |k|^2 of a shell */
+    int64_t key;       /* ring number b, |k|^2 of a shell, or degree */
     size_t begin, end; /* members[begin .. end - 1], half-lattice frequencies, one at least */
     uint64_t num_frequencies; /* half-lattice frequencies that it has; members may be a subset */
-    double mean_frequency;    /* mean |k| of all of them */
+    uint64_t
+        num_modes; /* frequencies of both signs that it has, or the 2l + 1 orders of a degree */
+    double mean_frequency; /* mean |k| of all of them, or the degree */
 } ps_bin;
+
+/* Modes that were computed: of both signs, or all orders. */
+uint64_t ps_bin_num_computed(const ps_bin *bin);
 
 typedef struct ps_bins {
     size_t num; /* all bins, the unreported one included */

@@ -15,15 +15,16 @@ static void describe_ring(ps_spectrum_bin *out, const ps_mean *powers, const uin
 }
 
 static void fill_bins(ps_spectrum *out, const ps_bins *bins, const ps_mean *means, double factor) {
-    const double unit = pow(out->mean_points, 1.0 / out->frequencies.dimension);
+    const double unit =
+        pow(out->mean_points, 1.0 / ps_frequencies_space_dimension(&out->frequencies));
     for (size_t b = 0; b < bins->num_reported; b++) {
         const ps_bin *bin = &bins->bins[b];
         out->bins[b] = (ps_spectrum_bin){
             .key = bin->key,
             .frequency = bin->mean_frequency,
             .normalized_frequency = bin->mean_frequency / unit,
-            .count = 2 * bin->num_frequencies,
-            .num_computed = 2 * (uint64_t)(bin->end - bin->begin),
+            .count = bin->num_modes,
+            .num_computed = ps_bin_num_computed(bin),
             .power = means[b].mean * factor,
             .standard_error = means[b].standard_error * factor,
             .anisotropy_db = NAN,

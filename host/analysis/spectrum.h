@@ -6,11 +6,11 @@
 #include "analysis/bins.h"
 
 typedef struct ps_spectrum_bin {
-    int64_t key;                  /* ring number, or |k|^2 of a shell */
-    double frequency;             /* mean |k| */
-    double normalized_frequency;  /* the same divided by N^(1/d) */
-    uint64_t count;               /* lattice points of both signs */
-    uint64_t num_computed;        /* of them, both signs; fewer: a random subset */
+    int64_t key;                  /* ring number, |k|^2 of a shell, or degree */
+    double frequency;             /* mean |k|, or the degree */
+    double normalized_frequency;  /* the same divided by N^(1/d); d = 2 on the sphere */
+    uint64_t count;               /* lattice points of both signs, or orders */
+    uint64_t num_computed;        /* of them; fewer: a random subset */
     double power, standard_error; /* nan: one realization, all computed */
     double anisotropy_db;         /* nan: fewer than two half-lattice frequencies, or power 0 */
 } ps_spectrum_bin;

@@ -1,7 +1,7 @@
-/* The interface of every engine on the torus, and the table that names them all.
+/* The interface of every engine, on the torus and on the sphere, and the table that names them all.
  *
  * An engine turns batches of point sets into rows of powers, one row per realization, one slot per
- * frequency (plus padding). It says when it applies, what it costs in work and memory and how exact
+ * frequency or degree (plus padding). It says when it applies, what it costs in work and memory and how exact
  * it is; the planner (host/plan) compares. Costs are counts of work: turning them into seconds is
  * the cost model's business. A new engine is a new file and a row in engines/table.c.
  */
@@ -55,7 +55,10 @@ typedef struct ps_work {
     bool takes_blocks;                     /* ps_engine.stream will */
 } ps_work;
 
-/* A batch of realizations. power = scales[r] |S|^2, S with weights w 2^-exponents[r] (NULL: 0).
+/* A batch of realizations. power = scales[r] |S|^2, S with weights w 2^-exponents[r] (NULL: 0); on the sphere
+ * |S|^2 is Q(l) = (4 pi / (2l + 1)) sum_m |c_lm|^2, whose expectation is sum w^2 for white noise, as that of
+ * |S|^2 on the torus. Points of the sphere are vectors of a length between 1 - 1e-6 and 1 + 1e-6: they stand for
+ * their directions, and it is the engine that divides.
  * should_stop, unless it is NULL, is asked every second or so; true ends the run with
  * PSPEC_ERROR_CANCELLED. */
 typedef struct ps_batch {
@@ -90,10 +93,15 @@ typedef struct ps_engine_stream {
     pspec_status (*finish)(void *state, double scale, ps_rows *, ps_error *);
 } ps_engine_stream;
 
+/* Where points may lie: bits of ps_engine.domains. */
+enum { PS_ON_TORUS = 1, PS_ON_SPHERE = 2 };
+
 typedef struct ps_engine {
     const char *name;
     const char *summary; /* one line, for plan and docs */
+    unsigned domains;    /* others are never asked */
     bool needs_device;
+    bool rows_on_host;     /* though it needs a device: they are short */
     bool has_precision[3]; /* by ps_precision */
 
     /* May it do this problem? limits is NULL without a device. *why_not is a static sentence. */
@@ -101,7 +109,8 @@ typedef struct ps_engine {
                        const char **why_not);
     ps_work (*work)(const ps_problem *, const ps_device_limits *limits, ps_precision);
     /* Expected error e of S in sqrt(mean |dS|^2) = e sqrt(sum w^2), mean over the frequencies, for
-     * sets whose effective power averaged over the frequencies is mean_power (1: white noise).
+     * sets whose effective power averaged over the frequencies is mean_power (1: white noise). On the
+     * sphere sqrt(4 pi mean |dc_lm|^2), mean over all degrees and orders.
      * The formula and its measured slack are in the engine's page in docs/. */
     double (*error)(const ps_problem *, const ps_device_limits *limits, ps_precision,
                     double mean_power);
@@ -122,6 +131,9 @@ typedef struct ps_engine {
     void (*describe)(const void *state, ps_text *);
     void (*destroy)(void *state); /* NULL allowed */
 } ps_engine;
+
+/* PS_ON_SPHERE for degrees, else PS_ON_TORUS. */
+unsigned ps_problem_domain(const ps_problem *problem);
 
 /* All engines, ended by NULL, in the order in which plan lists them. */
 extern const ps_engine *const ps_engines[];

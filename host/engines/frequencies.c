@@ -95,6 +95,38 @@ pspec_status ps_frequencies_list(ps_frequencies *out, unsigned dimension, size_t
     return PSPEC_OK;
 }
 
+pspec_status ps_frequencies_degrees(ps_frequencies *out, int64_t max_degree, bool only_even,
+                                    ps_error *error) {
+    const int32_t first = only_even ? 2 : 1;
+    *out = (ps_frequencies){
+        .kind = PS_FREQUENCIES_DEGREES, .dimension = PS_SPHERE_DIMENSION, .degree_step = first};
+    if (max_degree < first) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "the largest degree %lld leaves none: the first is %d%s",
+                       (long long)max_degree, (int)first,
+                       only_even ? ", odd degrees vanish on the hemisphere"
+                                 : ", degree 0 is known to be N");
+    }
+    if (max_degree > PS_MAX_DEGREE) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "the largest degree %lld is above %d, where the coefficients of one set "
+                       "take 8 GiB",
+                       (long long)max_degree, (int)PS_MAX_DEGREE);
+    }
+    out->max_frequency = (int32_t)(max_degree - max_degree % first);
+    out->num = (size_t)(max_degree / first);
+    return PSPEC_OK;
+}
+
+unsigned ps_frequency_components(const ps_frequencies *frequencies) {
+    return frequencies->kind == PS_FREQUENCIES_DEGREES ? 1 : frequencies->dimension;
+}
+
+unsigned ps_frequencies_space_dimension(const ps_frequencies *frequencies) {
+    return frequencies->kind == PS_FREQUENCIES_DEGREES ? frequencies->dimension - 1
+                                                       : frequencies->dimension;
+}
+
 /* The next vector of the box in lexicographic order; false after the last. */
 static bool advance(int32_t *k, unsigned dimension, int32_t max_frequency) {
     for (unsigned i = dimension; i-- > 0;) {
@@ -124,20 +156,31 @@ static size_t walk_half_lattice(const ps_frequencies *set, int32_t *out) {
     return count;
 }
 
+static void list_degrees(ps_frequencies *set) {
+    for (size_t i = 0; i < set->num; i++) {
+        set->vectors[i] = (int32_t)(i + 1) * set->degree_step;
+    }
+}
+
 pspec_status ps_frequencies_enumerate(ps_frequencies *frequencies, ps_error *error) {
     void *vectors = NULL;
     size_t num_components = 0;
     if (frequencies->vectors != NULL) {
         return PSPEC_OK;
     }
-    const size_t num = walk_half_lattice(frequencies, NULL);
-    if (!ps_size_multiply(num, frequencies->dimension, &num_components)) {
+    const bool are_degrees = frequencies->kind == PS_FREQUENCIES_DEGREES;
+    const size_t num = are_degrees ? frequencies->num : walk_half_lattice(frequencies, NULL);
+    if (!ps_size_multiply(num, ps_frequency_components(frequencies), &num_components)) {
         return ps_fail(error, PSPEC_ERROR_MEMORY, "%zu frequencies are too many", num);
     }
     PS_TRY(ps_allocate(&vectors, num_components, sizeof(int32_t), "the frequencies", error));
     frequencies->num = num;
     frequencies->vectors = vectors;
-    walk_half_lattice(frequencies, frequencies->vectors);
+    if (are_degrees) {
+        list_degrees(frequencies);
+    } else {
+        walk_half_lattice(frequencies, frequencies->vectors);
+    }
     return PSPEC_OK;
 }
 
@@ -151,7 +194,7 @@ static pspec_status copy_rings(ps_frequencies *out, const ps_frequencies *from, 
 
 pspec_status ps_frequencies_copy(ps_frequencies *out, const ps_frequencies *from, ps_error *error) {
     void *vectors = NULL;
-    const size_t num_components = from->num * from->dimension;
+    const size_t num_components = from->num * ps_frequency_components(from);
     PS_TRY(ps_allocate(&vectors, num_components, sizeof(int32_t), "the frequencies", error));
     memcpy(vectors, from->vectors, num_components * sizeof(int32_t));
     *out = *from;

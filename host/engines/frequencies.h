@@ -1,9 +1,13 @@
-/* Sets of integer frequencies on the torus: a list that somebody made, or the half lattice of a
- * box.
+/* What powers are computed of. On the torus integer frequencies: a list that somebody made, or the half
+ * lattice of a box. On the sphere degrees.
  *
  * Real weights make |S(-k)| = |S(k)|, so a box |k_i| <= K is represented by its half lattice: the k
  * whose first non-zero component is positive, in lexicographic order, DC left out
  * (mathematics.md 1.3). A ball keeps only k with |k|^2 <= K^2 + K: all rings 1..K, no corners.
+ *
+ * The power of a degree l is a mean over its 2l + 1 orders (mathematics.md 2.2). Degree 0 is the DC of the
+ * sphere and left out like it; on the hemisphere, the projective plane, only even degrees are there
+ * (mathematics.md 3).
  */
 #ifndef PS_ENGINES_FREQUENCIES_H
 #define PS_ENGINES_FREQUENCIES_H
@@ -23,8 +27,15 @@ enum { PS_MAX_TORUS_DIMENSION = 6 };
 typedef enum ps_frequency_kind {
     PS_FREQUENCIES_LIST,
     PS_FREQUENCIES_BOX,
-    PS_FREQUENCIES_BALL
+    PS_FREQUENCIES_BALL,
+    PS_FREQUENCIES_DEGREES
 } ps_frequency_kind;
+
+/* Largest degree: the coefficients of one set take 8 GiB there, and nothing was tested above. */
+#define PS_MAX_DEGREE ((int32_t)1 << 15)
+
+/* Coordinates of a point on the sphere: a unit vector. */
+enum { PS_SPHERE_DIMENSION = 3 };
 
 /* A ring or shell of which a list holds a part, or all. */
 typedef struct ps_sampled_ring {
@@ -34,10 +45,12 @@ typedef struct ps_sampled_ring {
 
 typedef struct ps_frequencies {
     ps_frequency_kind kind;
-    unsigned dimension;
-    int32_t max_frequency; /* K; for a list the largest |k_i| in it */
-    size_t num;            /* exact for lists and boxes, for balls once enumerated */
-    int32_t *vectors;      /* [num][dimension]; NULL for boxes and balls not yet enumerated */
+    unsigned dimension;    /* coordinates of a point */
+    int32_t max_frequency; /* K; for a list the largest |k_i| in it; L for degrees */
+    size_t num;            /* exact but for balls that are not enumerated */
+    int32_t *
+        vectors; /* [num][ps_frequency_components]; NULL for boxes, balls and degrees not yet enumerated */
+    int32_t degree_step; /* from degree to degree: 1, or 2 on the hemisphere; 0 on the torus */
 
     /* A list that holds at most per_ring frequencies of every ring 1..K, or of every shell that these
      * rings have (engines/frequency_sample.h). Otherwise 0, 0 and NULL. */
@@ -56,6 +69,14 @@ pspec_status ps_frequencies_lattice(ps_frequencies *out, unsigned dimension, int
 /* A list: takes vectors over ([num][dimension], allocated by malloc). */
 pspec_status ps_frequencies_list(ps_frequencies *out, unsigned dimension, size_t num,
                                  int32_t *vectors, ps_error *error) PS_MUST_CHECK;
+/* Degrees 1 .. max_degree, or with only_even 2, 4 .. max_degree, not enumerated. An L that leaves none or is
+ * larger than PS_MAX_DEGREE is PSPEC_ERROR_INVALID_ARGUMENT. */
+pspec_status ps_frequencies_degrees(ps_frequencies *out, int64_t max_degree, bool only_even,
+                                    ps_error *error) PS_MUST_CHECK;
+/* Numbers of a vector: the dimension, or 1 for degrees. */
+unsigned ps_frequency_components(const ps_frequencies *frequencies);
+/* Dimension of the space that the points fill: 2 on the sphere. */
+unsigned ps_frequencies_space_dimension(const ps_frequencies *frequencies);
 /* Fills vectors (and the exact num of a ball). */
 pspec_status ps_frequencies_enumerate(ps_frequencies *frequencies, ps_error *error) PS_MUST_CHECK;
 /* A copy with vectors of its own; from is enumerated. */

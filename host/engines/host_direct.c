@@ -4,6 +4,7 @@
 #include "engines/host_direct.h"
 
 #include "base/memory.h"
+#include "engines/host_degree.h"
 
 #include <float.h>
 #include <math.h>
@@ -61,7 +62,12 @@ static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
     const double realizations =
         problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
     const double num = (double)problem->frequencies->num;
-    return (ps_work){.phases = num * (double)problem->num_points * realizations,
+    /* A degree takes a step for every order, each about a tenth of a cosine and a sine. */
+    const double step = 0.1;
+    const double terms = ps_problem_domain(problem) == PS_ON_SPHERE
+                             ? num * problem->frequencies->max_frequency / 2 * step
+                             : num;
+    return (ps_work){.phases = terms * (double)problem->num_points * realizations,
                      .bytes_per_realization = num * sizeof(double),
                      .largest_buffer_per_realization = num * sizeof(double)};
 }
@@ -123,19 +129,35 @@ static size_t get_stride(const void *state) {
     return ((const host_direct *)state)->frequencies->num;
 }
 
+pspec_status ps_host_power(const pspec_pattern *pattern, const ps_frequencies *set, size_t i,
+                           int exponent, long double *power, ps_error *error) {
+    long double re = 0;
+    long double im = 0;
+    if (set->kind == PS_FREQUENCIES_DEGREES) {
+        ps_host_degree degree;
+        PS_TRY(ps_host_degree_create(&degree, set->vectors[i], error));
+        ps_host_degree_sum(&degree, pattern);
+        re = sqrtl(ps_host_degree_power(&degree));
+        ps_host_degree_free(&degree);
+    } else {
+        ps_host_sum(pattern, set->vectors + i * set->dimension, &re, &im);
+    }
+    re = ldexpl(re, -exponent);
+    im = ldexpl(im, -exponent);
+    *power = re * re + im * im;
+    return PSPEC_OK;
+}
+
 static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_error *error) {
     host_direct *self = state;
     const ps_frequencies *set = self->frequencies;
     for (size_t r = 0; r < batch->num_patterns; r++) {
         const int exponent = batch->exponents != NULL ? batch->exponents[r] : 0;
         for (size_t i = 0; i < set->num; i++) {
-            long double re = 0;
-            long double im = 0;
+            long double power = 0;
             PS_TRY(ps_batch_go_on(batch, error));
-            ps_host_sum(&batch->patterns[r], set->vectors + i * set->dimension, &re, &im);
-            re = ldexpl(re, -exponent);
-            im = ldexpl(im, -exponent);
-            self->power[r * set->num + i] = (double)((re * re + im * im) * batch->scales[r]);
+            PS_TRY(ps_host_power(&batch->patterns[r], set, i, exponent, &power, error));
+            self->power[r * set->num + i] = (double)(power * batch->scales[r]);
         }
     }
     *rows = (ps_rows){.num_rows = batch->num_patterns,
@@ -153,6 +175,7 @@ static void describe(const void *state, ps_text *text) {
 const ps_engine ps_host_direct = {
     .name = "host_direct",
     .summary = "direct sums in long double on the host: the referee, needs no device",
+    .domains = PS_ON_TORUS | PS_ON_SPHERE,
     .needs_device = false,
     .has_precision = {false, false, true},
     .applicable = applicable,

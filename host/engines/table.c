@@ -43,6 +43,10 @@ pspec_status ps_batch_go_on(const ps_batch *batch, ps_error *error) {
                : PSPEC_OK;
 }
 
+unsigned ps_problem_domain(const ps_problem *problem) {
+    return problem->frequencies->kind == PS_FREQUENCIES_DEGREES ? PS_ON_SPHERE : PS_ON_TORUS;
+}
+
 double ps_expected_power(const ps_problem *problem) {
     return problem->expected_power > 0 ? problem->expected_power : 1;
 }

@@ -337,6 +337,7 @@ static void describe(const void *state, ps_text *text) {
 const ps_engine ps_torus_direct = {
     .name = "torus_direct",
     .summary = "direct sums on the device; grids as separable products of two tables",
+    .domains = PS_ON_TORUS,
     .needs_device = true,
     .has_precision = {true, true, false},
     .applicable = applicable,

@@ -36,7 +36,7 @@ pspec_status ps_estimator_make_engine(ps_estimator *self, ps_error *error) {
 static pspec_status create_accumulator(ps_estimator *self, ps_error *error) {
     const ps_estimator_options *options = &self->options;
     const ps_frequencies *set = options->problem.frequencies;
-    const bool is_on_device = options->engine->needs_device;
+    const bool is_on_device = options->engine->needs_device && !options->engine->rows_on_host;
     const ps_accumulator_options accumulator = {
         .bins = &self->bins,
         .num_frequencies = set->num,
@@ -44,7 +44,7 @@ static pspec_status create_accumulator(ps_estimator *self, ps_error *error) {
         .stride = options->engine->get_stride(self->engine_state),
         .batch = self->batch,
         .is_on_device = is_on_device,
-        .precision = options->precision == PS_SINGLE ? PS_SINGLE : PS_DOUBLE,
+        .precision = options->precision == PS_SINGLE && is_on_device ? PS_SINGLE : PS_DOUBLE,
         .lanes = is_on_device
                      ? ps_engine_lanes(ps_device_get_limits(self->device), options->precision)
                      : 1,
@@ -131,8 +131,8 @@ uint64_t ps_estimator_num_realizations(const ps_estimator *estimator) {
 pspec_status ps_estimator_check(const ps_estimator *estimator, const pspec_pattern *pattern,
                                 uint64_t realization, ps_pattern_sums *sums, ps_error *error) {
     const ps_estimator_options *options = &estimator->options;
-    return ps_pattern_check(pattern, options->problem.frequencies->dimension,
-                            options->normalization, realization, sums, error);
+    return ps_pattern_check(pattern, options->problem.frequencies, options->normalization,
+                            realization, sums, error);
 }
 
 void ps_estimator_set_sums(ps_estimator *self, size_t pattern, const ps_pattern_sums *sums) {
@@ -164,14 +164,16 @@ static pspec_status prepare(ps_estimator *self, const pspec_pattern *patterns,
 
 /* Effective power of every realization, mean over all frequencies but DC: what the error formula needs. */
 static void measure_powers(ps_estimator *self, const double *bin_powers, size_t num_patterns) {
-    const double num = self->bins.num_members > 0 ? (double)self->bins.num_members : 1;
     for (size_t r = 0; r < num_patterns; r++) {
         double sum = 0;
+        double num_modes = 0;
         for (size_t b = 0; b < self->bins.num; b++) {
-            sum += bin_powers[r * self->bins.num + b] *
-                   (double)(self->bins.bins[b].end - self->bins.bins[b].begin);
+            const double num = (double)ps_bin_num_computed(&self->bins.bins[b]);
+            sum += bin_powers[r * self->bins.num + b] * num;
+            num_modes += num;
         }
-        const double power = sum / num / (self->scales[r] * self->sums[r].weight_square_sum);
+        const double power = sum / (num_modes > 0 ? num_modes : 1) /
+                             (self->scales[r] * self->sums[r].weight_square_sum);
         if (!(power <= self->accuracy.largest_mean_power)) {
             self->accuracy.largest_mean_power = power;
         }
@@ -184,6 +186,7 @@ static void count_patterns(ps_estimator *self, const pspec_pattern *patterns, si
         const size_t num_points = patterns[r].num_points;
         const bool is_first = totals->num_realizations == 0;
         totals->num_realizations++;
+        self->accuracy.length_error = fmax(self->accuracy.length_error, self->sums[r].length_error);
         totals->sum_points += (double)num_points;
         totals->sum_sample_sizes +=
             self->sums[r].weight_sum * self->sums[r].weight_sum / self->sums[r].weight_square_sum;
@@ -231,8 +234,8 @@ pspec_status ps_estimator_check_beginning(ps_estimator *self, const pspec_patter
     const ps_pattern_sums sums = self->sums[0];
     pattern.num_points =
         pattern.num_points < PS_SELF_CHECK_POINTS ? pattern.num_points : PS_SELF_CHECK_POINTS;
-    if (ps_pattern_check(&pattern, pattern.dimension, PSPEC_NORMALIZATION_EFFECTIVE, 0,
-                         &self->sums[0], NULL) != PSPEC_OK) {
+    if (ps_pattern_check(&pattern, self->options.problem.frequencies, PSPEC_NORMALIZATION_EFFECTIVE,
+                         0, &self->sums[0], NULL) != PSPEC_OK) {
         self->sums[0] = sums; /* these weights are all 0: nothing to compare */
         return PSPEC_OK;
     }

@@ -3,6 +3,26 @@
 #include <float.h>
 #include <math.h>
 
+/* A square that overflows is infinite, and refused like any other. */
+static pspec_status check_vectors(ps_pattern_count *count, const pspec_pattern *block,
+                                  ps_error *error) {
+    for (size_t j = 0; j < block->num_points; j++) {
+        const double *u = block->points + j * PS_SPHERE_DIMENSION;
+        const double length = sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
+        const double off = fabs(length - 1);
+        count->length_error = off > count->length_error ? off : count->length_error;
+        if (!(off <= PS_UNIT_LENGTH_SLACK)) {
+            return ps_fail(error, PSPEC_ERROR_INPUT,
+                           "set %llu, point %llu: the vector (%.17g, %.17g, %.17g) has the length "
+                           "%g instead of 1",
+                           (unsigned long long)count->realization + 1,
+                           (unsigned long long)(count->num_points + j + 1), u[0], u[1], u[2],
+                           length);
+        }
+    }
+    return PSPEC_OK;
+}
+
 static pspec_status check_coordinates(const ps_pattern_count *count, const pspec_pattern *block,
                                       ps_error *error) {
     const size_t num = block->num_points * block->dimension;
@@ -59,7 +79,8 @@ pspec_status ps_pattern_count_weights(ps_pattern_count *count, const double *wei
 
 pspec_status ps_pattern_count_add(ps_pattern_count *count, const pspec_pattern *block,
                                   ps_error *error) {
-    PS_TRY(check_coordinates(count, block, error));
+    PS_TRY(count->on_sphere ? check_vectors(count, block, error)
+                            : check_coordinates(count, block, error));
     count->num_points += block->num_points;
     return block->weights != NULL
                ? ps_pattern_count_weights(count, block->weights, block->num_points, error)
@@ -71,7 +92,8 @@ pspec_status ps_pattern_count_finish(const ps_pattern_count *count,
                                      ps_error *error) {
     const unsigned long long set = (unsigned long long)count->realization + 1;
     if (count->num_weights == 0) {
-        *sums = (ps_pattern_sums){0, (double)count->num_points, (double)count->num_points};
+        const double num = (double)count->num_points;
+        *sums = (ps_pattern_sums){0, num, num, count->length_error};
         return PSPEC_OK;
     }
     if (count->largest == 0) {
@@ -85,17 +107,20 @@ pspec_status ps_pattern_count_finish(const ps_pattern_count *count,
                        "--normalize effective",
                        set);
     }
-    *sums = (ps_pattern_sums){count->exponent, (double)count->sum, (double)count->squares};
+    *sums = (ps_pattern_sums){count->exponent, (double)count->sum, (double)count->squares,
+                              count->length_error};
     return PSPEC_OK;
 }
 
-pspec_status ps_pattern_check(const pspec_pattern *pattern, unsigned dimension,
+pspec_status ps_pattern_check(const pspec_pattern *pattern, const ps_frequencies *frequencies,
                               pspec_normalization normalization, uint64_t realization,
                               ps_pattern_sums *sums, ps_error *error) {
-    ps_pattern_count count = {.realization = realization};
-    if (pattern->dimension != dimension) {
+    ps_pattern_count count = {.realization = realization,
+                              .on_sphere = frequencies->kind == PS_FREQUENCIES_DEGREES};
+    if (pattern->dimension != frequencies->dimension) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "set %llu has dimension %u instead of %u",
-                       (unsigned long long)realization + 1, pattern->dimension, dimension);
+                       (unsigned long long)realization + 1, pattern->dimension,
+                       frequencies->dimension);
     }
     if (pattern->num_points == 0 || pattern->points == NULL) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "set %llu has no points",

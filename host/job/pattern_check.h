@@ -2,7 +2,7 @@
 #ifndef PS_JOB_PATTERN_CHECK_H
 #define PS_JOB_PATTERN_CHECK_H
 
-#include "base/status.h"
+#include "engines/frequencies.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -13,13 +13,16 @@ typedef struct ps_pattern_sums {
     int exponent;             /* 0 for unit weights */
     double weight_sum;        /* W 2^-exponent */
     double weight_square_sum; /* V 2^(-2 exponent) */
+    double length_error;      /* largest | |u| - 1 | of vectors; 0 on the torus */
 } ps_pattern_sums;
 
 /* What is known of a pattern of which some points have been seen; {.realization = r} before the first.
  * realization counts from 0 and is only for messages. */
 typedef struct ps_pattern_count {
     uint64_t realization;
+    bool on_sphere; /* points are unit vectors */
     uint64_t num_points, num_weights;
+    double length_error;             /* so far, as in the sums */
     double largest;                  /* |w| */
     int exponent;                    /* of the largest */
     long double sum, squares, sizes; /* of w, w^2, |w|, divided by powers of two as in the sums */
@@ -36,8 +39,12 @@ pspec_status ps_pattern_count_finish(const ps_pattern_count *count,
                                      pspec_normalization normalization, ps_pattern_sums *sums,
                                      ps_error *error) PS_MUST_CHECK;
 
-/* All of it, for a pattern in memory. */
-pspec_status ps_pattern_check(const pspec_pattern *pattern, unsigned dimension,
+/* How far from 1 the length of a vector may be that stands for a point on the sphere: what single precision and
+ * printed coordinates leave. */
+#define PS_UNIT_LENGTH_SLACK 1e-6
+
+/* All of it, for a pattern in memory whose spectrum at these frequencies is asked for. */
+pspec_status ps_pattern_check(const pspec_pattern *pattern, const ps_frequencies *frequencies,
                               pspec_normalization normalization, uint64_t realization,
                               ps_pattern_sums *sums, ps_error *error) PS_MUST_CHECK;
 

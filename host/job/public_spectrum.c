@@ -204,6 +204,10 @@ const pspec_bin *pspec_spectrum_bins(const pspec_spectrum *spectrum, size_t *num
     return spectrum->bins;
 }
 
+unsigned pspec_spectrum_components(const pspec_spectrum *spectrum) {
+    return ps_frequency_components(&spectrum->sums.frequencies);
+}
+
 const int32_t *pspec_spectrum_frequencies(const pspec_spectrum *spectrum, size_t *num_frequencies) {
     if (num_frequencies != NULL) {
         *num_frequencies = spectrum->sums.frequencies.num;

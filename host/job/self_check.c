@@ -6,8 +6,9 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Entries to look at, and the most long double terms to spend on them. */
-enum { MOST_ENTRIES = 8, MOST_TERMS = 1 << 20 };
+/* Entries to look at, and the most long double terms to spend on them; those of a degree, one for each order
+ * and point, take a tenth of the time. */
+enum { MOST_ENTRIES = 8, MOST_TERMS = 1 << 20, MOST_DEGREE_TERMS = 10 * MOST_TERMS };
 
 /* How far one entry may lie outside the engine's root-mean-square error before something is wrong:
  * rounding errors are sums of many small ones, and 8 standard deviations do not happen. */
@@ -33,9 +34,16 @@ static pspec_status read_entry(const ps_rows *rows, uint32_t slot, ps_device *de
     return PSPEC_OK;
 }
 
-/* "(3, -4)" */
-static void print_frequency(char *text, size_t text_bytes, const int32_t *k, unsigned dimension) {
+/* "frequency (3, -4)" or "degree 3" */
+static void print_frequency(char *text, size_t text_bytes, const int32_t *k,
+                            const ps_frequencies *set) {
+    const unsigned dimension = set->dimension;
     size_t length = 0;
+    if (set->kind == PS_FREQUENCIES_DEGREES) {
+        snprintf(text, text_bytes, "degree %d", (int)k[0]);
+        return;
+    }
+    length = (size_t)snprintf(text, text_bytes, "frequency ");
     for (unsigned axis = 0; axis < dimension && length < text_bytes; axis++) {
         length += (size_t)snprintf(text + length, text_bytes - length, "%s%d",
                                    axis == 0 ? "(" : ", ", (int)k[axis]);
@@ -49,36 +57,51 @@ static void print_frequency(char *text, size_t text_bytes, const int32_t *k, uns
 static pspec_status check_entry(const ps_self_check_input *input, size_t entry, ps_device *device,
                                 double *off, ps_error *error) {
     const ps_frequencies *set = input->frequencies;
-    const int32_t *k = set->vectors + entry * set->dimension;
+    const int32_t *k = set->vectors + entry * ps_frequency_components(set);
     const double unit = sqrt(input->weight_square_sum);
-    long double re = 0;
-    long double im = 0;
+    long double exact = 0;
     double power = 0;
-    char text[96];
+    char text[112];
     PS_TRY(read_entry(input->rows, input->slots[entry], device, &power, error));
-    ps_host_sum(input->pattern, k, &re, &im);
-    const double expected = (double)ldexpl(hypotl(re, im), -input->exponent) / unit;
+    PS_TRY(ps_host_power(input->pattern, set, entry, input->exponent, &exact, error));
+    const double expected = (double)sqrtl(exact) / unit;
     const double allowed = allowed_factor * input->engine_error * (1 + expected);
     *off = fabs(sqrt(power / input->scale) / unit - expected);
     if (!(*off <= allowed)) {
-        print_frequency(text, sizeof text, k, set->dimension);
+        print_frequency(text, sizeof text, k, set);
         return ps_fail(error, PSPEC_ERROR_CHECK,
-                       "self-check failed: |S| of frequency %s is off by %.3g sqrt(sum w^2), "
+                       "self-check failed: |S| of %s is off by %.3g sqrt(sum w^2), "
                        "expected below %.3g; the device or its driver computes wrongly",
                        text, *off, allowed);
     }
     return PSPEC_OK;
 }
 
+/* Entries that may be chosen, and how many of them: of degrees the low ones, whose sums are short. */
+static size_t choose_entries(const ps_self_check_input *input, size_t *num_candidates) {
+    const ps_frequencies *set = input->frequencies;
+    const size_t num_points = input->pattern->num_points;
+    size_t affordable = MOST_TERMS / num_points;
+    *num_candidates = set->num;
+    if (set->kind == PS_FREQUENCIES_DEGREES) {
+        const size_t highest = MOST_DEGREE_TERMS / MOST_ENTRIES / num_points;
+        const size_t num = highest / (size_t)set->degree_step;
+        *num_candidates = num < set->num ? num : set->num;
+        *num_candidates = *num_candidates > 0 ? *num_candidates : 1;
+        affordable = MOST_ENTRIES;
+    }
+    return affordable < MOST_ENTRIES ? affordable : MOST_ENTRIES;
+}
+
 pspec_status ps_self_check(const ps_self_check_input *input, ps_device *device, double *deviation,
                            ps_error *error) {
     ps_random random = ps_random_init(check_seed, PS_STREAM_COORDINATES, 0);
-    const size_t affordable = MOST_TERMS / input->pattern->num_points;
-    const size_t num_entries = affordable < MOST_ENTRIES ? affordable : MOST_ENTRIES;
+    size_t num_candidates = 0;
+    const size_t num_entries = choose_entries(input, &num_candidates);
     *deviation = 0;
     for (size_t i = 0; i < num_entries; i++) {
         double off = 0;
-        const size_t entry = (size_t)ps_random_below(&random, input->frequencies->num);
+        const size_t entry = (size_t)ps_random_below(&random, num_candidates);
         PS_TRY(check_entry(input, entry, device, &off, error));
         *deviation = off > *deviation ? off : *deviation;
     }

@@ -75,9 +75,14 @@ static memory count_memory(const ps_candidate *candidate, const ps_problem *prob
                           (set_bytes(problem, work) + work->point_bytes) * (double)batch +
                           num * (2 * dimension * (double)sizeof(int32_t) +
                                  3 * (double)sizeof(uint32_t) + 2 * (double)sizeof(double))};
+    if (limits == NULL || candidate->engine->rows_on_host) {
+        sum.host += num * 4 * (double)sizeof(double); /* the sums of the accumulator */
+    }
     if (limits == NULL) {
-        sum.host += sum.device + num * 4 * (double)sizeof(double); /* the sums of the accumulator */
+        sum.host += sum.device;
         sum.device = 0;
+    }
+    if (limits == NULL || candidate->engine->rows_on_host) {
         return sum;
     }
     add_accumulator(&sum, work, problem, padded_rows(limits, candidate->precision, batch),
@@ -212,7 +217,8 @@ pspec_status ps_plan_make(ps_plan *plan, const ps_problem *problem, const ps_dev
     PS_TRY(check_engine_name(constraints->engine, error));
     for (const ps_engine *const *engine = ps_engines; *engine != NULL; engine++) {
         for (int precision = PS_SINGLE; precision <= PS_EXTENDED; precision++) {
-            if (!(*engine)->has_precision[precision] || plan->num_candidates == PS_MAX_CANDIDATES) {
+            if (!((*engine)->domains & ps_problem_domain(problem)) ||
+                !(*engine)->has_precision[precision] || plan->num_candidates == PS_MAX_CANDIDATES) {
                 continue;
             }
             ps_candidate *candidate = &plan->candidates[plan->num_candidates++];
@@ -271,7 +277,8 @@ pspec_status ps_plan_require(const ps_plan *plan, const ps_problem *problem, ps_
     const ps_candidate *smallest = find_smallest(plan, problem->tolerance);
     return ps_fail(error, PSPEC_ERROR_MEMORY, "%s (%s) %s%s", smallest->engine->name,
                    ps_precision_name(smallest->precision), smallest->reason,
-                   problem->frequencies->kind != PS_FREQUENCIES_LIST
+                   problem->frequencies->kind == PS_FREQUENCIES_BOX ||
+                           problem->frequencies->kind == PS_FREQUENCIES_BALL
                        ? "; a random subset of the frequencies of every ring (--per-ring) needs "
                          "less"
                        : "");
