@@ -29,9 +29,12 @@ table_bench_errors() { bench errors; }
 table_bench_memory() { bench memory; }
 table_bench_library() { bench library; }
 
-# Minutes; it also writes bench-output/peers.csv, which make_figures.sh draws.
+# A quarter of an hour, less with PEERS_OPTIONS=--quick; it also writes bench-output/peers.csv, which make_figures.sh
+# draws.
 table_bench_peers() {
-    need libpointspec.so && "$docs/../bench/bench_peers.sh" --build "$build"
+    local options
+    read -r -a options <<<"${PEERS_OPTIONS-}"
+    need libpointspec.so && "$docs/../bench/bench_peers.sh" --build "$build" "${options[@]}"
 }
 
 # What the last ./dev fuzz printed.
