@@ -84,7 +84,8 @@ class Pointspec:
         chosen = next((row for row in table if row["verdict"] == "chosen"), None)
         if chosen is None:
             raise RuntimeError(f"{engine or 'no engine'} cannot do this")
-        return Planned(chosen["engine"], float(chosen["seconds"]) / case.realizations)
+        engine = chosen["engine"].partition(":")[0]  # without the precision
+        return Planned(engine, float(chosen["seconds"]) / case.realizations)
 
     def open(self, points, tolerance, engine):
         return PointspecRunner(self, points, tolerance, engine)
