@@ -20,9 +20,11 @@ rows=$(((${#cases[@]} + width - 1) / width))
     echo "set output \"$2\""
     echo 'set logscale xy
 set format x "10^{%L}"
-set format y "%g"
+set format y "10^{%L}"
 set xrange [1e-2:1e-15]
-set grid linecolor "#dddddd"
+set grid linecolor "#cccccc" linetype 1
+set bmargin 7
+set pointsize 1.2
 set xlabel "measured error"
 set ylabel "us for a realization"
 set key below noenhanced samplen 1 maxrows 2'
@@ -31,11 +33,13 @@ set key below noenhanced samplen 1 maxrows 2'
         IFS=, read -r dimension points frequency realizations <<<"$case"
         echo "set title \"d = $dimension, N = $points, K = $frequency, R = $realizations\""
         plots=()
+        # Direct sums have one error whatever is asked: the fastest of these is drawn.
         for style in "${styles[@]}"; do
             IFS=: read -r peer point color line <<<"$style"
             data=$scratch/${case//,/-}-${peer// /-}
             awk -F, -v which="$case" -v peer="$peer" \
-                '$1 "," $2 "," $3 "," $4 == which && $6 == peer { print $10, $12 }' "$1" | sort -g >"$data"
+                '$1 "," $2 "," $3 "," $4 == which && $6 == peer && (!($10 in least) || $12 < least[$10]) { least[$10] = $12 }
+                END { for (error in least) print error, least[error] }' "$1" | sort -g >"$data"
             [[ ! -s $data ]] ||
                 plots+=("\"$data\" with linespoints pointtype $point linecolor \"$color\" linewidth $line title \"$peer\"")
         done
