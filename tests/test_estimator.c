@@ -5,6 +5,7 @@
 
 #include "engines/host_direct.h"
 #include "engines/torus_direct.h"
+#include "engines/torus_nufft.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -49,6 +50,31 @@ static void same_bits_for_every_batch(void **state) {
     }
     ps_frequencies grid = test_make_lattice(2, 5, true);
     check_bits(&grid, &ps_host_direct, PS_EXTENDED);
+    ps_frequencies_free(&grid);
+}
+
+/* A device that allows no buffer larger than a row of powers: sums of all modes and of their squares, four times as
+ * much, are in several. */
+static void same_bits_in_small_buffers(void **state) {
+    (void)state;
+    ps_frequencies grid = test_make_lattice(2, 100, false);
+    test_sample what = test_make_sample(3, 2, 200, 0, false);
+    ps_estimator_options options = test_make_options(&grid, &ps_torus_nufft, PS_SINGLE, 200, 1);
+    options.problem.num_realizations = what.num;
+    options.problem.tolerance = 1e-3;
+    for (int mean_only = 0; mean_only < 2; mean_only++) {
+        options.mean_only = mean_only == 1;
+        ps_spectrum first = test_estimate(&options, &what, 3, device);
+        const ps_work work =
+            ps_torus_nufft.work(&options.problem, ps_device_get_limits(device), PS_SINGLE);
+        ps_device_set_max_allocation(device, (uint64_t)work.row_bytes);
+        ps_spectrum again = test_estimate(&options, &what, 3, device);
+        ps_device_set_max_allocation(device, 0);
+        assert_true(test_is_same_bits(&first, &again));
+        ps_spectrum_free(&first);
+        ps_spectrum_free(&again);
+    }
+    test_free_sample(&what);
     ps_frequencies_free(&grid);
 }
 
@@ -320,6 +346,7 @@ static void effective_normalization(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(same_bits_for_every_batch),
+        cmocka_unit_test(same_bits_in_small_buffers),
         cmocka_unit_test(same_bits_for_large_sets),
         cmocka_unit_test(same_means_without_standard_errors),
         cmocka_unit_test(shifts_leave_the_power_unchanged),

@@ -64,12 +64,7 @@ double ps_fft_flops(uint32_t length) {
     return flops;
 }
 
-/* Zen 5, PoCL 3.1, 2026-11, profile of bench_nufft with and without the transforms, lengths 392, 512, 1024
- * (5800, 6100, 12600 cycles): of an operation on vectors, and of a cell on its way through a pass. */
-static const double cycles_per_operation = 0.27;
-static const double cycles_per_cell = 0.8;
-
-double ps_fft_cycles(uint32_t length) {
+double ps_fft_passed(uint32_t length) {
     uint32_t radices[PS_FFT_MAX_PASSES];
     double passes = 0;
     if (!ps_fft_radices(length, radices)) {
@@ -78,7 +73,7 @@ double ps_fft_cycles(uint32_t length) {
     for (const uint32_t *radix = radices; *radix != 0; radix++) {
         passes++;
     }
-    return cycles_per_operation * ps_fft_flops(length) + cycles_per_cell * passes * length;
+    return passes * length;
 }
 
 uint32_t ps_fft_good_length(uint64_t least) {

@@ -1,7 +1,7 @@
 #include "engines/nufft_whole_shape.h"
 
 #include "base/round.h"
-#include "engines/nufft_fft.h"
+#include "engines/nufft_cost.h"
 #include "engines/nufft_kernels.h"
 #include "engines/nufft_plan.h"
 #include "engines/reals.h"
@@ -11,18 +11,6 @@
 /* Grid and tiles of a core stay in its cache (1 MB, Zen 5), or are read once in order. Nominal, whatever the
  * device has, so that choices depend on nothing else. */
 static const double most_bytes = 1.5 * (1 << 20);
-
-/* Cycles on a core (Zen 5, PoCL 3.1, 2026-11, parts of kernels/nufft/whole.cl left out in turn): of a point to be
- * placed; of a vector of polynomials; of a vector added to a row in the nearest cache, and beyond; of a column of
- * cells fetched, and turned into a tile; of a cell of a tile fetched, and of a vector of powers written. */
-static const double cycles_per_point = 9;
-static const double cycles_per_polynomial = 0.6;
-static const double cycles_per_row = 1.6;
-static const double cycles_per_far_row = 2.4;
-static const double near_bytes = 32 << 10;
-static const double cycles_per_cell = 5;
-static const double cycles_per_turned = 28;
-static const double cycles_per_power = 8;
 
 void ps_nufft_whole_kept(const ps_nufft_choice *choice, uint32_t kept[2]) {
     const uint32_t largest = (uint32_t)choice->axes[0].max_frequency;
@@ -50,18 +38,6 @@ ps_nufft_whole_sizes ps_nufft_whole_measure(const ps_nufft_choice *choice, unsig
     return sizes;
 }
 
-static double transform_cycles(const ps_nufft_choice *choice, unsigned lanes) {
-    uint32_t kept[2];
-    ps_nufft_whole_kept(choice, kept);
-    const double groups = (double)ps_divide_up(choice->lengths[1], 2 * lanes);
-    const double tiles = (double)ps_divide_up(choice->span, lanes);
-    const double first = ps_fft_cycles(choice->lengths[0]) + cycles_per_cell * choice->lengths[0] +
-                         tiles * cycles_per_turned * lanes;
-    const double second = ps_fft_cycles(choice->lengths[1]) + cycles_per_cell * choice->lengths[1] +
-                          cycles_per_power * (2.0 * kept[1] + 1);
-    return groups * first + tiles * second;
-}
-
 /* In one dimension: the factors of the grid, by what the transforms take. The optimum is flat (first lengths of 128 to
  * 4096 of 131072 cells take the same time within 5 %), so it is looked for up to twice the root. */
 static void choose_lengths(ps_nufft_choice *choice, unsigned lanes) {
@@ -77,7 +53,7 @@ static void choose_lengths(ps_nufft_choice *choice, unsigned lanes) {
         other.lengths[1] = n / first;
         other.span = first / 2 + 1;
         ps_nufft_whole_kept(&other, kept);
-        const double cycles = transform_cycles(&other, lanes);
+        const double cycles = ps_nufft_whole_transform_cycles(&other, lanes);
         if (2 * kept[1] + 1 <= other.lengths[1] && cycles < least) {
             least = cycles;
             *choice = other;
@@ -99,22 +75,4 @@ bool ps_nufft_whole_shape(ps_nufft_choice *choice, ps_precision precision, unsig
     const ps_nufft_whole_sizes sizes = ps_nufft_whole_measure(choice, lanes);
     return (double)(sizes.grid_reals + sizes.row_reals) * (double)ps_real_bytes(precision) <=
            most_bytes;
-}
-
-double ps_nufft_whole_cycles(const ps_nufft_choice *choice, ps_precision precision, unsigned lanes,
-                             double num_points) {
-    const ps_nufft_whole_sizes sizes = ps_nufft_whole_measure(choice, lanes);
-    const double grid_bytes = (double)(sizes.grid_reals * ps_real_bytes(precision));
-    const double row = grid_bytes <= near_bytes ? cycles_per_row : cycles_per_far_row;
-    double polynomials = 0;
-    double rows = 1;
-    for (unsigned i = 0; i < choice->num_axes; i++) {
-        const double width = choice->axes[i].window.width;
-        polynomials += (width + 2) * ps_nufft_bins(&choice->axes[i]) / lanes;
-        rows = i > 0 ? choice->axes[0].window.width : 1;
-    }
-    const double vectors = ceil(ps_nufft_bins(&choice->axes[choice->num_axes - 1]) / (double)lanes);
-    return num_points *
-               (cycles_per_point + cycles_per_polynomial * polynomials + row * rows * vectors) +
-           transform_cycles(choice, lanes) + (double)sizes.grid_reals / lanes;
 }

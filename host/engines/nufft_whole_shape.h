@@ -1,5 +1,5 @@
 /* Realizations that one work-group does whole (kernels/nufft/whole.cl): lengths of the two transforms, what they
- * keep, memory, cost.
+ * keep, memory.
  */
 #ifndef PS_ENGINES_NUFFT_WHOLE_SHAPE_H
 #define PS_ENGINES_NUFFT_WHOLE_SHAPE_H
@@ -21,9 +21,5 @@ typedef struct ps_nufft_whole_sizes {
 bool ps_nufft_whole_shape(ps_nufft_choice *choice, ps_precision precision, unsigned lanes);
 
 ps_nufft_whole_sizes ps_nufft_whole_measure(const ps_nufft_choice *choice, unsigned lanes);
-
-/* Cycles of a realization, docs/torus_nufft.md. */
-double ps_nufft_whole_cycles(const ps_nufft_choice *choice, ps_precision precision, unsigned lanes,
-                             double num_points);
 
 #endif

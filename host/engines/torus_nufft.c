@@ -181,9 +181,7 @@ static pspec_status create(void **state, const ps_problem *problem, ps_precision
     self->precision = precision;
     self->batch = batch;
     self->layout = ps_nufft_layout_make(problem, ps_device_get_limits(device), precision);
-    if (!ps_nufft_is_large(&self->layout.choice) && self->layout.parts > batch) {
-        self->layout.parts = batch;
-    }
+    ps_nufft_layout_shrink(&self->layout, batch);
     const pspec_status status = create_parts(self, problem, error);
     if (status != PSPEC_OK) {
         destroy(self);

@@ -2,6 +2,7 @@
 #include "faults.h"
 
 #include <CL/cl.h>
+#include <string.h>
 
 /* A call that only returns a code. */
 #define STATUS(name, failure, parameters, arguments)                                               \
@@ -53,9 +54,20 @@ STATUS(clGetPlatformInfo, CL_OUT_OF_HOST_MEMORY,
 STATUS(clGetDeviceIDs, CL_OUT_OF_RESOURCES,
        (cl_platform_id id, cl_device_type type, cl_uint room, cl_device_id *devices, cl_uint *num),
        (id, type, room, devices, num))
-STATUS(clGetDeviceInfo, CL_OUT_OF_RESOURCES,
-       (cl_device_id id, cl_device_info what, size_t bytes, void *value, size_t *size),
-       (id, what, bytes, value, size))
+/* With the largest buffer as small as a test wants it. */
+WRAPPER(clGetDeviceInfo, cl_int,
+        (cl_device_id id, cl_device_info what, size_t bytes, void *value, size_t *size)) {
+    if (fault_is_due(FAULT_OPENCL, "clGetDeviceInfo")) {
+        return CL_OUT_OF_RESOURCES;
+    }
+    const cl_ulong most = fault_size("POINTSPEC_FAULT_ALLOCATION_BYTES");
+    const cl_int code = __real_clGetDeviceInfo(id, what, bytes, value, size);
+    if (what == CL_DEVICE_MAX_MEM_ALLOC_SIZE && most > 0 && code == CL_SUCCESS &&
+        bytes == sizeof most) {
+        memcpy(value, &most, sizeof most);
+    }
+    return code;
+}
 
 /* ---- contexts, queues, memory -------------------------------------------------------------- */
 
