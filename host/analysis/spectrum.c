@@ -77,7 +77,7 @@ pspec_status ps_spectrum_create(ps_spectrum *out, const ps_frequencies *frequenc
     pspec_status status = PSPEC_OK;
     *out = (ps_spectrum){0};
     PS_TRY_OUT(status, ps_allocate(&bin_means, bins->num, sizeof(ps_mean), "the bins", error));
-    ps_accumulator_bins(accumulator, bin_means);
+    PS_TRY_OUT(status, ps_accumulator_bins(accumulator, bin_means, error));
     if (with_frequencies) {
         PS_TRY_OUT(status,
                    ps_allocate(&powers, frequencies->num, sizeof(ps_mean), "the powers", error));

@@ -163,15 +163,9 @@ static pspec_status prepare(ps_estimator *self, const pspec_pattern *patterns,
 }
 
 /* Effective power of every realization, mean over all frequencies but DC: what the error formula needs. */
-static void measure_powers(ps_estimator *self, const double *bin_powers, size_t num_patterns) {
-    const double num = self->bins.num_members > 0 ? (double)self->bins.num_members : 1;
+static void measure_powers(ps_estimator *self, const double *mean_powers, size_t num_patterns) {
     for (size_t r = 0; r < num_patterns; r++) {
-        double sum = 0;
-        for (size_t b = 0; b < self->bins.num; b++) {
-            sum += bin_powers[r * self->bins.num + b] *
-                   (double)(self->bins.bins[b].end - self->bins.bins[b].begin);
-        }
-        const double power = sum / num / (self->scales[r] * self->sums[r].weight_square_sum);
+        const double power = mean_powers[r] / (self->scales[r] * self->sums[r].weight_square_sum);
         if (!(power <= self->accuracy.largest_mean_power)) {
             self->accuracy.largest_mean_power = power;
         }
@@ -302,9 +296,9 @@ pspec_status ps_estimator_get_ready(ps_estimator *self, uint64_t num_points, ps_
 pspec_status ps_estimator_take(ps_estimator *self, const ps_rows *rows,
                                const pspec_pattern *patterns, size_t num_patterns,
                                ps_error *error) {
-    const double *bin_powers = NULL;
-    PS_TRY(ps_accumulator_add(self->accumulator, rows, &bin_powers, error));
-    measure_powers(self, bin_powers, num_patterns);
+    const double *mean_powers = NULL;
+    PS_TRY(ps_accumulator_add(self->accumulator, rows, &mean_powers, error));
+    measure_powers(self, mean_powers, num_patterns);
     count_patterns(self, patterns, num_patterns);
     return PSPEC_OK;
 }
