@@ -167,7 +167,8 @@ pspec_status ps_nufft_grid_add(ps_nufft_grid *grid, const ps_batch *batch, ps_er
         chunk.exponents = exponents;
         chunk.num_patterns = cut(grid->layout, &batch->patterns[0], first, parts, &num_points);
         PS_TRY(ps_batch_go_on(batch, error));
-        PS_TRY(ps_nufft_places_make(grid->places, &chunk, error));
+        PS_TRY(ps_nufft_places_upload(grid->places, &chunk, error));
+        PS_TRY(ps_nufft_places_sort(grid->places, chunk.num_patterns, error));
         PS_TRY(spread(grid, chunk.num_patterns, num_points, error));
     }
     return PSPEC_OK;

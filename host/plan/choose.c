@@ -67,11 +67,13 @@ static memory count_memory(const ps_candidate *candidate, const ps_problem *prob
                            const ps_work *work, const ps_device_limits *limits, size_t batch) {
     const unsigned dimension = problem->frequencies->dimension;
     const double num = (double)problem->frequencies->num;
+    const double moved = limits != NULL && limits->has_unified_memory ? work->coordinate_bytes : 0;
     /* of every frequency twice its vector and its slot, its place in a bin, mean and standard error */
-    memory sum = {.device = work->fixed_bytes - work->host_bytes +
-                            (work->bytes_per_realization + work->point_bytes) * (double)batch,
+    memory sum = {.device =
+                      work->fixed_bytes - work->host_bytes +
+                      (work->bytes_per_realization + work->point_bytes + moved) * (double)batch,
                   .host = work->host_bytes +
-                          (set_bytes(problem, work) + work->point_bytes) * (double)batch +
+                          (set_bytes(problem, work) + work->point_bytes - moved) * (double)batch +
                           num * (2 * dimension * (double)sizeof(int32_t) +
                                  3 * (double)sizeof(uint32_t) + 2 * (double)sizeof(double))};
     if (limits == NULL) {
