@@ -28,6 +28,15 @@ static uint64_t part_bytes(const ps_nufft_layout *layout, unsigned dimension) {
            (BEGINNINGS + MEANS) * sizeof(uint64_t);
 }
 
+/* For one point of every part, of the copy that the host keeps (engines/torus_points): weights; coordinates where
+ * the device cannot read them there, else they are a second copy of its own. */
+static uint64_t host_point_bytes(const ps_nufft_layout *layout, const ps_problem *problem,
+                                 const ps_device_limits *limits) {
+    const uint64_t coordinates =
+        limits->has_unified_memory ? 0 : problem->frequencies->dimension * sizeof(uint64_t);
+    return layout->parts * (coordinates + layout->real_bytes);
+}
+
 /* Whatever the number of points: plans of the axes (twiddles and pattern, gains, positions; polynomials and
  * radices are small). */
 static uint64_t table_bytes(const ps_nufft_layout *layout) {
@@ -228,8 +237,9 @@ static void count_whole(ps_nufft_layout *layout, const ps_problem *problem,
         layout->parts < GROUPS_PER_CORE * cores ? layout->parts : GROUPS_PER_CORE * cores;
     const uint64_t grids = layout->groups * layout->whole.grid_reals * layout->real_bytes;
     const uint64_t rows = layout->groups * layout->whole.row_reals * layout->real_bytes;
-    layout->host_bytes = layout->parts * layout->part_points * point;
-    layout->fixed_bytes = 2 * layout->host_bytes + grids + rows + whole_table_bytes(layout) +
+    layout->host_bytes = host_point_bytes(layout, problem, limits) * layout->part_points;
+    layout->fixed_bytes = 2 * layout->parts * layout->part_points * point + grids + rows +
+                          whole_table_bytes(layout) +
                           layout->parts * (sizeof(uint64_t) + 2 * layout->real_bytes);
     const uint64_t buffers[] = {grids, rows,
                                 layout->parts * layout->part_points *
@@ -295,8 +305,7 @@ ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_
     } else {
         choose_at_once(&layout, problem, limits);
     }
-    layout.host_bytes = layout.parts * layout.part_places *
-                        (problem->frequencies->dimension * sizeof(uint64_t) + layout.real_bytes);
+    layout.host_bytes = host_point_bytes(&layout, problem, limits) * layout.part_places;
     return layout;
 }
 

@@ -151,7 +151,12 @@ static ps_range range_of(const ps_nufft_whole *self, size_t num_realizations, si
     return ps_nufft_group_range(self->device, groups, 1, flops + spread * (double)num_points);
 }
 
-pspec_status ps_nufft_whole_run(ps_nufft_whole *whole, const ps_batch *batch,
+pspec_status ps_nufft_whole_upload(ps_nufft_whole *whole, const ps_batch *batch, ps_error *error) {
+    return ps_torus_points_upload(&whole->points, whole->device, batch, 0, &whole->num_points,
+                                  error);
+}
+
+pspec_status ps_nufft_whole_run(ps_nufft_whole *whole, size_t num_realizations,
                                 const ps_buffer *means, const ps_nufft_target *target,
                                 ps_error *error) {
     const ps_nufft_layout *layout = whole->layout;
@@ -164,13 +169,11 @@ pspec_status ps_nufft_whole_run(ps_nufft_whole *whole, const ps_batch *batch,
     const uint32_t longest =
         choice->lengths[0] > choice->lengths[1] ? choice->lengths[0] : choice->lengths[1];
     uint32_t kept[2];
-    size_t num_points = 0;
     ps_nufft_whole_kept(choice, kept);
-    PS_TRY(ps_torus_points_upload(&whole->points, whole->device, batch, 0, &num_points, error));
-    const ps_range range = range_of(whole, batch->num_patterns, num_points);
+    const ps_range range = range_of(whole, num_realizations, whole->num_points);
     return PS_LAUNCH(whole->device, whole->kernel, &range, error, PS_BUFFER(whole->points.points),
                      PS_BUFFER(whole->points.weights), PS_BUFFER(whole->points.offsets),
-                     PS_U32(batch->num_patterns), WHOLE_WINDOW(across), WHOLE_WINDOW(along),
+                     PS_U32(num_realizations), WHOLE_WINDOW(across), WHOLE_WINDOW(along),
                      WHOLE_TRANSFORM(&whole->transforms[0], choice->lengths[0], kept[0]),
                      WHOLE_TRANSFORM(&whole->transforms[1], choice->lengths[1], kept[1]),
                      PS_BUFFER(whole->lane_turns), PS_BUFFER(whole->tile_turns),

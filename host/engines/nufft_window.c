@@ -82,10 +82,15 @@ static void add_frequency(const ps_nufft_window *window, double f, double share,
     sums->amplification += share / (wanted * wanted);
 }
 
+double ps_nufft_window_least_worst(const ps_nufft_window *window, int32_t max_frequency,
+                                   uint32_t n) {
+    return aliases_at(window, (double)max_frequency / n).in_step;
+}
+
 ps_nufft_loss ps_nufft_window_loss(const ps_nufft_window *window, int32_t max_frequency,
                                    uint32_t n) {
     enum { ALL = 24, SAMPLES = 24 }; /* every frequency, if so few; else dense near the largest */
-    ps_nufft_loss loss = {.worst = aliases_at(window, (double)max_frequency / n).in_step};
+    ps_nufft_loss loss = {.worst = ps_nufft_window_least_worst(window, max_frequency, n)};
     double grid = 0;
     for (int k = 0; k <= max_frequency && max_frequency <= ALL; k++) {
         const double share = (k == 0 ? 1.0 : 2.0) / (2 * max_frequency + 1);

@@ -28,6 +28,9 @@ typedef struct ps_nufft_loss {
     double worst;         /* the same at the frequency where it is largest */
     double amplification; /* of white errors of the grid: root mean square, grid and frequencies */
 } ps_nufft_loss;
+/* No more than `worst` can be, at a hundredth of the cost. */
+double ps_nufft_window_least_worst(const ps_nufft_window *window, int32_t max_frequency,
+                                   uint32_t n);
 ps_nufft_loss ps_nufft_window_loss(const ps_nufft_window *window, int32_t max_frequency,
                                    uint32_t n);
 
