@@ -10,16 +10,16 @@
 
 #if PRECISION == 64
 #define SCALE_BITS 256
-#define SCALED_UP 1.157920892373162e77     /* 2^256 */
-#define SCALED_DOWN 8.636168555094445e-78  /* 2^-256 */
-#define SCALED_LOW 1.5930919111324523e-58  /* 2^-192 */
-#define SCALED_HIGH 1.8446744073709552e19  /* 2^64 */
+#define SCALED_UP 1.157920892373162e77    /* 2^256 */
+#define SCALED_DOWN 8.636168555094445e-78 /* 2^-256 */
+#define SCALED_LOW 1.5930919111324523e-58 /* 2^-192 */
+#define SCALED_HIGH 1.8446744073709552e19 /* 2^64 */
 #else
 #define SCALE_BITS 64
-#define SCALED_UP 1.8446744073709552e19f    /* 2^64 */
-#define SCALED_DOWN 5.421010862427522e-20f  /* 2^-64 */
-#define SCALED_LOW 3.552713678800501e-15f   /* 2^-48 */
-#define SCALED_HIGH 65536.0f                /* 2^16 */
+#define SCALED_UP 1.8446744073709552e19f   /* 2^64 */
+#define SCALED_DOWN 5.421010862427522e-20f /* 2^-64 */
+#define SCALED_LOW 3.552713678800501e-15f  /* 2^-48 */
+#define SCALED_HIGH 65536.0f               /* 2^16 */
 #endif
 
 /* The smallest number that one normalisation takes back into range after a product, and all that matters of sin theta:

@@ -73,8 +73,8 @@ INLINE void store_scale(__local SWORD *to, const size_t v, const swordv x) {
 /* ---- an order begins ------------------------------------------------------------------------- */
 
 /* The first order of a tile: exact phases, powers in pairs. */
-INLINE void begin_exactly(const chunk *at, const size_t v, const uint m, realv *cosine,
-                          realv *sine, scaled *power) {
+INLINE void begin_exactly(const chunk *at, const size_t v, const uint m, realv *cosine, realv *sine,
+                          scaled *power) {
     const realv weight = load_global(at->weights, v);
     ulongv turn;
 #if LANES == 1
@@ -89,13 +89,12 @@ INLINE void begin_exactly(const chunk *at, const size_t v, const uint m, realv *
 #endif
     *cosine *= weight;
     *sine *= weight;
-    *power = scaled_power(
-        scaled_make(get_value(at, ARRAY_RHO, v), get_value(at, ARRAY_RHO_REST, v)), m);
+    *power =
+        scaled_power(scaled_make(get_value(at, ARRAY_RHO, v), get_value(at, ARRAY_RHO_REST, v)), m);
 }
 
 /* Any other from the one before it. */
-INLINE void begin_next(const chunk *at, const size_t v, realv *cosine, realv *sine,
-                       scaled *power) {
+INLINE void begin_next(const chunk *at, const size_t v, realv *cosine, realv *sine, scaled *power) {
     const realv c = get_value(at, ARRAY_COSINE, v);
     const realv s = get_value(at, ARRAY_SINE, v);
     const realv old_cosine = load_local(at->memory + LOCAL_COSINE, v);
@@ -174,8 +173,8 @@ INLINE void walk(const chunk *at, const size_t v, TABLE *block, const realv fact
 }
 
 /* Points with an exponent. */
-INLINE void walk_scaled(const chunk *at, const size_t v, TABLE *block, realv *sums,
-                        const int first, const int step) {
+INLINE void walk_scaled(const chunk *at, const size_t v, TABLE *block, realv *sums, const int first,
+                        const int step) {
     swordv scale = load_scale(at->scales + CHUNK, v);
     const realv below = scale == (swordv)-1 ? (realv)SCALED_DOWN : (realv)0;
     const realv factor = scale == (swordv)0 ? (realv)1 : below;
@@ -221,8 +220,7 @@ INLINE void put_block(__global real *row, const ulong stride, TABLE *block, cons
                 const real old = to[i];
                 const real sum = old + high;
                 const real part_of_sum = sum - old;
-                low = to[2 * stride + i] +
-                      ((old - (sum - part_of_sum)) + (high - part_of_sum));
+                low = to[2 * stride + i] + ((old - (sum - part_of_sum)) + (high - part_of_sum));
                 high = sum;
             }
             to[i] = high;
@@ -242,8 +240,7 @@ INLINE void clear_below(__global real *row, const ulong stride, const uint m, co
 }
 
 INLINE void add_order(const chunk *at, TABLE *block, __global real *row, const ulong stride,
-                      const uint m, const uint max_degree, const int has_low,
-                      const int is_first) {
+                      const uint m, const uint max_degree, const int has_low, const int is_first) {
     real totals[SUMS];
     for (uint l = m; l <= max_degree; l += DEGREES) {
 #if ONLY_EVEN
