@@ -44,7 +44,7 @@ ps_nufft_whole_sizes ps_nufft_whole_measure(const ps_nufft_choice *choice, unsig
         is_line ? choice->lengths[0] + (uint32_t)ps_divide_up(behind + 2 * unit, choice->lengths[1])
                 : across->n + across->window.width;
     sizes.grid_reals = ps_round_up((uint64_t)sizes.grid_rows * sizes.pitch, lanes);
-    sizes.row_reals = ps_divide_up(choice->span, lanes) * columns * unit;
+    sizes.row_reals = (columns + (is_line ? (size_t)choice->lengths[0] : 0)) * unit;
     sizes.window_reals =
         PS_NUFFT_CHUNK * ((is_line ? 1 : ps_nufft_bins(across)) + ps_nufft_bins(along) + 3);
     return sizes;
