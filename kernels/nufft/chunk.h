@@ -121,11 +121,11 @@ static inline void make_16_bins(const window_axis axis, __local const real *cent
 static inline void make_windows(const chunk to, const uint count, const chunk_axes axes) {
     const window_axis across = axes.across, along = axes.along;
     const uint parts = CHUNK / LANES;
-    const uint jobs = axes.dimension == 1 ? 0 : (across.width + 3) / 4 * parts;
+    const uint jobs = axes.dimension == 1 ? 0 : (across.width + 3) / 4 * parts; /* two pairs */
     for (uint job = get_local_id(0); job < jobs; job += get_local_size(0)) {
-        const uint part = job % parts, bin = job / parts * 4;
-        make_four_bins(across, bin, load_local(to.centres, part), load_local(to.weights, part),
-                       to.across + bin * CHUNK + part * LANES, CHUNK);
+        const uint part = job % parts;
+        make_two_pairs(across, job / parts * 2, load_local(to.centres, part),
+                       load_local(to.weights, part), to.across + part * LANES, CHUNK);
     }
     for (uint i = 4 * get_local_id(0); i < count; i += 4 * get_local_size(0)) {
         __local const real *centres = to.centres + CHUNK + i;
