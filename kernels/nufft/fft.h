@@ -50,8 +50,8 @@ static inline void store_global_complex(__global real *to, const size_t cell, co
 }
 
 /* One pass: transforms of length RADIX m, one behind the other, into RADIX transforms of length m each. Cells are
- * `apart` numbers from each other.
- * Pointers and strides are kept instead of indices: integer work would cost as much as the butterflies. */
+ * `apart` numbers from each other. The last pass, m = 1, has no factors but 1. Pointers and strides are kept instead of
+ * indices: integer work would cost as much as the butterflies. */
 #define FFT_PASS(RADIX)                                                                            \
     static inline void fft_pass_##RADIX(FFT_SPACE real *data, const size_t apart,                  \
                                         __global const real *twiddles, const size_t m,             \
@@ -74,10 +74,12 @@ static inline void store_global_complex(__global real *to, const size_t cell, co
                 x[j] = load_complex(at + j * stride, 0);                                           \
             }                                                                                      \
             butterfly_##RADIX(x);                                                                  \
-            _Pragma("unroll") for (int j = 0; j < RADIX; j++) {                                    \
-                if (j > 0) {                                                                       \
+            if (m > 1) {                                                                           \
+                _Pragma("unroll") for (int j = 1; j < RADIX; j++) {                                \
                     x[j] = complex_multiply(x[j], factor[2 * j - 2], factor[2 * j - 1]);           \
                 }                                                                                  \
+            }                                                                                      \
+            _Pragma("unroll") for (int j = 0; j < RADIX; j++) {                                    \
                 store_complex(at + j * stride, 0, x[j]);                                           \
             }                                                                                      \
             t += get_local_size(0);                                                                \

@@ -32,11 +32,16 @@ typedef struct whole_grid {
 } whole_grid;
 
 /* A chunk by one work-item. (Not just its `count` points: what is known before a barrier and used in a loop behind it
- * is more than PoCL 3.1 can do here.) */
+ * is more than PoCL 3.1 can do here.) In one dimension there are no loops over rows. */
 static inline void scatter(const whole_grid grid, const chunk from, const chunk_axes axes) {
-    for (uint i = 0; i < CHUNK; i++) {
+    const uint bins = axes.along.bins;
+    for (uint i = 0; i < CHUNK && grid.is_line; i++) {
         add_global_rows(grid.cells + from.cells[i], grid.pitch, from.across + i,
-                        from.along + i * axes.along.bins, axes.across.width, axes.along.bins);
+                        from.along + i * bins, 1, bins);
+    }
+    for (uint i = 0; i < CHUNK && !grid.is_line; i++) {
+        add_global_rows(grid.cells + from.cells[i], grid.pitch, from.across + i,
+                        from.along + i * bins, axes.across.width, bins);
     }
 }
 
