@@ -177,7 +177,7 @@ pspec_status ps_nufft_whole_run(ps_nufft_whole *whole, const ps_batch *batch,
                      PS_BUFFER(*target->power), PS_U32(target->realization), PS_U64(layout->stride),
                      PS_U32(layout->num_tiles), PS_U32(choice->num_axes), PS_U32(sizes->pitch),
                      PS_U32(sizes->grid_rows), PS_U64(sizes->grid_reals), PS_BUFFER(whole->grids),
-                     PS_U64(sizes->row_reals), PS_BUFFER(whole->rows),
+                     PS_U64(sizes->row_reals), PS_BUFFER(whole->rows), PS_U32(sizes->shared),
                      PS_LOCAL(sizes->window_reals * layout->real_bytes),
                      PS_LOCAL(2 * PS_NUFFT_CHUNK * sizeof(uint32_t)));
 }

@@ -12,7 +12,8 @@ typedef struct ps_nufft_whole_sizes {
     uint32_t pitch;      /* of a row of the grid */
     uint32_t grid_rows;  /* with those behind the end */
     size_t grid_reals;   /* of a work-group, */
-    size_t row_reals;    /* and of a row of a tile, with room for columns */
+    size_t row_reals;    /* and of a row of a tile, with what stands behind it */
+    uint32_t shared;     /* lanes of the last tile, where realizations share it, else 0 */
     size_t window_reals; /* of a chunk */
 } ps_nufft_whole_sizes;
 

@@ -18,12 +18,14 @@
  *   power      [realization][stride], there as gains
  *   grids      [group][grid_reals]: rows of `pitch`, some more than cells: windows go on behind them
  *   rows       [group][cell][re, im][LANES]: a row of a tile, columns cells (second_n, up to a multiple of 2 LANES);
- *              in one dimension, behind it, room for the last columns, first_n cells
+ *              behind it, in one dimension, room for the last columns, first_n cells; in two, for the shared tile
+ *   shared_lanes  of the last tile, of each realization (nufft/shared_tile.h); 0: it is as the others
  *   windows, cells  local, of a chunk: nufft/chunk.h
  */
 #define FFT_IN_GLOBAL
 #include "nufft/chunk.h"
 #include "nufft/halves.h"
+#include "nufft/shared_tile.h"
 
 typedef struct whole_grid {
     __global real *cells;
@@ -161,8 +163,8 @@ __kernel void nufft_whole(
     __global const real *restrict scales, __global real *restrict power, const uint first_row,
     const ulong stride, const uint num_tiles, const uint dimension, const uint pitch,
     const uint grid_rows, const ulong grid_reals, __global real *restrict grids,
-    const ulong row_reals, __global real *restrict rows, __local real *windows,
-    __local uint *cells) {
+    const ulong row_reals, __global real *restrict rows, const uint shared_lanes,
+    __local real *windows, __local uint *cells) {
     const uint columns = (second_n + 2 * LANES - 1) / (2 * LANES) * (2 * LANES);
     const window_axis across = {
         across_window, across_n, across_width, 0, across_degree, across_bins, 0, 1};
@@ -178,6 +180,8 @@ __kernel void nufft_whole(
     __global real *spare = row + columns * 2 * LANES;
     const chunk_axes axes = {across, across, along, dimension, 0};
     const chunk chunk = make_chunk(windows, cells, across, along);
+    const uint sharing = shared_lanes > 0 ? LANES / shared_lanes : 1;
+    const uint own_tiles = shared_lanes > 0 ? num_tiles - 1 : num_tiles;
     for (size_t r = get_global_id(1); r < num_realizations; r += get_global_size(1)) {
         clear_grid(grid, means[r]);
         for (size_t place = offsets[r]; place < offsets[r + 1]; place += CHUNK) {
@@ -195,16 +199,24 @@ __kernel void nufft_whole(
         /* First groups of columns, then tiles: one loop, since a second copy of all transforms takes the compiler
          * seconds. */
         const uint groups = columns / (2 * LANES);
-        for (uint step = 0; step < groups + num_tiles; step++) {
+        const uint before =
+            (uint)(r / get_global_size(1)) % sharing; /* others in the shared tile */
+        const bool is_full = before + 1 == sharing || r + get_global_size(1) >= num_realizations;
+        const uint tiles = own_tiles + (shared_lanes > 0 && is_full ? 1 : 0);
+        for (uint step = 0; step < groups + tiles; step++) {
             const bool is_first = step < groups;
             const transform_axis axis = is_first ? first : second;
             const uint column = step * 2 * LANES, tile = step - groups;
-            const column_place place =
-                is_first ? place_of_columns(grid, spare, column) : (column_place){row, 2 * LANES};
+            const bool is_shared = !is_first && tile == own_tiles;
+            const column_place place = is_first
+                                           ? place_of_columns(grid, spare, column)
+                                           : (column_place){is_shared ? spare : row, 2 * LANES};
+            const shared_tile shared = {spare, shared_lanes, before * shared_lanes,
+                                        own_tiles * LANES};
             if (is_first && are_copied(grid, column)) {
                 copy_columns(spare, grid, column, first_n);
             }
-            if (!is_first) {
+            if (!is_first && !is_shared) {
                 turn_columns(row, grid, spare, first, tile * LANES, columns);
             }
             barrier_everywhere();
@@ -213,8 +225,17 @@ __kernel void nufft_whole(
             }
             barrier_everywhere();
             fft_transform(place.cells, place.apart, axis.n, axis.radices, axis.twiddles);
-            if (!is_first) {
-                const size_t at = tile * (2 * (size_t)second_K + 1) * LANES;
+            if (is_first && shared_lanes > 0 && get_local_id(0) == 0) {
+                collect_columns(shared, column, place.cells, place.apart, first);
+            }
+            const size_t at = tile * (2 * (size_t)second_K + 1) * LANES;
+            for (uint i = 0; is_shared && i <= before; i++) {
+                const size_t realization = r - (before - i) * get_global_size(1);
+                const shared_tile from = {spare, shared_lanes, i * shared_lanes, 0};
+                write_lanes(from, second, scales[first_row + realization], gains + at,
+                            power + (first_row + realization) * stride + at);
+            }
+            if (!is_first && !is_shared) {
                 write_row(row, second, scales[first_row + r], gains + at,
                           power + (first_row + r) * stride + at);
             }
