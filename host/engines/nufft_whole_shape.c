@@ -12,7 +12,7 @@
  * depend on nothing else. */
 static const double most_bytes = 1.25 * (1 << 20);
 
-/* Cycles on a core (Zen 5, PoCL 3.1, both threads of it at work, 2026-11, (4096 points, K = 64) in the plane, parts of
+/* Cycles on a core (Zen 5, PoCL 3.1, other work beside it, 2026-11, 4096 points and K = 64 in the plane, parts of
  * kernels/nufft/whole.cl left out in turn): of a point to be placed; of a vector of polynomials, mirrored ones
  * half; of a vector added to a row in the nearest cache, and beyond; of a cell of a transform fetched; of a vector
  * turned into a tile, a quarter; of a column of a lane put into a shared tile; of a vector of powers written. */
