@@ -217,15 +217,12 @@ static uint64_t whole_table_bytes(const ps_nufft_layout *layout) {
 }
 
 static bool fits_whole(const ps_nufft_layout *layout, const ps_device_limits *limits) {
-    const ps_nufft_choice *choice = &layout->choice;
-    const size_t longest =
-        choice->lengths[0] > choice->lengths[1] ? choice->lengths[0] : choice->lengths[1];
-    const size_t reals = 2 * longest * layout->lanes + layout->whole.window_reals;
-    return reals * layout->real_bytes + 2 * PS_NUFFT_CHUNK * sizeof(uint32_t) <=
+    return layout->whole.window_reals * layout->real_bytes +
+               2 * PS_NUFFT_CHUNK * sizeof(uint32_t) <=
            limits->local_bytes;
 }
 
-/* Points on the host and on the device, grids and tiles of the work-groups, tables. Parts are realizations: as many
+/* Points on the host and on the device, grids and rows of the work-groups, tables. Parts are realizations: as many
  * as keep all cores at work. */
 static void count_whole(ps_nufft_layout *layout, const ps_problem *problem,
                         const ps_device_limits *limits) {

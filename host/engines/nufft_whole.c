@@ -30,12 +30,13 @@ static pspec_status create_gains(ps_nufft_whole *self, ps_precision precision, p
     ps_nufft_whole_kept(&layout->choice, kept);
     PS_TRY(ps_allocate(&memory, layout->stride, sizeof(double), "gains", error));
     double *gains = memory;
+    const double quarter = 0.25; /* the kernel's frequencies are doubled */
     for (size_t i = 0; i < layout->stride; i++) {
         const size_t row = i / layout->lanes;
         const size_t tile = row / (2 * (size_t)kept[1] + 1);
         const size_t k_1 = tile * layout->lanes + i % layout->lanes;
-        gains[i] = gain_of(&layout->choice, (uint32_t)k_1,
-                           (int64_t)(row % (2 * (size_t)kept[1] + 1)) - kept[1]);
+        gains[i] = quarter * gain_of(&layout->choice, (uint32_t)k_1,
+                                     (int64_t)(row % (2 * (size_t)kept[1] + 1)) - kept[1]);
     }
     const pspec_status status = ps_reals_upload(self->device, &self->gains, precision, gains,
                                                 layout->stride, "gains", error);
@@ -88,8 +89,8 @@ static pspec_status create_buffers(ps_nufft_whole *self, ps_error *error) {
                             layout->groups * layout->whole.grid_reals * layout->real_bytes, "grids",
                             error));
     return ps_buffer_create(self->device, &self->rows,
-                            layout->groups * layout->whole.row_reals * layout->real_bytes,
-                            "rows of tiles", error);
+                            layout->groups * layout->whole.row_reals * layout->real_bytes, "rows",
+                            error);
 }
 
 pspec_status ps_nufft_whole_create(ps_nufft_whole *out, const ps_nufft_layout *layout,
@@ -166,8 +167,6 @@ pspec_status ps_nufft_whole_run(ps_nufft_whole *whole, size_t num_realizations,
     const ps_nufft_plan none = {
         .coefficients = along->coefficients, .bins = 1, .axis = {.n = 1, .window = {.width = 1}}};
     const ps_nufft_plan *across = choice->num_axes == 2 ? &whole->plans[0] : &none;
-    const uint32_t longest =
-        choice->lengths[0] > choice->lengths[1] ? choice->lengths[0] : choice->lengths[1];
     uint32_t kept[2];
     ps_nufft_whole_kept(choice, kept);
     const ps_range range = range_of(whole, num_realizations, whole->num_points);
@@ -181,8 +180,7 @@ pspec_status ps_nufft_whole_run(ps_nufft_whole *whole, size_t num_realizations,
                      PS_BUFFER(*target->power), PS_U32(target->realization), PS_U64(layout->stride),
                      PS_U32(layout->num_tiles), PS_U32(choice->num_axes), PS_U32(sizes->pitch),
                      PS_U32(sizes->grid_rows), PS_U64(sizes->grid_reals), PS_BUFFER(whole->grids),
-                     PS_BUFFER(whole->rows),
-                     PS_LOCAL((size_t)longest * 2 * layout->lanes * layout->real_bytes),
+                     PS_U64(sizes->row_reals), PS_BUFFER(whole->rows), PS_U32(sizes->shared),
                      PS_LOCAL(sizes->window_reals * layout->real_bytes),
                      PS_LOCAL(2 * PS_NUFFT_CHUNK * sizeof(uint32_t)));
 }
