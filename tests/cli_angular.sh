@@ -95,6 +95,23 @@ done
 runs 2 --engine host_direct --sampler white
 says '--sampler white makes points of the torus, and this spectrum is of the sphere; lift=sphere or'
 
+# Coefficients of one set: (L + 1)(L + 2) / 2 complex numbers after the header of 128 bytes.
+runs 0 --engine host_direct -l 3 plain.txt --coefficients c.npy -o table.csv
+[[ $(stat -c %s c.npy) == $((128 + 10 * 16)) ]] || complain "c.npy: $(stat -c %s c.npy) bytes"
+head -c 128 c.npy | grep -aq "<c16.*(10,)" || complain "c.npy: $(head -c 128 c.npy | tr -d '\0')"
+runs 2 --engine host_direct -l 3 two.txt --coefficients d.npy
+says '--select-sets'
+[[ ! -e d.npy ]] || complain 'coefficients of two sets were written'
+runs 0 --engine host_direct -l 3 two.txt --select-sets 2 --coefficients d.npy
+runs 2 --engine host_direct -l 3 plain.txt --coefficients d.csv
+says 'does not end in .npy'
+runs 2 --engine host_direct -l 3 plain.txt --harmonics hemispherical
+says '--coefficients'
+runs 2 --engine host_direct -l 3 plain.txt --harmonics hemispherical --coefficients h.npy
+says 'below the horizon'
+grep -v -- '-1' plain.txt >upper.txt
+runs 0 --engine host_direct -l 3 upper.txt --harmonics hemispherical --coefficients h.npy
+
 # What is refused, with the line.
 sed 's/^0 1 0/0 0 0/' plain.txt >zero.txt
 runs 2 --engine host_direct -l 3 zero.txt

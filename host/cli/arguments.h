@@ -23,6 +23,8 @@ typedef enum ps_option_id {
     PS_OPTION_MAX_FREQUENCY,     /* -k, --max-frequency K */
     PS_OPTION_MAX_DEGREE,        /* -l, --max-degree L */
     PS_OPTION_HEMISPHERE,        /* --hemisphere */
+    PS_OPTION_COEFFICIENTS,      /* --coefficients FILE.npy */
+    PS_OPTION_HARMONICS,         /* --harmonics spherical|hemispherical */
     PS_OPTION_FREQUENCIES,       /* --frequencies FILE */
     PS_OPTION_SHELLS,            /* --shells */
     PS_OPTION_PER_RING,          /* --per-ring S */
@@ -67,10 +69,10 @@ typedef struct ps_arguments {
     int32_t max_frequency; /* 0 unless given: the default of design.md 3.1 */
     uint64_t max_degree;   /* 0 unless given: the default of design.md 3.1 */
     uint64_t per_ring;     /* 0 unless given: all frequencies */
-    const char *frequencies, *full, *weights, *input_format, *columns, *to_columns, *engine,
-        *device, *output, *format, *plot; /* NULL unless given */
-    ps_domain domain;                     /* PS_DOMAIN_ANY unless given */
-    ps_point_range sets, points;          /* {0} unless given */
+    const char *coefficients, *harmonics, *frequencies, *full, *weights, *input_format, *columns,
+        *to_columns, *engine, *device, *output, *format, *plot; /* NULL unless given */
+    ps_domain domain;                                           /* PS_DOMAIN_ANY unless given */
+    ps_point_range sets, points;                                /* {0} unless given */
     bool shells, homogenize, hemisphere, wrap, normalize_vectors, merge, no_skip, no_self_check,
         profile, quiet, verbose;
     bool effective;   /* --normalize effective */

@@ -2,7 +2,9 @@
 #include "cli/angular_table.h"
 #include "cli/command.h"
 #include "cli/jobs.h"
+#include "cli/output_check.h"
 #include "cli/spectrum_plot.h"
+#include "io/npy.h"
 
 static const ps_option_id options[] = {PS_OPTION_SAMPLER,      PS_OPTION_POINTS,
                                        PS_OPTION_REALIZATIONS, PS_OPTION_SEED,
@@ -10,6 +12,7 @@ static const ps_option_id options[] = {PS_OPTION_SAMPLER,      PS_OPTION_POINTS,
                                        PS_OPTION_INPUT_FORMAT, PS_OPTION_COLUMNS,
                                        PS_OPTION_SELECT_SETS,  PS_OPTION_NORMALIZE_VECTORS,
                                        PS_OPTION_MAX_DEGREE,   PS_OPTION_HEMISPHERE,
+                                       PS_OPTION_COEFFICIENTS, PS_OPTION_HARMONICS,
                                        PS_OPTION_NORMALIZE,    PS_OPTION_TOLERANCE,
                                        PS_OPTION_FLOOR,        PS_OPTION_PRECISION,
                                        PS_OPTION_ENGINE,       PS_OPTION_DEVICE,
@@ -19,9 +22,18 @@ static const ps_option_id options[] = {PS_OPTION_SAMPLER,      PS_OPTION_POINTS,
                                        PS_OPTION_QUIET,        PS_OPTION_VERBOSE,
                                        PS_OPTION_HELP,         PS_NUM_OPTIONS};
 
+static pspec_status write_coefficients(const char *path, const ps_power_job *job, ps_error *error) {
+    const int32_t max_degree = ps_power_job_problem(job)->frequencies->max_frequency;
+    return ps_npy_write_complex(path, ps_num_coefficients(max_degree) / 2,
+                                ps_power_job_coefficients(job), error);
+}
+
 static pspec_status write_results(const ps_arguments *arguments, const ps_power_job *const *jobs,
                                   size_t num, ps_table_format format, ps_error *error) {
     ps_table *table = NULL;
+    if (arguments->coefficients != NULL) {
+        PS_TRY(write_coefficients(arguments->coefficients, jobs[0], error));
+    }
     if (arguments->plot != NULL) {
         PS_TRY(ps_spectrum_plot(arguments, jobs, num, error));
     }
@@ -32,7 +44,23 @@ static pspec_status write_results(const ps_arguments *arguments, const ps_power_
     return status;
 }
 
+static pspec_status check_coefficients(const ps_arguments *arguments, ps_error *error) {
+    if (arguments->coefficients == NULL) {
+        return arguments->harmonics == NULL
+                   ? PSPEC_OK
+                   : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                             "--harmonics is about --coefficients, which was not given");
+    }
+    if (arguments->num_samplers > 1) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "--coefficients are of one set, but %zu samplers were given",
+                       arguments->num_samplers);
+    }
+    return ps_output_check_ending("--coefficients", arguments->coefficients, ".npy", error);
+}
+
 static pspec_status run(const ps_arguments *arguments, ps_error *error) {
+    PS_TRY(check_coefficients(arguments, error));
     return ps_jobs_run(arguments, PS_DOMAIN_SPHERE, write_results, error);
 }
 

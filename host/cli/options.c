@@ -81,6 +81,16 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                               .help = "points of the hemisphere, that is of the projective plane: "
                                       "even degrees, odd ones vanish",
                               FLAG(hemisphere)},
+    [PS_OPTION_COEFFICIENTS] = {.name = "coefficients",
+                                .metavar = "FILE.npy",
+                                .help = "write c_lm = sum w Y_lm of the only set too: complex128, "
+                                        "(l, m) at index m(2L+1-m)/2 + l",
+                                TEXT(coefficients)},
+    [PS_OPTION_HARMONICS] = {.name = "harmonics",
+                             .metavar = "spherical|hemispherical",
+                             .help = "of --coefficients (default spherical); hemispherical ones "
+                                     "are for points with z >= 0",
+                             WORD(harmonics)},
     [PS_OPTION_FREQUENCIES] = {.name = "frequencies",
                                .metavar = "FILE",
                                .help = "only the integer frequency vectors in FILE, one per line",

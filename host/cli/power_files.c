@@ -1,6 +1,7 @@
 /* --full of power. */
 #include "cli/power_table.h"
 
+#include "cli/output_check.h"
 #include "io/npy.h"
 
 #include <stdlib.h>
@@ -31,21 +32,15 @@ static pspec_status write_array(const char *path, const ps_arguments *arguments,
 
 static const char array_ending[] = ".npy";
 
-/* Length of the path without its ending; 0 when it has another one. */
+/* Length of the path without its ending, which ps_power_check_full has seen. */
 static size_t stem_length(const char *path) {
-    const size_t length = strlen(path);
-    const size_t ending = sizeof array_ending - 1;
-    return length > ending && strcmp(path + length - ending, array_ending) == 0 ? length - ending
-                                                                                : 0;
+    return strlen(path) - (sizeof array_ending - 1);
 }
 
 pspec_status ps_power_check_full(const ps_arguments *arguments, ps_error *error) {
-    if (arguments->full != NULL && stem_length(arguments->full) == 0) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "--full writes NPY: \"%s\" does not end in %s", arguments->full,
-                       array_ending);
-    }
-    return PSPEC_OK;
+    return arguments->full == NULL
+               ? PSPEC_OK
+               : ps_output_check_ending("--full", arguments->full, array_ending, error);
 }
 
 pspec_status ps_power_write_full(const ps_arguments *arguments, const ps_power_job *job,

@@ -113,6 +113,11 @@ static ps_power_question make_question(const ps_arguments *arguments, ps_domain 
     ps_power_question question = {
         .on_sphere = domain == PS_DOMAIN_SPHERE,
         .on_hemisphere = arguments->hemisphere,
+        .wants_coefficients = arguments->coefficients != NULL,
+        .harmonics =
+            arguments->harmonics != NULL && strcmp(arguments->harmonics, "hemispherical") == 0
+                ? PS_HEMISPHERICAL_HARMONICS
+                : PS_SPHERICAL_HARMONICS,
         .max_degree = (int64_t)arguments->max_degree,
         .num_realizations = arguments->num_realizations,
         .max_frequency = arguments->max_frequency,

@@ -242,12 +242,13 @@ pspec_status ps_npy_check_end(ps_input *input, ps_error *error) {
 
 /* ---- writing ---- */
 
-void ps_npy_write_header(FILE *stream, unsigned rank, const size_t *shape) {
+/* element: "f8" or "c16". */
+static void write_header(FILE *stream, const char *element, unsigned rank, const size_t *shape) {
     enum { MAX_TEXT = 320, BEFORE_TEXT = MAGIC_BYTES + 4 }; /* 8 extents of 20 digits, and words */
     char text[MAX_TEXT];
     size_t length =
-        (size_t)snprintf(text, sizeof text, "{'descr': '%cf8', 'fortran_order': False, 'shape': (",
-                         ps_host_is_big_endian() ? '>' : '<');
+        (size_t)snprintf(text, sizeof text, "{'descr': '%c%s', 'fortran_order': False, 'shape': (",
+                         ps_host_is_big_endian() ? '>' : '<', element);
     for (unsigned axis = 0; axis < rank; axis++) {
         length += (size_t)snprintf(text + length, sizeof text - length,
                                    axis + 1 == rank && rank > 1 ? "%zu" : "%zu,%s", shape[axis],
@@ -263,6 +264,19 @@ void ps_npy_write_header(FILE *stream, unsigned rank, const size_t *shape) {
     fwrite(magic, 1, MAGIC_BYTES, stream);
     fwrite(start, 1, sizeof start, stream);
     fwrite(text, 1, length, stream);
+}
+
+void ps_npy_write_header(FILE *stream, unsigned rank, const size_t *shape) {
+    write_header(stream, "f8", rank, shape);
+}
+
+pspec_status ps_npy_write_complex(const char *path, size_t count, const double *pairs,
+                                  ps_error *error) {
+    ps_output_file *file = NULL;
+    PS_TRY(ps_output_open(&file, path, error));
+    write_header(ps_output_stream(file), "c16", 1, &count);
+    ps_output_write(file, pairs, 2 * sizeof *pairs, count);
+    return ps_output_commit(&file, error);
 }
 
 pspec_status ps_npy_write(const char *path, unsigned rank, const size_t *shape, const double *data,

@@ -76,6 +76,19 @@ bool ps_estimator_can_stream(const ps_estimator *estimator);
 pspec_status ps_estimator_add_stream(ps_estimator *estimator, const ps_pattern_stream *stream,
                                      ps_error *error) PS_MUST_CHECK;
 
+/* Which harmonics coefficients are of. */
+typedef enum ps_harmonics { PS_SPHERICAL_HARMONICS, PS_HEMISPHERICAL_HARMONICS } ps_harmonics;
+
+/* Numbers of the coefficients up to degree L: (L + 1)(L + 2) doubles. */
+size_t ps_num_coefficients(int32_t max_degree);
+
+/* Coefficients of one pattern as ps_engine.coefficients has them, out[ps_num_coefficients(L)]; the averages do not
+ * change. Hemispherical harmonics are for points with z >= 0. PSPEC_ERROR_INVALID_ARGUMENT where the engine has none,
+ * as on the torus. */
+pspec_status ps_estimator_coefficients(ps_estimator *estimator, const pspec_pattern *pattern,
+                                       ps_harmonics harmonics, double *out,
+                                       ps_error *error) PS_MUST_CHECK;
+
 /* Forgets all realizations, and any failure: what follows has the bits of a new estimator. Allocates
  * nothing. */
 pspec_status ps_estimator_reset(ps_estimator *estimator, ps_error *error) PS_MUST_CHECK;

@@ -24,6 +24,7 @@ struct ps_power_job {
     ps_estimator *estimator;
     ps_spectrum spectrum;
     ps_accuracy accuracy;
+    double *coefficients;
     ps_text description;
     bool was_replanned;
 };
@@ -171,6 +172,7 @@ void ps_power_job_destroy(ps_power_job *job) {
     ps_estimator_destroy(job->estimator);
     ps_spectrum_free(&job->spectrum);
     ps_text_free(&job->description);
+    free(job->coefficients);
     ps_frequencies_free(&job->frequencies);
     ps_power_sets_free(&job->sets);
     ps_device_close(job->device);
@@ -206,6 +208,24 @@ static pspec_status report_progress(ps_power_job *job, ps_error *error) {
                : PSPEC_OK;
 }
 
+/* Of the set that the estimator has just had, which is still where it was read. */
+static pspec_status find_coefficients(ps_power_job *job, ps_error *error) {
+    const ps_power_question *question = job->question;
+    void *memory = job->coefficients;
+    if (job->num_done != 1) {
+        return ps_fail(
+            error, PSPEC_ERROR_INVALID_ARGUMENT,
+            "coefficients are of one set, but there are more; --select-sets chooses one");
+    }
+    if (memory == NULL) {
+        PS_TRY(ps_allocate(&memory, ps_num_coefficients(job->frequencies.max_frequency),
+                           sizeof(double), "the coefficients", error));
+        job->coefficients = memory;
+    }
+    return ps_estimator_coefficients(job->estimator, &job->sets.patterns[0], question->harmonics,
+                                     job->coefficients, error);
+}
+
 static pspec_status run_once(ps_power_job *job, ps_error *error) {
     size_t num = 1;
     job->num_done = 0;
@@ -216,6 +236,9 @@ static pspec_status run_once(ps_power_job *job, ps_error *error) {
         PS_TRY(ps_power_sets_give(&job->sets, job->estimator, job->question->normalization, &num,
                                   error));
         job->num_done += num;
+        if (num > 0 && job->question->wants_coefficients) {
+            PS_TRY(find_coefficients(job, error));
+        }
     }
     job->accuracy = ps_estimator_accuracy(job->estimator);
     return isfinite(job->accuracy.error)
@@ -304,6 +327,10 @@ const ps_accuracy *ps_power_job_accuracy(const ps_power_job *job) {
 
 const char *ps_power_job_description(const ps_power_job *job) {
     return ps_text_string(&job->description);
+}
+
+const double *ps_power_job_coefficients(const ps_power_job *job) {
+    return job->coefficients;
 }
 
 bool ps_power_job_was_replanned(const ps_power_job *job) {

@@ -39,6 +39,8 @@ typedef struct ps_power_question {
     bool wants_full_array;
 
     /* result */
+    bool wants_coefficients; /* of the only set, on the sphere */
+    ps_harmonics harmonics;
     pspec_normalization normalization;
     double tolerance, floor; /* floor 0: none */
     bool no_skip, no_self_check;
@@ -75,6 +77,8 @@ const ps_spectrum *ps_power_job_spectrum(const ps_power_job *job);
 const ps_accuracy *ps_power_job_accuracy(const ps_power_job *job);
 /* "(torus_direct ...)" */
 const char *ps_power_job_description(const ps_power_job *job);
+/* c_lm as ps_engine.coefficients has them, [ps_num_coefficients(L)]; NULL unless they were asked for. */
+const double *ps_power_job_coefficients(const ps_power_job *job);
 /* True when the first run missed the tolerance and the plan was made again. */
 bool ps_power_job_was_replanned(const ps_power_job *job);
 /* The most bytes that buffers of the device had at a time. */

@@ -215,6 +215,21 @@ pspec_status pspec_plan_run(pspec_plan *plan, const pspec_pattern *patterns, siz
     return note(plan, ps_gather_add(plan->gather, patterns, num_patterns, &plan->context->error));
 }
 
+pspec_status pspec_plan_coefficients(pspec_plan *plan, const pspec_pattern *pattern,
+                                     int hemispherical, double *coefficients) {
+    if (plan == NULL) {
+        return PSPEC_ERROR_INVALID_ARGUMENT;
+    }
+    if (pattern == NULL || coefficients == NULL) {
+        return ps_fail(&plan->context->error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "there is no pattern, or no room for its coefficients");
+    }
+    return ps_estimator_coefficients(plan->estimator, pattern,
+                                     hemispherical != 0 ? PS_HEMISPHERICAL_HARMONICS
+                                                        : PS_SPHERICAL_HARMONICS,
+                                     coefficients, &plan->context->error);
+}
+
 pspec_status pspec_plan_reset(pspec_plan *plan) {
     if (plan == NULL) {
         return PSPEC_ERROR_INVALID_ARGUMENT;

@@ -223,6 +223,18 @@ PSPEC_EXPORT const char *pspec_plan_text(const pspec_plan *plan);
 PSPEC_EXPORT pspec_status pspec_plan_run(pspec_plan *plan, const pspec_pattern *patterns,
                                          size_t num_patterns);
 
+/** Coefficients of one pattern on the sphere, for plans of pspec_plan_create_angular():
+ *
+ *     c_lm = sum_j w_j Y_lm(u_j),   l = 0..L, m = 0..l,   c_{l,-m} = (-1)^m conj c_lm
+ *
+ * with weights as they are, orthonormal harmonics with the Condon-Shortley phase, as (L + 1)(L + 2) / 2 pairs of real and
+ * imaginary part, that of (l, m) at index m (2 L + 1 - m) / 2 + l: the order of healpy, whose a_lm is the conjugate. On the
+ * hemisphere odd degrees are 0, and L is the last even degree. With hemispherical != 0 the harmonics are those of the
+ * hemisphere, orthonormal there (P_l^m(2 z - 1) instead of P_l^m(z)), and points must have z >= 0. Averages do not
+ * change. #PSPEC_ERROR_INPUT names a point that cannot be used; it does not harm the plan. */
+PSPEC_EXPORT pspec_status pspec_plan_coefficients(pspec_plan *plan, const pspec_pattern *pattern,
+                                                  int hemispherical, double *coefficients);
+
 /** Forgets all realizations, and a failure: the plan is as good as new, for another average. Allocates
  * nothing and takes microseconds. */
 PSPEC_EXPORT pspec_status pspec_plan_reset(pspec_plan *plan);
