@@ -49,6 +49,12 @@ table_jittered() {
     power_rows --sampler jittered -n 1024 -m 1000 -k 64 | sed -n 1,4p
     echo ...
 }
+table_sphere() {
+    need pointspec || return 1
+    "$build/pointspec" angular --quiet --sampler healpix-jittered:nside=16 -m 1000 -l 256 |
+        grep -v '^#' | sed -n 1,4p
+    echo ...
+}
 table_list() {
     need pointspec || return 1
     printf '1 1 0\n0 7 7\n100000000 3 -5\n' >"$scratch/frequencies.txt"
