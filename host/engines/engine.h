@@ -45,6 +45,7 @@ typedef struct ps_work {
     double product_flops; /* additions and multiplications of products of tables */
     double
         transform_flops; /* what a device at its peak would do while spreading and transforming */
+    double harmonics;    /* (point, degree, order) triples, orders from 0 on */
     double launches;     /* kernel launches */
     double fixed_bytes;  /* memory, whatever the batch */
     double host_bytes;   /* part of that on the host */
@@ -127,6 +128,11 @@ typedef struct ps_engine {
     size_t (*get_stride)(const void *state);
     pspec_status (*run)(void *state, const ps_batch *, ps_rows *, ps_error *);
     const ps_engine_stream *stream; /* NULL: whole sets only */
+    /* c_lm = sum w Y_lm(u) of one pattern for l = 0 .. L, 0 <= m <= l, as pairs (real, imaginary) at index
+     * m (2L + 1 - m) / 2 + l: the order of healpy, whose a_lm is the conjugate. Weights as they are. With only even
+     * degrees the others are 0. out has (L + 1)(L + 2) numbers. NULL: an engine without. */
+    pspec_status (*coefficients)(void *state, const pspec_pattern *pattern, double *out,
+                                 ps_error *);
     /* "(torus_direct precision=single split=33x32 lanes=16)" */
     void (*describe)(const void *state, ps_text *);
     void (*destroy)(void *state); /* NULL allowed */

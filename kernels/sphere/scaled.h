@@ -1,0 +1,76 @@
+/* Numbers too small for a float or a double: (high + low) 2^(SCALE_BITS scale), in pairs for powers that keep
+ * their digits. sin^m(theta) needs them (mathematics.md 7.5). Works in either precision, in C11 too.
+ *
+ * A normalised number has SCALED_LOW <= high < SCALED_HIGH, or is 0.
+ */
+#ifndef PS_SPHERE_SCALED_H
+#define PS_SPHERE_SCALED_H
+
+#include "shared/real.h"
+
+#if PRECISION == 64
+#define SCALE_BITS 256
+#define SCALED_UP 1.157920892373162e77     /* 2^256 */
+#define SCALED_DOWN 8.636168555094445e-78  /* 2^-256 */
+#define SCALED_LOW 1.5930919111324523e-58  /* 2^-192 */
+#define SCALED_HIGH 1.8446744073709552e19  /* 2^64 */
+#else
+#define SCALE_BITS 64
+#define SCALED_UP 1.8446744073709552e19f    /* 2^64 */
+#define SCALED_DOWN 5.421010862427522e-20f  /* 2^-64 */
+#define SCALED_LOW 3.552713678800501e-15f   /* 2^-48 */
+#define SCALED_HIGH 65536.0f                /* 2^16 */
+#endif
+
+typedef struct scaled {
+    realv high, low;
+    swordv scale;
+} scaled;
+
+static inline scaled scaled_normalize(scaled x) {
+    const realv factor = x.high < (realv)SCALED_LOW     ? (realv)SCALED_UP
+                         : x.high >= (realv)SCALED_HIGH ? (realv)SCALED_DOWN
+                                                        : (realv)1;
+    x.scale -= x.high < (realv)SCALED_LOW ? (swordv)1 : (swordv)0;
+    x.scale += x.high >= (realv)SCALED_HIGH ? (swordv)1 : (swordv)0;
+    x.high *= factor;
+    x.low *= factor;
+    return x;
+}
+
+static inline scaled scaled_multiply(const scaled a, const scaled b) {
+    const realv product = a.high * b.high;
+    realv rest = fma(a.high, b.high, -product);
+    rest = fma(a.high, b.low, rest);
+    rest = fma(a.low, b.high, rest);
+    scaled out;
+    out.high = product + rest;
+    out.low = rest - (out.high - product);
+    out.scale = a.scale + b.scale;
+    return scaled_normalize(out);
+}
+
+static inline scaled scaled_make(const realv high, const realv low) {
+    scaled out;
+    out.high = high;
+    out.low = low;
+    out.scale = (swordv)0;
+    return scaled_normalize(out);
+}
+
+/* base^exponent, by squaring: relative error about exponent times that of the pair. */
+static inline scaled scaled_power(scaled base, uint exponent) {
+    scaled out;
+    out.high = (realv)1;
+    out.low = (realv)0;
+    out.scale = (swordv)0;
+    for (; exponent > 0; exponent >>= 1) {
+        if (exponent & 1) {
+            out = scaled_multiply(out, base);
+        }
+        base = scaled_multiply(base, base);
+    }
+    return out;
+}
+
+#endif
