@@ -155,8 +155,8 @@ power 2 'more than can be counted' --sampler white -n 16 -d 6 -k 1300 --per-ring
 power 2 '--full does not go with --per-ring' --sampler white -n 16 -k 4 --per-ring 9 --full full.npy
 refuses 2 '--frequencies does not go with --per-ring' power --frequencies "$in/vectors.txt" --per-ring 9 "$in/good.txt"
 refuses 2 '--seed does not go with point files' power -k 4 --seed 2 "$in/good.txt"
-refuses 2 'only power can be planned' plan
-refuses 2 'only power can be planned' plan sample --sampler white
+refuses 2 'power and angular can be planned' plan
+refuses 2 'power and angular can be planned' plan sample --sampler white
 
 # ---- outputs
 white=(--sampler white -n 16)

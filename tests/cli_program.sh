@@ -93,7 +93,7 @@ cmp -s by_columns without && complain "weights change nothing"
 spectrum --columns xyw --weights equal weighted.txt | cmp -s - without ||
     complain "--weights equal keeps the weights of the file"
 quietly power -k 4 --engine host_direct plain.txt three.npy plain.txt
-grep -q '^# input_format: utk-text, npy$' out || complain "formats in the header: $(grep input_ out)"
+grep -q '^# input_format: utk-text; npy$' out || complain "formats in the header: $(grep input_ out)"
 printf '2\n1\n' >list.txt
 spectrum --weights list.txt plain.txt | cmp -s - by_columns || complain "--weights FILE"
 spectrum --columns xyw --weights list.txt weighted.txt | cmp -s - by_columns ||

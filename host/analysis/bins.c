@@ -62,8 +62,8 @@ static void finish_bin(ps_bin *bin, const ps_frequencies *set, const ps_sampled_
         bin->num_frequencies = ring->num_frequencies;
         bin->mean_frequency = ring->mean_frequency;
     }
-    bin->num_modes = set->kind == PS_FREQUENCIES_DEGREES ? 2 * (uint64_t)bin->key + 1
-                                                         : 2 * bin->num_frequencies;
+    bin->num_modes =
+        set->kind == PS_FREQUENCIES_DEGREES ? 2 * (uint64_t)bin->key + 1 : 2 * bin->num_frequencies;
 }
 
 static void fill_bins(ps_bins *out, const ps_frequencies *set, const keyed *keys) {

@@ -15,7 +15,8 @@ typedef struct ps_bin {
     int64_t key;       /* ring number b, |k|^2 of a shell, or degree */
     size_t begin, end; /* members[begin .. end - 1], half-lattice frequencies, one at least */
     uint64_t num_frequencies; /* half-lattice frequencies that it has; members may be a subset */
-    uint64_t num_modes;    /* frequencies of both signs that it has, or the 2l + 1 orders of a degree */
+    uint64_t
+        num_modes; /* frequencies of both signs that it has, or the 2l + 1 orders of a degree */
     double mean_frequency; /* mean |k| of all of them, or the degree */
 } ps_bin;
 

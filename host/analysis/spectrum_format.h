@@ -7,13 +7,22 @@
 #define PS_SPECTRUM_MAGIC "pointspec spectrum"
 enum { PS_SPECTRUM_VERSION = 1 };
 
-/* Values of the header lines, by the enumerators that they stand for. */
-static const char *const ps_spectrum_kinds[] = {"list", "box", "ball", "sample"};
+/* Values of the header lines, by the enumerators that they stand for; frequencies by these. */
+static const char *const ps_spectrum_kinds[] = {"list",   "box",     "ball",
+                                                "sample", "degrees", "even-degrees"};
 static const char *const ps_spectrum_bins[] = {"rings", "shells"};
 static const char *const ps_spectrum_normalizations[] = {"power", "effective"};
 
-/* A sample is a list in memory (ps_frequencies.rings), and a kind of its own in files. */
-enum { PS_SPECTRUM_SAMPLE = 3, PS_SPECTRUM_NUM_KINDS };
+/* A sample is a list in memory (ps_frequencies.rings), and a kind of its own in files; degrees are two. */
+enum {
+    PS_SPECTRUM_LIST,
+    PS_SPECTRUM_BOX,
+    PS_SPECTRUM_BALL,
+    PS_SPECTRUM_SAMPLE,
+    PS_SPECTRUM_DEGREES,
+    PS_SPECTRUM_EVEN_DEGREES,
+    PS_SPECTRUM_NUM_KINDS
+};
 
 /* Doubles after the header, and per bin or frequency. */
 enum { PS_SPECTRUM_TOTALS = 5, PS_SPECTRUM_SUMS = 4 };

@@ -192,7 +192,7 @@ static pspec_status read_header(reader *in, header *out) {
 }
 
 static bool is_list(const header *from) {
-    return from->kind == PS_FREQUENCIES_LIST || from->kind == PS_SPECTRUM_SAMPLE;
+    return from->kind == PS_SPECTRUM_LIST || from->kind == PS_SPECTRUM_SAMPLE;
 }
 
 /* Everything after the header has a size that follows from it: nothing is allocated that the file does
@@ -283,12 +283,25 @@ static pspec_status make_bins(const reader *in, const header *from, const ps_fre
 
 /* The number of a ball is known only approximately before it is enumerated: what is off by more than
  * this factor is not tried, however large the box around it. */
+static pspec_status make_grid(const header *from, ps_frequencies *out) {
+    return ps_frequencies_lattice(out, (unsigned)from->dimension, (int32_t)from->max_frequency,
+                                  from->kind == PS_SPECTRUM_BALL, NULL);
+}
+
+static pspec_status make_degrees(const header *from, ps_frequencies *out) {
+    PS_TRY(ps_frequencies_degrees(out, (int64_t)from->max_frequency,
+                                  from->kind == PS_SPECTRUM_EVEN_DEGREES, NULL));
+    return out->dimension == from->dimension && out->max_frequency == (int64_t)from->max_frequency
+               ? PSPEC_OK
+               : PSPEC_ERROR_INPUT;
+}
+
 static pspec_status make_lattice(const reader *in, const header *from, ps_frequencies *out) {
     const double factor = 4;
-    const bool is_ball = from->kind == PS_FREQUENCIES_BALL;
+    const bool are_degrees =
+        from->kind == PS_SPECTRUM_DEGREES || from->kind == PS_SPECTRUM_EVEN_DEGREES;
     const double num = (double)from->num_frequencies;
-    if (ps_frequencies_lattice(out, (unsigned)from->dimension, (int32_t)from->max_frequency,
-                               is_ball, NULL) != PSPEC_OK ||
+    if ((are_degrees ? make_degrees(from, out) : make_grid(from, out)) != PSPEC_OK ||
         (double)out->num > factor * num) {
         return fail(in, "its max_frequency does not fit its num_frequencies");
     }

@@ -54,6 +54,10 @@ void ps_spectrum_sums_free(ps_spectrum_sums *sums) {
 #define MOST_REALIZATIONS ((uint64_t)1 << 53)
 
 static const char *kind_name(const ps_frequencies *set) {
+    if (set->kind == PS_FREQUENCIES_DEGREES) {
+        return set->degree_step > 1 ? "the even degrees of the hemisphere"
+                                    : "the degrees of the sphere";
+    }
     return set->rings != NULL                 ? "a random subset of the frequencies of rings"
            : set->kind == PS_FREQUENCIES_LIST ? "a list of frequencies"
            : set->kind == PS_FREQUENCIES_BOX  ? "the frequencies of a box"
@@ -74,27 +78,30 @@ static pspec_status compare_rings(const ps_frequencies *a, const ps_frequencies 
 
 static pspec_status compare_frequencies(const ps_frequencies *a, const ps_frequencies *b,
                                         const char *which, ps_error *error) {
+    const unsigned num_components = ps_frequency_components(a);
     if (a->dimension != b->dimension) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "%s has dimension %u instead of %u", which,
                        b->dimension, a->dimension);
     }
-    if (a->kind != b->kind || (a->rings == NULL) != (b->rings == NULL)) {
+    if (a->kind != b->kind || a->degree_step != b->degree_step ||
+        (a->rings == NULL) != (b->rings == NULL)) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "%s has %s instead of %s", which, kind_name(b),
                        kind_name(a));
     }
     if ((a->kind != PS_FREQUENCIES_LIST || a->rings != NULL) &&
         a->max_frequency != b->max_frequency) {
-        return ps_fail(error, PSPEC_ERROR_INPUT, "%s has max frequency %d instead of %d", which,
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s has max %s %d instead of %d", which,
+                       a->kind == PS_FREQUENCIES_DEGREES ? "degree" : "frequency",
                        (int)b->max_frequency, (int)a->max_frequency);
     }
     if (a->num != b->num) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "%s has %zu frequencies instead of %zu", which,
                        b->num, a->num);
     }
-    for (size_t i = 0; i < a->num * a->dimension; i++) {
+    for (size_t i = 0; i < a->num * num_components; i++) {
         if (a->vectors[i] != b->vectors[i]) {
             return ps_fail(error, PSPEC_ERROR_INPUT, "%s has another frequency %zu in its %s",
-                           which, i / a->dimension + 1,
+                           which, i / num_components + 1,
                            a->rings != NULL ? "random subset (another seed?)" : "list");
         }
     }

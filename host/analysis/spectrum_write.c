@@ -44,13 +44,23 @@ static void write_sums(writer *out, const ps_sums *sums, size_t num) {
     }
 }
 
+static const char *kind_of(const ps_frequencies *set) {
+    if (set->kind == PS_FREQUENCIES_DEGREES) {
+        return ps_spectrum_kinds[set->degree_step > 1 ? PS_SPECTRUM_EVEN_DEGREES
+                                                      : PS_SPECTRUM_DEGREES];
+    }
+    return ps_spectrum_kinds[set->rings != NULL                 ? PS_SPECTRUM_SAMPLE
+                             : set->kind == PS_FREQUENCIES_LIST ? PS_SPECTRUM_LIST
+                             : set->kind == PS_FREQUENCIES_BOX  ? PS_SPECTRUM_BOX
+                                                                : PS_SPECTRUM_BALL];
+}
+
 static void describe(const ps_spectrum_sums *sums, ps_text *text) {
     const ps_frequencies *set = &sums->frequencies;
     ps_text_append(text, PS_SPECTRUM_MAGIC " %d\n", PS_SPECTRUM_VERSION);
     ps_text_append(text, "pointspec_version: " PS_VERSION "\n");
     ps_text_append(text, "dimension: %u\n", set->dimension);
-    ps_text_append(text, "frequencies: %s\n",
-                   ps_spectrum_kinds[set->rings != NULL ? PS_SPECTRUM_SAMPLE : (int)set->kind]);
+    ps_text_append(text, "frequencies: %s\n", kind_of(set));
     if (set->rings != NULL) {
         ps_text_append(text, "per_ring: %" PRIu64 "\n", set->per_ring);
     }

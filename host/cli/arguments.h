@@ -21,6 +21,8 @@ typedef enum ps_option_id {
     PS_OPTION_SEED,              /* -s, --seed S */
     PS_OPTION_SAMPLER,           /* --sampler NAME[:key=value,...], repeatable */
     PS_OPTION_MAX_FREQUENCY,     /* -k, --max-frequency K */
+    PS_OPTION_MAX_DEGREE,        /* -l, --max-degree L */
+    PS_OPTION_HEMISPHERE,        /* --hemisphere */
     PS_OPTION_FREQUENCIES,       /* --frequencies FILE */
     PS_OPTION_SHELLS,            /* --shells */
     PS_OPTION_PER_RING,          /* --per-ring S */
@@ -63,13 +65,14 @@ typedef struct ps_arguments {
     size_t num_samplers;
     const char *samplers[PS_MAX_SAMPLERS];
     int32_t max_frequency; /* 0 unless given: the default of design.md 3.1 */
+    uint64_t max_degree;   /* 0 unless given: the default of design.md 3.1 */
     uint64_t per_ring;     /* 0 unless given: all frequencies */
     const char *frequencies, *full, *weights, *input_format, *columns, *to_columns, *engine,
         *device, *output, *format, *plot; /* NULL unless given */
     ps_domain domain;                     /* PS_DOMAIN_ANY unless given */
     ps_point_range sets, points;          /* {0} unless given */
-    bool shells, homogenize, wrap, normalize_vectors, merge, no_skip, no_self_check, profile, quiet,
-        verbose;
+    bool shells, homogenize, hemisphere, wrap, normalize_vectors, merge, no_skip, no_self_check,
+        profile, quiet, verbose;
     bool effective;   /* --normalize effective */
     double tolerance; /* 1e-6 unless given */
     double floor;     /* 0 unless given */

@@ -1,12 +1,10 @@
 /* pointspec power: the averaged periodogram. */
 #include "cli/command.h"
-#include "cli/output_check.h"
+#include "cli/jobs.h"
 #include "cli/power_table.h"
-#include "io/plot.h"
+#include "cli/spectrum_plot.h"
 
-#include <stdio.h>
-
-const ps_option_id ps_power_options[] = {
+static const ps_option_id options[] = {
     PS_OPTION_SAMPLER,     PS_OPTION_POINTS,      PS_OPTION_REALIZATIONS,  PS_OPTION_DIMENSION,
     PS_OPTION_SEED,        PS_OPTION_HOMOGENIZE,  PS_OPTION_WEIGHTS,       PS_OPTION_INPUT_FORMAT,
     PS_OPTION_COLUMNS,     PS_OPTION_SELECT_SETS, PS_OPTION_WRAP,          PS_OPTION_MAX_FREQUENCY,
@@ -16,71 +14,6 @@ const ps_option_id ps_power_options[] = {
     PS_OPTION_FORMAT,      PS_OPTION_FULL,        PS_OPTION_PLOT,          PS_OPTION_PROFILE,
     PS_OPTION_QUIET,       PS_OPTION_VERBOSE,     PS_OPTION_HELP,          PS_NUM_OPTIONS};
 
-static int on_progress(uint64_t done, uint64_t total, void *payload) {
-    ps_progress_update(payload, done, total);
-    return ps_interrupted;
-}
-
-static void print_profile(const ps_power_job *job) {
-    size_t num_rows = 0;
-    const ps_profile_row *rows = ps_power_job_profile(job, &num_rows);
-    fprintf(stderr, "%-24s %9s %12s %10s %8s\n", "kernel", "launches", "seconds", "GFLOP/s",
-            "GB/s");
-    for (size_t i = 0; i < num_rows; i++) {
-        const double giga = 1e-9;
-        const double seconds = rows[i].seconds > 0 ? rows[i].seconds : giga; /* a clock's tick */
-        fprintf(stderr, "%-24s %9llu %12.6f %10.1f %8.1f\n", rows[i].kernel,
-                (unsigned long long)rows[i].launches, rows[i].seconds,
-                rows[i].flops / seconds * giga, rows[i].bytes / seconds * giga);
-    }
-}
-
-static void print_plan(const ps_power_job *job) {
-    const ps_plan *plan = ps_power_job_plan(job);
-    for (size_t i = 0; i < plan->num_candidates; i++) {
-        const ps_candidate *candidate = &plan->candidates[i];
-        fprintf(stderr, "%s (%s): %s\n", candidate->engine->name,
-                ps_precision_name(candidate->precision), candidate->reason);
-    }
-}
-
-/* Lattices of many dimensions are larger than people think. */
-static void warn_of_hours(const ps_power_job *job) {
-    const double hour = 3600;    /* seconds */
-    enum { FEW_DIMENSIONS = 3 }; /* where K has a default, and time is a matter of realizations */
-    const ps_candidate *chosen = ps_power_job_plan(job)->chosen;
-    const ps_frequencies *set = ps_power_job_problem(job)->frequencies;
-    if (chosen != NULL && chosen->seconds > hour && set->kind != PS_FREQUENCIES_LIST &&
-        set->dimension > FEW_DIMENSIONS) {
-        fprintf(stderr,
-                "pointspec power: %.3g frequencies will take about %.2g hours; a random subset of "
-                "every ring (--per-ring) takes less\n",
-                (double)set->num, chosen->seconds / hour);
-    }
-}
-
-static pspec_status run_job(const ps_arguments *arguments, ps_power_question *question,
-                            ps_power_job **job, ps_error *error) {
-    ps_progress *progress = ps_progress_begin(arguments, "realizations");
-    question->progress = on_progress;
-    question->payload = progress;
-    pspec_status status = ps_power_job_create(job, question, error);
-    if (status == PSPEC_OK && !arguments->quiet) {
-        warn_of_hours(*job);
-    }
-    if (status == PSPEC_OK && arguments->verbose) {
-        print_plan(*job);
-    }
-    if (status == PSPEC_OK) {
-        status = ps_power_job_run(*job, error);
-    }
-    ps_progress_end(progress);
-    if (status == PSPEC_OK && arguments->profile) {
-        print_profile(*job);
-    }
-    return status;
-}
-
 static pspec_status write_results(const ps_arguments *arguments, const ps_power_job *const *jobs,
                                   size_t num, ps_table_format format, ps_error *error) {
     ps_table *table = NULL;
@@ -88,7 +21,7 @@ static pspec_status write_results(const ps_arguments *arguments, const ps_power_
         PS_TRY(ps_power_write_full(arguments, jobs[0], error));
     }
     if (arguments->plot != NULL) {
-        PS_TRY(ps_power_write_plot(arguments, jobs, num, error));
+        PS_TRY(ps_spectrum_plot(arguments, jobs, num, error));
     }
     PS_TRY(ps_power_table(&table, arguments, jobs, num, error));
     const pspec_status status =
@@ -97,34 +30,9 @@ static pspec_status write_results(const ps_arguments *arguments, const ps_power_
     return status;
 }
 
-/* Whatever can be refused is refused before hours of work, not after. */
-static pspec_status check_outputs(const ps_arguments *arguments, ps_table_format *format,
-                                  ps_error *error) {
-    if (arguments->plot != NULL && !ps_plot_is_supported(arguments->plot)) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "--plot draws .png, .svg and .pdf, not \"%s\"", arguments->plot);
-    }
-    PS_TRY(ps_table_choose_format(format, arguments->format, arguments->output, error));
-    PS_TRY(ps_power_check_full(arguments, error));
-    return ps_outputs_check(arguments, true, error);
-}
-
 static pspec_status run(const ps_arguments *arguments, ps_error *error) {
-    ps_power_job *jobs[PS_MAX_SAMPLERS] = {NULL};
-    ps_question_list list;
-    ps_table_format format = PS_FORMAT_CSV;
-    pspec_status status = PSPEC_OK;
-    PS_TRY(check_outputs(arguments, &format, error));
-    PS_TRY(ps_questions_make(&list, arguments, error));
-    for (size_t i = 0; i < list.num; i++) {
-        PS_TRY_OUT(status, run_job(arguments, &list.questions[i], &jobs[i], error));
-    }
-    status = write_results(arguments, (const ps_power_job *const *)jobs, list.num, format, error);
-out:
-    for (size_t i = 0; i < list.num; i++) {
-        ps_power_job_destroy(jobs[i]);
-    }
-    return status;
+    PS_TRY(ps_power_check_full(arguments, error));
+    return ps_jobs_run(arguments, PS_DOMAIN_TORUS, write_results, error);
 }
 
 const ps_command ps_command_power = {
@@ -138,7 +46,7 @@ const ps_command ps_command_power = {
         "Files hold points of [0,1)^d; several files, and several sets in a file, are "
         "realizations. "
         "The default --tol of 1e-6 bounds the numerical error of S relative to white noise.",
-    .options = ps_power_options,
+    .options = options,
     .examples = {"pointspec power --sampler jittered -n 1024 -m 100 -k 64",
                  "pointspec sample --sampler halton -n 256 | pointspec power -k 32 -"},
     .run = run,

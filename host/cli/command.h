@@ -34,11 +34,8 @@ extern const ps_command *const ps_commands[];
 /* The command of that name; NULL with a sentence that names the nearest one. */
 const ps_command *ps_command_find(const char *name, ps_error *error);
 
-extern const ps_command ps_command_power, ps_command_sample, ps_command_convert, ps_command_plan,
-    ps_command_devices;
-
-/* Options of power, which plan takes too. */
-extern const ps_option_id ps_power_options[];
+extern const ps_command ps_command_power, ps_command_angular, ps_command_sample, ps_command_convert,
+    ps_command_plan, ps_command_devices;
 
 /* Set by the handler of SIGINT and SIGTERM; commands look at it between batches. The program's only
  * global variable. */

@@ -7,8 +7,13 @@
 
 /* In the order of --help. A new command is a file and a row here. */
 const ps_command *const ps_commands[] = {
-    &ps_command_power, &ps_command_sample,  &ps_command_convert,
-    &ps_command_plan,  &ps_command_devices, NULL,
+    &ps_command_power,
+    &ps_command_angular,
+    &ps_command_sample,
+    &ps_command_convert,
+    &ps_command_plan,
+    &ps_command_devices,
+    NULL,
 };
 
 const ps_command *ps_command_find(const char *name, ps_error *error) {

@@ -68,6 +68,19 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                  .what = "max frequency",
                                  .minimum = 1,
                                  .maximum = PS_MAX_FREQUENCY},
+    [PS_OPTION_MAX_DEGREE] = {.letter = 'l',
+                              .name = "max-degree",
+                              .metavar = "L",
+                              .help = "degrees 1..L (default ceil(4 sqrt N))",
+                              COUNT(max_degree),
+                              .what = "max degree",
+                              .minimum = 1,
+                              .maximum =
+                                  UINT32_MAX}, /* the question knows the reason of the limit */
+    [PS_OPTION_HEMISPHERE] = {.name = "hemisphere",
+                              .help = "points of the hemisphere, that is of the projective plane: "
+                                      "even degrees, odd ones vanish",
+                              FLAG(hemisphere)},
     [PS_OPTION_FREQUENCIES] = {.name = "frequencies",
                                .metavar = "FILE",
                                .help = "only the integer frequency vectors in FILE, one per line",

@@ -1,4 +1,4 @@
-/* Results of power jobs as a table, arrays and a picture. */
+/* Results of power jobs as a table and arrays. */
 #ifndef PS_CLI_POWER_TABLE_H
 #define PS_CLI_POWER_TABLE_H
 
@@ -17,9 +17,5 @@ pspec_status ps_power_check_full(const ps_arguments *arguments, ps_error *error)
 /* --full: FILE.npy and FILE.standard_error.npy. */
 pspec_status ps_power_write_full(const ps_arguments *arguments, const ps_power_job *job,
                                  ps_error *error) PS_MUST_CHECK;
-
-/* --plot: radial curves of all jobs, the picture of the spectrum when there is one 2-D job. */
-pspec_status ps_power_write_plot(const ps_arguments *arguments, const ps_power_job *const *jobs,
-                                 size_t num, ps_error *error) PS_MUST_CHECK;
 
 #endif

@@ -18,6 +18,7 @@ static pspec_status check_other_source(const ps_arguments *arguments, ps_error *
                    {PS_OPTION_INPUT_FORMAT, "--input-format", true},
                    {PS_OPTION_COLUMNS, "--columns", true},
                    {PS_OPTION_WRAP, "--wrap", true},
+                   {PS_OPTION_NORMALIZE_VECTORS, "--normalize-vectors", true},
                    {PS_OPTION_SELECT_SETS, "--select-sets", true}};
     const bool are_files = arguments->num_files > 0;
     for (size_t i = 0; i < sizeof options / sizeof options[0]; i++) {
@@ -96,7 +97,8 @@ ps_point_options ps_point_options_make(const ps_arguments *arguments) {
     };
 }
 
-static void fill_points(ps_power_question *question, const ps_arguments *arguments) {
+static void fill_points(ps_power_question *question, const ps_arguments *arguments,
+                        ps_domain domain) {
     const char *const weights = arguments->weights;
     const bool is_word =
         weights == NULL || strcmp(weights, "column") == 0 || strcmp(weights, "equal") == 0;
@@ -104,11 +106,14 @@ static void fill_points(ps_power_question *question, const ps_arguments *argumen
     question->num_paths = arguments->num_files;
     question->weights_path = is_word ? NULL : weights;
     question->point_options = ps_point_options_make(arguments);
-    question->point_options.domain = PS_DOMAIN_TORUS;
+    question->point_options.domain = domain;
 }
 
-static ps_power_question make_question(const ps_arguments *arguments) {
+static ps_power_question make_question(const ps_arguments *arguments, ps_domain domain) {
     ps_power_question question = {
+        .on_sphere = domain == PS_DOMAIN_SPHERE,
+        .on_hemisphere = arguments->hemisphere,
+        .max_degree = (int64_t)arguments->max_degree,
         .num_realizations = arguments->num_realizations,
         .max_frequency = arguments->max_frequency,
         .frequencies_path = arguments->frequencies,
@@ -129,17 +134,17 @@ static ps_power_question make_question(const ps_arguments *arguments) {
         .device = arguments->device,
         .profile = arguments->profile,
     };
-    fill_points(&question, arguments);
+    fill_points(&question, arguments, domain);
     return question;
 }
 
 pspec_status ps_questions_make(ps_question_list *out, const ps_arguments *arguments,
-                               ps_error *error) {
+                               ps_domain domain, ps_error *error) {
     PS_TRY(check_source(arguments, error));
     PS_TRY(check_results(arguments, error));
     out->num = arguments->num_samplers > 0 ? arguments->num_samplers : 1;
     for (size_t i = 0; i < out->num; i++) {
-        out->questions[i] = make_question(arguments);
+        out->questions[i] = make_question(arguments, domain);
         if (arguments->num_samplers == 0) {
             continue;
         }

@@ -1,5 +1,5 @@
 /* From the command line to what the jobs are asked: how point files are read, and the question of a
- * power job, shared by power and plan. */
+ * power job, shared by power, angular and plan. */
 #ifndef PS_CLI_QUESTION_H
 #define PS_CLI_QUESTION_H
 
@@ -13,9 +13,10 @@ typedef struct ps_question_list {
     ps_sampler_request requests[PS_MAX_SAMPLERS];
 } ps_question_list;
 
-/* Checks that the options fit together. *out must not be moved afterwards. */
+/* Checks that the options fit together. domain: the torus for power, the sphere for angular. *out must not be
+ * moved afterwards. */
 pspec_status ps_questions_make(ps_question_list *out, const ps_arguments *arguments,
-                               ps_error *error) PS_MUST_CHECK;
+                               ps_domain domain, ps_error *error) PS_MUST_CHECK;
 
 /* How point files are read. */
 ps_point_options ps_point_options_make(const ps_arguments *arguments);

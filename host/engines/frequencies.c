@@ -98,9 +98,8 @@ pspec_status ps_frequencies_list(ps_frequencies *out, unsigned dimension, size_t
 pspec_status ps_frequencies_degrees(ps_frequencies *out, int64_t max_degree, bool only_even,
                                     ps_error *error) {
     const int32_t first = only_even ? 2 : 1;
-    *out = (ps_frequencies){.kind = PS_FREQUENCIES_DEGREES,
-                            .dimension = PS_SPHERE_DIMENSION,
-                            .degree_step = first};
+    *out = (ps_frequencies){
+        .kind = PS_FREQUENCIES_DEGREES, .dimension = PS_SPHERE_DIMENSION, .degree_step = first};
     if (max_degree < first) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "the largest degree %lld leaves none: the first is %d%s",
@@ -114,7 +113,7 @@ pspec_status ps_frequencies_degrees(ps_frequencies *out, int64_t max_degree, boo
                        "take 8 GiB",
                        (long long)max_degree, (int)PS_MAX_DEGREE);
     }
-    out->max_frequency = (int32_t)max_degree;
+    out->max_frequency = (int32_t)(max_degree - max_degree % first);
     out->num = (size_t)(max_degree / first);
     return PSPEC_OK;
 }

@@ -48,7 +48,8 @@ typedef struct ps_frequencies {
     unsigned dimension;    /* coordinates of a point */
     int32_t max_frequency; /* K; for a list the largest |k_i| in it; L for degrees */
     size_t num;            /* exact but for balls that are not enumerated */
-    int32_t *vectors; /* [num][ps_frequency_components]; NULL for boxes, balls and degrees not yet enumerated */
+    int32_t *
+        vectors; /* [num][ps_frequency_components]; NULL for boxes, balls and degrees not yet enumerated */
     int32_t degree_step; /* from degree to degree: 1, or 2 on the hemisphere; 0 on the torus */
 
     /* A list that holds at most per_ring frequencies of every ring 1..K, or of every shell that these

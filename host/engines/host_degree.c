@@ -55,8 +55,7 @@ static void recur(ps_host_degree *self, long double cotangent) {
     self->values[l] = l % 2 == 0 ? 1 : -1; /* the Condon-Shortley phase */
     for (int32_t m = l; m >= 1; m--) {
         const long double here = self->values[m];
-        const long double next =
-            -(2 * m * cotangent * here + self->up[m] * above) / self->down[m];
+        const long double next = -(2 * m * cotangent * here + self->up[m] * above) / self->down[m];
         self->values[m - 1] = next;
         above = here;
         if (fabsl(next) > largest) {

@@ -1,7 +1,8 @@
-/* Pictures of a torus spectrum, drawn by gnuplot: PNG, SVG or PDF by the ending of the path.
+/* Pictures of a spectrum, drawn by gnuplot: PNG, SVG or PDF by the ending of the path.
  *
  * Panels: the averaged periodogram around DC as an image (2-D only), the radial mean with error
- * bars against normalized frequency, the anisotropy in dB below it.
+ * bars against normalized frequency, the anisotropy in dB below it; on the sphere the power of the degrees, and
+ * below it once more with logarithmic axes.
  */
 #ifndef PS_IO_PLOT_H
 #define PS_IO_PLOT_H
@@ -32,6 +33,7 @@ typedef struct ps_plot {
     const ps_plot_curve *curves;
     const ps_plot_image *image; /* NULL: none */
     double noise_level_db;      /* level of pure noise in the anisotropy panel, nan: no line */
+    bool on_sphere; /* normalized frequency is l / sqrt(N); anisotropy is not looked at */
 } ps_plot;
 
 /* Is the ending of path one that can be drawn (.png .svg .pdf)? */

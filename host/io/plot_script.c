@@ -70,7 +70,8 @@ static void print_raster(const ps_plot_raster *raster, FILE *stream) {
 
 /* Where things are: fractions of the page. */
 typedef struct layout {
-    bool has_image, has_anisotropy;
+    bool has_image, has_lower; /* a panel below the powers */
+    const char *x_label, *y_label;
     double left, right, middle; /* of the curves; middle: between power and anisotropy */
 } layout;
 
@@ -191,20 +192,27 @@ static void print_errors(const ps_plot_curve *curve, size_t number, FILE *stream
     }
 }
 
+/* Panels with the same axis say what it is once, at the bottom. */
+static void print_x_label(const layout *where, bool is_bottom, FILE *stream) {
+    if (is_bottom) {
+        fprintf(stream, "set format x '%%g'\nset xlabel '%s'\n", where->x_label);
+    } else {
+        fputs("set format x ''\nunset xlabel\n", stream);
+    }
+}
+
 static void print_power_panel(const ps_plot *plot, const layout *where, FILE *stream) {
     fprintf(stream,
             "set lmargin at screen %g\nset rmargin at screen %g\n"
             "set bmargin at screen %g\nset tmargin at screen 0.92\n",
-            where->left, where->right, where->has_anisotropy ? where->middle + 0.015 : 0.10);
+            where->left, where->right, where->has_lower ? where->middle + 0.015 : 0.10);
     fputs("set xtics in mirror\nset ytics in mirror\nset grid linecolor '#d8d8d8' linewidth 0.8 "
           "dashtype solid\n",
           stream);
     fprintf(stream, "set xrange [0:%.9g]\nset yrange [0:%.9g]\n", find_range(plot),
             find_height(plot));
-    fputs(where->has_anisotropy ? "set format x ''\nunset xlabel\n"
-                                : "set xlabel 'normalized frequency |k| N^{-1/d}'\n",
-          stream);
-    fprintf(stream, "set ylabel 'radial mean power%s' offset 1,0\n",
+    print_x_label(where, !where->has_lower || plot->on_sphere, stream);
+    fprintf(stream, "set ylabel '%s%s' offset 1,0\n", where->y_label,
             any_finite(plot, true) ? " ± standard error" : "");
     fputs(plot->num_curves > 1 ? "set key top right opaque Left reverse width -1 box linecolor "
                                  "'#c0c0c0' samplen 2 noenhanced\n"
@@ -227,9 +235,8 @@ static void print_power_panel(const ps_plot *plot, const layout *where, FILE *st
 static void print_anisotropy_panel(const ps_plot *plot, const layout *where, FILE *stream) {
     fprintf(stream, "set bmargin at screen 0.10\nset tmargin at screen %g\n",
             where->middle - 0.015);
-    fputs("set format x '%g'\nset xlabel 'normalized frequency |k| N^{-1/d}'\n"
-          "set ylabel 'anisotropy / dB'\nset yrange [*:*]\n",
-          stream);
+    print_x_label(where, true, stream);
+    fputs("set ylabel 'anisotropy / dB'\nset yrange [*:*]\n", stream);
     /* The key holds the noise level alone; without it, it would be an empty box. */
     const bool has_level = isfinite(plot->noise_level_db);
     fputs(has_level ? "set key top right opaque Left reverse width -1 box linecolor '#c0c0c0' "
@@ -249,12 +256,30 @@ static void print_anisotropy_panel(const ps_plot *plot, const layout *where, FIL
     }
 }
 
+/* Low degrees of good patterns have powers that a linear axis cannot show. */
+static void print_logarithmic_panel(const ps_plot *plot, const layout *where, FILE *stream) {
+    fprintf(stream, "set bmargin at screen 0.10\nset tmargin at screen %g\n",
+            where->middle - 0.085); /* room for the upper panel's labels */
+    print_x_label(where, true, stream);
+    fputs("set logscale xy\nset format y '10^{%T}'\nset ylabel 'power' offset 1,0\nunset key\n"
+          "set xrange [*:*]\nset yrange [*:*]\nplot ",
+          stream);
+    for (size_t i = 0; i < plot->num_curves; i++) {
+        fprintf(stream, "$curve%zu using 1:($2 > 0 ? $2 : NaN) with lines linewidth 1.2 ", i);
+        print_line_style(i, stream);
+        fputs(i + 1 < plot->num_curves ? " notitle, " : " notitle\n", stream);
+    }
+}
+
 pspec_status ps_plot_write_script(const ps_plot *plot, const char *terminal, FILE *stream,
                                   ps_error *error) {
     ps_plot_raster raster = {0};
     const bool has_image = plot->image != NULL && plot->image->power != NULL;
     const layout where = {.has_image = has_image,
-                          .has_anisotropy = any_finite(plot, false),
+                          .has_lower = plot->on_sphere || any_finite(plot, false),
+                          .x_label = plot->on_sphere ? "normalized degree l N^{-1/2}"
+                                                     : "normalized frequency |k| N^{-1/d}",
+                          .y_label = plot->on_sphere ? "power" : "radial mean power",
                           .left = has_image ? 0.605 : 0.085,
                           .right = 0.985,
                           .middle = 0.38};
@@ -269,7 +294,9 @@ pspec_status ps_plot_write_script(const ps_plot *plot, const char *terminal, FIL
         free(raster.power);
     }
     print_power_panel(plot, &where, stream);
-    if (where.has_anisotropy) {
+    if (plot->on_sphere) {
+        print_logarithmic_panel(plot, &where, stream);
+    } else if (where.has_lower) {
         print_anisotropy_panel(plot, &where, stream);
     }
     fputs("unset multiplot\n", stream);

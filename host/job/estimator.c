@@ -172,7 +172,8 @@ static void measure_powers(ps_estimator *self, const double *bin_powers, size_t 
             sum += bin_powers[r * self->bins.num + b] * num;
             num_modes += num;
         }
-        const double power = sum / (num_modes > 0 ? num_modes : 1) / (self->scales[r] * self->sums[r].weight_square_sum);
+        const double power = sum / (num_modes > 0 ? num_modes : 1) /
+                             (self->scales[r] * self->sums[r].weight_square_sum);
         if (!(power <= self->accuracy.largest_mean_power)) {
             self->accuracy.largest_mean_power = power;
         }
@@ -185,6 +186,7 @@ static void count_patterns(ps_estimator *self, const pspec_pattern *patterns, si
         const size_t num_points = patterns[r].num_points;
         const bool is_first = totals->num_realizations == 0;
         totals->num_realizations++;
+        self->accuracy.length_error = fmax(self->accuracy.length_error, self->sums[r].length_error);
         totals->sum_points += (double)num_points;
         totals->sum_sample_sizes +=
             self->sums[r].weight_sum * self->sums[r].weight_sum / self->sums[r].weight_square_sum;
@@ -232,8 +234,8 @@ pspec_status ps_estimator_check_beginning(ps_estimator *self, const pspec_patter
     const ps_pattern_sums sums = self->sums[0];
     pattern.num_points =
         pattern.num_points < PS_SELF_CHECK_POINTS ? pattern.num_points : PS_SELF_CHECK_POINTS;
-    if (ps_pattern_check(&pattern, self->options.problem.frequencies,
-                         PSPEC_NORMALIZATION_EFFECTIVE, 0, &self->sums[0], NULL) != PSPEC_OK) {
+    if (ps_pattern_check(&pattern, self->options.problem.frequencies, PSPEC_NORMALIZATION_EFFECTIVE,
+                         0, &self->sums[0], NULL) != PSPEC_OK) {
         self->sums[0] = sums; /* these weights are all 0: nothing to compare */
         return PSPEC_OK;
     }

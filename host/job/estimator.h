@@ -32,6 +32,8 @@ typedef struct ps_estimator_options {
 /* The numerical side of a result. */
 typedef struct ps_accuracy {
     double error; /* bound of the engine's formula with the powers that were measured */
+    double
+        length_error; /* largest | |u| - 1 | of the vectors on the sphere, which were divided by |u| */
     double largest_mean_power; /* largest effective power of a realization, mean over frequencies */
     bool was_checked;
     double self_check; /* largest deviation of |S| from the referee, in units of sqrt(sum w^2) */

@@ -83,7 +83,9 @@ pspec_status ps_estimator_add_stream(ps_estimator *estimator, const ps_pattern_s
                                      ps_error *error) {
     const pspec_pattern whole = {.dimension = stream->dimension,
                                  .num_points = (size_t)stream->num_points};
-    ps_pattern_count count = {.realization = estimator->totals.num_realizations};
+    ps_pattern_count count = {.realization = estimator->totals.num_realizations,
+                              .on_sphere =
+                                  ps_problem_domain(&estimator->options.problem) == PS_ON_SPHERE};
     ps_rows rows = {0};
     PS_TRY(check_dimension(estimator, stream, error));
     PS_TRY(ps_estimator_get_ready(estimator, stream->num_points, error));

@@ -4,12 +4,14 @@
 #include <math.h>
 
 /* A square that overflows is infinite, and refused like any other. */
-static pspec_status check_vectors(const ps_pattern_count *count, const pspec_pattern *block,
+static pspec_status check_vectors(ps_pattern_count *count, const pspec_pattern *block,
                                   ps_error *error) {
     for (size_t j = 0; j < block->num_points; j++) {
         const double *u = block->points + j * PS_SPHERE_DIMENSION;
         const double length = sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
-        if (!(fabs(length - 1) <= PS_UNIT_LENGTH_SLACK)) {
+        const double off = fabs(length - 1);
+        count->length_error = off > count->length_error ? off : count->length_error;
+        if (!(off <= PS_UNIT_LENGTH_SLACK)) {
             return ps_fail(error, PSPEC_ERROR_INPUT,
                            "set %llu, point %llu: the vector (%.17g, %.17g, %.17g) has the length "
                            "%g instead of 1",
@@ -90,7 +92,8 @@ pspec_status ps_pattern_count_finish(const ps_pattern_count *count,
                                      ps_error *error) {
     const unsigned long long set = (unsigned long long)count->realization + 1;
     if (count->num_weights == 0) {
-        *sums = (ps_pattern_sums){0, (double)count->num_points, (double)count->num_points};
+        const double num = (double)count->num_points;
+        *sums = (ps_pattern_sums){0, num, num, count->length_error};
         return PSPEC_OK;
     }
     if (count->largest == 0) {
@@ -104,7 +107,8 @@ pspec_status ps_pattern_count_finish(const ps_pattern_count *count,
                        "--normalize effective",
                        set);
     }
-    *sums = (ps_pattern_sums){count->exponent, (double)count->sum, (double)count->squares};
+    *sums = (ps_pattern_sums){count->exponent, (double)count->sum, (double)count->squares,
+                              count->length_error};
     return PSPEC_OK;
 }
 

@@ -13,6 +13,7 @@ typedef struct ps_pattern_sums {
     int exponent;             /* 0 for unit weights */
     double weight_sum;        /* W 2^-exponent */
     double weight_square_sum; /* V 2^(-2 exponent) */
+    double length_error;      /* largest | |u| - 1 | of vectors; 0 on the torus */
 } ps_pattern_sums;
 
 /* What is known of a pattern of which some points have been seen; {.realization = r} before the first.
@@ -21,6 +22,7 @@ typedef struct ps_pattern_count {
     uint64_t realization;
     bool on_sphere; /* points are unit vectors */
     uint64_t num_points, num_weights;
+    double length_error;             /* so far, as in the sums */
     double largest;                  /* |w| */
     int exponent;                    /* of the largest */
     long double sum, squares, sizes; /* of w, w^2, |w|, divided by powers of two as in the sums */

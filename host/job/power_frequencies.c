@@ -22,6 +22,16 @@ static pspec_status default_max_frequency(int32_t *out, unsigned dimension, size
     return PSPEC_OK;
 }
 
+static pspec_status choose_degrees(ps_frequencies *out, const ps_power_question *question,
+                                   size_t num_points, ps_error *error) {
+    /* 4 sqrt N: past the second bump of a blue-noise spectrum, which begins near 1.8 sqrt N. */
+    const double times = 4;
+    const double by_default = fmin(ceil(times * sqrt((double)num_points)), PS_MAX_DEGREE);
+    const int64_t max_degree =
+        question->max_degree > 0 ? question->max_degree : (int64_t)by_default;
+    return ps_frequencies_degrees(out, max_degree, question->on_hemisphere, error);
+}
+
 static pspec_status read_list(ps_frequencies *out, const char *path, unsigned dimension,
                               ps_error *error) {
     int *vectors = NULL;
@@ -44,6 +54,9 @@ static pspec_status read_list(ps_frequencies *out, const char *path, unsigned di
 pspec_status ps_power_frequencies(ps_frequencies *out, const ps_power_question *question,
                                   unsigned dimension, size_t num_points, ps_error *error) {
     int32_t max_frequency = question->max_frequency;
+    if (question->on_sphere) {
+        return choose_degrees(out, question, num_points, error);
+    }
     if (question->frequencies_path != NULL) {
         return read_list(out, question->frequencies_path, dimension, error);
     }

@@ -34,10 +34,12 @@ struct ps_power_job {
 static void find_needs(ps_power_job *job) {
     const ps_power_question *question = job->question;
     const ps_sampler_request *sampler = question->sampler;
-    const bool is_grid = question->frequencies_path == NULL;
+    const bool is_grid = question->frequencies_path == NULL && !question->on_sphere;
     const ps_needs_question needs = {
         .dimension = job->dimension,
         .max_frequency = is_grid ? job->frequencies.max_frequency : 0,
+        .on_sphere = question->on_sphere,
+        .on_hemisphere = question->on_hemisphere,
         .wants_full_array = question->wants_full_array,
         .share_not_drawn =
             1 - (double)job->frequencies.num / (double)ps_frequencies_population(&job->frequencies),
@@ -177,7 +179,7 @@ static pspec_status create_estimator(ps_power_job *job, ps_error *error) {
         .precision = chosen->precision,
         .batch = chosen->batch,
         .exact_shells = question->exact_shells,
-        .want_frequencies = true, /* anisotropy needs them, too */
+        .want_frequencies = !question->on_sphere, /* anisotropy needs them, too */
         .self_check = !question->no_self_check,
         .normalization = question->normalization,
         .should_stop = should_stop,

@@ -1,4 +1,4 @@
-/* The averaged periodogram as one job: source of realizations -> plan -> batches -> spectrum.
+/* The averaged power spectrum, on the torus or on the sphere, as one job: source of realizations -> plan -> batches -> spectrum.
  *
  * The tolerance is a contract. The plan predicts the error for sets like white noise; afterwards the
  * error formula is evaluated again with the powers that were measured (docs/conventions.md). When it
@@ -24,6 +24,11 @@ typedef struct ps_power_question {
     ps_point_options point_options;
     const char *weights_path; /* NULL: none; the same weights for every set */
     uint64_t whole_bytes;     /* of a set of a file, see ps_source_options */
+
+    /* degrees, where points are on the sphere; frequencies are then not looked at */
+    bool on_sphere;
+    bool on_hemisphere; /* even degrees only */
+    int64_t max_degree; /* 0: ceil(4 sqrt N) */
 
     /* frequencies */
     int32_t max_frequency;        /* 0: ceil(5 N^(1/d)), for d <= 3 */

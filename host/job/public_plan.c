@@ -1,11 +1,10 @@
 /* The public library: plans over the estimator, and the callbacks of their context. */
 #include "base/memory.h"
-#include "engines/frequency_sample.h"
 #include "job/gather.h"
 #include "job/public_objects.h"
+#include "job/public_request.h"
 
 #include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
 struct pspec_plan {
@@ -57,86 +56,6 @@ static pspec_status after_batch(void *payload, ps_error *error) {
 
 /* ---- create ------------------------------------------------------------------------------ */
 
-static pspec_status parse_precision(const char *name, int *out, ps_error *error) {
-    *out = -1;
-    for (int precision = PS_SINGLE; name != NULL && precision <= PS_EXTENDED; precision++) {
-        if (strcmp(name, ps_precision_name((ps_precision)precision)) == 0) {
-            *out = precision;
-        }
-    }
-    return name == NULL || *out >= 0
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "precision \"%s\" is none of single, double, extended", name);
-}
-
-static pspec_status draw_frequencies(pspec_plan *plan, const pspec_power_request *request,
-                                     ps_error *error) {
-    const ps_frequency_sample sample = {.dimension = request->dimension,
-                                        .max_frequency = request->max_frequency,
-                                        .exact_shells = request->exact_shells != 0,
-                                        .per_ring = request->per_ring,
-                                        .seed = request->per_ring_seed};
-    return ps_frequencies_sample(&plan->frequencies, &sample, error);
-}
-
-static pspec_status set_frequencies(pspec_plan *plan, const pspec_power_request *request,
-                                    ps_error *error) {
-    void *copy = NULL;
-    size_t num_components = 0;
-    const size_t num = request->num_frequencies;
-    if (request->per_ring > 0) {
-        PS_TRY(draw_frequencies(plan, request, error));
-        return ps_frequencies_enumerate(&plan->frequencies, error);
-    }
-    if (request->frequencies == NULL) {
-        PS_TRY(ps_frequencies_lattice(&plan->frequencies, request->dimension,
-                                      request->max_frequency, request->rings_only != 0, error));
-        return ps_frequencies_enumerate(&plan->frequencies, error);
-    }
-    if (num == 0) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "the list of frequencies is empty");
-    }
-    if (!ps_size_multiply(num, request->dimension, &num_components)) {
-        return ps_fail(error, PSPEC_ERROR_MEMORY, "%zu frequencies are too many", num);
-    }
-    PS_TRY(ps_allocate(&copy, num_components, sizeof(int32_t), "frequencies", error));
-    memcpy(copy, request->frequencies, num_components * sizeof(int32_t));
-    return ps_frequencies_list(&plan->frequencies, request->dimension, num, copy, error);
-}
-
-static pspec_status check_request(const pspec_power_request *request, ps_error *error) {
-    if (request->struct_size != sizeof *request) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "struct_size is %zu instead of %zu: begin with PSPEC_POWER_REQUEST_INIT",
-                       request->struct_size, sizeof *request);
-    }
-    if (request->dimension < 1 || request->dimension > PS_MAX_TORUS_DIMENSION) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "dimension %u is not between 1 and %d",
-                       request->dimension, PS_MAX_TORUS_DIMENSION);
-    }
-    if (request->num_points == 0) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "num_points is 0");
-    }
-    if (!(request->tolerance > 0 && request->tolerance <= 1) || !(request->floor >= 0)) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "tolerance %g must be above 0 and at most 1, floor %g not below 0",
-                       request->tolerance, request->floor);
-    }
-    if (request->frequencies != NULL &&
-        (request->exact_shells != 0 || request->rings_only != 0 || request->per_ring != 0)) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "exact_shells, rings_only and per_ring are for grids; a list is not "
-                       "averaged");
-    }
-    if (request->normalization != PSPEC_NORMALIZATION_POWER &&
-        request->normalization != PSPEC_NORMALIZATION_EFFECTIVE) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "there is no normalization %d",
-                       (int)request->normalization);
-    }
-    return PSPEC_OK;
-}
-
 static void log_choice(const pspec_plan *plan) {
     for (size_t i = 0; i < plan->choice.num_candidates; i++) {
         const ps_candidate *candidate = &plan->choice.candidates[i];
@@ -149,12 +68,12 @@ static void log_choice(const pspec_plan *plan) {
     }
 }
 
-static pspec_status choose_engine(pspec_plan *plan, const pspec_power_request *request,
+static pspec_status choose_engine(pspec_plan *plan, const ps_public_request *request,
                                   ps_error *error) {
     pspec_context *context = plan->context;
-    ps_plan_constraints constraints = {.engine = request->engine,
-                                       .memory_limit = context->memory_limit};
-    PS_TRY(parse_precision(request->precision, &constraints.precision, error));
+    const ps_plan_constraints constraints = {.engine = request->engine,
+                                             .precision = request->precision,
+                                             .memory_limit = context->memory_limit};
     if (ps_plan_may_need_device(&constraints)) {
         PS_TRY(ps_context_open_device(context));
     }
@@ -165,16 +84,16 @@ static pspec_status choose_engine(pspec_plan *plan, const pspec_power_request *r
     return ps_plan_require(&plan->choice, &plan->problem, error);
 }
 
-static pspec_status create_estimator(pspec_plan *plan, const pspec_power_request *request,
+static pspec_status create_estimator(pspec_plan *plan, const ps_public_request *request,
                                      ps_error *error) {
     const ps_estimator_options options = {
         .problem = plan->problem,
         .engine = plan->choice.chosen->engine,
         .precision = plan->choice.chosen->precision,
         .batch = plan->choice.chosen->batch,
-        .exact_shells = request->exact_shells != 0,
+        .exact_shells = request->exact_shells,
         .want_frequencies = true,
-        .self_check = request->no_self_check == 0,
+        .self_check = !request->no_self_check,
         .normalization = request->normalization,
         .should_stop = should_stop,
         .payload = plan,
@@ -186,17 +105,15 @@ static pspec_status create_estimator(pspec_plan *plan, const pspec_power_request
     ps_log_say(&plan->context->log, "plan: %s, %zu realizations at a time",
                ps_text_string(&plan->text), ps_estimator_batch(plan->estimator));
     const ps_gather_options gather = {.estimator = plan->estimator,
-                                      .dimension = request->dimension,
+                                      .dimension = plan->frequencies.dimension,
                                       .num_points = request->num_points,
                                       .after_batch = after_batch,
                                       .payload = plan};
     return ps_gather_create(&plan->gather, &gather, error);
 }
 
-static pspec_status fill_plan(pspec_plan *plan, const pspec_power_request *request,
-                              ps_error *error) {
-    PS_TRY(check_request(request, error));
-    PS_TRY(set_frequencies(plan, request, error));
+static pspec_status fill_plan(pspec_plan *plan, const ps_public_request *request, ps_error *error) {
+    PS_TRY(ps_frequencies_enumerate(&plan->frequencies, error));
     plan->problem = (ps_problem){
         .frequencies = &plan->frequencies,
         .num_points = request->num_points,
@@ -209,26 +126,47 @@ static pspec_status fill_plan(pspec_plan *plan, const pspec_power_request *reque
     return create_estimator(plan, request, error);
 }
 
-pspec_status pspec_plan_create(pspec_plan **out, pspec_context *context,
-                               const pspec_power_request *request) {
+/* Takes over the frequencies of the request. */
+static pspec_status create_plan(pspec_plan **out, pspec_context *context,
+                                ps_public_request *request) {
     void *memory = NULL;
-    *out = NULL;
-    if (context == NULL) {
-        return PSPEC_ERROR_INVALID_ARGUMENT;
+    pspec_status status = ps_allocate(&memory, 1, sizeof(pspec_plan), "a plan", &context->error);
+    if (status != PSPEC_OK) {
+        ps_frequencies_free(&request->frequencies);
+        return status;
     }
-    if (request == NULL) {
-        return ps_fail(&context->error, PSPEC_ERROR_INVALID_ARGUMENT, "there is no request");
-    }
-    PS_TRY(ps_allocate(&memory, 1, sizeof(pspec_plan), "a plan", &context->error));
     pspec_plan *plan = memory;
     plan->context = context;
-    const pspec_status status = fill_plan(plan, request, &context->error);
+    plan->frequencies = request->frequencies;
+    status = fill_plan(plan, request, &context->error);
     if (status != PSPEC_OK) {
         pspec_plan_destroy(plan);
         return status;
     }
     *out = plan;
     return PSPEC_OK;
+}
+
+pspec_status pspec_plan_create(pspec_plan **out, pspec_context *context,
+                               const pspec_power_request *request) {
+    ps_public_request checked = {0};
+    *out = NULL;
+    if (context == NULL) {
+        return PSPEC_ERROR_INVALID_ARGUMENT;
+    }
+    PS_TRY(ps_public_request_power(&checked, request, &context->error));
+    return create_plan(out, context, &checked);
+}
+
+pspec_status pspec_plan_create_angular(pspec_plan **out, pspec_context *context,
+                                       const pspec_angular_request *request) {
+    ps_public_request checked = {0};
+    *out = NULL;
+    if (context == NULL) {
+        return PSPEC_ERROR_INVALID_ARGUMENT;
+    }
+    PS_TRY(ps_public_request_angular(&checked, request, &context->error));
+    return create_plan(out, context, &checked);
 }
 
 void pspec_plan_destroy(pspec_plan *plan) {

@@ -80,7 +80,7 @@ static pspec_status next_sample(ps_source *source, ps_point_set *set, bool *has_
 
 /* Appends a name to a list unless it is there. */
 static pspec_status add_name(ps_text *list, const char *name, ps_error *error) {
-    static const char separator[] = ", ";
+    static const char separator[] = "; "; /* names have commas */
     const size_t length = strlen(name);
     for (const char *word = ps_text_string(list); *word != '\0';) {
         const char *const end = strstr(word, separator);
@@ -135,7 +135,8 @@ static pspec_status scout_ahead(ps_source *source, ps_pattern_count *count, ps_e
                               &source->options.points, error));
     }
     while (status == PSPEC_OK && source->sets_scouted < source->sets_of_file) {
-        *count = (ps_pattern_count){.realization = source->num_sets - 1};
+        *count = (ps_pattern_count){.realization = source->num_sets - 1,
+                                    .on_sphere = source->options.points.domain == PS_DOMAIN_SPHERE};
         status = scout_set(source, &block, count, error);
     }
     ps_point_set_free(&block);

@@ -50,7 +50,7 @@ pspec_status ps_source_more(ps_source *source, ps_point_set *set, size_t max_poi
                             ps_error *error) PS_MUST_CHECK;
 bool ps_source_can_rewind(const ps_source *source);
 pspec_status ps_source_rewind(ps_source *source, ps_error *error) PS_MUST_CHECK;
-/* Formats and columns of the files read so far, "npy, csv", or "". */
+/* Formats and columns of the files read so far, "npy; csv", or "". */
 const char *ps_source_format(const ps_source *source);
 const char *ps_source_columns(const ps_source *source);
 void ps_source_destroy(ps_source *source);

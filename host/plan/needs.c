@@ -24,6 +24,12 @@ ps_needs ps_needs_find(const ps_needs_question *question) {
     if (is_grid) {
         add(&needs, "frequencies -k", "real weights: P(-k) = P(k), a symmetry", 0.5);
     }
+    if (question->on_sphere) {
+        add(&needs, "orders m < 0", "real weights: c_l,-m = (-1)^m conj c_lm, a symmetry", 0.5);
+    }
+    if (question->on_hemisphere) {
+        add(&needs, "odd degrees", "they vanish on the hemisphere, the projective plane", 0.5);
+    }
     if (question->share_not_drawn > 0) {
         add(&needs, "frequencies outside the random subset of each ring",
             "asked for by --per-ring; the standard error has the error of the choice",
@@ -39,7 +45,12 @@ ps_needs ps_needs_find(const ps_needs_question *question) {
     }
     if (question->is_homogenized) {
         needs.no_shift = true;
-        add(&needs, "random shifts", "a shift of the torus leaves the power unchanged", 0);
+        if (question->on_sphere) {
+            add(&needs, "random rotations", "a rotation of the sphere leaves the power unchanged",
+                0);
+        } else {
+            add(&needs, "random shifts", "a shift of the torus leaves the power unchanged", 0);
+        }
     }
     if (question->has_constant_power && question->num_realizations > 1) {
         needs.one_realization = true;

@@ -94,7 +94,7 @@ static void check_questions(const ps_arguments *arguments) {
     ps_question_list *const list = fuzz_allocate(NULL, 1, sizeof *list);
     ps_error error = {0};
     memset(list, 0, sizeof *list);
-    const pspec_status status = ps_questions_make(list, arguments, &error);
+    const pspec_status status = ps_questions_make(list, arguments, PS_DOMAIN_TORUS, &error);
     fuzz_check_error(status, &error, FUZZ_QUOTES_INPUT);
     if (status == PSPEC_OK && (list->num < 1 || list->num > PS_MAX_SAMPLERS)) {
         fuzz_fail("%zu questions", list->num);

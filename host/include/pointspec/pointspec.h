@@ -11,6 +11,16 @@
  * White noise has mean power 1 at every k != 0. DC (k = 0) is never part of a radial mean. Ring b
  * holds the frequencies with b^2 - b + 1 <= |k|^2 <= b^2 + b.
  *
+ * On the sphere points are unit vectors (lengths may be off by 1e-6; they are divided), and powers are of degrees
+ * l = 1..L, means over the 2l + 1 orders of the orthonormal spherical harmonics Y_lm
+ *
+ *     Q(l) = 4 pi / (2l + 1) sum_m |sum_j w_j Y_lm(u_j)|^2 = sum_ij w_i w_j P_l(u_i.u_j)
+ *     power, default normalization:    P(l) = N Q(l) / W^2
+ *     power, effective normalization:  P(l) = Q(l) / V
+ *
+ * White noise has mean power 1 at every l >= 1. On the hemisphere, which is the projective plane, a point stands for
+ * its direction and the opposite one, and only even degrees are there.
+ *
  * **Objects.** A context holds the device, the callbacks and the sentence of the last error; a plan fixes
  * what is asked and by which engine; patterns (realizations) go through the plan in calls of any size,
  * with the same results to the bit; a spectrum is a snapshot of the averages so far, which can be
@@ -67,9 +77,11 @@ PSPEC_EXPORT const char *pspec_version(void);
 
 /** A point set that the caller keeps: a view. */
 typedef struct pspec_pattern {
-    unsigned dimension;    /**< d, that of the plan */
-    size_t num_points;     /**< N, at least 1 */
-    const double *points;  /**< [num_points][dimension], row by row, each coordinate in [0,1) */
+    unsigned dimension; /**< d, that of the plan; 3 on the sphere */
+    size_t num_points;  /**< N, at least 1 */
+    const double
+        *points; /**< [num_points][dimension], row by row, each coordinate in [0,1), or unit
+                                vectors */
     const double *weights; /**< [num_points], real, finite, of either sign; NULL: all 1 */
 } pspec_pattern;
 
@@ -165,6 +177,33 @@ typedef struct pspec_power_request {
  * depends on the request, the device and the limit alone; nothing is timed. */
 PSPEC_EXPORT pspec_status pspec_plan_create(pspec_plan **out, pspec_context *context,
                                             const pspec_power_request *request);
+/** What to compute on the sphere. Begin with #PSPEC_ANGULAR_REQUEST_INIT and set what differs. */
+typedef struct pspec_angular_request {
+    size_t struct_size;        /**< set by #PSPEC_ANGULAR_REQUEST_INIT; lets the struct grow */
+    size_t num_points;         /**< of the largest pattern expected; more are taken; default 1024 */
+    uint64_t num_realizations; /**< patterns that are expected; default 0: not known */
+    int32_t max_degree;        /**< L: degrees 1..L, at most 32768 */
+    int hemisphere;            /**< even degrees only */
+    pspec_normalization normalization; /**< which power */
+    double
+        tolerance; /**< numerical error of the coefficients relative to white noise; default 1e-6 */
+    double floor;  /**< smallest power that must be right to 10 %; default 0: none */
+    const char *engine;    /**< "sphere_direct", "host_direct", or NULL: the best */
+    const char *precision; /**< "single", "double", "extended", or NULL: likewise */
+    int no_self_check;     /**< do not recompute a few degrees of the first pattern */
+} pspec_angular_request;
+
+/** The defaults of a #pspec_angular_request. */
+#define PSPEC_ANGULAR_REQUEST_INIT                                                                 \
+    { sizeof(pspec_angular_request), 1024, 0, 0, 0, PSPEC_NORMALIZATION_POWER, 1e-6, 0, 0, 0, 0 }
+
+/** The plan of an angular power spectrum; as pspec_plan_create() otherwise.
+ *
+ * The engine's error e satisfies sqrt(4 pi mean |dc_lm|^2) = e sqrt(V) <= tolerance sqrt(V), mean over the
+ * degrees and orders. Spectra have a bin for every degree: bin and frequency are l, normalized_frequency is
+ * l / sqrt(N), count is 2l + 1, anisotropy_db is nan. */
+PSPEC_EXPORT pspec_status pspec_plan_create_angular(pspec_plan **out, pspec_context *context,
+                                                    const pspec_angular_request *request);
 /** NULL is allowed. */
 PSPEC_EXPORT void pspec_plan_destroy(pspec_plan *plan);
 
@@ -194,7 +233,7 @@ PSPEC_EXPORT pspec_status pspec_plan_reset(pspec_plan *plan);
 
 /** The mean over a ring or shell. */
 typedef struct pspec_bin {
-    int64_t bin;                 /**< ring number b, or |k|^2 of a shell */
+    int64_t bin;                 /**< ring number b, |k|^2 of a shell, or degree l */
     double frequency;            /**< mean |k|, cycles per unit cell */
     double normalized_frequency; /**< the same divided by N^(1/d), N the mean number of points */
     uint64_t count;              /**< frequencies of both signs */
@@ -253,8 +292,8 @@ PSPEC_EXPORT const pspec_bin *pspec_spectrum_bins(const pspec_spectrum *spectrum
 
 /** The frequencies: the list as it was given, or the half lattice of the grid (first non-zero component
  * positive, lexicographic order, DC left out; P(-k) = P(k)), or with per_ring what was drawn of it, ring by
- * ring, unless that is everything. [*num_frequencies][dimension]. Belongs to
- * the spectrum. */
+ * ring, unless that is everything. [*num_frequencies][dimension]. On the sphere the degrees,
+ * [*num_frequencies]. Belongs to the spectrum. */
 PSPEC_EXPORT const int32_t *pspec_spectrum_frequencies(const pspec_spectrum *spectrum,
                                                        size_t *num_frequencies);
 /** Mean powers, [num_frequencies], in the order of the frequencies. Belong to the spectrum. */
