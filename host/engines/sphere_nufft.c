@@ -22,7 +22,7 @@ typedef struct sphere_nufft {
     ps_problem problem;
     ps_precision precision;
     ps_sphere_shape shape;
-    ps_sphere_points points;
+    ps_sphere_places points;
     ps_sphere_tables tables;
     cl_kernel orders, sum, fold;
     ps_buffer grids, rows, values;             /* of orders.cl */
@@ -109,7 +109,7 @@ static void destroy(void *state) {
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
         ps_buffer_release(buffers[i]);
     }
-    ps_sphere_points_free(&self->points);
+    ps_sphere_places_free(&self->points);
     ps_sphere_tables_free(&self->tables);
     free(self->host_powers);
     free(self->host_rows);
@@ -167,7 +167,7 @@ static pspec_status create_parts(sphere_nufft *self, size_t batch, ps_error *err
                        "powers of a batch", error));
     self->host_rows = memory;
     PS_TRY(create_kernels(self, error));
-    PS_TRY(ps_sphere_points_create(&self->points, shape, self->problem.num_points, self->precision,
+    PS_TRY(ps_sphere_places_create(&self->points, shape, self->problem.num_points, self->precision,
                                    self->device, error));
     PS_TRY(ps_sphere_tables_create(&self->tables, shape, self->problem.tolerance, self->precision,
                                    self->device, error));
@@ -257,21 +257,23 @@ static pspec_status make_values(sphere_nufft *self, size_t num, ps_error *error)
     return PSPEC_OK;
 }
 
-static pspec_status sum_rings(sphere_nufft *self, size_t num, ps_error *error) {
+/* To powers, or with the kernel that keeps them to coefficients. */
+static pspec_status sum_rings(sphere_nufft *self, cl_kernel kernel, const ps_buffer *to, size_t num,
+                              ps_error *error) {
     const ps_sphere_shape *shape = &self->shape;
     const ps_sphere_tables *tables = &self->tables;
     const ps_sphere_local local = ps_sphere_local_bytes(shape, ps_real_bytes(self->precision));
     const double degrees = shape->max_degree;
     const double flops = 4 * degrees * degrees / 2 * shape->num_rings * (double)num;
     const ps_range range = group_range(self, PS_SPHERE_GROUPS, flops);
-    return PS_LAUNCH(self->device, self->sum, &range, error, PS_BUFFER(self->values), PS_U32(num),
+    return PS_LAUNCH(self->device, kernel, &range, error, PS_BUFFER(self->values), PS_U32(num),
                      PS_BUFFER(tables->starts), PS_BUFFER(tables->start_scales),
                      PS_BUFFER(tables->steps), PS_BUFFER(tables->step_scales),
                      PS_BUFFER(tables->ratios), PS_BUFFER(tables->distances),
                      PS_U32(shape->max_degree), PS_U32(shape->num_rings), PS_U32(shape->ring_pitch),
                      PS_U32(self->problem.frequencies->degree_step == 2), PS_U32(shape->block),
                      PS_U32(shape->half_pitch), PS_BUFFER(self->states), PS_BUFFER(self->scales),
-                     PS_BUFFER(self->diagonals), PS_BUFFER(self->sums), PS_BUFFER(self->powers),
+                     PS_BUFFER(self->diagonals), PS_BUFFER(self->sums), PS_BUFFER(*to),
                      PS_LOCAL(local.table), PS_LOCAL(local.coefficients), PS_LOCAL(local.begins));
 }
 
@@ -280,7 +282,7 @@ static pspec_status fold_powers(sphere_nufft *self, size_t num, ps_error *error)
     const ps_range range =
         ps_range_light(self->device, entries, 1, 1, (double)(PS_SPHERE_GROUPS * entries), 0);
     PS_TRY(PS_LAUNCH(self->device, self->fold, &range, error, PS_BUFFER(self->powers),
-                     PS_U32(PS_SPHERE_GROUPS), PS_U64(entries)));
+                     PS_U32(PS_SPHERE_GROUPS), PS_U64(entries), PS_U32(self->shape.half_pitch)));
     return ps_buffer_read(self->device, &self->powers, 0, self->host_powers,
                           entries * sizeof(double), error);
 }
@@ -310,10 +312,9 @@ static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_er
         some.scales += first;
         some.exponents = batch->exponents != NULL ? batch->exponents + first : NULL;
         PS_TRY(ps_batch_go_on(batch, error));
-        PS_TRY(ps_sphere_points_make(&self->points, &some, error));
+        PS_TRY(ps_sphere_places_make(&self->points, &some, error));
         PS_TRY(make_values(self, some.num_patterns, error));
-        PS_TRY(ps_buffer_clear(self->device, &self->powers, error));
-        PS_TRY(sum_rings(self, some.num_patterns, error));
+        PS_TRY(sum_rings(self, self->sum, &self->powers, some.num_patterns, error));
         PS_TRY(fold_powers(self, some.num_patterns, error));
         write_rows(self, first, &some);
     }
@@ -322,6 +323,80 @@ static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_er
                       .precision = PS_DOUBLE,
                       .host = self->host_rows};
     return PSPEC_OK;
+}
+
+/* ---- coefficients ------------------------------------------------------------------------ */
+
+/* The largest weight is below 2^exponent: sums of them do not overflow. */
+static int largest_exponent(const pspec_pattern *pattern) {
+    double largest = 0;
+    int exponent = 0;
+    for (size_t j = 0; pattern->weights != NULL && j < pattern->num_points; j++) {
+        largest = fmax(largest, fabs(pattern->weights[j]));
+    }
+    frexp(largest, &exponent);
+    return exponent;
+}
+
+/* From [order][even, odd l - m][re, im][half_pitch]; the kernels sum conjugates. */
+static void write_coefficients(const sphere_nufft *self, const double *from, int exponent,
+                               double *out) {
+    const size_t L = (size_t)self->shape.max_degree;
+    const size_t pitch = self->shape.half_pitch;
+    const bool only_even = self->problem.frequencies->degree_step == 2;
+    for (size_t m = 0; m <= L; m++) {
+        for (size_t l = m; l <= L; l++) {
+            const double *at = from + (m * 2 + (l - m) % 2) * 2 * pitch + (l - m) / 2;
+            double *to = out + 2 * (m * (2 * L + 1 - m) / 2 + l);
+            const bool is_there = !only_even || l % 2 == 0;
+            to[0] = is_there ? ldexp(at[0], exponent) : 0;
+            to[1] = is_there ? -ldexp(at[pitch], exponent) : 0;
+        }
+    }
+}
+
+static pspec_status make_coefficients(sphere_nufft *self, const pspec_pattern *pattern,
+                                      cl_kernel kernel, const ps_buffer *kept, int exponent,
+                                      double *host, ps_error *error) {
+    const ps_batch one = {.num_patterns = 1, .patterns = pattern, .exponents = &exponent};
+    PS_TRY(ps_sphere_places_make(&self->points, &one, error));
+    PS_TRY(make_values(self, 1, error));
+    PS_TRY(sum_rings(self, kernel, kept, 1, error));
+    return ps_buffer_read(self->device, kept, 0, host, kept->bytes, error);
+}
+
+/* Room for all of them only where they are asked for. */
+static pspec_status coefficients(void *state, const pspec_pattern *pattern, double *out,
+                                 ps_error *error) {
+    sphere_nufft *self = state;
+    const size_t num = ((size_t)self->shape.max_degree + 1) * 4 * self->shape.half_pitch;
+    const int exponent = largest_exponent(pattern);
+    char options[64];
+    void *host = NULL;
+    cl_kernel kernel = NULL;
+    ps_buffer kept = {0};
+    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u -DKEEP=1",
+             self->precision == PS_SINGLE ? 32u : 64u, self->shape.sum_lanes);
+    pspec_status status = ps_kernel_create(self->device, &kernel, "sphere/orders_sum.cl",
+                                           "sphere_orders_sum", options, error);
+    if (status == PSPEC_OK) {
+        status = ps_allocate(&host, num, sizeof(double), "coefficients", error);
+    }
+    if (status == PSPEC_OK) {
+        status = ps_buffer_create(self->device, &kept, num * sizeof(double), "coefficients", error);
+    }
+    if (status == PSPEC_OK) {
+        status = make_coefficients(self, pattern, kernel, &kept, exponent, host, error);
+    }
+    if (status == PSPEC_OK) {
+        write_coefficients(self, host, exponent, out);
+    }
+    if (kernel != NULL) {
+        clReleaseKernel(kernel);
+    }
+    ps_buffer_release(&kept);
+    free(host);
+    return status;
 }
 
 static void describe(const void *state, ps_text *text) {
@@ -350,6 +425,7 @@ const ps_engine ps_sphere_nufft = {
     .get_slots = get_slots,
     .get_stride = get_stride,
     .run = run,
+    .coefficients = coefficients,
     .describe = describe,
     .destroy = destroy,
 };

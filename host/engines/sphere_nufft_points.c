@@ -12,7 +12,7 @@ __extension__ typedef unsigned __int128 wide; /* not in ISO C */
 
 /* ---- create ------------------------------------------------------------------------------ */
 
-static pspec_status create_buffers(ps_sphere_points *self, size_t at_once, ps_error *error) {
+static pspec_status create_buffers(ps_sphere_places *self, size_t at_once, ps_error *error) {
     const size_t turns = ps_round_up(self->most_points, self->lanes);
     PS_TRY(ps_buffer_create(self->device, &self->vectors,
                             self->most_points * PS_SPHERE_DIMENSION * sizeof(double), "points",
@@ -25,7 +25,7 @@ static pspec_status create_buffers(ps_sphere_points *self, size_t at_once, ps_er
                             "offsets", error);
 }
 
-static void set_weight(ps_sphere_points *self, size_t at, double weight) {
+static void set_weight(ps_sphere_places *self, size_t at, double weight) {
     if (self->precision == PS_SINGLE) {
         ((float *)self->host_weights)[at] = (float)weight;
     } else {
@@ -34,7 +34,7 @@ static void set_weight(ps_sphere_points *self, size_t at, double weight) {
 }
 
 /* They stay on the device until weights arrive. */
-static pspec_status upload_unit_weights(ps_sphere_points *self, ps_error *error) {
+static pspec_status upload_unit_weights(ps_sphere_places *self, ps_error *error) {
     for (size_t j = 0; j < self->most_points; j++) {
         set_weight(self, j, 1);
     }
@@ -43,12 +43,12 @@ static pspec_status upload_unit_weights(ps_sphere_points *self, ps_error *error)
                            self->most_points * ps_real_bytes(self->precision), error);
 }
 
-pspec_status ps_sphere_points_create(ps_sphere_points *out, const ps_sphere_shape *shape,
+pspec_status ps_sphere_places_create(ps_sphere_places *out, const ps_sphere_shape *shape,
                                      uint64_t num_points, ps_precision precision, ps_device *device,
                                      ps_error *error) {
     char options[64];
     void *memory = NULL;
-    *out = (ps_sphere_points){.device = device,
+    *out = (ps_sphere_places){.device = device,
                               .precision = precision,
                               .most_points = shape->at_once * num_points,
                               .lanes = shape->sum_lanes,
@@ -65,7 +65,7 @@ pspec_status ps_sphere_points_create(ps_sphere_points *out, const ps_sphere_shap
     return upload_unit_weights(out, error);
 }
 
-void ps_sphere_points_free(ps_sphere_points *points) {
+void ps_sphere_places_free(ps_sphere_places *points) {
     if (points->turn != NULL) {
         clReleaseKernel(points->turn);
     }
@@ -75,12 +75,12 @@ void ps_sphere_points_free(ps_sphere_points *points) {
     ps_buffer_release(&points->offsets);
     free(points->host_weights);
     free(points->host_offsets);
-    *points = (ps_sphere_points){0};
+    *points = (ps_sphere_places){0};
 }
 
 /* ---- make -------------------------------------------------------------------------------- */
 
-static pspec_status upload_points(ps_sphere_points *self, const ps_batch *batch, ps_error *error) {
+static pspec_status upload_points(ps_sphere_places *self, const ps_batch *batch, ps_error *error) {
     const size_t bytes = PS_SPHERE_DIMENSION * sizeof(double);
     size_t at = 0;
     for (size_t r = 0; r < batch->num_patterns; r++) {
@@ -95,7 +95,7 @@ static pspec_status upload_points(ps_sphere_points *self, const ps_batch *batch,
                            (batch->num_patterns + 1) * sizeof(uint64_t), error);
 }
 
-static pspec_status upload_weights(ps_sphere_points *self, const ps_batch *batch, ps_error *error) {
+static pspec_status upload_weights(ps_sphere_places *self, const ps_batch *batch, ps_error *error) {
     for (size_t r = 0; r < batch->num_patterns; r++) {
         self->has_unit_weights = self->has_unit_weights && batch->patterns[r].weights == NULL;
     }
@@ -115,7 +115,7 @@ static pspec_status upload_weights(ps_sphere_points *self, const ps_batch *batch
                            error);
 }
 
-pspec_status ps_sphere_points_make(ps_sphere_points *points, const ps_batch *batch,
+pspec_status ps_sphere_places_make(ps_sphere_places *points, const ps_batch *batch,
                                    ps_error *error) {
     const double flops_per_point = 300;
     PS_TRY(upload_points(points, batch, error));

@@ -4,7 +4,7 @@
 
 #include "engines/sphere_nufft_shape.h"
 
-typedef struct ps_sphere_points {
+typedef struct ps_sphere_places {
     ps_device *device;
     ps_precision precision;
     size_t most_points; /* of all realizations together */
@@ -15,15 +15,15 @@ typedef struct ps_sphere_points {
     void *host_weights;     /* [most_points] float or double */
     uint64_t *host_offsets; /* [at_once + 1] */
     ps_buffer vectors, turns, weights, offsets;
-} ps_sphere_points;
+} ps_sphere_places;
 
-pspec_status ps_sphere_points_create(ps_sphere_points *out, const ps_sphere_shape *shape,
+pspec_status ps_sphere_places_create(ps_sphere_places *out, const ps_sphere_shape *shape,
                                      uint64_t num_points, ps_precision precision, ps_device *device,
                                      ps_error *error) PS_MUST_CHECK;
-void ps_sphere_points_free(ps_sphere_points *points);
+void ps_sphere_places_free(ps_sphere_places *points);
 
 /* At most shape->at_once patterns. */
-pspec_status ps_sphere_points_make(ps_sphere_points *points, const ps_batch *batch,
+pspec_status ps_sphere_places_make(ps_sphere_places *points, const ps_batch *batch,
                                    ps_error *error) PS_MUST_CHECK;
 
 #endif

@@ -39,6 +39,9 @@ typedef struct ps_sphere_shape {
 ps_sphere_shape ps_sphere_shape_make(const ps_problem *problem, const ps_device_limits *limits,
                                      ps_precision precision);
 
+/* axis.loss for the sphere: mean square of what aliases do, and the most when all power is in step. */
+void ps_sphere_nufft_loss(const ps_nufft_axis *axis, double *aliasing, double *worst);
+
 /* ps_engine.error */
 double ps_sphere_nufft_error(const ps_nufft_axis *axis, const ps_problem *problem,
                              ps_precision precision, double mean_power);

@@ -12,14 +12,29 @@ typedef struct product_rows {
     __local const real *table;
     uint first, end;
     bool is_first, is_last;
+    bool is_lowest; /* of the orders that are added up */
+    double weight;  /* of |c|^2: orders m and -m */
 } product_rows;
 
-/* |c|^2 of both signs of the order, in double precision. */
-static inline void add_powers(__global double *powers, const realv re, const realv im,
-                              const double weight) {
+/* 1: coefficients of one realization instead of powers. */
+#ifndef KEEP
+#define KEEP 0
+#endif
+
+/* |c|^2 of both signs of the order, in double precision, to what lower orders left; or c, imaginary parts
+ * powers_apart further. */
+static inline void finish_sums(__global double *powers, const size_t powers_apart,
+                               const product_rows rows, const realv re, const realv im) {
     const doublev a = TO_DOUBLEV(re), b = TO_DOUBLEV(im);
     __global unaligned_doublev *at = (__global unaligned_doublev *)powers;
-    *at = fma(fma(a, a, b * b), (doublev)weight, *at);
+#if KEEP
+    (void)rows;
+    *at = a;
+    *(__global unaligned_doublev *)(powers + powers_apart) = b;
+#else
+    (void)powers_apart;
+    *at = fma(fma(a, a, b * b), (doublev)rows.weight, rows.is_lowest ? (doublev)0 : *at);
+#endif
 }
 
 /* NUM realizations, VECTORS vectors of degrees. values: of the first ring of the table, realizations `apart` numbers
@@ -27,8 +42,7 @@ static inline void add_powers(__global double *powers, const realv re, const rea
 #define PRODUCT(NUM, VECTORS)                                                                      \
     static inline __attribute__((always_inline)) void product_##NUM##_##VECTORS(                   \
         const product_rows rows, __global const real *values, const size_t apart,                  \
-        __global real *sums, __global double *powers, const size_t powers_apart,                   \
-        const double weight) {                                                                     \
+        __global real *sums, __global double *powers, const size_t powers_apart) {                 \
         realv re[NUM][VECTORS], im[NUM][VECTORS];                                                  \
         _Pragma("unroll") for (int r = 0; r < NUM; r++) {                                          \
             _Pragma("unroll") for (int v = 0; v < VECTORS; v++) {                                  \
@@ -55,7 +69,8 @@ static inline void add_powers(__global double *powers, const realv re, const rea
             _Pragma("unroll") for (int v = 0; v < VECTORS; v++) {                                  \
                 __global real *to = sums + (r * RUN_VECTORS + v) * 2 * LANES;                      \
                 if (rows.is_last) {                                                                \
-                    add_powers(powers + r * powers_apart + v * LANES, re[r][v], im[r][v], weight); \
+                    finish_sums(powers + r * powers_apart + v * LANES, powers_apart, rows,         \
+                                re[r][v], im[r][v]);                                               \
                 } else {                                                                           \
                     store_global(to, 0, re[r][v]);                                                 \
                     store_global(to, 1, im[r][v]);                                                 \
@@ -75,13 +90,12 @@ PRODUCT(2, 4)
 
 #define PRODUCT_CASE(NUM, VECTORS)                                                                 \
     case VECTORS:                                                                                  \
-        product_##NUM##_##VECTORS(rows, values, apart, sums, powers, powers_apart, weight);        \
+        product_##NUM##_##VECTORS(rows, values, apart, sums, powers, powers_apart);                \
         break
 
 static inline void product_of_one(const product_rows rows, __global const real *values,
                                   const size_t apart, __global real *sums, __global double *powers,
-                                  const size_t powers_apart, const double weight,
-                                  const uint vectors) {
+                                  const size_t powers_apart, const uint vectors) {
     switch (vectors) {
         PRODUCT_CASE(1, 1);
         PRODUCT_CASE(1, 2);
@@ -92,8 +106,7 @@ static inline void product_of_one(const product_rows rows, __global const real *
 
 static inline void product_of_two(const product_rows rows, __global const real *values,
                                   const size_t apart, __global real *sums, __global double *powers,
-                                  const size_t powers_apart, const double weight,
-                                  const uint vectors) {
+                                  const size_t powers_apart, const uint vectors) {
     switch (vectors) {
         PRODUCT_CASE(2, 1);
         PRODUCT_CASE(2, 2);

@@ -14,8 +14,9 @@
  *   diagonal   [group][ring_pitch]: scratch
  *   sums       [group][pair of realizations][even, odd l - m][2][RUN_VECTORS][re, im][LANES]: scratch, room for one
  *              realization more
- *   powers     [group][realization][even, odd degrees][half_pitch]: cleared before; half_pitch has room for
- *              RUN_VECTORS vectors behind degree L / 2
+ *   powers     [group][realization][even, odd degrees][half_pitch], of degrees from the group on; half_pitch has room
+ *              for RUN_VECTORS vectors behind degree L / 2. With KEEP coefficients of one realization,
+ *              [order][even, odd l - m][re, im][half_pitch]
  *   table      local, [even, odd l - m][block][TABLE_ROW]
  *   coefficients  local, [3][RUN_DEGREES]
  *   begins     local, [block / LANES]
@@ -48,7 +49,7 @@ sphere_orders_sum(__global const real *restrict values, const uint num_realizati
     __global double *diagonal = all_diagonals + group * (size_t)ring_pitch;
     __global real *sums =
         all_sums + group * (size_t)(num_realizations + 1) * (2 * RUN_VECTORS * 2 * LANES);
-    __global double *powers = all_powers + group * num_realizations * powers_apart;
+    __global double *powers = all_powers + (KEEP ? 0 : group * num_realizations * powers_apart);
     const ring_states own = {states, states + ring_pitch, scales, distances};
     for (uint m = group; m <= L; m += groups) {
         for (uint i = get_local_id(0); i < ring_pitch; i += get_local_size(0)) {
@@ -88,20 +89,24 @@ sphere_orders_sum(__global const real *restrict values, const uint num_realizati
                     }
                     const uint in_parity = odd ? degrees / 2 : (degrees + 1) / 2;
                     const uint own_vectors = (in_parity + LANES - 1) / LANES;
-                    const product_rows rows = {table + odd * block * TABLE_ROW, begin, here,
-                                               ring == 0, ring + block >= num_rings};
+                    const product_rows rows = {
+                        table + odd * block * TABLE_ROW, begin,      here,          ring == 0,
+                        ring + block >= num_rings,       m == group, m == 0 ? 1 : 2};
                     __global const real *from =
                         values + r * apart + (m * 2 + odd) * 2 * (size_t)ring_pitch + 2 * ring;
                     __global real *to = sums + (r * 2 + odd * 2) * (RUN_VECTORS * 2 * LANES);
+#if KEEP
+                    __global double *to_powers =
+                        powers + (m * 2 + odd) * powers_apart + (first - m) / 2;
+#else
                     __global double *to_powers = powers + r * powers_apart +
                                                  (first + odd) % 2 * half_pitch + (first + odd) / 2;
-                    const double weight = m == 0 ? 1 : 2;
+#endif
+                    const size_t ends_apart = KEEP ? half_pitch : powers_apart;
                     if (r + 1 < num_realizations) {
-                        product_of_two(rows, from, apart, to, to_powers, powers_apart, weight,
-                                       own_vectors);
+                        product_of_two(rows, from, apart, to, to_powers, ends_apart, own_vectors);
                     } else if (r < num_realizations) {
-                        product_of_one(rows, from, apart, to, to_powers, powers_apart, weight,
-                                       own_vectors);
+                        product_of_one(rows, from, apart, to, to_powers, ends_apart, own_vectors);
                     }
                 }
                 barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
@@ -110,13 +115,16 @@ sphere_orders_sum(__global const real *restrict values, const uint num_realizati
     }
 }
 
-/* powers [group][..] of all groups into those of the first, `num` of each. Launch: (num), rounded up at will. */
+/* powers [group][..] of all groups into those of the first: num of each, degree by degree. Degree l has orders, and
+ * powers, of groups up to l. Launch: (num), rounded up at will. */
 __kernel void sphere_orders_fold(__global double *restrict powers, const uint groups,
-                                 const ulong num) {
+                                 const ulong num, const uint half_pitch) {
     const size_t i = get_global_id(0);
     if (i < num) {
+        const size_t degree = i % half_pitch * 2 + i / half_pitch % 2;
+        const uint end = (uint)min((size_t)groups, degree + 1);
         double sum = powers[i];
-        for (uint group = 1; group < groups; group++) {
+        for (uint group = 1; group < end; group++) {
             sum += powers[group * num + i];
         }
         powers[i] = sum;
