@@ -30,7 +30,7 @@ static const double ring_roundings = 0.3;
 /* What aliases k + i n make of frequency k, |k| <= n / 2: the sum of their squares, and the square of the sum of their
  * sizes. */
 static void aliases_of(const ps_nufft_axis *axis, double k, double *squares, double *square) {
-    enum { ALIASES = 3 }; /* of each sign: they fall off with the square of i at least */
+    enum { ALIASES = 8 }; /* of each sign. With 1 / i in the end, but these are enough for points on cells */
     const double own = ps_nufft_window_transform(&axis->window, (long double)k / axis->n);
     double sum = 0;
     *squares = 0;
