@@ -25,12 +25,18 @@ static const double dense_roundings = 1;
 static const double coherent_roundings = 0.3;
 static const double ring_roundings = 0.3;
 
+/* Angles are made of vectors in double precision: half a unit in the last place of a number below pi or so, times the
+ * order or degree. In single precision next to nothing. */
+static const double angle_roundings = 1.5;
+
 /* ---- aliases ----------------------------------------------------------------------------- */
 
 /* What aliases k + i n make of frequency k, |k| <= n / 2: the sum of their squares, and the square of the sum of their
  * sizes. */
 static void aliases_of(const ps_nufft_axis *axis, double k, double *squares, double *square) {
-    enum { ALIASES = 8 }; /* of each sign. With 1 / i in the end, but these are enough for points on cells */
+    enum {
+        ALIASES = 8
+    }; /* of each sign. With 1 / i in the end, but these are enough for points on cells */
     const double own = ps_nufft_window_transform(&axis->window, (long double)k / axis->n);
     double sum = 0;
     *squares = 0;
@@ -97,7 +103,8 @@ double ps_sphere_nufft_error(const ps_nufft_axis *axis, const ps_problem *proble
     const double rounding = unit * amplification * each * sqrt(with_mean);
     const double rings = unit * ring_roundings * sqrt(L * with_mean);
     const double coherent = unit * coherent_roundings * power * sqrt(power);
-    const double given = unit * point_roundings * sqrt(power);
+    const double angles = unit_roundoff[PS_DOUBLE] * angle_roundings * L;
+    const double given = hypot(unit * point_roundings, angles) * sqrt(power);
     return hypot(hypot(aliasing_of(axis, problem, power), polynomials),
                  hypot(hypot(rounding, rings), given)) +
            coherent;
