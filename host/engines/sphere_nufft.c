@@ -279,8 +279,8 @@ static pspec_status sum_rings(sphere_nufft *self, cl_kernel kernel, const ps_buf
 
 static pspec_status fold_powers(sphere_nufft *self, size_t num, ps_error *error) {
     const size_t entries = num * 2 * self->shape.half_pitch;
-    const ps_range range =
-        ps_range_light(self->device, entries, 1, 1, (double)(PS_SPHERE_GROUPS * entries), 0);
+    const ps_range range = ps_range_light(self->device, entries / self->shape.sum_lanes, 1, 1,
+                                          (double)(PS_SPHERE_GROUPS * entries), 0);
     PS_TRY(PS_LAUNCH(self->device, self->fold, &range, error, PS_BUFFER(self->powers),
                      PS_U32(PS_SPHERE_GROUPS), PS_U64(entries), PS_U32(self->shape.half_pitch)));
     return ps_buffer_read(self->device, &self->powers, 0, self->host_powers,

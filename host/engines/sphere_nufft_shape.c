@@ -64,13 +64,16 @@ static ps_nufft_axis choose_width(const ps_problem *problem, uint32_t n, ps_prec
     return best;
 }
 
-/* Cycles on a core, of what depends on the grid (Zen 5, PoCL 3.1): as in nufft_whole_shape.c. */
+/* Cycles on a core, of what depends on the grid (Zen 5, PoCL 3.1, 2026-11, steps of kernels/sphere/orders.cl left
+ * out in turn, N = 1024 L = 128 and N = 4096 L = 256); spreading as in nufft_whole_shape.c, and two arc tangents. */
 static double grid_cycles(const ps_nufft_axis *axis, ps_precision precision, double num_points) {
     const double cycles_per_point = 16;
     const double cycles_per_row = 2.4;
     const double cycles_per_polynomial = 0.6;
     const double cycles_per_turned = 14; /* of a vector of cells, into tiles of two parities */
     const double cycles_per_cell = 5;
+    const double cycles_per_meridian_cell =
+        20; /* fetched from two tiles, taken to the other transform */
     const double lanes = ps_nufft_nominal_lanes(precision);
     const double width = axis->window.width;
     const double bins = ps_nufft_bins(axis);
@@ -82,7 +85,7 @@ static double grid_cycles(const ps_nufft_axis *axis, ps_precision precision, dou
                       cycles_per_row * width * ceil(bins / lanes));
     const double around = groups * (ps_fft_cycles(axis->n) + cycles_per_cell * n +
                                     pairs * 2 * 2 * lanes * cycles_per_turned);
-    return spread + around + pairs * (ps_fft_cycles(axis->n) + 2 * cycles_per_cell * n) +
+    return spread + around + pairs * (ps_fft_cycles(axis->n) + cycles_per_meridian_cell * n) +
            n * n / 2 / lanes;
 }
 
@@ -254,14 +257,18 @@ double ps_sphere_nufft_flops(const ps_sphere_shape *shape, ps_precision precisio
     const double flops_per_lane = 4;    /* two fused operations in a cycle */
     const double cycles_of_table = 14;  /* of a vector of Lambda_lm */
     const double cycles_of_product = 2; /* of it and one realization */
-    const double share = 0.7;           /* of rings where Lambda_lm is more than zero */
+    const double cycles_per_ring =
+        12; /* of a value on a circle, on its way to rings of both hemispheres */
+    const double cycles_per_order = 250; /* whatever the degrees */
+    const double share = 0.7;            /* of rings where Lambda_lm is more than zero */
     const double lanes = ps_nufft_nominal_lanes(precision);
     const double L = shape->max_degree;
     const double vectors = (L + 1) * (L / 2 + lanes) / lanes * shape->num_rings * share;
     const double sharing = fmax(1, fmin(num_realizations, (double)shape->at_once));
     const double rings = shape->pairs * (double)shape->lanes / lanes *
-                         (ps_fft_cycles(shape->rings) + 6.0 * shape->rings);
+                         (ps_fft_cycles(shape->rings) + cycles_per_ring * shape->rings);
     const double cycles = grid_cycles(&shape->axis, precision, num_points) + rings +
-                          vectors * (cycles_of_table / sharing + cycles_of_product);
+                          vectors * (cycles_of_table / sharing + cycles_of_product) +
+                          cycles_per_order * (L + 1);
     return cycles * lanes * flops_per_lane;
 }
