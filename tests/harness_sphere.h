@@ -1,30 +1,28 @@
-/* Sets of points on the sphere of every kind, and coefficients in extended precision. */
+/* Point sets on the sphere, and coefficients against the referee. */
 #ifndef TESTS_HARNESS_SPHERE_H
 #define TESTS_HARNESS_SPHERE_H
 
 #include "harness.h"
 
-typedef struct test_sphere_shape {
-    const char *name;
-    /* Angle from the pole and longitude; axis 0, 1. */
-    void (*place)(size_t point, size_t num_points, uint64_t *state, double angles[2]);
-    double (*weight)(size_t point, uint64_t *state); /* NULL: unit weights */
-} test_sphere_shape;
+/* The unit vector of colatitude theta from the pole of sign `pole` and azimuth phi; exact near the poles. */
+void test_sphere_point(double *u, double theta, double phi, double pole);
+/* A white point. */
+void test_sphere_white(double *u, uint64_t *state);
+/* num white points; freed by the caller. */
+double *test_sphere_white_set(size_t num, uint64_t *state);
+/* Degrees 1 .. max_degree, or the even ones, enumerated; freed by ps_frequencies_free. */
+ps_frequencies test_degrees(int32_t max_degree, bool only_even);
 
-enum { TEST_SPHERE_WHITE, TEST_SPHERE_SHAPES = 10 };
-extern const test_sphere_shape test_sphere_shapes[TEST_SPHERE_SHAPES];
+/* Index of c_lm among the coefficients to max_degree. */
+size_t test_coefficient(int32_t max_degree, int32_t l, int32_t m);
+/* c_lm of an engine, (L + 1)(L + 2) numbers; freed by the caller. */
+double *test_coefficients(const ps_engine *engine, ps_precision precision, ps_device *device,
+                          const ps_frequencies *frequencies, const pspec_pattern *pattern);
+/* sum over m = -l .. l of |dc_lm|^2 against host_degree. */
+double test_degree_error(const double *coefficients, int32_t max_degree, int32_t l,
+                         const pspec_pattern *pattern);
 
-/* Points and weights are freed by test_free_sphere_pattern. */
-pspec_pattern test_make_sphere_pattern(const test_sphere_shape *shape, size_t num_points,
-                                       uint64_t seed);
-void test_free_sphere_pattern(pspec_pattern *pattern);
-
-/* c_lm, m >= 0, l = 0 .. max_degree in steps: pairs at index 2 (m (2L + 1 - m) / 2 + l); others are 0. */
-double *test_sphere_coefficients(const pspec_pattern *pattern, int32_t max_degree, int32_t step);
-
-/* sqrt(4 pi mean |dc_lm|^2) / sqrt(sum w^2), mean over both signs of m; and the mean power of what was expected,
- * without degree 0, relative to white noise. */
-double test_sphere_error(const double *found, const double *expected, int32_t max_degree,
-                         int32_t step, const pspec_pattern *pattern, double *mean_power);
+/* x, y, z (and w) of a set of sphere.json or hemisphere_m18.json. */
+test_set test_read_sphere_set(const cJSON *json);
 
 #endif

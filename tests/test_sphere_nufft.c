@@ -1,7 +1,7 @@
 /* sphere_nufft against sums in extended precision: sets of every kind, degrees and numbers of points beside whole
  * vectors, exact values of others, the same bits whatever the batch and the work-groups.
  */
-#include "harness_sphere.h"
+#include "harness_sphere_shapes.h"
 
 #include "engines/sphere_nufft.h"
 

@@ -1,7 +1,7 @@
 /* The error of sphere_nufft over all tolerances, eight to a decade, against what it announces: sets of every kind, and
  * circles of points made for the grid that is chosen. Prints the smallest slack of each.
  */
-#include "harness_sphere.h"
+#include "harness_sphere_shapes.h"
 
 #include "engines/sphere_nufft.h"
 #include "engines/sphere_nufft_shape.h"

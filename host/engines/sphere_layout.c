@@ -33,12 +33,10 @@ static void count_bytes(ps_sphere_layout *layout) {
     const double sums =
         (double)(layout->pass_orders * layout->stride * SUMS_PER_DEGREE) * real_bytes;
     const double powers = (double)(layout->stride * POWERS_PER_DEGREE) * real_bytes;
-    const double points =
-        (double)layout->slab * (REALS_PER_POINT * real_bytes + sizeof(uint64_t) +
-                                PS_SPHERE_DIMENSION * sizeof(double));
-    const double table =
-        (double)(layout->pass_blocks * PS_SPHERE_BLOCK_REALS) * real_bytes +
-        (double)(layout->pass_orders * sizeof(uint32_t));
+    const double points = (double)layout->slab * (REALS_PER_POINT * real_bytes + sizeof(uint64_t) +
+                                                  PS_SPHERE_DIMENSION * sizeof(double));
+    const double table = (double)(layout->pass_blocks * PS_SPHERE_BLOCK_REALS) * real_bytes +
+                         (double)(layout->pass_orders * sizeof(uint32_t));
     layout->largest_buffer = table;
     layout->fixed_bytes = 2 * table; /* on the host, too */
     layout->bytes_per_realization = sums + powers + points;
@@ -55,7 +53,8 @@ ps_sphere_layout ps_sphere_layout_make(const ps_problem *problem, const ps_devic
                                .precision = precision,
                                .lanes = ps_engine_lanes(limits, precision),
                                .prepare_lanes = ps_engine_lanes(limits, PS_DOUBLE),
-                               .real_bytes = precision == PS_SINGLE ? sizeof(float) : sizeof(double)};
+                               .real_bytes =
+                                   precision == PS_SINGLE ? sizeof(float) : sizeof(double)};
     layout.prepare_lanes =
         layout.prepare_lanes < layout.lanes ? layout.prepare_lanes : layout.lanes;
     layout.stride = ps_round_up((uint64_t)layout.max_degree + 1 + PS_SPHERE_DEGREES, ROW_UNIT);

@@ -59,7 +59,8 @@ pspec_status ps_sphere_points_create(ps_sphere_points *out, const ps_sphere_layo
     PS_TRY(ps_buffer_create(device, &out->values, capacity * NUM_ARRAYS * layout->real_bytes,
                             "directions", error));
     PS_TRY(ps_buffer_create(device, &out->turns, capacity * sizeof(uint64_t), "azimuths", error));
-    PS_TRY(ps_buffer_create(device, &out->weights, capacity * layout->real_bytes, "weights", error));
+    PS_TRY(
+        ps_buffer_create(device, &out->weights, capacity * layout->real_bytes, "weights", error));
     return ps_buffer_create(device, &out->offsets, (batch + 1) * sizeof(uint64_t), "offsets",
                             error);
 }
@@ -94,9 +95,9 @@ static size_t copy_pattern(ps_sphere_points *self, size_t at, const pspec_patter
                num * PS_SPHERE_DIMENSION * sizeof(double));
     }
     for (size_t j = 0; j < num; j++) {
-        self->host_weights[at + j] =
-            pattern->weights != NULL ? ldexp(pattern->weights[first + j], -exponent)
-                                     : ldexp(1, -exponent);
+        self->host_weights[at + j] = pattern->weights != NULL
+                                         ? ldexp(pattern->weights[first + j], -exponent)
+                                         : ldexp(1, -exponent);
     }
     for (size_t j = num; j < padded; j++) {
         memcpy(points + j * PS_SPHERE_DIMENSION, pole, sizeof pole);
@@ -120,9 +121,9 @@ static pspec_status prepare_on_device(ps_sphere_points *self, size_t num, ps_err
     /* Counted in the source: 22 + 40 fused operations and five divisions or roots of about ten. */
     const double flops_per_point = 2 * 62 + 50;
     const size_t vectors = num / self->layout->prepare_lanes;
-    const ps_range range =
-        ps_range_heavy(self->device, vectors, 1, 1, flops_per_point * (double)num,
-                       (double)num * (4 * sizeof(double) + NUM_ARRAYS * (double)self->layout->real_bytes));
+    const ps_range range = ps_range_heavy(
+        self->device, vectors, 1, 1, flops_per_point * (double)num,
+        (double)num * (4 * sizeof(double) + NUM_ARRAYS * (double)self->layout->real_bytes));
     PS_TRY(ps_buffer_write(self->device, &self->points, 0, self->host_points,
                            num * PS_SPHERE_DIMENSION * sizeof(double), error));
     return PS_LAUNCH(self->device, self->prepare, &range, error, PS_BUFFER(self->points),

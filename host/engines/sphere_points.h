@@ -22,7 +22,8 @@ typedef struct ps_sphere_points {
 
 /* layout outlives the points. */
 pspec_status ps_sphere_points_create(ps_sphere_points *out, const ps_sphere_layout *layout,
-                                     size_t batch, ps_device *device, ps_error *error) PS_MUST_CHECK;
+                                     size_t batch, ps_device *device,
+                                     ps_error *error) PS_MUST_CHECK;
 void ps_sphere_points_free(ps_sphere_points *points);
 
 /* Uploads points first .. first + slab - 1 of every pattern of the batch (fewer or none where a pattern is shorter),

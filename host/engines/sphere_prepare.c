@@ -1,6 +1,5 @@
 /* Directions on the host, for devices without double precision: the arithmetic of kernels/sphere/prepare.cl. */
 #define PRECISION 64
-typedef unsigned int uint;
 #include "sphere/direction.h"
 #include "sphere/layout.h"
 
@@ -20,7 +19,8 @@ void ps_sphere_prepare(const double *points, size_t num, bool only_even, ps_prec
         const double *u = points + j * PS_SPHERE_DIMENSION;
         const double turned = u[2] < 0 ? -1 : 1;
         const double flip = only_even ? turned : 1;
-        const direction to = direction_of(u[0] * flip, u[1] * flip, u[2]);
+        const direction to = direction_of(u[0] * flip, u[1] * flip, u[2],
+                                          DIRECTION_SMALLEST(precision == PS_SINGLE ? 32 : 64));
         const double rho = precision == PS_SINGLE ? (double)(float)to.rho : to.rho;
         put(values, precision, ARRAY_T * capacity + j, to.t);
         put(values, precision, ARRAY_SIDE * capacity + j, only_even ? 1 : turned);

@@ -9,7 +9,8 @@
 enum { KAPPA = 0, EPSILON = 8, RATIO = 16, FACTORS = 24 };
 
 size_t ps_sphere_blocks(int32_t max_degree, int32_t m) {
-    return m > max_degree ? 0 : (size_t)ps_divide_up((uint64_t)(max_degree - m) + 1, PS_SPHERE_DEGREES);
+    return m > max_degree ? 0
+                          : (size_t)ps_divide_up((uint64_t)(max_degree - m) + 1, PS_SPHERE_DEGREES);
 }
 
 size_t ps_sphere_all_blocks(int32_t max_degree, int32_t first, size_t num, uint32_t *offsets) {

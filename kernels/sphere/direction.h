@@ -1,16 +1,17 @@
 /* The direction of a vector that is nearly a unit vector: what the sums over spherical harmonics need of it, in
  * double precision without cancellation (mathematics.md 7.5). PRECISION is 64, also in C11.
  *
- * Measured on the host (tests/test_sphere_header.c): relative errors of t and rho below 5e-16, of the azimuth
- * below 6e-17 turns.
+ * Measured on the host (tests/sphere_header_cases.h): relative errors of t and rho below 5e-16, of the azimuth
+ * below 7e-17 turns.
  */
 #ifndef PS_SPHERE_DIRECTION_H
 #define PS_SPHERE_DIRECTION_H
 
 #include "shared/real.h"
 
-/* Below it a point is a pole: |Y_lm| for m > 0 is less than rho l^(3/2), nothing in either precision. */
-#define DIRECTION_SMALLEST_RHO 7.888609052210118e-31 /* 2^-100 */
+/* Below it a point is a pole for sums of this precision (SCALED_SMALLEST of sphere/scaled.h). */
+#define DIRECTION_SMALLEST(precision)                                                              \
+    ((precision) == 64 ? 7.888609052210118e-31 : 5.421010862427522e-20)
 
 /* Fixed point is made of 2^62 ths of a turn, so that half a turn does not overflow a signed word. */
 #define DIRECTION_QUARTER_WORDS 4.611686018427387904e18 /* 2^62 */
@@ -61,12 +62,13 @@ static inline wordv direction_turn(const realv x, const realv y) {
     return AS_WORDV(TO_SWORDV(turns * (realv)DIRECTION_QUARTER_WORDS)) << 2;
 }
 
-static inline direction direction_of(const realv x, const realv y, const realv z) {
+static inline direction direction_of(const realv x, const realv y, const realv z,
+                                     const real smallest_rho) {
     const realv flat2 = fma(x, x, y * y);
     const realv flat = sqrt(flat2);
     const realv length = sqrt(fma(z, z, flat2));
     const realv rho = flat / length;
-    const realv is_off = rho < (realv)DIRECTION_SMALLEST_RHO ? (realv)0 : (realv)1;
+    const realv is_off = rho < (realv)smallest_rho ? (realv)0 : (realv)1;
     const realv divisor = is_off > (realv)0 ? flat : (realv)1;
     direction out;
     out.t = flat2 / (length * (length + fabs(z)));

@@ -27,7 +27,8 @@ __kernel void sphere_power(__global const real *restrict sums, __global real *re
     }
     const uint last = min(first_order + num_orders, (uint)(vector * LANES + LANES));
     for (uint m = first_order; m < last; m++) {
-        __global const real *row = sums + (realization * num_orders + (m - first_order)) * 4 * stride;
+        __global const real *row =
+            sums + (realization * num_orders + (m - first_order)) * 4 * stride;
         realv re = load_global(row, vector);
         realv im = load_global(row + stride, vector);
         if (has_low) {

@@ -47,7 +47,8 @@ __kernel void sphere_prepare(__global const double *restrict points,
     const realv turned = z < (realv)0 ? (realv)-1 : (realv)1;
     const realv side = ONLY_EVEN ? (realv)1 : turned;
     const realv flip = ONLY_EVEN ? turned : (realv)1;
-    const direction to = direction_of(LOADV(0, x[0]) * flip, LOADV(0, x[1]) * flip, z);
+    const direction to = direction_of(LOADV(0, x[0]) * flip, LOADV(0, x[1]) * flip, z,
+                                      DIRECTION_SMALLEST(OUT_PRECISION));
     const realv rho = TO_REALV(TO_OUTV(to.rho));
     put(values, capacity, ARRAY_T, vector, to.t);
     put(values, capacity, ARRAY_SIDE, vector, side);

@@ -10,16 +10,24 @@
 
 #if PRECISION == 64
 #define SCALE_BITS 256
-#define SCALED_UP 1.157920892373162e77     /* 2^256 */
-#define SCALED_DOWN 8.636168555094445e-78  /* 2^-256 */
-#define SCALED_LOW 1.5930919111324523e-58  /* 2^-192 */
-#define SCALED_HIGH 1.8446744073709552e19  /* 2^64 */
+#define SCALED_UP 1.157920892373162e77    /* 2^256 */
+#define SCALED_DOWN 8.636168555094445e-78 /* 2^-256 */
+#define SCALED_LOW 1.5930919111324523e-58 /* 2^-192 */
+#define SCALED_HIGH 1.8446744073709552e19 /* 2^64 */
 #else
 #define SCALE_BITS 64
-#define SCALED_UP 1.8446744073709552e19f    /* 2^64 */
-#define SCALED_DOWN 5.421010862427522e-20f  /* 2^-64 */
-#define SCALED_LOW 3.552713678800501e-15f   /* 2^-48 */
-#define SCALED_HIGH 65536.0f                /* 2^16 */
+#define SCALED_UP 1.8446744073709552e19f   /* 2^64 */
+#define SCALED_DOWN 5.421010862427522e-20f /* 2^-64 */
+#define SCALED_LOW 3.552713678800501e-15f  /* 2^-48 */
+#define SCALED_HIGH 65536.0f               /* 2^16 */
+#endif
+
+/* The smallest number that one normalisation takes back into range after a product, and all that matters of sin theta:
+ * |Y_lm| < rho l^(3/2) for m > 0. */
+#if PRECISION == 64
+#define SCALED_SMALLEST 7.888609052210118e-31 /* 2^-100 */
+#else
+#define SCALED_SMALLEST 5.421010862427522e-20f /* 2^-64 */
 #endif
 
 typedef struct scaled {
@@ -56,6 +64,15 @@ static inline scaled scaled_make(const realv high, const realv low) {
     out.low = low;
     out.scale = (swordv)0;
     return scaled_normalize(out);
+}
+
+/* x times a pair, SCALED_SMALLEST <= high <= 1 or 0, without a low part: off by half a unit. */
+static inline scaled scaled_step(scaled x, const realv high, const realv low) {
+    const realv product = fma(x.high, high, x.high * low);
+    const realv raised = product * (realv)SCALED_UP;
+    x.scale -= product < (realv)SCALED_LOW ? (swordv)1 : (swordv)0;
+    x.high = product < (realv)SCALED_LOW ? raised : product;
+    return x;
 }
 
 /* base^exponent, by squaring: relative error about exponent times that of the pair. */

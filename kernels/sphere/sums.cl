@@ -33,12 +33,6 @@
 #define SUMS (2 * DEGREES)
 #define SUM_ALIGNMENT 16
 
-#if LANES == 1
-#define ANY(x) (x)
-#else
-#define ANY(x) any(x)
-#endif
-
 /* Local memory of a work-item: what the points of a chunk carry from degree to degree and from order to order. */
 #define LOCAL_P 0
 #define LOCAL_E (LOCAL_P + CHUNK)
@@ -47,8 +41,7 @@
 #define LOCAL_SIDE_COSINE (LOCAL_SINE + CHUNK) /* and times the side, for odd l - m */
 #define LOCAL_SIDE_SINE (LOCAL_SIDE_COSINE + CHUNK)
 #define LOCAL_HIGH (LOCAL_SIDE_SINE + CHUNK) /* sin^m(theta) */
-#define LOCAL_LOW (LOCAL_HIGH + CHUNK)
-#define LOCAL_REALS (LOCAL_LOW + CHUNK)
+#define LOCAL_REALS (LOCAL_HIGH + CHUNK)
 
 typedef swordv unaligned_swordv __attribute__((aligned(sizeof(real))));
 typedef PS_VECTOR(ulong) ulongv;
@@ -80,8 +73,8 @@ INLINE void store_scale(__local SWORD *to, const size_t v, const swordv x) {
 /* ---- an order begins ------------------------------------------------------------------------- */
 
 /* The first order of a tile: exact phases, powers in pairs. */
-INLINE void begin_exactly(const chunk *at, const size_t v, const uint m, realv *cosine,
-                          realv *sine, scaled *power) {
+INLINE void begin_exactly(const chunk *at, const size_t v, const uint m, realv *cosine, realv *sine,
+                          scaled *power) {
     const realv weight = load_global(at->weights, v);
     ulongv turn;
 #if LANES == 1
@@ -96,13 +89,12 @@ INLINE void begin_exactly(const chunk *at, const size_t v, const uint m, realv *
 #endif
     *cosine *= weight;
     *sine *= weight;
-    *power = scaled_power(
-        scaled_make(get_value(at, ARRAY_RHO, v), get_value(at, ARRAY_RHO_REST, v)), m);
+    *power =
+        scaled_power(scaled_make(get_value(at, ARRAY_RHO, v), get_value(at, ARRAY_RHO_REST, v)), m);
 }
 
 /* Any other from the one before it. */
-INLINE void begin_next(const chunk *at, const size_t v, realv *cosine, realv *sine,
-                       scaled *power) {
+INLINE void begin_next(const chunk *at, const size_t v, realv *cosine, realv *sine, scaled *power) {
     const realv c = get_value(at, ARRAY_COSINE, v);
     const realv s = get_value(at, ARRAY_SINE, v);
     const realv old_cosine = load_local(at->memory + LOCAL_COSINE, v);
@@ -110,10 +102,8 @@ INLINE void begin_next(const chunk *at, const size_t v, realv *cosine, realv *si
     *cosine = fma(old_cosine, c, -(old_sine * s));
     *sine = fma(old_cosine, s, old_sine * c);
     power->high = load_local(at->memory + LOCAL_HIGH, v);
-    power->low = load_local(at->memory + LOCAL_LOW, v);
     power->scale = load_scale(at->scales, v);
-    *power = scaled_multiply(
-        *power, scaled_make(get_value(at, ARRAY_RHO, v), get_value(at, ARRAY_RHO_REST, v)));
+    *power = scaled_step(*power, get_value(at, ARRAY_RHO, v), get_value(at, ARRAY_RHO_REST, v));
 }
 
 INLINE void begin_order(const chunk *at, const size_t v, const uint m, const int exactly) {
@@ -130,7 +120,6 @@ INLINE void begin_order(const chunk *at, const size_t v, const uint m, const int
     store_local(at->memory + LOCAL_SIDE_COSINE, v, cosine * side);
     store_local(at->memory + LOCAL_SIDE_SINE, v, sine * side);
     store_local(at->memory + LOCAL_HIGH, v, power.high);
-    store_local(at->memory + LOCAL_LOW, v, power.low);
     store_scale(at->scales, v, power.scale);
 
     /* A number of scale -1 is not too small for scale 0; a pole has nothing to scale. */
@@ -141,10 +130,18 @@ INLINE void begin_order(const chunk *at, const size_t v, const uint m, const int
     store_local(at->memory + LOCAL_P, v, p);
     store_local(at->memory + LOCAL_E, v, (realv)0);
     store_scale(at->scales + CHUNK, v, scale);
-    at->is_scaled[v] = ANY(scale < (swordv)0) ? 1 : 0;
+    at->is_scaled[v] = any_negative(scale);
 }
 
 /* ---- a block of degrees ---------------------------------------------------------------------- */
+
+/* One degree: written out for the same reason as in sphere/lane_sums.h. */
+#define WALK(i)                                                                                    \
+    if ((i) % step == first) {                                                                     \
+        sums[i] = fma(c[(i) % 2], *p, sums[i]);                                                    \
+        sums[DEGREES + (i)] = fma(s[(i) % 2], *p, sums[DEGREES + (i)]);                            \
+    }                                                                                              \
+    legendre_step(p, e, t, block, (i) + 1);
 
 /* Adds the degrees first, first + step, .. of a block up, and takes the state to the next block. */
 INLINE void walk(const chunk *at, const size_t v, TABLE *block, const realv factor,
@@ -157,28 +154,27 @@ INLINE void walk(const chunk *at, const size_t v, TABLE *block, const realv fact
     c[1] = load_local(at->memory + LOCAL_SIDE_COSINE, v);
     s[1] = load_local(at->memory + LOCAL_SIDE_SINE, v);
     if (is_weighed) {
-#pragma unroll
-        for (int i = 0; i < 2; i++) {
-            c[i] *= factor;
-            s[i] *= factor;
-        }
+        c[0] *= factor;
+        s[0] *= factor;
+        c[1] *= factor;
+        s[1] *= factor;
     }
     *p = load_local(at->memory + LOCAL_P, v);
     *e = load_local(at->memory + LOCAL_E, v);
-#pragma unroll
-    for (int i = 0; i < DEGREES; i++) {
-        if (i >= first && (i - first) % step == 0) {
-            sums[i] = fma(c[i % 2], *p, sums[i]);
-            sums[DEGREES + i] = fma(s[i % 2], *p, sums[DEGREES + i]);
-        }
-        legendre_step(p, e, t, block, i + 1);
-    }
+    WALK(0)
+    WALK(1)
+    WALK(2)
+    WALK(3)
+    WALK(4)
+    WALK(5)
+    WALK(6)
+    WALK(7)
     legendre_enter(p, e, block);
 }
 
 /* Points with an exponent. */
-INLINE void walk_scaled(const chunk *at, const size_t v, TABLE *block, realv *sums,
-                        const int first, const int step) {
+INLINE void walk_scaled(const chunk *at, const size_t v, TABLE *block, realv *sums, const int first,
+                        const int step) {
     swordv scale = load_scale(at->scales + CHUNK, v);
     const realv below = scale == (swordv)-1 ? (realv)SCALED_DOWN : (realv)0;
     const realv factor = scale == (swordv)0 ? (realv)1 : below;
@@ -191,17 +187,13 @@ INLINE void walk_scaled(const chunk *at, const size_t v, TABLE *block, realv *su
     store_local(at->memory + LOCAL_P, v, p * down);
     store_local(at->memory + LOCAL_E, v, e * down);
     store_scale(at->scales + CHUNK, v, scale);
-    at->is_scaled[v] = ANY(scale < (swordv)0) ? 1 : 0;
+    at->is_scaled[v] = any_negative(scale);
 }
 
 /* The sums of a block over the points of a chunk: SUMS numbers. */
 INLINE void add_block(const chunk *at, TABLE *block, const int first, const int step,
                       real *totals) {
-    realv sums[SUMS];
-#pragma unroll
-    for (int i = 0; i < SUMS; i++) {
-        sums[i] = (realv)0;
-    }
+    realv sums[SUMS] = {(realv)0};
     for (size_t v = 0; v < at->num_vectors; v++) {
         if (at->is_scaled[v]) {
             walk_scaled(at, v, block, sums, first, step);
@@ -212,7 +204,7 @@ INLINE void add_block(const chunk *at, TABLE *block, const int first, const int 
             store_local(at->memory + LOCAL_E, v, e);
         }
     }
-    sum_lanes(sums, SUMS, totals);
+    sum_lanes(sums, totals);
 }
 
 /* ---- what a chunk adds to an order ----------------------------------------------------------- */
@@ -228,8 +220,7 @@ INLINE void put_block(__global real *row, const ulong stride, TABLE *block, cons
                 const real old = to[i];
                 const real sum = old + high;
                 const real part_of_sum = sum - old;
-                low = to[2 * stride + i] +
-                      ((old - (sum - part_of_sum)) + (high - part_of_sum));
+                low = to[2 * stride + i] + ((old - (sum - part_of_sum)) + (high - part_of_sum));
                 high = sum;
             }
             to[i] = high;
@@ -249,8 +240,7 @@ INLINE void clear_below(__global real *row, const ulong stride, const uint m, co
 }
 
 INLINE void add_order(const chunk *at, TABLE *block, __global real *row, const ulong stride,
-                      const uint m, const uint max_degree, const int has_low,
-                      const int is_first) {
+                      const uint m, const uint max_degree, const int has_low, const int is_first) {
     real totals[SUMS];
     for (uint l = m; l <= max_degree; l += DEGREES) {
 #if ONLY_EVEN
