@@ -97,26 +97,25 @@ static void make_unit_vectors(double *points, size_t num) {
     }
 }
 
-void bench_job_create(bench_job *job, const ps_engine *engine, ps_precision precision,
-                      double tolerance, ps_device *device, ps_frequencies frequencies,
-                      size_t num_points, size_t num_realizations) {
+void bench_job_create_for(bench_job *job, const ps_engine *engine, ps_precision precision,
+                          const ps_problem *problem, ps_device *device) {
+    const size_t num_points = (size_t)problem->num_points;
+    const size_t num_realizations = (size_t)problem->num_realizations;
+    const unsigned dimension = problem->frequencies->dimension;
     *job = (bench_job){.engine = engine,
                        .precision = precision,
                        .device = device,
-                       .frequencies = frequencies,
+                       .frequencies = *problem->frequencies,
                        .num_points = num_points,
                        .num_realizations = num_realizations};
-    const unsigned dimension = frequencies.dimension;
+    ps_problem own = *problem;
+    own.frequencies = &job->frequencies;
     BENCH_TRY(ps_frequencies_enumerate(&job->frequencies, error));
-    const ps_problem problem = {.frequencies = &job->frequencies,
-                                .num_points = num_points,
-                                .num_realizations = num_realizations,
-                                .tolerance = tolerance};
     const ps_device_limits *limits = ps_device_get_limits(device);
-    const ps_work work = engine->work(&problem, limits, precision);
+    const ps_work work = engine->work(&own, limits, precision);
     job->batch = ps_cost_batch(&work, limits, num_realizations);
     job->points = bench_uniform(num_points * dimension * num_realizations, num_points);
-    if (frequencies.kind == PS_FREQUENCIES_DEGREES) {
+    if (job->frequencies.kind == PS_FREQUENCIES_DEGREES) {
         make_unit_vectors(job->points, num_points * num_realizations);
     }
     job->patterns = allocate(num_realizations, sizeof *job->patterns);
@@ -127,8 +126,18 @@ void bench_job_create(bench_job *job, const ps_engine *engine, ps_precision prec
             (pspec_pattern){dimension, num_points, job->points + r * num_points * dimension, NULL};
         job->scales[r] = 1 / (double)num_points;
     }
-    BENCH_TRY(engine->create(&job->state, &problem, precision, job->batch, device, error));
+    BENCH_TRY(engine->create(&job->state, &own, precision, job->batch, device, error));
     engine->get_slots(job->state, job->slots);
+}
+
+void bench_job_create(bench_job *job, const ps_engine *engine, ps_precision precision,
+                      double tolerance, ps_device *device, ps_frequencies frequencies,
+                      size_t num_points, size_t num_realizations) {
+    const ps_problem problem = {.frequencies = &frequencies,
+                                .num_points = num_points,
+                                .num_realizations = num_realizations,
+                                .tolerance = tolerance};
+    bench_job_create_for(job, engine, precision, &problem, device);
 }
 
 double bench_job_run(bench_job *job, ps_rows *rows) {

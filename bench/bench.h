@@ -55,6 +55,9 @@ typedef struct bench_job {
 void bench_job_create(bench_job *job, const ps_engine *engine, ps_precision precision,
                       double tolerance, ps_device *device, ps_frequencies frequencies,
                       size_t num_points, size_t num_realizations);
+/* The same for a problem, whose frequencies the job takes over. */
+void bench_job_create_for(bench_job *job, const ps_engine *engine, ps_precision precision,
+                          const ps_problem *problem, ps_device *device);
 /* All realizations once; seconds. rows are those of the last batch. */
 double bench_job_run(bench_job *job, ps_rows *rows);
 /* Root mean square of | |S| - |S_referee| | over some frequencies of the first realization, in units

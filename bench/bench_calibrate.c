@@ -1,9 +1,11 @@
-/* Measures the rates of host/plan/cost_model.c on this machine and prints them as they stand there.
+/* Measures the rates of host/plan/cost_model.c and the cycles of host/engines/nufft_cost.c on this machine and prints
+ * them as they stand there. Rates are shares of what those cycles allow: new cycles first, then the rates again.
  *
  * Run on a quiet machine; a busy neighbour makes everything up to twice as slow. The best of several
  * runs is taken, since nothing but disturbance makes a run slower.
  */
 #include "bench.h"
+#include "cycles.h"
 
 #include "engines/host_direct.h"
 #include "engines/sphere_direct.h"
@@ -47,7 +49,7 @@ static double measure(ps_device *device, const ps_engine *engine, ps_precision p
     return seconds;
 }
 
-/* Small and large grids: the geometric mean of what the cycles of host/engines/nufft_choice.c are worth. */
+/* Small and large grids: the geometric mean of what the cycles of host/engines/nufft_cost.c are worth. */
 static double transform_share(ps_device *device, ps_precision precision) {
     const double peak = ps_cost_nominal_flops(ps_device_get_limits(device), precision);
     ps_work small;
@@ -123,5 +125,6 @@ int main(void) {
     }
     printf("host_seconds_per_phase = %.2g\n", host_seconds_per_phase());
     ps_device_close(device);
+    bench_calibrate_cycles(getenv("POINTSPEC_DEVICE"));
     return 0;
 }

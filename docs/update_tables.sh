@@ -29,9 +29,12 @@ table_bench_errors() { bench errors; }
 table_bench_memory() { bench memory; }
 table_bench_library() { bench library; }
 
-# Minutes; it also writes bench-output/peers.csv, which make_figures.sh draws.
+# A quarter of an hour, less with PEERS_OPTIONS=--quick; it also writes bench-output/peers.csv, which make_figures.sh
+# draws.
 table_bench_peers() {
-    need libpointspec.so && "$docs/../bench/bench_peers.sh" --build "$build"
+    local options
+    read -r -a options <<<"${PEERS_OPTIONS-}"
+    need libpointspec.so && "$docs/../bench/bench_peers.sh" --build "$build" "${options[@]}"
 }
 
 # What the last ./dev fuzz printed.
@@ -127,10 +130,27 @@ table_slack_nufft() {
         }'
 }
 
-# What the program does with every fault, by command line.
+# What the program does with every fault, by command line. FAULTS_ONLY=NAME[,NAME...] runs these command lines
+# alone, for all take the better part of an hour; the other rows stay as they are on the page.
 table_faults() {
     need tests/faults/pointspec_faults || return 1
-    POCL_CACHE_DIR=$build/pocl-cache "$docs/../tests/faults/run_faults.sh" "$build/tests/faults/pointspec_faults" --table
+    POCL_CACHE_DIR=$build/pocl-cache "$docs/../tests/faults/run_faults.sh" "$build/tests/faults/pointspec_faults" \
+        --table ${FAULTS_ONLY:+--only "$FAULTS_ONLY"} >"$scratch/rows" || return 1
+    [[ -n ${FAULTS_ONLY-} ]] || { cat "$scratch/rows"; return; }
+    # New rows hide old ones, in the order of the command lines; the last row is their sum.
+    sed -n '/^<!-- table: faults -->$/,/^<!-- end -->$/p' "$docs/reliability.md" | cat - "$scratch/rows" |
+        awk -v list="$docs/../tests/faults/commands.txt" '
+            $1 == "command" { head = $0 }
+            NF == 7 && $1 != "all" { row[$1] = $0 }
+            END {
+                print head
+                while ((getline line < list) > 0) {
+                    split(line, word)
+                    if (word[1] in row) print row[word[1]]
+                }
+                for (name in row) { n = split(row[name], cell); for (i = 2; i <= n; i++) sum[i] += cell[i] }
+                printf "%-16s %7s %7s %7s %10s %8s %7s\n", "all", sum[2], sum[3], sum[4], sum[5], sum[6], sum[7]
+            }'
 }
 
 # Error and time against PS_TORUS_RUN: the kernels from disk, with the length of a run put in.

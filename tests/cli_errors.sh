@@ -96,6 +96,18 @@ for command in sample power; do
     refuses 2 'sampler jittered' $command -o r --sampler jittered -n 1021
     refuses 2 'is not between 2 and 2' $command -o r --sampler larcher-pillichshammer -d 3
     refuses 2 'not a power of 2' $command -o r --sampler larcher-pillichshammer -n 1000
+    refuses 2 'without lift=' $command -o r --sampler spiral:lift=sphere
+    refuses 2 'lift=ball is not one of none, sphere, hemisphere' $command -o r --sampler halton:lift=ball
+done
+refuses 2 'leave the dimension away' sample -o r --sampler fibonacci -d 2
+refuses 2 'leave the dimension away' sample -o r --sampler jittered:lift=sphere -d 2
+refuses 2 'use 972 (nside=9) or 1200 (nside=10)' sample -o r --sampler healpix -n 1000
+refuses 2 'needs a number of points 12 nside^2, or nside=' sample -o r --sampler healpix-jittered
+refuses 2 'nside=8 makes 768 points, but 1000' sample -o r --sampler healpix:nside=8 -n 1000
+refuses 2 'gbn does not hold vectors' sample -o r --sampler fibonacci --format gbn
+for sampler in fibonacci healpix sobol:lift=hemisphere; do
+    refuses 2 'makes points of the sphere, and this spectrum is of the torus' power -o r --sampler $sampler
+    refuses 2 'makes points of the sphere, and this spectrum is of the torus' plan power --sampler $sampler
 done
 
 # ---- point files

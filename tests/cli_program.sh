@@ -43,7 +43,7 @@ quietly help sample
 cp out help
 quietly sample --help
 cmp -s help out || complain "help sample and sample --help differ"
-for name in white jittered sobol :scramble=none :strata=auto; do
+for name in white jittered sobol :scramble=none :strata=auto fibonacci :nside=auto :lift=none; do
     grep -q -e "^ *$name " out || complain "sample --help does not name $name"
 done
 [[ $(wc -L <out) -le 80 ]] || complain "sample --help is $(wc -L <out) columns wide"
@@ -68,6 +68,16 @@ quietly sample --sampler white -n 10 -m 3 -d 3 --format npy
 cp out stream.npy
 quietly sample --sampler white -n 10 -m 3 -d 3 -o points.npy
 cmp -s stream.npy points.npy || complain "--format npy and .npy differ"
+
+# ---- sample: the sphere
+quietly sample --sampler fibonacci -n 100 -m 2 --homogenize -o sphere.npy
+for format in utk-text csv utk-binary npy; do
+    quietly sample --sampler fibonacci -n 100 -m 2 --homogenize --format $format -o "sphere.$format" -d 3
+    quietly convert --domain sphere --input-format $format "sphere.$format" -o back.npy
+    cmp -s sphere.npy back.npy || complain "sample and convert: other vectors in $format"
+done
+quietly sample --sampler healpix:nside=3
+[[ $(wc -l <out) == 108 ]] || complain "nside=3: $(wc -l <out) points"
 grep -aq "'shape': (3, 10, 3)" points.npy || complain "shape in NPY"
 quietly power -k 4 --no-self-check points.npy
 grep -v '^# ' out >from_npy

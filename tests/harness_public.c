@@ -40,8 +40,9 @@ bool test_is_same_spectrum(const pspec_spectrum *a, const pspec_spectrum *b, boo
     }
     const int32_t *vectors = pspec_spectrum_frequencies(a, &num);
     const int32_t *vectors_b = pspec_spectrum_frequencies(b, &num_b);
-    const unsigned dimension = pspec_spectrum_dimension(a);
-    return num == num_b && memcmp(vectors, vectors_b, num * dimension * sizeof *vectors) == 0 &&
+    const unsigned num_components = pspec_spectrum_components(a);
+    return num == num_b &&
+           memcmp(vectors, vectors_b, num * num_components * sizeof *vectors) == 0 &&
            pspec_spectrum_num_realizations(a) == pspec_spectrum_num_realizations(b) &&
            pspec_spectrum_mean_points(a) == pspec_spectrum_mean_points(b) &&
            pspec_spectrum_error(a) == pspec_spectrum_error(b) &&

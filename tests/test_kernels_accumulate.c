@@ -83,12 +83,15 @@ static void free_table(ring_table *table) {
     free(table->members);
 }
 
-/* What a launch is given; state NULL: bins alone; mean_only: no squares, two rows of state. */
+/* Sums of frequencies, as the kernel has them: of powers and of squares, in pairs. */
+enum { NUM_STATES = 4 };
+
+/* What a launch is given; states NULL: bins alone; mean_only: no squares, the last two are not touched. */
 typedef struct launch {
     const build *one;
     size_t group, stride;
     const ring_table *table;
-    const test_memory *sums, *state;
+    const test_memory *sums, *states;
     bool mean_only;
 } launch;
 
@@ -97,7 +100,7 @@ static void launch_blocks(const launch *with, const double *power, size_t num_ro
     const ring_table *table = with->table;
     cl_kernel kernel =
         test_kernel(device, "accumulate/blocks.cl",
-                    with->state != NULL ? "accumulate_bins_and_frequencies" : "accumulate_bins",
+                    with->states != NULL ? "accumulate_bins_and_frequencies" : "accumulate_bins",
                     "-DPRECISION=%u -DLANES=%u -DSQUARES=%d", one->precision, one->lanes,
                     with->mean_only ? 0 : 1);
     test_memory rows = test_reals_create(device, one->precision, power, num_rows * with->stride);
@@ -108,12 +111,13 @@ static void launch_blocks(const launch *with, const double *power, size_t num_ro
     test_memory members =
         test_memory_create(device, table->members, table->num_members * sizeof *table->members);
     const ps_argument block = PS_LOCAL(BLOCK * one->lanes * one->precision / 8);
-    if (with->state != NULL) {
+    if (with->states != NULL) {
         TEST_LAUNCH(device, kernel, with->group, 1, table->num_blocks, 1, PS_BUFFER(rows.buffer),
                     PS_U32(num_rows), PS_U64(with->stride), PS_BUFFER(first_rings.buffer),
                     PS_BUFFER(rings.buffer), PS_BUFFER(members.buffer),
                     PS_BUFFER(with->sums->buffer), PS_U64(table->num_rings),
-                    PS_BUFFER(with->state->buffer), block);
+                    PS_BUFFER(with->states[0].buffer), PS_BUFFER(with->states[1].buffer),
+                    PS_BUFFER(with->states[2].buffer), PS_BUFFER(with->states[3].buffer), block);
     } else {
         TEST_LAUNCH(device, kernel, with->group, 1, table->num_blocks, 1, PS_BUFFER(rows.buffer),
                     PS_U32(num_rows), PS_U64(with->stride), PS_BUFFER(first_rings.buffer),
@@ -170,31 +174,37 @@ static double largest_power(unsigned precision) {
     return precision == 64 ? 0x1p32 : 0x1p16;
 }
 
-static void check_state(const launch *with, const double *power, size_t num_rows) {
+static void check_states(const launch *with, const double *power, size_t num_rows) {
     const size_t stride = with->stride;
-    double *found = test_reals_read(with->state, with->one->precision);
+    double *found[NUM_STATES];
+    for (size_t i = 0; i < NUM_STATES; i++) {
+        found[i] = test_reals_read(&with->states[i], with->one->precision);
+    }
     for (size_t i = 0; i < stride; i++) {
         wide sum = 0, squares = 0;
         for (size_t r = 0; r < num_rows; r++) {
             const int64_t p = (int64_t)power[r * stride + i];
             sum += p;
-            squares += (wide)p * p;
+            squares += with->mean_only ? 0 : (wide)p * p;
         }
-        assert_true((wide)found[i] + (wide)found[stride + i] == sum);
-        assert_true(with->mean_only ||
-                    (wide)found[2 * stride + i] + (wide)found[3 * stride + i] == squares);
+        assert_true((wide)found[0][i] + (wide)found[1][i] == sum);
+        assert_true((wide)found[2][i] + (wide)found[3][i] == squares);
     }
-    free(found);
+    for (size_t i = 0; i < NUM_STATES; i++) {
+        free(found[i]);
+    }
 }
 
 /* Batches of 7, 0, 1 and 32 realizations, one after the other. */
 static void run_batches(launch with, const double *power) {
     const size_t batches[] = {7, 0, 1, 32};
-    const size_t entries = (with.mean_only ? 2 : 4) * with.stride;
-    double *zeros = calloc(entries, sizeof *zeros);
-    test_memory state = test_reals_create(device, with.one->precision, zeros, entries);
+    double *zeros = calloc(with.stride, sizeof *zeros);
+    test_memory states[NUM_STATES];
     size_t done = 0;
-    with.state = &state;
+    for (size_t i = 0; i < NUM_STATES; i++) {
+        states[i] = test_reals_create(device, with.one->precision, zeros, with.stride);
+    }
+    with.states = states;
     for (size_t b = 0; b < 4; b++) {
         test_memory sums = create_sums(with.one, batches[b], with.table->num_rings);
         with.sums = &sums;
@@ -202,9 +212,11 @@ static void run_batches(launch with, const double *power) {
         check_pieces(&with, power + done * with.stride, batches[b]);
         test_memory_free(&sums);
         done += batches[b];
-        check_state(&with, power, done);
+        check_states(&with, power, done);
     }
-    test_memory_free(&state);
+    for (size_t i = 0; i < NUM_STATES; i++) {
+        test_memory_free(&states[i]);
+    }
     free(zeros);
 }
 

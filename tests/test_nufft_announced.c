@@ -100,9 +100,39 @@ static void as_announced(void **state) {
     }
 }
 
+static double created_for(const ps_problem *problem, uint64_t num_realizations) {
+    ps_problem planned = *problem;
+    void *engine = NULL;
+    planned.num_realizations = num_realizations;
+    bytes_created = 0;
+    assert_ok(ps_torus_nufft.create(&engine, &planned, PS_SINGLE, 1, device, error));
+    ps_torus_nufft.destroy(engine);
+    return bytes_created;
+}
+
+/* Memory of a batch is that of its realizations, however many were planned: tiles, rows, whole realizations. */
+static void batches_of_one(void **state) {
+    (void)state;
+    static const announced_case smaller[] = {
+        {2, 200, 300, 100, 1e-3, 0}, {3, 20, 100, 100, 1e-3, 0}, {2, 40, 20000, 100, 1e-3, 0}};
+    for (size_t i = 0; i < sizeof smaller / sizeof smaller[0]; i++) {
+        ps_frequencies set = {0};
+        assert_ok(ps_frequencies_lattice(&set, smaller[i].dimension, smaller[i].max_frequency,
+                                         false, error));
+        const ps_problem problem = {.frequencies = &set,
+                                    .num_points = smaller[i].num_points,
+                                    .tolerance = smaller[i].tolerance};
+        const double one = created_for(&problem, 1);
+        const double many = created_for(&problem, smaller[i].num_realizations);
+        assert_true(many == one);
+        ps_frequencies_free(&set);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(as_announced),
+        cmocka_unit_test(batches_of_one),
     };
     ps_error error = {0};
     if (ps_device_open(&device, getenv("POINTSPEC_DEVICE"), true, &error) != PSPEC_OK) {

@@ -15,17 +15,19 @@ from peer_ducc0 import Ducc0
 from peer_finufft import Finufft
 from peer_nfft import Nfft
 from points import Points
-from pointspec import Pointspec
+from pointspec import ENGINES, Pointspec
 from reference import Reference
 from report import MICRO, CsvFile, Result, Table
 from timing import Contestant, alternate, ratio
 from tune import Tuner
 
 PEERS = {"finufft": Finufft, "ducc0": Ducc0, "nfft": Nfft}
+BESIDE = "torus_direct"  # the engine that has a column of its own; all are in the CSV file and the picture
 LOOSE = "finufft fp32"  # single precision with eps as asked, whatever its error
 LOOSE_TOLERANCE = 1e-6  # single precision is asked for down to here
 SECONDS, QUICK_SECONDS = 2.0, 0.4
 SKIP_SECONDS = 5.0
+ENGINE_SECONDS = 0.5  # of a realization; engines that were not chosen are to cost little of a run
 
 
 def parse_arguments():
@@ -43,6 +45,9 @@ def parse_arguments():
     parser.add_argument("--quick", action="store_true", help=f"a budget of {QUICK_SECONDS:g}")
     parser.add_argument("--skip-above", type=float, default=SKIP_SECONDS, metavar="SECONDS",
                         help="leave pointspec out when its plan says that a realization takes longer")
+    parser.add_argument("--engines-above", type=float, default=ENGINE_SECONDS, metavar="SECONDS",
+                        help="leave an engine that was not chosen out when its plan says that a realization "
+                             f"takes longer; default {ENGINE_SECONDS:g}, 0: only the chosen one")
     parser.add_argument("--output", type=Path, default=Path("bench-output/peers.csv"))
     parser.add_argument("--folder", type=Path, default=Path("build/peers"), help="what is installed")
     parser.add_argument("--build", type=Path, default=Path("build/release"))
@@ -79,26 +84,40 @@ def enter_peer(name, peer, points, tuner, candidates):
     return Contestant(name, runner, points.count), peer.version, setting, error
 
 
-def enter_pointspec(pointspec, points, reference, tolerance, arguments):
+def enter_pointspec(pointspec, points, reference, tolerance, name, engine, longest):
+    """engine: a name to force, or None for the choice of the planner. A contestant, or None: which is said."""
     case = points.case
     try:
-        planned = pointspec.planned_seconds(case, tolerance)
-        if planned > arguments.skip_above:
-            say(f"# pointspec left out: {planned:.0f} s for a realization, says its plan")
+        planned = pointspec.plan(case, tolerance, engine).seconds
+        if planned > longest:
+            say(f"# {case} {tolerance:.0e}: {name} left out: {planned:.2g} s for a realization, says its plan, "
+                f"above {longest:g} s")
             return None
-        runner = pointspec.open(points, tolerance)
+        runner = pointspec.open(points, tolerance, engine)
         magnitudes, claimed = runner.magnitudes(0)
     except RuntimeError as error:
-        say(f"# pointspec left out: {error}")
+        say(f"# {case} {tolerance:.0e}: {name} left out: {error}")
         return None
     error = reference.error_of_magnitudes(magnitudes)
-    return Contestant("pointspec", runner, points.count), pointspec.version, runner.text, error, claimed
+    return Contestant(name, runner, points.count), pointspec.version, runner.text, error, claimed
+
+
+def enter_ours(pointspec, points, reference, tolerance, arguments):
+    """What the planner chooses, and the other engines under their own names."""
+    entries = [enter_pointspec(pointspec, points, reference, tolerance, "pointspec", arguments.engine,
+                               arguments.skip_above)]
+    if arguments.engine or arguments.engines_above <= 0:
+        return entries
+    chosen = pointspec.plan(points.case, tolerance, None).engine
+    return entries + [enter_pointspec(pointspec, points, reference, tolerance, engine, engine,
+                                      arguments.engines_above)
+                      for engine in ENGINES if engine != chosen]
 
 
 def compare(case, tolerance, points, reference, tuners, pointspec, arguments):
     entries = []
     if pointspec is not None:
-        entries.append(enter_pointspec(pointspec, points, reference, tolerance, arguments))
+        entries += enter_ours(pointspec, points, reference, tolerance, arguments)
     for tuner in tuners:
         peer = tuner.peer
         entries.append(enter_peer(peer.name, peer, points, tuner, tuner.candidates(tolerance)))
@@ -117,7 +136,7 @@ def compare(case, tolerance, points, reference, tuners, pointspec, arguments):
 def ratios(results):
     """(name of the best peer that meets the tolerance, its time over ours, the same for LOOSE)."""
     ours = [result for result in results if result.name == "pointspec"]
-    peers = [result for result in results if result.name not in ("pointspec", LOOSE)]
+    peers = [result for result in results if result.name not in ("pointspec", *ENGINES, LOOSE)]
     loose = [result for result in results if result.name == LOOSE]
     best = min(peers, key=lambda result: result.seconds, default=None)
     name = best.name if best else None
@@ -140,12 +159,12 @@ def main():
     peers = open_peers(arguments)
     pointspec = None
     if not arguments.no_pointspec:
-        pointspec = Pointspec(arguments.build.resolve(), arguments.engine)
+        pointspec = Pointspec(arguments.build.resolve())
         print(f"# pointspec {pointspec.version}")
     if not any(peer.name in ("finufft", "ducc0") for peer in peers):
         sys.exit("peers: neither finufft nor ducc0 is there to compute a reference")
     csv_file = CsvFile(arguments.output)
-    names = ["pointspec"] * (pointspec is not None)
+    names = ["pointspec", BESIDE] if pointspec is not None else []
     for peer in peers:
         names += [peer.name] + [LOOSE] * (peer.name == "finufft")
     table = Table(names)

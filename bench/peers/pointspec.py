@@ -5,8 +5,16 @@ import csv
 import ctypes
 import subprocess
 import time
+from typing import NamedTuple
 
 import numpy as np
+
+ENGINES = ["torus_nufft", "torus_direct", "host_direct"]
+
+
+class Planned(NamedTuple):
+    engine: str
+    seconds: float  # of a realization
 
 
 class Request(ctypes.Structure):
@@ -47,9 +55,8 @@ class Pattern(ctypes.Structure):
 class Pointspec:
     name = "pointspec"
 
-    def __init__(self, build, engine):
+    def __init__(self, build):
         self.program = build / "pointspec"
-        self.engine = engine
         self.library = library = ctypes.CDLL(str(build / "libpointspec.so"))
         library.pspec_version.restype = ctypes.c_char_p
         library.pspec_context_create.restype = ctypes.c_void_p
@@ -64,31 +71,34 @@ class Pointspec:
         if status:
             raise RuntimeError(self.library.pspec_context_message(self.context).decode())
 
-    def planned_seconds(self, case, tolerance):
-        """Of one realization, as `pointspec plan` has it."""
+    def plan(self, case, tolerance, engine):
+        """What `pointspec plan` chooses, of all or with this engine."""
         command = [
             self.program, "plan", "power", "--sampler", "white", "-n", case.points,
             "-m", case.realizations, "-d", case.dimension, "-k", case.max_frequency,
-            "--tol", tolerance] + (["--engine", self.engine] if self.engine else [])
+            "--tol", tolerance] + (["--engine", engine] if engine else [])
         done = subprocess.run([str(word) for word in command], capture_output=True, text=True)
         if done.returncode:
             raise RuntimeError(done.stderr.strip().splitlines()[-1])
         table = csv.DictReader(line for line in done.stdout.splitlines() if line[:1] != "#")
-        chosen = [row for row in table if row["verdict"] == "chosen"]
-        return float(chosen[0]["seconds"]) / case.realizations
+        chosen = next((row for row in table if row["verdict"] == "chosen"), None)
+        if chosen is None:
+            raise RuntimeError(f"{engine or 'no engine'} cannot do this")
+        engine = chosen["engine"].partition(":")[0]  # without the precision
+        return Planned(engine, float(chosen["seconds"]) / case.realizations)
 
-    def open(self, points, tolerance):
-        return PointspecRunner(self, points, tolerance)
+    def open(self, points, tolerance, engine):
+        return PointspecRunner(self, points, tolerance, engine)
 
 
 class PointspecRunner:
-    def __init__(self, peer, points, tolerance):
+    def __init__(self, peer, points, tolerance, engine):
         self.peer, self.points, self.library = peer, points, peer.library
         case = points.case
         self.request = Request(
             struct_size=ctypes.sizeof(Request), dimension=case.dimension, num_points=case.points,
             num_realizations=case.realizations, max_frequency=case.max_frequency,
-            tolerance=tolerance, engine=peer.engine.encode() if peer.engine else None, no_self_check=1)
+            tolerance=tolerance, engine=engine.encode() if engine else None, no_self_check=1)
         self.plan = ctypes.c_void_p()
         peer.check(self.library.pspec_plan_create(
             ctypes.byref(self.plan), peer.context, ctypes.byref(self.request)))

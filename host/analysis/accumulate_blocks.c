@@ -1,6 +1,7 @@
 #include "analysis/accumulate_blocks.h"
 
 #include "base/memory.h"
+#include "base/round.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -91,8 +92,7 @@ pspec_status ps_accumulate_blocks_create(ps_accumulate_blocks *out, const ps_bin
                                          const uint32_t *slots, size_t stride, ps_error *error) {
     void *memory = NULL;
     *out = (ps_accumulate_blocks){.num_bins = bins->num,
-                                  .num_blocks =
-                                      (stride + PS_ACCUMULATE_BLOCK - 1) / PS_ACCUMULATE_BLOCK};
+                                  .num_blocks = ps_divide_up(stride, PS_ACCUMULATE_BLOCK)};
     PS_TRY(ps_allocate(&memory, out->num_blocks, sizeof(cursor), "bins", error));
     cursor *cursors = memory;
     count(out, bins, slots, cursors);

@@ -2,16 +2,22 @@
 
 #include "analysis/accumulate_blocks.h"
 #include "base/memory.h"
+#include "base/round.h"
+#include "base/workers.h"
 
 #include <stdlib.h>
+
+/* Sums per frequency, and of squares, in pairs. */
+enum { SUM, SUM_LOW, SQUARE, SQUARE_LOW, NUM_STATES };
 
 struct ps_device_accumulator {
     ps_device *device;
     ps_accumulator_options options; /* lanes: those of the accumulator */
     size_t real_bytes, num_groups, num_blocks, num_pieces, num_members;
     cl_kernel blocks, fold;
-    ps_buffer first_rings, rings, members, bin_pieces, piece_sums, bin_sums, state;
-    void *host; /* staging for bin sums, and for the state of one part */
+    ps_buffer first_rings, rings, members, bin_pieces, piece_sums, bin_sums;
+    ps_buffer states[NUM_STATES]; /* a buffer each: none is larger than a row of powers */
+    void *host;                   /* staging for bin sums, and for the state of one part */
 };
 
 static double get_real(const ps_device_accumulator *self, const void *array, size_t i) {
@@ -90,9 +96,20 @@ static bool is_whole(const ps_device_accumulator *self) {
     return self->num_pieces == self->options.bins->num;
 }
 
-/* The state: sums per frequency, and of squares when they are asked for, in pairs. */
-static size_t state_entries(const ps_device_accumulator *self) {
-    return (self->options.mean_only ? 2 : 4) * self->options.stride;
+/* Without squares where nobody asks for standard errors. */
+static size_t num_states(const ps_device_accumulator *self) {
+    return !self->options.want_frequencies ? 0 : self->options.mean_only ? SQUARE : NUM_STATES;
+}
+
+static size_t state_bytes(const ps_device_accumulator *self) {
+    return self->options.stride * self->real_bytes;
+}
+
+static pspec_status clear_states(ps_device_accumulator *self, ps_error *error) {
+    for (size_t i = 0; i < num_states(self); i++) {
+        PS_TRY(ps_buffer_clear(self->device, &self->states[i], error));
+    }
+    return PSPEC_OK;
 }
 
 static pspec_status create_buffers(ps_device_accumulator *self, ps_error *error) {
@@ -106,13 +123,13 @@ static pspec_status create_buffers(ps_device_accumulator *self, ps_error *error)
         PS_TRY(ps_buffer_create(self->device, &self->bin_sums, bin_entries * self->real_bytes,
                                 "sums of bins", error));
     }
-    if (options->want_frequencies) {
-        const size_t entries = state_entries(self);
-        PS_TRY(ps_buffer_create(self->device, &self->state, entries * self->real_bytes,
+    for (size_t i = 0; i < num_states(self); i++) {
+        PS_TRY(ps_buffer_create(self->device, &self->states[i], state_bytes(self),
                                 "sums of frequencies", error));
-        PS_TRY(ps_buffer_clear(self->device, &self->state, error));
-        staging = staging > entries ? staging : entries;
     }
+    PS_TRY(clear_states(self, error));
+    const size_t entries = num_states(self) * options->stride;
+    staging = staging > entries ? staging : entries;
     return ps_allocate(&self->host, staging, self->real_bytes, "sums of bins", error);
 }
 
@@ -127,7 +144,7 @@ pspec_status ps_device_accumulator_create(ps_device_accumulator **out,
     self->options = *options;
     self->real_bytes = options->precision == PS_SINGLE ? sizeof(float) : sizeof(double);
     self->options.lanes = choose_lanes(options, self->real_bytes, ps_device_get_limits(device));
-    self->num_groups = (options->batch + self->options.lanes - 1) / self->options.lanes;
+    self->num_groups = ps_divide_up(options->batch, self->options.lanes);
     pspec_status status = create_kernels(self, error);
     if (status == PSPEC_OK) {
         status = upload_blocks(self, error);
@@ -148,10 +165,11 @@ void ps_device_accumulator_destroy(ps_device_accumulator *accumulator) {
         return;
     }
     cl_kernel *const kernels[] = {&accumulator->blocks, &accumulator->fold};
-    ps_buffer *const buffers[] = {&accumulator->first_rings, &accumulator->rings,
-                                  &accumulator->members,     &accumulator->bin_pieces,
-                                  &accumulator->piece_sums,  &accumulator->bin_sums,
-                                  &accumulator->state};
+    ps_buffer *const buffers[] = {&accumulator->first_rings,    &accumulator->rings,
+                                  &accumulator->members,        &accumulator->bin_pieces,
+                                  &accumulator->piece_sums,     &accumulator->bin_sums,
+                                  &accumulator->states[SUM],    &accumulator->states[SUM_LOW],
+                                  &accumulator->states[SQUARE], &accumulator->states[SQUARE_LOW]};
     for (size_t i = 0; i < sizeof kernels / sizeof kernels[0]; i++) {
         if (*kernels[i] != NULL) {
             clReleaseKernel(*kernels[i]);
@@ -179,17 +197,25 @@ static double power_flops(const ps_accumulator_options *options) {
         PS_BUFFER((self)->first_rings), PS_BUFFER((self)->rings), PS_BUFFER((self)->members),      \
         PS_BUFFER((self)->piece_sums), PS_U64((self)->num_pieces)
 
+/* Kernels want a buffer in every place: without squares, that of the sums, which is not touched there. */
+static const ps_buffer *state_of(const ps_device_accumulator *self, size_t i) {
+    return &self->states[i % num_states(self)];
+}
+
 static pspec_status sum_blocks(ps_device_accumulator *self, const ps_rows *rows, ps_error *error) {
-    const bool with_frequencies = self->options.want_frequencies;
     const double powers = (double)(rows->num_rows * rows->stride);
     const ps_range range =
         ps_range_heavy(self->device, 1, self->num_blocks, 1, power_flops(&self->options) * powers,
                        powers * (double)self->real_bytes);
     const ps_argument block = PS_LOCAL(block_bytes(self->options.lanes, self->real_bytes));
-    return with_frequencies ? PS_LAUNCH(self->device, self->blocks, &range, error,
-                                        BLOCK_ARGUMENTS(self, rows), PS_BUFFER(self->state), block)
-                            : PS_LAUNCH(self->device, self->blocks, &range, error,
-                                        BLOCK_ARGUMENTS(self, rows), block);
+    if (!self->options.want_frequencies) {
+        return PS_LAUNCH(self->device, self->blocks, &range, error, BLOCK_ARGUMENTS(self, rows),
+                         block);
+    }
+    return PS_LAUNCH(self->device, self->blocks, &range, error, BLOCK_ARGUMENTS(self, rows),
+                     PS_BUFFER(*state_of(self, SUM)), PS_BUFFER(*state_of(self, SUM_LOW)),
+                     PS_BUFFER(*state_of(self, SQUARE)), PS_BUFFER(*state_of(self, SQUARE_LOW)),
+                     block);
 }
 
 static pspec_status fold(ps_device_accumulator *self, size_t num_groups, ps_error *error) {
@@ -224,7 +250,7 @@ pspec_status ps_device_accumulator_add(ps_device_accumulator *accumulator, const
                                        double *bin_powers, ps_error *error) {
     ps_device_accumulator *self = accumulator;
     const size_t lanes = self->options.lanes;
-    const size_t num_groups = (rows->num_rows + lanes - 1) / lanes;
+    const size_t num_groups = ps_divide_up(rows->num_rows, lanes);
     PS_TRY(sum_blocks(self, rows, error));
     if (!is_whole(self)) {
         PS_TRY(fold(self, num_groups, error));
@@ -233,43 +259,59 @@ pspec_status ps_device_accumulator_add(ps_device_accumulator *accumulator, const
 }
 
 pspec_status ps_device_accumulator_reset(ps_device_accumulator *accumulator, ps_error *error) {
-    return accumulator->options.want_frequencies
-               ? ps_buffer_clear(accumulator->device, &accumulator->state, error)
-               : PSPEC_OK;
+    return clear_states(accumulator, error);
 }
 
-/* Brings the sums per frequency into the staging memory. */
-static pspec_status read_state(const ps_device_accumulator *self, ps_error *error) {
-    return ps_buffer_read(self->device, &self->state, 0, self->host,
-                          state_entries(self) * self->real_bytes, error);
+/* Brings the sums per frequency into the staging memory, one behind the other. */
+static pspec_status read_states(const ps_device_accumulator *self, ps_error *error) {
+    for (size_t i = 0; i < num_states(self); i++) {
+        PS_TRY(ps_buffer_read(self->device, &self->states[i], 0,
+                              (char *)self->host + i * state_bytes(self), state_bytes(self),
+                              error));
+    }
+    return PSPEC_OK;
 }
 
 static ps_sums get_sums(const ps_device_accumulator *self, size_t frequency) {
     const size_t stride = self->options.stride;
     const size_t slot = self->options.slots[frequency];
     ps_sums sums = PS_SUMS_MEAN_ONLY;
-    sums.sum = get_real(self, self->host, slot);
-    sums.sum_low = get_real(self, self->host, stride + slot);
+    sums.sum = get_real(self, self->host, SUM * stride + slot);
+    sums.sum_low = get_real(self, self->host, SUM_LOW * stride + slot);
     if (!self->options.mean_only) {
-        sums.square = get_real(self, self->host, 2 * stride + slot);
-        sums.square_low = get_real(self, self->host, 3 * stride + slot);
+        sums.square = get_real(self, self->host, SQUARE * stride + slot);
+        sums.square_low = get_real(self, self->host, SQUARE_LOW * stride + slot);
     }
     return sums;
 }
 
+typedef struct state_sums {
+    const ps_device_accumulator *accumulator;
+    ps_sums *sums;
+} state_sums;
+
+static void get_some_sums(void *payload, unsigned index, unsigned count) {
+    const state_sums *all = payload;
+    const size_t num = all->accumulator->options.num_frequencies;
+    const size_t end = ps_share_begin(num, index + 1, count);
+    for (size_t i = ps_share_begin(num, index, count); i < end; i++) {
+        all->sums[i] = get_sums(all->accumulator, i);
+    }
+}
+
 pspec_status ps_device_accumulator_sums(ps_device_accumulator *accumulator, ps_sums *sums,
                                         ps_error *error) {
-    PS_TRY(read_state(accumulator, error));
-    for (size_t i = 0; i < accumulator->options.num_frequencies; i++) {
-        sums[i] = get_sums(accumulator, i);
-    }
+    const size_t num = accumulator->options.num_frequencies;
+    state_sums all = {accumulator, sums};
+    PS_TRY(read_states(accumulator, error));
+    ps_workers_share(num, get_some_sums, &all);
     return PSPEC_OK;
 }
 
 pspec_status ps_device_accumulator_frequencies(ps_device_accumulator *accumulator,
                                                uint64_t num_realizations, ps_mean *means,
                                                ps_error *error) {
-    PS_TRY(read_state(accumulator, error));
+    PS_TRY(read_states(accumulator, error));
     for (size_t i = 0; i < accumulator->options.num_frequencies; i++) {
         const ps_sums sums = get_sums(accumulator, i);
         ps_sums_finish(&sums, num_realizations, &means[i].mean, &means[i].standard_error);

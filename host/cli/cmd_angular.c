@@ -51,5 +51,6 @@ const ps_command ps_command_angular = {
     .options = options,
     .examples = {"pointspec angular --sampler healpix-jittered:nside=8 -m 100 -l 64",
                  "pointspec sample --sampler fibonacci -n 256 | pointspec angular -l 32 -"},
+    .samples = PS_DOMAIN_SPHERE,
     .run = run,
 };

@@ -170,5 +170,6 @@ const ps_command ps_command_plan = {
     .options = options,
     .examples = {"pointspec plan power --sampler white -n 4096 -m 1000 -k 128",
                  "pointspec plan angular --sampler white-sphere -n 1e6 -l 512 --tol 1e-9"},
+    .samples = PS_DOMAIN_ANY,
     .run = run,
 };

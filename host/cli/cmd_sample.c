@@ -2,7 +2,7 @@
  */
 #include "base/memory.h"
 #include "base/text.h"
-#include "cli/command.h"
+#include "cli/question.h"
 #include "io/points.h"
 #include "samplers/sampler.h"
 
@@ -36,16 +36,6 @@ static pspec_status check_words(const ps_arguments *arguments, ps_error *error) 
                        arguments->num_samplers);
     }
     return PSPEC_OK;
-}
-
-static pspec_status make_request(const ps_arguments *arguments, ps_sampler_request *request,
-                                 ps_error *error) {
-    PS_TRY(ps_sampler_parse(request, arguments->samplers[0], error));
-    request->num_points = (size_t)arguments->num_points;
-    request->dimension = arguments->dimension;
-    request->seed = arguments->seed;
-    request->homogenize = arguments->homogenize;
-    return ps_sampler_check(request, error);
 }
 
 /* A progress line would run into points that go to the same terminal. */
@@ -87,13 +77,18 @@ static pspec_status run(const ps_arguments *arguments, ps_error *error) {
     ps_progress *progress = NULL;
     pspec_status status = PSPEC_OK;
     PS_TRY(check_words(arguments, error));
-    PS_TRY(make_request(arguments, &request, error));
+    PS_TRY(ps_sampler_request_make(&request, arguments, 0, error));
     PS_TRY(ps_allocate(&points, request.num_points, request.dimension * sizeof(double), "points",
                        error));
-    const ps_point_set set = {
-        .dimension = request.dimension, .num_points = request.num_points, .points = points};
+    const ps_coordinates coordinates =
+        ps_sampler_is_on_sphere(&request) ? PS_UNIT_VECTORS : PS_TORUS_COORDINATES;
+    const ps_point_set set = {.coordinates = coordinates,
+                              .dimension = request.dimension,
+                              .num_points = request.num_points,
+                              .points = points};
     const ps_point_shape shape = {.num_sets = (size_t)arguments->num_realizations,
                                   .num_points = request.num_points,
+                                  .coordinates = coordinates,
                                   .dimension = request.dimension};
     PS_TRY_OUT(status, ps_points_create(&writer, path, arguments->format, &shape, error));
     progress = begin_progress(arguments, path);
@@ -116,15 +111,19 @@ static const ps_option_id options[] = {
 
 const ps_command ps_command_sample = {
     .name = "sample",
-    .summary = "generate point sets of the torus",
+    .summary = "generate point sets of the torus or the sphere",
     .usage = "sample --sampler NAME[:key=value,...] [options]",
     .description =
-        "Writes realizations of a sampler of the torus [0,1)^D. Realization r depends on nothing "
-        "but the sampler, its parameters, N, D, the seed and r. UTK text has one point per line, "
-        "coordinates with 17 digits, and a line \"#\" between two realizations; an NPY array has "
-        "the shape (M, N, D).",
+        "Writes realizations of a sampler of the torus [0,1)^D, or of the sphere or hemisphere, "
+        "where "
+        "points are unit vectors x, y, z. Realization r depends on nothing but the sampler, its "
+        "parameters, N, D, the seed and r. UTK text has one point per line, coordinates with 17 "
+        "digits, and a line \"#\" between two realizations; an NPY array has the shape (M, N, D), "
+        "D = 3 on the sphere. --homogenize shifts points of the torus and rotates those of the "
+        "sphere, at random.",
     .options = options,
     .formats = PS_POINT_FORMATS,
+    .samples = PS_DOMAIN_ANY,
     .examples = {"pointspec sample --sampler jittered -n 1024 -m 10 --seed 7 -o points.txt",
                  "pointspec sample --sampler sobol:scramble=owen -n 4096 -d 3 -o points.npy"},
     .run = run,

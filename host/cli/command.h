@@ -25,6 +25,7 @@ typedef struct ps_command {
     const char *examples[2];     /* complete command lines, run by the tests */
     const char *formats;         /* words of --format, the default first; NULL: csv|json|npy */
     const char *weights;         /* words of --weights; NULL: equal|column|FILE */
+    ps_domain samples; /* which samplers it takes, for --help; the torus unless it says more */
     pspec_status (*run)(const ps_arguments *, ps_error *);
 } ps_command;
 

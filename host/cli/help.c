@@ -73,7 +73,8 @@ static void print_sampler(FILE *stream, const ps_sampler *sampler) {
         length += snprintf(text + length, sizeof text - (size_t)length, "%s%s",
                            i == 0 ? "; also called " : ", ", sampler->aliases[i]);
     }
-    if (length < (int)sizeof text && sampler->minimum_dimension == sampler->maximum_dimension) {
+    if (length < (int)sizeof text && sampler->domain == PS_SAMPLES_TORUS &&
+        sampler->minimum_dimension == sampler->maximum_dimension) {
         snprintf(text + length, sizeof text - (size_t)length, "; dimension %u only",
                  sampler->maximum_dimension);
     }
@@ -85,10 +86,24 @@ static void print_sampler(FILE *stream, const ps_sampler *sampler) {
     }
 }
 
-static void print_samplers(FILE *stream) {
-    fputs("\nSamplers, with the defaults of their parameters:\n", stream);
+static void print_samplers_of(FILE *stream, ps_sampler_domain domain, const char *title) {
+    fprintf(stream, "\nSamplers of the %s, with the defaults of their parameters:\n", title);
     for (size_t i = 0; ps_samplers[i] != NULL; i++) {
-        print_sampler(stream, ps_samplers[i]);
+        if (ps_samplers[i]->domain == domain) {
+            print_sampler(stream, ps_samplers[i]);
+        }
+    }
+}
+
+static void print_samplers(FILE *stream, ps_domain domain) {
+    if (domain != PS_DOMAIN_TORUS) {
+        print_samplers_of(stream, PS_SAMPLES_SPHERE, "sphere");
+        print_samplers_of(stream, PS_SAMPLES_HEMISPHERE, "hemisphere");
+    }
+    print_samplers_of(stream, PS_SAMPLES_TORUS, "torus");
+    if (domain != PS_DOMAIN_TORUS) {
+        print_item(stream, "  :" PS_LIFT_KEY "=" PS_LIFT_DEFAULT,
+                   "of all samplers of the torus: " PS_LIFT_MEANING);
     }
 }
 
@@ -104,7 +119,7 @@ void ps_help_command(FILE *stream, const ps_command *command) {
         }
     }
     if (ps_command_takes(command, PS_OPTION_SAMPLER)) {
-        print_samplers(stream);
+        print_samplers(stream, command->samples);
     }
     fputs("\nExamples:\n", stream);
     for (size_t i = 0; i < sizeof command->examples / sizeof command->examples[0]; i++) {

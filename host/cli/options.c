@@ -106,7 +106,8 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                              .help = "N |S|^2 / W^2, or |S|^2 / sum w^2 (default power)",
                              .set = ps_set_normalize},
     [PS_OPTION_HOMOGENIZE] = {.name = "homogenize",
-                              .help = "shift every realization by one random vector, mod 1",
+                              .help = "shift every realization by one random vector, mod 1; "
+                                      "points of the sphere are rotated",
                               FLAG(homogenize)},
     [PS_OPTION_WEIGHTS] = {.name = "weights",
                            .metavar = "equal|column|FILE",

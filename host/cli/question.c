@@ -138,6 +138,39 @@ static ps_power_question make_question(const ps_arguments *arguments, ps_domain 
     return question;
 }
 
+pspec_status ps_sampler_request_make(ps_sampler_request *out, const ps_arguments *arguments,
+                                     size_t i_sampler, ps_error *error) {
+    *out = (ps_sampler_request){
+        .num_points = arguments->is_given[PS_OPTION_POINTS] ? (size_t)arguments->num_points : 0,
+        .dimension = arguments->is_given[PS_OPTION_DIMENSION] ? arguments->dimension : 0,
+        .seed = arguments->seed,
+        .homogenize = arguments->homogenize};
+    PS_TRY(ps_sampler_parse(out, arguments->samplers[i_sampler], error));
+    return ps_sampler_resolve(out, error);
+}
+
+/* The wrong domain is named before anything else that may be wrong with a sampler. */
+static pspec_status make_request_of_domain(ps_sampler_request *out, const ps_arguments *arguments,
+                                           size_t i_sampler, ps_domain domain, ps_error *error) {
+    const char *const text = arguments->samplers[i_sampler];
+    PS_TRY(ps_sampler_parse(out, text, error));
+    if (domain == PS_DOMAIN_TORUS && ps_sampler_is_on_sphere(out)) {
+        return ps_fail(
+            error, PSPEC_ERROR_INVALID_ARGUMENT,
+            "--sampler %s makes points of the sphere, and this spectrum is of the torus; "
+            "pointspec angular is for the sphere",
+            text);
+    }
+    if (domain == PS_DOMAIN_SPHERE && !ps_sampler_is_on_sphere(out)) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "--sampler %s makes points of the torus, and this spectrum is of the "
+                       "sphere; " PS_LIFT_KEY "=sphere or " PS_LIFT_KEY
+                       "=hemisphere takes them there",
+                       text);
+    }
+    return ps_sampler_request_make(out, arguments, i_sampler, error);
+}
+
 pspec_status ps_questions_make(ps_question_list *out, const ps_arguments *arguments,
                                ps_domain domain, ps_error *error) {
     PS_TRY(check_source(arguments, error));
@@ -149,12 +182,7 @@ pspec_status ps_questions_make(ps_question_list *out, const ps_arguments *argume
             continue;
         }
         ps_sampler_request *request = &out->requests[i];
-        *request = (ps_sampler_request){.num_points = (size_t)arguments->num_points,
-                                        .dimension = arguments->dimension,
-                                        .seed = arguments->seed,
-                                        .homogenize = arguments->homogenize};
-        PS_TRY(ps_sampler_parse(request, arguments->samplers[i], error));
-        PS_TRY(ps_sampler_check(request, error));
+        PS_TRY(make_request_of_domain(request, arguments, i, domain, error));
         out->questions[i].sampler = request;
     }
     return PSPEC_OK;

@@ -1,5 +1,5 @@
-/* From the command line to what the jobs are asked: how point files are read, and the question of a
- * power job, shared by power, angular and plan. */
+/* From the command line to what the jobs are asked: what samplers make, how point files are read, and the
+ * question of a power job, shared by power, angular and plan. */
 #ifndef PS_CLI_QUESTION_H
 #define PS_CLI_QUESTION_H
 
@@ -17,6 +17,11 @@ typedef struct ps_question_list {
  * moved afterwards. */
 pspec_status ps_questions_make(ps_question_list *out, const ps_arguments *arguments,
                                ps_domain domain, ps_error *error) PS_MUST_CHECK;
+
+/* What sampler number i_sampler is asked for: parsed, options that were not given left open, resolved
+ * and checked. */
+pspec_status ps_sampler_request_make(ps_sampler_request *out, const ps_arguments *arguments,
+                                     size_t i_sampler, ps_error *error) PS_MUST_CHECK;
 
 /* How point files are read. */
 ps_point_options ps_point_options_make(const ps_arguments *arguments);

@@ -52,6 +52,7 @@ typedef struct ps_work {
     double bytes_per_realization; /* on the device, for each realization of a batch */
     double row_bytes;             /* part of that for its powers */
     double point_bytes; /* of points of each realization besides, on the device and on the host */
+    double coordinate_bytes; /* part of that, on the device both times where memory is unified */
     double largest_buffer_per_realization; /* part of that in one allocation */
     bool takes_blocks;                     /* ps_engine.stream will */
 } ps_work;
@@ -104,6 +105,7 @@ typedef struct ps_engine {
     bool needs_device;
     bool rows_on_host;     /* though it needs a device: they are short */
     bool has_precision[3]; /* by ps_precision */
+    bool checks_points;    /* run gives PSPEC_ERROR_INPUT for coordinates outside [0,1) */
 
     /* May it do this problem? limits is NULL without a device. *why_not is a static sentence. */
     bool (*applicable)(const ps_problem *, const ps_device_limits *limits, ps_precision,

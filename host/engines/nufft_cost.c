@@ -1,52 +1,85 @@
-/* What a realization costs, of each of the ways that nufft_choice.h describes. */
+#include "engines/nufft_cost.h"
+
 #include "base/round.h"
 #include "engines/nufft_fft.h"
 #include "engines/nufft_kernels.h"
+#include "engines/nufft_plan.h"
 #include "engines/nufft_whole_shape.h"
+#include "engines/reals.h"
 
 #include <math.h>
 
-/* Cycles on a core with vectors of `lanes` numbers (Zen 5, PoCL 3.1, 2026-11, profile of bench_nufft, parts left
- * out in turn): of a point to be sorted; for its phases, once for all tiles whose rows are in local memory
- * together, and for its windows, where a fused operation makes a value of `lanes` points; of a point in a tile,
- * and of a cell that it touches there; of a cell to be cleared, and of a frequency to be written. */
-static const double cycles_per_point = 8;
-static const double cycles_per_phase = 13;
-static const double cycles_per_coefficient = 0.5;
-static const double cycles_per_value = 2.5;
-static const double cycles_per_touched = 1;
-static const double cycles_per_cell = 2.3;
-static const double cycles_per_power = 12;
-
-/* Local memory for rows to choose for, whatever the device has; the rest is for a chunk of points. */
-static const double nominal_local_bytes = (1 << 20) - (8 << 10);
+/* Zen 5, PoCL 3.1, 2026-11: profiles of bench_nufft, of kernels with parts left out in turn, and transforms of
+ * lengths 392, 512 and 1024 (5800, 6100, 12600 cycles). `./dev bench calibrate` measures all of them on another
+ * device and prints this table. Vectors are of as many numbers as the device has lanes. */
+const double ps_nufft_cycles[PS_NUFFT_NUM_PARTS] = {
+    /* transforms: an operation on vectors; a cell on its way through a pass */
+    [PS_NUFFT_OPERATION] = 0.27,
+    [PS_NUFFT_PASSED] = 0.8,
+    /* tiles: a point to be sorted; its phases, once for all tiles whose rows are in local memory together, and its
+     * windows, where a fused operation makes a value of a vector of points; a point in a tile, and a cell that it
+     * touches there; a cell cleared; a frequency written */
+    [PS_NUFFT_SORTED] = 8,
+    [PS_NUFFT_PHASE] = 13,
+    [PS_NUFFT_COEFFICIENT] = 0.5,
+    [PS_NUFFT_VALUE] = 2.5,
+    [PS_NUFFT_TOUCHED] = 1,
+    [PS_NUFFT_CLEARED] = 2.3,
+    [PS_NUFFT_POWER] = 12,
+    /* grids of large sets: a point on its way to a block of rows, and a row of the block; a cell cleared and fetched
+     * by the transform, and taken into pairs for every chunk */
+    [PS_NUFFT_GRID_BLOCK] = 80,
+    [PS_NUFFT_GRID_ROW] = 6,
+    [PS_NUFFT_GRID_CELL] = 10,
+    [PS_NUFFT_GRID_PAIR] = 2,
+    /* whole realizations (4096 points and K = 64 in the plane): a point to be placed; a vector of polynomials,
+     * mirrored ones half; a vector added to a row in the nearest cache, and beyond; a column of cells fetched, and a
+     * vector turned into a tile, a quarter; a cell of a lane put into a shared tile; a vector of powers written; a
+     * vector of the grid cleared */
+    [PS_NUFFT_WHOLE_POINT] = 7,
+    [PS_NUFFT_WHOLE_POLYNOMIAL] = 0.45,
+    [PS_NUFFT_WHOLE_ROW] = 1.5,
+    [PS_NUFFT_WHOLE_FAR_ROW] = 2.5,
+    [PS_NUFFT_WHOLE_CELL] = 3,
+    [PS_NUFFT_WHOLE_TURNED] = 21,
+    [PS_NUFFT_WHOLE_SHARED] = 15,
+    [PS_NUFFT_WHOLE_POWER] = 12,
+    [PS_NUFFT_WHOLE_CLEARED] = 1,
+};
 
 /* Two fused operations in a cycle. */
 static const double flops_per_lane = 4;
 
-/* A point on its way to a block of rows of a grid, and a row of the block. */
-static const double cycles_per_block = 80;
-static const double cycles_per_row = 6;
+/* Local memory for rows to choose for, whatever the device has; the rest is for a chunk of points. */
+static const double nominal_local_bytes = (1 << 20) - (8 << 10);
 
-/* A cell of a grid: cleared, taken into pairs for every chunk, fetched by the transform. */
-static const double cycles_per_grid_cell = 10;
-static const double cycles_per_pair = 2;
+/* The nearest cache of a core (Zen 5), nominal as well. */
+static const double near_bytes = 32 << 10;
 
-/* Spreading on a grid and the transform along axis 0. */
-static double grid_cycles(const ps_nufft_choice *choice, unsigned lanes, double num_points) {
-    const ps_nufft_axis *axes = choice->axes;
-    const ps_nufft_axis *block = &axes[choice->num_axes - 2];
-    const ps_nufft_axis *last = &axes[choice->num_axes - 1];
-    const double outer = choice->num_axes == 3 ? axes[0].window.width : 1;
-    const double blocks = (PS_NUFFT_BLOCK_ROWS + block->window.width - 1.0) / PS_NUFFT_BLOCK_ROWS;
-    const double strips = last->window.width > PS_NUFFT_BLOCK_ROWS ? 2 : 1;
-    const double columns = (choice->num_axes == 3 ? (double)block->n : 1) * last->n;
-    return num_points * outer *
-               (blocks * cycles_per_block + block->window.width * strips * cycles_per_row) +
-           columns / (2 * lanes) * ps_fft_cycles(axes[0].n) +
-           columns * axes[0].n *
-               (cycles_per_grid_cell + cycles_per_pair * ceil(num_points / (double)choice->chunk));
+static void add(ps_nufft_counts *counts, ps_nufft_part part, double num) {
+    counts->num[part] += num;
 }
+
+/* num transforms of a length. */
+static void add_transforms(ps_nufft_counts *counts, double num, uint32_t length) {
+    add(counts, PS_NUFFT_OPERATION, num * ps_fft_flops(length));
+    add(counts, PS_NUFFT_PASSED, num * ps_fft_passed(length));
+}
+
+static double sum_cycles(const ps_nufft_counts *counts) {
+    double cycles = 0;
+    for (size_t i = 0; i < PS_NUFFT_NUM_PARTS; i++) {
+        cycles += ps_nufft_cycles[i] * counts->num[i];
+    }
+    return cycles;
+}
+
+double ps_fft_cycles(uint32_t length) {
+    return ps_nufft_cycles[PS_NUFFT_OPERATION] * ps_fft_flops(length) +
+           ps_nufft_cycles[PS_NUFFT_PASSED] * ps_fft_passed(length);
+}
+
+/* ---- tiles ------------------------------------------------------------------------------- */
 
 /* Four neighbours are added together: to cells from the first of one window to the last of another. */
 static double touched_cells(const ps_nufft_axis *axis, double num_points) {
@@ -60,47 +93,126 @@ static double rows_at_once(const ps_nufft_axis *axis) {
     return nominal_local_bytes / (2 * vector_bytes * axis->n);
 }
 
-/* Of a point: windows and phases, for all tiles. */
-static double cycles_of_point(const ps_nufft_axis *axis, double num_tiles, double lanes) {
-    const double degree = axis->window.width + 2;
-    return ceil(num_tiles / fmax(1, floor(rows_at_once(axis)))) *
-           (cycles_per_phase + cycles_per_coefficient * axis->window.width * degree / lanes);
-}
-
-/* Transforms of the rows of one tile, all the way to powers. */
-static double tile_cycles(const ps_nufft_choice *choice) {
+/* Transforms of the rows of the tiles, all the way to powers. */
+static void count_tiles(ps_nufft_counts *counts, const ps_nufft_choice *choice, double num_tiles) {
     unsigned num = 0;
     const ps_nufft_axis *axes = ps_nufft_last_axes(choice, &num);
     const ps_nufft_axis *last = &axes[num - 1];
     const double kept = 2.0 * last->max_frequency + 1;
-    const double row = ps_fft_cycles(last->n) + cycles_per_cell * last->n + cycles_per_power * kept;
-    return num == 1 ? row
-                    : axes[0].n * row + kept * (ps_fft_cycles(axes[0].n) + cycles_per_power * kept);
+    const double rows = num_tiles * (num == 1 ? 1 : axes[0].n);
+    add_transforms(counts, rows, last->n);
+    add(counts, PS_NUFFT_CLEARED, rows * last->n);
+    add(counts, PS_NUFFT_POWER, rows * kept);
+    if (num > 1) {
+        add_transforms(counts, num_tiles * kept, axes[0].n);
+        add(counts, PS_NUFFT_POWER, num_tiles * kept * kept);
+    }
 }
 
 /* Spreading by direct phases on axis 0. */
-static double spread_cycles(const ps_nufft_choice *choice, double lanes, double num_tiles,
-                            double num_points) {
+static void count_spreading(ps_nufft_counts *counts, const ps_nufft_choice *choice, double lanes,
+                            double num_tiles, double num_points) {
     const ps_nufft_axis *first = &choice->axes[0];
     const ps_nufft_axis *last = &choice->axes[choice->num_axes - 1];
     const bool has_rows = choice->num_axes == 2;
     const double visits = num_points * (has_rows ? first->window.width : 1);
     const double touched = touched_cells(last, visits / (has_rows ? first->n : 1));
-    return visits * (cycles_of_point(last, num_tiles, lanes) +
-                     num_tiles * (cycles_per_value + cycles_per_touched * touched));
+    const double groups = ceil(num_tiles / fmax(1, floor(rows_at_once(last))));
+    const double degree = last->window.width + 2;
+    add(counts, PS_NUFFT_PHASE, visits * groups);
+    add(counts, PS_NUFFT_COEFFICIENT, visits * groups * last->window.width * degree / lanes);
+    add(counts, PS_NUFFT_VALUE, visits * num_tiles);
+    add(counts, PS_NUFFT_TOUCHED, visits * num_tiles * touched);
+}
+
+/* ---- grids of large sets ----------------------------------------------------------------- */
+
+/* Spreading on a grid and the transform along axis 0. */
+static void count_grid(ps_nufft_counts *counts, const ps_nufft_choice *choice, unsigned lanes,
+                       double num_points) {
+    const ps_nufft_axis *axes = choice->axes;
+    const ps_nufft_axis *block = &axes[choice->num_axes - 2];
+    const ps_nufft_axis *last = &axes[choice->num_axes - 1];
+    const double visits = num_points * (choice->num_axes == 3 ? axes[0].window.width : 1);
+    const double blocks = (PS_NUFFT_BLOCK_ROWS + block->window.width - 1.0) / PS_NUFFT_BLOCK_ROWS;
+    const double strips = last->window.width > PS_NUFFT_BLOCK_ROWS ? 2 : 1;
+    const double columns = (choice->num_axes == 3 ? (double)block->n : 1) * last->n;
+    add(counts, PS_NUFFT_GRID_BLOCK, visits * blocks);
+    add(counts, PS_NUFFT_GRID_ROW, visits * block->window.width * strips);
+    add_transforms(counts, columns / (2 * lanes), axes[0].n);
+    add(counts, PS_NUFFT_GRID_CELL, columns * axes[0].n);
+    add(counts, PS_NUFFT_GRID_PAIR, columns * axes[0].n * ceil(num_points / (double)choice->chunk));
+}
+
+/* ---- whole realizations ------------------------------------------------------------------ */
+
+static void count_whole_transforms(ps_nufft_counts *counts, const ps_nufft_choice *choice,
+                                   unsigned lanes) {
+    uint32_t kept[2];
+    ps_nufft_whole_kept(choice, kept);
+    const double groups = (double)ps_divide_up(choice->lengths[1], 2 * lanes);
+    const double tiles = (double)ps_divide_up(choice->span, lanes);
+    const double shared = ps_nufft_whole_shared(choice, lanes);
+    const double turned = tiles - (shared > 0 ? 1 : 0);
+    const double second = turned + shared / lanes; /* of a shared tile, its part */
+    add_transforms(counts, groups, choice->lengths[0]);
+    add_transforms(counts, second, choice->lengths[1]);
+    add(counts, PS_NUFFT_WHOLE_CELL, groups * choice->lengths[0] + second * choice->lengths[1]);
+    add(counts, PS_NUFFT_WHOLE_TURNED, groups * turned * lanes);
+    add(counts, PS_NUFFT_WHOLE_SHARED, shared * choice->lengths[1]);
+    add(counts, PS_NUFFT_WHOLE_POWER, tiles * (2.0 * kept[1] + 1));
+}
+
+double ps_nufft_whole_transform_cycles(const ps_nufft_choice *choice, unsigned lanes) {
+    ps_nufft_counts counts = {{0}};
+    count_whole_transforms(&counts, choice, lanes);
+    return sum_cycles(&counts);
+}
+
+static void count_whole(ps_nufft_counts *counts, const ps_nufft_choice *choice,
+                        ps_precision precision, unsigned lanes, double num_points) {
+    const ps_nufft_whole_sizes sizes = ps_nufft_whole_measure(choice, lanes);
+    const ps_nufft_axis *last = &choice->axes[choice->num_axes - 1];
+    const bool is_near = (double)(sizes.grid_reals * ps_real_bytes(precision)) <= near_bytes;
+    const double rows = choice->num_axes > 1 ? choice->axes[0].window.width : 1;
+    const double vectors = ceil(ps_nufft_bins(last) / (double)lanes);
+    double polynomials = 0;
+    for (unsigned i = 0; i < choice->num_axes; i++) {
+        const ps_nufft_axis *axis = &choice->axes[i];
+        const double mirrored = choice->num_axes == 2 && i == 0 ? 2 : 1;
+        polynomials += (axis->window.width + 2.0) * ps_nufft_bins(axis) / (lanes * mirrored);
+    }
+    add(counts, PS_NUFFT_WHOLE_POINT, num_points);
+    add(counts, PS_NUFFT_WHOLE_POLYNOMIAL, num_points * polynomials);
+    add(counts, is_near ? PS_NUFFT_WHOLE_ROW : PS_NUFFT_WHOLE_FAR_ROW, num_points * rows * vectors);
+    add(counts, PS_NUFFT_WHOLE_CLEARED, (double)sizes.grid_reals / lanes);
+    count_whole_transforms(counts, choice, lanes);
+}
+
+/* ---- all --------------------------------------------------------------------------------- */
+
+ps_nufft_counts ps_nufft_count(const ps_nufft_choice *choice, ps_precision precision,
+                               double num_points) {
+    const unsigned lanes = ps_nufft_nominal_lanes(precision);
+    ps_nufft_counts counts = {{0}};
+    if (choice->is_whole) {
+        count_whole(&counts, choice, precision, lanes, num_points);
+        return counts;
+    }
+    const ps_nufft_axis *last = &choice->axes[choice->num_axes - 1];
+    const double narrower = ceil(1 / fmin(1, rows_at_once(last)));
+    const double num_tiles = (double)ps_divide_up(choice->span, lanes) * narrower;
+    add(&counts, PS_NUFFT_SORTED, num_points);
+    count_tiles(&counts, choice, num_tiles);
+    if (choice->is_gridded) {
+        count_grid(&counts, choice, lanes, num_points);
+    } else {
+        count_spreading(&counts, choice, lanes, num_tiles, num_points);
+    }
+    return counts;
 }
 
 double ps_nufft_flops(const ps_nufft_choice *choice, ps_precision precision, double num_points) {
-    const ps_nufft_axis *last = &choice->axes[choice->num_axes - 1];
-    const unsigned lanes = ps_nufft_nominal_lanes(precision);
-    if (choice->is_whole) {
-        return ps_nufft_whole_cycles(choice, precision, lanes, num_points) * lanes * flops_per_lane;
-    }
-    const double narrower = ceil(1 / fmin(1, rows_at_once(last)));
-    const double num_tiles = (double)ps_divide_up(choice->span, lanes) * narrower;
-    const double cycles =
-        num_points * cycles_per_point + num_tiles * tile_cycles(choice) +
-        (choice->is_gridded ? grid_cycles(choice, lanes, num_points)
-                            : spread_cycles(choice, lanes, num_tiles, num_points));
-    return cycles * lanes * flops_per_lane;
+    const ps_nufft_counts counts = ps_nufft_count(choice, precision, num_points);
+    return sum_cycles(&counts) * ps_nufft_nominal_lanes(precision) * flops_per_lane;
 }

@@ -21,7 +21,10 @@ bool ps_fft_radices(uint32_t length, uint32_t radices[PS_FFT_MAX_PASSES]);
 /* Additions and multiplications of one complex transform, as the kernels make them. */
 double ps_fft_flops(uint32_t length);
 
-/* Cycles of a core for one transform in vectors. */
+/* Cells times passes. */
+double ps_fft_passed(uint32_t length);
+
+/* Cycles of a core for one transform in vectors (nufft_cost.c). */
 double ps_fft_cycles(uint32_t length);
 
 /* Cell where the result of frequency k = 0 .. length - 1 stands. */

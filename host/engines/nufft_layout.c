@@ -28,6 +28,15 @@ static uint64_t part_bytes(const ps_nufft_layout *layout, unsigned dimension) {
            (BEGINNINGS + MEANS) * sizeof(uint64_t);
 }
 
+/* For one point of every part, of the copy that the host keeps (engines/torus_points): weights; coordinates where
+ * the device cannot read them there, else they are a second copy of its own. */
+static uint64_t host_point_bytes(const ps_nufft_layout *layout, const ps_problem *problem,
+                                 const ps_device_limits *limits) {
+    const uint64_t coordinates =
+        limits->has_unified_memory ? 0 : problem->frequencies->dimension * sizeof(uint64_t);
+    return layout->parts * (coordinates + layout->real_bytes);
+}
+
 /* Whatever the number of points: plans of the axes (twiddles and pattern, gains, positions; polynomials and
  * radices are small). */
 static uint64_t table_bytes(const ps_nufft_layout *layout) {
@@ -49,18 +58,25 @@ static uint64_t largest_of(const uint64_t *numbers, size_t num) {
     return largest;
 }
 
+/* Realizations at a time whose `each` bytes of work stay in the cache or fill the device, in whole units, no more
+ * than there are. */
+static size_t fitting_parts(const ps_problem *problem, const ps_device_limits *limits, double each,
+                            size_t unit) {
+    const double cache =
+        limits->cache_bytes > 0 ? (double)limits->cache_bytes : DEFAULT_CACHE_BYTES;
+    const double budget = limits->has_dedicated_local_memory ? gpu_work_bytes : work_share * cache;
+    const double fitting = fmin(budget / each, MOST_AT_ONCE);
+    const size_t units = fitting > (double)unit ? (size_t)fitting / unit : 1;
+    const uint64_t known = problem->num_realizations;
+    return known > 0 && known < units * unit ? (size_t)known : units * unit;
+}
+
 static void choose_at_once(ps_nufft_layout *layout, const ps_problem *problem,
                            const ps_device_limits *limits) {
     const unsigned dimension = problem->frequencies->dimension;
     const uint64_t grid = layout->grid_cells * 2 * layout->lanes * layout->real_bytes;
     const uint64_t each = part_bytes(layout, dimension) + grid;
-    const double cache =
-        limits->cache_bytes > 0 ? (double)limits->cache_bytes : DEFAULT_CACHE_BYTES;
-    const double budget = limits->has_dedicated_local_memory ? gpu_work_bytes : work_share * cache;
-    const double fitting = budget / (double)each;
-    const uint64_t known = problem->num_realizations;
-    const size_t most = known > 0 && known < MOST_AT_ONCE ? (size_t)known : MOST_AT_ONCE;
-    layout->parts = fitting > (double)most ? most : fitting > 1 ? (size_t)fitting : 1;
+    layout->parts = fitting_parts(problem, limits, (double)each, 1);
     layout->fixed_bytes = layout->parts * each + table_bytes(layout);
     const uint64_t buffers[] = {grid, layout->part_places * dimension * sizeof(uint64_t),
                                 starts_bytes(layout)};
@@ -196,40 +212,31 @@ static uint64_t whole_table_bytes(const ps_nufft_layout *layout) {
                                                        (layout->lanes + layout->num_tiles)
                                                  : 0;
     const uint64_t cells = (uint64_t)choice->lengths[0] + choice->lengths[1];
-    const uint64_t reals = layout->stride + turns + 2 * cells +
-                           choice->num_axes * ((uint64_t)choice->axes[0].max_frequency + 1);
+    const uint64_t reals = layout->stride + turns + 2 * cells;
     return reals * layout->real_bytes + cells * sizeof(uint32_t) + choice->num_axes * SMALL;
 }
 
 static bool fits_whole(const ps_nufft_layout *layout, const ps_device_limits *limits) {
-    const ps_nufft_choice *choice = &layout->choice;
-    const size_t longest =
-        choice->lengths[0] > choice->lengths[1] ? choice->lengths[0] : choice->lengths[1];
-    const size_t reals = 2 * longest * layout->lanes + layout->whole.window_reals;
-    return reals * layout->real_bytes + 2 * PS_NUFFT_CHUNK * sizeof(uint32_t) <=
+    return layout->whole.window_reals * layout->real_bytes +
+               2 * PS_NUFFT_CHUNK * sizeof(uint32_t) <=
            limits->local_bytes;
 }
 
-/* Points on the host and on the device, grids and tiles of the work-groups, tables. Parts are realizations: as many
+/* Points on the host and on the device, grids and rows of the work-groups, tables. Parts are realizations: as many
  * as keep all cores at work. */
 static void count_whole(ps_nufft_layout *layout, const ps_problem *problem,
                         const ps_device_limits *limits) {
     const size_t cores = limits->compute_units > 0 ? limits->compute_units : 1;
-    const uint64_t known = problem->num_realizations;
     const uint64_t point = problem->frequencies->dimension * sizeof(uint64_t) + layout->real_bytes;
-    const double cache =
-        limits->cache_bytes > 0 ? (double)limits->cache_bytes : DEFAULT_CACHE_BYTES;
-    const double fitting = work_share * cache / (2 * (double)(layout->part_points * point));
-    const size_t most = known > 0 && known < MOST_AT_ONCE ? (size_t)known : MOST_AT_ONCE;
-    layout->parts = fitting > (double)cores ? (size_t)fmin(fitting, MOST_AT_ONCE) : cores;
-    layout->parts -= layout->parts % cores;
-    layout->parts = layout->parts > most ? most : layout->parts;
+    const double each = 2 * (double)(layout->part_points * point);
+    layout->parts = fitting_parts(problem, limits, each, cores);
     layout->groups =
         layout->parts < GROUPS_PER_CORE * cores ? layout->parts : GROUPS_PER_CORE * cores;
     const uint64_t grids = layout->groups * layout->whole.grid_reals * layout->real_bytes;
     const uint64_t rows = layout->groups * layout->whole.row_reals * layout->real_bytes;
-    layout->host_bytes = layout->parts * layout->part_points * point;
-    layout->fixed_bytes = 2 * layout->host_bytes + grids + rows + whole_table_bytes(layout) +
+    layout->host_bytes = host_point_bytes(layout, problem, limits) * layout->part_points;
+    layout->fixed_bytes = 2 * layout->parts * layout->part_points * point + grids + rows +
+                          whole_table_bytes(layout) +
                           layout->parts * (sizeof(uint64_t) + 2 * layout->real_bytes);
     const uint64_t buffers[] = {grids, rows,
                                 layout->parts * layout->part_points *
@@ -295,9 +302,15 @@ ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_
     } else {
         choose_at_once(&layout, problem, limits);
     }
-    layout.host_bytes = layout.parts * layout.part_places *
-                        (problem->frequencies->dimension * sizeof(uint64_t) + layout.real_bytes);
+    layout.host_bytes = host_point_bytes(&layout, problem, limits) * layout.part_places;
     return layout;
+}
+
+void ps_nufft_layout_shrink(ps_nufft_layout *layout, size_t batch) {
+    if (!ps_nufft_is_large(&layout->choice)) {
+        layout->parts = layout->parts < batch ? layout->parts : batch;
+        layout->groups = layout->groups < batch ? layout->groups : batch;
+    }
 }
 
 /* k or -k, whichever has its rest modulo the first length in the first half. */

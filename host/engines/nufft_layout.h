@@ -40,6 +40,9 @@ typedef struct ps_nufft_layout {
 ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_limits *limits,
                                      ps_precision precision);
 
+/* Of a smaller batch than was planned: places, grids and tiles for so many realizations. */
+void ps_nufft_layout_shrink(ps_nufft_layout *layout, size_t batch);
+
 /* Where the power of a frequency stands in a row. */
 uint32_t ps_nufft_slot(const ps_nufft_layout *layout, const int32_t *k, unsigned dimension);
 

@@ -74,9 +74,11 @@ pspec_status ps_nufft_plan_create(ps_nufft_plan *out, const ps_nufft_axis *axis,
     *out =
         (ps_nufft_plan){.axis = *axis, .bins = ps_nufft_bins(axis), .pitch = ps_nufft_pitch(axis)};
     PS_TRY(create_polynomials(out, tolerance, precision, device, error));
+    if (!has_transform) {
+        return PSPEC_OK;
+    }
     PS_TRY(create_gains(out, precision, device, error));
-    return has_transform ? ps_fft_plan_create(&out->fft, axis->n, precision, device, error)
-                         : PSPEC_OK;
+    return ps_fft_plan_create(&out->fft, axis->n, precision, device, error);
 }
 
 void ps_nufft_plan_free(ps_nufft_plan *plan) {

@@ -14,7 +14,8 @@ typedef struct ps_nufft_plan {
     ps_buffer gains;        /* [K + 1]: 1 / squared transform of the window */
 } ps_nufft_plan;
 
-/* tolerance: of the problem. has_transform: else there is no fft. */
+/* tolerance: of the problem. has_transform: else there are neither fft nor gains, for whoever has
+ * those of all axes together. */
 pspec_status ps_nufft_plan_create(ps_nufft_plan *out, const ps_nufft_axis *axis, bool has_transform,
                                   double tolerance, ps_precision precision, ps_device *device,
                                   ps_error *error) PS_MUST_CHECK;

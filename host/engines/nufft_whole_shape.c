@@ -1,33 +1,29 @@
 #include "engines/nufft_whole_shape.h"
 
 #include "base/round.h"
-#include "engines/nufft_fft.h"
+#include "engines/nufft_cost.h"
 #include "engines/nufft_kernels.h"
 #include "engines/nufft_plan.h"
 #include "engines/reals.h"
 
 #include <math.h>
 
-/* Grid and tiles of a core stay in its cache (1 MB, Zen 5), or are read once in order. Nominal, whatever the
- * device has, so that choices depend on nothing else. */
-static const double most_bytes = 1.5 * (1 << 20);
+/* The grid stays in the cache of a core (1 MB, Zen 5), or nearly. Nominal, whatever the device has, so that choices
+ * depend on nothing else. */
+static const double most_bytes = 1.25 * (1 << 20);
 
-/* Cycles on a core (Zen 5, PoCL 3.1, 2026-11, parts of kernels/nufft/whole.cl left out in turn): of a point to be
- * placed; of a vector of polynomials; of a vector added to a row in the nearest cache, and beyond; of a column of
- * cells fetched, and turned into a tile; of a cell of a tile fetched, and of a vector of powers written. */
-static const double cycles_per_point = 9;
-static const double cycles_per_polynomial = 0.6;
-static const double cycles_per_row = 1.6;
-static const double cycles_per_far_row = 2.4;
-static const double near_bytes = 32 << 10;
-static const double cycles_per_cell = 5;
-static const double cycles_per_turned = 28;
-static const double cycles_per_power = 8;
+/* Realizations that share a last tile, at least: lanes are put there one by one. */
+enum { LEAST_SHARING = 4 };
 
 void ps_nufft_whole_kept(const ps_nufft_choice *choice, uint32_t kept[2]) {
     const uint32_t largest = (uint32_t)choice->axes[0].max_frequency;
     kept[0] = choice->num_axes == 1 ? choice->lengths[0] / 2 : largest;
     kept[1] = choice->num_axes == 1 ? largest / choice->lengths[0] + 1 : largest;
+}
+
+uint32_t ps_nufft_whole_shared(const ps_nufft_choice *choice, unsigned lanes) {
+    const uint32_t last = choice->span % lanes;
+    return choice->num_axes == 2 && last * LEAST_SHARING <= lanes ? last : 0;
 }
 
 ps_nufft_whole_sizes ps_nufft_whole_measure(const ps_nufft_choice *choice, unsigned lanes) {
@@ -44,22 +40,16 @@ ps_nufft_whole_sizes ps_nufft_whole_measure(const ps_nufft_choice *choice, unsig
         is_line ? choice->lengths[0] + (uint32_t)ps_divide_up(behind + 2 * unit, choice->lengths[1])
                 : across->n + across->window.width;
     sizes.grid_reals = ps_round_up((uint64_t)sizes.grid_rows * sizes.pitch, lanes);
-    sizes.row_reals = ps_divide_up(choice->span, lanes) * columns * unit;
+    sizes.shared = ps_nufft_whole_shared(choice, lanes);
+    sizes.row_reals = (size_t)columns * unit;
+    if (is_line) {
+        sizes.row_reals += (size_t)choice->lengths[0] * unit;
+    } else if (sizes.shared > 0) { /* loads go on for a vector, kernels/nufft/shared_tile.h */
+        sizes.row_reals += (size_t)columns * unit + lanes;
+    }
     sizes.window_reals =
         PS_NUFFT_CHUNK * ((is_line ? 1 : ps_nufft_bins(across)) + ps_nufft_bins(along) + 3);
     return sizes;
-}
-
-static double transform_cycles(const ps_nufft_choice *choice, unsigned lanes) {
-    uint32_t kept[2];
-    ps_nufft_whole_kept(choice, kept);
-    const double groups = (double)ps_divide_up(choice->lengths[1], 2 * lanes);
-    const double tiles = (double)ps_divide_up(choice->span, lanes);
-    const double first = ps_fft_cycles(choice->lengths[0]) + cycles_per_cell * choice->lengths[0] +
-                         tiles * cycles_per_turned * lanes;
-    const double second = ps_fft_cycles(choice->lengths[1]) + cycles_per_cell * choice->lengths[1] +
-                          cycles_per_power * (2.0 * kept[1] + 1);
-    return groups * first + tiles * second;
 }
 
 /* In one dimension: the factors of the grid, by what the transforms take. The optimum is flat (first lengths of 128 to
@@ -77,7 +67,7 @@ static void choose_lengths(ps_nufft_choice *choice, unsigned lanes) {
         other.lengths[1] = n / first;
         other.span = first / 2 + 1;
         ps_nufft_whole_kept(&other, kept);
-        const double cycles = transform_cycles(&other, lanes);
+        const double cycles = ps_nufft_whole_transform_cycles(&other, lanes);
         if (2 * kept[1] + 1 <= other.lengths[1] && cycles < least) {
             least = cycles;
             *choice = other;
@@ -99,22 +89,4 @@ bool ps_nufft_whole_shape(ps_nufft_choice *choice, ps_precision precision, unsig
     const ps_nufft_whole_sizes sizes = ps_nufft_whole_measure(choice, lanes);
     return (double)(sizes.grid_reals + sizes.row_reals) * (double)ps_real_bytes(precision) <=
            most_bytes;
-}
-
-double ps_nufft_whole_cycles(const ps_nufft_choice *choice, ps_precision precision, unsigned lanes,
-                             double num_points) {
-    const ps_nufft_whole_sizes sizes = ps_nufft_whole_measure(choice, lanes);
-    const double grid_bytes = (double)(sizes.grid_reals * ps_real_bytes(precision));
-    const double row = grid_bytes <= near_bytes ? cycles_per_row : cycles_per_far_row;
-    double polynomials = 0;
-    double rows = 1;
-    for (unsigned i = 0; i < choice->num_axes; i++) {
-        const double width = choice->axes[i].window.width;
-        polynomials += (width + 2) * ps_nufft_bins(&choice->axes[i]) / lanes;
-        rows = i > 0 ? choice->axes[0].window.width : 1;
-    }
-    const double vectors = ceil(ps_nufft_bins(&choice->axes[choice->num_axes - 1]) / (double)lanes);
-    return num_points *
-               (cycles_per_point + cycles_per_polynomial * polynomials + row * rows * vectors) +
-           transform_cycles(choice, lanes) + (double)sizes.grid_reals / lanes;
 }

@@ -1,5 +1,5 @@
 /* Realizations that one work-group does whole (kernels/nufft/whole.cl): lengths of the two transforms, what they
- * keep, memory, cost.
+ * keep, memory.
  */
 #ifndef PS_ENGINES_NUFFT_WHOLE_SHAPE_H
 #define PS_ENGINES_NUFFT_WHOLE_SHAPE_H
@@ -12,7 +12,8 @@ typedef struct ps_nufft_whole_sizes {
     uint32_t pitch;      /* of a row of the grid */
     uint32_t grid_rows;  /* with those behind the end */
     size_t grid_reals;   /* of a work-group, */
-    size_t row_reals;    /* and of its tiles */
+    size_t row_reals;    /* and of a row of a tile, with what stands behind it */
+    uint32_t shared;     /* lanes of the last tile, where realizations share it, else 0 */
     size_t window_reals; /* of a chunk */
 } ps_nufft_whole_sizes;
 
@@ -20,10 +21,9 @@ typedef struct ps_nufft_whole_sizes {
  * cache of a core is too small for it. */
 bool ps_nufft_whole_shape(ps_nufft_choice *choice, ps_precision precision, unsigned lanes);
 
-ps_nufft_whole_sizes ps_nufft_whole_measure(const ps_nufft_choice *choice, unsigned lanes);
+/* Lanes of the last tile that realizations share; 0: they do not. */
+uint32_t ps_nufft_whole_shared(const ps_nufft_choice *choice, unsigned lanes);
 
-/* Cycles of a realization, docs/torus_nufft.md. */
-double ps_nufft_whole_cycles(const ps_nufft_choice *choice, ps_precision precision, unsigned lanes,
-                             double num_points);
+ps_nufft_whole_sizes ps_nufft_whole_measure(const ps_nufft_choice *choice, unsigned lanes);
 
 #endif

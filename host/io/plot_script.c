@@ -262,7 +262,7 @@ static void print_logarithmic_panel(const ps_plot *plot, const layout *where, FI
             where->middle - 0.085); /* room for the upper panel's labels */
     print_x_label(where, true, stream);
     fputs("set logscale xy\nset format y '10^{%T}'\nset ylabel 'power' offset 1,0\nunset key\n"
-          "set xrange [*:*]\nset yrange [*:*]\nplot ",
+          "set xrange [*:*] noextend\nset yrange [*:*]\nplot ",
           stream);
     for (size_t i = 0; i < plot->num_curves; i++) {
         fprintf(stream, "$curve%zu using 1:($2 > 0 ? $2 : NaN) with lines linewidth 1.2 ", i);
@@ -282,7 +282,7 @@ pspec_status ps_plot_write_script(const ps_plot *plot, const char *terminal, FIL
                           .y_label = plot->on_sphere ? "power" : "radial mean power",
                           .left = has_image ? 0.605 : 0.085,
                           .right = 0.985,
-                          .middle = 0.38};
+                          .middle = plot->on_sphere ? 0.48 : 0.38};
     print_head(plot, terminal, &where, stream);
     for (size_t i = 0; i < plot->num_curves; i++) {
         print_curve(&plot->curves[i], i, stream);

@@ -1,4 +1,5 @@
 /* Patterns that come in blocks. */
+#include "base/round.h"
 #include "job/estimator_private.h"
 #include "job/self_check.h"
 
@@ -11,7 +12,7 @@ static const ps_engine_stream *stream_of(const ps_estimator *self) {
 /* Blocks are whole units of the engine's, large enough for the self-check. */
 static size_t block_unit(const ps_estimator *self) {
     const size_t unit = stream_of(self)->unit(self->engine_state);
-    return (PS_SELF_CHECK_POINTS + unit - 1) / unit * unit;
+    return (size_t)ps_round_up(PS_SELF_CHECK_POINTS, unit);
 }
 
 bool ps_estimator_can_stream(const ps_estimator *estimator) {

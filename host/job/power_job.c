@@ -30,11 +30,20 @@ struct ps_power_job {
 
 /* ---- source ------------------------------------------------------------------------------ */
 
+/* Rotated points of the hemisphere that go below it become their antipodes. That changes no even degree, but
+ * the odd ones, which points have when they are taken as points of the sphere. */
+static bool folding_matters(const ps_power_question *question) {
+    const ps_sampler_request *sampler = question->sampler;
+    return sampler != NULL && sampler->homogenize && ps_sampler_is_on_hemisphere(sampler) &&
+           !question->on_hemisphere;
+}
+
 /* What is not needed, once dimension and frequencies are known. */
 static void find_needs(ps_power_job *job) {
     const ps_power_question *question = job->question;
     const ps_sampler_request *sampler = question->sampler;
     const bool is_grid = question->frequencies_path == NULL && !question->on_sphere;
+    const bool is_invariant = sampler != NULL && !folding_matters(question);
     const ps_needs_question needs = {
         .dimension = job->dimension,
         .max_frequency = is_grid ? job->frequencies.max_frequency : 0,
@@ -43,8 +52,8 @@ static void find_needs(ps_power_job *job) {
         .wants_full_array = question->wants_full_array,
         .share_not_drawn =
             1 - (double)job->frequencies.num / (double)ps_frequencies_population(&job->frequencies),
-        .has_constant_power = sampler != NULL && ps_sampler_has_constant_power(sampler),
-        .is_homogenized = sampler != NULL && sampler->homogenize,
+        .has_constant_power = is_invariant && ps_sampler_has_constant_power(sampler),
+        .is_homogenized = is_invariant && sampler->homogenize,
         .num_realizations = question->num_realizations,
         .no_skip = question->no_skip,
     };

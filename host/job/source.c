@@ -72,6 +72,7 @@ static pspec_status next_sample(ps_source *source, ps_point_set *set, bool *has_
     }
     PS_TRY(ps_grow(&points, &set->points_capacity, count, sizeof(double), "points", error));
     set->points = points;
+    set->coordinates = ps_sampler_is_on_sphere(request) ? PS_UNIT_VECTORS : PS_TORUS_COORDINATES;
     set->dimension = request->dimension;
     set->num_points = request->num_points;
     set->has_weights = false;

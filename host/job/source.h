@@ -14,7 +14,8 @@
 
 typedef struct ps_source ps_source;
 
-/* The sampler's realizations 0 .. num_realizations - 1; request is copied. */
+/* The sampler's realizations 0 .. num_realizations - 1, with torus coordinates or unit vectors; request is
+ * resolved, and copied. */
 pspec_status ps_source_sampler(ps_source **out, const ps_sampler_request *request,
                                uint64_t num_realizations, ps_error *error) PS_MUST_CHECK;
 

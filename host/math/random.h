@@ -6,7 +6,7 @@
  *              stream number * 2^16 + high 16 bits of the block index,
  *              low 32 bits of the realization, high 32 bits of the realization)
  * A stream is (seed, stream number, realization); block b of it yields four 32-bit words.
- * Stream numbers keep independent uses apart (coordinates, permutations, scrambling, shift).
+ * Stream numbers keep independent uses apart (coordinates, permutations, scrambling, shift, ..).
  */
 #ifndef PS_MATH_RANDOM_H
 #define PS_MATH_RANDOM_H
@@ -33,7 +33,8 @@ typedef enum ps_random_stream {
     PS_STREAM_PERMUTATION = 1,
     PS_STREAM_SCRAMBLE = 2,
     PS_STREAM_SHIFT = 3,
-    PS_STREAM_FREQUENCIES = 4 /* which frequencies of a ring; the realization is the ring */
+    PS_STREAM_FREQUENCIES = 4, /* which frequencies of a ring; the realization is the ring */
+    PS_STREAM_ROTATION = 5     /* of the sphere, one per realization */
 } ps_random_stream;
 
 ps_random ps_random_init(uint64_t seed, ps_random_stream stream, uint64_t realization);

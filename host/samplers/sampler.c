@@ -2,15 +2,53 @@
 
 #include "base/memory.h"
 #include "math/random.h"
+#include "math/rotation.h"
+#include "samplers/sphere.h"
 #include "samplers/values.h"
 
 /* Indices, and sums of an index and a 53-bit offset, stay far inside the doubles; 2^40 points of
  * the plane are 16 TiB. */
 static const uint64_t MAXIMUM_POINTS = (uint64_t)1 << 40;
 
+/* ---- where points lie ---------------------------------------------------------------------- */
+
+ps_sampler_domain ps_sampler_where(const ps_sampler_request *request) {
+    return request->lift != PS_SAMPLES_TORUS ? request->lift : request->sampler->domain;
+}
+
+bool ps_sampler_is_on_sphere(const ps_sampler_request *request) {
+    return ps_sampler_where(request) != PS_SAMPLES_TORUS;
+}
+
+bool ps_sampler_is_on_hemisphere(const ps_sampler_request *request) {
+    return ps_sampler_where(request) == PS_SAMPLES_HEMISPHERE;
+}
+
+/* The request as its sampler sees it: what is lifted are points of the plane. */
+static ps_sampler_request own_request(const ps_sampler_request *request) {
+    enum { PLANE = 2 };
+    ps_sampler_request own = *request;
+    if (request->lift != PS_SAMPLES_TORUS) {
+        own.lift = PS_SAMPLES_TORUS;
+        own.dimension = PLANE;
+    }
+    return own;
+}
+
+/* ---- checks -------------------------------------------------------------------------------- */
+
 static pspec_status check_dimension(const ps_sampler_request *request, ps_error *error) {
     const ps_sampler *sampler = request->sampler;
     const unsigned minimum = sampler->minimum_dimension > 1 ? sampler->minimum_dimension : 1;
+    if (ps_sampler_is_on_sphere(request)) {
+        return request->dimension == PS_VECTOR_DIMENSION
+                   ? PSPEC_OK
+                   : ps_fail(
+                         error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "sampler %s: dimension %u was given, but points of the sphere are unit "
+                         "vectors of %d numbers; leave the dimension away",
+                         sampler->name, request->dimension, PS_VECTOR_DIMENSION);
+    }
     if (request->dimension < minimum || request->dimension > sampler->maximum_dimension) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "sampler %s: dimension %u is not between %u and %u", sampler->name,
@@ -40,8 +78,26 @@ static pspec_status check_size(const ps_sampler_request *request, ps_error *erro
 pspec_status ps_sampler_check(const ps_sampler_request *request, ps_error *error) {
     PS_TRY(check_dimension(request, error));
     PS_TRY(check_size(request, error));
-    return request->sampler->check != NULL ? request->sampler->check(request, error) : PSPEC_OK;
+    const ps_sampler_request own = own_request(request);
+    return own.sampler->check != NULL ? own.sampler->check(&own, error) : PSPEC_OK;
 }
+
+pspec_status ps_sampler_resolve(ps_sampler_request *request, ps_error *error) {
+    const ps_sampler *sampler = request->sampler;
+    if (request->dimension == 0) {
+        request->dimension =
+            ps_sampler_is_on_sphere(request) ? PS_VECTOR_DIMENSION : PS_DEFAULT_DIMENSION;
+    }
+    if (request->num_points == 0) {
+        request->num_points = PS_DEFAULT_POINTS;
+        if (sampler->open_points != NULL) {
+            PS_TRY(sampler->open_points(request, &request->num_points, error));
+        }
+    }
+    return ps_sampler_check(request, error);
+}
+
+/* ---- points -------------------------------------------------------------------------------- */
 
 /* x + shift < 2, and a sum that reaches 1 loses exactly 1: the result stays in [0,1). */
 static void shift_points(const ps_sampler_request *request, uint64_t realization, double *points) {
@@ -58,19 +114,36 @@ static void shift_points(const ps_sampler_request *request, uint64_t realization
     }
 }
 
+static void rotate_points(const ps_sampler_request *request, uint64_t realization, double *points) {
+    ps_random random = ps_random_init(request->seed, PS_STREAM_ROTATION, realization);
+    const ps_rotation rotation = ps_rotation_random(&random);
+    ps_rotate(&rotation, points, request->num_points);
+    if (ps_sampler_is_on_hemisphere(request)) {
+        ps_sphere_fold(request->num_points, points);
+    }
+}
+
 pspec_status ps_sampler_generate(const ps_sampler_request *request, uint64_t realization,
                                  double *points, ps_error *error) {
-    PS_TRY(request->sampler->generate(request, realization, points, error));
-    if (request->homogenize) {
+    const ps_sampler_request own = own_request(request);
+    PS_TRY(own.sampler->generate(&own, realization, points, error));
+    if (request->lift != PS_SAMPLES_TORUS) {
+        ps_sphere_lift(request->lift, request->num_points, points);
+    }
+    if (request->homogenize && ps_sampler_is_on_sphere(request)) {
+        rotate_points(request, realization, points);
+    } else if (request->homogenize) {
         shift_points(request, realization, points);
     }
     return PSPEC_OK;
 }
 
 const char *ps_sampler_note(const ps_sampler_request *request) {
-    return request->sampler->note != NULL ? request->sampler->note(request) : NULL;
+    const ps_sampler_request own = own_request(request);
+    return own.sampler->note != NULL ? own.sampler->note(&own) : NULL;
 }
 
 bool ps_sampler_has_constant_power(const ps_sampler_request *request) {
-    return request->sampler->is_deterministic(request);
+    const ps_sampler_request own = own_request(request);
+    return own.sampler->is_deterministic(&own);
 }

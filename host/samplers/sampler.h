@@ -1,8 +1,12 @@
-/* Samplers of the unit torus [0,1)^d: one table, one file per sampler.
+/* Samplers of the unit torus [0,1)^d, of the sphere and of the hemisphere z >= 0: one table, one file
+ * per sampler. Every sampler of the torus makes points of the other two, too, by lift=.
  *
  * A sampler writes one realization at a time. Realization r depends on nothing but
  * (sampler, parameters, number of points, dimension, seed, r), through the counter-based generator
  * of math/random.h; so any batch, thread or rank makes the same points.
+ *
+ * A request is parsed, gets its number of points, dimension and seed, is resolved (what was left open
+ * is filled in, and all of it is checked), and then makes points.
  * This layer is a leaf: it may use math/ and base/ only.
  */
 #ifndef PS_SAMPLERS_SAMPLER_H
@@ -16,6 +20,26 @@
 
 enum { PS_MAX_DIMENSION = 6, PS_MAX_SAMPLER_PARAMETERS = 4, PS_MAX_SAMPLER_VALUE = 64 };
 
+/* What ps_sampler_resolve takes for what is 0 in a request, unless the sampler says more. */
+enum { PS_DEFAULT_POINTS = 1024, PS_DEFAULT_DIMENSION = 2 };
+
+/* Numbers per point on sphere and hemisphere: x, y, z of a unit vector. */
+enum { PS_VECTOR_DIMENSION = 3 };
+
+/* Where points lie. */
+typedef enum ps_sampler_domain {
+    PS_SAMPLES_TORUS = 0,
+    PS_SAMPLES_SPHERE,
+    PS_SAMPLES_HEMISPHERE /* z >= 0 */
+} ps_sampler_domain;
+
+/* The parameter that every sampler of the torus has besides its own, and what it says. */
+#define PS_LIFT_KEY "lift"
+#define PS_LIFT_DEFAULT "none"
+#define PS_LIFT_MEANING                                                                            \
+    "none|sphere|hemisphere, points (x,y) of the plane by Lambert's map to z = 2x - 1 or z = x, "  \
+    "phi = 2 pi y"
+
 /* One key that a sampler understands in NAME:key=value. */
 typedef struct ps_sampler_parameter {
     const char *key;
@@ -28,10 +52,13 @@ typedef struct ps_sampler ps_sampler;
 /* What to sample. values[i] belongs to sampler->parameters[i]. */
 typedef struct ps_sampler_request {
     const ps_sampler *sampler;
-    size_t num_points;
-    unsigned dimension;
+    ps_sampler_domain lift; /* of a torus sampler; PS_SAMPLES_TORUS: points stay where they are */
+    size_t num_points;      /* 0: left open until the request is resolved */
+    unsigned dimension;     /* numbers per point: d, on the sphere 3; 0: left open */
     uint64_t seed;
-    bool homogenize; /* add one uniform random vector mod 1 to every point of a realization */
+    bool homogenize; /* torus: add one uniform random vector mod 1 to every point of a realization;
+                        sphere: one uniform random rotation; hemisphere: the same, u with z < 0
+                        becoming -u */
     char values[PS_MAX_SAMPLER_PARAMETERS][PS_MAX_SAMPLER_VALUE];
 } ps_sampler_request;
 
@@ -39,17 +66,21 @@ struct ps_sampler {
     const char *name;
     const char *summary;        /* one line, for help */
     const char *aliases[4];     /* names that other tools use, NULL-terminated */
-    unsigned maximum_dimension; /* 1 is always the minimum unless minimum_dimension says more */
-    unsigned minimum_dimension;
+    ps_sampler_domain domain;   /* where its own points lie, without a lift */
+    unsigned maximum_dimension; /* of the torus only; the plane is always among them */
+    unsigned minimum_dimension; /* 1 unless it says more */
     ps_sampler_parameter parameters[PS_MAX_SAMPLER_PARAMETERS + 1]; /* ended by key == NULL */
 
     /* Every realization the same points, before homogenize (may depend on the parameters). */
     bool (*is_deterministic)(const ps_sampler_request *);
     /* What the header of a result should say of this request, or NULL. The member may be NULL. */
     const char *(*note)(const ps_sampler_request *);
+    /* The number of points that parameters alone ask for, for requests that leave it open. The
+     * member may be NULL: PS_DEFAULT_POINTS. */
+    pspec_status (*open_points)(const ps_sampler_request *, size_t *num_points, ps_error *);
     /* Are number of points, dimension and parameter values admissible? NULL: always. */
     pspec_status (*check)(const ps_sampler_request *, ps_error *);
-    /* Writes realization r: points [num_points][dimension], each in [0,1). */
+    /* Writes realization r: points [num_points][dimension], each in [0,1), or unit vectors. */
     pspec_status (*generate)(const ps_sampler_request *, uint64_t realization, double *points,
                              ps_error *);
 };
@@ -57,23 +88,37 @@ struct ps_sampler {
 /* All samplers, ended by NULL. */
 extern const ps_sampler *const ps_samplers[];
 
-/* Parses "NAME[:key=value,...]" into request->sampler and request->values (defaults filled in).
+/* Parses "NAME[:key=value,...]" into request->sampler, ->lift and ->values (defaults filled in).
  * Unknown names and keys are PSPEC_ERROR_INVALID_ARGUMENT and name the nearest known one. */
 pspec_status ps_sampler_parse(ps_sampler_request *request, const char *text,
                               ps_error *error) PS_MUST_CHECK;
 
-/* Checks the whole request (dimension, number of points, values); call it before sampling. */
+/* Fills in dimension and number of points where they are 0, then checks the whole request. The
+ * number of points is final afterwards. */
+pspec_status ps_sampler_resolve(ps_sampler_request *request, ps_error *error) PS_MUST_CHECK;
+
+/* Checks the whole request (dimension, number of points, values), in which nothing may be left
+ * open; a request must have passed it, or have been resolved, before sampling. */
 pspec_status ps_sampler_check(const ps_sampler_request *request, ps_error *error) PS_MUST_CHECK;
 
-/* Writes realization r of the request, random shift included when it is homogenized. */
+/* Writes realization r of the request, points [num_points][dimension], random shift or rotation
+ * included when it is homogenized. */
 pspec_status ps_sampler_generate(const ps_sampler_request *request, uint64_t realization,
                                  double *points, ps_error *error) PS_MUST_CHECK;
 
 /* The sampler's note on this request, NULL when there is nothing to say. Static storage. */
 const char *ps_sampler_note(const ps_sampler_request *request);
 
-/* True when all realizations have the same power spectrum: deterministic points, shifted or not
- * (a shift of the torus leaves P unchanged, mathematics.md 1.1). */
+/* Where the points of the request lie, lift included. */
+ps_sampler_domain ps_sampler_where(const ps_sampler_request *request);
+/* Unit vectors, of the sphere or the hemisphere? */
+bool ps_sampler_is_on_sphere(const ps_sampler_request *request);
+bool ps_sampler_is_on_hemisphere(const ps_sampler_request *request);
+
+/* True when all realizations have the same power spectrum: deterministic points, homogenized or not.
+ * A shift of the torus and a rotation of the sphere leave P unchanged (mathematics.md 1.1, 2.2), and
+ * so does a rotation of the hemisphere with folding for even degrees, the only ones that it has as
+ * the projective plane. Its odd degrees, taken as points of the sphere, do change. */
 bool ps_sampler_has_constant_power(const ps_sampler_request *request);
 
 #endif

@@ -43,18 +43,18 @@ static bool product_is(const uint64_t *counts, unsigned num_counts, uint64_t exp
     return rest == 1;
 }
 
-static pspec_status read_strata(const ps_sampler_request *request, unsigned i_parameter,
-                                uint64_t counts[PS_MAX_DIMENSION], ps_error *error) {
+pspec_status ps_strata_read(const ps_sampler_request *request, unsigned i_parameter,
+                            unsigned num_axes, uint64_t counts[PS_MAX_DIMENSION], ps_error *error) {
     unsigned num_counts = 0;
     if (!parse_counts(request->values[i_parameter], counts, &num_counts)) {
         return fail_strata(request, i_parameter,
                            "is not positive whole numbers joined by x, as in 32x64", error);
     }
-    if (num_counts != request->dimension) {
+    if (num_counts != num_axes) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "sampler %s: strata=%s has %u numbers but the dimension is %u",
-                       request->sampler->name, request->values[i_parameter], num_counts,
-                       request->dimension);
+                       "sampler %s: strata=%s has %u numbers but %s %u", request->sampler->name,
+                       request->values[i_parameter], num_counts,
+                       num_axes == request->dimension ? "the dimension is" : "must have", num_axes);
     }
     if (!product_is(counts, num_counts, request->num_points)) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
@@ -78,7 +78,7 @@ static pspec_status fail_aspect(const ps_sampler_request *request, ps_error *err
 pspec_status ps_strata_resolve(const ps_sampler_request *request, unsigned i_parameter,
                                uint64_t counts[PS_MAX_DIMENSION], ps_error *error) {
     if (strcmp(request->values[i_parameter], PS_STRATA_AUTO) != 0) {
-        return read_strata(request, i_parameter, counts, error);
+        return ps_strata_read(request, i_parameter, request->dimension, counts, error);
     }
     return ps_strata_factorise(request->num_points, request->dimension, counts)
                ? PSPEC_OK

@@ -16,6 +16,11 @@
 pspec_status ps_strata_resolve(const ps_sampler_request *request, unsigned i_parameter,
                                uint64_t counts[PS_MAX_DIMENSION], ps_error *error) PS_MUST_CHECK;
 
+/* Reads strata=AxB.. of num_axes numbers, one stratum for each point. */
+pspec_status ps_strata_read(const ps_sampler_request *request, unsigned i_parameter,
+                            unsigned num_axes, uint64_t counts[PS_MAX_DIMENSION],
+                            ps_error *error) PS_MUST_CHECK;
+
 /* Turns offsets in [0,1) within the stratum into points, in place; the last axis moves fastest. */
 void ps_strata_place(const ps_sampler_request *request, const uint64_t counts[PS_MAX_DIMENSION],
                      double *points);

@@ -1,6 +1,6 @@
 #include "samplers/list.h"
 
-/* In the order of the help text. A new sampler is a file, a line in list.h and a row here. */
+/* In the order of the help text: torus, sphere, hemisphere. A new sampler is a file, a line in list.h and a row here. */
 const ps_sampler *const ps_samplers[] = {
     &ps_sampler_white,
     &ps_sampler_regular,
@@ -10,5 +10,13 @@ const ps_sampler *const ps_samplers[] = {
     &ps_sampler_halton,
     &ps_sampler_hammersley,
     &ps_sampler_larcher_pillichshammer,
+    &ps_sampler_white_sphere,
+    &ps_sampler_zphi,
+    &ps_sampler_healpix,
+    &ps_sampler_healpix_jittered,
+    &ps_sampler_fibonacci,
+    &ps_sampler_spiral,
+    &ps_sampler_white_hemisphere,
+    &ps_sampler_fibonacci_hemisphere,
     NULL,
 };

@@ -12,8 +12,9 @@
  *   rings    members of one bin in one block, and the piece that they make
  *   members  slots within their block
  *   sums     [group of LANES realizations][piece][high, low][LANES]
- *   state    [sum high, sum low, square sum high, square sum low][stride], continued; the first two rows
- *            alone without SQUARES
+ *   sum, sum_low, square, square_low
+ *            [stride] each, continued: sums of powers and of their squares in pairs, each as long as a row of powers, so
+ *            that they need no larger buffer; the last two are not touched without SQUARES
  *   block    local, [BLOCK][LANES]
  */
 #include "shared/lanes.h"
@@ -34,6 +35,11 @@ typedef struct ring {
     uint piece;
 } ring;
 
+/* sum 0: nobody asks for frequencies. */
+typedef struct state {
+    __global real *sum, *sum_low, *square, *square_low;
+} state;
+
 /* The first `count` of LANES realizations; the others are left out of the state and are 0 in bins. */
 static inline void load_rows(realv *powers, __global const real *rows, const ulong stride,
                              const uint count) {
@@ -43,12 +49,12 @@ static inline void load_rows(realv *powers, __global const real *rows, const ulo
     }
 }
 
-static inline void add_to_state(__global real *state, const ulong stride, const realv *powers,
+static inline void add_to_state(const state sums, const size_t slot, const realv *powers,
                                 const uint count) {
-    realv sum = load_global(state, 0), sum_low = load_global(state + stride, 0);
+    realv sum = load_global(sums.sum + slot, 0), sum_low = load_global(sums.sum_low + slot, 0);
 #if SQUARES
-    realv square = load_global(state + 2 * stride, 0);
-    realv square_low = load_global(state + 3 * stride, 0);
+    realv square = load_global(sums.square + slot, 0);
+    realv square_low = load_global(sums.square_low + slot, 0);
 #endif
 #pragma unroll
     for (uint i = 0; i < LANES; i++) {
@@ -59,27 +65,29 @@ static inline void add_to_state(__global real *state, const ulong stride, const 
 #endif
         }
     }
-    store_global(state, 0, sum);
-    store_global(state + stride, 0, sum_low);
+    store_global(sums.sum + slot, 0, sum);
+    store_global(sums.sum_low + slot, 0, sum_low);
 #if SQUARES
-    store_global(state + 2 * stride, 0, square);
-    store_global(state + 3 * stride, 0, square_low);
+    store_global(sums.square + slot, 0, square);
+    store_global(sums.square_low + slot, 0, square_low);
 #endif
 }
 
-/* LANES realizations of a block: rows begin at its first slot, and so does the state, if any. */
-static inline void load_block(__local real *block, __global const real *rows, __global real *state,
-                              const ulong stride, const uint num_slots, const uint count) {
+/* LANES realizations of a block that begins at first_slot. */
+static inline void load_block(__local real *block, __global const real *rows, const state sums,
+                              const ulong stride, const size_t first_slot, const uint num_slots,
+                              const uint count) {
     for (uint i = get_local_id(0); i < num_slots / LANES; i += get_local_size(0)) {
+        const size_t slot = first_slot + i * LANES;
         realv powers[LANES];
-        load_rows(powers, rows + i * LANES, stride, count);
-        if (state != 0) {
-            add_to_state(state + i * LANES, stride, powers, count);
+        load_rows(powers, rows + slot, stride, count);
+        if (sums.sum != 0) {
+            add_to_state(sums, slot, powers, count);
         }
         transpose(powers);
 #pragma unroll
-        for (uint slot = 0; slot < LANES; slot++) {
-            store_local(block, i * LANES + slot, powers[slot]);
+        for (uint lane = 0; lane < LANES; lane++) {
+            store_local(block, i * LANES + lane, powers[lane]);
         }
     }
 }
@@ -98,17 +106,16 @@ static inline void add_rings(__global real *sums, __local const real *block,
     }
 }
 
-/* state 0: nobody asks for frequencies. */
 static inline void add_block(__global const real *power, const uint num_realizations,
                              const ulong stride, __global const uint *blocks,
                              __global const ring *rings, __global const ushort *members,
-                             __global real *sums, const ulong num_pieces, __global real *state,
+                             __global real *sums, const ulong num_pieces, const state frequencies,
                              __local real *block) {
     const size_t index = get_global_id(1), first_slot = index * BLOCK;
     const uint num_slots = (uint)min((ulong)BLOCK, stride - first_slot);
     for (uint first = 0; first < num_realizations; first += LANES) {
-        load_block(block, power + first * stride + first_slot, state != 0 ? state + first_slot : 0,
-                   stride, num_slots, min((uint)LANES, num_realizations - first));
+        load_block(block, power + first * stride, frequencies, stride, first_slot, num_slots,
+                   min((uint)LANES, num_realizations - first));
         barrier(CLK_LOCAL_MEM_FENCE);
         add_rings(sums + first * num_pieces * 2, block, rings, members, blocks[index],
                   blocks[index + 1]);
@@ -121,16 +128,18 @@ __kernel void accumulate_bins(__global const real *restrict power, const uint nu
                               __global const ring *restrict rings,
                               __global const ushort *restrict members, __global real *restrict sums,
                               const ulong num_pieces, __local real *block) {
-    add_block(power, num_realizations, stride, blocks, rings, members, sums, num_pieces, 0, block);
+    const state none = {0, 0, 0, 0};
+    add_block(power, num_realizations, stride, blocks, rings, members, sums, num_pieces, none,
+              block);
 }
 
-__kernel void accumulate_bins_and_frequencies(__global const real *restrict power,
-                                              const uint num_realizations, const ulong stride,
-                                              __global const uint *restrict blocks,
-                                              __global const ring *restrict rings,
-                                              __global const ushort *restrict members,
-                                              __global real *restrict sums, const ulong num_pieces,
-                                              __global real *restrict state, __local real *block) {
-    add_block(power, num_realizations, stride, blocks, rings, members, sums, num_pieces, state,
-              block);
+__kernel void accumulate_bins_and_frequencies(
+    __global const real *restrict power, const uint num_realizations, const ulong stride,
+    __global const uint *restrict blocks, __global const ring *restrict rings,
+    __global const ushort *restrict members, __global real *restrict sums, const ulong num_pieces,
+    __global real *sum, __global real *sum_low, __global real *square, __global real *square_low,
+    __local real *block) {
+    const state frequencies = {sum, sum_low, square, square_low};
+    add_block(power, num_realizations, stride, blocks, rings, members, sums, num_pieces,
+              frequencies, block);
 }

@@ -25,6 +25,9 @@ bool fault_is_due_alone(fault_class kind, const char *name);
 void fault_gain(const void *thing, const char *by);
 void fault_lose(const void *thing);
 
+/* A number of the environment; 0: there is none (wrap_sizes.c). */
+uint64_t fault_size(const char *variable);
+
 /* A descriptor as a thing: no object has such a small address. */
 static inline const void *fault_descriptor(int descriptor) {
     return descriptor >= 0 ? (const void *)((uintptr_t)descriptor + 1) : NULL;

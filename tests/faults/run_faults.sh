@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# run_faults.sh PROGRAM [--sample N] [--only NAME] [--table]: makes the allocations, file calls and OpenCL calls
+# run_faults.sh PROGRAM [--sample N] [--only NAME[,NAME...]] [--table]: makes the allocations, file calls and OpenCL calls
 # of every command line of commands.txt fail one by one, and judges what the program does then (see
 # docs/reliability.md). PROGRAM is pointspec_faults. --sample takes about N faults, evenly; --table prints
 # the table of docs/reliability.md.
@@ -49,6 +49,7 @@ make_inputs() {
     "$program" sample --sampler white -n 8 -o points.txt
     "$program" sample --sampler white -n 6 -m 2 -s 2 -o more.txt
     "$program" sample --sampler white -n 8 -m 2 -o points.npy
+    "$program" sample --sampler white -n 1500 -o many.txt
     printf '1 2 -1 0.5 1 2 1 0.5\n' | tr ' ' '\n' >weights.txt
     paste -d ' ' points.txt weights.txt | grep -v '#' >weighted.txt
     printf '1 0\n0 1\n1000 -3\n' >vectors.txt
@@ -97,7 +98,7 @@ prepare_cases() {
     local name words
     while read -r -a words; do
         name=${words[0]-#}
-        [[ $name == \#* || (-n $only && $name != "$only") ]] || prepare_case "${words[@]}" || return 1
+        [[ $name == \#* || (-n $only && ,$only, != *,$name,*) ]] || prepare_case "${words[@]}" || return 1
     done <"$here/commands.txt"
 }
 

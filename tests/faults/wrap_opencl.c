@@ -2,6 +2,7 @@
 #include "faults.h"
 
 #include <CL/cl.h>
+#include <string.h>
 
 /* A call that only returns a code. */
 #define STATUS(name, failure, parameters, arguments)                                               \
@@ -53,9 +54,20 @@ STATUS(clGetPlatformInfo, CL_OUT_OF_HOST_MEMORY,
 STATUS(clGetDeviceIDs, CL_OUT_OF_RESOURCES,
        (cl_platform_id id, cl_device_type type, cl_uint room, cl_device_id *devices, cl_uint *num),
        (id, type, room, devices, num))
-STATUS(clGetDeviceInfo, CL_OUT_OF_RESOURCES,
-       (cl_device_id id, cl_device_info what, size_t bytes, void *value, size_t *size),
-       (id, what, bytes, value, size))
+/* With the largest buffer as small as a test wants it. */
+WRAPPER(clGetDeviceInfo, cl_int,
+        (cl_device_id id, cl_device_info what, size_t bytes, void *value, size_t *size)) {
+    if (fault_is_due(FAULT_OPENCL, "clGetDeviceInfo")) {
+        return CL_OUT_OF_RESOURCES;
+    }
+    const cl_ulong most = fault_size("POINTSPEC_FAULT_ALLOCATION_BYTES");
+    const cl_int code = __real_clGetDeviceInfo(id, what, bytes, value, size);
+    if (what == CL_DEVICE_MAX_MEM_ALLOC_SIZE && most > 0 && code == CL_SUCCESS &&
+        bytes == sizeof most) {
+        memcpy(value, &most, sizeof most);
+    }
+    return code;
+}
 
 /* ---- contexts, queues, memory -------------------------------------------------------------- */
 
@@ -117,6 +129,25 @@ ENQUEUE(clEnqueueWriteBuffer, CL_OUT_OF_RESOURCES,
         (cl_command_queue queue, cl_mem memory, cl_bool waits_here, size_t offset, size_t bytes,
          const void *data, cl_uint num_waits, const cl_event *waits, cl_event *event),
         (queue, memory, waits_here, offset, bytes, data, num_waits, waits, event))
+ENQUEUE(clEnqueueUnmapMemObject, CL_OUT_OF_RESOURCES,
+        (cl_command_queue queue, cl_mem memory, void *data, cl_uint num_waits,
+         const cl_event *waits, cl_event *event),
+        (queue, memory, data, num_waits, waits, event))
+WRAPPER(clEnqueueMapBuffer, void *,
+        (cl_command_queue queue, cl_mem memory, cl_bool waits_here, cl_map_flags flags,
+         size_t offset, size_t bytes, cl_uint num_waits, const cl_event *waits, cl_event *event,
+         cl_int *code)) {
+    if (fault_is_due(FAULT_OPENCL, "clEnqueueMapBuffer")) {
+        *code = CL_MAP_FAILURE;
+        return NULL;
+    }
+    void *data = __real_clEnqueueMapBuffer(queue, memory, waits_here, flags, offset, bytes,
+                                           num_waits, waits, event, code);
+    if (*code == CL_SUCCESS && event != NULL) {
+        fault_gain(*event, "clEnqueueMapBuffer");
+    }
+    return data;
+}
 ENQUEUE(clEnqueueFillBuffer, CL_MEM_OBJECT_ALLOCATION_FAILURE,
         (cl_command_queue queue, cl_mem memory, const void *pattern, size_t pattern_bytes,
          size_t offset, size_t bytes, cl_uint num_waits, const cl_event *waits, cl_event *event),

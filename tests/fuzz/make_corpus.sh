@@ -162,6 +162,12 @@ for text in white sobol:scramble=owen,skip=3 jittered:strata=4x4 halton regular 
     i=$((i + 1))
     printf '%s' "$text" | seed sampler "$i" '\x10\0\2'
 done
+# Nothing but the text: what is left open is 0.
+for text in white-sphere white-hemisphere zphi:strata=16x64 healpix healpix-jittered:nside=3 fibonacci \
+    fibonacci-hemisphere spiral sobol:scramble=owen,lift=hemisphere 'regular:lift=ball' healpix:nside=1e9; do
+    i=$((i + 1))
+    printf '%s' "$text" | seed sampler "$i" '\0\0\0'
+done
 
 printf -- '--sampler\nwhite\n-n\n1e3\n-m16\n-k\n64\n-o\nout.csv' | seed arguments power '\0'
 printf -- '--sampler\nsobol:scramble=owen\n--sampler=jittered\n-n4096\n-d3\n--tol=1e-9\n--plot=a.png' |

@@ -14,6 +14,10 @@ volatile sig_atomic_t ps_interrupted = 0; /* main.c, which has it, is not part o
 
 /* ---- samplers ---------------------------------------------------------------------------- */
 
+static bool is_coordinate(const ps_sampler_request *request, double number) {
+    return ps_sampler_is_on_sphere(request) ? fabs(number) <= 1 : number >= 0 && number < 1;
+}
+
 static void check_points(const ps_sampler_request *request) {
     const size_t count = request->num_points * request->dimension;
     double *const points = fuzz_allocate(NULL, count, sizeof *points);
@@ -21,14 +25,14 @@ static void check_points(const ps_sampler_request *request) {
     const pspec_status status = ps_sampler_generate(request, 0, points, &error);
     fuzz_check_error(status, &error, FUZZ_QUOTES_INPUT);
     for (size_t i = 0; status == PSPEC_OK && i < count; i++) {
-        if (!(points[i] >= 0 && points[i] < 1)) {
+        if (!is_coordinate(request, points[i])) {
             fuzz_fail("%s: coordinate %.17g", request->sampler->name, points[i]);
         }
     }
     free(points);
 }
 
-/* Bytes: number of points (2), dimension, text. */
+/* Bytes: number of points (2), dimension, both 0 where they are left open, text. */
 void fuzz_sampler(const char *argument, fuzz_bytes input) {
     enum { MOST_DIMENSIONS = 8, MOST_GENERATED = 1024 };
     (void)argument;
@@ -45,7 +49,7 @@ void fuzz_sampler(const char *argument, fuzz_bytes input) {
                 fuzz_fail("%s: parameter %u has no end", text, i);
             }
         }
-        status = ps_sampler_check(&request, &error);
+        status = ps_sampler_resolve(&request, &error);
     }
     fuzz_check_error(status, &error, FUZZ_QUOTES_INPUT);
     if (status == PSPEC_OK && request.num_points <= MOST_GENERATED) {

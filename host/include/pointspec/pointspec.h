@@ -277,7 +277,7 @@ PSPEC_EXPORT pspec_status pspec_spectrum_merge(pspec_spectrum **out, pspec_conte
                                                const pspec_spectrum *const *spectra,
                                                size_t num_spectra);
 
-/** d. */
+/** d; 3 on the sphere. */
 PSPEC_EXPORT unsigned pspec_spectrum_dimension(const pspec_spectrum *spectrum);
 /** M. */
 PSPEC_EXPORT uint64_t pspec_spectrum_num_realizations(const pspec_spectrum *spectrum);
@@ -290,10 +290,11 @@ PSPEC_EXPORT double pspec_spectrum_error(const pspec_spectrum *spectrum);
 /** Bins in ascending order, [*num_bins]; none for a list of frequencies. Belongs to the spectrum. */
 PSPEC_EXPORT const pspec_bin *pspec_spectrum_bins(const pspec_spectrum *spectrum, size_t *num_bins);
 
+/** Numbers of a frequency: d, or 1 for the degrees of the sphere. */
+PSPEC_EXPORT unsigned pspec_spectrum_components(const pspec_spectrum *spectrum);
 /** The frequencies: the list as it was given, or the half lattice of the grid (first non-zero component
  * positive, lexicographic order, DC left out; P(-k) = P(k)), or with per_ring what was drawn of it, ring by
- * ring, unless that is everything. [*num_frequencies][dimension]. On the sphere the degrees,
- * [*num_frequencies]. Belongs to the spectrum. */
+ * ring, unless that is everything. [*num_frequencies][components]. On the sphere the degrees. Belongs to the spectrum. */
 PSPEC_EXPORT const int32_t *pspec_spectrum_frequencies(const pspec_spectrum *spectrum,
                                                        size_t *num_frequencies);
 /** Mean powers, [num_frequencies], in the order of the frequencies. Belong to the spectrum. */

@@ -1,0 +1,22 @@
+/* Angles as fractions of a turn, so that quadrants are exact and only an eighth of a turn is left to
+ * cosine and sine, whose results are then right to about one unit in the last place of each.
+ */
+#ifndef PS_MATH_TURNS_H
+#define PS_MATH_TURNS_H
+
+#include <stdint.h>
+
+/* quarters/4 + rest of a turn, |rest| <= 1/4. Only quarters mod 4 counts. */
+typedef struct ps_turns {
+    unsigned quarters;
+    double rest;
+} ps_turns;
+
+/* turns in [0,1]; nothing is rounded. */
+ps_turns ps_turns_of(double turns);
+/* fraction/2^64 of a turn, rest to the last place. */
+ps_turns ps_turns_of_fraction(uint64_t fraction);
+
+void ps_turns_cosine_sine(ps_turns angle, double *cosine, double *sine);
+
+#endif

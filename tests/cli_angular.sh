@@ -1,0 +1,125 @@
+#!/usr/bin/env bash
+# cli_angular.sh PROGRAM: pointspec angular from files of every kind to tables; what it refuses, and how it says it.
+set -euo pipefail
+program=$(realpath "$1")
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch"
+unset POINTSPEC_DEVICE
+
+checked=0 bad=0
+complain() {
+    printf 'cli_angular: %s\n' "$*" >&2
+    bad=1
+}
+runs() { # EXIT ARGS...: standard output in out, standard error in err
+    local expected=$1 code=0
+    shift
+    checked=$((checked + 1))
+    "$program" angular "$@" </dev/null >out 2>err || code=$?
+    [[ $code == "$expected" ]] || complain "exit $code, not $expected: $*: $(<err)"
+}
+says() { # PART: of standard error, which is one line
+    [[ $(wc -l <err) == 1 && $(<err) == *"$1"* ]] || complain "not \"$1\": $(<err)"
+}
+key() { # NAME: of the header
+    sed -n "s/^# $1: //p" out
+}
+powers() { # of the table in out, with 9 decimals
+    awk -F, '!/^#/ && !/^degree/ { printf "%s:%.9f ", $1, $3 }' out
+}
+
+# The octahedron with one vertex heavier, in every coordinates that there are.
+cat >octahedron.txt <<'EOF'
+1 0 0 2
+-1 0 0 1
+0 1 0 1
+0 -1 0 1
+0 0 1 1
+0 0 -1 1
+EOF
+printf '%s\n' '1.5707963267948966 0 2' '1.5707963267948966 3.1415926535897931 1' \
+    '1.5707963267948966 1.5707963267948966 1' '1.5707963267948966 4.7123889803846897 1' \
+    '0 0 1' '3.1415926535897931 0 1' >angles.txt
+printf '%s\n' '0 0 2' '180 0 1' '90 0 1' '270 0 1' '0 90 1' '0 -90 1' >degrees.txt
+# P = 6 Q / 49; Q = 1 for l = 1, 2, 3; for l = 4 it is 17 (pairs on a line) + 32 * 3/8 (at right angles)
+expected='1:0.122448980 2:0.122448980 3:0.122448980 4:3.551020408 '
+runs 0 --engine host_direct -l 4 --columns xyzw octahedron.txt
+[[ $(powers) == "$expected" ]] || complain "vectors: $(powers), not $expected"
+grep -qx 'degree,normalized_degree,power,standard_error' out || complain "column names: $(<out)"
+[[ $(key domain) == sphere && $(key max_degree) == 4 && $(key weight_sum) == 7 ]] ||
+    complain "header: $(grep '^#' out)"
+runs 0 --engine host_direct -l 4 --columns theta-phi-w angles.txt
+[[ $(powers) == "$expected" ]] || complain "theta, phi: $(powers)"
+runs 0 --engine host_direct -l 4 --columns lon-lat-w degrees.txt
+[[ $(powers) == "$expected" ]] || complain "longitude, latitude: $(powers)"
+"$program" convert --columns xyzw octahedron.txt -o octahedron.npy
+runs 0 --engine host_direct -l 4 --columns xyzw octahedron.npy
+[[ $(powers) == "$expected" ]] || complain "npy: $(powers)"
+runs 0 --engine host_direct -l 5 --hemisphere --columns xyzw octahedron.txt
+[[ $(powers) == '2:0.122448980 4:3.551020408 ' && $(key domain) == hemisphere* ]] ||
+    complain "hemisphere: $(powers)"
+
+# Several sets are realizations; one has no standard error; formats.
+cut -d' ' -f1-3 octahedron.txt >plain.txt
+{ cat plain.txt; echo '#'; sed 's/^1 0 0/0 0.6 0.8/' plain.txt; } >two.txt
+runs 0 --engine host_direct -l 3 two.txt
+[[ $(key realizations) == 2 ]] || complain "realizations: $(key realizations)"
+awk -F, '/^[0-9]/ && ($4 == "" || $4 + 0 < 0) { exit 1 }' out || complain "standard errors: $(<out)"
+runs 0 --engine host_direct -l 3 --format json plain.txt
+grep -q '"command":"angular"\|"command": "angular"' out || complain "json: $(head -c 300 out)"
+grep -q 'null' out || complain "json: no null for the standard error of one realization"
+
+# Lengths: directions count, and the header says how far off they were.
+sed 's/^1 0 0/1.0000005 0 0/' plain.txt >long.txt
+runs 0 --engine host_direct -l 3 long.txt
+[[ $(key vectors) == *'up to 5e-07' ]] || complain "vectors: $(key vectors)"
+runs 0 --engine host_direct -l 3 plain.txt
+[[ -z $(key vectors) ]] || complain "vectors of length 1: $(key vectors)"
+
+# Samplers: what sample writes has the same spectrum; what is skipped changes nothing.
+for sampler in healpix-jittered:nside=2 fibonacci-hemisphere jittered:lift=sphere; do
+    for domain in '' --hemisphere; do
+        options=(--engine host_direct -l 6 ${domain:+"$domain"})
+        [[ $sampler == *nside* ]] || number=(-n 48)
+        [[ $sampler != *nside* ]] || number=()
+        "$program" sample --sampler $sampler "${number[@]}" -m 3 --homogenize -o sampled.npy
+        runs 0 "${options[@]}" sampled.npy
+        from_file=$(powers)
+        for skip in '' --no-skip; do
+            runs 0 "${options[@]}" --sampler $sampler "${number[@]}" -m 3 --homogenize ${skip:+"$skip"}
+            [[ $(powers) == "$from_file" ]] || complain "$sampler $domain $skip: $(powers), not $from_file"
+        done
+    done
+done
+runs 2 --engine host_direct --sampler white
+says '--sampler white makes points of the torus, and this spectrum is of the sphere; lift=sphere or'
+
+# What is refused, with the line.
+sed 's/^0 1 0/0 0 0/' plain.txt >zero.txt
+runs 2 --engine host_direct -l 3 zero.txt
+says 'zero.txt'
+says 'line 3'
+sed 's/^0 1 0/1e300 0 0/' plain.txt >huge.txt
+runs 2 --engine host_direct -l 3 huge.txt
+says 'line 3'
+sed 's/^0 1 0/0 1.1 0/' plain.txt >short.txt
+runs 2 --engine host_direct -l 3 short.txt
+says 'line 3'
+runs 0 --engine host_direct -l 3 --normalize-vectors short.txt
+runs 2 -l 0 plain.txt
+says '0'
+runs 2 -l 100000 plain.txt
+says '32768'
+runs 2 -l 1 --hemisphere plain.txt
+says 'odd degrees vanish'
+runs 2 -k 5 plain.txt
+says 'not an option of this command'
+runs 2 --engine torus_direct -l 3 plain.txt
+runs 3 --engine host_direct -l 3 --tol 1e-30 plain.txt
+says 'tolerance'
+printf '0.1 0.2\n0.3 0.4\n' >plane.txt
+runs 2 -l 3 plane.txt
+
+echo "cli_angular: $checked command lines"
+exit $bad
