@@ -1,6 +1,7 @@
 /* sphere_nufft against sums in extended precision: sets of every kind, degrees and numbers of points beside whole
  * vectors, exact values of others, the same bits whatever the batch and the work-groups.
  */
+#include "harness_sphere.h"
 #include "harness_sphere_shapes.h"
 
 #include "engines/sphere_nufft.h"
@@ -203,29 +204,6 @@ static void hemisphere_is_half_of_the_sphere(void **state) {
 
 /* ---- exact values ------------------------------------------------------------------------ */
 
-static test_set read_sphere_set(const cJSON *json) {
-    const cJSON *xyz = cJSON_GetObjectItem(json, "xyz");
-    const cJSON *w = cJSON_GetObjectItem(json, "w");
-    test_set set = {.name = cJSON_GetObjectItem(json, "name")->valuestring,
-                    .dimension = 3,
-                    .num_points = (size_t)cJSON_GetArraySize(xyz),
-                    .json = json};
-    set.points = calloc(set.num_points, 3 * sizeof(double));
-    set.weights = cJSON_IsArray(w) ? calloc(set.num_points, sizeof(double)) : NULL;
-    for (size_t j = 0; j < set.num_points; j++) {
-        for (int axis = 0; axis < 3; axis++) {
-            set.points[3 * j + (size_t)axis] =
-                test_number(cJSON_GetArrayItem(cJSON_GetArrayItem(xyz, (int)j), axis));
-        }
-        if (set.weights != NULL) {
-            set.weights[j] = test_number(cJSON_GetArrayItem(w, (int)j));
-        }
-        const double weight = set.weights != NULL ? set.weights[j] : 1;
-        set.weight_square_sum += weight * weight;
-    }
-    return set;
-}
-
 /* Q(l) to l = 2000, errors of its root by error(); of one degree, which may be off by more than the mean. */
 static void check_exact(const test_set *set, const sphere_case *what) {
     const double of_one_degree = 4;
@@ -262,7 +240,7 @@ static void agrees_with_exact_values(void **state) {
     cJSON *json = test_read_reference("sphere.json");
     const cJSON *item;
     cJSON_ArrayForEach(item, cJSON_GetObjectItem(json, "sets")) {
-        test_set set = read_sphere_set(item);
+        test_set set = test_read_sphere_set(item);
         for (size_t i = 0; i < sizeof exact / sizeof exact[0] && can_run(&exact[i]); i++) {
             check_exact(&set, &exact[i]);
         }

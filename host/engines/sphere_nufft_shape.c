@@ -178,7 +178,8 @@ static bool fits(const ps_sphere_shape *shape, const ps_device_limits *limits, s
 /* Values on rings of so many realizations share one table of Lambda_lm: more of them cost no less. */
 enum { MOST_AT_ONCE = 64 };
 
-/* Bytes for all values on rings, and for all grids, unless one needs more. */
+/* Bytes for all points, all values on rings, and all grids, unless one needs more. */
+static const double point_budget = 128 << 20;
 static const double value_budget = 128 << 20;
 static const double grid_budget = 256 << 20;
 
@@ -196,7 +197,10 @@ static void count_memory(ps_sphere_shape *shape, const ps_problem *problem,
     const uint64_t known = problem->num_realizations;
     const size_t most = known > 0 && known < MOST_AT_ONCE ? (size_t)known : MOST_AT_ONCE;
     const size_t groups = PS_SPHERE_GROUPS;
-    shape->at_once = fitting(value_budget, shape->value_bytes, most);
+    const uint64_t set_bytes =
+        problem->num_points * (3 * sizeof(double) + 2 * sizeof(uint64_t) + real_bytes);
+    shape->at_once = fitting(value_budget, shape->value_bytes,
+                             fitting(point_budget, set_bytes > 0 ? set_bytes : 1, most));
     shape->slots = fitting(grid_budget, shape->slot_bytes,
                            shape->at_once < GROUPS_PER_CORE * cores ? shape->at_once
                                                                     : GROUPS_PER_CORE * cores);
@@ -210,8 +214,8 @@ static void count_memory(ps_sphere_shape *shape, const ps_problem *problem,
     const uint64_t sums =
         groups * (shape->at_once + 1) * 4 * PS_SPHERE_RUN_VECTORS * shape->sum_lanes * real_bytes;
     const uint64_t values = shape->at_once * shape->value_bytes;
-    shape->host_bytes = points * (3 * sizeof(double) + real_bytes) +
-                        shape->at_once * 2 * shape->half_pitch * sizeof(double);
+    shape->host_bytes =
+        points * real_bytes + shape->at_once * 2 * shape->half_pitch * sizeof(double);
     shape->fixed_bytes = shape->host_bytes + shape->slots * shape->slot_bytes + values + scratch +
                          powers + sums + points * (5 * sizeof(double) + real_bytes);
     const uint64_t buffers[] = {shape->slots * shape->slot_bytes, values, powers,
