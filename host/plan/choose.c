@@ -9,11 +9,15 @@
 #include <stdio.h>
 #include <string.h>
 
-static pspec_status check_engine_name(const char *name, ps_error *error) {
+static pspec_status check_engine_name(const char *name, unsigned domain, ps_error *error) {
     const char *nearest = ps_engines[0]->name;
     for (const ps_engine *const *engine = ps_engines; name != NULL && *engine != NULL; engine++) {
         if (strcmp((*engine)->name, name) == 0) {
-            return PSPEC_OK;
+            return (*engine)->domains & domain
+                       ? PSPEC_OK
+                       : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                                 "the engine %s is not for points on the %s", name,
+                                 domain == PS_ON_SPHERE ? "sphere" : "torus");
         }
         if (ps_text_distance((*engine)->name, name) < ps_text_distance(nearest, name)) {
             nearest = (*engine)->name;
@@ -215,7 +219,7 @@ double ps_plan_tolerance(double tolerance, double floor) {
 pspec_status ps_plan_make(ps_plan *plan, const ps_problem *problem, const ps_device_limits *limits,
                           const ps_plan_constraints *constraints, ps_error *error) {
     *plan = (ps_plan){0};
-    PS_TRY(check_engine_name(constraints->engine, error));
+    PS_TRY(check_engine_name(constraints->engine, ps_problem_domain(problem), error));
     for (const ps_engine *const *engine = ps_engines; *engine != NULL; engine++) {
         for (int precision = PS_SINGLE; precision <= PS_EXTENDED; precision++) {
             if (!((*engine)->domains & ps_problem_domain(problem)) ||

@@ -35,59 +35,56 @@ typedef struct scaled {
     swordv scale;
 } scaled;
 
-static inline scaled scaled_normalize(scaled x) {
-    const realv factor = x.high < (realv)SCALED_LOW     ? (realv)SCALED_UP
-                         : x.high >= (realv)SCALED_HIGH ? (realv)SCALED_DOWN
-                                                        : (realv)1;
-    x.scale -= x.high < (realv)SCALED_LOW ? (swordv)1 : (swordv)0;
-    x.scale += x.high >= (realv)SCALED_HIGH ? (swordv)1 : (swordv)0;
-    x.high *= factor;
-    x.low *= factor;
-    return x;
+/* Out through pointers: Oclgrind does not know what inlining makes of structures that are returned. */
+static inline void scaled_normalize(scaled *x) {
+    const realv high = x->high;
+    const realv raise = high < (realv)SCALED_LOW ? (realv)SCALED_UP : (realv)1;
+    const realv factor = high >= (realv)SCALED_HIGH ? (realv)SCALED_DOWN : raise;
+    const swordv down = high < (realv)SCALED_LOW ? (swordv)1 : (swordv)0;
+    const swordv up = high >= (realv)SCALED_HIGH ? (swordv)1 : (swordv)0;
+    x->scale += up - down;
+    x->high *= factor;
+    x->low *= factor;
 }
 
-static inline scaled scaled_multiply(const scaled a, const scaled b) {
-    const realv product = a.high * b.high;
-    realv rest = fma(a.high, b.high, -product);
-    rest = fma(a.high, b.low, rest);
-    rest = fma(a.low, b.high, rest);
-    scaled out;
-    out.high = product + rest;
-    out.low = rest - (out.high - product);
-    out.scale = a.scale + b.scale;
-    return scaled_normalize(out);
+static inline void scaled_make(scaled *out, const realv high, const realv low) {
+    out->high = high;
+    out->low = low;
+    out->scale = (swordv)0;
+    scaled_normalize(out);
 }
 
-static inline scaled scaled_make(const realv high, const realv low) {
-    scaled out;
-    out.high = high;
-    out.low = low;
-    out.scale = (swordv)0;
-    return scaled_normalize(out);
+/* a times b; out may be either. */
+static inline void scaled_multiply(scaled *out, const scaled *a, const scaled *b) {
+    const realv product = a->high * b->high;
+    realv rest = fma(a->high, b->high, -product);
+    rest = fma(a->high, b->low, rest);
+    rest = fma(a->low, b->high, rest);
+    out->scale = a->scale + b->scale;
+    out->high = product + rest;
+    out->low = rest - (out->high - product);
+    scaled_normalize(out);
 }
 
 /* x times a pair, SCALED_SMALLEST <= high <= 1 or 0, without a low part: off by half a unit. */
-static inline scaled scaled_step(scaled x, const realv high, const realv low) {
-    const realv product = fma(x.high, high, x.high * low);
+static inline void scaled_step(scaled *x, const realv high, const realv low) {
+    const realv product = fma(x->high, high, x->high * low);
     const realv raised = product * (realv)SCALED_UP;
-    x.scale -= product < (realv)SCALED_LOW ? (swordv)1 : (swordv)0;
-    x.high = product < (realv)SCALED_LOW ? raised : product;
-    return x;
+    x->scale -= product < (realv)SCALED_LOW ? (swordv)1 : (swordv)0;
+    x->high = product < (realv)SCALED_LOW ? raised : product;
 }
 
-/* base^exponent, by squaring: relative error about exponent times that of the pair. */
-static inline scaled scaled_power(scaled base, uint exponent) {
-    scaled out;
-    out.high = (realv)1;
-    out.low = (realv)0;
-    out.scale = (swordv)0;
+/* out = base^exponent, by squaring base: relative error about exponent times that of the pair. */
+static inline void scaled_power(scaled *out, scaled *base, uint exponent) {
+    out->high = (realv)1;
+    out->low = (realv)0;
+    out->scale = (swordv)0;
     for (; exponent > 0; exponent >>= 1) {
         if (exponent & 1) {
-            out = scaled_multiply(out, base);
+            scaled_multiply(out, out, base);
         }
-        base = scaled_multiply(base, base);
+        scaled_multiply(base, base, base);
     }
-    return out;
 }
 
 #endif

@@ -89,8 +89,9 @@ INLINE void begin_exactly(const chunk *at, const size_t v, const uint m, realv *
 #endif
     *cosine *= weight;
     *sine *= weight;
-    *power =
-        scaled_power(scaled_make(get_value(at, ARRAY_RHO, v), get_value(at, ARRAY_RHO_REST, v)), m);
+    scaled rho;
+    scaled_make(&rho, get_value(at, ARRAY_RHO, v), get_value(at, ARRAY_RHO_REST, v));
+    scaled_power(power, &rho, m);
 }
 
 /* Any other from the one before it. */
@@ -103,7 +104,7 @@ INLINE void begin_next(const chunk *at, const size_t v, realv *cosine, realv *si
     *sine = fma(old_cosine, s, old_sine * c);
     power->high = load_local(at->memory + LOCAL_HIGH, v);
     power->scale = load_scale(at->scales, v);
-    *power = scaled_step(*power, get_value(at, ARRAY_RHO, v), get_value(at, ARRAY_RHO_REST, v));
+    scaled_step(power, get_value(at, ARRAY_RHO, v), get_value(at, ARRAY_RHO_REST, v));
 }
 
 INLINE void begin_order(const chunk *at, const size_t v, const uint m, const int exactly) {
