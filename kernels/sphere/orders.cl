@@ -85,7 +85,7 @@ __kernel void sphere_orders(
                 load_meridians(data, even, even + row_reals, pole, n);
             }
             barrier(CLK_LOCAL_MEM_FENCE);
-            fft_transform(at, is_last ? rings : n, is_last ? ring_radices : radices,
+            fft_transform(at, 2 * LANES, is_last ? rings : n, is_last ? ring_radices : radices,
                           is_last ? ring_twiddles : twiddles);
             for (uint tile = get_local_id(0); is_around && tile < 2 * pairs;
                  tile += get_local_size(0)) {
