@@ -1,0 +1,267 @@
+#include "engines/sphere_nufft.h"
+
+#include "base/memory.h"
+#include "base/round.h"
+#include "engines/sphere_nufft_stages.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static const double four_pi = 12.566370614359172954;
+
+typedef struct sphere_nufft {
+    ps_device *device;
+    ps_problem problem;
+    ps_precision precision;
+    ps_sphere_shape shape;
+    ps_sphere_places points;
+    ps_sphere_tables tables;
+    ps_sphere_stages stages;
+    double *host_powers; /* [at_once][2][half_pitch] */
+    double *host_rows;   /* [batch][degrees] */
+} sphere_nufft;
+
+/* ---- what the planner asks --------------------------------------------------------------- */
+
+static bool applicable(const ps_problem *problem, const ps_device_limits *limits,
+                       ps_precision precision, const char **why_not) {
+    if (!ps_engine_on_device(limits, precision, why_not)) {
+        return false;
+    }
+    if (!limits->has_fp64) {
+        *why_not = "Legendre functions need double precision, which the device does not have";
+        return false;
+    }
+    if (problem->num_points > UINT32_MAX) {
+        *why_not = "too many points for 32-bit places";
+        return false;
+    }
+    const ps_sphere_shape shape = ps_sphere_shape_make(problem, limits, precision);
+    if (shape.lanes == 0) {
+        *why_not = "a meridian of the fine grid does not fit into local memory";
+        return false;
+    }
+    if (shape.largest_buffer > limits->max_allocation_bytes) {
+        *why_not = "needs a larger buffer than the device allows";
+        return false;
+    }
+    *why_not = NULL;
+    return true;
+}
+
+static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
+                    ps_precision precision) {
+    const ps_sphere_shape shape = ps_sphere_shape_make(problem, limits, precision);
+    const double realizations =
+        problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
+    const double launches_of_some = 4;
+    const double row = (double)problem->frequencies->num * sizeof(double);
+    return (ps_work){.transform_flops =
+                         realizations * ps_sphere_nufft_flops(&shape, precision,
+                                                              (double)problem->num_points,
+                                                              realizations),
+                     .launches = launches_of_some * ceil(realizations / (double)shape.at_once),
+                     .fixed_bytes = (double)shape.fixed_bytes,
+                     .host_bytes = (double)shape.host_bytes,
+                     .bytes_per_realization = row,
+                     .row_bytes = row,
+                     .largest_buffer_per_realization = row};
+}
+
+static double error_of(const ps_problem *problem, const ps_device_limits *limits,
+                       ps_precision precision, double mean_power) {
+    const ps_sphere_shape shape = ps_sphere_shape_make(problem, limits, precision);
+    return shape.lanes == 0 ? HUGE_VAL
+                            : ps_sphere_nufft_error(&shape.axis, problem, precision, mean_power);
+}
+
+static double error_of_state(const void *state, double mean_power) {
+    const sphere_nufft *self = state;
+    return ps_sphere_nufft_error(&self->shape.axis, &self->problem, self->precision, mean_power);
+}
+
+/* ---- create and destroy ------------------------------------------------------------------ */
+
+static void destroy(void *state) {
+    sphere_nufft *self = state;
+    if (self == NULL) {
+        return;
+    }
+    ps_sphere_stages_free(&self->stages);
+    ps_sphere_places_free(&self->points);
+    ps_sphere_tables_free(&self->tables);
+    free(self->host_powers);
+    free(self->host_rows);
+    free(self);
+}
+
+static pspec_status create_parts(sphere_nufft *self, size_t batch, ps_error *error) {
+    const ps_sphere_shape *shape = &self->shape;
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, shape->at_once * 2 * shape->half_pitch, sizeof(double),
+                       "powers of degrees", error));
+    self->host_powers = memory;
+    PS_TRY(ps_allocate(&memory, batch * self->problem.frequencies->num, sizeof(double),
+                       "powers of a batch", error));
+    self->host_rows = memory;
+    PS_TRY(ps_sphere_places_create(&self->points, shape, self->problem.num_points, self->precision,
+                                   self->device, error));
+    PS_TRY(ps_sphere_tables_create(&self->tables, shape, self->problem.tolerance, self->precision,
+                                   self->device, error));
+    return ps_sphere_stages_create(&self->stages, shape, &self->points, &self->tables,
+                                   self->problem.frequencies->degree_step == 2, self->precision,
+                                   self->device, error);
+}
+
+static pspec_status create(void **state, const ps_problem *problem, ps_precision precision,
+                           size_t batch, ps_device *device, ps_error *error) {
+    void *memory = NULL;
+    *state = NULL;
+    PS_TRY(ps_allocate(&memory, 1, sizeof(sphere_nufft), "an engine", error));
+    sphere_nufft *self = memory;
+    self->device = device;
+    self->problem = *problem;
+    self->precision = precision;
+    self->shape = ps_sphere_shape_make(problem, ps_device_get_limits(device), precision);
+    self->shape.at_once = batch < self->shape.at_once ? batch : self->shape.at_once;
+    if (self->shape.slots > self->shape.at_once) {
+        self->shape.shares *= ps_divide_up(self->shape.slots, self->shape.at_once);
+        self->shape.slots = self->shape.at_once;
+    }
+    const pspec_status status = create_parts(self, batch, error);
+    if (status != PSPEC_OK) {
+        destroy(self);
+        return status;
+    }
+    *state = self;
+    return PSPEC_OK;
+}
+
+static void get_slots(const void *state, uint32_t *slots) {
+    const sphere_nufft *self = state;
+    for (size_t i = 0; i < self->problem.frequencies->num; i++) {
+        slots[i] = (uint32_t)i;
+    }
+}
+
+static size_t get_stride(const void *state) {
+    return ((const sphere_nufft *)state)->problem.frequencies->num;
+}
+
+/* ---- run --------------------------------------------------------------------------------- */
+
+static void write_rows(sphere_nufft *self, size_t first, const ps_batch *some) {
+    const ps_frequencies *set = self->problem.frequencies;
+    const size_t pitch = self->shape.half_pitch;
+    for (size_t r = 0; r < some->num_patterns; r++) {
+        const double *powers = self->host_powers + r * 2 * pitch;
+        double *row = self->host_rows + (first + r) * set->num;
+        for (size_t i = 0; i < set->num; i++) {
+            const size_t l = (size_t)set->vectors[i];
+            row[i] =
+                some->scales[r] * four_pi / (2 * (double)l + 1) * powers[l % 2 * pitch + l / 2];
+        }
+    }
+}
+
+static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_error *error) {
+    sphere_nufft *self = state;
+    const size_t at_once = self->shape.at_once;
+    for (size_t first = 0; first < batch->num_patterns; first += at_once) {
+        const size_t rest = batch->num_patterns - first;
+        ps_batch some = *batch;
+        some.num_patterns = rest < at_once ? rest : at_once;
+        some.patterns += first;
+        some.scales += first;
+        some.exponents = batch->exponents != NULL ? batch->exponents + first : NULL;
+        PS_TRY(ps_batch_go_on(batch, error));
+        PS_TRY(ps_sphere_places_make(&self->points, &some, error));
+        PS_TRY(ps_sphere_stages_make_values(&self->stages, some.num_patterns, error));
+        PS_TRY(ps_sphere_stages_sum(&self->stages, some.num_patterns, self->host_powers, error));
+        write_rows(self, first, &some);
+    }
+    *rows = (ps_rows){.num_rows = batch->num_patterns,
+                      .stride = self->problem.frequencies->num,
+                      .precision = PS_DOUBLE,
+                      .host = self->host_rows};
+    return PSPEC_OK;
+}
+
+/* ---- coefficients ------------------------------------------------------------------------ */
+
+/* The largest weight is below 2^exponent: sums of them do not overflow. */
+static int largest_exponent(const pspec_pattern *pattern) {
+    double largest = 0;
+    int exponent = 0;
+    for (size_t j = 0; pattern->weights != NULL && j < pattern->num_points; j++) {
+        largest = fmax(largest, fabs(pattern->weights[j]));
+    }
+    frexp(largest, &exponent);
+    return exponent;
+}
+
+/* From [order][even, odd l - m][re, im][half_pitch]; the kernels sum conjugates. */
+static void write_coefficients(const sphere_nufft *self, const double *from, int exponent,
+                               double *out) {
+    const size_t L = (size_t)self->shape.max_degree;
+    const size_t pitch = self->shape.half_pitch;
+    const bool only_even = self->problem.frequencies->degree_step == 2;
+    for (size_t m = 0; m <= L; m++) {
+        for (size_t l = m; l <= L; l++) {
+            const double *at = from + (m * 2 + (l - m) % 2) * 2 * pitch + (l - m) / 2;
+            double *to = out + 2 * (m * (2 * L + 1 - m) / 2 + l);
+            const bool is_there = !only_even || l % 2 == 0;
+            to[0] = is_there ? ldexp(at[0], exponent) : 0;
+            to[1] = is_there ? -ldexp(at[pitch], exponent) : 0;
+        }
+    }
+}
+
+static pspec_status coefficients(void *state, const pspec_pattern *pattern, double *out,
+                                 ps_error *error) {
+    sphere_nufft *self = state;
+    const int exponent = largest_exponent(pattern);
+    const ps_batch one = {.num_patterns = 1, .patterns = pattern, .exponents = &exponent};
+    void *host = NULL;
+    PS_TRY(ps_sphere_places_make(&self->points, &one, error));
+    PS_TRY(ps_sphere_stages_make_values(&self->stages, 1, error));
+    PS_TRY(ps_allocate(&host, ((size_t)self->shape.max_degree + 1) * 4 * self->shape.half_pitch,
+                       sizeof(double), "coefficients", error));
+    const pspec_status status = ps_sphere_stages_keep(&self->stages, host, error);
+    if (status == PSPEC_OK) {
+        write_coefficients(self, host, exponent, out);
+    }
+    free(host);
+    return status;
+}
+
+static void describe(const void *state, ps_text *text) {
+    const sphere_nufft *self = state;
+    const ps_sphere_shape *shape = &self->shape;
+    ps_text_append(text,
+                   "(sphere_nufft precision=%s lanes=%u grid=%lu sigma=%.3g width=%u degree=%u "
+                   "rings=%lu at_once=%zu)",
+                   ps_precision_name(self->precision), shape->lanes, (unsigned long)shape->axis.n,
+                   shape->axis.n / (2.0 * shape->max_degree), shape->axis.window.width,
+                   self->tables.plan.degree, (unsigned long)shape->num_rings, shape->at_once);
+}
+
+const ps_engine ps_sphere_nufft = {
+    .name = "sphere_nufft",
+    .summary = "fast spherical-harmonic sums: points spread on a grid, rings, Legendre products",
+    .domains = PS_ON_SPHERE,
+    .needs_device = true,
+    .rows_on_host = true,
+    .has_precision = {true, true, false},
+    .applicable = applicable,
+    .work = work,
+    .error = error_of,
+    .error_of_state = error_of_state,
+    .create = create,
+    .get_slots = get_slots,
+    .get_stride = get_stride,
+    .run = run,
+    .coefficients = coefficients,
+    .describe = describe,
+    .destroy = destroy,
+};

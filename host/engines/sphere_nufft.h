@@ -1,0 +1,9 @@
+/* Fast spherical-harmonic sums over many points, for all degrees up to L. docs/sphere_nufft.md. */
+#ifndef PS_ENGINES_SPHERE_NUFFT_H
+#define PS_ENGINES_SPHERE_NUFFT_H
+
+#include "engines/engine.h"
+
+extern const ps_engine ps_sphere_nufft;
+
+#endif

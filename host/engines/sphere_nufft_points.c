@@ -1,0 +1,128 @@
+#include "engines/sphere_nufft_points.h"
+
+#include "base/memory.h"
+#include "base/round.h"
+#include "engines/reals.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+__extension__ typedef unsigned __int128 wide; /* not in ISO C */
+
+/* ---- create ------------------------------------------------------------------------------ */
+
+static pspec_status create_buffers(ps_sphere_places *self, size_t at_once, ps_error *error) {
+    const size_t turns = ps_round_up(self->most_points, self->lanes);
+    PS_TRY(ps_buffer_create(self->device, &self->vectors,
+                            self->most_points * PS_SPHERE_DIMENSION * sizeof(double), "points",
+                            error));
+    PS_TRY(ps_buffer_create(self->device, &self->turns, turns * 2 * sizeof(uint64_t),
+                            "angles of points", error));
+    PS_TRY(ps_buffer_create(self->device, &self->weights,
+                            self->most_points * ps_real_bytes(self->precision), "weights", error));
+    return ps_buffer_create(self->device, &self->offsets, (at_once + 1) * sizeof(uint64_t),
+                            "offsets", error);
+}
+
+static void set_weight(ps_sphere_places *self, size_t at, double weight) {
+    if (self->precision == PS_SINGLE) {
+        ((float *)self->host_weights)[at] = (float)weight;
+    } else {
+        ((double *)self->host_weights)[at] = weight;
+    }
+}
+
+/* They stay on the device until weights arrive. */
+static pspec_status upload_unit_weights(ps_sphere_places *self, ps_error *error) {
+    for (size_t j = 0; j < self->most_points; j++) {
+        set_weight(self, j, 1);
+    }
+    self->has_unit_weights = true;
+    return ps_buffer_write(self->device, &self->weights, 0, self->host_weights,
+                           self->most_points * ps_real_bytes(self->precision), error);
+}
+
+pspec_status ps_sphere_places_create(ps_sphere_places *out, const ps_sphere_shape *shape,
+                                     uint64_t num_points, ps_precision precision, ps_device *device,
+                                     ps_error *error) {
+    char options[64];
+    void *memory = NULL;
+    *out = (ps_sphere_places){.device = device,
+                              .precision = precision,
+                              .most_points = shape->at_once * num_points,
+                              .lanes = shape->sum_lanes,
+                              .shift = (uint64_t)(((wide)shape->pole << 64) / shape->axis.n)};
+    PS_TRY(ps_allocate(&memory, out->most_points, ps_real_bytes(precision), "weights", error));
+    out->host_weights = memory;
+    PS_TRY(ps_allocate(&memory, shape->at_once + 1, sizeof(uint64_t), "offsets", error));
+    out->host_offsets = memory;
+    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u",
+             precision == PS_SINGLE ? 32u : 64u, out->lanes);
+    PS_TRY(ps_kernel_create(device, &out->turn, "sphere/orders_turns.cl", "sphere_orders_turns",
+                            options, error));
+    PS_TRY(create_buffers(out, shape->at_once, error));
+    return upload_unit_weights(out, error);
+}
+
+void ps_sphere_places_free(ps_sphere_places *points) {
+    if (points->turn != NULL) {
+        clReleaseKernel(points->turn);
+    }
+    ps_buffer_release(&points->vectors);
+    ps_buffer_release(&points->turns);
+    ps_buffer_release(&points->weights);
+    ps_buffer_release(&points->offsets);
+    free(points->host_weights);
+    free(points->host_offsets);
+    *points = (ps_sphere_places){0};
+}
+
+/* ---- make -------------------------------------------------------------------------------- */
+
+static pspec_status upload_points(ps_sphere_places *self, const ps_batch *batch, ps_error *error) {
+    const size_t bytes = PS_SPHERE_DIMENSION * sizeof(double);
+    size_t at = 0;
+    for (size_t r = 0; r < batch->num_patterns; r++) {
+        const pspec_pattern *pattern = &batch->patterns[r];
+        self->host_offsets[r] = at;
+        PS_TRY(ps_buffer_write(self->device, &self->vectors, at * bytes, pattern->points,
+                               pattern->num_points * bytes, error));
+        at += pattern->num_points;
+    }
+    self->host_offsets[batch->num_patterns] = at;
+    return ps_buffer_write(self->device, &self->offsets, 0, self->host_offsets,
+                           (batch->num_patterns + 1) * sizeof(uint64_t), error);
+}
+
+static pspec_status upload_weights(ps_sphere_places *self, const ps_batch *batch, ps_error *error) {
+    for (size_t r = 0; r < batch->num_patterns; r++) {
+        self->has_unit_weights = self->has_unit_weights && batch->patterns[r].weights == NULL;
+    }
+    if (self->has_unit_weights) {
+        return PSPEC_OK;
+    }
+    for (size_t r = 0; r < batch->num_patterns; r++) {
+        const pspec_pattern *pattern = &batch->patterns[r];
+        const int exponent = batch->exponents != NULL ? batch->exponents[r] : 0;
+        for (size_t j = 0; j < pattern->num_points; j++) {
+            set_weight(self, self->host_offsets[r] + j,
+                       pattern->weights != NULL ? ldexp(pattern->weights[j], -exponent) : 1);
+        }
+    }
+    return ps_buffer_write(self->device, &self->weights, 0, self->host_weights,
+                           self->host_offsets[batch->num_patterns] * ps_real_bytes(self->precision),
+                           error);
+}
+
+pspec_status ps_sphere_places_make(ps_sphere_places *points, const ps_batch *batch,
+                                   ps_error *error) {
+    const double flops_per_point = 300;
+    PS_TRY(upload_points(points, batch, error));
+    PS_TRY(upload_weights(points, batch, error));
+    const uint64_t num = points->host_offsets[batch->num_patterns];
+    const ps_range range = ps_range_light(points->device, ps_divide_up(num, points->lanes), 1, 1,
+                                          flops_per_point * (double)num, 0);
+    return PS_LAUNCH(points->device, points->turn, &range, error, PS_BUFFER(points->vectors),
+                     PS_BUFFER(points->turns), PS_U64(num), PS_U64(points->shift));
+}

@@ -1,0 +1,197 @@
+#include "engines/sphere_nufft_stages.h"
+
+#include "base/round.h"
+#include "engines/nufft_fft.h"
+#include "engines/reals.h"
+
+#include <stdio.h>
+
+/* Bits of kernels/sphere/orders.cl. */
+enum { STEP_SPREAD = 1, STEP_AROUND = 2, STEP_RINGS = 4 };
+
+/* ---- create ------------------------------------------------------------------------------ */
+
+static void write_options(const ps_sphere_stages *self, unsigned lanes, char *options,
+                          size_t room) {
+    snprintf(options, room, "-DPRECISION=%u -DLANES=%u", self->precision == PS_SINGLE ? 32u : 64u,
+             lanes);
+}
+
+static pspec_status create_kernels(ps_sphere_stages *self, ps_error *error) {
+    char options[64];
+    write_options(self, self->shape->lanes, options, sizeof options);
+    PS_TRY(ps_kernel_create(self->device, &self->orders, "sphere/orders.cl", "sphere_orders",
+                            options, error));
+    write_options(self, self->shape->sum_lanes, options, sizeof options);
+    PS_TRY(ps_kernel_create(self->device, &self->sum, "sphere/orders_sum.cl", "sphere_orders_sum",
+                            options, error));
+    return ps_kernel_create(self->device, &self->fold, "sphere/orders_sum.cl", "sphere_orders_fold",
+                            options, error);
+}
+
+static pspec_status create_buffers(ps_sphere_stages *self, ps_error *error) {
+    const ps_sphere_shape *shape = self->shape;
+    const size_t real_bytes = ps_real_bytes(self->precision);
+    const size_t rings = (size_t)PS_SPHERE_GROUPS * shape->ring_pitch;
+    const size_t grid = (size_t)shape->grid_rows * shape->pitch * real_bytes;
+    const size_t sums = PS_SPHERE_GROUPS * (shape->at_once + 1) * 4 * PS_SPHERE_RUN_VECTORS *
+                        shape->sum_lanes * real_bytes;
+    const struct {
+        ps_buffer *buffer;
+        size_t bytes;
+        const char *what;
+    } wanted[] = {{&self->grids, shape->slots * grid, "grids of the sphere"},
+                  {&self->rows, shape->slots * (shape->slot_bytes - grid), "tiles of orders"},
+                  {&self->values, shape->at_once * shape->value_bytes, "values on rings"},
+                  {&self->states, 2 * rings * sizeof(double), "states of rings"},
+                  {&self->scales, 2 * rings * sizeof(int32_t), "scales of rings"},
+                  {&self->diagonals, rings * sizeof(double), "first degrees of rings"},
+                  {&self->sums, sums, "sums over rings"},
+                  {&self->powers,
+                   PS_SPHERE_GROUPS * shape->at_once * 2 * shape->half_pitch * sizeof(double),
+                   "powers of orders"}};
+    for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
+        PS_TRY(ps_buffer_create(self->device, wanted[i].buffer, wanted[i].bytes, wanted[i].what,
+                                error));
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_sphere_stages_create(ps_sphere_stages *out, const ps_sphere_shape *shape,
+                                     const ps_sphere_places *points, const ps_sphere_tables *tables,
+                                     bool only_even, ps_precision precision, ps_device *device,
+                                     ps_error *error) {
+    *out = (ps_sphere_stages){.device = device,
+                              .precision = precision,
+                              .only_even = only_even,
+                              .shape = shape,
+                              .points = points,
+                              .tables = tables};
+    PS_TRY(create_kernels(out, error));
+    return create_buffers(out, error);
+}
+
+void ps_sphere_stages_free(ps_sphere_stages *stages) {
+    const cl_kernel kernels[] = {stages->orders, stages->sum, stages->fold};
+    for (size_t i = 0; i < sizeof kernels / sizeof kernels[0]; i++) {
+        if (kernels[i] != NULL) {
+            clReleaseKernel(kernels[i]);
+        }
+    }
+    ps_buffer *const buffers[] = {&stages->grids,  &stages->rows,   &stages->values,
+                                  &stages->states, &stages->scales, &stages->diagonals,
+                                  &stages->sums,   &stages->powers};
+    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
+        ps_buffer_release(buffers[i]);
+    }
+    *stages = (ps_sphere_stages){0};
+}
+
+/* ---- run --------------------------------------------------------------------------------- */
+
+/* Work-groups of one item on CPUs, where lanes are vectors. */
+static ps_range group_range(const ps_sphere_stages *self, size_t groups, double flops) {
+    return ps_range_heavy(self->device, 1, groups, 1, flops, 0);
+}
+
+/* Realizations first .. end - 1 of those whose points are on the device, as many at a time as there are slots. */
+static pspec_status run_steps(ps_sphere_stages *self, size_t first, size_t end, unsigned steps,
+                              size_t shares, ps_error *error) {
+    const ps_sphere_shape *shape = self->shape;
+    const ps_sphere_tables *tables = self->tables;
+    const ps_nufft_plan *plan = &tables->plan;
+    const ps_sphere_local local = ps_sphere_local_bytes(shape, ps_real_bytes(self->precision));
+    const size_t slots = end - first < shape->slots ? end - first : shape->slots;
+    const double transforms = (double)(end - first) * shape->pairs * 4.0 * shape->lanes;
+    const ps_range range =
+        group_range(self, slots * shares, transforms * ps_fft_flops(shape->axis.n));
+    return PS_LAUNCH(
+        self->device, self->orders, &range, error, PS_BUFFER(self->points->turns),
+        PS_BUFFER(self->points->weights), PS_BUFFER(self->points->offsets), PS_U32(first),
+        PS_U32(end), PS_BUFFER(plan->coefficients), PS_U32(plan->axis.n),
+        PS_U32(plan->axis.window.width), PS_U32(plan->degree), PS_U32(plan->bins),
+        PS_BUFFER(plan->fft.radices), PS_BUFFER(plan->fft.twiddles), PS_BUFFER(plan->fft.position),
+        PS_BUFFER(tables->rings.radices), PS_BUFFER(tables->rings.twiddles),
+        PS_BUFFER(tables->rings.position), PS_U32(shape->rings), PS_BUFFER(tables->around_gains),
+        PS_BUFFER(tables->along_gains), PS_U32(shape->max_degree), PS_U32(steps), PS_U32(shares),
+        PS_U32(shape->pitch), PS_U32(shape->grid_rows), PS_U32(shape->pole), PS_U32(shape->columns),
+        PS_U32(shape->num_rings), PS_U32(shape->ring_pitch), PS_BUFFER(self->grids),
+        PS_BUFFER(self->rows), PS_BUFFER(self->values), PS_LOCAL(local.data),
+        PS_LOCAL(local.spectrum), PS_LOCAL(local.windows), PS_LOCAL(local.cells));
+}
+
+/* All steps in one go where there is a realization for every work-group; else slot by slot, each shared. */
+pspec_status ps_sphere_stages_make_values(ps_sphere_stages *self, size_t num, ps_error *error) {
+    const ps_sphere_shape *shape = self->shape;
+    if (shape->shares == 1) {
+        return run_steps(self, 0, num, STEP_SPREAD | STEP_AROUND | STEP_RINGS, 1, error);
+    }
+    for (size_t first = 0; first < num; first += shape->slots) {
+        const size_t end = num - first < shape->slots ? num : first + shape->slots;
+        PS_TRY(run_steps(self, first, end, STEP_SPREAD, 1, error));
+        PS_TRY(run_steps(self, first, end, STEP_AROUND, shape->shares, error));
+        PS_TRY(run_steps(self, first, end, STEP_RINGS, shape->shares, error));
+    }
+    return PSPEC_OK;
+}
+
+/* To powers, or with the kernel that keeps them to coefficients. */
+static pspec_status sum_rings(ps_sphere_stages *self, cl_kernel kernel, const ps_buffer *to,
+                              size_t num, ps_error *error) {
+    const ps_sphere_shape *shape = self->shape;
+    const ps_sphere_tables *tables = self->tables;
+    const ps_sphere_local local = ps_sphere_local_bytes(shape, ps_real_bytes(self->precision));
+    const double degrees = shape->max_degree;
+    const double flops = 4 * degrees * degrees / 2 * shape->num_rings * (double)num;
+    const ps_range range = group_range(self, PS_SPHERE_GROUPS, flops);
+    return PS_LAUNCH(self->device, kernel, &range, error, PS_BUFFER(self->values), PS_U32(num),
+                     PS_BUFFER(tables->starts), PS_BUFFER(tables->start_scales),
+                     PS_BUFFER(tables->steps), PS_BUFFER(tables->step_scales),
+                     PS_BUFFER(tables->ratios), PS_BUFFER(tables->distances),
+                     PS_U32(shape->max_degree), PS_U32(shape->num_rings), PS_U32(shape->ring_pitch),
+                     PS_U32(self->only_even), PS_U32(shape->block), PS_U32(shape->half_pitch),
+                     PS_BUFFER(self->states), PS_BUFFER(self->scales), PS_BUFFER(self->diagonals),
+                     PS_BUFFER(self->sums), PS_BUFFER(*to), PS_LOCAL(local.table),
+                     PS_LOCAL(local.coefficients), PS_LOCAL(local.begins));
+}
+
+pspec_status ps_sphere_stages_sum(ps_sphere_stages *stages, size_t num, double *powers,
+                                  ps_error *error) {
+    const size_t entries = num * 2 * stages->shape->half_pitch;
+    const ps_range range = ps_range_light(stages->device, entries / stages->shape->sum_lanes, 1, 1,
+                                          (double)(PS_SPHERE_GROUPS * entries), 0);
+    PS_TRY(sum_rings(stages, stages->sum, &stages->powers, num, error));
+    PS_TRY(PS_LAUNCH(stages->device, stages->fold, &range, error, PS_BUFFER(stages->powers),
+                     PS_U32(PS_SPHERE_GROUPS), PS_U64(entries), PS_U32(stages->shape->half_pitch)));
+    return ps_buffer_read(stages->device, &stages->powers, 0, powers, entries * sizeof(double),
+                          error);
+}
+
+/* ---- coefficients ------------------------------------------------------------------------ */
+
+static pspec_status keep_with(ps_sphere_stages *self, cl_kernel kernel, size_t num, double *to,
+                              ps_error *error) {
+    ps_buffer kept = {0};
+    PS_TRY(ps_buffer_create(self->device, &kept, num * sizeof(double), "coefficients", error));
+    pspec_status status = sum_rings(self, kernel, &kept, 1, error);
+    if (status == PSPEC_OK) {
+        status = ps_buffer_read(self->device, &kept, 0, to, num * sizeof(double), error);
+    }
+    ps_buffer_release(&kept);
+    return status;
+}
+
+/* Kernel and room only where they are asked for. */
+pspec_status ps_sphere_stages_keep(ps_sphere_stages *stages, double *coefficients,
+                                   ps_error *error) {
+    const size_t num = ((size_t)stages->shape->max_degree + 1) * 4 * stages->shape->half_pitch;
+    char options[64];
+    cl_kernel kernel = NULL;
+    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u -DKEEP=1",
+             stages->precision == PS_SINGLE ? 32u : 64u, stages->shape->sum_lanes);
+    PS_TRY(ps_kernel_create(stages->device, &kernel, "sphere/orders_sum.cl", "sphere_orders_sum",
+                            options, error));
+    const pspec_status status = keep_with(stages, kernel, num, coefficients, error);
+    clReleaseKernel(kernel);
+    return status;
+}

@@ -1,0 +1,40 @@
+/* From points on the device to values on rings (kernels/sphere/orders.cl), and from these to powers or coefficients
+ * (kernels/sphere/orders_sum.cl).
+ */
+#ifndef PS_ENGINES_SPHERE_NUFFT_STAGES_H
+#define PS_ENGINES_SPHERE_NUFFT_STAGES_H
+
+#include "engines/sphere_nufft_points.h"
+#include "engines/sphere_nufft_tables.h"
+
+typedef struct ps_sphere_stages {
+    ps_device *device;
+    ps_precision precision;
+    bool only_even;
+    const ps_sphere_shape *shape;
+    const ps_sphere_places *points;
+    const ps_sphere_tables *tables;
+    cl_kernel orders, sum, fold;
+    ps_buffer grids, rows, values;             /* of orders.cl */
+    ps_buffer states, scales, diagonals, sums; /* of orders_sum.cl */
+    ps_buffer powers;
+} ps_sphere_stages;
+
+/* shape, points and tables are borrowed. */
+pspec_status ps_sphere_stages_create(ps_sphere_stages *out, const ps_sphere_shape *shape,
+                                     const ps_sphere_places *points, const ps_sphere_tables *tables,
+                                     bool only_even, ps_precision precision, ps_device *device,
+                                     ps_error *error) PS_MUST_CHECK;
+void ps_sphere_stages_free(ps_sphere_stages *stages);
+
+/* Values on rings of the first num realizations whose points are on the device. */
+pspec_status ps_sphere_stages_make_values(ps_sphere_stages *stages, size_t num,
+                                          ps_error *error) PS_MUST_CHECK;
+/* Of these, sum_m |c_lm|^2 to powers [realization][even, odd degrees][half_pitch]. */
+pspec_status ps_sphere_stages_sum(ps_sphere_stages *stages, size_t num, double *powers,
+                                  ps_error *error) PS_MUST_CHECK;
+/* Of one, the conjugates of c_lm to [order][even, odd l - m][re, im][half_pitch]. */
+pspec_status ps_sphere_stages_keep(ps_sphere_stages *stages, double *coefficients,
+                                   ps_error *error) PS_MUST_CHECK;
+
+#endif

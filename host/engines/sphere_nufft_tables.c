@@ -1,0 +1,157 @@
+#include "engines/sphere_nufft_tables.h"
+
+#include "base/memory.h"
+#include "engines/reals.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static const long double pi = 3.141592653589793238462643383279502884L;
+
+/* ---- gains ------------------------------------------------------------------------------- */
+
+static pspec_status create_gains(ps_sphere_tables *self, const ps_sphere_shape *shape,
+                                 ps_precision precision, ps_device *device, ps_error *error) {
+    const ps_nufft_axis *axis = &shape->axis;
+    const size_t num = (size_t)shape->max_degree + 1;
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, 2 * num, sizeof(double), "gains", error));
+    double *around = memory;
+    double *along = around + num;
+    for (size_t k = 0; k < num; k++) {
+        const double inverse =
+            1 / ps_nufft_window_transform(&axis->window, (long double)k / axis->n);
+        around[k] = inverse / 2;
+        along[k] = inverse / 4 / shape->rings;
+    }
+    pspec_status status =
+        ps_reals_upload(device, &self->around_gains, precision, around, num, "gains", error);
+    if (status == PSPEC_OK) {
+        status = ps_reals_upload(device, &self->along_gains, precision, along, num, "gains", error);
+    }
+    free(memory);
+    return status;
+}
+
+/* ---- Lambda_mm --------------------------------------------------------------------------- */
+
+/* value 2^(-PS_SPHERE_SCALE scale), scale >= 0 and value at least 2^-PS_SPHERE_SCALE, or zero. */
+typedef struct scaled {
+    long double value;
+    int32_t scale;
+} scaled;
+
+static scaled multiply(scaled a, long double factor) {
+    a.value *= factor;
+    if (a.value != 0 && fabsl(a.value) < ldexpl(1, -PS_SPHERE_SCALE)) {
+        a.value = ldexpl(a.value, PS_SPHERE_SCALE);
+        a.scale++;
+    }
+    return a;
+}
+
+/* The norm of Lambda_mm over that of Lambda_{m-1,m-1}, with its sign. */
+static long double ratio(int32_t m) {
+    return -sqrtl((2 * (long double)m + 1) / (2 * (long double)m));
+}
+
+/* Numbers of the host, on their way to the device. */
+typedef struct host_tables {
+    double *starts, *steps, *ratios, *distances;
+    int32_t *start_scales, *step_scales;
+    size_t num_starts, num_rings, num_orders;
+} host_tables;
+
+static void fill_ring(host_tables *to, const ps_sphere_shape *shape, uint32_t ring) {
+    const long double angle = 2 * pi * ring / shape->rings;
+    const long double sine = sinl(angle);
+    const long double half = sinl(angle / 2);
+    scaled start = {sqrtl(1 / (4 * pi)), 0};
+    scaled step = {1, 0};
+    for (int32_t m = 0; m < PS_SPHERE_GROUPS; m++) {
+        start = m > 0 ? multiply(start, ratio(m) * sine) : start;
+        step = multiply(step, sine);
+        to->starts[(size_t)m * to->num_rings + ring] = (double)start.value;
+        to->start_scales[(size_t)m * to->num_rings + ring] = start.scale;
+    }
+    to->steps[ring] = (double)step.value;
+    to->step_scales[ring] = step.scale;
+    to->distances[ring] = (double)(2 * half * half);
+}
+
+static void fill_ratios(host_tables *to) {
+    for (size_t m = 0; m < to->num_orders; m++) {
+        long double product = 1;
+        for (size_t i = 0; i < PS_SPHERE_GROUPS && i < m; i++) {
+            product *= ratio((int32_t)(m - i));
+        }
+        to->ratios[m] = (double)product;
+    }
+}
+
+static pspec_status upload(ps_device *device, ps_buffer *out, const void *data, size_t bytes,
+                           ps_error *error) {
+    PS_TRY(ps_buffer_create(device, out, bytes, "a table of the sphere", error));
+    return ps_buffer_write(device, out, 0, data, bytes, error);
+}
+
+static pspec_status upload_all(ps_sphere_tables *self, const host_tables *from, ps_device *device,
+                               ps_error *error) {
+    const size_t starts = from->num_starts * sizeof(double);
+    const size_t rings = from->num_rings * sizeof(double);
+    PS_TRY(upload(device, &self->starts, from->starts, starts, error));
+    PS_TRY(upload(device, &self->start_scales, from->start_scales, starts / 2, error));
+    PS_TRY(upload(device, &self->steps, from->steps, rings, error));
+    PS_TRY(upload(device, &self->step_scales, from->step_scales, rings / 2, error));
+    PS_TRY(upload(device, &self->distances, from->distances, rings, error));
+    return upload(device, &self->ratios, from->ratios, from->num_orders * sizeof(double), error);
+}
+
+static pspec_status create_starts(ps_sphere_tables *self, const ps_sphere_shape *shape,
+                                  ps_device *device, ps_error *error) {
+    host_tables host = {.num_starts = (size_t)PS_SPHERE_GROUPS * shape->ring_pitch,
+                        .num_rings = shape->ring_pitch,
+                        .num_orders = (size_t)shape->max_degree + 1};
+    const size_t reals = host.num_starts + 2 * host.num_rings + host.num_orders;
+    const size_t scales = host.num_starts + host.num_rings;
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, reals + scales, sizeof(double), "tables of the sphere", error));
+    host.starts = memory;
+    host.steps = host.starts + host.num_starts;
+    host.distances = host.steps + host.num_rings;
+    host.ratios = host.distances + host.num_rings;
+    host.start_scales = (int32_t *)(host.ratios + host.num_orders);
+    host.step_scales = host.start_scales + host.num_starts;
+    for (uint32_t ring = 0; ring < shape->num_rings; ring++) {
+        fill_ring(&host, shape, ring);
+    }
+    fill_ratios(&host);
+    const pspec_status status = upload_all(self, &host, device, error);
+    free(memory);
+    return status;
+}
+
+/* ---- all --------------------------------------------------------------------------------- */
+
+pspec_status ps_sphere_tables_create(ps_sphere_tables *out, const ps_sphere_shape *shape,
+                                     double tolerance, ps_precision precision, ps_device *device,
+                                     ps_error *error) {
+    *out = (ps_sphere_tables){0};
+    PS_TRY(
+        ps_nufft_plan_create(&out->plan, &shape->axis, true, tolerance, precision, device, error));
+    PS_TRY(ps_fft_plan_create(&out->rings, shape->rings, precision, device, error));
+    PS_TRY(create_gains(out, shape, precision, device, error));
+    return create_starts(out, shape, device, error);
+}
+
+void ps_sphere_tables_free(ps_sphere_tables *tables) {
+    ps_buffer *const buffers[] = {&tables->around_gains, &tables->along_gains, &tables->starts,
+                                  &tables->start_scales, &tables->steps,       &tables->step_scales,
+                                  &tables->ratios,       &tables->distances};
+    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
+        ps_buffer_release(buffers[i]);
+    }
+    ps_nufft_plan_free(&tables->plan);
+    ps_fft_plan_free(&tables->rings);
+    *tables = (ps_sphere_tables){0};
+}

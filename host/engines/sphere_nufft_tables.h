@@ -1,0 +1,21 @@
+/* Numbers that sphere_nufft has on the device for all realizations. */
+#ifndef PS_ENGINES_SPHERE_NUFFT_TABLES_H
+#define PS_ENGINES_SPHERE_NUFFT_TABLES_H
+
+#include "engines/nufft_plan.h"
+#include "engines/sphere_nufft_shape.h"
+
+/* Names of kernels/sphere/orders.cl and orders_sum.cl. */
+typedef struct ps_sphere_tables {
+    ps_nufft_plan plan; /* of the grid: transform and window */
+    ps_fft_plan rings;  /* transform to rings */
+    ps_buffer around_gains, along_gains;
+    ps_buffer starts, start_scales, steps, step_scales, ratios, distances;
+} ps_sphere_tables;
+
+pspec_status ps_sphere_tables_create(ps_sphere_tables *out, const ps_sphere_shape *shape,
+                                     double tolerance, ps_precision precision, ps_device *device,
+                                     ps_error *error) PS_MUST_CHECK;
+void ps_sphere_tables_free(ps_sphere_tables *tables);
+
+#endif

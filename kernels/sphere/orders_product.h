@@ -1,0 +1,118 @@
+/* Sums over rings of Lambda_lm times values on rings: lanes are degrees of one parity, so that a row of the table
+ * serves all realizations. Device only.
+ */
+#ifndef PS_SPHERE_ORDERS_PRODUCT_H
+#define PS_SPHERE_ORDERS_PRODUCT_H
+
+#include "sphere/orders_table.h"
+
+/* A table [ring][TABLE_ROW], rings first .. end - 1 of it; the sums so far are 0 where these are the first rings, and
+ * complete where they are the last. */
+typedef struct product_rows {
+    __local const real *table;
+    uint first, end;
+    bool is_first, is_last;
+    bool is_lowest; /* of the orders that are added up */
+    double weight;  /* of |c|^2: orders m and -m */
+} product_rows;
+
+/* 1: coefficients of one realization instead of powers. */
+#ifndef KEEP
+#define KEEP 0
+#endif
+
+/* |c|^2 of both signs of the order, in double precision, to what lower orders left; or c, imaginary parts
+ * powers_apart further. */
+static inline void finish_sums(__global double *powers, const size_t powers_apart,
+                               const product_rows rows, const realv re, const realv im) {
+    const doublev a = TO_DOUBLEV(re), b = TO_DOUBLEV(im);
+    __global unaligned_doublev *at = (__global unaligned_doublev *)powers;
+#if KEEP
+    (void)rows;
+    *at = a;
+    *(__global unaligned_doublev *)(powers + powers_apart) = b;
+#else
+    (void)powers_apart;
+    *at = fma(fma(a, a, b * b), (doublev)rows.weight, rows.is_lowest ? (doublev)0 : *at);
+#endif
+}
+
+/* NUM realizations, VECTORS vectors of degrees. values: of the first ring of the table, realizations `apart` numbers
+ * apart. sums [realization][RUN_VECTORS][re, im][LANES], powers [realization], `powers_apart` from each other. */
+#define PRODUCT(NUM, VECTORS)                                                                      \
+    static inline __attribute__((always_inline)) void product_##NUM##_##VECTORS(                   \
+        const product_rows rows, __global const real *values, const size_t apart,                  \
+        __global real *sums, __global double *powers, const size_t powers_apart) {                 \
+        realv re[NUM][VECTORS], im[NUM][VECTORS];                                                  \
+        _Pragma("unroll") for (int r = 0; r < NUM; r++) {                                          \
+            _Pragma("unroll") for (int v = 0; v < VECTORS; v++) {                                  \
+                __global const real *from = sums + (r * RUN_VECTORS + v) * 2 * LANES;              \
+                re[r][v] = rows.is_first ? (realv)0 : load_global(from, 0);                        \
+                im[r][v] = rows.is_first ? (realv)0 : load_global(from, 1);                        \
+            }                                                                                      \
+        }                                                                                          \
+        for (uint i = rows.first; i < rows.end; i++) {                                             \
+            realv lambda[VECTORS];                                                                 \
+            _Pragma("unroll") for (int v = 0; v < VECTORS; v++) {                                  \
+                lambda[v] = load_local(rows.table + i * TABLE_ROW, v);                             \
+            }                                                                                      \
+            _Pragma("unroll") for (int r = 0; r < NUM; r++) {                                      \
+                __global const real *value = values + r * apart + 2 * i;                           \
+                const realv value_re = (realv)value[0], value_im = (realv)value[1];                \
+                _Pragma("unroll") for (int v = 0; v < VECTORS; v++) {                              \
+                    re[r][v] = fma(lambda[v], value_re, re[r][v]);                                 \
+                    im[r][v] = fma(lambda[v], value_im, im[r][v]);                                 \
+                }                                                                                  \
+            }                                                                                      \
+        }                                                                                          \
+        _Pragma("unroll") for (int r = 0; r < NUM; r++) {                                          \
+            _Pragma("unroll") for (int v = 0; v < VECTORS; v++) {                                  \
+                __global real *to = sums + (r * RUN_VECTORS + v) * 2 * LANES;                      \
+                if (rows.is_last) {                                                                \
+                    finish_sums(powers + r * powers_apart + v * LANES, powers_apart, rows,         \
+                                re[r][v], im[r][v]);                                               \
+                } else {                                                                           \
+                    store_global(to, 0, re[r][v]);                                                 \
+                    store_global(to, 1, im[r][v]);                                                 \
+                }                                                                                  \
+            }                                                                                      \
+        }                                                                                          \
+    }
+
+PRODUCT(1, 1)
+PRODUCT(1, 2)
+PRODUCT(1, 3)
+PRODUCT(1, 4)
+PRODUCT(2, 1)
+PRODUCT(2, 2)
+PRODUCT(2, 3)
+PRODUCT(2, 4)
+
+#define PRODUCT_CASE(NUM, VECTORS)                                                                 \
+    case VECTORS:                                                                                  \
+        product_##NUM##_##VECTORS(rows, values, apart, sums, powers, powers_apart);                \
+        break
+
+static inline void product_of_one(const product_rows rows, __global const real *values,
+                                  const size_t apart, __global real *sums, __global double *powers,
+                                  const size_t powers_apart, const uint vectors) {
+    switch (vectors) {
+        PRODUCT_CASE(1, 1);
+        PRODUCT_CASE(1, 2);
+        PRODUCT_CASE(1, 3);
+        PRODUCT_CASE(1, 4);
+    }
+}
+
+static inline void product_of_two(const product_rows rows, __global const real *values,
+                                  const size_t apart, __global real *sums, __global double *powers,
+                                  const size_t powers_apart, const uint vectors) {
+    switch (vectors) {
+        PRODUCT_CASE(2, 1);
+        PRODUCT_CASE(2, 2);
+        PRODUCT_CASE(2, 3);
+        PRODUCT_CASE(2, 4);
+    }
+}
+
+#endif

@@ -1,0 +1,143 @@
+/* From values on rings to sum_m |c_lm|^2. A work-group has the orders that are its number modulo the number of
+ * groups, so that what it adds up does not depend on the device. For each order, Lambda_lm is made for a run of degrees
+ * and a block of rings at a time, and used by all realizations. Launch: (work-items of one group, groups).
+ *
+ *   values     [realization][order][even, odd l - m][ring_pitch][re, im] of orders.cl
+ *   starts, start_scales  [group][ring_pitch]: Lambda_mm of the first order of a group (orders_table.h), 0 behind the
+ *              last ring
+ *   steps, step_scales    [ring_pitch]: sin^groups(theta)
+ *   ratios     [order]: norm of Lambda_mm over that of the order `groups` below, with the sign of both
+ *   distances  [ring_pitch]: t = 1 - cos(theta)
+ *   only_even  even degrees only
+ *   block      rings of a block, a multiple of LANES
+ *   states, scales  [group][2][ring_pitch], [group][2][ring_pitch]: scratch
+ *   diagonal   [group][ring_pitch]: scratch
+ *   sums       [group][pair of realizations][even, odd l - m][2][RUN_VECTORS][re, im][LANES]: scratch, room for one
+ *              realization more
+ *   powers     [group][realization][even, odd degrees][half_pitch], of degrees from the group on; half_pitch has room
+ *              for RUN_VECTORS vectors behind degree L / 2. With KEEP coefficients of one realization,
+ *              [order][even, odd l - m][re, im][half_pitch]
+ *   table      local, [even, odd l - m][block][TABLE_ROW]
+ *   coefficients  local, [3][RUN_DEGREES]
+ *   begins     local, [block / LANES]
+ */
+#include "sphere/orders_product.h"
+
+/* value 2^(-100 s) with value in [2^-100, 1], from a product of two of them. */
+static inline void normalize(double *value, int *scale) {
+    if (*value != 0 && fabs(*value) < SCALE_DOWN) {
+        *value *= SCALE_UP;
+        *scale += 1;
+    }
+}
+
+__kernel void
+sphere_orders_sum(__global const real *restrict values, const uint num_realizations,
+                  __global const double *restrict starts, __global const int *restrict start_scales,
+                  __global const double *restrict steps, __global const int *restrict step_scales,
+                  __global const double *restrict ratios, __global const double *restrict distances,
+                  const uint L, const uint num_rings, const uint ring_pitch, const uint only_even,
+                  const uint block, const uint half_pitch, __global double *restrict all_states,
+                  __global int *restrict all_scales, __global double *restrict all_diagonals,
+                  __global real *restrict all_sums, __global double *restrict all_powers,
+                  __local real *table, __local double *coefficients, __local uint *begins) {
+    const uint group = get_global_id(1), groups = get_global_size(1);
+    const size_t apart = 4 * (size_t)ring_pitch * (L + 1);
+    const size_t powers_apart = 2 * (size_t)half_pitch;
+    __global double *states = all_states + group * 2 * (size_t)ring_pitch;
+    __global int *scales = all_scales + group * 2 * (size_t)ring_pitch;
+    __global double *diagonal = all_diagonals + group * (size_t)ring_pitch;
+    __global real *sums =
+        all_sums + group * (size_t)(num_realizations + 1) * (2 * RUN_VECTORS * 2 * LANES);
+    __global double *powers = all_powers + (KEEP ? 0 : group * num_realizations * powers_apart);
+    const ring_states own = {states, states + ring_pitch, scales, distances};
+    for (uint m = group; m <= L; m += groups) {
+        for (uint i = get_local_id(0); i < ring_pitch; i += get_local_size(0)) {
+            double value =
+                m == group ? starts[group * ring_pitch + i] : diagonal[i] * steps[i] * ratios[m];
+            int scale = m == group ? start_scales[group * ring_pitch + i]
+                                   : scales[ring_pitch + i] + step_scales[i];
+            normalize(&value, &scale);
+            diagonal[i] = states[i] = value;
+            scales[ring_pitch + i] = scales[i] = scale;
+            states[ring_pitch + i] = 0;
+        }
+        for (uint first = m; first <= L; first += RUN_DEGREES) {
+            const uint degrees = min(L + 1 - first, (uint)RUN_DEGREES);
+            const uint vectors = (degrees + 2 * LANES - 1) / (2 * LANES);
+            barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
+            make_coefficients(coefficients, first, m);
+            barrier(CLK_LOCAL_MEM_FENCE);
+            for (uint ring = 0; ring < num_rings; ring += block) {
+                const uint here = min(num_rings - ring, block);
+                for (uint i = get_local_id(0) * LANES; i < here; i += get_local_size(0) * LANES) {
+                    begins[i / LANES] = make_run(own, ring + i, coefficients, table + i * TABLE_ROW,
+                                                 table + (block + i) * TABLE_ROW, vectors)
+                                            ? i
+                                            : block;
+                }
+                barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
+                uint begin = block;
+                for (uint i = 0; i < here; i += LANES) {
+                    begin = min(begin, begins[i / LANES]);
+                }
+                for (uint job = get_local_id(0); job < num_realizations + 1;
+                     job += get_local_size(0)) {
+                    const uint r = job / 2 * 2, odd = job % 2;
+                    if (only_even != 0 && (m + odd) % 2 != 0) {
+                        continue;
+                    }
+                    const uint in_parity = odd ? degrees / 2 : (degrees + 1) / 2;
+                    const uint own_vectors = (in_parity + LANES - 1) / LANES;
+                    const product_rows rows = {
+                        table + odd * block * TABLE_ROW, begin,      here,          ring == 0,
+                        ring + block >= num_rings,       m == group, m == 0 ? 1 : 2};
+                    __global const real *from =
+                        values + r * apart + (m * 2 + odd) * 2 * (size_t)ring_pitch + 2 * ring;
+                    __global real *to = sums + (r * 2 + odd * 2) * (RUN_VECTORS * 2 * LANES);
+#if KEEP
+                    __global double *to_powers =
+                        powers + (m * 2 + odd) * powers_apart + (first - m) / 2;
+#else
+                    __global double *to_powers = powers + r * powers_apart +
+                                                 (first + odd) % 2 * half_pitch + (first + odd) / 2;
+#endif
+                    const size_t ends_apart = KEEP ? half_pitch : powers_apart;
+                    if (r + 1 < num_realizations) {
+                        product_of_two(rows, from, apart, to, to_powers, ends_apart, own_vectors);
+                    } else if (r < num_realizations) {
+                        product_of_one(rows, from, apart, to, to_powers, ends_apart, own_vectors);
+                    }
+                }
+                barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
+            }
+        }
+    }
+}
+
+/* powers [group][..] of all groups into those of the first: num of each, LANES degrees of one parity at a time. Degree
+ * l has orders, and powers, of groups up to l. Launch: (num / LANES), rounded up at will; half_pitch is a multiple of
+ * LANES. */
+__kernel void sphere_orders_fold(__global double *restrict powers, const uint groups,
+                                 const ulong num, const uint half_pitch) {
+    const size_t i = get_global_id(0) * LANES;
+    if (i >= num) {
+        return;
+    }
+    const size_t degree = i % half_pitch * 2 + i / half_pitch % 2;
+    __global unaligned_doublev *to = (__global unaligned_doublev *)(powers + i);
+    if (degree + 1 < groups) { /* the first LANES degrees have more groups from one to the next */
+        for (uint lane = 0; lane < LANES; lane++) {
+            const uint end = (uint)min((size_t)groups, degree + 2 * lane + 1);
+            for (uint group = 1; group < end; group++) {
+                powers[i + lane] += powers[group * num + i + lane];
+            }
+        }
+        return;
+    }
+    doublev sum = *to;
+    for (uint group = 1; group < groups; group++) {
+        sum += *(__global const unaligned_doublev *)(powers + group * num + i);
+    }
+    *to = sum;
+}
