@@ -8,6 +8,7 @@
 #ifndef PS_SPHERE_LANE_SUMS_H
 #define PS_SPHERE_LANE_SUMS_H
 
+#include "shared/lanes.h"
 #include "shared/transpose.h"
 
 #ifdef __OPENCL_C_VERSION__
@@ -39,21 +40,21 @@
 /* totals[i] = sum of the lanes of v[i], i < NUM_LANE_SUMS; v is used up. */
 static inline __attribute__((always_inline)) void sum_lanes(realv *v, real *totals) {
     MERGE_GROUP(0)
-    STOREV(v[0], 0, totals);
+    *(unaligned_realv *)(totals) = v[0];
 #if LANES <= 8
     MERGE_GROUP(8)
-    STOREV(v[8], 0, totals + 8);
+    *(unaligned_realv *)(totals + 8) = v[8];
 #endif
 #if LANES <= 4
     MERGE_GROUP(4)
     MERGE_GROUP(12)
-    STOREV(v[4], 0, totals + 4);
-    STOREV(v[12], 0, totals + 12);
+    *(unaligned_realv *)(totals + 4) = v[4];
+    *(unaligned_realv *)(totals + 12) = v[12];
 #endif
 #if LANES <= 2
     for (int i = 2; i < NUM_LANE_SUMS; i += 4) {
         MERGE_GROUP(i)
-        STOREV(v[i], 0, totals + i);
+        *(unaligned_realv *)(totals + i) = v[i];
     }
 #endif
 #if LANES == 1
@@ -63,27 +64,12 @@ static inline __attribute__((always_inline)) void sum_lanes(realv *v, real *tota
 #endif
 }
 
-/* Is any lane negative? any() of PoCL 3.1 asks lane by lane. */
+/* Is any lane negative? */
 static inline __attribute__((always_inline)) uint any_negative(const swordv x) {
 #if LANES == 1
     return x < 0;
 #else
-#if LANES == 16
-    const PS_JOIN(SWORD, 8) x8 = x.lo | x.hi;
-#elif LANES == 8
-    const swordv x8 = x;
-#endif
-#if LANES >= 8
-    const PS_JOIN(SWORD, 4) x4 = x8.lo | x8.hi;
-#elif LANES == 4
-    const swordv x4 = x;
-#endif
-#if LANES >= 4
-    const PS_JOIN(SWORD, 2) x2 = x4.lo | x4.hi;
-#else
-    const swordv x2 = x;
-#endif
-    return (x2.lo | x2.hi) < 0;
+    return any(x < (swordv)0);
 #endif
 }
 

@@ -40,9 +40,8 @@ static inline void scaled_normalize(scaled *x) {
     const realv high = x->high;
     const realv raise = high < (realv)SCALED_LOW ? (realv)SCALED_UP : (realv)1;
     const realv factor = high >= (realv)SCALED_HIGH ? (realv)SCALED_DOWN : raise;
-    const swordv down = high < (realv)SCALED_LOW ? (swordv)1 : (swordv)0;
-    const swordv up = high >= (realv)SCALED_HIGH ? (swordv)1 : (swordv)0;
-    x->scale += up - down;
+    const swordv lower = high < (realv)SCALED_LOW ? x->scale - (swordv)1 : x->scale;
+    x->scale = high >= (realv)SCALED_HIGH ? x->scale + (swordv)1 : lower;
     x->high *= factor;
     x->low *= factor;
 }
@@ -54,36 +53,40 @@ static inline void scaled_make(scaled *out, const realv high, const realv low) {
     scaled_normalize(out);
 }
 
-/* a times b; out may be either. */
-static inline void scaled_multiply(scaled *out, const scaled *a, const scaled *b) {
-    const realv product = a->high * b->high;
-    realv rest = fma(a->high, b->high, -product);
-    rest = fma(a->high, b->low, rest);
-    rest = fma(a->low, b->high, rest);
-    out->scale = a->scale + b->scale;
-    out->high = product + rest;
-    out->low = rest - (out->high - product);
-    scaled_normalize(out);
+/* *x times b; b may be x. */
+static inline void scaled_multiply(scaled *x, const scaled *b) {
+    const realv product = x->high * b->high;
+    const realv rest = fma(x->low, b->high, fma(x->high, b->low, fma(x->high, b->high, -product)));
+    const realv sum = product + rest;
+    x->scale += b->scale;
+    x->low = rest - (sum - product);
+    x->high = sum;
+    scaled_normalize(x);
 }
 
 /* x times a pair, SCALED_SMALLEST <= high <= 1 or 0, without a low part: off by half a unit. */
 static inline void scaled_step(scaled *x, const realv high, const realv low) {
     const realv product = fma(x->high, high, x->high * low);
     const realv raised = product * (realv)SCALED_UP;
-    x->scale -= product < (realv)SCALED_LOW ? (swordv)1 : (swordv)0;
+    x->scale = product < (realv)SCALED_LOW ? x->scale - (swordv)1 : x->scale;
     x->high = product < (realv)SCALED_LOW ? raised : product;
 }
 
-/* out = base^exponent, by squaring base: relative error about exponent times that of the pair. */
-static inline void scaled_power(scaled *out, scaled *base, uint exponent) {
+/* out = base^exponent, by squaring: relative error about exponent times that of the pair. From the top bit down: the
+ * base need not be squared. */
+static inline void scaled_power(scaled *out, const scaled *base, const uint exponent) {
+    uint bit = 1;
+    while (bit <= exponent / 2) {
+        bit *= 2;
+    }
     out->high = (realv)1;
     out->low = (realv)0;
     out->scale = (swordv)0;
-    for (; exponent > 0; exponent >>= 1) {
-        if (exponent & 1) {
-            scaled_multiply(out, out, base);
+    for (; bit > 0; bit /= 2) {
+        scaled_multiply(out, out);
+        if (exponent & bit) {
+            scaled_multiply(out, base);
         }
-        scaled_multiply(base, base, base);
     }
 }
 

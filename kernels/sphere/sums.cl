@@ -27,112 +27,11 @@
 #include "sphere/lane_sums.h"
 #include "sphere/layout.h"
 #include "sphere/legendre.h"
-#include "sphere/scaled.h"
+#include "sphere/order.h"
 
 #define VECTORS (CHUNK / LANES)
 #define SUMS (2 * DEGREES)
 #define SUM_ALIGNMENT 16
-
-/* Local memory of a work-item: what the points of a chunk carry from degree to degree and from order to order. */
-#define LOCAL_P 0
-#define LOCAL_E (LOCAL_P + CHUNK)
-#define LOCAL_COSINE (LOCAL_E + CHUNK) /* times the weight */
-#define LOCAL_SINE (LOCAL_COSINE + CHUNK)
-#define LOCAL_SIDE_COSINE (LOCAL_SINE + CHUNK) /* and times the side, for odd l - m */
-#define LOCAL_SIDE_SINE (LOCAL_SIDE_COSINE + CHUNK)
-#define LOCAL_HIGH (LOCAL_SIDE_SINE + CHUNK) /* sin^m(theta) */
-#define LOCAL_REALS (LOCAL_HIGH + CHUNK)
-
-typedef swordv unaligned_swordv __attribute__((aligned(sizeof(real))));
-typedef PS_VECTOR(ulong) ulongv;
-
-/* The pointers of a work-item. */
-typedef struct chunk {
-    __global const real *values;
-    __global const ulong *turns;
-    __global const real *weights;
-    __local real *memory;
-    __local SWORD *scales; /* [2][CHUNK]: of sin^m(theta), of the state */
-    __local uint *is_scaled;
-    ulong capacity;
-    size_t num_vectors;
-} chunk;
-
-INLINE realv get_value(const chunk *at, const int array, const size_t v) {
-    return load_global(at->values + array * at->capacity, v);
-}
-
-INLINE swordv load_scale(__local const SWORD *from, const size_t v) {
-    return *(__local const unaligned_swordv *)(from + v * LANES);
-}
-
-INLINE void store_scale(__local SWORD *to, const size_t v, const swordv x) {
-    *(__local unaligned_swordv *)(to + v * LANES) = x;
-}
-
-/* ---- an order begins ------------------------------------------------------------------------- */
-
-/* The first order of a tile: exact phases, powers in pairs. */
-INLINE void begin_exactly(const chunk *at, const size_t v, const uint m, realv *cosine, realv *sine,
-                          scaled *power) {
-    const realv weight = load_global(at->weights, v);
-    ulongv turn;
-#if LANES == 1
-    turn = at->turns[v] * m;
-#else
-    turn = PS_JOIN(vload, LANES)(v, at->turns) * (ulongv)(ulong)m;
-#endif
-#if PRECISION == 64
-    turn_cosine_sine(turn, cosine, sine);
-#else
-    turn_cosine_sine(PS_JOIN(convert_, PS_VECTOR(WORD))(turn >> (ulongv)32), cosine, sine);
-#endif
-    *cosine *= weight;
-    *sine *= weight;
-    scaled rho;
-    scaled_make(&rho, get_value(at, ARRAY_RHO, v), get_value(at, ARRAY_RHO_REST, v));
-    scaled_power(power, &rho, m);
-}
-
-/* Any other from the one before it. */
-INLINE void begin_next(const chunk *at, const size_t v, realv *cosine, realv *sine, scaled *power) {
-    const realv c = get_value(at, ARRAY_COSINE, v);
-    const realv s = get_value(at, ARRAY_SINE, v);
-    const realv old_cosine = load_local(at->memory + LOCAL_COSINE, v);
-    const realv old_sine = load_local(at->memory + LOCAL_SINE, v);
-    *cosine = fma(old_cosine, c, -(old_sine * s));
-    *sine = fma(old_cosine, s, old_sine * c);
-    power->high = load_local(at->memory + LOCAL_HIGH, v);
-    power->scale = load_scale(at->scales, v);
-    scaled_step(power, get_value(at, ARRAY_RHO, v), get_value(at, ARRAY_RHO_REST, v));
-}
-
-INLINE void begin_order(const chunk *at, const size_t v, const uint m, const int exactly) {
-    realv cosine, sine;
-    scaled power;
-    if (exactly) {
-        begin_exactly(at, v, m, &cosine, &sine, &power);
-    } else {
-        begin_next(at, v, &cosine, &sine, &power);
-    }
-    const realv side = get_value(at, ARRAY_SIDE, v);
-    store_local(at->memory + LOCAL_COSINE, v, cosine);
-    store_local(at->memory + LOCAL_SINE, v, sine);
-    store_local(at->memory + LOCAL_SIDE_COSINE, v, cosine * side);
-    store_local(at->memory + LOCAL_SIDE_SINE, v, sine * side);
-    store_local(at->memory + LOCAL_HIGH, v, power.high);
-    store_scale(at->scales, v, power.scale);
-
-    /* A number of scale -1 is not too small for scale 0; a pole has nothing to scale. */
-    const swordv is_near = power.scale == (swordv)-1 ? (swordv)1 : (swordv)0;
-    const realv p = is_near == (swordv)1 ? power.high * (realv)SCALED_DOWN : power.high;
-    swordv scale = power.scale + is_near;
-    scale = AS_SWORDV(p) == (swordv)0 ? (swordv)0 : scale;
-    store_local(at->memory + LOCAL_P, v, p);
-    store_local(at->memory + LOCAL_E, v, (realv)0);
-    store_scale(at->scales + CHUNK, v, scale);
-    at->is_scaled[v] = any_negative(scale);
-}
 
 /* ---- a block of degrees ---------------------------------------------------------------------- */
 
@@ -181,10 +80,9 @@ INLINE void walk_scaled(const chunk *at, const size_t v, TABLE *block, realv *su
     const realv factor = scale == (swordv)0 ? (realv)1 : below;
     realv p, e;
     walk(at, v, block, factor, 1, sums, &p, &e, first, step);
-    const swordv rises = fabs(p) >= (realv)SCALED_HIGH ? (swordv)1 : (swordv)0;
-    const swordv up = scale < (swordv)0 ? rises : (swordv)0;
-    const realv down = up == (swordv)1 ? (realv)SCALED_DOWN : (realv)1;
-    scale += up;
+    /* With scale 0 a state never gets there. */
+    const realv down = fabs(p) >= (realv)SCALED_HIGH ? (realv)SCALED_DOWN : (realv)1;
+    scale = fabs(p) >= (realv)SCALED_HIGH ? scale + (swordv)1 : scale;
     store_local(at->memory + LOCAL_P, v, p * down);
     store_local(at->memory + LOCAL_E, v, e * down);
     store_scale(at->scales + CHUNK, v, scale);
@@ -210,24 +108,39 @@ INLINE void add_block(const chunk *at, TABLE *block, const int first, const int 
 
 /* ---- what a chunk adds to an order ----------------------------------------------------------- */
 
+/* One part of a row of sums begins. */
+INLINE void begin_part(__global real *to, __global real *low, TABLE *ratio, const real *totals,
+                       const int has_low) {
+    for (int i = 0; i < DEGREES; i++) {
+        to[i] = totals[i] * ratio[i];
+    }
+    for (int i = 0; has_low && i < DEGREES; i++) {
+        low[i] = 0;
+    }
+}
+
+/* Another chunk is added to it, as in shared/pair.h. */
+INLINE void add_part(__global real *to, __global real *low, TABLE *ratio, const real *totals) {
+    for (int i = 0; i < DEGREES; i++) {
+        const real x = totals[i] * ratio[i];
+        const real old = to[i];
+        const real sum = old + x;
+        const real x_part = sum - old;
+        low[i] += (old - (sum - x_part)) + (x - x_part);
+        to[i] = sum;
+    }
+}
+
 /* Rows of one order of one realization: re, im and their low parts. */
 INLINE void put_block(__global real *row, const ulong stride, TABLE *block, const real *totals,
                       const int has_low, const int is_first) {
     for (int part = 0; part < 2; part++) {
         __global real *to = row + part * stride;
-        for (int i = 0; i < DEGREES; i++) {
-            real low = 0, high = totals[part * DEGREES + i] * block[BLOCK_RATIO + i];
-            if (has_low && !is_first) {
-                const real old = to[i];
-                const real sum = old + high;
-                const real part_of_sum = sum - old;
-                low = to[2 * stride + i] + ((old - (sum - part_of_sum)) + (high - part_of_sum));
-                high = sum;
-            }
-            to[i] = high;
-            if (has_low) {
-                to[2 * stride + i] = low;
-            }
+        __global real *low = to + 2 * stride;
+        if (is_first) {
+            begin_part(to, low, block + BLOCK_RATIO, totals + part * DEGREES, has_low);
+        } else {
+            add_part(to, low, block + BLOCK_RATIO, totals + part * DEGREES);
         }
     }
 }
