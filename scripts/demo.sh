@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # demo.sh PROGRAM FOLDER: the averaged periodogram of samplers that everyone knows, and of published
-# sets when the test data are there. FOLDER gets a table and a picture of each and one picture of
+# sets when the test data are there; angular spectra of samplers of the sphere. FOLDER gets a table and a picture of each and one picture of
 # all; the terminal a table whose numbers are computed from those tables.
 set -euo pipefail
 program=$1 folder=$2
@@ -43,6 +43,12 @@ published dart_throwing ring "grey disc: Poisson disk is not empty there"
 curves=$(cut -f 1 "$summary" | tr '\n' ' ')
 gnuplot -e "folder='$folder'; curves='$curves'; num_samplers=$num_samplers" scripts/demo.gnuplot
 
+echo "demo: sphere" >&2
+"$program" angular --sampler white-sphere --sampler healpix-jittered --sampler fibonacci \
+    --sampler sobol:lift=sphere -n 768 -m $realizations -l $max_frequency --homogenize --quiet \
+    -o "$folder/sphere.csv" --plot "$folder/sphere.png"
+[[ -s $folder/sphere.png ]] || { echo "demo: no picture $folder/sphere.png" >&2; exit 1; }
+
 cat <<TEXT
 
 Radially averaged power; white noise is 1. Frequency in units of sqrt(N), N = $points;
@@ -56,4 +62,5 @@ if [[ ! -d $data ]]; then
 fi
 echo
 echo "Look at: $folder/comparison.png (all sets), then $folder/NAME.png (spectrum, radial mean with"
-echo "error bars, anisotropy); the numbers are in $folder/NAME.csv. Took $((SECONDS - start)) s."
+echo "error bars, anisotropy), and $folder/sphere.png (four samplers of the sphere, also with"
+echo "logarithmic axes); the numbers are in $folder/NAME.csv. Took $((SECONDS - start)) s."
