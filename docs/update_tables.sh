@@ -136,6 +136,34 @@ table_slack_nufft() {
         }'
 }
 
+# The lines of the test of sphere_direct's error law.
+table_sphere_direct() {
+    need tests/test_sphere_error && "$build/tests/test_sphere_error" 2>&1 | grep ' slack '
+}
+
+# The smallest bound / error of sphere_nufft, by kind of set: a column for every block of the test's lines.
+table_sphere_nufft() {
+    need tests/test_sphere_nufft_sweep || return 1
+    "$build/tests/test_sphere_nufft_sweep" 2>&1 | awk '
+        /^(single|double) L=/ { sub(/:$/, ""); block[++num_blocks] = $1 " " $2 " " $3; next }
+        /^  [a-z]/ && num_blocks > 0 {
+            kind = substr($0, 3, 15)
+            if (!(kind in seen)) kinds[++num] = kind
+            seen[kind] = 1
+            slack[kind " " num_blocks] = $NF
+        }
+        END {
+            printf "%-15s", "smallest slack"
+            for (i = 1; i <= num_blocks; i++) printf " %20s", block[i]
+            printf "\n"
+            for (k = 1; k <= num; k++) {
+                printf "%-15s", kinds[k]
+                for (i = 1; i <= num_blocks; i++) printf " %20s", slack[kinds[k] " " i]
+                printf "\n"
+            }
+        }'
+}
+
 # What the program does with every fault, by command line. FAULTS_ONLY=NAME[,NAME...] runs these command lines
 # alone, for all take the better part of an hour; the other rows stay as they are on the page.
 table_faults() {
