@@ -27,6 +27,10 @@ def smooth(number):
         number += 2
 
 
+def cut_off(tolerance):
+    return round(DIGITS * -math.log10(tolerance))
+
+
 class Nfft:
     name = "NFFT"
     precisions = ("double",)
@@ -50,7 +54,7 @@ class Nfft:
         return list(range(1, 15))
 
     def guess(self, precision, tolerance):
-        return round(DIGITS * -math.log10(tolerance))
+        return cut_off(tolerance)
 
     def variants(self, points, precision):
         small = points.case.num_modes < LARGEST_MEASURED
