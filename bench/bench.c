@@ -83,6 +83,20 @@ void bench_peak_destroy(bench_peak *peak) {
 
 /* ---- jobs -------------------------------------------------------------------------------- */
 
+/* Numbers in [0,1) become white points on the sphere: the first is the height, the second the azimuth. */
+static void make_unit_vectors(double *points, size_t num) {
+    const double two_pi = 6.283185307179586;
+    for (size_t j = 0; j < num; j++) {
+        double *u = points + j * PS_SPHERE_DIMENSION;
+        const double z = 2 * u[0] - 1;
+        const double rho = sqrt((1 - z) * (1 + z));
+        const double phi = two_pi * u[1];
+        u[0] = rho * cos(phi);
+        u[1] = rho * sin(phi);
+        u[2] = z;
+    }
+}
+
 void bench_job_create_for(bench_job *job, const ps_engine *engine, ps_precision precision,
                           const ps_problem *problem, ps_device *device) {
     const size_t num_points = (size_t)problem->num_points;
@@ -101,6 +115,9 @@ void bench_job_create_for(bench_job *job, const ps_engine *engine, ps_precision 
     const ps_work work = engine->work(&own, limits, precision);
     job->batch = ps_cost_batch(&work, limits, num_realizations);
     job->points = bench_uniform(num_points * dimension * num_realizations, num_points);
+    if (job->frequencies.kind == PS_FREQUENCIES_DEGREES) {
+        make_unit_vectors(job->points, num_points * num_realizations);
+    }
     job->patterns = allocate(num_realizations, sizeof *job->patterns);
     job->scales = allocate(num_realizations, sizeof *job->scales);
     job->slots = allocate(job->frequencies.num, sizeof *job->slots);

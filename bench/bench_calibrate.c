@@ -8,6 +8,7 @@
 #include "cycles.h"
 
 #include "engines/host_direct.h"
+#include "engines/sphere_direct.h"
 #include "engines/torus_direct.h"
 #include "engines/torus_nufft.h"
 #include "plan/cost_model.h"
@@ -58,6 +59,25 @@ static double transform_share(ps_device *device, ps_precision precision) {
     return sqrt(small.transform_flops / (a * peak) * large.transform_flops / (b * peak));
 }
 
+/* Points on a sphere's north cap would do as well: the time depends on their number. */
+static double harmonics_per_flop(ps_device *device, ps_precision precision) {
+    enum { DEGREE = 64, POINTS = 256, REALIZATIONS = 1024 };
+    ps_frequencies degrees = {0};
+    bench_job job;
+    BENCH_TRY(ps_frequencies_degrees(&degrees, DEGREE, false, error));
+    bench_job_create(&job, &ps_sphere_direct, precision, TOLERANCE, device, degrees, POINTS,
+                     REALIZATIONS);
+    const ps_problem problem = {.frequencies = &job.frequencies,
+                                .num_points = POINTS,
+                                .num_realizations = REALIZATIONS,
+                                .tolerance = TOLERANCE};
+    const ps_device_limits *limits = ps_device_get_limits(device);
+    const double harmonics = ps_sphere_direct.work(&problem, limits, precision).harmonics;
+    const double rate = harmonics / best_run(&job);
+    bench_job_destroy(&job);
+    return rate / ps_cost_nominal_flops(limits, precision);
+}
+
 /* Two grids, one where tables weigh most and one where products do: two equations for two rates. */
 static void calibrate(ps_device *device, ps_precision precision) {
     ps_work small;
@@ -69,8 +89,10 @@ static void calibrate(ps_device *device, ps_precision precision) {
         small.phases * large.product_flops - large.phases * small.product_flops;
     const double phase = (a * large.product_flops - b * small.product_flops) / determinant;
     const double product = (small.phases * b - large.phases * a) / determinant;
-    printf("    [%s] = {%.3g, %.3g, %.3g},\n", precision == PS_SINGLE ? "PS_SINGLE" : "PS_DOUBLE",
-           1 / (phase * peak), 1 / (product * peak), transform_share(device, precision));
+    printf("    [%s] = {%.3g, %.3g, %.3g, %.3g},\n",
+           precision == PS_SINGLE ? "PS_SINGLE" : "PS_DOUBLE", 1 / (phase * peak),
+           1 / (product * peak), transform_share(device, precision),
+           harmonics_per_flop(device, precision));
 }
 
 static double host_seconds_per_phase(void) {
@@ -96,7 +118,7 @@ int main(void) {
     const ps_device_limits *limits = ps_device_get_limits(device);
     printf("/* %s, %u compute units at %u MHz, %s */\n", limits->name, limits->compute_units,
            limits->clock_mhz, limits->version);
-    printf("device_rates (phases_per_flop, product_share, transform_share):\n");
+    printf("device_rates (phases_per_flop, product_share, transform_share, harmonics_per_flop):\n");
     calibrate(device, PS_SINGLE);
     if (limits->has_fp64) {
         calibrate(device, PS_DOUBLE);

@@ -98,6 +98,37 @@ static void same_bits_for_large_sets(void **state) {
     ps_frequencies_free(&grid);
 }
 
+/* ---- one dimension --------------------------------------------------------------------------- */
+
+/* Rings have one frequency each: the device's sums are the same numbers, whether anybody asks for frequencies or
+ * not, and those of the referee, which forms rings by themselves. */
+static void rings_of_one_frequency(void **state) {
+    (void)state;
+    ps_frequencies grid = test_make_lattice(1, 700, false);
+    test_sample what = test_make_sample(23, 1, 40, 3, true);
+    ps_estimator_options options = test_make_options(&grid, &ps_torus_direct, PS_SINGLE, 200, 7);
+    ps_spectrum with = test_estimate(&options, &what, 23, device);
+    options.want_frequencies = false;
+    ps_spectrum without = test_estimate(&options, &what, 23, device);
+    options = test_make_options(&grid, &ps_host_direct, PS_EXTENDED, 200, 7);
+    ps_spectrum referee = test_estimate(&options, &what, 23, device);
+    const double near = 1e-4;
+    assert_int_equal(with.num_bins, 700);
+    for (size_t b = 0; b < with.num_bins; b++) {
+        assert_true(with.bins[b].power == with.powers[b].mean);
+        assert_true(with.bins[b].standard_error == with.powers[b].standard_error);
+        assert_true(with.bins[b].power == without.bins[b].power);
+        assert_true(with.bins[b].standard_error == without.bins[b].standard_error);
+        assert_true(fabs(with.bins[b].power - referee.bins[b].power) < near);
+        assert_true(fabs(with.bins[b].standard_error - referee.bins[b].standard_error) < near);
+    }
+    ps_spectrum_free(&with);
+    ps_spectrum_free(&without);
+    ps_spectrum_free(&referee);
+    test_free_sample(&what);
+    ps_frequencies_free(&grid);
+}
+
 /* ---- mean only --------------------------------------------------------------------------- */
 
 /* Means without standard errors have the bits of those with them. */
@@ -348,6 +379,7 @@ int main(void) {
         cmocka_unit_test(same_bits_for_every_batch),
         cmocka_unit_test(same_bits_in_small_buffers),
         cmocka_unit_test(same_bits_for_large_sets),
+        cmocka_unit_test(rings_of_one_frequency),
         cmocka_unit_test(same_means_without_standard_errors),
         cmocka_unit_test(shifts_leave_the_power_unchanged),
         cmocka_unit_test(equal_points_have_power_n),

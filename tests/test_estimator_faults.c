@@ -3,7 +3,9 @@
  */
 #include "harness_estimator.h"
 
+#include "engines/host_direct.h"
 #include "engines/torus_direct.h"
+#include "engines/torus_nufft.h"
 
 #include <math.h>
 #include <string.h>
@@ -58,6 +60,51 @@ static void bad_patterns(void **state) {
     assert_int_equal(
         add_one((pspec_pattern){2, 2, good, zero_sum}, PSPEC_NORMALIZATION_EFFECTIVE, &error),
         PSPEC_OK);
+}
+
+/* Engines look at coordinates while they convert them: what is said is what a look at one set after the other
+ * would say, and the batches before stay in the sums. */
+static void check_first_bad(const ps_engine *engine, bool weighted, const char *expected) {
+    enum { SETS = 5, POINTS = 40 };
+    double x[SETS][2 * POINTS];
+    double weights[POINTS];
+    pspec_pattern patterns[SETS];
+    uint64_t random = 3;
+    ps_error error = {0};
+    for (size_t r = 0; r < SETS; r++) {
+        for (size_t i = 0; i < 2 * POINTS; i++) {
+            x[r][i] = test_uniform(&random);
+        }
+        patterns[r] = (pspec_pattern){2, POINTS, x[r], NULL};
+    }
+    for (size_t j = 0; j < POINTS; j++) {
+        weights[j] = INFINITY;
+    }
+    x[3][2 * 30 + 1] = -0.25;
+    x[4][0] = 1;
+    patterns[4].weights = weighted ? weights : NULL;
+    ps_frequencies grid = test_make_lattice(2, 9, false);
+    const ps_precision precision = engine == &ps_host_direct ? PS_EXTENDED : PS_SINGLE;
+    ps_estimator_options options = test_make_options(&grid, engine, precision, POINTS, 3);
+    ps_estimator *estimator = NULL;
+    assert_int_equal(ps_estimator_create(&estimator, &options, device, &error), PSPEC_OK);
+    assert_int_equal(ps_estimator_add(estimator, patterns, SETS, &error), PSPEC_ERROR_INPUT);
+    assert_string_equal(error.message, expected);
+    assert_int_equal(ps_estimator_num_realizations(estimator), 3);
+    assert_int_equal(ps_estimator_add(estimator, patterns, 3, &error), PSPEC_OK);
+    assert_int_equal(ps_estimator_num_realizations(estimator), 6);
+    ps_estimator_destroy(estimator);
+    ps_frequencies_free(&grid);
+}
+
+static void first_bad_pattern(void **state) {
+    (void)state;
+    static const ps_engine *const engines[] = {&ps_torus_direct, &ps_torus_nufft, &ps_host_direct};
+    static const char expected[] = "set 4, point 31: coordinate -0.25 is outside [0,1)";
+    for (size_t i = 0; i < sizeof engines / sizeof engines[0]; i++) {
+        check_first_bad(engines[i], false, expected);
+        check_first_bad(engines[i], true, expected);
+    }
 }
 
 /* ---- engines that misbehave -------------------------------------------------------------- */
@@ -150,6 +197,7 @@ static void nothing_added(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bad_patterns),
+        cmocka_unit_test(first_bad_pattern),
         cmocka_unit_test(refused_memory_halves_the_batch),
         cmocka_unit_test(the_self_check_finds_a_wrong_device),
         cmocka_unit_test(nothing_added),

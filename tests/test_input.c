@@ -186,6 +186,37 @@ static void threads_find_the_same_rows(void **state) {
     free(text);
 }
 
+/* Every thing once, whatever the number of threads: one more than a multiple of many of them, and few. */
+typedef struct counted {
+    size_t num;
+    unsigned char *times;
+} counted;
+
+static void count_some(void *payload, unsigned index, unsigned count) {
+    const counted *all = payload;
+    const size_t end = ps_share_begin(all->num, index + 1, count);
+    for (size_t i = ps_share_begin(all->num, index, count); i < end; i++) {
+        all->times[i]++;
+    }
+}
+
+static void every_thing_once(void **state) {
+    (void)state;
+    static const size_t nums[] = {0, 1, 5, 100, (1 << 17) - 1, 720721};
+    for (size_t i = 0; i < sizeof nums / sizeof nums[0]; i++) {
+        counted all = {nums[i], calloc(nums[i] + 1, 1)};
+        ps_workers_share(nums[i], count_some, &all);
+        for (size_t j = 0; j <= nums[i]; j++) {
+            assert_int_equal(all.times[j], j < nums[i] ? 1 : 0);
+        }
+        for (unsigned count = 1; count < 20; count++) {
+            assert_int_equal(ps_share_begin(nums[i], 0, count), 0);
+            assert_int_equal(ps_share_begin(nums[i], count, count), nums[i]);
+        }
+        free(all.times);
+    }
+}
+
 int main(void) {
 #define IN_FOLDER(test)                                                                            \
     cmocka_unit_test_setup_teardown(test, test_folder_create, test_folder_remove)
@@ -194,6 +225,7 @@ int main(void) {
         IN_FOLDER(knows_compressed_formats),
         IN_FOLDER(refuses_damaged_gzip),
         IN_FOLDER(refuses_an_empty_gzip),
+        cmocka_unit_test(every_thing_once),
         cmocka_unit_test(workers_do_every_part_once),
         cmocka_unit_test(threads_find_the_same_rows),
     };

@@ -125,6 +125,9 @@ static void choices_of_the_user(void **state) {
     const ps_device_limits limits = test_cpu();
     ps_plan plan;
     for (const ps_engine *const *engine = ps_engines; *engine != NULL; engine++) {
+        if (!((*engine)->domains & PS_ON_TORUS)) {
+            continue;
+        }
         for (int precision = PS_SINGLE; precision <= PS_EXTENDED; precision++) {
             const ps_plan_constraints constraints = {.engine = (*engine)->name,
                                                      .precision = precision};

@@ -192,7 +192,7 @@ static void check_engines(ps_precision precision) {
         skip();
     }
     for (size_t i = 0; ps_engines[i] != NULL; i++) {
-        if (ps_engines[i]->has_precision[precision]) {
+        if (ps_engines[i]->domains & PS_ON_TORUS && ps_engines[i]->has_precision[precision]) {
             check_engine(ps_engines[i], precision);
         }
     }

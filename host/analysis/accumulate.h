@@ -4,6 +4,9 @@
  * Per bin: the mean over the bin is formed for each realization first, then summed in the same way;
  * so a bin's standard error catches correlations between its frequencies (mathematics.md 1.2).
  * Realizations are taken one after the other in their order, whatever the batches were.
+ *
+ * Where every bin has one member, as in one dimension, sums of bins are those of frequencies: on a device
+ * only these are formed.
  */
 #ifndef PS_ANALYSIS_ACCUMULATE_H
 #define PS_ANALYSIS_ACCUMULATE_H
@@ -35,10 +38,10 @@ pspec_status ps_accumulator_create(ps_accumulator **out, const ps_accumulator_op
                                    ps_device *device, ps_error *error) PS_MUST_CHECK;
 void ps_accumulator_destroy(ps_accumulator *accumulator);
 
-/* Adds the rows of one batch. bin_powers[r * num_bins + b], owned by the accumulator until the next
- * call, is the mean over bin b of realization r; may be NULL if nobody asks. */
+/* Adds the rows of one batch. mean_powers[r], owned by the accumulator until the next call, is the mean
+ * over all members of bins of realization r; may be NULL if nobody asks. */
 pspec_status ps_accumulator_add(ps_accumulator *accumulator, const ps_rows *rows,
-                                const double **bin_powers, ps_error *error) PS_MUST_CHECK;
+                                const double **mean_powers, ps_error *error) PS_MUST_CHECK;
 
 /* Forgets every realization; allocates nothing. */
 pspec_status ps_accumulator_reset(ps_accumulator *accumulator, ps_error *error) PS_MUST_CHECK;
@@ -48,7 +51,8 @@ pspec_status ps_accumulator_reset(ps_accumulator *accumulator, ps_error *error) 
 pspec_status ps_accumulator_sums(ps_accumulator *accumulator, ps_sums *bins, ps_sums *frequencies,
                                  ps_error *error) PS_MUST_CHECK;
 /* means[num_bins] */
-void ps_accumulator_bins(const ps_accumulator *accumulator, ps_mean *means);
+pspec_status ps_accumulator_bins(ps_accumulator *accumulator, ps_mean *means,
+                                 ps_error *error) PS_MUST_CHECK;
 /* means[num_frequencies]; only with want_frequencies. */
 pspec_status ps_accumulator_frequencies(ps_accumulator *accumulator, ps_mean *means,
                                         ps_error *error) PS_MUST_CHECK;

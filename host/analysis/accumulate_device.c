@@ -3,6 +3,7 @@
 #include "analysis/accumulate_blocks.h"
 #include "base/memory.h"
 #include "base/round.h"
+#include "base/workers.h"
 
 #include <stdlib.h>
 
@@ -284,12 +285,26 @@ static ps_sums get_sums(const ps_device_accumulator *self, size_t frequency) {
     return sums;
 }
 
+typedef struct state_sums {
+    const ps_device_accumulator *accumulator;
+    ps_sums *sums;
+} state_sums;
+
+static void get_some_sums(void *payload, unsigned index, unsigned count) {
+    const state_sums *all = payload;
+    const size_t num = all->accumulator->options.num_frequencies;
+    const size_t end = ps_share_begin(num, index + 1, count);
+    for (size_t i = ps_share_begin(num, index, count); i < end; i++) {
+        all->sums[i] = get_sums(all->accumulator, i);
+    }
+}
+
 pspec_status ps_device_accumulator_sums(ps_device_accumulator *accumulator, ps_sums *sums,
                                         ps_error *error) {
+    const size_t num = accumulator->options.num_frequencies;
+    state_sums all = {accumulator, sums};
     PS_TRY(read_states(accumulator, error));
-    for (size_t i = 0; i < accumulator->options.num_frequencies; i++) {
-        sums[i] = get_sums(accumulator, i);
-    }
+    ps_workers_share(num, get_some_sums, &all);
     return PSPEC_OK;
 }
 

@@ -2,6 +2,7 @@
 
 #include "analysis/ring_statistics.h"
 #include "base/memory.h"
+#include "base/workers.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -12,6 +13,20 @@ static void describe_ring(ps_spectrum_bin *out, const ps_mean *powers, const uin
     out->anisotropy_db = ps_anisotropy_db(powers, members, num);
     out->standard_error =
         ps_subset_standard_error(powers, members, num, bin->num_frequencies, out->standard_error);
+}
+
+typedef struct rings {
+    ps_spectrum *out;
+    const ps_bins *bins;
+} rings;
+
+/* In turns, since rings grow. */
+static void describe_some(void *payload, unsigned index, unsigned count) {
+    const rings *all = payload;
+    for (size_t b = index; b < all->bins->num_reported; b += count) {
+        const ps_bin *bin = &all->bins->bins[b];
+        describe_ring(&all->out->bins[b], all->out->powers, all->bins->members + bin->begin, bin);
+    }
 }
 
 static void fill_bins(ps_spectrum *out, const ps_bins *bins, const ps_mean *means, double factor) {
@@ -29,9 +44,10 @@ static void fill_bins(ps_spectrum *out, const ps_bins *bins, const ps_mean *mean
             .standard_error = means[b].standard_error * factor,
             .anisotropy_db = NAN,
         };
-        if (out->powers != NULL) {
-            describe_ring(&out->bins[b], out->powers, bins->members + bin->begin, bin);
-        }
+    }
+    if (out->powers != NULL) {
+        rings all = {out, bins};
+        ps_workers_share(bins->num_members, describe_some, &all);
     }
 }
 
@@ -78,7 +94,7 @@ pspec_status ps_spectrum_create(ps_spectrum *out, const ps_frequencies *frequenc
     pspec_status status = PSPEC_OK;
     *out = (ps_spectrum){0};
     PS_TRY_OUT(status, ps_allocate(&bin_means, bins->num, sizeof(ps_mean), "the bins", error));
-    ps_accumulator_bins(accumulator, bin_means);
+    PS_TRY_OUT(status, ps_accumulator_bins(accumulator, bin_means, error));
     if (with_frequencies) {
         PS_TRY_OUT(status,
                    ps_allocate(&powers, frequencies->num, sizeof(ps_mean), "the powers", error));

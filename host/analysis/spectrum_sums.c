@@ -1,6 +1,7 @@
 #include "analysis/spectrum_sums.h"
 
 #include "base/memory.h"
+#include "base/workers.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -160,10 +161,25 @@ pspec_status ps_spectrum_sums_merge(ps_spectrum_sums *sums, const ps_spectrum_su
 
 /* ---- finish ------------------------------------------------------------------------------ */
 
-static void finish_all(const ps_sums *sums, size_t num, uint64_t num_realizations, ps_mean *out) {
-    for (size_t i = 0; i < num; i++) {
-        ps_sums_finish(&sums[i], num_realizations, &out[i].mean, &out[i].standard_error);
+typedef struct finishing {
+    const ps_sums *sums;
+    size_t num;
+    uint64_t num_realizations;
+    ps_mean *out;
+} finishing;
+
+static void finish_some(void *payload, unsigned index, unsigned count) {
+    const finishing *all = payload;
+    const size_t end = ps_share_begin(all->num, index + 1, count);
+    for (size_t i = ps_share_begin(all->num, index, count); i < end; i++) {
+        ps_sums_finish(&all->sums[i], all->num_realizations, &all->out[i].mean,
+                       &all->out[i].standard_error);
     }
+}
+
+static void finish_all(const ps_sums *sums, size_t num, uint64_t num_realizations, ps_mean *out) {
+    finishing all = {sums, num, num_realizations, out};
+    ps_workers_share(num, finish_some, &all);
 }
 
 pspec_status ps_spectrum_sums_finish(const ps_spectrum_sums *sums, const ps_bins *bins,

@@ -129,3 +129,24 @@ void ps_workers_run(ps_workers *workers, void (*task)(void *payload, unsigned in
     }
     pthread_mutex_unlock(&workers->mutex);
 }
+
+typedef struct sharing {
+    void (*task)(void *payload, unsigned index, unsigned count);
+    void *payload;
+    unsigned count;
+} sharing;
+
+static void do_share(void *payload, unsigned index) {
+    const sharing *const self = payload;
+    self->task(self->payload, index, self->count);
+}
+
+void ps_workers_share(size_t num, void (*task)(void *payload, unsigned index, unsigned count),
+                      void *payload) {
+    /* Of things that take some nanoseconds each, so many pay for a thread that comes and goes, 0.1 ms. */
+    enum { LEAST = 1 << 17, MOST_THREADS = 16 };
+    ps_workers *const workers = num >= LEAST ? ps_workers_create(MOST_THREADS) : NULL;
+    sharing all = {task, payload, ps_workers_count(workers)};
+    ps_workers_run(workers, do_share, &all);
+    ps_workers_destroy(workers);
+}

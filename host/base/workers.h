@@ -17,4 +17,14 @@ unsigned ps_workers_count(const ps_workers *workers);
 void ps_workers_run(ps_workers *workers, void (*task)(void *payload, unsigned index),
                     void *payload);
 
+/* The same with threads for this once, where num things to do are worth that: task(payload, i, count) for all i
+ * below count, which is 1 for few. What becomes of a thing must not depend on who does it. */
+void ps_workers_share(size_t num, void (*task)(void *payload, unsigned index, unsigned count),
+                      void *payload);
+
+/* The first of num things that are part `index` of `count`; of part `count`: num. */
+static inline size_t ps_share_begin(size_t num, unsigned index, unsigned count) {
+    return num / count * index + (num % count < index ? num % count : index);
+}
+
 #endif

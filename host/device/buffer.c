@@ -56,6 +56,48 @@ pspec_status ps_buffer_read(ps_device *device, const ps_buffer *buffer, size_t o
     return PSPEC_OK;
 }
 
+pspec_status ps_mapping_begin(ps_device *device, ps_mapping *out, const ps_buffer *buffer,
+                              ps_error *error) {
+    cl_int code = CL_SUCCESS;
+    *out = (ps_mapping){0};
+    out->data =
+        clEnqueueMapBuffer(device->queue, buffer->memory, CL_FALSE, CL_MAP_WRITE_INVALIDATE_REGION,
+                           0, buffer->bytes, 0, NULL, &out->is_ready, &code);
+    if (code != CL_SUCCESS) {
+        *out = (ps_mapping){0};
+        return ps_device_fail(code, "clEnqueueMapBuffer", error);
+    }
+    out->memory = buffer->memory;
+    return PSPEC_OK;
+}
+
+pspec_status ps_mapping_wait(ps_mapping *mapping, ps_error *error) {
+    if (mapping->is_ready == NULL) {
+        return PSPEC_OK;
+    }
+    const cl_int code = clWaitForEvents(1, &mapping->is_ready);
+    clReleaseEvent(mapping->is_ready);
+    mapping->is_ready = NULL;
+    return code == CL_SUCCESS ? PSPEC_OK : ps_device_fail(code, "clWaitForEvents", error);
+}
+
+pspec_status ps_mapping_end(ps_device *device, ps_mapping *mapping, ps_error *error) {
+    const ps_mapping ended = *mapping;
+    *mapping = (ps_mapping){0};
+    PS_TRY_CL(clEnqueueUnmapMemObject(device->queue, ended.memory, ended.data, 0, NULL, NULL),
+              error);
+    return PSPEC_OK;
+}
+
+void ps_mapping_abandon(ps_device *device, ps_mapping *mapping) {
+    if (mapping->is_ready != NULL) {
+        clWaitForEvents(1, &mapping->is_ready);
+        clReleaseEvent(mapping->is_ready);
+    }
+    clEnqueueUnmapMemObject(device->queue, mapping->memory, mapping->data, 0, NULL, NULL);
+    *mapping = (ps_mapping){0};
+}
+
 pspec_status ps_buffer_clear(ps_device *device, const ps_buffer *buffer, ps_error *error) {
     const cl_uint zero = 0;
     if (buffer->bytes == 0) {
@@ -79,6 +121,10 @@ pspec_status ps_buffer_copy_rectangle(ps_device *device, const ps_buffer *from, 
                                       rectangle->to_pitch, 0, 0, NULL, NULL),
               error);
     return PSPEC_OK;
+}
+
+void ps_device_set_unified_memory(ps_device *device, bool is_wanted) {
+    device->limits.has_unified_memory = is_wanted && device->own_unified_memory;
 }
 
 void ps_device_set_max_allocation(ps_device *device, uint64_t bytes) {

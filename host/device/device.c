@@ -122,6 +122,8 @@ static void query_kind(questions *ask, ps_device_limits *limits) {
         query_number(ask, CL_DEVICE_DOUBLE_FP_CONFIG, sizeof(cl_device_fp_config)) != 0;
     limits->has_dedicated_local_memory =
         query_number(ask, CL_DEVICE_LOCAL_MEM_TYPE, sizeof(cl_device_local_mem_type)) == CL_LOCAL;
+    limits->has_unified_memory =
+        query_number(ask, CL_DEVICE_HOST_UNIFIED_MEMORY, sizeof(cl_bool)) != 0;
 }
 
 static pspec_status read_limits(cl_device_id id, ps_device_limits *limits, ps_error *error) {
@@ -241,6 +243,7 @@ static pspec_status choose_among(const cl_device_id *devices, size_t num_devices
     device->id = devices[index];
     device->limits = limits[index];
     device->own_max_allocation = limits[index].max_allocation_bytes;
+    device->own_unified_memory = limits[index].has_unified_memory;
     return PSPEC_OK;
 }
 

@@ -20,6 +20,7 @@ typedef struct ps_device_limits {
     bool is_gpu, is_cpu;
     bool has_fp64;
     bool has_dedicated_local_memory; /* GPUs; on CPUs local memory is ordinary memory */
+    bool has_unified_memory;         /* the host writes into buffers without a copy */
     unsigned compute_units, clock_mhz;
     unsigned native_float_lanes, native_double_lanes;
     size_t max_work_group_size;
@@ -60,6 +61,13 @@ typedef struct ps_buffer {
     ps_device *device; /* whose memory it is */
 } ps_buffer;
 
+/* A buffer of which the host has the memory; {0}: none. */
+typedef struct ps_mapping {
+    cl_mem memory;
+    void *data;
+    cl_event is_ready; /* NULL: it is */
+} ps_mapping;
+
 /* At least one byte is allocated. Larger than the device allows: PSPEC_ERROR_MEMORY, not tried. */
 pspec_status ps_buffer_create(ps_device *device, ps_buffer *out, size_t bytes, const char *what,
                               ps_error *error) PS_MUST_CHECK;
@@ -69,6 +77,15 @@ pspec_status ps_buffer_write(ps_device *device, const ps_buffer *buffer, size_t 
                              const void *data, size_t bytes, ps_error *error) PS_MUST_CHECK;
 pspec_status ps_buffer_read(ps_device *device, const ps_buffer *buffer, size_t offset_bytes,
                             void *data, size_t bytes, ps_error *error) PS_MUST_CHECK;
+/* The buffer's memory for the host to fill; what was in it is lost. Waits until everything enqueued is done that
+ * was enqueued before `begin`, so that filling one buffer goes on while the device reads another: begin, launch,
+ * wait, fill, end. A copy where has_unified_memory is false. */
+pspec_status ps_mapping_begin(ps_device *device, ps_mapping *out, const ps_buffer *buffer,
+                              ps_error *error) PS_MUST_CHECK;
+pspec_status ps_mapping_wait(ps_mapping *mapping, ps_error *error) PS_MUST_CHECK;
+pspec_status ps_mapping_end(ps_device *device, ps_mapping *mapping, ps_error *error) PS_MUST_CHECK;
+/* The same before the buffer is released, when nobody asks for what is in it. */
+void ps_mapping_abandon(ps_device *device, ps_mapping *mapping);
 pspec_status ps_buffer_clear(ps_device *device, const ps_buffer *buffer,
                              ps_error *error) PS_MUST_CHECK;
 
@@ -84,6 +101,9 @@ pspec_status ps_buffer_copy_rectangle(ps_device *device, const ps_buffer *from, 
 
 /* The most bytes that buffers of the device have had at a time. */
 uint64_t ps_device_most_buffer_bytes(const ps_device *device);
+
+/* Whether host and device are taken to have one memory, if they do. For tests: results do not depend on it. */
+void ps_device_set_unified_memory(ps_device *device, bool is_wanted);
 
 /* The largest allocation from now on, at most what the device allows; 0 restores that. For tests, too: results
  * do not depend on it. */

@@ -45,12 +45,14 @@ typedef struct ps_work {
     double product_flops; /* additions and multiplications of products of tables */
     double
         transform_flops; /* what a device at its peak would do while spreading and transforming */
+    double harmonics;    /* (point, degree, order) triples, orders from 0 on */
     double launches;     /* kernel launches */
     double fixed_bytes;  /* memory, whatever the batch */
     double host_bytes;   /* part of that on the host */
     double bytes_per_realization; /* on the device, for each realization of a batch */
     double row_bytes;             /* part of that for its powers */
     double point_bytes; /* of points of each realization besides, on the device and on the host */
+    double coordinate_bytes; /* part of that, on the device both times where memory is unified */
     double largest_buffer_per_realization; /* part of that in one allocation */
     bool takes_blocks;                     /* ps_engine.stream will */
 } ps_work;
@@ -103,6 +105,7 @@ typedef struct ps_engine {
     bool needs_device;
     bool rows_on_host;     /* though it needs a device: they are short */
     bool has_precision[3]; /* by ps_precision */
+    bool checks_points;    /* run gives PSPEC_ERROR_INPUT for coordinates outside [0,1) */
 
     /* May it do this problem? limits is NULL without a device. *why_not is a static sentence. */
     bool (*applicable)(const ps_problem *, const ps_device_limits *limits, ps_precision,
@@ -127,6 +130,11 @@ typedef struct ps_engine {
     size_t (*get_stride)(const void *state);
     pspec_status (*run)(void *state, const ps_batch *, ps_rows *, ps_error *);
     const ps_engine_stream *stream; /* NULL: whole sets only */
+    /* c_lm = sum w Y_lm(u) of one pattern for l = 0 .. L, 0 <= m <= l, as pairs (real, imaginary) at index
+     * m (2L + 1 - m) / 2 + l: the order of healpy, whose a_lm is the conjugate. Weights as they are. With only even
+     * degrees the others are 0. out has (L + 1)(L + 2) numbers. NULL: an engine without. */
+    pspec_status (*coefficients)(void *state, const pspec_pattern *pattern, double *out,
+                                 ps_error *);
     /* "(torus_direct precision=single split=33x32 lanes=16)" */
     void (*describe)(const void *state, ps_text *);
     void (*destroy)(void *state); /* NULL allowed */

@@ -9,6 +9,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const long double two_pi = 6.283185307179586476925286766559L;
 
@@ -167,6 +168,26 @@ static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_er
     return PSPEC_OK;
 }
 
+/* Degree after degree: within one, orders lie far apart in the output. */
+static pspec_status coefficients(void *state, const pspec_pattern *pattern, double *out,
+                                 ps_error *error) {
+    const ps_frequencies *set = ((const host_direct *)state)->frequencies;
+    const int64_t last = set->max_frequency;
+    memset(out, 0, (size_t)((last + 1) * (last + 2)) * sizeof *out);
+    for (int64_t l = 0; l <= last; l += set->degree_step) {
+        ps_host_degree degree;
+        PS_TRY(ps_host_degree_create(&degree, (int32_t)l, error));
+        ps_host_degree_sum(&degree, pattern);
+        for (int64_t m = 0; m <= l; m++) {
+            double *to = out + m * (2 * last + 1 - m) + 2 * l;
+            to[0] = (double)degree.sums[m][0];
+            to[1] = (double)degree.sums[m][1];
+        }
+        ps_host_degree_free(&degree);
+    }
+    return PSPEC_OK;
+}
+
 static void describe(const void *state, ps_text *text) {
     (void)state;
     ps_text_append(text, "(host_direct precision=extended digits=%d)", LDBL_DIG);
@@ -185,6 +206,7 @@ const ps_engine ps_host_direct = {
     .get_slots = get_slots,
     .get_stride = get_stride,
     .run = run,
+    .coefficients = coefficients,
     .describe = describe,
     .destroy = destroy,
 };

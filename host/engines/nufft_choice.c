@@ -59,12 +59,14 @@ unsigned ps_nufft_nominal_lanes(ps_precision precision) {
     return precision == PS_SINGLE ? 16 : 8;
 }
 
-static ps_nufft_axis make_axis(const ps_nufft_axis *what, uint32_t n, unsigned width) {
+/* Without its loss, but for a lower bound. */
+static ps_nufft_axis begin_axis(const ps_nufft_axis *what, uint32_t n, unsigned width) {
     ps_nufft_axis axis = *what;
     uint32_t radices[PS_FFT_MAX_PASSES];
     axis.n = n;
     axis.window = ps_nufft_window_make(width, axis.max_frequency, n);
-    axis.loss = ps_nufft_window_loss(&axis.window, axis.max_frequency, n);
+    axis.loss =
+        (ps_nufft_loss){.worst = ps_nufft_window_least_worst(&axis.window, axis.max_frequency, n)};
     axis.passes = 0;
     ps_fft_radices(n, radices);
     while (radices[axis.passes] != 0) {
@@ -73,30 +75,108 @@ static ps_nufft_axis make_axis(const ps_nufft_axis *what, uint32_t n, unsigned w
     return axis;
 }
 
-/* Of a length: the narrowest window that keeps the tolerance, else the most exact one. */
-static ps_nufft_axis choose_width(const ps_nufft_choice *whole, unsigned which, uint32_t n,
-                                  const ps_problem *problem, ps_precision precision) {
+static ps_nufft_axis make_axis(const ps_nufft_axis *what, uint32_t n, unsigned width) {
+    ps_nufft_axis axis = begin_axis(what, n, width);
+    axis.loss = ps_nufft_window_loss(&axis.window, axis.max_frequency, n);
+    return axis;
+}
+
+/* ---- windows ----------------------------------------------------------------------------- */
+
+/* The best so far. */
+typedef struct best_choice {
+    ps_nufft_choice choice;
+    double error, flops;
+} best_choice;
+
+/* What a window of one axis is chosen for. */
+typedef struct axis_search {
+    const ps_nufft_choice *whole;
+    unsigned which;
+    const ps_problem *problem;
+    ps_precision precision;
+    const best_choice *best;
+} axis_search;
+
+static double share_of_tolerance(const axis_search *search) {
     const double rest = 0.95; /* of the tolerance, where something else comes to it */
-    const double tolerance = whole->num_axes > 1 ? rest * problem->tolerance / sqrt(whole->num_axes)
-                                                 : problem->tolerance;
+    const unsigned num_axes = search->whole->num_axes;
+    return num_axes > 1 ? rest * search->problem->tolerance / sqrt(num_axes)
+                        : search->problem->tolerance;
+}
+
+/* The axis alone: an error of which it may have its share of the tolerance. */
+static double error_alone(const axis_search *search, const ps_nufft_axis *axis) {
+    const ps_nufft_choice *whole = search->whole;
+    ps_problem problem = *search->problem;
+    const ps_nufft_choice alone = {.num_axes = 1,
+                                   .span = whole->span,
+                                   .stride = whole->stride,
+                                   .is_whole = whole->is_whole && whole->num_axes == 1,
+                                   .axes = {*axis}};
+    problem.tolerance = share_of_tolerance(search);
+    problem.planned_points = (uint64_t)ps_nufft_points(search->problem);
+    if (whole->num_axes > 1) {
+        problem.num_points = 1; /* as many as touch a row would be another problem */
+    }
+    return ps_nufft_error(&alone, &problem, search->precision, power_of(search->problem));
+}
+
+static bool keeps_tolerance(const best_choice *best, const ps_problem *problem) {
+    return best->choice.num_axes > 0 && best->error <= problem->tolerance;
+}
+
+/* With one axis: a choice that keeps the tolerance costs no more than this one. */
+static bool is_hopeless(const axis_search *search, const ps_nufft_axis *axis) {
+    ps_nufft_choice choice = *search->whole;
+    if (choice.num_axes > 1 || !keeps_tolerance(search->best, search->problem)) {
+        return false;
+    }
+    choice.axes[0] = *axis;
+    if (choice.is_whole && !ps_nufft_whole_shape(&choice, search->precision,
+                                                 ps_nufft_nominal_lanes(search->precision))) {
+        return true;
+    }
+    return ps_nufft_flops(&choice, search->precision, ps_nufft_points(search->problem)) >=
+           search->best->flops;
+}
+
+/* Of a length: the narrowest window that keeps the tolerance. Losses take microseconds, and there are hundreds of
+ * lengths: only of windows that a bound leaves, and that would be cheaper than what there is. False: it has no
+ * such window. */
+static bool find_narrowest(const axis_search *search, uint32_t n, ps_nufft_axis *out) {
+    const double tolerance = share_of_tolerance(search);
+    for (unsigned width = PS_NUFFT_MIN_WIDTH; width <= PS_NUFFT_MAX_WIDTH; width++) {
+        const ps_nufft_axis *what = &search->whole->axes[search->which];
+        *out = begin_axis(what, n, width);
+        if (error_alone(search, out) > tolerance) {
+            continue;
+        }
+        if (is_hopeless(search, out)) {
+            return false;
+        }
+        *out = make_axis(what, n, width);
+        if (error_alone(search, out) <= tolerance) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The most exact window of a length. */
+static ps_nufft_axis find_most_exact(const axis_search *search, uint32_t n) {
     ps_nufft_axis best = {0};
     double least_error = HUGE_VAL;
-    ps_problem alone_problem = *problem;
-    alone_problem.tolerance = tolerance;
-    alone_problem.planned_points = (uint64_t)ps_nufft_points(problem);
-    if (whole->num_axes > 1) {
-        alone_problem.num_points = 1; /* as many as touch a row would be another problem */
-    }
-    for (unsigned width = PS_NUFFT_MIN_WIDTH;
-         width <= PS_NUFFT_MAX_WIDTH && least_error > tolerance; width++) {
-        const ps_nufft_choice alone = {.num_axes = 1,
-                                       .span = whole->span,
-                                       .stride = whole->stride,
-                                       .is_whole = whole->is_whole && whole->num_axes == 1,
-                                       .axes = {make_axis(&whole->axes[which], n, width)}};
-        const double error = ps_nufft_error(&alone, &alone_problem, precision, power_of(problem));
-        if (error < least_error) {
-            best = alone.axes[0];
+    for (unsigned width = PS_NUFFT_MAX_WIDTH; width >= PS_NUFFT_MIN_WIDTH; width--) {
+        const ps_nufft_axis *what = &search->whole->axes[search->which];
+        ps_nufft_axis axis = begin_axis(what, n, width);
+        if (error_alone(search, &axis) > least_error) {
+            continue;
+        }
+        axis = make_axis(what, n, width);
+        const double error = error_alone(search, &axis);
+        if (error <= least_error) {
+            best = axis;
             least_error = error;
         }
     }
@@ -117,30 +197,33 @@ static uint32_t length_for(const ps_nufft_choice *whole, unsigned which, uint64_
     return n;
 }
 
+/* The lengths of an axis, one after the other, beginning with n = 0; 0: there are no more. */
+static uint32_t next_length(const axis_search *search, uint32_t n) {
+    const ps_nufft_choice *whole = search->whole;
+    const double twice_k = 2.0 * whole->axes[search->which].max_frequency;
+    const uint64_t least = n == 0 ? (uint64_t)fmax(LEAST_CELLS, ceil(least_sigma * twice_k + 1))
+                                  : (uint64_t)n + 1 + n / NEXT_LENGTH;
+    const uint32_t next = length_for(whole, search->which, least, search->precision);
+    const bool is_too_long = n > 0 && next > (uint64_t)(largest_sigma * twice_k);
+    return next <= MOST_CELLS && !is_too_long ? next : 0;
+}
+
 /* Where there are two axes, a window may be narrower if the other is wider. */
-static size_t list_candidates(const ps_nufft_choice *whole, unsigned which,
-                              const ps_problem *problem, ps_precision precision,
-                              ps_nufft_axis candidates[MAX_CANDIDATES]) {
-    const double twice_k = 2.0 * whole->axes[which].max_frequency;
-    const uint64_t least = (uint64_t)fmax(LEAST_CELLS, ceil(least_sigma * twice_k + 1));
-    const uint64_t last = (uint64_t)(largest_sigma * twice_k);
+static size_t list_candidates(const axis_search *search, ps_nufft_axis candidates[MAX_CANDIDATES]) {
     size_t num = 0;
-    for (uint32_t n = length_for(whole, which, least, precision);
-         n != 0 && n <= MOST_CELLS && (num == 0 || (n <= last && num + 2 <= MAX_CANDIDATES));
-         n = length_for(whole, which, (uint64_t)n + 1 + n / NEXT_LENGTH, precision)) {
-        const ps_nufft_axis axis = choose_width(whole, which, n, problem, precision);
+    for (uint32_t n = next_length(search, 0); n != 0 && num + 2 <= MAX_CANDIDATES;
+         n = next_length(search, n)) {
+        ps_nufft_axis axis = {0};
+        if (!find_narrowest(search, n, &axis)) {
+            axis = find_most_exact(search, n);
+        }
         candidates[num++] = axis;
-        if (whole->num_axes == 2 && axis.window.width > PS_NUFFT_MIN_WIDTH) {
+        if (search->whole->num_axes == 2 && axis.window.width > PS_NUFFT_MIN_WIDTH) {
             candidates[num++] = make_axis(&axis, n, axis.window.width - 1);
         }
     }
     return num;
 }
-
-typedef struct best_choice {
-    ps_nufft_choice choice;
-    double error, flops;
-} best_choice;
 
 static void consider(best_choice *best, const ps_nufft_choice *choice, const ps_problem *problem,
                      ps_precision precision) {
@@ -167,14 +250,44 @@ static uint64_t choose_chunk(const ps_nufft_choice *choice) {
     return (uint64_t)fmin(fmax(points, least), most);
 }
 
+/* A choice with lengths and windows. */
+static void consider_grid(best_choice *best, ps_nufft_choice *choice, const ps_problem *problem,
+                          ps_precision precision) {
+    choice->chunk = choice->is_gridded && !choice->is_whole ? choose_chunk(choice) : 0;
+    if (!choice->is_whole ||
+        ps_nufft_whole_shape(choice, precision, ps_nufft_nominal_lanes(precision))) {
+        consider(best, choice, problem, precision);
+    }
+}
+
+/* All fine grids of one axis. */
+static void consider_lengths(best_choice *best, ps_nufft_choice *choice, const ps_problem *problem,
+                             ps_precision precision) {
+    const axis_search search = {choice, 0, problem, precision, best};
+    for (uint32_t n = next_length(&search, 0); n != 0; n = next_length(&search, n)) {
+        ps_nufft_axis axis = {0};
+        const bool is_enough = find_narrowest(&search, n, &axis);
+        if (!is_enough && keeps_tolerance(best, problem)) {
+            continue; /* nothing to gain from it */
+        }
+        choice->axes[0] = is_enough ? axis : find_most_exact(&search, n);
+        consider_grid(best, choice, problem, precision);
+    }
+}
+
 /* All fine grids of a choice whose axes have frequencies. */
 static void consider_grids(best_choice *best, ps_nufft_choice *choice, const ps_problem *problem,
                            ps_precision precision) {
     ps_nufft_axis candidates[PS_NUFFT_MAX_AXES][MAX_CANDIDATES];
     size_t num[PS_NUFFT_MAX_AXES] = {1, 1, 1};
     size_t total = 1;
+    if (choice->num_axes == 1) {
+        consider_lengths(best, choice, problem, precision);
+        return;
+    }
     for (unsigned i = 0; i < choice->num_axes; i++) {
-        num[i] = list_candidates(choice, i, problem, precision, candidates[i]);
+        const axis_search search = {choice, i, problem, precision, best};
+        num[i] = list_candidates(&search, candidates[i]);
         total *= num[i];
     }
     total = choice->is_whole ? num[0] : total; /* the same on both axes */
@@ -184,11 +297,7 @@ static void consider_grids(best_choice *best, ps_nufft_choice *choice, const ps_
             choice->axes[i] = candidates[i][rest % num[i]];
             rest /= choice->is_whole ? 1 : num[i];
         }
-        choice->chunk = choice->is_gridded && !choice->is_whole ? choose_chunk(choice) : 0;
-        if (!choice->is_whole ||
-            ps_nufft_whole_shape(choice, precision, ps_nufft_nominal_lanes(precision))) {
-            consider(best, choice, problem, precision);
-        }
+        consider_grid(best, choice, problem, precision);
     }
 }
 

@@ -32,16 +32,18 @@ const double ps_nufft_cycles[PS_NUFFT_NUM_PARTS] = {
     [PS_NUFFT_GRID_ROW] = 6,
     [PS_NUFFT_GRID_CELL] = 10,
     [PS_NUFFT_GRID_PAIR] = 2,
-    /* whole realizations: a point to be placed; a vector of polynomials; a vector added to a row in the nearest
-     * cache, and beyond; a column of cells fetched, and turned into a tile; a vector of powers written; a vector of
-     * the grid cleared */
-    [PS_NUFFT_WHOLE_POINT] = 9,
-    [PS_NUFFT_WHOLE_POLYNOMIAL] = 0.6,
-    [PS_NUFFT_WHOLE_ROW] = 1.6,
-    [PS_NUFFT_WHOLE_FAR_ROW] = 2.4,
-    [PS_NUFFT_WHOLE_CELL] = 5,
-    [PS_NUFFT_WHOLE_TURNED] = 28,
-    [PS_NUFFT_WHOLE_POWER] = 8,
+    /* whole realizations (4096 points and K = 64 in the plane): a point to be placed; a vector of polynomials,
+     * mirrored ones half; a vector added to a row in the nearest cache, and beyond; a column of cells fetched, and a
+     * vector turned into a tile, a quarter; a cell of a lane put into a shared tile; a vector of powers written; a
+     * vector of the grid cleared */
+    [PS_NUFFT_WHOLE_POINT] = 7,
+    [PS_NUFFT_WHOLE_POLYNOMIAL] = 0.45,
+    [PS_NUFFT_WHOLE_ROW] = 1.5,
+    [PS_NUFFT_WHOLE_FAR_ROW] = 2.5,
+    [PS_NUFFT_WHOLE_CELL] = 3,
+    [PS_NUFFT_WHOLE_TURNED] = 21,
+    [PS_NUFFT_WHOLE_SHARED] = 15,
+    [PS_NUFFT_WHOLE_POWER] = 12,
     [PS_NUFFT_WHOLE_CLEARED] = 1,
 };
 
@@ -150,10 +152,14 @@ static void count_whole_transforms(ps_nufft_counts *counts, const ps_nufft_choic
     ps_nufft_whole_kept(choice, kept);
     const double groups = (double)ps_divide_up(choice->lengths[1], 2 * lanes);
     const double tiles = (double)ps_divide_up(choice->span, lanes);
+    const double shared = ps_nufft_whole_shared(choice, lanes);
+    const double turned = tiles - (shared > 0 ? 1 : 0);
+    const double second = turned + shared / lanes; /* of a shared tile, its part */
     add_transforms(counts, groups, choice->lengths[0]);
-    add_transforms(counts, tiles, choice->lengths[1]);
-    add(counts, PS_NUFFT_WHOLE_CELL, groups * choice->lengths[0] + tiles * choice->lengths[1]);
-    add(counts, PS_NUFFT_WHOLE_TURNED, groups * tiles * lanes);
+    add_transforms(counts, second, choice->lengths[1]);
+    add(counts, PS_NUFFT_WHOLE_CELL, groups * choice->lengths[0] + second * choice->lengths[1]);
+    add(counts, PS_NUFFT_WHOLE_TURNED, groups * turned * lanes);
+    add(counts, PS_NUFFT_WHOLE_SHARED, shared * choice->lengths[1]);
     add(counts, PS_NUFFT_WHOLE_POWER, tiles * (2.0 * kept[1] + 1));
 }
 
@@ -173,7 +179,8 @@ static void count_whole(ps_nufft_counts *counts, const ps_nufft_choice *choice,
     double polynomials = 0;
     for (unsigned i = 0; i < choice->num_axes; i++) {
         const ps_nufft_axis *axis = &choice->axes[i];
-        polynomials += (axis->window.width + 2.0) * ps_nufft_bins(axis) / lanes;
+        const double mirrored = choice->num_axes == 2 && i == 0 ? 2 : 1;
+        polynomials += (axis->window.width + 2.0) * ps_nufft_bins(axis) / (lanes * mirrored);
     }
     add(counts, PS_NUFFT_WHOLE_POINT, num_points);
     add(counts, PS_NUFFT_WHOLE_POLYNOMIAL, num_points * polynomials);

@@ -76,14 +76,60 @@ double ps_fft_passed(uint32_t length) {
     return passes * length;
 }
 
+/* Lengths from least to last, visited in any order: 2^a times every product of 3, 5 and 7 that is small enough.
+ * Going through the integers instead took 14 ms for a plan of 32768 frequencies. */
+typedef struct lengths {
+    uint64_t least, last, odd;
+    uint64_t threes, fives; /* of odd: the powers that it ends with */
+} lengths;
+
+/* Of the next odd part the first length; 0 at the end. */
+static uint64_t next_length(lengths *self) {
+    if (self->odd == 0) {
+        self->odd = self->threes = self->fives = 1;
+    } else if (3 * self->odd <= self->last) {
+        self->odd *= 3;
+        self->threes *= 3;
+    } else if (5 * (self->odd / self->threes) <= self->last) {
+        self->odd = 5 * (self->odd / self->threes);
+        self->fives *= 5;
+        self->threes = 1;
+    } else {
+        self->odd = 7 * (self->odd / self->threes / self->fives);
+        self->threes = self->fives = 1;
+    }
+    uint64_t length = self->odd;
+    while (length < self->least) {
+        length *= 2;
+    }
+    return self->odd <= self->last ? length : 0;
+}
+
+/* The smallest of them; powers of 2 are among them. */
+static uint64_t least_length(uint64_t least) {
+    lengths all = {.least = least, .last = 2 * least};
+    uint64_t smallest = UINT64_MAX;
+    for (uint64_t n = next_length(&all); n != 0; n = next_length(&all)) {
+        smallest = n < smallest ? n : smallest;
+    }
+    return smallest;
+}
+
 uint32_t ps_fft_good_length(uint64_t least) {
     const uint32_t beyond_share = 4; /* a quarter longer costs more in any case */
-    uint32_t best = ps_fft_length(least);
-    const uint64_t last = best + (uint64_t)best / beyond_share;
-    for (uint32_t n = best; n != 0 && n <= last; n = ps_fft_length((uint64_t)n + 1)) {
-        best = ps_fft_cycles(n) <= ps_fft_cycles(best) ? n : best;
+    const uint64_t first = least_length(least > 0 ? least : 1);
+    lengths all = {.least = first, .last = first + first / beyond_share};
+    uint64_t best = 0;
+    double least_cycles = HUGE_VAL;
+    for (uint64_t n = next_length(&all); n != 0; n = next_length(&all)) {
+        const bool is_long = n > all.last || n > UINT32_MAX;
+        const double cycles = is_long ? HUGE_VAL : ps_fft_cycles((uint32_t)n);
+        if (cycles < least_cycles || (cycles == least_cycles && n > best && !is_long)) {
+            least_cycles = cycles;
+            best = n;
+        }
     }
-    return best;
+    return (uint32_t)best;
 }
 
 /* Cosine and sine of -2 pi t / n, the angle reduced to an eighth of a turn so that symmetric factors

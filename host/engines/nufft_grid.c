@@ -87,12 +87,8 @@ void ps_nufft_grid_free(ps_nufft_grid *grid) {
 
 /* ---- add --------------------------------------------------------------------------------- */
 
-pspec_status ps_nufft_grid_begin(ps_nufft_grid *grid, ps_error *error) {
-    for (uint32_t slab = 0; slab < grid->layout->num_slabs; slab++) {
-        PS_TRY(ps_buffer_clear(grid->device, &grid->high[slab], error));
-        PS_TRY(ps_buffer_clear(grid->device, &grid->low[slab], error));
-    }
-    return PSPEC_OK;
+void ps_nufft_grid_begin(ps_nufft_grid *grid) {
+    grid->is_empty = true;
 }
 
 /* Arguments of an axis, as kernels/nufft/grid.cl has them. */
@@ -123,8 +119,8 @@ static pspec_status spread_on(ps_nufft_grid *self, uint32_t slab, size_t num_par
                      PS_BUFFER(self->places->sorted), PS_BUFFER(self->places->heights),
                      PS_BUFFER(self->places->starts), PS_U32(num_parts), PS_U32(axes),
                      GRID_AXIS(outer), GRID_AXIS(block), GRID_AXIS(last), PS_U32(first_block),
-                     PS_BUFFER(self->high[slab]), PS_BUFFER(self->low[slab]),
-                     PS_LOCAL(PS_NUFFT_BLOCK_ROWS * row_bytes),
+                     PS_U32(self->is_empty ? 1 : 0), PS_BUFFER(self->high[slab]),
+                     PS_BUFFER(self->low[slab]), PS_LOCAL(PS_NUFFT_BLOCK_ROWS * row_bytes),
                      PS_LOCAL(windows * self->layout->real_bytes),
                      PS_LOCAL(2 * PS_NUFFT_CHUNK * sizeof(uint32_t)));
 }
@@ -134,6 +130,7 @@ static pspec_status spread(ps_nufft_grid *self, size_t num_parts, size_t num_poi
     for (uint32_t slab = 0; slab < self->layout->num_slabs; slab++) {
         PS_TRY(spread_on(self, slab, num_parts, num_points, error));
     }
+    self->is_empty = false;
     return PSPEC_OK;
 }
 
@@ -167,7 +164,8 @@ pspec_status ps_nufft_grid_add(ps_nufft_grid *grid, const ps_batch *batch, ps_er
         chunk.exponents = exponents;
         chunk.num_patterns = cut(grid->layout, &batch->patterns[0], first, parts, &num_points);
         PS_TRY(ps_batch_go_on(batch, error));
-        PS_TRY(ps_nufft_places_make(grid->places, &chunk, error));
+        PS_TRY(ps_nufft_places_upload(grid->places, &chunk, error));
+        PS_TRY(ps_nufft_places_sort(grid->places, chunk.num_patterns, error));
         PS_TRY(spread(grid, chunk.num_patterns, num_points, error));
     }
     return PSPEC_OK;
@@ -288,9 +286,19 @@ static pspec_status finish_rows(ps_nufft_grid *self, extent tiles, const ps_nuff
                      PS_LOCAL(cells_bytes(self, across)));
 }
 
+/* Without a point, nothing was stored. */
+static pspec_status clear_if_empty(ps_nufft_grid *self, ps_error *error) {
+    for (uint32_t slab = 0; self->is_empty && slab < self->layout->num_slabs; slab++) {
+        PS_TRY(ps_buffer_clear(self->device, &self->high[slab], error));
+        PS_TRY(ps_buffer_clear(self->device, &self->low[slab], error));
+    }
+    return PSPEC_OK;
+}
+
 pspec_status ps_nufft_grid_finish(ps_nufft_grid *grid, const ps_buffer *means,
                                   const ps_nufft_target *target, ps_error *error) {
     const ps_nufft_layout *layout = grid->layout;
+    PS_TRY(clear_if_empty(grid, error));
     for (size_t first = 0; first < layout->num_tiles; first += layout->tiles_at_once) {
         const extent tiles = cut_extent(first, layout->tiles_at_once, layout->num_tiles);
         PS_TRY(transform_first(grid, means, tiles, error));

@@ -12,6 +12,7 @@ typedef struct ps_nufft_grid {
     const ps_nufft_plan *plans; /* of the axes */
     ps_nufft_places *places;
     ps_device *device;
+    bool is_empty; /* whatever the buffers hold: the first chunk is stored, not added */
     cl_kernel spread, first, tile, rows, columns;
     ps_buffer high[PS_NUFFT_MOST_SLABS], low[PS_NUFFT_MOST_SLABS]; /* [num_slabs] */
     ps_buffer high_strip, low_strip;                               /* of more than one slab */
@@ -26,7 +27,7 @@ pspec_status ps_nufft_grid_create(ps_nufft_grid *out, const ps_nufft_layout *lay
 void ps_nufft_grid_free(ps_nufft_grid *grid);
 
 /* An empty grid. */
-pspec_status ps_nufft_grid_begin(ps_nufft_grid *grid, ps_error *error) PS_MUST_CHECK;
+void ps_nufft_grid_begin(ps_nufft_grid *grid);
 /* Any number of points more, the only pattern of the batch; it may be cancelled. Bits are the same in several
  * calls if all but the last have a multiple of layout->parts * layout->part_points of them. */
 pspec_status ps_nufft_grid_add(ps_nufft_grid *grid, const ps_batch *batch,

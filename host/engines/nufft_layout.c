@@ -28,6 +28,15 @@ static uint64_t part_bytes(const ps_nufft_layout *layout, unsigned dimension) {
            (BEGINNINGS + MEANS) * sizeof(uint64_t);
 }
 
+/* For one point of every part, of the copy that the host keeps (engines/torus_points): weights; coordinates where
+ * the device cannot read them there, else they are a second copy of its own. */
+static uint64_t host_point_bytes(const ps_nufft_layout *layout, const ps_problem *problem,
+                                 const ps_device_limits *limits) {
+    const uint64_t coordinates =
+        limits->has_unified_memory ? 0 : problem->frequencies->dimension * sizeof(uint64_t);
+    return layout->parts * (coordinates + layout->real_bytes);
+}
+
 /* Whatever the number of points: plans of the axes (twiddles and pattern, gains, positions; polynomials and
  * radices are small). */
 static uint64_t table_bytes(const ps_nufft_layout *layout) {
@@ -208,15 +217,12 @@ static uint64_t whole_table_bytes(const ps_nufft_layout *layout) {
 }
 
 static bool fits_whole(const ps_nufft_layout *layout, const ps_device_limits *limits) {
-    const ps_nufft_choice *choice = &layout->choice;
-    const size_t longest =
-        choice->lengths[0] > choice->lengths[1] ? choice->lengths[0] : choice->lengths[1];
-    const size_t reals = 2 * longest * layout->lanes + layout->whole.window_reals;
-    return reals * layout->real_bytes + 2 * PS_NUFFT_CHUNK * sizeof(uint32_t) <=
+    return layout->whole.window_reals * layout->real_bytes +
+               2 * PS_NUFFT_CHUNK * sizeof(uint32_t) <=
            limits->local_bytes;
 }
 
-/* Points on the host and on the device, grids and tiles of the work-groups, tables. Parts are realizations: as many
+/* Points on the host and on the device, grids and rows of the work-groups, tables. Parts are realizations: as many
  * as keep all cores at work. */
 static void count_whole(ps_nufft_layout *layout, const ps_problem *problem,
                         const ps_device_limits *limits) {
@@ -228,8 +234,9 @@ static void count_whole(ps_nufft_layout *layout, const ps_problem *problem,
         layout->parts < GROUPS_PER_CORE * cores ? layout->parts : GROUPS_PER_CORE * cores;
     const uint64_t grids = layout->groups * layout->whole.grid_reals * layout->real_bytes;
     const uint64_t rows = layout->groups * layout->whole.row_reals * layout->real_bytes;
-    layout->host_bytes = layout->parts * layout->part_points * point;
-    layout->fixed_bytes = 2 * layout->host_bytes + grids + rows + whole_table_bytes(layout) +
+    layout->host_bytes = host_point_bytes(layout, problem, limits) * layout->part_points;
+    layout->fixed_bytes = 2 * layout->parts * layout->part_points * point + grids + rows +
+                          whole_table_bytes(layout) +
                           layout->parts * (sizeof(uint64_t) + 2 * layout->real_bytes);
     const uint64_t buffers[] = {grids, rows,
                                 layout->parts * layout->part_points *
@@ -295,8 +302,7 @@ ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_
     } else {
         choose_at_once(&layout, problem, limits);
     }
-    layout.host_bytes = layout.parts * layout.part_places *
-                        (problem->frequencies->dimension * sizeof(uint64_t) + layout.real_bytes);
+    layout.host_bytes = host_point_bytes(&layout, problem, limits) * layout.part_places;
     return layout;
 }
 

@@ -65,23 +65,26 @@ static pspec_status upload_places(ps_nufft_places *self, const ps_batch *parts, 
                            (parts->num_patterns + 1) * sizeof(uint64_t), error);
 }
 
-pspec_status ps_nufft_places_make(ps_nufft_places *places, const ps_batch *parts, ps_error *error) {
+pspec_status ps_nufft_places_upload(ps_nufft_places *places, const ps_batch *parts,
+                                    ps_error *error) {
+    PS_TRY(ps_torus_points_upload(&places->points, places->device, parts, 0, &places->num_points,
+                                  error));
+    return upload_places(places, parts, error);
+}
+
+pspec_status ps_nufft_places_sort(ps_nufft_places *places, size_t num_parts, ps_error *error) {
     const ps_nufft_axis *axis = &places->layout->choice.axes[0];
     static const ps_nufft_axis none = {.n = 1};
     const ps_nufft_axis *second =
         places->layout->num_keys > axis->n ? &places->layout->choice.axes[1] : &none;
     const double flops_per_point = 1000; /* work-groups of one work-item on CPUs */
-    size_t num_points = 0;
-    PS_TRY(ps_torus_points_upload(&places->points, places->device, parts, 0, &num_points, error));
-    PS_TRY(upload_places(places, parts, error));
-    const ps_range range = ps_range_heavy(places->device, parts->num_patterns, 1, 1,
-                                          (double)num_points * flops_per_point, 0);
+    const ps_range range = ps_range_heavy(places->device, num_parts, 1, 1,
+                                          (double)places->num_points * flops_per_point, 0);
     return PS_LAUNCH(places->device, places->sort, &range, error, PS_BUFFER(places->points.points),
                      PS_BUFFER(places->points.weights), PS_BUFFER(places->points.offsets),
                      PS_BUFFER(places->places), PS_BUFFER(places->sorted),
-                     PS_BUFFER(places->heights), PS_BUFFER(places->starts),
-                     PS_U64(parts->num_patterns), PS_U32(axis->n), PS_U32(axis->window.width),
-                     PS_U32(axis->axis), PS_U64(axis->factor), PS_U32(second->n),
-                     PS_U32(second->window.width), PS_U32(second->axis),
-                     PS_U32(places->points.has_unit_weights ? 0 : 1));
+                     PS_BUFFER(places->heights), PS_BUFFER(places->starts), PS_U64(num_parts),
+                     PS_U32(axis->n), PS_U32(axis->window.width), PS_U32(axis->axis),
+                     PS_U64(axis->factor), PS_U32(second->n), PS_U32(second->window.width),
+                     PS_U32(second->axis), PS_U32(places->points.has_unit_weights ? 0 : 1));
 }

@@ -30,12 +30,13 @@ static pspec_status create_gains(ps_nufft_whole *self, ps_precision precision, p
     ps_nufft_whole_kept(&layout->choice, kept);
     PS_TRY(ps_allocate(&memory, layout->stride, sizeof(double), "gains", error));
     double *gains = memory;
+    const double quarter = 0.25; /* the kernel's frequencies are doubled */
     for (size_t i = 0; i < layout->stride; i++) {
         const size_t row = i / layout->lanes;
         const size_t tile = row / (2 * (size_t)kept[1] + 1);
         const size_t k_1 = tile * layout->lanes + i % layout->lanes;
-        gains[i] = gain_of(&layout->choice, (uint32_t)k_1,
-                           (int64_t)(row % (2 * (size_t)kept[1] + 1)) - kept[1]);
+        gains[i] = quarter * gain_of(&layout->choice, (uint32_t)k_1,
+                                     (int64_t)(row % (2 * (size_t)kept[1] + 1)) - kept[1]);
     }
     const pspec_status status = ps_reals_upload(self->device, &self->gains, precision, gains,
                                                 layout->stride, "gains", error);
@@ -88,8 +89,8 @@ static pspec_status create_buffers(ps_nufft_whole *self, ps_error *error) {
                             layout->groups * layout->whole.grid_reals * layout->real_bytes, "grids",
                             error));
     return ps_buffer_create(self->device, &self->rows,
-                            layout->groups * layout->whole.row_reals * layout->real_bytes,
-                            "rows of tiles", error);
+                            layout->groups * layout->whole.row_reals * layout->real_bytes, "rows",
+                            error);
 }
 
 pspec_status ps_nufft_whole_create(ps_nufft_whole *out, const ps_nufft_layout *layout,
@@ -151,7 +152,12 @@ static ps_range range_of(const ps_nufft_whole *self, size_t num_realizations, si
     return ps_nufft_group_range(self->device, groups, 1, flops + spread * (double)num_points);
 }
 
-pspec_status ps_nufft_whole_run(ps_nufft_whole *whole, const ps_batch *batch,
+pspec_status ps_nufft_whole_upload(ps_nufft_whole *whole, const ps_batch *batch, ps_error *error) {
+    return ps_torus_points_upload(&whole->points, whole->device, batch, 0, &whole->num_points,
+                                  error);
+}
+
+pspec_status ps_nufft_whole_run(ps_nufft_whole *whole, size_t num_realizations,
                                 const ps_buffer *means, const ps_nufft_target *target,
                                 ps_error *error) {
     const ps_nufft_layout *layout = whole->layout;
@@ -161,16 +167,12 @@ pspec_status ps_nufft_whole_run(ps_nufft_whole *whole, const ps_batch *batch,
     const ps_nufft_plan none = {
         .coefficients = along->coefficients, .bins = 1, .axis = {.n = 1, .window = {.width = 1}}};
     const ps_nufft_plan *across = choice->num_axes == 2 ? &whole->plans[0] : &none;
-    const uint32_t longest =
-        choice->lengths[0] > choice->lengths[1] ? choice->lengths[0] : choice->lengths[1];
     uint32_t kept[2];
-    size_t num_points = 0;
     ps_nufft_whole_kept(choice, kept);
-    PS_TRY(ps_torus_points_upload(&whole->points, whole->device, batch, 0, &num_points, error));
-    const ps_range range = range_of(whole, batch->num_patterns, num_points);
+    const ps_range range = range_of(whole, num_realizations, whole->num_points);
     return PS_LAUNCH(whole->device, whole->kernel, &range, error, PS_BUFFER(whole->points.points),
                      PS_BUFFER(whole->points.weights), PS_BUFFER(whole->points.offsets),
-                     PS_U32(batch->num_patterns), WHOLE_WINDOW(across), WHOLE_WINDOW(along),
+                     PS_U32(num_realizations), WHOLE_WINDOW(across), WHOLE_WINDOW(along),
                      WHOLE_TRANSFORM(&whole->transforms[0], choice->lengths[0], kept[0]),
                      WHOLE_TRANSFORM(&whole->transforms[1], choice->lengths[1], kept[1]),
                      PS_BUFFER(whole->lane_turns), PS_BUFFER(whole->tile_turns),
@@ -178,8 +180,7 @@ pspec_status ps_nufft_whole_run(ps_nufft_whole *whole, const ps_batch *batch,
                      PS_BUFFER(*target->power), PS_U32(target->realization), PS_U64(layout->stride),
                      PS_U32(layout->num_tiles), PS_U32(choice->num_axes), PS_U32(sizes->pitch),
                      PS_U32(sizes->grid_rows), PS_U64(sizes->grid_reals), PS_BUFFER(whole->grids),
-                     PS_BUFFER(whole->rows),
-                     PS_LOCAL((size_t)longest * 2 * layout->lanes * layout->real_bytes),
+                     PS_U64(sizes->row_reals), PS_BUFFER(whole->rows), PS_U32(sizes->shared),
                      PS_LOCAL(sizes->window_reals * layout->real_bytes),
                      PS_LOCAL(2 * PS_NUFFT_CHUNK * sizeof(uint32_t)));
 }

@@ -13,6 +13,7 @@ typedef struct ps_nufft_whole {
     ps_device *device;
     cl_kernel kernel;
     ps_torus_points points;
+    size_t num_points; /* that were uploaded */
     ps_fft_plan transforms[2];
     ps_buffer gains, lane_turns, tile_turns; /* of the kernel */
     ps_buffer grids, rows;                   /* of work-groups */
@@ -24,9 +25,11 @@ pspec_status ps_nufft_whole_create(ps_nufft_whole *out, const ps_nufft_layout *l
                                    ps_device *device, ps_error *error) PS_MUST_CHECK;
 void ps_nufft_whole_free(ps_nufft_whole *whole);
 
-/* The realizations of a batch, into rows from target->realization on. means: what frequency 0 leaves in a
- * cell, of each of them. */
-pspec_status ps_nufft_whole_run(ps_nufft_whole *whole, const ps_batch *batch,
+/* The realizations of a batch, and then their powers, into rows from target->realization on. means: what
+ * frequency 0 leaves in a cell, of each of them. */
+pspec_status ps_nufft_whole_upload(ps_nufft_whole *whole, const ps_batch *batch,
+                                   ps_error *error) PS_MUST_CHECK;
+pspec_status ps_nufft_whole_run(ps_nufft_whole *whole, size_t num_realizations,
                                 const ps_buffer *means, const ps_nufft_target *target,
                                 ps_error *error) PS_MUST_CHECK;
 

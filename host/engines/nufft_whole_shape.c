@@ -8,14 +8,22 @@
 
 #include <math.h>
 
-/* Grid and tiles of a core stay in its cache (1 MB, Zen 5), or are read once in order. Nominal, whatever the
- * device has, so that choices depend on nothing else. */
-static const double most_bytes = 1.5 * (1 << 20);
+/* The grid stays in the cache of a core (1 MB, Zen 5), or nearly. Nominal, whatever the device has, so that choices
+ * depend on nothing else. */
+static const double most_bytes = 1.25 * (1 << 20);
+
+/* Realizations that share a last tile, at least: lanes are put there one by one. */
+enum { LEAST_SHARING = 4 };
 
 void ps_nufft_whole_kept(const ps_nufft_choice *choice, uint32_t kept[2]) {
     const uint32_t largest = (uint32_t)choice->axes[0].max_frequency;
     kept[0] = choice->num_axes == 1 ? choice->lengths[0] / 2 : largest;
     kept[1] = choice->num_axes == 1 ? largest / choice->lengths[0] + 1 : largest;
+}
+
+uint32_t ps_nufft_whole_shared(const ps_nufft_choice *choice, unsigned lanes) {
+    const uint32_t last = choice->span % lanes;
+    return choice->num_axes == 2 && last * LEAST_SHARING <= lanes ? last : 0;
 }
 
 ps_nufft_whole_sizes ps_nufft_whole_measure(const ps_nufft_choice *choice, unsigned lanes) {
@@ -32,7 +40,13 @@ ps_nufft_whole_sizes ps_nufft_whole_measure(const ps_nufft_choice *choice, unsig
         is_line ? choice->lengths[0] + (uint32_t)ps_divide_up(behind + 2 * unit, choice->lengths[1])
                 : across->n + across->window.width;
     sizes.grid_reals = ps_round_up((uint64_t)sizes.grid_rows * sizes.pitch, lanes);
-    sizes.row_reals = ps_divide_up(choice->span, lanes) * columns * unit;
+    sizes.shared = ps_nufft_whole_shared(choice, lanes);
+    sizes.row_reals = (size_t)columns * unit;
+    if (is_line) {
+        sizes.row_reals += (size_t)choice->lengths[0] * unit;
+    } else if (sizes.shared > 0) { /* loads go on for a vector, kernels/nufft/shared_tile.h */
+        sizes.row_reals += (size_t)columns * unit + lanes;
+    }
     sizes.window_reals =
         PS_NUFFT_CHUNK * ((is_line ? 1 : ps_nufft_bins(across)) + ps_nufft_bins(along) + 3);
     return sizes;

@@ -82,10 +82,15 @@ static void add_frequency(const ps_nufft_window *window, double f, double share,
     sums->amplification += share / (wanted * wanted);
 }
 
+double ps_nufft_window_least_worst(const ps_nufft_window *window, int32_t max_frequency,
+                                   uint32_t n) {
+    return aliases_at(window, (double)max_frequency / n).in_step;
+}
+
 ps_nufft_loss ps_nufft_window_loss(const ps_nufft_window *window, int32_t max_frequency,
                                    uint32_t n) {
     enum { ALL = 24, SAMPLES = 24 }; /* every frequency, if so few; else dense near the largest */
-    ps_nufft_loss loss = {.worst = aliases_at(window, (double)max_frequency / n).in_step};
+    ps_nufft_loss loss = {.worst = ps_nufft_window_least_worst(window, max_frequency, n)};
     double grid = 0;
     for (int k = 0; k <= max_frequency && max_frequency <= ALL; k++) {
         const double share = (k == 0 ? 1.0 : 2.0) / (2 * max_frequency + 1);
@@ -141,7 +146,7 @@ unsigned ps_nufft_window_degree(const ps_nufft_window *window, double error) {
         }
         degree = needed > degree ? needed : degree;
     }
-    return degree < PS_NUFFT_MAX_DEGREE ? degree : PS_NUFFT_MAX_DEGREE;
+    return degree < PS_NUFFT_MAX_DEGREE ? degree | 1 : PS_NUFFT_MAX_DEGREE;
 }
 
 /* Powers of u of a Chebyshev series, by T_(k+1) = 2 u T_k - T_(k-1). */
@@ -170,17 +175,20 @@ static void powers_of_series(const long double series[NODES], unsigned degree,
     }
 }
 
+/* Bin i is bin width - 1 - i at -u: made once, so that it is to the bit. */
 void ps_nufft_window_polynomials(const ps_nufft_window *window, unsigned degree, unsigned bins,
                                  double *coefficients) {
-    for (unsigned bin = 0; bin < bins; bin++) {
-        long double series[NODES] = {0};
+    memset(coefficients, 0, (degree + 1) * (size_t)bins * sizeof *coefficients);
+    for (unsigned bin = 0; 2 * bin < window->width; bin++) {
+        const unsigned mirror = window->width - 1 - bin;
+        long double series[NODES];
         long double powers[NODES];
-        if (bin < window->width) {
-            chebyshev(window, bin, series);
-        }
+        chebyshev(window, bin, series);
         powers_of_series(series, degree, powers);
         for (unsigned i = 0; i <= degree; i++) {
-            coefficients[i * bins + bin] = (double)powers[i];
+            const double power = bin == mirror && i % 2 != 0 ? 0 : (double)powers[i];
+            coefficients[i * bins + bin] = power;
+            coefficients[i * bins + mirror] = i % 2 != 0 ? -power : power;
         }
     }
 }

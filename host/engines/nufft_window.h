@@ -14,7 +14,7 @@ typedef struct ps_nufft_window {
     double beta;
 } ps_nufft_window;
 
-enum { PS_NUFFT_MIN_WIDTH = 2, PS_NUFFT_MAX_WIDTH = 16, PS_NUFFT_MAX_DEGREE = 24 };
+enum { PS_NUFFT_MIN_WIDTH = 2, PS_NUFFT_MAX_WIDTH = 16, PS_NUFFT_MAX_DEGREE = 25 };
 
 /* The window of a width for frequencies up to K on n cells. */
 ps_nufft_window ps_nufft_window_make(unsigned width, int32_t max_frequency, uint32_t n);
@@ -28,11 +28,14 @@ typedef struct ps_nufft_loss {
     double worst;         /* the same at the frequency where it is largest */
     double amplification; /* of white errors of the grid: root mean square, grid and frequencies */
 } ps_nufft_loss;
+/* No more than `worst` can be, at a hundredth of the cost. */
+double ps_nufft_window_least_worst(const ps_nufft_window *window, int32_t max_frequency,
+                                   uint32_t n);
 ps_nufft_loss ps_nufft_window_loss(const ps_nufft_window *window, int32_t max_frequency,
                                    uint32_t n);
 
 /* Bin i of the window at fraction f (kernels/nufft/cells.h) as a polynomial in u = 2 f - 1. The degree at
- * which Chebyshev series of all bins are cut with an error below `error`, at most the largest. */
+ * which Chebyshev series of all bins are cut with an error below `error`, at most the largest; odd, since kernels/nufft/window.h takes even and odd powers in pairs. */
 unsigned ps_nufft_window_degree(const ps_nufft_window *window, double error);
 /* coefficients[degree + 1][bins], lowest degree first; zeros in bins from the width on. */
 void ps_nufft_window_polynomials(const ps_nufft_window *window, unsigned degree, unsigned bins,

@@ -1,10 +1,12 @@
 /* The table of engines. */
 #include "engines/engine.h"
 #include "engines/host_direct.h"
+#include "engines/sphere_direct.h"
 #include "engines/torus_direct.h"
 #include "engines/torus_nufft.h"
 
-const ps_engine *const ps_engines[] = {&ps_torus_nufft, &ps_torus_direct, &ps_host_direct, NULL};
+const ps_engine *const ps_engines[] = {&ps_torus_nufft, &ps_torus_direct, &ps_sphere_direct,
+                                       &ps_host_direct, NULL};
 
 /* Four right frequencies per work-item give 64 accumulators and 6.4 fused operations per number
  * loaded in torus/product.cl; not yet measured on a GPU. */

@@ -79,6 +79,8 @@ static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
                     (layout.is_grid ? 2 : 1),
         .fixed_bytes = (double)layout.fixed_bytes,
         .point_bytes = (double)layout.point_bytes,
+        .coordinate_bytes =
+            (double)(layout.table_points * problem->frequencies->dimension * sizeof(uint64_t)),
         .bytes_per_realization = (double)layout.bytes_per_realization,
         .row_bytes = (double)(layout.max_stride * layout.real_bytes),
         .largest_buffer_per_realization = (double)layout.largest_buffer_per_realization};
@@ -340,6 +342,7 @@ const ps_engine ps_torus_direct = {
     .domains = PS_ON_TORUS,
     .needs_device = true,
     .has_precision = {true, true, false},
+    .checks_points = true,
     .applicable = applicable,
     .work = work,
     .error = error_of,

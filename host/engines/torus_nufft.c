@@ -243,11 +243,15 @@ static pspec_status upload_means(torus_nufft *self, const ps_batch *some, ps_err
 
 static pspec_status run_some(torus_nufft *self, const ps_batch *some, const ps_nufft_target *target,
                              ps_error *error) {
+    const bool is_whole = self->layout.choice.is_whole;
+    /* Points first: what is written after them waits for the launch before. */
+    PS_TRY(is_whole ? ps_nufft_whole_upload(&self->whole, some, error)
+                    : ps_nufft_places_upload(&self->places, some, error));
     PS_TRY(upload_means(self, some, error));
-    if (self->layout.choice.is_whole) {
-        return ps_nufft_whole_run(&self->whole, some, &self->means, target, error);
+    if (is_whole) {
+        return ps_nufft_whole_run(&self->whole, some->num_patterns, &self->means, target, error);
     }
-    PS_TRY(ps_nufft_places_make(&self->places, some, error));
+    PS_TRY(ps_nufft_places_sort(&self->places, some->num_patterns, error));
     return ps_nufft_tiles_run(&self->tiles, some->num_patterns, &self->means, target, error);
 }
 
@@ -255,8 +259,10 @@ static pspec_status run_some(torus_nufft *self, const ps_batch *some, const ps_n
 
 static pspec_status begin_large(void *state, ps_error *error) {
     torus_nufft *self = state;
+    (void)error;
     self->large_sum = 0;
-    return ps_nufft_grid_begin(&self->large, error);
+    ps_nufft_grid_begin(&self->large);
+    return PSPEC_OK;
 }
 
 static pspec_status add_large(void *state, const ps_batch *block, ps_error *error) {
@@ -353,6 +359,7 @@ const ps_engine ps_torus_nufft = {
     .domains = PS_ON_TORUS,
     .needs_device = true,
     .has_precision = {true, true, false},
+    .checks_points = true,
     .applicable = applicable,
     .work = work,
     .error = error_of,

@@ -33,8 +33,10 @@ uint64_t ps_fixed_point(double x) {
 static pspec_status create_host(ps_torus_points *out, ps_error *error) {
     void *memory = NULL;
     const size_t count = out->batch * out->slab;
-    PS_TRY(ps_allocate(&memory, count, out->dimension * sizeof(uint64_t), "points", error));
-    out->host_points = memory;
+    if (!out->is_unified) {
+        PS_TRY(ps_allocate(&memory, count, out->dimension * sizeof(uint64_t), "points", error));
+        out->host_points = memory;
+    }
     PS_TRY(ps_allocate(&memory, count, ps_real_bytes(out->precision), "weights", error));
     out->host_weights = memory;
     PS_TRY(ps_allocate(&memory, out->batch + 1, sizeof(uint64_t), "offsets", error));
@@ -70,10 +72,13 @@ pspec_status ps_torus_points_create(ps_torus_points *out, unsigned dimension, si
                              .batch = batch,
                              .slab = slab,
                              .precision = precision,
-                             .far_apart = far_apart};
+                             .far_apart = far_apart,
+                             .is_unified = ps_device_get_limits(device)->has_unified_memory};
     PS_TRY(create_host(out, error));
-    PS_TRY(ps_buffer_create(device, &out->points, count * dimension * sizeof(uint64_t), "points",
-                            error));
+    for (unsigned i = 0; i < (out->is_unified ? 2 : 1); i++) {
+        PS_TRY(ps_buffer_create(device, &out->buffers[i], count * dimension * sizeof(uint64_t),
+                                "points", error));
+    }
     PS_TRY(ps_buffer_create(device, &out->weights, count * ps_real_bytes(precision), "weights",
                             error));
     PS_TRY(
@@ -82,10 +87,14 @@ pspec_status ps_torus_points_create(ps_torus_points *out, unsigned dimension, si
 }
 
 void ps_torus_points_free(ps_torus_points *points) {
+    if (points->mapping.memory != NULL) {
+        ps_mapping_abandon(points->buffers[0].device, &points->mapping);
+    }
     free(points->host_points);
     free(points->host_weights);
     free(points->host_offsets);
-    ps_buffer_release(&points->points);
+    ps_buffer_release(&points->buffers[0]);
+    ps_buffer_release(&points->buffers[1]);
     ps_buffer_release(&points->weights);
     ps_buffer_release(&points->offsets);
     *points = (ps_torus_points){0};
@@ -111,22 +120,56 @@ uint64_t ps_torus_point_step(uint64_t n) {
     return step > 0 ? step : 1;
 }
 
+/* The sign bit says that x is in [0,1), without a branch: bits are in the order of numbers, and those of 1
+ * taken off wrap around below 1; -0 + 0 is 0. */
+static inline uint64_t is_inside(double x) {
+    const uint64_t bits = bits_of(x + 0.0);
+    return (bits - bits_of(1)) & ~bits;
+}
+
 /* Fixed-point coordinates of count points, from point j on in steps; dimension is a constant in every
- * call, so that the inner loop unrolls. */
-static inline void convert_points(uint64_t *out, const double *points, unsigned dimension,
-                                  size_t count, uint64_t j, uint64_t step, uint64_t n) {
+ * call, so that the inner loop unrolls. The sign bit says whether all are in [0,1): checked here since points
+ * of large sets come from memory, where a second reading would take as long. */
+static inline uint64_t convert_points(uint64_t *out, const double *points, unsigned dimension,
+                                      size_t count, uint64_t j, uint64_t step, uint64_t n) {
+    uint64_t inside = UINT64_MAX;
     for (size_t i = 0; i < count; i++) {
         for (unsigned axis = 0; axis < dimension; axis++) {
-            out[i * dimension + axis] = ps_fixed_point(points[j * dimension + axis]);
+            const double x = points[j * dimension + axis];
+            out[i * dimension + axis] = ps_fixed_point(x);
+            inside &= is_inside(x);
         }
         j += step;
         j -= j >= n ? n : 0;
     }
+    return inside;
 }
 
-/* Points first .. of a pattern, in the order of steps, to place `at` on; how many there were. */
-static size_t convert_pattern(ps_torus_points *points, size_t at, const pspec_pattern *pattern,
-                              int exponent, size_t first) {
+static uint64_t convert_coordinates(uint64_t *out, const pspec_pattern *pattern, size_t count,
+                                    uint64_t j, uint64_t step) {
+    const uint64_t n = pattern->num_points;
+    const unsigned dimension = pattern->dimension;
+    if (step == 1 && count <= n - j) {
+        return convert_points(out, pattern->points + j * dimension, 1, count * dimension, 0, 1,
+                              count * dimension);
+    }
+    switch (dimension) {
+    case 1:
+        return convert_points(out, pattern->points, 1, count, j, step, n);
+    case 2:
+        return convert_points(out, pattern->points, 2, count, j, step, n);
+    case 3:
+        return convert_points(out, pattern->points, 3, count, j, step, n);
+    default:
+        return convert_points(out, pattern->points, dimension, count, j, step, n);
+    }
+}
+
+/* Points first .. of a pattern, in the order of steps, to place `at` on; how many there were. The sign bit of
+ * *inside stays where all are in [0,1). */
+static size_t convert_pattern(ps_torus_points *points, uint64_t *out, size_t at,
+                              const pspec_pattern *pattern, int exponent, size_t first,
+                              uint64_t *inside) {
     const uint64_t n = pattern->num_points;
     if (first >= n) {
         return 0;
@@ -134,20 +177,7 @@ static size_t convert_pattern(ps_torus_points *points, size_t at, const pspec_pa
     const size_t count = n - first < points->slab ? (size_t)(n - first) : points->slab;
     const uint64_t step = points->far_apart ? ps_torus_point_step(n) : 1;
     uint64_t j = (uint64_t)((wide)first * step % n);
-    uint64_t *out = points->host_points + at * points->dimension;
-    switch (points->dimension) {
-    case 1:
-        convert_points(out, pattern->points, 1, count, j, step, n);
-        break;
-    case 2:
-        convert_points(out, pattern->points, 2, count, j, step, n);
-        break;
-    case 3:
-        convert_points(out, pattern->points, 3, count, j, step, n);
-        break;
-    default:
-        convert_points(out, pattern->points, points->dimension, count, j, step, n);
-    }
+    *inside &= convert_coordinates(out + at * points->dimension, pattern, count, j, step);
     for (size_t i = at; !points->has_unit_weights && i < at + count; i++) {
         set_weight(points, i, pattern->weights != NULL ? ldexp(pattern->weights[j], -exponent) : 1);
         j += step;
@@ -156,26 +186,61 @@ static size_t convert_pattern(ps_torus_points *points, size_t at, const pspec_pa
     return count;
 }
 
-pspec_status ps_torus_points_upload(ps_torus_points *points, ps_device *device,
-                                    const ps_batch *batch, size_t first, size_t *num_points,
-                                    ps_error *error) {
+/* All patterns, to memory of the host or of a buffer. */
+static pspec_status convert(ps_torus_points *points, uint64_t *out, const ps_batch *batch,
+                            size_t first, size_t *num_points, ps_error *error) {
     size_t at = 0;
+    uint64_t inside = UINT64_MAX;
     for (size_t r = 0; r < batch->num_patterns; r++) {
         points->has_unit_weights = points->has_unit_weights && batch->patterns[r].weights == NULL;
     }
     for (size_t r = 0; r < batch->num_patterns; r++) {
         points->host_offsets[r] = at;
-        at += convert_pattern(points, at, &batch->patterns[r],
-                              batch->exponents != NULL ? batch->exponents[r] : 0, first);
+        at += convert_pattern(points, out, at, &batch->patterns[r],
+                              batch->exponents != NULL ? batch->exponents[r] : 0, first, &inside);
     }
     points->host_offsets[batch->num_patterns] = at;
     *num_points = at;
-    PS_TRY(ps_buffer_write(device, &points->points, 0, points->host_points,
-                           at * points->dimension * sizeof(uint64_t), error));
+    return inside >> 63 != 0 ? PSPEC_OK
+                             : ps_fail(error, PSPEC_ERROR_INPUT, "a coordinate is outside [0,1)");
+}
+
+/* The host fills one buffer while the device reads the other, and nothing is copied. */
+static pspec_status fill_mapped(ps_torus_points *points, ps_device *device, const ps_batch *batch,
+                                size_t first, size_t *num_points, ps_error *error) {
+    const ps_buffer *buffer = &points->buffers[points->next];
+    if (points->mapping.memory == NULL) {
+        PS_TRY(ps_mapping_begin(device, &points->mapping, buffer, error));
+    }
+    PS_TRY(ps_mapping_wait(&points->mapping, error));
+    PS_TRY(convert(points, points->mapping.data, batch, first, num_points, error));
+    PS_TRY(ps_mapping_end(device, &points->mapping, error));
+    points->points = *buffer;
+    points->next = 1 - points->next;
+    return PSPEC_OK;
+}
+
+static pspec_status fill_copied(ps_torus_points *points, ps_device *device, const ps_batch *batch,
+                                size_t first, size_t *num_points, ps_error *error) {
+    PS_TRY(convert(points, points->host_points, batch, first, num_points, error));
+    points->points = points->buffers[0];
+    return ps_buffer_write(device, &points->points, 0, points->host_points,
+                           *num_points * points->dimension * sizeof(uint64_t), error);
+}
+
+pspec_status ps_torus_points_upload(ps_torus_points *points, ps_device *device,
+                                    const ps_batch *batch, size_t first, size_t *num_points,
+                                    ps_error *error) {
+    PS_TRY(points->is_unified ? fill_mapped(points, device, batch, first, num_points, error)
+                              : fill_copied(points, device, batch, first, num_points, error));
     if (!points->has_unit_weights) {
         PS_TRY(ps_buffer_write(device, &points->weights, 0, points->host_weights,
-                               at * ps_real_bytes(points->precision), error));
+                               *num_points * ps_real_bytes(points->precision), error));
     }
-    return ps_buffer_write(device, &points->offsets, 0, points->host_offsets,
-                           (batch->num_patterns + 1) * sizeof(uint64_t), error);
+    PS_TRY(ps_buffer_write(device, &points->offsets, 0, points->host_offsets,
+                           (batch->num_patterns + 1) * sizeof(uint64_t), error));
+    /* Before the launch that reads this buffer, so that it need not be waited for. */
+    return points->is_unified
+               ? ps_mapping_begin(device, &points->mapping, &points->buffers[points->next], error)
+               : PSPEC_OK;
 }

@@ -10,12 +10,19 @@ typedef struct ps_torus_points {
     unsigned dimension;
     size_t batch, slab; /* realizations, points of each at a time */
     ps_precision precision;
-    bool far_apart;         /* order of the points, see ps_torus_point_step */
-    bool has_unit_weights;  /* on the device; so it stays until a pattern has weights */
-    uint64_t *host_points;  /* [batch * slab][dimension]: filled while the device is still busy */
+    bool far_apart;        /* order of the points, see ps_torus_point_step */
+    bool is_unified;       /* ps_device_limits.has_unified_memory */
+    bool has_unit_weights; /* on the device; so it stays until a pattern has weights */
+    uint64_t *
+        host_points; /* [batch * slab][dimension], where host and device have memory of their own */
     void *host_weights;     /* [batch * slab] float or double */
     uint64_t *host_offsets; /* [batch + 1] */
-    ps_buffer points, weights, offsets;
+    ps_buffer points;       /* what was uploaded: one of the buffers below */
+    ps_buffer weights, offsets;
+    /* Filled in turns: one by the host while the device reads the other. Without unified memory there is one. */
+    ps_buffer buffers[2];
+    ps_mapping mapping; /* of the next one */
+    unsigned next;
 } ps_torus_points;
 
 pspec_status ps_torus_points_create(ps_torus_points *out, unsigned dimension, size_t batch,
@@ -30,7 +37,8 @@ void ps_torus_points_free(ps_torus_points *points);
 uint64_t ps_torus_point_step(uint64_t n);
 
 /* Uploads points first .. first + slab - 1, in that order, of every pattern of the batch (fewer or
- * none where a pattern is shorter). *num_points is their number over all patterns. */
+ * none where a pattern is shorter). *num_points is their number over all patterns. A coordinate outside
+ * [0,1) is PSPEC_ERROR_INPUT (ps_engine.checks_points). */
 pspec_status ps_torus_points_upload(ps_torus_points *points, ps_device *device,
                                     const ps_batch *batch, size_t first, size_t *num_points,
                                     ps_error *error) PS_MUST_CHECK;

@@ -144,15 +144,45 @@ void ps_estimator_set_sums(ps_estimator *self, size_t pattern, const ps_pattern_
                                 : 1 / sums->weight_square_sum;
 }
 
+/* Nothing but the coordinates could be wrong, and the engine sees them anyway. */
+static bool may_leave_checks(const ps_estimator *self, const pspec_pattern *patterns,
+                             size_t num_patterns) {
+    const unsigned dimension = self->options.problem.frequencies->dimension;
+    bool is_plain = self->options.engine->checks_points;
+    for (size_t r = 0; r < num_patterns; r++) {
+        is_plain = is_plain && patterns[r].dimension == dimension && patterns[r].num_points > 0 &&
+                   patterns[r].points != NULL && patterns[r].weights == NULL;
+    }
+    return is_plain;
+}
+
+static pspec_status check_all(const ps_estimator *self, const pspec_pattern *patterns,
+                              size_t num_patterns, ps_error *error) {
+    pspec_status status = PSPEC_OK;
+    for (size_t r = 0; r < num_patterns && status == PSPEC_OK; r++) {
+        ps_pattern_sums sums = {0};
+        status =
+            ps_estimator_check(self, &patterns[r], self->totals.num_realizations + r, &sums, error);
+    }
+    return status;
+}
+
+/* Of a pattern without weights. */
+static ps_pattern_sums plain_sums(const pspec_pattern *pattern) {
+    const double num = (double)pattern->num_points;
+    return (ps_pattern_sums){.weight_sum = num, .weight_square_sum = num};
+}
+
 /* Scales of the patterns of a batch, whose sums are known or found here, and the largest number of
  * points. */
 static pspec_status prepare(ps_estimator *self, const pspec_pattern *patterns,
                             const ps_pattern_sums *sums, size_t num_patterns, uint64_t *longest,
                             ps_error *error) {
     *longest = 0;
+    self->leaves_checks = sums == NULL && may_leave_checks(self, patterns, num_patterns);
     for (size_t r = 0; r < num_patterns; r++) {
-        ps_pattern_sums found = {0};
-        if (sums == NULL) {
+        ps_pattern_sums found = plain_sums(&patterns[r]);
+        if (sums == NULL && !self->leaves_checks) {
             PS_TRY(ps_estimator_check(self, &patterns[r], self->totals.num_realizations + r, &found,
                                       error));
         }
@@ -163,17 +193,9 @@ static pspec_status prepare(ps_estimator *self, const pspec_pattern *patterns,
 }
 
 /* Effective power of every realization, mean over all frequencies but DC: what the error formula needs. */
-static void measure_powers(ps_estimator *self, const double *bin_powers, size_t num_patterns) {
+static void measure_powers(ps_estimator *self, const double *mean_powers, size_t num_patterns) {
     for (size_t r = 0; r < num_patterns; r++) {
-        double sum = 0;
-        double num_modes = 0;
-        for (size_t b = 0; b < self->bins.num; b++) {
-            const double num = (double)ps_bin_num_computed(&self->bins.bins[b]);
-            sum += bin_powers[r * self->bins.num + b] * num;
-            num_modes += num;
-        }
-        const double power = sum / (num_modes > 0 ? num_modes : 1) /
-                             (self->scales[r] * self->sums[r].weight_square_sum);
+        const double power = mean_powers[r] / (self->scales[r] * self->sums[r].weight_square_sum);
         if (!(power <= self->accuracy.largest_mean_power)) {
             self->accuracy.largest_mean_power = power;
         }
@@ -261,6 +283,9 @@ static pspec_status run_batch(ps_estimator *self, const pspec_pattern *patterns,
         const ps_batch batch = ps_estimator_make_batch(self, patterns, *num_patterns);
         const pspec_status status =
             self->options.engine->run(self->engine_state, &batch, rows, error);
+        if (status == PSPEC_ERROR_INPUT && self->leaves_checks) {
+            PS_TRY(check_all(self, patterns, *num_patterns, error)); /* says which point it is */
+        }
         if (status != PSPEC_ERROR_MEMORY || self->batch == 1) {
             return status;
         }
@@ -305,9 +330,9 @@ pspec_status ps_estimator_get_ready(ps_estimator *self, uint64_t num_points, ps_
 pspec_status ps_estimator_take(ps_estimator *self, const ps_rows *rows,
                                const pspec_pattern *patterns, size_t num_patterns,
                                ps_error *error) {
-    const double *bin_powers = NULL;
-    PS_TRY(ps_accumulator_add(self->accumulator, rows, &bin_powers, error));
-    measure_powers(self, bin_powers, num_patterns);
+    const double *mean_powers = NULL;
+    PS_TRY(ps_accumulator_add(self->accumulator, rows, &mean_powers, error));
+    measure_powers(self, mean_powers, num_patterns);
     count_patterns(self, patterns, num_patterns);
     return PSPEC_OK;
 }

@@ -16,6 +16,7 @@ struct ps_estimator {
     double *scales;          /* [batch] */
     int *exponents;          /* [batch] of the weights */
     ps_pattern_sums *sums;   /* [batch] */
+    bool leaves_checks;      /* of this batch's coordinates to the engine */
     ps_pattern_totals totals;
     ps_accuracy accuracy;
 };

@@ -1,6 +1,7 @@
 /* The public library: spectra, from plans, files and other spectra. */
 #include "analysis/spectrum_file.h"
 #include "base/memory.h"
+#include "base/workers.h"
 #include "job/public_objects.h"
 
 #include <stdio.h>
@@ -30,6 +31,21 @@ static pspec_status copy_bins(pspec_spectrum *spectrum, const ps_spectrum *from,
     return PSPEC_OK;
 }
 
+typedef struct copying {
+    pspec_spectrum *spectrum;
+    const ps_spectrum *from;
+} copying;
+
+static void copy_some_powers(void *payload, unsigned index, unsigned count) {
+    const copying *all = payload;
+    const size_t num = all->from->frequencies.num;
+    const size_t end = ps_share_begin(num, index + 1, count);
+    for (size_t i = ps_share_begin(num, index, count); i < end; i++) {
+        all->spectrum->powers[i] = all->from->powers[i].mean;
+        all->spectrum->standard_errors[i] = all->from->powers[i].standard_error;
+    }
+}
+
 static pspec_status copy_powers(pspec_spectrum *spectrum, const ps_spectrum *from,
                                 ps_error *error) {
     void *memory = NULL;
@@ -37,10 +53,8 @@ static pspec_status copy_powers(pspec_spectrum *spectrum, const ps_spectrum *fro
     spectrum->powers = memory;
     PS_TRY(ps_allocate(&memory, from->frequencies.num, sizeof(double), "standard errors", error));
     spectrum->standard_errors = memory;
-    for (size_t i = 0; i < from->frequencies.num; i++) {
-        spectrum->powers[i] = from->powers[i].mean;
-        spectrum->standard_errors[i] = from->powers[i].standard_error;
-    }
+    copying all = {spectrum, from};
+    ps_workers_share(from->frequencies.num, copy_some_powers, &all);
     return PSPEC_OK;
 }
 

@@ -9,11 +9,15 @@
 #include <stdio.h>
 #include <string.h>
 
-static pspec_status check_engine_name(const char *name, ps_error *error) {
+static pspec_status check_engine_name(const char *name, unsigned domain, ps_error *error) {
     const char *nearest = ps_engines[0]->name;
     for (const ps_engine *const *engine = ps_engines; name != NULL && *engine != NULL; engine++) {
         if (strcmp((*engine)->name, name) == 0) {
-            return PSPEC_OK;
+            return (*engine)->domains & domain
+                       ? PSPEC_OK
+                       : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                                 "the engine %s is not for points on the %s", name,
+                                 domain == PS_ON_SPHERE ? "sphere" : "torus");
         }
         if (ps_text_distance((*engine)->name, name) < ps_text_distance(nearest, name)) {
             nearest = (*engine)->name;
@@ -42,15 +46,14 @@ static double padded_rows(const ps_device_limits *limits, ps_precision precision
 
 /* Of rows of powers on the device: their sums and sums of squares in pairs, also read back; members of bins, and
  * the pieces of bins in the blocks of 512 slots of a row: 3 numbers for each, and its sum in pairs. In one dimension
- * every frequency is a piece; else rings cross a block in about 36 pieces. */
+ * all frequencies of a block are one piece; else rings cross a block in about 36. */
 static void add_accumulator(memory *sum, const ps_work *work, const ps_problem *problem,
                             double rows, double real_bytes) {
     const double block = 512;
-    const double pieces_of_block = 36;
+    const double pieces_of_block = problem->frequencies->dimension == 1 ? 1 : 36;
     const double num = (double)problem->frequencies->num;
     const double blocks = ceil(work->row_bytes / real_bytes / block);
-    const double pieces =
-        problem->frequencies->dimension == 1 ? num : fmin(num, blocks * pieces_of_block);
+    const double pieces = fmin(num, blocks * pieces_of_block);
     sum->device += 4 * work->row_bytes + num * (double)sizeof(uint16_t) +
                    pieces * (2 * rows * real_bytes + 3 * (double)sizeof(uint32_t));
     sum->host += 4 * work->row_bytes;
@@ -68,11 +71,13 @@ static memory count_memory(const ps_candidate *candidate, const ps_problem *prob
                            const ps_work *work, const ps_device_limits *limits, size_t batch) {
     const unsigned dimension = problem->frequencies->dimension;
     const double num = (double)problem->frequencies->num;
+    const double moved = limits != NULL && limits->has_unified_memory ? work->coordinate_bytes : 0;
     /* of every frequency twice its vector and its slot, its place in a bin, mean and standard error */
-    memory sum = {.device = work->fixed_bytes - work->host_bytes +
-                            (work->bytes_per_realization + work->point_bytes) * (double)batch,
+    memory sum = {.device =
+                      work->fixed_bytes - work->host_bytes +
+                      (work->bytes_per_realization + work->point_bytes + moved) * (double)batch,
                   .host = work->host_bytes +
-                          (set_bytes(problem, work) + work->point_bytes) * (double)batch +
+                          (set_bytes(problem, work) + work->point_bytes - moved) * (double)batch +
                           num * (2 * dimension * (double)sizeof(int32_t) +
                                  3 * (double)sizeof(uint32_t) + 2 * (double)sizeof(double))};
     if (limits == NULL || candidate->engine->rows_on_host) {
@@ -214,7 +219,7 @@ double ps_plan_tolerance(double tolerance, double floor) {
 pspec_status ps_plan_make(ps_plan *plan, const ps_problem *problem, const ps_device_limits *limits,
                           const ps_plan_constraints *constraints, ps_error *error) {
     *plan = (ps_plan){0};
-    PS_TRY(check_engine_name(constraints->engine, error));
+    PS_TRY(check_engine_name(constraints->engine, ps_problem_domain(problem), error));
     for (const ps_engine *const *engine = ps_engines; *engine != NULL; engine++) {
         for (int precision = PS_SINGLE; precision <= PS_EXTENDED; precision++) {
             if (!((*engine)->domains & ps_problem_domain(problem)) ||

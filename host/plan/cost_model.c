@@ -9,9 +9,10 @@ static const struct {
     double phases_per_flop; /* cosine-sine pairs per nominal flop: torus/list.cl with its table */
     double product_share;   /* share of the nominal peak that torus/product.cl reaches */
     double transform_share; /* share of its cycles that nufft/ takes */
+    double harmonics_per_flop; /* (point, degree, order) triples per nominal flop: sphere/sums.cl */
 } device_rates[2] = {
-    [PS_SINGLE] = {0.010, 1.15, 1.0},
-    [PS_DOUBLE] = {0.0133, 1.14, 1.0},
+    [PS_SINGLE] = {0.010, 1.15, 1.0, 0.024},
+    [PS_DOUBLE] = {0.0133, 1.14, 1.0, 0.026},
 };
 
 /* Long double cosine and sine of one (point, frequency) pair on one core, same machine. */
@@ -45,6 +46,7 @@ double ps_cost_seconds(const ps_work *work, const ps_device_limits *limits,
     return work->phases / (peak * device_rates[precision].phases_per_flop) +
            work->product_flops / (peak * device_rates[precision].product_share) +
            work->transform_flops / (peak * device_rates[precision].transform_share) +
+           work->harmonics / (peak * device_rates[precision].harmonics_per_flop) +
            work->launches * seconds_per_launch;
 }
 

@@ -79,53 +79,60 @@ static inline void place_lanes(const chunk to, const uint part, const uint pitch
 
 /* ---- windows -------------------------------------------------------------------------------- */
 
-/* All 8 bins of two points: [2][8] */
-static inline void make_8_bins(const window_axis axis, const real a, const real b,
+/* All 8 bins of four points, [4][8]: two chains, since each step waits for the one before. */
+static inline void make_8_bins(const window_axis axis, __local const real *centres,
                                __local real *to) {
-    const real16 u = (real16)((real8)a, (real8)b);
+    const real16 u = (real16)((real8)centres[0], (real8)centres[1]);
+    const real16 v = (real16)((real8)centres[2], (real8)centres[3]);
     __global const unaligned_real8 *from =
         (__global const unaligned_real8 *)axis.coefficients + axis.degree;
-    real16 value = (real16)(*from, *from);
+    real16 first = (real16)(*from, *from), second = first;
     for (uint i = 0; i < axis.degree; i++) {
         from--;
-        value = fma(value, u, (real16)(*from, *from));
+        const real16 coefficients = (real16)(*from, *from);
+        first = fma(first, u, coefficients);
+        second = fma(second, v, coefficients);
     }
-    *(__local unaligned_real16 *)to = value;
+    *(__local unaligned_real16 *)to = first;
+    *(__local unaligned_real16 *)(to + 16) = second;
 }
 
-/* All 16 bins of two points: [2][16] */
-static inline void make_16_bins(const window_axis axis, const real a, const real b,
+/* All 16 bins of four points: [4][16] */
+static inline void make_16_bins(const window_axis axis, __local const real *centres,
                                 __local real *to) {
-    const real16 u = (real16)a, v = (real16)b;
     __global const unaligned_real16 *from =
         (__global const unaligned_real16 *)axis.coefficients + axis.degree;
-    real16 of_a = *from, of_b = of_a;
+    real16 of[4] = {*from, *from, *from, *from};
     for (uint i = 0; i < axis.degree; i++) {
         from--;
         const real16 coefficients = *from;
-        of_a = fma(of_a, u, coefficients);
-        of_b = fma(of_b, v, coefficients);
+#pragma unroll
+        for (uint j = 0; j < 4; j++) {
+            of[j] = fma(of[j], (real16)centres[j], coefficients);
+        }
     }
-    *(__local unaligned_real16 *)to = of_a;
-    *(__local unaligned_real16 *)(to + 16) = of_b;
+#pragma unroll
+    for (uint j = 0; j < 4; j++) {
+        *(__local unaligned_real16 *)(to + j * 16) = of[j];
+    }
 }
 
 /* Of the first `count` points at least. */
 static inline void make_windows(const chunk to, const uint count, const chunk_axes axes) {
     const window_axis across = axes.across, along = axes.along;
     const uint parts = CHUNK / LANES;
-    const uint jobs = axes.dimension == 1 ? 0 : (across.width + 3) / 4 * parts;
+    const uint jobs = axes.dimension == 1 ? 0 : (across.width + 3) / 4 * parts; /* two pairs */
     for (uint job = get_local_id(0); job < jobs; job += get_local_size(0)) {
-        const uint part = job % parts, bin = job / parts * 4;
-        make_four_bins(across, bin, load_local(to.centres, part), load_local(to.weights, part),
-                       to.across + bin * CHUNK + part * LANES, CHUNK);
+        const uint part = job % parts;
+        make_two_pairs(across, job / parts * 2, load_local(to.centres, part),
+                       load_local(to.weights, part), to.across + part * LANES, CHUNK);
     }
-    for (uint i = 2 * get_local_id(0); i < count; i += 2 * get_local_size(0)) {
+    for (uint i = 4 * get_local_id(0); i < count; i += 4 * get_local_size(0)) {
         __local const real *centres = to.centres + CHUNK + i;
         if (along.bins == 8) {
-            make_8_bins(along, centres[0], centres[1], to.along + i * 8);
+            make_8_bins(along, centres, to.along + i * 8);
         } else {
-            make_16_bins(along, centres[0], centres[1], to.along + i * 16);
+            make_16_bins(along, centres, to.along + i * 16);
         }
     }
 }
@@ -154,13 +161,21 @@ static inline void fill_chunk(const chunk to, __global const ulong *points,
 /* ---- adding --------------------------------------------------------------------------------- */
 
 /* A point into num_rows rows `pitch` apart, by one work-item: values along a row are one vector, weighted row by
- * row by across. */
+ * row by across. Four rows in a step: addresses and the loop are half of the instructions else. */
 #define ADD_ROWS(NAME, SPACE, BINS)                                                                \
-    static inline void add_##NAME##_rows_##BINS(SPACE real *at, const uint pitch,                  \
+    static inline void add_##NAME##_rows_##BINS(SPACE real *at, const size_t pitch,                \
                                                 __local const real *across,                        \
                                                 __local const real *along, const uint num_rows) {  \
         const real##BINS values = *(__local const unaligned_real##BINS *)along;                    \
-        for (uint row = 0; row < num_rows; row++) {                                                \
+        uint row = 0;                                                                              \
+        for (; row + 4 <= num_rows; row += 4) {                                                    \
+            _Pragma("unroll") for (uint i = 0; i < 4; i++) {                                       \
+                SPACE unaligned_real##BINS *to = (SPACE unaligned_real##BINS *)(at + i * pitch);   \
+                *to = fma((real##BINS)across[(row + i) * CHUNK], values, *to);                     \
+            }                                                                                      \
+            at += 4 * pitch;                                                                       \
+        }                                                                                          \
+        for (; row < num_rows; row++) {                                                            \
             SPACE unaligned_real##BINS *to = (SPACE unaligned_real##BINS *)at;                     \
             *to = fma((real##BINS)across[row * CHUNK], values, *to);                               \
             at += pitch;                                                                           \

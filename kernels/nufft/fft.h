@@ -10,23 +10,38 @@
  *
  * The result of frequency k stands in cell position[k] (host/engines/nufft_fft.c): putting it in order
  * would be a pass of its own. Nothing depends on what stands in other lanes.
+ *
+ * Buffers are in local memory, or in global memory where FFT_IN_GLOBAL is defined before: one program has one
+ * kind, since a second copy of all passes takes the compiler seconds.
  */
 #ifndef PS_NUFFT_FFT_H
 #define PS_NUFFT_FFT_H
 
 #include "nufft/butterfly.h"
 
-static inline complexv load_complex(__local const real *from, const size_t cell) {
-    return (complexv){load_local(from, 2 * cell), load_local(from, 2 * cell + 1)};
+#ifdef FFT_IN_GLOBAL
+#define FFT_SPACE __global
+#define FFT_FENCE CLK_GLOBAL_MEM_FENCE
+#define FFT_LOAD load_global
+#define FFT_STORE store_global
+#else
+#define FFT_SPACE __local
+#define FFT_FENCE CLK_LOCAL_MEM_FENCE
+#define FFT_LOAD load_local
+#define FFT_STORE store_local
+#endif
+
+static inline complexv load_complex(FFT_SPACE const real *from, const size_t cell) {
+    return (complexv){FFT_LOAD(from, 2 * cell), FFT_LOAD(from, 2 * cell + 1)};
 }
 
 static inline complexv load_global_complex(__global const real *from, const size_t cell) {
     return (complexv){load_global(from, 2 * cell), load_global(from, 2 * cell + 1)};
 }
 
-static inline void store_complex(__local real *to, const size_t cell, const complexv x) {
-    store_local(to, 2 * cell, x.re);
-    store_local(to, 2 * cell + 1, x.im);
+static inline void store_complex(FFT_SPACE real *to, const size_t cell, const complexv x) {
+    FFT_STORE(to, 2 * cell, x.re);
+    FFT_STORE(to, 2 * cell + 1, x.im);
 }
 
 static inline void store_global_complex(__global real *to, const size_t cell, const complexv x) {
@@ -34,13 +49,15 @@ static inline void store_global_complex(__global real *to, const size_t cell, co
     store_global(to, 2 * cell + 1, x.im);
 }
 
-/* One pass: transforms of length RADIX m, one behind the other, into RADIX transforms of length m each.
- * Pointers and strides are kept instead of indices: integer work would cost as much as the butterflies. */
+/* One pass: transforms of length RADIX m, one behind the other, into RADIX transforms of length m each. Cells are
+ * `apart` numbers from each other. The last pass, m = 1, has no factors but 1. Pointers and strides are kept instead of
+ * indices: integer work would cost as much as the butterflies. */
 #define FFT_PASS(RADIX)                                                                            \
-    static inline void fft_pass_##RADIX(__local real *data, __global const real *twiddles,         \
-                                        const size_t m, const size_t length) {                     \
-        __local real *const end = data + length * 2 * LANES;                                       \
-        const size_t stride = m * 2 * LANES;                                                       \
+    static inline void fft_pass_##RADIX(FFT_SPACE real *data, const size_t apart,                  \
+                                        __global const real *twiddles, const size_t m,             \
+                                        const size_t length) {                                     \
+        FFT_SPACE real *const end = data + length * apart;                                         \
+        const size_t stride = m * apart;                                                           \
         size_t t = get_local_id(0);                                                                \
         for (;;) {                                                                                 \
             while (t >= m && data < end) {                                                         \
@@ -51,16 +68,18 @@ static inline void store_global_complex(__global real *to, const size_t cell, co
                 break;                                                                             \
             }                                                                                      \
             complexv x[RADIX];                                                                     \
-            __local real *at = data + t * 2 * LANES;                                               \
+            FFT_SPACE real *at = data + t * apart;                                                 \
             __global const real *factor = twiddles + t * (2 * (RADIX - 1));                        \
             _Pragma("unroll") for (int j = 0; j < RADIX; j++) {                                    \
                 x[j] = load_complex(at + j * stride, 0);                                           \
             }                                                                                      \
             butterfly_##RADIX(x);                                                                  \
-            _Pragma("unroll") for (int j = 0; j < RADIX; j++) {                                    \
-                if (j > 0) {                                                                       \
+            if (m > 1) {                                                                           \
+                _Pragma("unroll") for (int j = 1; j < RADIX; j++) {                                \
                     x[j] = complex_multiply(x[j], factor[2 * j - 2], factor[2 * j - 1]);           \
                 }                                                                                  \
+            }                                                                                      \
+            _Pragma("unroll") for (int j = 0; j < RADIX; j++) {                                    \
                 store_complex(at + j * stride, 0, x[j]);                                           \
             }                                                                                      \
             t += get_local_size(0);                                                                \
@@ -76,11 +95,11 @@ FFT_PASS(8)
 
 #define FFT_CASE(RADIX)                                                                            \
     case RADIX:                                                                                    \
-        fft_pass_##RADIX(data, twiddles, m, length);                                               \
+        fft_pass_##RADIX(data, apart, twiddles, m, length);                                        \
         break
 
 /* All work-items call it, and see the result when it returns. */
-static inline void fft_transform(__local real *data, const uint length,
+static inline void fft_transform(FFT_SPACE real *data, const size_t apart, const uint length,
                                  __global const uint *radices, __global const real *twiddles) {
     size_t m = length;
     for (uint pass = 0; radices[pass] != 0; pass++) {
@@ -95,7 +114,7 @@ static inline void fft_transform(__local real *data, const uint length,
             FFT_CASE(8);
         }
         twiddles += 2 * m * (radix - 1);
-        barrier(CLK_LOCAL_MEM_FENCE);
+        barrier(FFT_FENCE);
     }
 }
 

@@ -17,25 +17,25 @@ typedef struct transform_axis {
 
 /* Frequency 0, in lane 0 of tile 0, is known: mean times pattern[cell][cosine, sine] is what it leaves in
  * the cells. */
-static inline void take_off_mean(__local real *row, const real mean, __global const real *pattern,
+static inline void take_off_mean(FFT_SPACE real *row, const real mean, __global const real *pattern,
                                  const uint n) {
     for (uint i = get_local_id(0); i < n; i += get_local_size(0)) {
         row[i * 2 * LANES] -= mean * pattern[2 * i];
         row[(i * 2 + 1) * LANES] -= mean * pattern[2 * i + 1];
     }
-    barrier(CLK_LOCAL_MEM_FENCE);
+    barrier(FFT_FENCE);
 }
 
 /* Of kept frequency i, q = i - K. */
-static inline complexv kept_frequency(__local const real *row, const transform_axis axis,
+static inline complexv kept_frequency(FFT_SPACE const real *row, const transform_axis axis,
                                       const uint i) {
     return load_complex(row, axis.position[i >= axis.K ? i - axis.K : axis.n + i - axis.K]);
 }
 
 /* power: [2K + 1][LANES] */
-static inline void write_powers(__local real *row, const transform_axis axis, const real scale,
+static inline void write_powers(FFT_SPACE real *row, const transform_axis axis, const real scale,
                                 __global real *power) {
-    fft_transform(row, axis.n, axis.radices, axis.twiddles);
+    fft_transform(row, 2 * LANES, axis.n, axis.radices, axis.twiddles);
     for (uint i = get_local_id(0); i < 2 * axis.K + 1; i += get_local_size(0)) {
         const complexv z = kept_frequency(row, axis, i);
         const real gain = axis.gains[i >= axis.K ? i - axis.K : axis.K - i] * scale;
@@ -44,9 +44,9 @@ static inline void write_powers(__local real *row, const transform_axis axis, co
 }
 
 /* columns: frequency -K of this row; the next frequency is num_rows rows further. */
-static inline void write_columns(__local real *row, const transform_axis axis, const uint num_rows,
-                                 __global real *columns) {
-    fft_transform(row, axis.n, axis.radices, axis.twiddles);
+static inline void write_columns(FFT_SPACE real *row, const transform_axis axis,
+                                 const uint num_rows, __global real *columns) {
+    fft_transform(row, 2 * LANES, axis.n, axis.radices, axis.twiddles);
     for (uint i = get_local_id(0); i < 2 * axis.K + 1; i += get_local_size(0)) {
         store_global_complex(columns, (size_t)i * num_rows, kept_frequency(row, axis, i));
     }

@@ -38,9 +38,9 @@ __kernel void nufft_first(__global const real *restrict high, __global const rea
     const size_t first = get_global_id(1) * (size_t)(2 * LANES);
     const transform_axis axis = {radices, twiddles, position, gains, n, K};
     load_cells(cells, high, low, mean[0], columns, first, n);
-    fft_transform(cells, n, radices, twiddles);
+    fft_transform(cells, 2 * LANES, n, radices, twiddles);
     for (uint tile = get_local_id(0); tile < num_tiles; tile += get_local_size(0)) {
-        turn_halves(cells, axis, (first_tile + tile) * LANES,
+        turn_halves(cells, 2 * LANES, axis, (first_tile + tile) * LANES,
                     rows + (tile * all_columns + first_column + first) * (2 * LANES));
     }
 }

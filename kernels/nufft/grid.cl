@@ -7,8 +7,8 @@
  *   places, sorted, heights  of nufft/sort.cl, in parts
  *   starts    [part][outer_n block_n + 2]: places in the order of outer cells and cells of the block's axis
  *   outer_*, block_*, last_*  axes of nufft/window.h; the coordinates are those of the points
- *   high, low [outer cell][cell of the block's axis][cell of the last axis]: pairs of numbers, continued; a slab of
- *             them, the blocks from first_block on
+ *   high, low [outer cell][cell of the block's axis][cell of the last axis]: pairs of numbers, continued unless
+ *             is_first; a slab of them, the blocks from first_block on
  *   rows      local, [BLOCK_ROWS][last_n + last_bins]; last_n is a multiple of LANES
  *   windows, cells  local, of a chunk: nufft/chunk.h
  */
@@ -60,7 +60,7 @@ static inline void add_together(__local real *rows, const chunk from, const uint
 
 /* The cells behind the end of rows are the first ones again; then into the pairs. */
 static inline void add_to_grid(__local real *rows, const uint num_rows, const window_axis last,
-                               __global real *high, __global real *low) {
+                               const uint is_first, __global real *high, __global real *low) {
     const uint pitch = last.n + last.bins;
     barrier(CLK_LOCAL_MEM_FENCE);
     for (uint row = 0; row < num_rows; row++) {
@@ -72,7 +72,11 @@ static inline void add_to_grid(__local real *rows, const uint num_rows, const wi
     for (uint row = 0; row < num_rows; row++) {
         for (size_t i = get_local_id(0); i < last.n / LANES; i += get_local_size(0)) {
             const size_t at = row * (size_t)(last.n / LANES) + i;
-            realv sum = load_global(high, at), rest = load_global(low, at);
+            realv sum = 0, rest = 0;
+            if (!is_first) {
+                sum = load_global(high, at);
+                rest = load_global(low, at);
+            }
             pair_add(&sum, &rest, load_local(rows + row * pitch, i));
             store_global(high, at, sum);
             store_global(low, at, rest);
@@ -89,7 +93,7 @@ nufft_grid(__global const ulong *restrict places, __global const ulong *restrict
            const uint block_width, const uint block_degree, const uint block_bins,
            __global const real *restrict last_window, const uint last_n, const uint last_width,
            const uint last_degree, const uint last_bins, const uint first_block,
-           __global real *restrict high, __global real *restrict low, __local real *rows,
+           const uint is_first, __global real *restrict high, __global real *restrict low, __local real *rows,
            __local real *windows, __local uint *cells) {
     const uint num_blocks = (block_n + BLOCK_ROWS - 1) / BLOCK_ROWS;
     const size_t block = first_block + get_global_id(1);
@@ -137,5 +141,5 @@ nufft_grid(__global const ulong *restrict places, __global const ulong *restrict
             }
         }
     }
-    add_to_grid(rows, num_rows, along, high + at, low + at);
+    add_to_grid(rows, num_rows, along, is_first, high + at, low + at);
 }

@@ -9,31 +9,37 @@
 #include "nufft/finish.h"
 #include "shared/transpose.h"
 
-/* Frequencies k .. k + LANES - 1 of 2 LANES columns: [column][re, im][LANES], times the root of their gain if there
- * are gains; beyond K there are none. */
-static inline void turn_halves(__local const real *cells, const transform_axis axis, const uint k,
-                               __global real *rows) {
-    realv a_re[LANES], a_im[LANES], b_re[LANES], b_im[LANES];
+/* Frequencies k .. k + LANES - 1 of 2 LANES columns, twice each: [column][re, im][LANES], beyond K anything. Times
+ * half the root of their gain if there are gains, and 0 beyond K. Four turns one after the other: of all at once
+ * the vectors would not fit into registers. */
+static inline void turn_halves(FFT_SPACE const real *cells, const size_t apart,
+                               const transform_axis axis, const uint k, __global real *rows) {
+    size_t here[LANES], there[LANES];
+    real factor[LANES];
 #pragma unroll
-    for (int i = 0; i < LANES; i++) {
+    for (uint i = 0; i < LANES; i++) {
         const uint at = min(k + i, axis.K);
-        const complexv z = load_complex(cells, axis.position[at]);
-        const complexv other = load_complex(cells, axis.position[at == 0 ? 0 : axis.n - at]);
-        const real gain = axis.gains == 0 ? 1 : sqrt(axis.gains[at]);
-        const realv factor = (realv)(k + i <= axis.K ? gain * (real)0.5 : 0);
-        a_re[i] = (z.re + other.re) * factor;
-        a_im[i] = (z.im - other.im) * factor;
-        b_re[i] = (z.im + other.im) * factor;
-        b_im[i] = (other.re - z.re) * factor;
+        here[i] = axis.position[at] * apart;
+        there[i] = axis.position[at == 0 ? 0 : axis.n - at] * apart;
+        factor[i] = axis.gains == 0   ? 1
+                    : k + i <= axis.K ? (real)0.5 * sqrt(axis.gains[at])
+                                      : (real)0;
     }
-    transpose(a_re);
-    transpose(a_im);
-    transpose(b_re);
-    transpose(b_im);
 #pragma unroll
-    for (int i = 0; i < LANES; i++) {
-        store_global_complex(rows, i, (complexv){a_re[i], a_im[i]});
-        store_global_complex(rows, LANES + i, (complexv){b_re[i], b_im[i]});
+    for (uint part = 0; part < 4; part++) {
+        realv v[LANES];
+#pragma unroll
+        for (uint i = 0; i < LANES; i++) {
+            const realv z = FFT_LOAD(cells + here[i], part == 1 || part == 2);
+            const realv other = FFT_LOAD(cells + there[i], part == 1 || part == 2);
+            v[i] = part == 3 ? other - z : part == 1 ? z - other : z + other;
+            v[i] = axis.gains == 0 ? v[i] : v[i] * (realv)factor[i];
+        }
+        transpose(v);
+#pragma unroll
+        for (uint i = 0; i < LANES; i++) {
+            store_global(rows, (part / 2 * LANES + i) * 2 + part % 2, v[i]);
+        }
     }
 }
 

@@ -69,9 +69,10 @@ static inline void finish_chunk(const chunk to, const window_axis axis, const ui
         store_complex(to.phases, i + 1, next_lanes);
     }
     for (uint job = get_local_id(0); job < (axis.width + 3) / 4 * parts; job += get_local_size(0)) {
-        const uint part = job % parts, bin = job / parts * 4;
-        make_four_bins(axis, bin, load_local(to.centres, part), load_local(to.weights, part),
-                       to.windows + (GAP + bin) * CHUNK + part * LANES, CHUNK);
+        const uint part = job % parts;
+        make_two_pairs(axis, job / parts * 2, load_local(to.centres, part),
+                       load_local(to.weights, part), to.windows + GAP * CHUNK + part * LANES,
+                       CHUNK);
     }
     for (uint job = get_local_id(0); job < num_tiles * parts; job += get_local_size(0)) {
         const uint part = job % parts, tile = job / parts;

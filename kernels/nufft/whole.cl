@@ -11,17 +11,21 @@
  *   first_*, second_*  transforms of nufft/finish.h, K the largest frequency of which is kept
  *   lane_turns [second_n][re, im][LANES], tile_turns [tile][second_n][re, im]: in one dimension, the factors
  *              above of k_1 = lane and of k_1 = tile LANES
- *   gains      [tile][2 second_K + 1][LANES]: 1 / squared transform of the window, 0 where nothing is asked for
+ *   gains      [tile][2 second_K + 1][LANES]: 1 / squared transform of the window, a quarter of it (frequencies are
+ *              twice what they should be, nufft/halves.h), 0 where nothing is asked for
  *   means      [realization]: taken off every cell: frequency 0
  *   scales     [realization]
  *   power      [realization][stride], there as gains
  *   grids      [group][grid_reals]: rows of `pitch`, some more than cells: windows go on behind them
- *   rows       [group][tile][columns][re, im][LANES]; columns is second_n, up to a multiple of 2 LANES
- *   row        local, [first_n or second_n][re, im][LANES]
+ *   rows       [group][cell][re, im][LANES]: a row of a tile, columns cells (second_n, up to a multiple of 2 LANES);
+ *              behind it, in one dimension, room for the last columns, first_n cells; in two, for the shared tile
+ *   shared_lanes  of the last tile, of each realization (nufft/shared_tile.h); 0: it is as the others
  *   windows, cells  local, of a chunk: nufft/chunk.h
  */
+#define FFT_IN_GLOBAL
 #include "nufft/chunk.h"
 #include "nufft/halves.h"
+#include "nufft/shared_tile.h"
 
 typedef struct whole_grid {
     __global real *cells;
@@ -30,11 +34,16 @@ typedef struct whole_grid {
 } whole_grid;
 
 /* A chunk by one work-item. (Not just its `count` points: what is known before a barrier and used in a loop behind it
- * is more than PoCL 3.1 can do here.) */
+ * is more than PoCL 3.1 can do here.) In one dimension there are no loops over rows. */
 static inline void scatter(const whole_grid grid, const chunk from, const chunk_axes axes) {
-    for (uint i = 0; i < CHUNK; i++) {
+    const uint bins = axes.along.bins;
+    for (uint i = 0; i < CHUNK && grid.is_line; i++) {
         add_global_rows(grid.cells + from.cells[i], grid.pitch, from.across + i,
-                        from.along + i * axes.along.bins, axes.across.width, axes.along.bins);
+                        from.along + i * bins, 1, bins);
+    }
+    for (uint i = 0; i < CHUNK && !grid.is_line; i++) {
+        add_global_rows(grid.cells + from.cells[i], grid.pitch, from.across + i,
+                        from.along + i * bins, axes.across.width, bins);
     }
 }
 
@@ -57,61 +66,81 @@ static inline void barrier_everywhere(void) {
     barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
 }
 
-static inline void clear_grid(const whole_grid grid) {
+/* The mean is taken off every cell before anything is added. */
+static inline void clear_grid(const whole_grid grid, const real mean) {
     for (size_t i = get_local_id(0); i < grid.rows * (size_t)grid.pitch / LANES;
          i += get_local_size(0)) {
-        store_global(grid.cells, i, (realv)0);
+        store_global(grid.cells, i, (realv)-mean);
     }
     barrier_everywhere();
 }
 
 /* Cells behind the last row and column are the first ones again. (No barrier under a condition: PoCL would copy
  * all that follows.) */
-static inline void fold_grid(const whole_grid grid, const window_axis across,
+static inline void fold_grid(const whole_grid grid, const real mean, const window_axis across,
                              const window_axis along, const uint n) {
     const uint behind = grid.is_line ? along.bins : across.width * grid.pitch;
     const uint num_rows = grid.is_line ? 0 : across.n;
     for (uint i = get_local_id(0); i < behind; i += get_local_size(0)) {
-        grid.cells[i] += grid.cells[n + i];
+        grid.cells[i] += grid.cells[n + i] + mean;
     }
     barrier_everywhere();
     for (uint row = get_local_id(0); row < num_rows; row += get_local_size(0)) {
         __global real *at = grid.cells + row * grid.pitch;
         for (uint i = 0; i < along.bins; i++) {
-            at[i] += at[along.n + i];
+            at[i] += at[along.n + i] + mean;
         }
     }
     barrier_everywhere();
 }
 
-/* 2 LANES columns of the grid. */
-static inline void load_columns(__local real *row, const whole_grid grid, const uint first_column,
-                                const real mean, const uint n) {
+/* Where the first transform of 2 LANES columns is done, real and imaginary parts of a cell side by side: in the grid,
+ * `apart` numbers from cell to cell. In one dimension the last columns go on into the next row: they are copied. */
+typedef struct column_place {
+    __global real *cells;
+    size_t apart;
+} column_place;
+
+static inline bool are_copied(const whole_grid grid, const uint column) {
+    return column + 2 * LANES > grid.pitch;
+}
+
+static inline column_place place_of_columns(const whole_grid grid, __global real *spare,
+                                            const uint column) {
+    return are_copied(grid, column) ? (column_place){spare, 2 * LANES}
+                                    : (column_place){grid.cells + column, grid.pitch};
+}
+
+static inline void copy_columns(__global real *spare, const whole_grid grid, const uint column,
+                                const uint n) {
     for (uint m = get_local_id(0); m < n; m += get_local_size(0)) {
-        __global const real *from = grid.cells + m * grid.pitch + first_column;
-        store_complex(
-            row, m,
-            (complexv){load_global(from, 0) - (realv)mean, load_global(from, 1) - (realv)mean});
+        store_complex(spare, m, load_global_complex(grid.cells + m * grid.pitch + column, 0));
     }
 }
 
-/* A row of a tile, in one dimension turned on the way. */
-static inline void load_row(__local real *row, __global const real *from, const uint n,
-                            __global const real *lane_turns, __global const real *tile_turns,
-                            const bool is_line) {
+/* A row of a tile, from all columns. */
+static inline void turn_columns(__global real *row, const whole_grid grid, __global real *spare,
+                                const transform_axis first, const uint k, const uint columns) {
+    for (uint group = get_local_id(0); group < columns / (2 * LANES); group += get_local_size(0)) {
+        const uint column = group * 2 * LANES;
+        const column_place from = place_of_columns(grid, spare, column);
+        turn_halves(from.cells, from.apart, first, k, row + column * 2 * LANES);
+    }
+}
+
+/* In one dimension, between the transforms. */
+static inline void turn_line(__global real *row, const uint n, __global const real *lane_turns,
+                             __global const real *tile_turns) {
     for (uint i = get_local_id(0); i < n; i += get_local_size(0)) {
-        complexv z = load_global_complex(from, i);
-        if (is_line) {
-            const complexv turn = load_global_complex(lane_turns, i);
-            z = complex_multiply(z, tile_turns[2 * i], tile_turns[2 * i + 1]);
-            z = complex_multiply_lanes(z, turn.re, turn.im);
-        }
-        store_complex(row, i, z);
+        const complexv turn = load_global_complex(lane_turns, i);
+        const complexv z =
+            complex_multiply(load_complex(row, i), tile_turns[2 * i], tile_turns[2 * i + 1]);
+        store_complex(row, i, complex_multiply_lanes(z, turn.re, turn.im));
     }
 }
 
-static inline void write_row(__local const real *row, const transform_axis second, const real scale,
-                             __global const real *gains, __global real *power) {
+static inline void write_row(__global const real *row, const transform_axis second,
+                             const real scale, __global const real *gains, __global real *power) {
     for (uint i = get_local_id(0); i < 2 * second.K + 1; i += get_local_size(0)) {
         const complexv z = kept_frequency(row, second, i);
         store_global(power, i,
@@ -134,8 +163,8 @@ __kernel void nufft_whole(
     __global const real *restrict scales, __global real *restrict power, const uint first_row,
     const ulong stride, const uint num_tiles, const uint dimension, const uint pitch,
     const uint grid_rows, const ulong grid_reals, __global real *restrict grids,
-    __global real *restrict all_rows, __local real *row, __local real *windows,
-    __local uint *cells) {
+    const ulong row_reals, __global real *restrict rows, const uint shared_lanes,
+    __local real *windows, __local uint *cells) {
     const uint columns = (second_n + 2 * LANES - 1) / (2 * LANES) * (2 * LANES);
     const window_axis across = {
         across_window, across_n, across_width, 0, across_degree, across_bins, 0, 1};
@@ -147,11 +176,14 @@ __kernel void nufft_whole(
                                    second_n,       second_K};
     const whole_grid grid = {grids + get_global_id(1) * grid_reals, pitch, grid_rows,
                              dimension == 1};
-    __global real *rows = all_rows + get_global_id(1) * num_tiles * (size_t)columns * 2 * LANES;
+    __global real *row = rows + get_global_id(1) * row_reals;
+    __global real *spare = row + columns * 2 * LANES;
     const chunk_axes axes = {across, across, along, dimension, 0};
     const chunk chunk = make_chunk(windows, cells, across, along);
+    const uint sharing = shared_lanes > 0 ? LANES / shared_lanes : 1;
+    const uint own_tiles = shared_lanes > 0 ? num_tiles - 1 : num_tiles;
     for (size_t r = get_global_id(1); r < num_realizations; r += get_global_size(1)) {
-        clear_grid(grid);
+        clear_grid(grid, means[r]);
         for (size_t place = offsets[r]; place < offsets[r + 1]; place += CHUNK) {
             const uint count = (uint)min((ulong)CHUNK, offsets[r + 1] - place);
             fill_chunk(chunk, points + place * dimension, weights + place, count, CHUNK, pitch,
@@ -163,29 +195,47 @@ __kernel void nufft_whole(
             }
             barrier_everywhere();
         }
-        fold_grid(grid, across, along, dimension == 1 ? along.n : across.n * pitch);
+        fold_grid(grid, means[r], across, along, dimension == 1 ? along.n : across.n * pitch);
         /* First groups of columns, then tiles: one loop, since a second copy of all transforms takes the compiler
          * seconds. */
         const uint groups = columns / (2 * LANES);
-        for (uint step = 0; step < groups + num_tiles; step++) {
+        const uint before =
+            (uint)(r / get_global_size(1)) % sharing; /* others in the shared tile */
+        const bool is_full = before + 1 == sharing || r + get_global_size(1) >= num_realizations;
+        const uint tiles = own_tiles + (shared_lanes > 0 && is_full ? 1 : 0);
+        for (uint step = 0; step < groups + tiles; step++) {
             const bool is_first = step < groups;
             const transform_axis axis = is_first ? first : second;
-            const uint column = step * 2 * LANES, own_tile = step - groups;
-            if (is_first) {
-                load_columns(row, grid, column, means[r], first_n);
-            } else {
-                load_row(row, rows + own_tile * (size_t)columns * 2 * LANES, second_n, lane_turns,
-                         tile_turns + own_tile * (size_t)second_n * 2, dimension == 1);
+            const uint column = step * 2 * LANES, tile = step - groups;
+            const bool is_shared = !is_first && tile == own_tiles;
+            const column_place place = is_first
+                                           ? place_of_columns(grid, spare, column)
+                                           : (column_place){is_shared ? spare : row, 2 * LANES};
+            const shared_tile shared = {spare, shared_lanes, before * shared_lanes,
+                                        own_tiles * LANES};
+            if (is_first && are_copied(grid, column)) {
+                copy_columns(spare, grid, column, first_n);
             }
-            barrier(CLK_LOCAL_MEM_FENCE);
-            fft_transform(row, axis.n, axis.radices, axis.twiddles);
-            for (uint tile = get_local_id(0); is_first && tile < num_tiles;
-                 tile += get_local_size(0)) {
-                turn_halves(row, first, tile * LANES,
-                            rows + (tile * (size_t)columns + column) * (2 * LANES));
+            if (!is_first && !is_shared) {
+                turn_columns(row, grid, spare, first, tile * LANES, columns);
             }
-            if (!is_first) {
-                const size_t at = own_tile * (2 * (size_t)second_K + 1) * LANES;
+            barrier_everywhere();
+            if (!is_first && dimension == 1) {
+                turn_line(row, second_n, lane_turns, tile_turns + tile * (size_t)second_n * 2);
+            }
+            barrier_everywhere();
+            fft_transform(place.cells, place.apart, axis.n, axis.radices, axis.twiddles);
+            if (is_first && shared_lanes > 0 && get_local_id(0) == 0) {
+                collect_columns(shared, column, place.cells, place.apart, first);
+            }
+            const size_t at = tile * (2 * (size_t)second_K + 1) * LANES;
+            for (uint i = 0; is_shared && i <= before; i++) {
+                const size_t realization = r - (before - i) * get_global_size(1);
+                const shared_tile from = {spare, shared_lanes, i * shared_lanes, 0};
+                write_lanes(from, second, scales[first_row + realization], gains + at,
+                            power + (first_row + realization) * stride + at);
+            }
+            if (!is_first && !is_shared) {
                 write_row(row, second, scales[first_row + r], gains + at,
                           power + (first_row + r) * stride + at);
             }

@@ -10,29 +10,37 @@ typedef real8 unaligned_real8 __attribute__((aligned(sizeof(real)))); /* shared/
 
 /* An axis of the fine grid, and its window: bin i is a polynomial in u = 2 f - 1, f as in nufft/cells.h.
  * coefficients [degree + 1][bins], lowest degree first; bins, a multiple of 8, is at least the width, pitch at
- * least 2 GAP + width. */
+ * least 2 GAP + width. The degree is odd; bin i is bin width - 1 - i at -u, to the bit. */
 typedef struct window_axis {
     __global const real *coefficients;
     uint n, width, axis, degree, bins, pitch;
     ulong factor; /* the coordinate is factor * x[axis] mod 1 */
 } window_axis;
 
-/* Bins bin .. bin + 3 of LANES points: to[bin - first][apart]. */
-static inline void make_four_bins(const window_axis axis, const uint bin, const realv centre,
+/* Pairs pair and pair + 1 of bins of LANES points, bins pair and width - 1 - pair, to[bin * apart]. Bins of a pair are
+ * each other's mirror: one polynomial in u^2 and u times another, added and subtracted. Beyond the middle pairs
+ * repeat, to the bit. */
+static inline void make_two_pairs(const window_axis axis, const uint pair, const realv centre,
                                   const realv weight, __local real *to, const uint apart) {
-    __global const real *from = axis.coefficients + axis.degree * axis.bins + bin;
-    realv a = (realv)from[0], b = (realv)from[1], c = (realv)from[2], d = (realv)from[3];
-    for (uint i = 0; i < axis.degree; i++) {
+    const realv square = centre * centre, weighted = centre * weight;
+    __global const real *from = axis.coefficients + axis.degree * axis.bins + pair;
+    realv odd = (realv)from[0], next_odd = (realv)from[1];
+    from -= axis.bins;
+    realv even = (realv)from[0], next_even = (realv)from[1];
+    for (uint i = 0; i < axis.degree / 2; i++) {
         from -= axis.bins;
-        a = fma(a, centre, (realv)from[0]);
-        b = fma(b, centre, (realv)from[1]);
-        c = fma(c, centre, (realv)from[2]);
-        d = fma(d, centre, (realv)from[3]);
+        odd = fma(odd, square, (realv)from[0]);
+        next_odd = fma(next_odd, square, (realv)from[1]);
+        from -= axis.bins;
+        even = fma(even, square, (realv)from[0]);
+        next_even = fma(next_even, square, (realv)from[1]);
     }
-    store_local(to, 0, a * weight);
-    store_local(to + apart, 0, b * weight);
-    store_local(to + 2 * apart, 0, c * weight);
-    store_local(to + 3 * apart, 0, d * weight);
+    even *= weight;
+    next_even *= weight;
+    store_local(to + pair * apart, 0, fma(odd, weighted, even));
+    store_local(to + (axis.width - 1 - pair) * apart, 0, fma(-odd, weighted, even));
+    store_local(to + (pair + 1) * apart, 0, fma(next_odd, weighted, next_even));
+    store_local(to + (axis.width - 2 - pair) * apart, 0, fma(-next_odd, weighted, next_even));
 }
 
 /* One bin of LANES points. */

@@ -17,7 +17,7 @@ __kernel void probe_fft(__global const real *restrict data, __global real *restr
         store_complex(row, i, load_global_complex(data + first, i));
     }
     barrier(CLK_LOCAL_MEM_FENCE);
-    fft_transform(row, length, radices, twiddles);
+    fft_transform(row, 2 * LANES, length, radices, twiddles);
     for (uint k = get_local_id(0); k < length; k += get_local_size(0)) {
         store_global_complex(result + first, k, load_complex(row, position[k]));
     }

@@ -129,6 +129,25 @@ ENQUEUE(clEnqueueWriteBuffer, CL_OUT_OF_RESOURCES,
         (cl_command_queue queue, cl_mem memory, cl_bool waits_here, size_t offset, size_t bytes,
          const void *data, cl_uint num_waits, const cl_event *waits, cl_event *event),
         (queue, memory, waits_here, offset, bytes, data, num_waits, waits, event))
+ENQUEUE(clEnqueueUnmapMemObject, CL_OUT_OF_RESOURCES,
+        (cl_command_queue queue, cl_mem memory, void *data, cl_uint num_waits,
+         const cl_event *waits, cl_event *event),
+        (queue, memory, data, num_waits, waits, event))
+WRAPPER(clEnqueueMapBuffer, void *,
+        (cl_command_queue queue, cl_mem memory, cl_bool waits_here, cl_map_flags flags,
+         size_t offset, size_t bytes, cl_uint num_waits, const cl_event *waits, cl_event *event,
+         cl_int *code)) {
+    if (fault_is_due(FAULT_OPENCL, "clEnqueueMapBuffer")) {
+        *code = CL_MAP_FAILURE;
+        return NULL;
+    }
+    void *data = __real_clEnqueueMapBuffer(queue, memory, waits_here, flags, offset, bytes,
+                                           num_waits, waits, event, code);
+    if (*code == CL_SUCCESS && event != NULL) {
+        fault_gain(*event, "clEnqueueMapBuffer");
+    }
+    return data;
+}
 ENQUEUE(clEnqueueFillBuffer, CL_MEM_OBJECT_ALLOCATION_FAILURE,
         (cl_command_queue queue, cl_mem memory, const void *pattern, size_t pattern_bytes,
          size_t offset, size_t bytes, cl_uint num_waits, const cl_event *waits, cl_event *event),

@@ -1,0 +1,92 @@
+/* What all lanes say together: sums over the lanes of several vectors, and whether a lane is negative. Nothing of it
+ * in C11.
+ *
+ * Adding the two halves of two vectors interleaved leaves one vector with half the terms of either sum: after
+ * log2(LANES) rounds one vector has the sum of a vector in each lane, in their order. Everything is written out:
+ * vectors stay in registers only where no loop has to be unrolled first.
+ */
+#ifndef PS_SPHERE_LANE_SUMS_H
+#define PS_SPHERE_LANE_SUMS_H
+
+#include "shared/transpose.h"
+
+#ifdef __OPENCL_C_VERSION__
+
+#define MERGE(i, apart)                                                                            \
+    v[i] = INTERLEAVE_LOW(v[i], v[(i) + (apart)]) + INTERLEAVE_HIGH(v[i], v[(i) + (apart)]);
+#define MERGE_FIRST2(i, apart) MERGE(i, apart) MERGE((i) + 1, apart)
+#define MERGE_FIRST4(i, apart) MERGE_FIRST2(i, apart) MERGE_FIRST2((i) + 2, apart)
+#define MERGE_FIRST8(i, apart) MERGE_FIRST4(i, apart) MERGE_FIRST4((i) + 4, apart)
+#define MERGE_2(i) MERGE(i, 1)
+#define MERGE_4(i) MERGE_FIRST2(i, 2) MERGE_2(i)
+#define MERGE_8(i) MERGE_FIRST4(i, 4) MERGE_4(i)
+#define MERGE_16(i) MERGE_FIRST8(i, 8) MERGE_8(i)
+
+#if LANES == 16
+#define MERGE_GROUP(i) MERGE_16(i)
+#elif LANES == 8
+#define MERGE_GROUP(i) MERGE_8(i)
+#elif LANES == 4
+#define MERGE_GROUP(i) MERGE_4(i)
+#elif LANES == 2
+#define MERGE_GROUP(i) MERGE_2(i)
+#else
+#define MERGE_GROUP(i)
+#endif
+
+#define NUM_LANE_SUMS 16
+
+/* totals[i] = sum of the lanes of v[i], i < NUM_LANE_SUMS; v is used up. */
+static inline __attribute__((always_inline)) void sum_lanes(realv *v, real *totals) {
+    MERGE_GROUP(0)
+    STOREV(v[0], 0, totals);
+#if LANES <= 8
+    MERGE_GROUP(8)
+    STOREV(v[8], 0, totals + 8);
+#endif
+#if LANES <= 4
+    MERGE_GROUP(4)
+    MERGE_GROUP(12)
+    STOREV(v[4], 0, totals + 4);
+    STOREV(v[12], 0, totals + 12);
+#endif
+#if LANES <= 2
+    for (int i = 2; i < NUM_LANE_SUMS; i += 4) {
+        MERGE_GROUP(i)
+        STOREV(v[i], 0, totals + i);
+    }
+#endif
+#if LANES == 1
+    for (int i = 1; i < NUM_LANE_SUMS; i += 2) {
+        totals[i] = v[i];
+    }
+#endif
+}
+
+/* Is any lane negative? any() of PoCL 3.1 asks lane by lane. */
+static inline __attribute__((always_inline)) uint any_negative(const swordv x) {
+#if LANES == 1
+    return x < 0;
+#else
+#if LANES == 16
+    const PS_JOIN(SWORD, 8) x8 = x.lo | x.hi;
+#elif LANES == 8
+    const swordv x8 = x;
+#endif
+#if LANES >= 8
+    const PS_JOIN(SWORD, 4) x4 = x8.lo | x8.hi;
+#elif LANES == 4
+    const swordv x4 = x;
+#endif
+#if LANES >= 4
+    const PS_JOIN(SWORD, 2) x2 = x4.lo | x4.hi;
+#else
+    const swordv x2 = x;
+#endif
+    return (x2.lo | x2.hi) < 0;
+#endif
+}
+
+#endif
+
+#endif

@@ -1,0 +1,3 @@
+/* kernels/sphere in double precision. */
+#define PRECISION 64
+#include "sphere_header_cases.h"
