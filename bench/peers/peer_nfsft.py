@@ -14,7 +14,7 @@ from runner import Runner
 
 THRESHOLD = 1000.0  # of its fast polynomial transform, the default
 PLAN_BYTES = 4096  # its nfsft_plan has less than 1 KiB
-MOST_DEGREE = 1024  # precomputation takes gigabytes beyond
+MOST_DEGREE = 1024  # precomputation, a minute there, grows like its fourth power
 THREADS = 2
 
 
@@ -44,7 +44,7 @@ class Nfsft:
         from importlib.metadata import version
 
         self.flags = pyNFFT3.flags
-        self.library = library = ctypes.CDLL(pyNFFT3._nfftlib._name)
+        self.library = library = pyNFFT3._nfftlib
         for name in ("nfsft_init_guru", "nfsft_adjoint", "nfsft_precompute", "omp_set_num_threads"):
             if not hasattr(library, name):
                 raise ImportError(f"pynfft3 has no {name}")
@@ -77,7 +77,7 @@ class Nfsft:
 
     def open(self, points, precision, m, threads):
         if points.case.degree > MOST_DEGREE:
-            raise MemoryError("NFSFT would precompute gigabytes")
+            raise MemoryError("NFSFT would precompute for a quarter of an hour")
         self.precompute(points.case.degree, threads)
         return Runner([Plan(self, points, m)])
 
