@@ -131,8 +131,10 @@ plot "grid-single.txt" with linespoints pointtype 7 linecolor "#0072b2" \
 GNUPLOT
 
 # Time against error, pointspec and the libraries of others, from the last ./dev bench peers.
-peers=$docs/../bench-output/peers.csv
-if [[ -s $peers ]]; then
-    echo "figures: peers.png" >&2
-    "$docs/../bench/peers/plot.sh" "$peers" "$images/peers.png"
-fi
+for name in peers peers_sphere; do
+    peers=$docs/../bench-output/$name.csv
+    if [[ -s $peers ]]; then
+        echo "figures: $name.png" >&2
+        "$docs/../bench/peers/plot.sh" "$peers" "$images/$name.png"
+    fi
+done

@@ -29,13 +29,15 @@ table_bench_errors() { bench errors; }
 table_bench_memory() { bench memory; }
 table_bench_library() { bench library; }
 
-# A quarter of an hour, less with PEERS_OPTIONS=--quick; it also writes bench-output/peers.csv, which make_figures.sh
-# draws.
-table_bench_peers() {
+# A quarter of an hour each, less with PEERS_OPTIONS=--quick; they also write bench-output/peers.csv and
+# peers_sphere.csv, which make_figures.sh draws.
+peers() { # DOMAIN
     local options
     read -r -a options <<<"${PEERS_OPTIONS-}"
-    need libpointspec.so && "$docs/../bench/bench_peers.sh" --build "$build" "${options[@]}"
+    need libpointspec.so && "$docs/../bench/bench_peers.sh" --build "$build" --domain "$1" "${options[@]}"
 }
+table_bench_peers() { peers torus; }
+table_bench_peers_sphere() { peers sphere; }
 
 # What the last ./dev fuzz printed.
 table_fuzzing() { cat "$docs/../fuzz-output/table.txt"; }

@@ -1,13 +1,22 @@
-"""The problems: R realizations of N points in d dimensions, all frequencies |k_i| <= K."""
+"""The problems: R realizations of N points in d dimensions, all frequencies |k_i| <= K; and of N points of
+the sphere, all degrees up to L."""
 
 from typing import NamedTuple
 
 
-class Case(NamedTuple):
+def short(number):
+    return f"{number:.0e}".replace("e+0", "e") if number >= 10**6 else str(number)
+
+
+class TorusCase(NamedTuple):
     dimension: int
     points: int
     max_frequency: int
     realizations: int
+
+    @property
+    def numbers(self):
+        return list(self)
 
     @property
     def width(self):
@@ -18,29 +27,64 @@ class Case(NamedTuple):
         return self.width**self.dimension
 
     def __str__(self):
-        points = f"{self.points:.0e}".replace("e+0", "e") if self.points >= 10**6 else self.points
-        return f"{self.dimension} {points} {self.max_frequency} {self.realizations}"
+        return f"{self.dimension} {short(self.points)} {self.max_frequency} {self.realizations}"
 
 
-CASES = [
-    Case(2, 256, 32, 20000),
-    Case(2, 1024, 128, 1000),
-    Case(2, 4096, 64, 10000),
-    Case(2, 4096, 256, 1000),
-    Case(2, 16384, 512, 1000),
-    Case(2, 10**7, 1024, 1),
-    Case(1, 65536, 32768, 1000),
-    Case(3, 4096, 32, 1000),
-    Case(3, 10**6, 64, 4),
+class SphereCase(NamedTuple):
+    domain: str  # "s", where the others have their dimension
+    points: int
+    degree: int
+    realizations: int
+
+    @property
+    def dimension(self):
+        """Of the unit vectors."""
+        return 3
+
+    @property
+    def numbers(self):
+        return list(self[1:])
+
+    @property
+    def num_modes(self):
+        return (self.degree + 1) ** 2
+
+    def __str__(self):
+        return f"{self.domain} {short(self.points)} {self.degree} {self.realizations}"
+
+
+TORUS_CASES = [
+    TorusCase(2, 256, 32, 20000),
+    TorusCase(2, 1024, 128, 1000),
+    TorusCase(2, 4096, 64, 10000),
+    TorusCase(2, 4096, 256, 1000),
+    TorusCase(2, 16384, 512, 1000),
+    TorusCase(2, 10**7, 1024, 1),
+    TorusCase(1, 65536, 32768, 1000),
+    TorusCase(3, 4096, 32, 1000),
+    TorusCase(3, 10**6, 64, 4),
 ]
 
-TOLERANCES = [1e-3, 1e-6, 1e-9, 1e-12]
+SPHERE_CASES = [
+    SphereCase("s", 256, 64, 5000),
+    SphereCase("s", 1024, 128, 1000),
+    SphereCase("s", 4096, 256, 1000),
+    SphereCase("s", 16384, 512, 100),
+    SphereCase("s", 10**6, 1000, 4),
+    SphereCase("s", 10**7, 512, 1),
+    SphereCase("s", 4096, 2000, 10),
+]
+
+TORUS_TOLERANCES = [1e-3, 1e-6, 1e-9, 1e-12]
+SPHERE_TOLERANCES = [1e-5, 1e-12]
 
 
 def parse_case(text):
-    """ "2,1024,128,1000"; without R, that of the list above, else 1000."""
-    numbers = [int(float(word)) for word in text.split(",")]
-    if len(numbers) == 3:
-        known = [case.realizations for case in CASES if list(case[:3]) == numbers]
-        numbers.append(known[0] if known else 1000)
-    return Case(*numbers)
+    """ "2,1024,128,1000" or "s,1024,128,1000"; without R, that of the lists above, else 1000."""
+    words = text.split(",")
+    kind = SphereCase if words[0] == "s" else TorusCase
+    values = [word if word == "s" else int(float(word)) for word in words]
+    if len(values) == 3:
+        known = [case[3] for case in TORUS_CASES + SPHERE_CASES if list(case[:3]) == values]
+        values.append(known[0] if known else 1000)
+    return kind(*values)

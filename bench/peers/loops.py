@@ -1,4 +1,4 @@
-"""The C functions of loops.c."""
+"""The library of C loops, and the functions of loops.c in it."""
 
 import ctypes
 
@@ -13,6 +13,10 @@ _library = None
 def load(folder):
     global _library
     _library = ctypes.CDLL(str(folder / "libloops.so"))
+
+
+def library():
+    return _library
 
 
 def pointer(array):

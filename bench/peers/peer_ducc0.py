@@ -9,6 +9,11 @@ import loops
 from runner import Runner, thread_choices
 
 
+def eps_ladder(precision):
+    """Three a decade."""
+    return [10 ** (-j / 3) for j in range(3, 21 if precision == "single" else 44)]
+
+
 class Ducc0:
     name = "ducc0"
     precisions = ("single", "double")
@@ -26,7 +31,7 @@ class Ducc0:
         return [{"coordinates": kind} for kind in kinds]
 
     def ladder(self, precision):
-        return [10 ** (-j / 3) for j in range(3, 21 if precision == "single" else 44)]
+        return eps_ladder(precision)
 
     def guess(self, precision, tolerance):
         return sum(eps > tolerance for eps in self.ladder(precision))

@@ -18,6 +18,7 @@ KINDS = [("ducc0", ESTIMATE), ("fftw", ESTIMATE), ("fftw", MEASURE), ("wheel", E
 
 class Finufft:
     name = NAME
+    loose_name = "finufft fp32"
     precisions = ("single", "double")
     knob = "eps"
 

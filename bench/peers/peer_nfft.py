@@ -27,6 +27,10 @@ def smooth(number):
         number += 2
 
 
+def cut_off(tolerance):
+    return round(DIGITS * -math.log10(tolerance))
+
+
 class Nfft:
     name = "NFFT"
     precisions = ("double",)
@@ -41,7 +45,7 @@ class Nfft:
         self.create = pyNFFT3.NFFT
         self.version = version("pynfft3")
         self.how = (folder / "nfft.how").read_text().strip()
-        self.openmp = ctypes.CDLL("libgomp.so.1")
+        self.library.fftw_init_threads()
 
     def accuracies(self, points, precision):
         return [{"sigma": sigma} for sigma in (1.5, 2.0)]
@@ -50,7 +54,7 @@ class Nfft:
         return list(range(1, 15))
 
     def guess(self, precision, tolerance):
-        return round(DIGITS * -math.log10(tolerance))
+        return cut_off(tolerance)
 
     def variants(self, points, precision):
         small = points.case.num_modes < LARGEST_MEASURED
@@ -62,7 +66,7 @@ class Nfft:
         ]
 
     def open(self, points, precision, m, sigma, windows, planner, plans, threads):
-        self.openmp.omp_set_num_threads(threads)
+        self.library.omp_set_num_threads(threads)  # the library has an OpenMP of its own inside
         case = points.case
         if windows == "precomputed" and 8 * (2 * m + 2) * case.dimension * case.points > MOST_WINDOW_BYTES:
             raise MemoryError("precomputed windows of NFFT would be too large")

@@ -10,8 +10,9 @@ trap 'rm -rf "$scratch"' EXIT
     { echo "plot: $1 is not from bench_peers.sh" >&2; exit 1; }
 
 mapfile -t cases < <(tail -n +2 "$1" | cut -d, -f1-4 | awk '!seen[$0]++')
-styles=("finufft:5:#0072b2:1" "finufft fp32:4:#56b4e9:1" "ducc0:9:#009e73:1" "NFFT:11:#cc79a7:1"
-    "host_direct:2:#777777:1" "torus_direct:6:#e69f00:1.5" "torus_nufft:6:#8c510a:1.5" "pointspec:7:#d55e00:2")
+styles=("plain:1:#aaaaaa:1" "NFSFT:11:#cc79a7:1" "finufft:5:#0072b2:1" "finufft fp32:4:#56b4e9:1" "ducc0:9:#009e73:1" "NFFT:11:#cc79a7:1"
+    "host_direct:2:#777777:1" "torus_direct:6:#e69f00:1.5" "torus_nufft:6:#8c510a:1.5"
+    "sphere_direct:6:#e69f00:1.5" "sphere_nufft:6:#8c510a:1.5" "pointspec:7:#d55e00:2")
 width=3
 ((${#cases[@]} < width)) && width=${#cases[@]}
 rows=$(((${#cases[@]} + width - 1) / width))
@@ -31,14 +32,16 @@ set key below noenhanced samplen 1 maxrows 2'
     echo "set multiplot layout $rows,$width"
     for case in "${cases[@]}"; do
         IFS=, read -r dimension points frequency realizations <<<"$case"
-        echo "set title \"d = $dimension, N = $points, K = $frequency, R = $realizations\""
+        title="d = $dimension, N = $points, K"
+        [[ $dimension != s ]] || title="sphere, N = $points, L"
+        echo "set title \"$title = $frequency, R = $realizations\""
         plots=()
         # Direct sums have one error whatever is asked: the fastest of these is drawn.
         for style in "${styles[@]}"; do
             IFS=: read -r peer point color line <<<"$style"
             data=$scratch/${case//,/-}-${peer// /-}
             awk -F, -v which="$case" -v peer="$peer" \
-                '$1 "," $2 "," $3 "," $4 == which && $6 == peer && (!($10 in least) || $12 < least[$10]) { least[$10] = $12 }
+                '$1 "," $2 "," $3 "," $4 == which && $6 == peer && $10 != "" && (!($10 in least) || $12 < least[$10]) { least[$10] = $12 }
                 END { for (error in least) print error, least[error] }' "$1" | sort -g >"$data"
             [[ ! -s $data ]] ||
                 plots+=("\"$data\" with linespoints pointtype $point linecolor \"$color\" linewidth $line title \"$peer\"")

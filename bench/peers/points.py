@@ -1,6 +1,6 @@
-"""White points, the same for every peer, in the layout each peer likes best. Layouts are made outside
-of the clock; realizations that would take more than MOST_BYTES are not made, and the table says how many
-were used."""
+"""White points of the torus, the same for every peer, in the layout each peer likes best. Layouts are made
+outside of the clock; realizations that would take more than MOST_BYTES are not made, and the table says how
+many were used."""
 
 import numpy as np
 
@@ -8,22 +8,29 @@ MOST_BYTES = 256 << 20
 
 
 class Points:
+    """rows: [realization][point][coordinate]. Kinds of points say make_rows() and make_layout()."""
+
     def __init__(self, case):
         self.case = case
         set_bytes = 8 * case.points * case.dimension
         self.count = max(1, min(case.realizations, MOST_BYTES // set_bytes))
-        generator = np.random.default_rng(list(case))
-        self.rows = generator.random((self.count, case.points, case.dimension))
+        self.rows = self.make_rows(np.random.default_rng(case.numbers))
         self._layouts = {"rows double": self.rows}
 
     def layout(self, name):
+        """ "KIND PRECISION" """
         if name not in self._layouts:
-            self._layouts[name] = self._make(name)
+            kind, precision = name.split()
+            dtype = np.float32 if precision == "single" else np.float64
+            self._layouts[name] = self.make_layout(kind, dtype)
         return self._layouts[name]
 
-    def _make(self, name):
-        kind, precision = name.split()
-        dtype = np.float32 if precision == "single" else np.float64
+
+class TorusPoints(Points):
+    def make_rows(self, generator):
+        return generator.random((self.count, self.case.points, self.case.dimension))
+
+    def make_layout(self, kind, dtype):
         if kind == "rows":
             return self.rows.astype(dtype)
         centred = self.rows - (self.rows >= 0.5)  # exact

@@ -9,36 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-ENGINES = ["torus_nufft", "torus_direct", "host_direct"]
-
 
 class Planned(NamedTuple):
-    engine: str
-    seconds: float  # of a realization
-
-
-class Request(ctypes.Structure):
-    """pspec_power_request"""
-
-    _fields_ = [
-        ("struct_size", ctypes.c_size_t),
-        ("dimension", ctypes.c_uint),
-        ("num_points", ctypes.c_size_t),
-        ("num_realizations", ctypes.c_uint64),
-        ("max_frequency", ctypes.c_int32),
-        ("frequencies", ctypes.c_void_p),
-        ("num_frequencies", ctypes.c_size_t),
-        ("exact_shells", ctypes.c_int),
-        ("rings_only", ctypes.c_int),
-        ("normalization", ctypes.c_int),
-        ("tolerance", ctypes.c_double),
-        ("floor", ctypes.c_double),
-        ("engine", ctypes.c_char_p),
-        ("precision", ctypes.c_char_p),
-        ("no_self_check", ctypes.c_int),
-        ("per_ring", ctypes.c_uint64),
-        ("per_ring_seed", ctypes.c_uint64),
-    ]
+    chosen: str
+    seconds: dict  # of a realization, for every engine that meets the tolerance
 
 
 class Pattern(ctypes.Structure):
@@ -55,7 +29,8 @@ class Pattern(ctypes.Structure):
 class Pointspec:
     name = "pointspec"
 
-    def __init__(self, build):
+    def __init__(self, build, question):
+        self.question = question
         self.program = build / "pointspec"
         self.library = library = ctypes.CDLL(str(build / "libpointspec.so"))
         library.pspec_version.restype = ctypes.c_char_p
@@ -72,20 +47,25 @@ class Pointspec:
             raise RuntimeError(self.library.pspec_context_message(self.context).decode())
 
     def plan(self, case, tolerance, engine):
-        """What `pointspec plan` chooses, of all or with this engine."""
+        """What `pointspec plan` says, of all engines or with this one."""
         command = [
-            self.program, "plan", "power", "--sampler", "white", "-n", case.points,
-            "-m", case.realizations, "-d", case.dimension, "-k", case.max_frequency,
+            self.program, "plan", *self.question.arguments(case), "-n", case.points, "-m", case.realizations,
             "--tol", tolerance] + (["--engine", engine] if engine else [])
         done = subprocess.run([str(word) for word in command], capture_output=True, text=True)
         if done.returncode:
             raise RuntimeError(done.stderr.strip().splitlines()[-1])
         table = csv.DictReader(line for line in done.stdout.splitlines() if line[:1] != "#")
-        chosen = next((row for row in table if row["verdict"] == "chosen"), None)
+        chosen, seconds = None, {}
+        for row in table:
+            name = row["engine"].partition(":")[0]  # without the precision
+            if row["verdict"] == "chosen":
+                chosen = name
+            if row["verdict"] in ("chosen", "slower"):
+                planned = float(row["seconds"]) / case.realizations
+                seconds[name] = min(planned, seconds.get(name, planned))
         if chosen is None:
             raise RuntimeError(f"{engine or 'no engine'} cannot do this")
-        engine = chosen["engine"].partition(":")[0]  # without the precision
-        return Planned(engine, float(chosen["seconds"]) / case.realizations)
+        return Planned(chosen, seconds)
 
     def open(self, points, tolerance, engine):
         return PointspecRunner(self, points, tolerance, engine)
@@ -95,12 +75,10 @@ class PointspecRunner:
     def __init__(self, peer, points, tolerance, engine):
         self.peer, self.points, self.library = peer, points, peer.library
         case = points.case
-        self.request = Request(
-            struct_size=ctypes.sizeof(Request), dimension=case.dimension, num_points=case.points,
-            num_realizations=case.realizations, max_frequency=case.max_frequency,
-            tolerance=tolerance, engine=engine.encode() if engine else None, no_self_check=1)
+        create, self.request = peer.question.request(
+            case, tolerance, engine.encode() if engine else None)
         self.plan = ctypes.c_void_p()
-        peer.check(self.library.pspec_plan_create(
+        peer.check(getattr(self.library, create)(
             ctypes.byref(self.plan), peer.context, ctypes.byref(self.request)))
         self.text = self.library.pspec_plan_text(self.plan).decode().strip("()")
         stride = 8 * case.points * case.dimension
@@ -124,7 +102,7 @@ class PointspecRunner:
         return time.perf_counter() - begin, float("nan")
 
     def magnitudes(self, realization):
-        """(|S| of the half lattice, the error that pointspec claims)."""
+        """(|S| or sqrt(Q(l)) of all frequencies or degrees, the error that pointspec claims)."""
         case = self.points.case
 
         def use(spectrum):

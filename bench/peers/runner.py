@@ -50,8 +50,8 @@ class Runner:
 SHARED_MODES = 1 << 18  # below, two threads in one plan were 3 to 100 times slower than two plans
 
 
-def thread_choices(points):
+def thread_choices(points, shared_modes=SHARED_MODES):
     """[(plans, threads of each)]; two plans have nothing to share with one realization."""
     if points.count == 1:
         return [(1, 2)]
-    return [(2, 1), (1, 2)] if points.case.num_modes >= SHARED_MODES else [(2, 1)]
+    return [(2, 1), (1, 2)] if points.case.num_modes >= shared_modes else [(2, 1)]

@@ -7,16 +7,17 @@ LONG_SECONDS = 2.5  # one run of this is all
 
 
 class Contestant:
-    def __init__(self, name, runner, num_available):
+    def __init__(self, name, runner, num_available, batch=1):
+        """batch: realizations that it takes to show its speed."""
         self.name, self.runner = name, runner
         self.num_available = num_available
+        self.least = min(max(batch, len(getattr(runner, "plans", [None]))), num_available)
         self.seconds, self.accumulating = [], []  # of a realization, by round
         self.count = 0
 
     def settle(self, seconds_a_round):
         """How many realizations a round takes; the runs for that are also those that warm up."""
-        least = min(len(getattr(self.runner, "plans", [None])), self.num_available)
-        count = least
+        count = self.least
         fastest = float("inf")
         while True:
             seconds = self.runner.run(count)[0]
@@ -28,7 +29,7 @@ class Contestant:
         if self.too_long:
             self.seconds, self.accumulating, self.count = [seconds / count], [float("nan")], count
         else:
-            self.count = max(least, min(self.num_available, int(seconds_a_round / fastest)))
+            self.count = max(self.least, min(self.num_available, int(seconds_a_round / fastest)))
 
     def round(self):
         if not self.too_long:

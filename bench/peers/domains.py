@@ -1,0 +1,42 @@
+"""The torus and the sphere: their problems, who solves them, and how results are measured."""
+
+from typing import Callable, NamedTuple
+
+from cases import (SPHERE_CASES, SPHERE_TOLERANCES, TORUS_CASES, TORUS_TOLERANCES, SphereCase)
+from peer_ducc0 import Ducc0
+from peer_ducc0_sphere import Ducc0Sphere
+from peer_finufft import Finufft
+from peer_nfft import Nfft
+from peer_nfsft import Nfsft
+from plain import PlainRunner
+from points import TorusPoints
+from points_sphere import SpherePoints
+from pointspec_questions import SphereQuestion, TorusQuestion
+from reference import TorusReference
+from reference_sphere import SphereReference
+
+
+class Domain(NamedTuple):
+    heading: str  # of a case in the table
+    cases: list
+    tolerances: list
+    peers: dict  # by the name of the library
+    points: Callable
+    reference: Callable
+    question: object  # for pointspec
+    beside: str  # the engine that has a column of its own; all are in the CSV file and the picture
+    plain: Callable  # what one writes first, or None
+    csv_name: str
+
+
+DOMAINS = {
+    "torus": Domain("d N K R", TORUS_CASES, TORUS_TOLERANCES, {"finufft": Finufft, "ducc0": Ducc0, "nfft": Nfft},
+                    TorusPoints, TorusReference, TorusQuestion(), "torus_direct", None, "peers.csv"),
+    "sphere": Domain("s N L R", SPHERE_CASES, SPHERE_TOLERANCES, {"ducc0": Ducc0Sphere, "nfft": Nfsft},
+                     SpherePoints, SphereReference, SphereQuestion(), "sphere_direct", PlainRunner,
+                     "peers_sphere.csv"),
+}
+
+
+def domain_of(case):
+    return "sphere" if isinstance(case, SphereCase) else "torus"
