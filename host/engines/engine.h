@@ -36,7 +36,7 @@ typedef struct ps_problem {
         block_points; /* of a set in host memory at a time, where the engine allows it; 0: all */
 } ps_problem;
 
-/* 1 where nothing is known. */
+/* That of white noise where nothing is known: 1, with a margin on the sphere. */
 double ps_expected_power(const ps_problem *problem);
 
 /* Work and memory of a whole job. */

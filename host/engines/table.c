@@ -6,6 +6,8 @@
 #include "engines/torus_direct.h"
 #include "engines/torus_nufft.h"
 
+#include <math.h>
+
 const ps_engine *const ps_engines[] = {&ps_torus_nufft,   &ps_torus_direct, &ps_sphere_nufft,
                                        &ps_sphere_direct, &ps_host_direct,  NULL};
 
@@ -50,8 +52,17 @@ unsigned ps_problem_domain(const ps_problem *problem) {
     return problem->frequencies->kind == PS_FREQUENCIES_DEGREES ? PS_ON_SPHERE : PS_ON_TORUS;
 }
 
+/* On the sphere white sets are planned for with a margin, since what is above 1 counts there by its square root: the
+ * mean of (L + 1)^2 modes, half of them independent, stays within four standard deviations. (torus_nufft has a
+ * margin of its own; the other engines of the torus hardly feel it.) */
+static double white_power(const ps_problem *problem) {
+    const double most = 1.5;
+    const double num_modes = pow(problem->frequencies->max_frequency + 1.0, 2);
+    return ps_problem_domain(problem) == PS_ON_SPHERE ? fmin(most, 1 + 4 * sqrt(2 / num_modes)) : 1;
+}
+
 double ps_expected_power(const ps_problem *problem) {
-    return problem->expected_power > 0 ? problem->expected_power : 1;
+    return problem->expected_power > 0 ? problem->expected_power : white_power(problem);
 }
 
 const char *ps_precision_name(ps_precision precision) {
