@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 __extension__ typedef unsigned __int128 wide; /* not in ISO C */
 
@@ -80,17 +81,30 @@ void ps_sphere_places_free(ps_sphere_places *points) {
 
 /* ---- make -------------------------------------------------------------------------------- */
 
-static pspec_status upload_points(ps_sphere_places *self, const ps_batch *batch, ps_error *error) {
-    const size_t bytes = PS_SPHERE_DIMENSION * sizeof(double);
+static void copy_points(ps_sphere_places *self, double *vectors, const ps_batch *batch) {
     size_t at = 0;
     for (size_t r = 0; r < batch->num_patterns; r++) {
         const pspec_pattern *pattern = &batch->patterns[r];
         self->host_offsets[r] = at;
-        PS_TRY(ps_buffer_write(self->device, &self->vectors, at * bytes, pattern->points,
-                               pattern->num_points * bytes, error));
+        memcpy(vectors + at * PS_SPHERE_DIMENSION, pattern->points,
+               pattern->num_points * PS_SPHERE_DIMENSION * sizeof(double));
         at += pattern->num_points;
     }
     self->host_offsets[batch->num_patterns] = at;
+}
+
+/* All patterns in one go: a write of its own for each woke a thread of the driver for each, which took as long as the
+ * transforms of 256 points. */
+static pspec_status upload_points(ps_sphere_places *self, const ps_batch *batch, ps_error *error) {
+    ps_mapping mapping = {0};
+    PS_TRY(ps_mapping_begin(self->device, &mapping, &self->vectors, error));
+    const pspec_status status = ps_mapping_wait(&mapping, error);
+    if (status != PSPEC_OK) {
+        ps_mapping_abandon(self->device, &mapping);
+        return status;
+    }
+    copy_points(self, mapping.data, batch);
+    PS_TRY(ps_mapping_end(self->device, &mapping, error));
     return ps_buffer_write(self->device, &self->offsets, 0, self->host_offsets,
                            (batch->num_patterns + 1) * sizeof(uint64_t), error);
 }
