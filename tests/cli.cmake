@@ -15,6 +15,6 @@ add_program_test(cli_program)   # streams, signals, formats, same bits
 add_program_test(cli_convert)   # every format to every other, pipes, gzip, memory
 add_program_test(cli_formats)   # files as other tools write them
 add_program_test(cli_angular)   # the sphere: formats, header, what is refused
-add_program_test(cli_tolerance) # --tol and --floor: kept or refused; threads change no bit
+add_program_test(cli_tolerance) # --tol and --floor, torus and sphere: kept or refused; threads change no bit
 add_program_test(cli_examples)  # the examples of every --help
 add_program_test(cli_man ${PROJECT_SOURCE_DIR}/docs/man)   # man pages agree with the option table
