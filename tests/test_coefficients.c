@@ -1,0 +1,106 @@
+/* Coefficients on the sphere through the public library, by the referee: closed forms, laws, errors. Numbers against
+ * the reference are in test_sphere_reference.c.
+ */
+#include "harness_angular.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { NUM_COEFFICIENTS = (TEST_MAX_DEGREE + 1) * (TEST_MAX_DEGREE + 2) };
+
+/* |c_lm|^2 summed over all orders. */
+static double sum_orders(const double *c, int l) {
+    double sum = 0;
+    for (int m = 0; m <= l; m++) {
+        const double *z = c + m * (2 * TEST_MAX_DEGREE + 1 - m) + 2 * l;
+        sum += (m > 0 ? 2 : 1) * (z[0] * z[0] + z[1] * z[1]);
+    }
+    return sum;
+}
+
+/* Weights as they are; powers follow; closed forms of low degrees. */
+static void coefficients(void **state) {
+    (void)state;
+    const double four_pi = 12.566370614359172954;
+    pspec_context *context = pspec_context_create();
+    const pspec_angular_request request = test_angular_request();
+    pspec_plan *plan = NULL;
+    double *vectors = test_make_vectors(TEST_NUM_POINTS, 5);
+    double weights[TEST_NUM_POINTS];
+    double c[NUM_COEFFICIENTS];
+    double sum = 0;
+    double dipole[3] = {0, 0, 0};
+    for (size_t j = 0; j < TEST_NUM_POINTS; j++) {
+        weights[j] = 1e200 * ((double)j - 4);
+        sum += weights[j];
+        for (size_t axis = 0; axis < 3; axis++) {
+            dipole[axis] += weights[j] * vectors[3 * j + axis];
+        }
+    }
+    const pspec_pattern pattern = {3, TEST_NUM_POINTS, vectors, weights};
+    pspec_spectrum *spectrum = test_estimate_angular(context, &request, &pattern, 1);
+    assert_int_equal(pspec_plan_create_angular(&plan, context, &request), PSPEC_OK);
+    assert_int_equal(pspec_plan_coefficients(plan, &pattern, 0, c), PSPEC_OK);
+    test_assert_near(c[0] / sum, 1 / sqrt(four_pi), 1e-15);
+    test_assert_near(c[2] / sum, sqrt(3 / four_pi) * dipole[2] / sum, 1e-15);
+    const double *c_11 = c + 2 * TEST_MAX_DEGREE + 2; /* -sqrt(3 / (8 pi)) (x + iy) */
+    test_assert_near(c_11[0] / sum, -sqrt(1.5 / four_pi) * dipole[0] / sum, 1e-15);
+    test_assert_near(c_11[1] / sum, -sqrt(1.5 / four_pi) * dipole[1] / sum, 1e-15);
+    size_t num = 0;
+    const pspec_bin *bins = pspec_spectrum_bins(spectrum, &num);
+    for (int l = 1; l <= TEST_MAX_DEGREE; l++) {
+        for (int i = 0; i < NUM_COEFFICIENTS && l == 1; i++) {
+            c[i] /= sum; /* squares of 1e200 are none */
+        }
+        const double power = TEST_NUM_POINTS * four_pi / (2 * l + 1) * sum_orders(c, l);
+        test_assert_near(bins[l - 1].power / power, 1, 1e-13);
+    }
+    pspec_plan_destroy(plan);
+    pspec_spectrum_destroy(spectrum);
+    free(vectors);
+    pspec_context_destroy(context);
+}
+
+/* Of one point: the addition theorem, and the first degrees (mathematics.md 4.2). */
+static void hemispherical_harmonics(void **state) {
+    (void)state;
+    const double two_pi = 6.283185307179586477;
+    static const double points[][3] = {
+        {0.6, 0, 0.8}, {0, 0, 1}, {1, 0, 0}, {0.28, 0.96, 0}, {1e-9, -1e-9, 1}};
+    pspec_context *context = pspec_context_create();
+    const pspec_angular_request request = test_angular_request();
+    pspec_plan *plan = NULL;
+    double c[NUM_COEFFICIENTS];
+    assert_int_equal(pspec_plan_create_angular(&plan, context, &request), PSPEC_OK);
+    for (size_t i = 0; i < sizeof points / sizeof points[0]; i++) {
+        const pspec_pattern pattern = test_vectors(points[i], 1);
+        assert_int_equal(pspec_plan_coefficients(plan, &pattern, 1, c), PSPEC_OK);
+        test_assert_near(c[0], 1 / sqrt(two_pi), 1e-15);
+        test_assert_near(c[2], sqrt(3 / two_pi) * (2 * points[i][2] - 1), 1e-15);
+        for (int l = 0; l <= TEST_MAX_DEGREE; l++) {
+            test_assert_near(sum_orders(c, l) * two_pi / (2 * l + 1), 1, 1e-14);
+        }
+    }
+    static const double below[3] = {0.6, 0, -0.8};
+    const pspec_pattern pattern = test_vectors(below, 1);
+    assert_int_equal(pspec_plan_coefficients(plan, &pattern, 1, c), PSPEC_ERROR_INPUT);
+    assert_non_null(strstr(pspec_context_message(context), "below the horizon"));
+    assert_int_equal(pspec_plan_coefficients(plan, &pattern, 0, c), PSPEC_OK);
+    assert_int_equal(pspec_plan_coefficients(plan, NULL, 0, c), PSPEC_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(pspec_plan_coefficients(NULL, &pattern, 0, c), PSPEC_ERROR_INVALID_ARGUMENT);
+    pspec_plan_destroy(plan);
+    const pspec_power_request power = test_host_request();
+    assert_int_equal(pspec_plan_create(&plan, context, &power), PSPEC_OK);
+    assert_int_equal(pspec_plan_coefficients(plan, &pattern, 0, c), PSPEC_ERROR_INVALID_ARGUMENT);
+    pspec_plan_destroy(plan);
+    pspec_context_destroy(context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(coefficients),
+        cmocka_unit_test(hemispherical_harmonics),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
