@@ -43,8 +43,12 @@ static void make_example(example *out, size_t num_curves, bool has_image, bool h
                                          out->anisotropy};
     }
     out->picture = (ps_plot_image){IMAGE_SIZE, out->image, 8};
-    out->plot = (ps_plot){"it's \"a_b\"\nexit 1; `false` {", num_curves, out->curves,
-                          has_image ? &out->picture : NULL, has_errors ? -10 : (double)NAN, false};
+    out->plot = (ps_plot){"it's \"a_b\"\nexit 1; `false` {",
+                          num_curves,
+                          out->curves,
+                          has_image ? &out->picture : NULL,
+                          has_errors ? -10 : (double)NAN,
+                          false};
 }
 
 static bool has_gnuplot(void) {

@@ -10,9 +10,9 @@
 /* The question, as far as skipping goes. */
 typedef struct ps_needs_question {
     unsigned dimension;
-    int32_t max_frequency;     /* of a grid; 0 for a list of frequencies */
+    int32_t max_frequency;         /* of a grid; 0 for a list of frequencies */
     bool on_sphere, on_hemisphere; /* degrees instead of frequencies */
-    bool wants_full_array;     /* every frequency of the box, corners too */
+    bool wants_full_array;         /* every frequency of the box, corners too */
     double share_not_drawn;    /* of the frequencies of the rings, when a random subset is to do */
     bool has_constant_power;   /* all realizations have the same power: deterministic, or shifted */
     bool is_homogenized;       /* a random shift of every realization was asked for */

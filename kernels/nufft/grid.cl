@@ -93,8 +93,8 @@ nufft_grid(__global const ulong *restrict places, __global const ulong *restrict
            const uint block_width, const uint block_degree, const uint block_bins,
            __global const real *restrict last_window, const uint last_n, const uint last_width,
            const uint last_degree, const uint last_bins, const uint first_block,
-           const uint is_first, __global real *restrict high, __global real *restrict low, __local real *rows,
-           __local real *windows, __local uint *cells) {
+           const uint is_first, __global real *restrict high, __global real *restrict low,
+           __local real *rows, __local real *windows, __local uint *cells) {
     const uint num_blocks = (block_n + BLOCK_ROWS - 1) / BLOCK_ROWS;
     const size_t block = first_block + get_global_id(1);
     const uint outer_cell = block / num_blocks;
