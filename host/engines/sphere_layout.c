@@ -6,7 +6,7 @@
 #include <math.h>
 
 /* Rows of power kernels are whole vectors, and the last block of degrees may reach behind L. */
-enum { ROW_UNIT = 16, SUMS_PER_DEGREE = 4, POWERS_PER_DEGREE = 2 };
+enum { ROW_UNIT = 16 };
 
 /* Sums and table of a pass, for one realization: all orders to L = 2000 in single precision. Larger ones would only
  * take memory: a pass costs nothing but its table, which is made anew for every batch then. */
@@ -19,14 +19,14 @@ enum { SLAB_CHUNKS = 256 };
  * about a second (3e9 to 9e9 in a second, docs/sphere_direct.md). */
 static const double launch_harmonics = 4e9;
 
-/* Numbers of a point on the device: six of its direction and its weight; besides, its azimuth and coordinates, which
- * the host keeps, too. */
-enum { REALS_PER_POINT = 7 };
+/* Numbers of a point on the device: of its direction and its weight; besides, its azimuth and coordinates, which the
+ * host keeps, too. */
+enum { REALS_PER_POINT = PS_SPHERE_ARRAYS + 1 };
 
 static size_t find_pass_orders(const ps_sphere_layout *layout) {
     const double order_bytes =
         (double)layout->real_bytes *
-        ((double)(SUMS_PER_DEGREE * layout->stride) +
+        ((double)(PS_SPHERE_SUMS * layout->stride) +
          (double)(ps_sphere_blocks(layout->max_degree, 0) * PS_SPHERE_BLOCK_REALS));
     const size_t all = (size_t)layout->max_degree + 1;
     const size_t fit = (size_t)(pass_bytes / order_bytes) / PS_SPHERE_ORDERS * PS_SPHERE_ORDERS;
@@ -46,8 +46,8 @@ static size_t find_slab(const ps_sphere_layout *layout, uint64_t num_points) {
 static void count_bytes(ps_sphere_layout *layout) {
     const double real_bytes = (double)layout->real_bytes;
     const double sums =
-        (double)(layout->pass_orders * layout->stride * SUMS_PER_DEGREE) * real_bytes;
-    const double powers = (double)(layout->stride * POWERS_PER_DEGREE) * real_bytes;
+        (double)(layout->pass_orders * layout->stride * PS_SPHERE_SUMS) * real_bytes;
+    const double powers = (double)(layout->stride * PS_SPHERE_POWERS) * real_bytes;
     const double points = (double)layout->slab * (REALS_PER_POINT * real_bytes + sizeof(uint64_t) +
                                                   PS_SPHERE_DIMENSION * sizeof(double));
     const double table = (double)(layout->pass_blocks * PS_SPHERE_BLOCK_REALS) * real_bytes +
