@@ -103,6 +103,14 @@ runs 2 --engine host_direct -l 3 two.txt --coefficients d.npy
 says '--select-sets'
 [[ ! -e d.npy ]] || complain 'coefficients of two sets were written'
 runs 0 --engine host_direct -l 3 two.txt --select-sets 2 --coefficients d.npy
+runs 2 --engine host_direct -l 3 --sampler white-sphere -n 9 -m 2 --coefficients e.npy
+says '2 realizations'
+[[ ! -e e.npy ]] || complain 'coefficients of two realizations were written'
+# Powers do not change with a rotation, but coefficients do: none is left out then.
+"$program" sample --sampler fibonacci -n 48 --homogenize -o turned.npy
+runs 0 --engine host_direct -l 6 turned.npy --coefficients of_file.npy
+runs 0 --engine host_direct -l 6 --sampler fibonacci -n 48 --homogenize --coefficients of_sampler.npy
+cmp -s of_file.npy of_sampler.npy || complain 'coefficients of a turned set are not those of its points'
 runs 2 --engine host_direct -l 3 plain.txt --coefficients d.csv
 says 'does not end in .npy'
 runs 2 --engine host_direct -l 3 plain.txt --harmonics hemispherical

@@ -2,6 +2,7 @@
 #include "harness_sphere.h"
 
 #include "engines/sphere_direct.h"
+#include "engines/sphere_layout.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -202,6 +203,46 @@ static void batches_change_no_bit(void **state) {
     ps_frequencies_free(&degrees);
 }
 
+/* Slabs as large as a set, and of whole chunks, with sets of several slabs and of less beside each other. */
+static void slabs_change_no_bit(void **state) {
+    (void)state;
+    enum { SETS = 3, LARGEST = 1700 };
+    uint64_t seed = 21;
+    double *points = test_sphere_white_set(LARGEST, &seed);
+    const pspec_pattern patterns[SETS] = {
+        {3, 600, points, NULL}, {3, LARGEST, points, NULL}, {3, 20, points, NULL}};
+    ps_frequencies degrees = test_degrees(60, false);
+    double *whole = run(PS_SINGLE, &degrees, patterns, SETS, SETS);
+    for (uint64_t slab = 512; slab <= 1024; slab += 512) {
+        const ps_problem problem = {
+            .frequencies = &degrees, .num_points = slab, .num_realizations = SETS, .tolerance = 1};
+        double *q =
+            test_run_problem(&ps_sphere_direct, &problem, PS_SINGLE, device, patterns, SETS, SETS);
+        assert_memory_equal(q, whole, SETS * degrees.num * sizeof *q);
+        free(q);
+    }
+    free(whole);
+    free(points);
+    ps_frequencies_free(&degrees);
+}
+
+/* A launch of any degree and number of points is of a chunk or of a few seconds at most. */
+static void launches_are_short(void **state) {
+    (void)state;
+    const double most = 4e9; /* harmonics */
+    for (int32_t l = 1; l <= 32768; l *= 8) {
+        ps_frequencies degrees = {0};
+        assert_ok(ps_frequencies_degrees(&degrees, l, false, error));
+        const ps_problem problem = {.frequencies = &degrees, .num_points = 10000000000};
+        const ps_sphere_layout layout =
+            ps_sphere_layout_make(&problem, ps_device_get_limits(device), PS_SINGLE);
+        assert_int_equal(layout.slab % PS_SPHERE_CHUNK, 0);
+        assert_true(layout.slab == PS_SPHERE_CHUNK ||
+                    (double)layout.slab * (double)layout.pass_orders * l <= most);
+        ps_frequencies_free(&degrees);
+    }
+}
+
 /* ---- spherical designs --------------------------------------------------------------------- */
 
 typedef struct design {
@@ -271,6 +312,7 @@ int main(void) {
         cmocka_unit_test(antipodal_pair),        cmocka_unit_test(rotations_change_nothing),
         cmocka_unit_test(white_noise),           cmocka_unit_test(even_degrees),
         cmocka_unit_test(batches_change_no_bit), cmocka_unit_test(designs_have_no_power),
+        cmocka_unit_test(slabs_change_no_bit),   cmocka_unit_test(launches_are_short),
     };
     device = test_open_device();
     const int failures = cmocka_run_group_tests_name("sphere_direct", tests, NULL, NULL);

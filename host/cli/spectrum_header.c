@@ -92,11 +92,11 @@ static void put_frequencies(header *to, const ps_arguments *arguments, const ps_
     put_subset(to, arguments, set);
 }
 
-static void put_self_check(header *to, const ps_accuracy *accuracy) {
+static void put_self_check(header *to, const ps_accuracy *accuracy, bool on_sphere) {
     char text[96];
     if (accuracy->was_checked) {
-        snprintf(text, sizeof text, "%.2g sqrt(sum w^2), largest deviation of |S| from host_direct",
-                 accuracy->self_check);
+        snprintf(text, sizeof text, "%.2g sqrt(sum w^2), largest deviation of %s from host_direct",
+                 accuracy->self_check, on_sphere ? "sqrt(Q(l))" : "|S|");
         put(to, "self_check", PS_TEXT(text));
     } else {
         put(to, "self_check", PS_TEXT("none"));
@@ -141,7 +141,8 @@ static void put_job(header *to, const ps_arguments *arguments, const ps_power_jo
     if (ps_power_job_was_replanned(job)) {
         put(to, "planned_twice", PS_TEXT("the powers measured needed a more exact engine"));
     }
-    put_self_check(to, ps_power_job_accuracy(job));
+    put_self_check(to, ps_power_job_accuracy(job),
+                   is_on_sphere(ps_power_job_problem(job)->frequencies));
     ps_needs_describe(ps_power_job_needs(job), &skipped);
     if (to->status == PSPEC_OK) {
         to->status = ps_text_check(&skipped, to->error);

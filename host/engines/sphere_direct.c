@@ -30,8 +30,6 @@ typedef struct sphere_direct {
     ps_buffer table, blocks, sums, powers;
 } sphere_direct;
 
-enum { SUMS_PER_DEGREE = 4, POWERS_PER_DEGREE = 2 };
-
 /* ---- what the planner asks --------------------------------------------------------------- */
 
 static bool applicable(const ps_problem *problem, const ps_device_limits *limits,
@@ -123,7 +121,7 @@ static pspec_status allocate_on_host(sphere_direct *self, ps_error *error) {
     self->host_table = memory;
     PS_TRY(ps_allocate(&memory, layout->pass_orders, sizeof(uint32_t), "places of orders", error));
     self->host_blocks = memory;
-    PS_TRY(ps_allocate(&self->host_rows, SUMS_PER_DEGREE * layout->stride, layout->real_bytes,
+    PS_TRY(ps_allocate(&self->host_rows, PS_SPHERE_SUMS * layout->stride, layout->real_bytes,
                        "sums of an order", error));
     PS_TRY(ps_allocate(&memory, self->batch, num * sizeof(double), "the powers of a batch", error));
     self->power = memory;
@@ -144,9 +142,9 @@ static pspec_status create_buffers(sphere_direct *self, ps_error *error) {
     PS_TRY(ps_buffer_create(self->device, &self->blocks, layout->pass_orders * sizeof(uint32_t),
                             "places of orders", error));
     PS_TRY(ps_buffer_create(self->device, &self->sums,
-                            self->batch * layout->pass_orders * SUMS_PER_DEGREE * row,
+                            self->batch * layout->pass_orders * PS_SPHERE_SUMS * row,
                             "coefficients of a batch", error));
-    return ps_buffer_create(self->device, &self->powers, self->batch * POWERS_PER_DEGREE * row,
+    return ps_buffer_create(self->device, &self->powers, self->batch * PS_SPHERE_POWERS * row,
                             "powers of a batch", error);
 }
 
@@ -295,7 +293,7 @@ static pspec_status read_powers(sphere_direct *self, const ps_batch *batch, ps_e
     const double four_pi = 12.566370614359172;
     const ps_frequencies *set = self->frequencies;
     const size_t stride = self->layout.stride;
-    const size_t bytes = POWERS_PER_DEGREE * stride * self->layout.real_bytes;
+    const size_t bytes = PS_SPHERE_POWERS * stride * self->layout.real_bytes;
     for (size_t r = 0; r < batch->num_patterns; r++) {
         PS_TRY(
             ps_buffer_read(self->device, &self->powers, r * bytes, self->host_rows, bytes, error));
@@ -331,7 +329,7 @@ static pspec_status read_order(sphere_direct *self, size_t order, int32_t m, boo
                                int exponent, double *out, ps_error *error) {
     const ps_sphere_layout *layout = &self->layout;
     const size_t stride = layout->stride;
-    const size_t bytes = SUMS_PER_DEGREE * stride * layout->real_bytes;
+    const size_t bytes = PS_SPHERE_SUMS * stride * layout->real_bytes;
     const int64_t max_degree = layout->max_degree;
     double *to = out + m * (2 * max_degree + 1 - m);
     PS_TRY(ps_buffer_read(self->device, &self->sums, order * bytes, self->host_rows, bytes, error));

@@ -9,6 +9,9 @@
  * spread the cost of an exact beginning, but each multiplies its rounding errors on. */
 enum { PS_SPHERE_CHUNK = 512, PS_SPHERE_ORDERS = 16 };
 
+/* Numbers of a point that kernels/sphere/prepare.cl makes, of a coefficient and of a power: (re, im) and high, low. */
+enum { PS_SPHERE_ARRAYS = 6, PS_SPHERE_SUMS = 4, PS_SPHERE_POWERS = 2 };
+
 typedef struct ps_sphere_layout {
     int32_t max_degree;
     bool only_even;

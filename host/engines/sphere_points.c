@@ -8,8 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NUM_ARRAYS = 6 }; /* kernels/sphere/layout.h */
-
 static pspec_status create_prepare(ps_sphere_points *self, ps_error *error) {
     const ps_sphere_layout *layout = self->layout;
     ps_text options = {0};
@@ -34,8 +32,8 @@ static pspec_status allocate_on_host(ps_sphere_points *self, ps_error *error) {
     PS_TRY(ps_allocate(&memory, self->batch + 1, sizeof(uint64_t), "offsets", error));
     self->host_offsets = memory;
     if (self->prepare == NULL) {
-        PS_TRY(ps_allocate(&self->host_values, capacity, NUM_ARRAYS * self->layout->real_bytes,
-                           "directions", error));
+        PS_TRY(ps_allocate(&self->host_values, capacity,
+                           PS_SPHERE_ARRAYS * self->layout->real_bytes, "directions", error));
         PS_TRY(ps_allocate(&memory, capacity, sizeof(uint64_t), "azimuths", error));
         self->host_turns = memory;
     }
@@ -56,7 +54,7 @@ pspec_status ps_sphere_points_create(ps_sphere_points *out, const ps_sphere_layo
     PS_TRY(allocate_on_host(out, error));
     PS_TRY(ps_buffer_create(device, &out->points, capacity * PS_SPHERE_DIMENSION * sizeof(double),
                             "points", error));
-    PS_TRY(ps_buffer_create(device, &out->values, capacity * NUM_ARRAYS * layout->real_bytes,
+    PS_TRY(ps_buffer_create(device, &out->values, capacity * PS_SPHERE_ARRAYS * layout->real_bytes,
                             "directions", error));
     PS_TRY(ps_buffer_create(device, &out->turns, capacity * sizeof(uint64_t), "azimuths", error));
     PS_TRY(
@@ -111,7 +109,7 @@ static pspec_status prepare_on_host(ps_sphere_points *self, size_t num, ps_error
     ps_sphere_prepare(self->host_points, num, layout->only_even, layout->precision, self->capacity,
                       self->host_values, self->host_turns);
     PS_TRY(ps_buffer_write(self->device, &self->values, 0, self->host_values,
-                           self->capacity * NUM_ARRAYS * layout->real_bytes, error));
+                           self->capacity * PS_SPHERE_ARRAYS * layout->real_bytes, error));
     return ps_buffer_write(self->device, &self->turns, 0, self->host_turns, num * sizeof(uint64_t),
                            error);
 }
@@ -123,7 +121,7 @@ static pspec_status prepare_on_device(ps_sphere_points *self, size_t num, ps_err
     const size_t vectors = num / self->layout->prepare_lanes;
     const ps_range range = ps_range_heavy(
         self->device, vectors, 1, 1, flops_per_point * (double)num,
-        (double)num * (4 * sizeof(double) + NUM_ARRAYS * (double)self->layout->real_bytes));
+        (double)num * (4 * sizeof(double) + PS_SPHERE_ARRAYS * (double)self->layout->real_bytes));
     PS_TRY(ps_buffer_write(self->device, &self->points, 0, self->host_points,
                            num * PS_SPHERE_DIMENSION * sizeof(double), error));
     return PS_LAUNCH(self->device, self->prepare, &range, error, PS_BUFFER(self->points),

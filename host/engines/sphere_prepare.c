@@ -4,6 +4,12 @@
 #include "sphere/layout.h"
 
 #include "engines/sphere_points.h"
+#include "engines/sphere_table.h"
+
+/* The only file of the host that sees the names of the kernels. */
+_Static_assert(PS_SPHERE_ARRAYS == NUM_ARRAYS && (int)PS_SPHERE_DEGREES == DEGREES &&
+                   (int)PS_SPHERE_BLOCK_REALS == BLOCK_REALS,
+               "sizes differ from those of kernels/sphere/layout.h");
 
 static void put(void *values, ps_precision precision, size_t at, double x) {
     if (precision == PS_SINGLE) {

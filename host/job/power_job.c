@@ -44,7 +44,9 @@ static void find_needs(ps_power_job *job) {
     const ps_power_question *question = job->question;
     const ps_sampler_request *sampler = question->sampler;
     const bool is_grid = question->frequencies_path == NULL && !question->on_sphere;
-    const bool is_invariant = sampler != NULL && !folding_matters(question);
+    /* coefficients, unlike powers, turn with the set */
+    const bool is_invariant =
+        sampler != NULL && !folding_matters(question) && !question->wants_coefficients;
     const ps_needs_question needs = {
         .dimension = job->dimension,
         .max_frequency = is_grid ? job->frequencies.max_frequency : 0,
@@ -208,22 +210,29 @@ static pspec_status report_progress(ps_power_job *job, ps_error *error) {
                : PSPEC_OK;
 }
 
+/* What can be refused is refused before the work. */
+static pspec_status make_room_for_coefficients(ps_power_job *job, ps_error *error) {
+    void *memory = NULL;
+    if (job->num_realizations > 1) { /* of a sampler; how many sets files have is not known yet */
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "coefficients are of one set, but there are %llu realizations",
+                       (unsigned long long)job->num_realizations);
+    }
+    PS_TRY(ps_allocate(&memory, ps_num_coefficients(job->frequencies.max_frequency), sizeof(double),
+                       "the coefficients", error));
+    job->coefficients = memory;
+    return PSPEC_OK;
+}
+
 /* Of the set that the estimator has just had, which is still where it was read. */
 static pspec_status find_coefficients(ps_power_job *job, ps_error *error) {
-    const ps_power_question *question = job->question;
-    void *memory = job->coefficients;
     if (job->num_done != 1) {
         return ps_fail(
             error, PSPEC_ERROR_INVALID_ARGUMENT,
             "coefficients are of one set, but there are more; --select-sets chooses one");
     }
-    if (memory == NULL) {
-        PS_TRY(ps_allocate(&memory, ps_num_coefficients(job->frequencies.max_frequency),
-                           sizeof(double), "the coefficients", error));
-        job->coefficients = memory;
-    }
-    return ps_estimator_coefficients(job->estimator, &job->sets.patterns[0], question->harmonics,
-                                     job->coefficients, error);
+    return ps_estimator_coefficients(job->estimator, &job->sets.patterns[0],
+                                     job->question->harmonics, job->coefficients, error);
 }
 
 static pspec_status run_once(ps_power_job *job, ps_error *error) {
@@ -279,6 +288,9 @@ static pspec_status finish(ps_power_job *job, ps_error *error) {
 
 pspec_status ps_power_job_run(ps_power_job *job, ps_error *error) {
     PS_TRY(ps_plan_require(&job->plan, &job->problem, error));
+    if (job->question->wants_coefficients) {
+        PS_TRY(make_room_for_coefficients(job, error));
+    }
     PS_TRY(ps_frequencies_enumerate(&job->frequencies, error));
     PS_TRY(run_once(job, error));
     if (!(job->accuracy.error <= job->problem.tolerance)) {
