@@ -48,7 +48,7 @@ double *test_coefficients(const ps_engine *engine, ps_precision precision, ps_de
     const ps_problem problem = {.frequencies = frequencies,
                                 .num_points = pattern->num_points,
                                 .num_realizations = 1,
-                                .tolerance = 1};
+                                .tolerance = precision == PS_SINGLE ? 1e-5 : 1e-12};
     double *out = calloc((max_degree + 1) * (max_degree + 2), sizeof(double));
     void *state = NULL;
     assert_non_null(out);
