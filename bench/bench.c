@@ -127,7 +127,7 @@ void bench_job_create_for(bench_job *job, const ps_engine *engine, ps_precision 
         job->scales[r] = 1 / (double)num_points;
     }
     BENCH_TRY(engine->create(&job->state, &own, precision, job->batch, device, error));
-    engine->get_slots(job->state, job->slots);
+    ps_engine_slots(engine, job->state, own.frequencies->num, job->slots);
 }
 
 void bench_job_create(bench_job *job, const ps_engine *engine, ps_precision precision,

@@ -2,6 +2,7 @@
  * timed, alternating in one run, and the one that plan chose is compared with the best.
  *
  *     bench_choice            ends with how many were within 1.3x of the best
+ *     bench_choice D N K      only this shape, with a line for every engine that was timed
  *
  * Engines that plan thinks 30 times slower than its choice, or slower than a second, are not run.
  */
@@ -98,8 +99,16 @@ static size_t create_jobs(const ps_plan *plan, const choice_problem *what, ps_de
     return num;
 }
 
+static void print_candidate(const ps_candidate *candidate, double seconds,
+                            size_t num_realizations) {
+    printf("  %-12s %-6s planned %10.2f measured %10.2f us\n", candidate->engine->name,
+           ps_precision_name(candidate->precision),
+           candidate->seconds / (double)num_realizations * 1e6,
+           seconds / (double)num_realizations * 1e6);
+}
+
 /* Time of the choice over that of the best; 1 when nothing else is feasible. */
-static double run_problem(const choice_problem *shape, ps_device *device) {
+static double run_problem(const choice_problem *shape, ps_device *device, bool shows_all) {
     const ps_plan_constraints anything = {.precision = -1};
     ps_frequencies grid = {0};
     choice_problem what = *shape;
@@ -124,6 +133,9 @@ static double run_problem(const choice_problem *shape, ps_device *device) {
         best_name = seconds < best ? all[i].candidate->engine->name : best_name;
         best = fmin(best, seconds);
         chosen = all[i].candidate->is_chosen ? seconds : chosen;
+        if (shows_all) {
+            print_candidate(all[i].candidate, seconds, what.num_realizations);
+        }
         bench_job_destroy(&all[i].job);
     }
     if (num > 0) {
@@ -142,8 +154,16 @@ static int compare(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-int main(void) {
+/* "D N K" of the command line, or all shapes. */
+static bool is_wanted(size_t i_shape, char **wanted) {
+    return wanted == NULL || (strtoul(wanted[0], NULL, 10) == shapes[i_shape].dimension &&
+                              strtoul(wanted[1], NULL, 10) == shapes[i_shape].num_points &&
+                              strtol(wanted[2], NULL, 10) == shapes[i_shape].k);
+}
+
+int main(int argc, char **argv) {
     const double good = 1.3;
+    char **wanted = argc == 4 ? argv + 1 : NULL;
     ps_device *device = NULL;
     double ratios[NUM_SHAPES * NUM_TOLERANCES];
     size_t num_good = 0;
@@ -151,15 +171,19 @@ int main(void) {
     BENCH_TRY(ps_device_open(&device, getenv("POINTSPEC_DEVICE"), false, error));
     printf("d N K tolerance | chosen, us/R planned and measured | best, times of it\n");
     for (size_t s = 0; s < NUM_SHAPES; s++) {
-        for (size_t t = 0; t < NUM_TOLERANCES; t++) {
+        for (size_t t = 0; is_wanted(s, wanted) && t < NUM_TOLERANCES; t++) {
             const choice_problem what = {.dimension = shapes[s].dimension,
                                          .num_points = shapes[s].num_points,
                                          .k = shapes[s].k,
                                          .tolerance = tolerances[t]};
-            ratios[num] = run_problem(&what, device);
+            ratios[num] = run_problem(&what, device, wanted != NULL);
             num_good += ratios[num++] <= good;
             fflush(stdout);
         }
+    }
+    if (num == 0) {
+        fprintf(stderr, "bench_choice: no such shape\n");
+        return 1;
     }
     qsort(ratios, num, sizeof ratios[0], compare);
     printf("# of %zu problems %.1f %% within %.1fx of the best; median %.2f, 95th percentile %.2f, "

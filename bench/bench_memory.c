@@ -45,14 +45,23 @@ static void run_job(uint64_t num_realizations) {
 /* ---- announced and measured -------------------------------------------------------------- */
 
 typedef struct memory_case {
-    unsigned dimension;
+    unsigned dimension; /* 0: the sphere, k is the largest degree */
     size_t num_points;
     int32_t k;
+    ps_harmonics harmonics; /* with coefficients of one set; else there are 4 */
 } memory_case;
 
-static const memory_case cases[] = {{2, 256, 32},       {2, 1024, 128}, {2, 4096, 256},
-                                    {2, 16384, 512},    {3, 4096, 32},  {1, 65536, 32768},
-                                    {2, 10000000, 1024}};
+static const memory_case cases[] = {{2, 256, 32, PS_NO_HARMONICS},
+                                    {2, 1024, 128, PS_NO_HARMONICS},
+                                    {2, 4096, 256, PS_NO_HARMONICS},
+                                    {2, 16384, 512, PS_NO_HARMONICS},
+                                    {3, 4096, 32, PS_NO_HARMONICS},
+                                    {1, 65536, 32768, PS_NO_HARMONICS},
+                                    {2, 10000000, 1024, PS_NO_HARMONICS},
+                                    {0, 16384, 512, PS_NO_HARMONICS},
+                                    {0, 16384, 512, PS_SPHERICAL_HARMONICS},
+                                    {0, 16384, 2000, PS_SPHERICAL_HARMONICS},
+                                    {0, 1000000, 1000, PS_HEMISPHERICAL_HARMONICS}};
 
 static long resident_kibibytes(void) {
     struct rusage usage;
@@ -62,11 +71,17 @@ static long resident_kibibytes(void) {
 
 /* What the driver and its compiler take shows in a job of nothing: it is left out. */
 static void compare_memory(const memory_case *what) {
-    ps_sampler_request request = {
-        .num_points = what->num_points, .dimension = what->dimension, .seed = 1};
-    BENCH_TRY(ps_sampler_parse(&request, "white", error));
+    const bool on_sphere = what->dimension == 0;
+    ps_sampler_request request = {.num_points = what->num_points,
+                                  .dimension = on_sphere ? PS_VECTOR_DIMENSION : what->dimension,
+                                  .seed = 1};
+    BENCH_TRY(ps_sampler_parse(&request, on_sphere ? "white-hemisphere" : "white", error));
     const ps_power_question question = {.sampler = &request,
-                                        .num_realizations = 4,
+                                        .num_realizations =
+                                            what->harmonics != PS_NO_HARMONICS ? 1 : 4,
+                                        .on_sphere = on_sphere,
+                                        .max_degree = what->k,
+                                        .harmonics = what->harmonics,
                                         .max_frequency = what->k,
                                         .tolerance = 1e-6,
                                         .constraints = {.precision = -1},

@@ -162,12 +162,12 @@ static bool measure(ps_device *device, size_t shape, size_t which, measured *out
         ps_torus_nufft.error(&problem, limits, precision, 1) > problem.tolerance) {
         return false;
     }
-    const ps_nufft_choice choice = ps_nufft_layout_make(&problem, limits, precision).choice;
-    if (!is_of_kind(&choice, shapes[shape].kind)) {
+    const ps_nufft_layout layout = ps_nufft_layout_make(&problem, limits, precision);
+    if (!is_of_kind(&layout.choice, shapes[shape].kind)) {
         return false;
     }
     out->kind = shapes[shape].kind;
-    out->counts = ps_nufft_count(&choice, precision, (double)problem.num_points);
+    out->counts = ps_nufft_count(&layout.choice, precision, (double)problem.num_points);
     out->cycles = measure_cycles(device, &problem, precision, total(&out->counts, ps_nufft_cycles));
     return true;
 }

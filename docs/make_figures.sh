@@ -130,8 +130,17 @@ plot "grid-single.txt" with linespoints pointtype 7 linecolor "#0072b2" \
         title "list of 4096 frequencies, single"
 GNUPLOT
 
+# Ways to pair sums, for pairs_direct.md: some minutes, unless the last update_tables.sh left its numbers.
+echo "figures: pairs_routes.png" >&2
+routes=$docs/../bench-output/pairs_routes.txt
+[[ -s $routes ]] || { mkdir -p "${routes%/*}" && "$build/bench/bench_pairs" routes >"$routes"; }
+"$docs/pairs_routes.sh" figure "$routes" "$images/pairs_routes.png"
+
+# Figures 1 to 5 of Marques et al., for quadrature.md.
+"$docs/reproduction.sh" "$pointspec" figures "$images"
+
 # Time against error, pointspec and the libraries of others, from the last ./dev bench peers.
-for name in peers peers_sphere; do
+for name in peers peers_sphere peers_pairs; do
     peers=$docs/../bench-output/$name.csv
     if [[ -s $peers ]]; then
         echo "figures: $name.png" >&2

@@ -22,15 +22,30 @@ bench() { # NAME
 }
 table_bench_torus() { bench torus; }
 table_bench_nufft() { bench nufft; }
+table_bench_sphere() { bench sphere; }
 # The problems of the bench one by one would be a page of their own: those that went wrong, and the sum.
 table_bench_choice() { bench choice | awk 'NR == 1 || /^#/ || $NF > 1.3'; }
 table_bench_reading() { bench reading; }
 table_bench_errors() { bench errors; }
 table_bench_memory() { bench memory; }
 table_bench_library() { bench library; }
+# CPU time, so that a busy machine matters less.
+bench_pairs() { # PART
+    need bench/bench_pairs && "$build/bench/bench_pairs" "$1" | tail -n +2
+}
+table_bench_pairs() { bench_pairs direct; }
+table_bench_pairs_histogram() { bench_pairs histogram; }
+table_bench_pairs_ways() { bench_pairs ways; }
+# Also for the picture of make_figures.sh.
+table_pairs_routes() {
+    mkdir -p "$docs/../bench-output"
+    bench_pairs routes >"$docs/../bench-output/pairs_routes.txt" &&
+        "$docs/pairs_routes.sh" table "$docs/../bench-output/pairs_routes.txt"
+}
+table_bench_weights() { bench weights; }
 
-# A quarter of an hour each, less with PEERS_OPTIONS=--quick; they also write bench-output/peers.csv and
-# peers_sphere.csv, which make_figures.sh draws.
+# A quarter of an hour each, less with PEERS_OPTIONS=--quick; they also write bench-output/peers.csv,
+# peers_sphere.csv and peers_pairs.csv, which make_figures.sh draws.
 peers() { # DOMAIN
     local options
     read -r -a options <<<"${PEERS_OPTIONS-}"
@@ -38,6 +53,7 @@ peers() { # DOMAIN
 }
 table_bench_peers() { peers torus; }
 table_bench_peers_sphere() { peers sphere; }
+table_bench_peers_pairs() { peers pairs; }
 
 # What the last ./dev fuzz printed.
 table_fuzzing() { cat "$docs/../fuzz-output/table.txt"; }
@@ -57,6 +73,24 @@ table_sphere() {
         grep -v '^#' | sed -n 1,4p
     echo ...
 }
+# Microseconds of a realization, and the share of every kernel: what is left to gain, and where.
+table_profile_sphere() {
+    need pointspec || return 1
+    printf '%-12s %-6s %10s %7s %7s %7s %7s\n' "N, L" tol us/R turns orders sum fold
+    local case n degree sets tolerance
+    for case in "256 64 4000" "1024 128 1000" "4096 256 200" "16384 512 48"; do
+        read -r n degree sets <<<"$case"
+        for tolerance in 1e-5 1e-12; do
+            "$build/pointspec" angular --sampler white-sphere -n "$n" -l "$degree" -m "$sets" --tol "$tolerance" \
+                --engine sphere_nufft --quiet --profile --no-self-check 2>&1 >"$scratch/profile.csv" |
+                awk -v name="$n, $degree" -v tolerance="$tolerance" -v sets="$sets" '
+                    /^sphere_/ { seconds[$1] = $3; sum += $3 }
+                    function share(kernel) { return 100 * seconds["sphere_orders" kernel] / sum }
+                    END { printf "%-12s %-6s %10.1f %6.0f%% %6.0f%% %6.0f%% %6.0f%%\n", name, tolerance,
+                        1e6 * sum / sets, share("_turns"), share(""), share("_sum"), share("_fold") }'
+        done
+    done
+}
 table_list() {
     need pointspec || return 1
     printf '1 1 0\n0 7 7\n100000000 3 -5\n' >"$scratch/frequencies.txt"
@@ -66,6 +100,9 @@ table_plan() {
     need pointspec || return 1
     "$build/pointspec" plan power --sampler white -n 65536 -m 100 -k 256 | sed -n '/^# skip/,$p'
 }
+
+# What Marques et al. print beside what the program computes.
+table_reproduction() { need pointspec && "$docs/reproduction.sh" "$build/pointspec" table; }
 
 # The lines of the tolerance test. Its frequencies are, in the order of the lines of one shape, a grid
 # with K = 12, 100 of |k_i| <= 1e6 and 100 of |k_i| <= 2^28.
@@ -166,11 +203,69 @@ table_sphere_nufft() {
         }'
 }
 
+# The smallest bound / error of pair sums, by engine and kind of set.
+table_pairs_error() {
+    need tests/test_pairs_error || return 1
+    "$build/tests/test_pairs_error" 2>&1 | awk '
+        / slack / {
+            engine = $1 " " substr($2, 1, 1)
+            for (i = 1; i < NF; i++) if ($i == "error") at = i
+            kind = substr($0, 25, 12)
+            if (!(engine in seen)) { seen[engine] = 1; engines[++num] = engine }
+            if (!(kind in known)) { known[kind] = 1; kinds[++num_kinds] = kind }
+            key = engine SUBSEP kind
+            if (!(key in slack) || $(at + 5) + 0 < slack[key]) slack[key] = $(at + 5) + 0
+        }
+        END {
+            printf "%-14s", "smallest slack"
+            for (e = 1; e <= num; e++) printf " %17s", engines[e]
+            printf "\n"
+            for (k = 1; k <= num_kinds; k++) {
+                printf "%-14s", kinds[k]
+                for (e = 1; e <= num; e++) printf " %17.1f", slack[engines[e], kinds[k]]
+                printf "\n"
+            }
+        }'
+}
+
+# kappa of wide lobes against integrals over rings, and what the reference's sets are off by.
+table_quadrature_error() {
+    need tests/test_representer && need tests/test_worst_case || return 1
+    "$build/tests/test_representer" 2>&1 | grep 'kappa off by'
+    "$build/tests/test_worst_case" 2>&1 | grep '^kappa .* E^2'
+}
+
+# Errors, bounds and verdicts of pointspec stress, the two precisions of an engine side by side.
+table_stress() {
+    need pointspec || return 1
+    "$build/pointspec" stress --quiet >"$scratch/stress.csv" || true # failures are in the table
+    awk -F, '
+        /^#/ || /^case,/ { next }
+        {
+            key = $1 "," $2
+            if (!(key in seen)) order[++num] = key
+            seen[key] = 1
+            number[key "," $3] = $4 == "" ? "        -         -" : sprintf("%9.2e %9.2e", $4, $5)
+            bad[key] = bad[key] ($6 ~ /^pass/ ? "" : " " $3 " " $6)
+            count[$6 ~ /^pass/ ? "pass" : $6 ~ /^fail/ ? "fail" : "skipped"]++
+        }
+        END {
+            printf "%-21s %-16s %9s %9s   %9s %9s   %s\n", "case", "engine", "single", "bound", "double", "bound", "verdict"
+            for (i = 1; i <= num; i++) {
+                split(order[i], name, ",")
+                single = number[order[i] ",single"]; double = number[order[i] ",double"]
+                printf "%-21s %-16s %19s   %19s   %s\n", name[1], name[2], single == "" ? "-         -" : single,
+                    double == "" ? "-         -" : double, bad[order[i]] == "" ? "pass" : substr(bad[order[i]], 2)
+            }
+            printf "%d pass, %d fail, %d skipped\n", count["pass"], count["fail"], count["skipped"]
+        }' "$scratch/stress.csv"
+}
+
 # What the program does with every fault, by command line. FAULTS_ONLY=NAME[,NAME...] runs these command lines
 # alone, for all take the better part of an hour; the other rows stay as they are on the page.
 table_faults() {
     need tests/faults/pointspec_faults || return 1
-    POCL_CACHE_DIR=$build/pocl-cache "$docs/../tests/faults/run_faults.sh" "$build/tests/faults/pointspec_faults" \
+    POCL_CACHE_DIR=$build/../pocl-cache "$docs/../tests/faults/run_faults.sh" "$build/tests/faults/pointspec_faults" \
         --table ${FAULTS_ONLY:+--only "$FAULTS_ONLY"} >"$scratch/rows" || return 1
     [[ -n ${FAULTS_ONLY-} ]] || { cat "$scratch/rows"; return; }
     # New rows hide old ones, in the order of the command lines; the last row is their sum.

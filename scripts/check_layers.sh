@@ -12,7 +12,7 @@ analysis="plan $plan"
 job="analysis samplers $analysis"
 scene="job $job"
 declare -A may_include=(
-    [base]="" [math]="base" [io]="math base" [device]="base" [integrands]="math base"
+    [base]="" [math]="base" [io]="math base" [device]="base" [integrands]="math io base"
     [samplers]="device math base" [engines]=$engines [plan]=$plan [analysis]=$analysis
     [job]=$job [scene]=$scene [cli]="scene $scene"
 )

@@ -3,11 +3,12 @@
 # loader's devices. Oclgrind exits 0 even when it has found something, so its log decides.
 # The preset oclgrind puts this before every test program (CMAKE_CROSSCOMPILING_EMULATOR).
 # Local memory stays at Oclgrind's 32 KiB, the least OpenCL 1.2 promises; OCLGRIND_LOCAL_MEM_SIZE
-# in the environment changes it.
+# in the environment changes it, OCLGRIND_CHECKS what is looked for.
 set -uo pipefail
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
-oclgrind --data-races --uninitialized --check-api --max-errors 50 --log "$log" "$@"
+read -r -a checks <<<"${OCLGRIND_CHECKS---data-races --uninitialized --check-api}"
+oclgrind "${checks[@]}" --max-errors 50 --log "$log" "$@"
 status=$?
 if [[ -s $log ]]; then
     echo "oclgrind found, in $(basename "$1"):" >&2

@@ -7,7 +7,7 @@ function(add_program_test name)
   add_script_test(${name} unit ${CMAKE_CURRENT_SOURCE_DIR}/${name}.sh
     $<TARGET_FILE:pointspec_program> ${ARGN})
   set_tests_properties(${name} PROPERTIES
-    ENVIRONMENT "POCL_CACHE_DIR=${CMAKE_BINARY_DIR}/pocl-cache")
+    ENVIRONMENT "POCL_CACHE_DIR=${POINTSPEC_TEST_CACHE}")
 endfunction()
 
 add_program_test(cli_errors)    # bad input: exit code, one sentence, nothing left behind
@@ -15,6 +15,14 @@ add_program_test(cli_program)   # streams, signals, formats, same bits
 add_program_test(cli_convert)   # every format to every other, pipes, gzip, memory
 add_program_test(cli_formats)   # files as other tools write them
 add_program_test(cli_angular)   # the sphere: formats, header, what is refused
+add_program_test(cli_healpy ${PROJECT_SOURCE_DIR}/build/peers) # against healpy and ducc0, where installed
+set_tests_properties(cli_healpy PROPERTIES SKIP_RETURN_CODE 77)
+add_program_test(cli_truncation) # lobes, formats, what is refused
+add_program_test(cli_quadrature) # golden values, engines, files, what is refused
+add_program_test(cli_pairs)     # pair sums: closed forms, every route, what is refused
+add_program_test(cli_check)     # verdicts against saved spectra, exit codes, what is refused
+add_program_test(cli_stress)    # the stability suite: rows, formats, what is refused
+add_program_test(cli_stress_broken ${PROJECT_SOURCE_DIR}/kernels) # broken kernels fail by name
 add_program_test(cli_tolerance) # --tol and --floor, torus and sphere: kept or refused; threads change no bit
 add_program_test(cli_examples)  # the examples of every --help
 add_program_test(cli_man ${PROJECT_SOURCE_DIR}/docs/man)   # man pages agree with the option table

@@ -1,30 +1,9 @@
 #!/usr/bin/env bash
 # cli_angular.sh PROGRAM: pointspec angular from files of every kind to tables; what it refuses, and how it says it.
-set -euo pipefail
-program=$(realpath "$1")
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-cd "$scratch"
-unset POINTSPEC_DEVICE
+data=$(realpath -m "${POINTSPEC_TEST_DATA:-../shared/data}")
+# shellcheck source=tests/harness.sh
+. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/harness.sh" angular "$1"
 
-checked=0 bad=0
-complain() {
-    printf 'cli_angular: %s\n' "$*" >&2
-    bad=1
-}
-runs() { # EXIT ARGS...: standard output in out, standard error in err
-    local expected=$1 code=0
-    shift
-    checked=$((checked + 1))
-    "$program" angular "$@" </dev/null >out 2>err || code=$?
-    [[ $code == "$expected" ]] || complain "exit $code, not $expected: $*: $(<err)"
-}
-says() { # PART: of standard error, which is one line
-    [[ $(wc -l <err) == 1 && $(<err) == *"$1"* ]] || complain "not \"$1\": $(<err)"
-}
-key() { # NAME: of the header
-    sed -n "s/^# $1: //p" out
-}
 powers() { # of the table in out, with 9 decimals
     awk -F, '!/^#/ && !/^degree/ { printf "%s:%.9f ", $1, $3 }' out
 }
@@ -120,6 +99,46 @@ says 'below the horizon'
 grep -v -- '-1' plain.txt >upper.txt
 runs 0 --engine host_direct -l 3 upper.txt --harmonics hemispherical --coefficients h.npy
 
+# The table has the same bits with and without, by every engine.
+for engine in host_direct sphere_direct sphere_nufft; do
+    for harmonics in spherical hemispherical; do
+        runs 0 --engine $engine -l 9 upper.txt
+        without=$(grep -v '^#' out)
+        runs 0 --engine $engine -l 9 upper.txt --harmonics $harmonics --coefficients h.npy
+        [[ $(grep -v '^#' out) == "$without" ]] || complain "$engine: --coefficients $harmonics changes powers"
+    done
+done
+
+# The title of a picture tells of all sets.
+if command -v gnuplot >/dev/null; then
+    runs 0 --engine host_direct --sampler healpix:nside=1 --sampler fibonacci --sampler zphi -l 2 --plot picture.svg
+    grep -q '3 samplers, N = 12 to 1024, 1 realization<' picture.svg ||
+        complain "title: $(grep -o '[^>]*samplers[^<]*' picture.svg)"
+    runs 0 --engine host_direct -l 2 plain.txt two.txt --plot picture.svg
+    grep -q '2 files, N = 6, 3 realizations<' picture.svg ||
+        complain "title: $(grep -o '[^>]*realization[^<]*' picture.svg)"
+fi
+
+# Hours are announced; a signal ends them while coefficients are summed, and nothing is left behind.
+(
+    trap - INT TERM
+    exec "$program" angular --engine host_direct --sampler white-hemisphere -n 2e5 -l 3000 \
+        --harmonics hemispherical --coefficients long.npy -o long.csv </dev/null >out 2>err
+) &
+for ((i = 0; i < 100; i++)); do
+    ! grep -q hours err 2>/dev/null || break
+    sleep 0.1
+done
+kill -TERM $!
+code=0
+wait $! || code=$?
+checked=$((checked + 1))
+[[ $code == 130 && ! -e long.npy && ! -e long.csv ]] || complain "interrupted: exit $code, files $(echo long.*)"
+[[ $(head -1 err) == *'host_direct will take about'*'hours to degree 3000'* ]] || complain "hours: $(<err)"
+[[ $(tail -1 err) == *interrupted* ]] || complain "interrupted: $(<err)"
+runs 0 --engine host_direct -l 3 plain.txt
+[[ ! -s err ]] || complain "without reason: $(<err)"
+
 # What is refused, with the line.
 sed 's/^0 1 0/0 0 0/' plain.txt >zero.txt
 runs 2 --engine host_direct -l 3 zero.txt
@@ -132,10 +151,16 @@ sed 's/^0 1 0/0 1.1 0/' plain.txt >short.txt
 runs 2 --engine host_direct -l 3 short.txt
 says 'line 3'
 runs 0 --engine host_direct -l 3 --normalize-vectors short.txt
-runs 2 -l 0 plain.txt
-says '0'
+for degree in 0 -1; do
+    runs 2 -l $degree plain.txt
+    says "max degree: $degree leaves no degree, the first is 1"
+done
+runs 2 -l 2.5 plain.txt
+says 'max degree: "2.5" is not a whole number'
 runs 2 -l 100000 plain.txt
 says '32768'
+runs 2 -l 32768 --engine sphere_nufft plain.txt
+says 'the largest degree that fits is'
 runs 2 -l 1 --hemisphere plain.txt
 says 'odd degrees vanish'
 runs 2 -k 5 plain.txt
@@ -146,5 +171,27 @@ says 'tolerance'
 printf '0.1 0.2\n0.3 0.4\n' >plane.txt
 runs 2 -l 3 plane.txt
 
-echo "cli_angular: $checked command lines"
-exit $bad
+# Columns instead of rows, as healpy makes them, look like rows of angles.
+{
+    printf '\x93NUMPY\x01\x00\x76\x00%-117s\n' "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 8), }"
+    for ((i = 0; i < 8; i++)); do printf '\0\0\0\0\0\0\xf0\xbf'; done # -1
+    head -c 128 /dev/zero
+} >columns.npy
+runs 2 -l 3 columns.npy
+says 'transpose it where its rows are x, y, z'
+
+# Designs of others: powers vanish up to the degree, and the next does not.
+designs=$data/spherical
+design() { # FILE DEGREE LEVEL
+    runs 0 --tol 1e-12 -l $(($2 + 1)) "$designs/$1"
+    awk -F, -v t="$2" -v level="$3" '/^[0-9]/ && ($1 <= t ? $3 > level : $3 < 1e-3) { exit 1 }' out ||
+        complain "$1: $(tail -3 out)"
+}
+if [[ -d $designs ]]; then
+    design womersley_sf_t044_N01014.txt 44 1e-20
+    design sloane_des3-120-15.txt 15 1e-8
+else
+    echo "cli_angular: no $designs, designs are left out" >&2
+fi
+
+finish

@@ -195,6 +195,7 @@ refuses 'set 1 has 4 points, but -n asks for 5' -n 5 three.txt
 refuses 'set 1 has 4 points, but -n asks for 3' -n 3 three.txt -o out.txt
 refuses 'nothing to convert' --merge
 refuses 'gzip is read, but not written' three.txt -o out.txt.gz
+refuses 'standard input (-) is named 2 times, but can be read once' - three.txt -
 refuses 'are the same file' three.txt -o ./three.txt
 refuses 'eps holds one set per file, and there are more; --select-sets takes one, --merge' \
     three.txt -o out.eps

@@ -164,11 +164,15 @@ power 2 'per ring: 0 is not between 2' --sampler white -n 16 -k 4 --per-ring 0
 power 2 'per ring: 1 is not between 2' --sampler white -n 16 -k 4 --per-ring 1
 power 2 'between 1 and 2000' --sampler white -n 16 -d 4 -k 2001 --per-ring 9
 power 2 'more than can be counted' --sampler white -n 16 -d 6 -k 1300 --per-ring 9
+power 2 'standard error: 0 is not above 0' --sampler white -n 16 -k 4 --standard-error 0
+power 2 'standard error: 2 is not above 0 and at most 1' --sampler white -n 16 -k 4 --standard-error 2
+power 2 '--per-ring does not go with --standard-error' --sampler white -n 16 -k 4 --per-ring 9 --standard-error 0.1
+refuses 2 '--frequencies does not go with --standard-error' power --frequencies "$in/vectors.txt" --standard-error 0.1 "$in/good.txt"
 power 2 '--full does not go with --per-ring' --sampler white -n 16 -k 4 --per-ring 9 --full full.npy
 refuses 2 '--frequencies does not go with --per-ring' power --frequencies "$in/vectors.txt" --per-ring 9 "$in/good.txt"
 refuses 2 '--seed does not go with point files' power -k 4 --seed 2 "$in/good.txt"
-refuses 2 'power and angular can be planned' plan
-refuses 2 'power and angular can be planned' plan sample --sampler white
+refuses 2 'power, angular, pairs and quadrature can be planned' plan
+refuses 2 'power, angular, pairs and quadrature can be planned' plan sample --sampler white
 
 # ---- outputs
 white=(--sampler white -n 16)
@@ -192,6 +196,9 @@ refuses 2 '"ply" is not one of utk-text, csv, psa-text' sample "${white[@]}" --f
 # ---- devices
 refuses 1 'no OpenCL device fits "quantum"' devices --device quantum
 refuses 1 'no OpenCL device fits "99"' devices --device 99
+refuses 2 'gzip is read, but not written' sample --sampler white -n 4 -o out.txt.gz
+refuses 2 'gzip is read, but not written' power --engine host_direct --sampler white -n 4 -k 2 -o out.csv.gz
+refuses 2 'standard input (-) is named 2 times' angular -l 3 - -
 refuses 2 '"npy" is not one of csv, json' devices --format npy
 refuses 2 'no file is read' devices list
 POINTSPEC_DEVICE=quantum refuses 1 'no OpenCL device fits "quantum"' devices

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# docs.sh PROGRAM SOURCE_DIR: every ```sh block of the README, the tutorial, the conventions and the
-# formats runs, in the order of the page, in one empty folder for each page; ```python blocks too where there is numpy.
+# docs.sh PROGRAM SOURCE_DIR: every ```sh block of the README, the tutorial, the conventions, the
+# formats, quadrature and gate runs, in the order of the page, in one empty folder for each page; ```python blocks too where there is numpy.
 # Lines that begin with ./dev are left out. Then relative links of all pages are looked up.
 set -euo pipefail
 program=$(realpath "$1")
@@ -54,7 +54,7 @@ check_links() { # PAGE
     done < <(grep -o '](\([^) ]*\))' "$1" | sed 's/^](//; s/)$//')
 }
 
-for page in README.md docs/tutorial.md docs/conventions.md docs/formats.md; do
+for page in README.md docs/tutorial.md docs/conventions.md docs/formats.md docs/quadrature.md docs/gate.md; do
     run_page "$page"
 done
 for page in "$source_dir"/*.md "$source_dir"/docs/*.md; do

@@ -1,5 +1,7 @@
 #include "harness.h"
 
+#include "job/stress_shapes.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -106,7 +108,7 @@ double *test_run_problem(const ps_engine *engine, const ps_problem *problem, ps_
         scales[r] = 1;
     }
     assert_ok(engine->create(&state, problem, precision, batch, device, error));
-    engine->get_slots(state, slots);
+    ps_engine_slots(engine, state, frequencies->num, slots);
     for (size_t done = 0; done < num_patterns; done += batch) {
         const size_t count = num_patterns - done < batch ? num_patterns - done : batch;
         const ps_batch some = {
@@ -156,10 +158,5 @@ double *test_run_engine(const ps_engine *engine, ps_precision precision, ps_devi
 }
 
 double test_uniform(uint64_t *state) {
-    /* splitmix64: its published constants */
-    *state += 0x9E3779B97F4A7C15u;
-    uint64_t z = *state;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+    return ps_stress_uniform(state);
 }

@@ -1,17 +1,16 @@
-/* Sets of points of every kind that tolerances are tried with. */
+/* Sets of points of every kind that tolerances are tried with: those of `pointspec stress`. */
 #ifndef TESTS_HARNESS_SHAPES_H
 #define TESTS_HARNESS_SHAPES_H
 
 #include "harness.h"
 
-typedef struct test_shape {
-    const char *name;
-    double (*coordinate)(size_t point, size_t num_points, unsigned axis, uint64_t *state);
-    double (*weight)(size_t point, uint64_t *state); /* NULL: unit weights */
-} test_shape;
+#include "job/stress_shapes.h"
 
+typedef ps_torus_shape test_shape;
+
+/* The first ones of the table. */
 enum { TEST_WHITE, TEST_SIGNED_WEIGHTS = 8, TEST_WILD_WEIGHTS, TEST_SHAPES };
-extern const test_shape test_shapes[TEST_SHAPES];
+#define test_shapes ps_torus_shapes
 
 pspec_pattern test_make_pattern(const test_shape *shape, unsigned dimension, size_t num_points,
                                 uint64_t seed);

@@ -53,7 +53,8 @@ double *test_coefficients(const ps_engine *engine, ps_precision precision, ps_de
     void *state = NULL;
     assert_non_null(out);
     assert_ok(engine->create(&state, &problem, precision, 1, device, error));
-    assert_ok(engine->coefficients(state, pattern, out, error));
+    assert_ok(engine->coefficients(state, &(ps_batch){.num_patterns = 1, .patterns = pattern}, NULL,
+                                   out, error));
     engine->destroy(state);
     return out;
 }

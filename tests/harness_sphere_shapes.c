@@ -1,5 +1,7 @@
 #include "harness_sphere_shapes.h"
 
+#include "harness_sphere.h"
+
 #include "engines/host_degree.h"
 
 #include <math.h>
@@ -7,109 +9,15 @@
 
 static const double pi = 3.141592653589793;
 
-/* ---- places ------------------------------------------------------------------------------ */
-
-static void white(size_t point, size_t num_points, uint64_t *state, double angles[2]) {
-    (void)point;
-    (void)num_points;
-    angles[0] = 2 * asin(sqrt(test_uniform(state)));
-    angles[1] = 2 * pi * test_uniform(state);
-}
-
-static void spiral(size_t point, size_t num_points, uint64_t *state, double angles[2]) {
-    const double golden_angle = 2.399963229728653;
-    (void)state;
-    angles[0] = acos(1 - (2 * (double)point + 1) / (double)num_points);
-    angles[1] = fmod(golden_angle * (double)point, 2 * pi);
-}
-
-static void near_pole(size_t point, size_t num_points, uint64_t *state, double angles[2]) {
-    white(point, num_points, state, angles);
-    angles[0] = 1e-2 * test_uniform(state);
-}
-
-static void at_poles(size_t point, size_t num_points, uint64_t *state, double angles[2]) {
-    (void)num_points;
-    angles[0] = point % 2 == 0 ? 0 : pi;
-    angles[1] = 2 * pi * test_uniform(state);
-}
-
-static void one_place(size_t point, size_t num_points, uint64_t *state, double angles[2]) {
-    (void)point;
-    (void)num_points;
-    (void)state;
-    angles[0] = 1.1;
-    angles[1] = 2.3;
-}
-
-static void cluster(size_t point, size_t num_points, uint64_t *state, double angles[2]) {
-    (void)point;
-    (void)num_points;
-    angles[0] = 1.9 + 3e-3 * test_uniform(state);
-    angles[1] = 6.28 + 3e-3 * test_uniform(state);
-}
-
-/* Rows of points on circles, as many on each: regular along both angles. */
-static void rows(size_t point, size_t num_points, uint64_t *state, double angles[2]) {
-    const size_t side = (size_t)ceil(sqrt((double)num_points));
-    (void)state;
-    angles[0] = pi * ((double)(point / side) + 0.5) / (double)side;
-    angles[1] = 2 * pi * (double)(point % side) / (double)side;
-}
-
-static void meridian(size_t point, size_t num_points, uint64_t *state, double angles[2]) {
-    (void)state;
-    angles[0] = pi * ((double)point + 0.5) / (double)num_points;
-    angles[1] = 0;
-}
-
-static double signed_weight(size_t point, uint64_t *state) {
-    (void)point;
-    return 2 * test_uniform(state) - 1;
-}
-
-/* Over 12 decades. */
-static double wild_weight(size_t point, uint64_t *state) {
-    (void)point;
-    return pow(10, 12 * test_uniform(state) - 6);
-}
-
-const test_sphere_shape test_sphere_shapes[TEST_SPHERE_SHAPES] = {
-    {"white", white, NULL},
-    {"spiral", spiral, NULL},
-    {"near the pole", near_pole, NULL},
-    {"poles", at_poles, NULL},
-    {"one place", one_place, NULL},
-    {"cluster", cluster, NULL},
-    {"rows", rows, NULL},
-    {"meridian", meridian, NULL},
-    {"signed weights", white, signed_weight},
-    {"wild weights", white, wild_weight},
-};
-
 pspec_pattern test_make_sphere_pattern(const test_sphere_shape *shape, size_t num_points,
                                        uint64_t seed) {
-    uint64_t state = seed;
-    double *points = calloc(num_points, PS_SPHERE_DIMENSION * sizeof(double));
-    double *weights = shape->weight != NULL ? calloc(num_points, sizeof(double)) : NULL;
-    for (size_t j = 0; j < num_points; j++) {
-        double angles[2];
-        shape->place(j, num_points, &state, angles);
-        const double rho = angles[0] == pi ? 0 : sin(angles[0]);
-        points[3 * j] = rho * cos(angles[1]);
-        points[3 * j + 1] = rho * sin(angles[1]);
-        points[3 * j + 2] = cos(angles[0]);
-        if (weights != NULL) {
-            weights[j] = shape->weight(j, &state);
-        }
-    }
-    return (pspec_pattern){.num_points = num_points, .points = points, .weights = weights};
+    pspec_pattern pattern;
+    assert_ok(ps_vector_shape_make(shape, num_points, seed, &pattern, error));
+    return pattern;
 }
 
 void test_free_sphere_pattern(pspec_pattern *pattern) {
-    free((void *)(uintptr_t)pattern->points);
-    free((void *)(uintptr_t)pattern->weights);
-    *pattern = (pspec_pattern){0};
+    ps_stress_pattern_free(pattern);
 }
 
 /* ---- coefficients ------------------------------------------------------------------------ */
@@ -159,4 +67,28 @@ double test_sphere_error(const double *found, const double *expected, int32_t ma
     const double unit = 4 * pi / num / sum_of_squares(pattern);
     *mean_power = power * unit;
     return sqrt(sum * unit);
+}
+
+/* ---- points drawn one by one ------------------------------------------------------------- */
+
+pspec_pattern test_draw_sphere_pattern(const test_point_shape *shape, size_t num_points,
+                                       uint64_t seed, double *squares) {
+    double *points = calloc(num_points * PS_SPHERE_DIMENSION, sizeof(double));
+    double *weights = shape->weight != NULL ? calloc(num_points, sizeof(double)) : NULL;
+    *squares = 0;
+    for (size_t j = 0; j < num_points; j++) {
+        shape->point(points + j * PS_SPHERE_DIMENSION, &seed);
+        const double weight = weights != NULL ? (weights[j] = shape->weight(&seed)) : 1;
+        *squares += weight * weight;
+    }
+    return (pspec_pattern){PS_SPHERE_DIMENSION, num_points, points, weights};
+}
+
+void test_sphere_clustered(double *u, uint64_t *state) {
+    test_sphere_point(u, 1 + 1e-3 * test_uniform(state), 2 + 1e-3 * test_uniform(state), -1);
+}
+
+double test_wild_weight(uint64_t *state) {
+    const double decades = 12;
+    return pow(10, decades * (test_uniform(state) - 0.5)) * (test_uniform(state) < 0.3 ? -1 : 1);
 }

@@ -97,10 +97,47 @@ static void hemispherical_harmonics(void **state) {
     pspec_context_destroy(context);
 }
 
+static int cancel(uint64_t done, uint64_t total, void *payload) {
+    (void)done;
+    (void)total;
+    (void)payload;
+    return 1;
+}
+
+/* Neither harms the plan. */
+static void cancelled_or_too_large(void **state) {
+    (void)state;
+    pspec_context *context = pspec_context_create();
+    const pspec_angular_request request = test_angular_request();
+    pspec_plan *plan = NULL;
+    pspec_spectrum *spectrum = NULL;
+    double *vectors = test_make_vectors(TEST_NUM_POINTS, 5);
+    const pspec_pattern pattern = test_vectors(vectors, TEST_NUM_POINTS);
+    double c[NUM_COEFFICIENTS];
+    assert_int_equal(pspec_plan_create_angular(&plan, context, &request), PSPEC_OK);
+    pspec_context_set_progress(context, cancel, NULL);
+    assert_int_equal(pspec_plan_coefficients(plan, &pattern, 0, c), PSPEC_ERROR_CANCELLED);
+    assert_non_null(strstr(pspec_context_message(context), "cancelled by the progress callback"));
+    pspec_context_set_progress(context, NULL, NULL);
+    pspec_context_set_memory_limit(context, sizeof c);
+    assert_int_equal(pspec_plan_coefficients(plan, &pattern, 0, c), PSPEC_ERROR_MEMORY);
+    assert_non_null(
+        strstr(pspec_context_message(context), "coefficients to degree 12 take 1.46e+03 bytes"));
+    pspec_context_set_memory_limit(context, 0);
+    assert_int_equal(pspec_plan_coefficients(plan, &pattern, 0, c), PSPEC_OK);
+    assert_int_equal(pspec_plan_run(plan, &pattern, 1), PSPEC_OK);
+    assert_int_equal(pspec_spectrum_create(&spectrum, plan), PSPEC_OK);
+    pspec_spectrum_destroy(spectrum);
+    pspec_plan_destroy(plan);
+    free(vectors);
+    pspec_context_destroy(context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(coefficients),
         cmocka_unit_test(hemispherical_harmonics),
+        cmocka_unit_test(cancelled_or_too_large),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

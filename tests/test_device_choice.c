@@ -55,6 +55,13 @@ static void unknown_selectors(void **state) {
         assert_non_null(strstr(said.message, indices[i]));
     }
     assert_int_equal(ps_device_choose(made_up, 1, "gpu", &index, &said), PSPEC_ERROR_NO_DEVICE);
+    assert_string_equal(
+        said.message,
+        "no OpenCL device fits \"gpu\"; the only one is number 0, \"Fast Chip FC-1\"");
+    assert_int_equal(ps_device_choose(made_up, 2, "gpu", &index, &said), PSPEC_ERROR_NO_DEVICE);
+    assert_string_equal(said.message,
+                        "no OpenCL device fits \"gpu\"; there are number 0, \"Fast Chip FC-1\"; "
+                        "number 1, \"Example Core i7\"");
 }
 
 static void listed_devices_can_be_chosen(void **state) {

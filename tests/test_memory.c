@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 typedef struct memory_case {
-    unsigned dimension;
+    unsigned dimension; /* 0: degrees of the sphere */
     int32_t k;
     uint64_t num_points, num_realizations;
     const char *engine;
@@ -20,7 +20,9 @@ static double measure(const memory_case *what, double *announced) {
     ps_device *device = test_open_device();
     ps_estimator *estimator = NULL;
     ps_plan plan;
-    assert_ok(ps_frequencies_lattice(&grid, what->dimension, what->k, true, error));
+    assert_ok(what->dimension == 0
+                  ? ps_frequencies_degrees(&grid, what->k, false, error)
+                  : ps_frequencies_lattice(&grid, what->dimension, what->k, true, error));
     assert_ok(ps_frequencies_enumerate(&grid, error));
     const ps_problem problem = {.frequencies = &grid,
                                 .num_points = what->num_points,
@@ -60,6 +62,12 @@ static void buffers_are_announced(void **state) {
         {3, 32, 20000000, 1, NULL},
         {2, 64, 1024, 1, "torus_direct"},
         {2, 32, 256, 1000, "torus_direct"},
+        {0, 64, 256, 1000, "sphere_nufft"},
+        {0, 256, 4096, 1, "sphere_nufft"},
+        {0, 512, 16384, 100, "sphere_nufft"},
+        {0, 1000, 1000000, 4, "sphere_nufft"},
+        {0, 512, 10000000, 1, "sphere_nufft"},
+        {0, 1500, 4096, 10, "sphere_nufft"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         double announced = 0;

@@ -37,6 +37,27 @@ static void symmetry_is_always_used(void **state) {
     }
 }
 
+static void standard_error(void **state) {
+    (void)state;
+    ps_needs_question question = ordinary();
+    question.standard_error = 0.1;
+    question.expected_realizations = 25;
+    ps_needs needs = ps_needs_find(&question);
+    assert_true(needs.sequential);
+    assert_true(find_skip(&needs, "beyond the standard error")->share == 0.75);
+    question.expected_realizations = 1000; /* more than there are */
+    needs = ps_needs_find(&question);
+    assert_true(needs.sequential && find_skip(&needs, "beyond the standard error")->share == 0);
+    question.has_constant_power = true; /* one will do anyway */
+    assert_false(ps_needs_find(&question).sequential);
+    question = ordinary();
+    question.standard_error = 0.1;
+    question.no_skip = true;
+    assert_false(ps_needs_find(&question).sequential);
+    question = ordinary();
+    assert_false(ps_needs_find(&question).sequential);
+}
+
 static void corners(void **state) {
     (void)state;
     ps_needs_question question = ordinary();
@@ -128,6 +149,7 @@ static void description(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(symmetry_is_always_used),
+        cmocka_unit_test(standard_error),
         cmocka_unit_test(corners),
         cmocka_unit_test(subsets),
         cmocka_unit_test(one_realization_for_all),

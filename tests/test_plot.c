@@ -223,6 +223,33 @@ static void no_key_without_something_in_it(void **state) {
     assert_true(script_contains(&data.plot, "anisotropy"));
 }
 
+/* Six ticks at most: the lower panel is low. */
+static void ticks_of_anisotropy(void **state) {
+    static const struct {
+        double highest;
+        const char *ticks;
+    } cases[] = {{-10, "\nset ytics 1 "}, {-7, "\nset ytics 0.5 "}, {-4, "\nset ytics 1 "},
+                 {2, "\nset ytics 2 "},   {25, "\nset ytics 10 "},  {200, "\nset ytics 50 "}};
+    example data;
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        make_example(&data, 1, false, true);
+        data.anisotropy[3] = cases[i].highest;
+        assert_true(script_contains(&data.plot, cases[i].ticks));
+    }
+}
+
+static void a_single_bin_is_a_point(void **state) {
+    example data;
+    (void)state;
+    make_example(&data, 1, false, true);
+    data.plot.on_sphere = true;
+    assert_false(script_contains(&data.plot, "with points"));
+    data.curves[0].num_bins = 1;
+    assert_true(script_contains(&data.plot, "using 1:2 with points"));
+    assert_false(script_contains(&data.plot, "with lines"));
+}
+
 int main(void) {
 #define IN_FOLDER(test)                                                                            \
     cmocka_unit_test_setup_teardown(test, test_folder_create, test_folder_remove)
@@ -234,6 +261,8 @@ int main(void) {
         IN_FOLDER(refuses_half_a_picture),
         IN_FOLDER(a_disk_that_fills_leaves_no_picture),
         cmocka_unit_test(no_key_without_something_in_it),
+        cmocka_unit_test(ticks_of_anisotropy),
+        cmocka_unit_test(a_single_bin_is_a_point),
     };
     return cmocka_run_group_tests_name("plot", tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 /* The error formula of sphere_direct holds, and is no more than a few times too large: point sets of every kind
  * against the referee, c_lm by c_lm. */
 #include "harness_sphere.h"
+#include "harness_sphere_shapes.h"
 
 #include "engines/sphere_direct.h"
 
@@ -10,12 +11,6 @@
 
 static const double two_pi = 6.283185307179586;
 static ps_device *device;
-
-typedef struct shape {
-    const char *name;
-    void (*point)(double *u, uint64_t *state);
-    double (*weight)(uint64_t *state); /* NULL: unit weights */
-} shape;
 
 /* Within 0.02 of the north or south pole. */
 static void near_poles(double *u, uint64_t *state) {
@@ -28,28 +23,19 @@ static void near_equator(double *u, uint64_t *state) {
     test_sphere_point(u, quarter + 1e-3 * test_uniform(state), two_pi * test_uniform(state), 1);
 }
 
-static void clustered(double *u, uint64_t *state) {
-    test_sphere_point(u, 1 + 1e-3 * test_uniform(state), 2 + 1e-3 * test_uniform(state), -1);
-}
-
 static void one_place(double *u, uint64_t *state) {
     (void)state;
     test_sphere_point(u, 1.234, 3.456, 1);
 }
 
-static double wild_weight(uint64_t *state) {
-    const double decades = 12;
-    return pow(10, decades * (test_uniform(state) - 0.5)) * (test_uniform(state) < 0.3 ? -1 : 1);
-}
-
-static const shape shapes[] = {
+static const test_point_shape shapes[] = {
     {"white", test_sphere_white, NULL},   {"near poles", near_poles, NULL},
-    {"near equator", near_equator, NULL}, {"clustered", clustered, NULL},
-    {"one place", one_place, NULL},       {"wild weights", test_sphere_white, wild_weight},
+    {"near equator", near_equator, NULL}, {"clustered", test_sphere_clustered, NULL},
+    {"one place", one_place, NULL},       {"wild weights", test_sphere_white, test_wild_weight},
 };
 
 typedef struct job {
-    const shape *shape;
+    const test_point_shape *shape;
     size_t num_points;
     int32_t max_degree;
 } job;
@@ -83,17 +69,9 @@ static double mean_power(const ps_frequencies *degrees, const double *c, double 
 }
 
 static void check(const job *one, ps_precision precision) {
-    uint64_t state = 5;
     const size_t num = one->num_points;
-    double *points = calloc(num * PS_SPHERE_DIMENSION, sizeof(double));
-    double *weights = one->shape->weight != NULL ? calloc(num, sizeof(double)) : NULL;
     double squares = 0;
-    for (size_t j = 0; j < num; j++) {
-        one->shape->point(points + j * PS_SPHERE_DIMENSION, &state);
-        const double weight = weights != NULL ? (weights[j] = one->shape->weight(&state)) : 1;
-        squares += weight * weight;
-    }
-    const pspec_pattern pattern = {PS_SPHERE_DIMENSION, num, points, weights};
+    pspec_pattern pattern = test_draw_sphere_pattern(one->shape, num, 5, &squares);
     ps_frequencies degrees = test_degrees(one->max_degree, false);
     double *c = test_coefficients(&ps_sphere_direct, precision, device, &degrees, &pattern);
     const ps_problem problem = {.frequencies = &degrees, .num_points = num, .tolerance = 1};
@@ -106,8 +84,7 @@ static void check(const job *one, ps_precision precision) {
                   error, formula, formula / error);
     assert_true(error <= formula);
     free(c);
-    free(points);
-    free(weights);
+    test_free_sphere_pattern(&pattern);
     ps_frequencies_free(&degrees);
 }
 

@@ -41,7 +41,8 @@ static void measure(const ps_problem *problem, ps_precision precision, size_t nu
     assert_ok(ps_sphere_nufft.create(&state, problem, precision, 1, device, error));
     for (size_t i = 0; i < num; i++) {
         double power = 0;
-        assert_ok(ps_sphere_nufft.coefficients(state, &patterns[i], found, error));
+        assert_ok(ps_sphere_nufft.coefficients(
+            state, &(ps_batch){.num_patterns = 1, .patterns = &patterns[i]}, NULL, found, error));
         const double error =
             test_sphere_error(found, expected[i], (int32_t)L, 1, &patterns[i], &power);
         slack[i] = fmin(slack[i], ps_sphere_nufft.error_of_state(state, power) / error);

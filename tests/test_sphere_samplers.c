@@ -95,7 +95,7 @@ static void wrong_text_is_explained(void **state) {
     assert_parse_error("white:lift=ball", "lift=ball is not one of none, sphere, hemisphere");
     assert_parse_error("white:lift", "lift has no value");
     assert_parse_error("white:lift=sphere,lift=sphere", "lift is given twice");
-    assert_parse_error("white:lit=sphere", "no parameters except lift, but \"lit\"");
+    assert_parse_error("white:lit=sphere", "no parameters except lift, morph, n, but \"lit\"");
     assert_parse_error("sobol:lit=sphere", "did you mean lift?");
     assert_parse_error("fibonacci:lift=sphere", "makes points of the sphere without lift=");
     assert_parse_error("fibonacci:nside=3", "sampler fibonacci has no parameters, but");

@@ -29,11 +29,14 @@ static const double most = 1e-2;
 enum { DECADES = 10, SHAPES = TEST_SPHERE_SHAPES + 1 };
 
 /* A lattice on one circle of latitude, as many points as the set has. */
-static void circle(size_t point, size_t num_points, uint64_t *state, double angles[2]) {
+static void circle(size_t point, size_t num_points, uint64_t *state, double u[3]) {
     const double two_pi = 6.283185307179586;
     (void)state;
-    angles[0] = 0.8;
-    angles[1] = two_pi * (double)point / (double)num_points;
+    const double theta = 0.8;
+    const double phi = two_pi * (double)point / (double)num_points;
+    u[0] = sin(theta) * cos(phi);
+    u[1] = sin(theta) * sin(phi);
+    u[2] = cos(theta);
 }
 
 static const test_sphere_shape one_circle = {"circle", circle, NULL};
@@ -95,7 +98,8 @@ static void check_sample(sweep *self, const sample *one, const ps_problem *probl
     const size_t L = (size_t)self->degrees.max_frequency;
     double *found = calloc((L + 1) * (L + 2), sizeof *found);
     double power = 0;
-    assert_ok(candidate->engine->coefficients(state, &one->pattern, found, error));
+    assert_ok(candidate->engine->coefficients(
+        state, &(ps_batch){.num_patterns = 1, .patterns = &one->pattern}, NULL, found, error));
     const double error =
         test_sphere_error(found, one->expected, (int32_t)L, step_of(self), &one->pattern, &power);
     const double bound = candidate->engine->error(problem, ps_device_get_limits(device),
@@ -204,7 +208,7 @@ static void refusals(void **state) {
     (void)state;
     ps_frequencies degrees = test_degrees(20, false);
     for (size_t i = 0; ps_engines[i] != NULL; i++) {
-        if (!(ps_engines[i]->domains & PS_ON_SPHERE)) {
+        if (!(ps_engines[i]->domains & PS_ON_SPHERE) || ps_engines[i]->sums_pairs) {
             continue;
         }
         const ps_plan_constraints alone = {.engine = ps_engines[i]->name, .precision = -1};

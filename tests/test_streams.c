@@ -174,7 +174,8 @@ static void sets_that_change(void **state) {
         ps_error error = {0};
         blocks from = {.pattern = what.patterns[0]};
         const double sum = (double)announced;
-        const ps_pattern_stream stream = {2, announced, {0, sum, sum, 0}, next_block, &from};
+        const ps_pattern_stream stream = {
+            2, announced, {0, true, sum, sum, sum, 0}, next_block, &from};
         const bool is_right = announced == SOME;
         assert_int_equal(ps_estimator_add_stream(estimator, &stream, &error),
                          is_right ? PSPEC_OK : PSPEC_ERROR_INPUT);

@@ -1,5 +1,5 @@
 """The problems: R realizations of N points in d dimensions, all frequencies |k_i| <= K; and of N points of
-the sphere, all degrees up to L."""
+the sphere, all degrees up to L, their powers or their sums over pairs."""
 
 from typing import NamedTuple
 
@@ -31,7 +31,7 @@ class TorusCase(NamedTuple):
 
 
 class SphereCase(NamedTuple):
-    domain: str  # "s", where the others have their dimension
+    domain: str  # "s", of pairs "p", where the others have their dimension
     points: int
     degree: int
     realizations: int
@@ -75,16 +75,26 @@ SPHERE_CASES = [
     SphereCase("s", 4096, 2000, 10),
 ]
 
+PAIRS_CASES = [
+    SphereCase("p", 64, 32, 5000),
+    SphereCase("p", 256, 100, 1000),
+    SphereCase("p", 1024, 128, 200),
+    SphereCase("p", 1024, 512, 200),
+    SphereCase("p", 4096, 256, 100),
+]
+
 TORUS_TOLERANCES = [1e-3, 1e-6, 1e-9, 1e-12]
 SPHERE_TOLERANCES = [1e-5, 1e-12]
+PAIRS_TOLERANCES = [1e-5, 1e-10]
 
 
 def parse_case(text):
-    """ "2,1024,128,1000" or "s,1024,128,1000"; without R, that of the lists above, else 1000."""
+    """ "2,1024,128,1000", "s,1024,128,1000" or "p,1024,128,200"; without R, that of the lists above, else 1000."""
     words = text.split(",")
-    kind = SphereCase if words[0] == "s" else TorusCase
-    values = [word if word == "s" else int(float(word)) for word in words]
+    on_sphere = words[0] in ("s", "p")
+    kind = SphereCase if on_sphere else TorusCase
+    values = words[:on_sphere] + [int(float(word)) for word in words[on_sphere:]]
     if len(values) == 3:
-        known = [case[3] for case in TORUS_CASES + SPHERE_CASES if list(case[:3]) == values]
+        known = [case[3] for case in TORUS_CASES + SPHERE_CASES + PAIRS_CASES if list(case[:3]) == values]
         values.append(known[0] if known else 1000)
     return kind(*values)

@@ -1,18 +1,21 @@
-"""The torus and the sphere: their problems, who solves them, and how results are measured."""
+"""The torus, the sphere, and pairs on the sphere: their problems, who solves them, and how results are measured."""
 
 from typing import Callable, NamedTuple
 
-from cases import (SPHERE_CASES, SPHERE_TOLERANCES, TORUS_CASES, TORUS_TOLERANCES, SphereCase)
+from cases import (PAIRS_CASES, PAIRS_TOLERANCES, SPHERE_CASES, SPHERE_TOLERANCES, TORUS_CASES, TORUS_TOLERANCES,
+                   SphereCase)
 from peer_ducc0 import Ducc0
 from peer_ducc0_sphere import Ducc0Sphere
 from peer_finufft import Finufft
 from peer_nfft import Nfft
 from peer_nfsft import Nfsft
+from peer_numpy_pairs import NumpyPairs
 from plain import PlainRunner
 from points import TorusPoints
 from points_sphere import SpherePoints
-from pointspec_questions import SphereQuestion, TorusQuestion
+from pointspec_questions import PairsQuestion, SphereQuestion, TorusQuestion
 from reference import TorusReference
+from reference_pairs import PairsReference
 from reference_sphere import SphereReference
 
 
@@ -35,8 +38,11 @@ DOMAINS = {
     "sphere": Domain("s N L R", SPHERE_CASES, SPHERE_TOLERANCES, {"ducc0": Ducc0Sphere, "nfft": Nfsft},
                      SpherePoints, SphereReference, SphereQuestion(), "sphere_direct", PlainRunner,
                      "peers_sphere.csv"),
+    "pairs": Domain("p N L R", PAIRS_CASES, PAIRS_TOLERANCES, {"ducc0": Ducc0Sphere, "numpy": NumpyPairs},
+                    SpherePoints, PairsReference, PairsQuestion(), "pairs_direct", None, "peers_pairs.csv"),
 }
 
 
 def domain_of(case):
-    return "sphere" if isinstance(case, SphereCase) else "torus"
+    names = {"s": "sphere", "p": "pairs"}
+    return names[case.domain] if isinstance(case, SphereCase) else "torus"

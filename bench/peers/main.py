@@ -1,4 +1,4 @@
-"""pointspec beside the libraries of others, on the torus and on the sphere; bench_peers.sh calls this,
+"""pointspec beside the libraries of others, on the torus, on the sphere and for pairs; bench_peers.sh calls this,
 docs/peers.md explains it."""
 
 import argparse
@@ -26,13 +26,14 @@ ENGINE_SECONDS = 0.5  # of a realization; engines that were not chosen are to co
 def parse_arguments():
     parser = argparse.ArgumentParser(prog="./dev bench peers", description=__doc__)
     parser.add_argument("--domain", action="append", choices=list(DOMAINS),
-                        help="torus or sphere, repeatable; default: those of the cases, else both")
-    parser.add_argument("--case", action="append", type=parse_case, metavar="d,N,K[,R]|s,N,L[,R]",
-                        help="one case, of the torus or the sphere, repeatable; default: all")
+                        help="torus, sphere or pairs, repeatable; default: those of the cases, else all")
+    parser.add_argument("--case", action="append", type=parse_case, metavar="d,N,K[,R]|s,N,L[,R]|p,N,L[,R]",
+                        help="one case, of the torus, the sphere or pairs on it, repeatable; default: all")
     parser.add_argument("--tol", action="append", type=float, metavar="T",
-                        help="one tolerance, repeatable; default: torus 1e-3 1e-6 1e-9 1e-12, sphere 1e-5 1e-12")
-    parser.add_argument("--peers", default="finufft,ducc0,nfft", metavar="NAMES",
-                        help="of finufft,ducc0,nfft, separated by commas")
+                        help="one tolerance, repeatable; default: torus 1e-3 1e-6 1e-9 1e-12, sphere 1e-5 1e-12, "
+                             "pairs 1e-5 1e-10")
+    parser.add_argument("--peers", default="finufft,ducc0,nfft,numpy", metavar="NAMES",
+                        help="of finufft,ducc0,nfft,numpy, separated by commas")
     parser.add_argument("--no-pointspec", action="store_true", help="only the peers")
     parser.add_argument("--engine", help="force this engine of pointspec")
     parser.add_argument("--budget", type=float, metavar="SECONDS",
@@ -44,7 +45,7 @@ def parse_arguments():
                         help="leave an engine that was not chosen out when its plan says that a realization "
                              f"takes longer; default {ENGINE_SECONDS:g}, 0: only the chosen one")
     parser.add_argument("--output", type=Path, default=Path("bench-output"), metavar="FOLDER",
-                        help="for peers.csv and peers_sphere.csv")
+                        help="for peers.csv, peers_sphere.csv and peers_pairs.csv")
     parser.add_argument("--folder", type=Path, default=Path("build/peers"), help="what is installed")
     parser.add_argument("--build", type=Path, default=Path("build/release"))
     arguments = parser.parse_args()

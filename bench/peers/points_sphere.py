@@ -12,6 +12,8 @@ class SpherePoints(Points):
         return rows
 
     def make_layout(self, kind, dtype):
+        if kind == "rows":
+            return self.rows.astype(dtype)
         x, y, z = np.moveaxis(self.rows, 2, 0)
         angles = np.empty((*x.shape, 2))
         if kind == "angles":  # theta of 0 .. pi, phi of 0 .. 2 pi

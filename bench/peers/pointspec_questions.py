@@ -45,6 +45,9 @@ class AngularRequest(ctypes.Structure):
     ]
 
 
+PAIRS = 2  # PSPEC_NORMALIZATION_PAIRS
+
+
 class TorusQuestion:
     def arguments(self, case):
         return ["power", "--sampler", "white", "-d", case.dimension, "-k", case.max_frequency]
@@ -65,4 +68,15 @@ class SphereQuestion:
         return "pspec_plan_create_angular", AngularRequest(
             struct_size=ctypes.sizeof(AngularRequest), num_points=case.points,
             num_realizations=case.realizations, max_degree=case.degree,
+            tolerance=tolerance, engine=engine, no_self_check=1)
+
+
+class PairsQuestion:
+    def arguments(self, case):
+        return ["pairs", "--sampler", "white-sphere", "-l", case.degree]
+
+    def request(self, case, tolerance, engine):
+        return "pspec_plan_create_angular", AngularRequest(
+            struct_size=ctypes.sizeof(AngularRequest), num_points=case.points,
+            num_realizations=case.realizations, max_degree=case.degree, normalization=PAIRS,
             tolerance=tolerance, engine=engine, no_self_check=1)

@@ -11,7 +11,7 @@ enum { PS_SPECTRUM_VERSION = 1 };
 static const char *const ps_spectrum_kinds[] = {"list",   "box",     "ball",
                                                 "sample", "degrees", "even-degrees"};
 static const char *const ps_spectrum_bins[] = {"rings", "shells"};
-static const char *const ps_spectrum_normalizations[] = {"power", "effective"};
+static const char *const ps_spectrum_normalizations[] = {"power", "effective", "pairs"};
 
 /* A sample is a list in memory (ps_frequencies.rings), and a kind of its own in files; degrees are two. */
 enum {

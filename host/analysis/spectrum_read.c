@@ -182,7 +182,7 @@ static pspec_status read_header(reader *in, header *out) {
     PS_TRY(read_count(in, "num_frequencies", 1, UINT32_MAX, &out->num_frequencies));
     PS_TRY(read_word(in, "bins", ps_spectrum_bins, 2, &out->bins));
     PS_TRY(read_count(in, "num_bins", 0, UINT32_MAX, &out->num_bins));
-    PS_TRY(read_word(in, "normalization", ps_spectrum_normalizations, 2, &out->normalization));
+    PS_TRY(read_word(in, "normalization", ps_spectrum_normalizations, 3, &out->normalization));
     PS_TRY(read_count(in, "realizations", 1, PS_SPECTRUM_MOST_REALIZATIONS, &out->realizations));
     PS_TRY(read_count(in, "smallest_points", 1, SIZE_MAX / 16, &out->smallest_points));
     PS_TRY(read_count(in, "largest_points", out->smallest_points, SIZE_MAX / 16,

@@ -109,10 +109,10 @@ static pspec_status compare_frequencies(const ps_frequencies *a, const ps_freque
     return a->rings != NULL ? compare_rings(a, b, which, error) : PSPEC_OK;
 }
 
-static pspec_status compare(const ps_spectrum_sums *a, const ps_spectrum_sums *b, const char *which,
-                            ps_error *error) {
+pspec_status ps_spectrum_sums_require_same(const ps_spectrum_sums *a, const ps_spectrum_sums *b,
+                                           const char *which, ps_error *error) {
     static const char *const bins[] = {"rings", "shells"};
-    static const char *const normalizations[] = {"power", "effective"};
+    static const char *const normalizations[] = {"power", "effective", "pairs"};
     PS_TRY(compare_frequencies(&a->frequencies, &b->frequencies, which, error));
     if (a->exact_shells != b->exact_shells || a->num_bins != b->num_bins) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "%s has means over %s instead of %s", which,
@@ -140,7 +140,7 @@ static void add_totals(ps_pattern_totals *totals, const ps_pattern_totals *other
 
 pspec_status ps_spectrum_sums_merge(ps_spectrum_sums *sums, const ps_spectrum_sums *other,
                                     const char *which, ps_error *error) {
-    PS_TRY(compare(sums, other, which, error));
+    PS_TRY(ps_spectrum_sums_require_same(sums, other, which, error));
     if (other->totals.num_realizations > MOST_REALIZATIONS - sums->totals.num_realizations) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "%s brings the realizations to more than 2^53",
                        which);

@@ -1,7 +1,10 @@
+#define _DEFAULT_SOURCE /* madvise */
+
 #include "base/memory.h"
 
 #include <stdint.h>
 #include <stdlib.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 bool ps_size_multiply(size_t a, size_t b, size_t *product) {
@@ -28,6 +31,21 @@ pspec_status ps_allocate(void **out, size_t count, size_t element_bytes, const c
                          ps_error *error) {
     *out = calloc(count > 0 ? count : 1, element_bytes); /* calloc checks the product */
     return *out != NULL ? PSPEC_OK : fail_memory(count, element_bytes, what, error);
+}
+
+void ps_memory_use_large_pages(void *memory, size_t bytes) {
+#ifdef MADV_HUGEPAGE
+    /* whole pages inside; what calloc keeps before and behind them is its own */
+    const uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE);
+    const uintptr_t begin = ((uintptr_t)memory + page - 1) / page * page;
+    const uintptr_t end = ((uintptr_t)memory + bytes) / page * page;
+    if (begin < end) {
+        (void)madvise((void *)begin, end - begin, MADV_HUGEPAGE);
+    }
+#else
+    (void)memory;
+    (void)bytes;
+#endif
 }
 
 pspec_status ps_grow(void **array, size_t *capacity, size_t needed, size_t element_bytes,

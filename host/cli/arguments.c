@@ -157,8 +157,21 @@ static const ps_arguments defaults = {.num_points = 1024,
                                       .seed = 1,
                                       .domain = PS_DOMAIN_ANY,
                                       .tolerance = 1e-6,
+                                      .false_alarm_rate = 1e-3,
+                                      .smoothness = 1.5,
                                       .precision = -1,
                                       .command_line = ""};
+
+/* Whatever reads it first leaves nothing for the second. */
+static pspec_status check_standard_input(const ps_arguments *arguments, ps_error *error) {
+    size_t num = 0;
+    for (size_t i = 0; i < arguments->num_files; i++) {
+        num += strcmp(arguments->files[i], "-") == 0;
+    }
+    return num <= 1 ? PSPEC_OK
+                    : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                              "standard input (-) is named %zu times, but can be read once", num);
+}
 
 pspec_status ps_arguments_parse(ps_arguments *arguments, const ps_command *command, int num_words,
                                 char **words, ps_error *error) {
@@ -172,7 +185,7 @@ pspec_status ps_arguments_parse(ps_arguments *arguments, const ps_command *comma
     while (p.next < num_words && !arguments->is_given[PS_OPTION_HELP]) {
         PS_TRY(parse_word(&p, &is_over));
     }
-    return PSPEC_OK;
+    return arguments->is_given[PS_OPTION_HELP] ? PSPEC_OK : check_standard_input(arguments, error);
 }
 
 void ps_arguments_free(ps_arguments *arguments) {

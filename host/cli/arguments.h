@@ -17,9 +17,14 @@ enum { PS_MAX_SAMPLERS = 16 };
 typedef enum ps_option_id {
     PS_OPTION_POINTS,            /* -n, --points N */
     PS_OPTION_REALIZATIONS,      /* -m, --realizations M */
+    PS_OPTION_STANDARD_ERROR,    /* --standard-error X */
     PS_OPTION_DIMENSION,         /* -d, --dimension D */
     PS_OPTION_SEED,              /* -s, --seed S */
     PS_OPTION_SAMPLER,           /* --sampler NAME[:key=value,...], repeatable */
+    PS_OPTION_AGAINST,           /* --against FILE */
+    PS_OPTION_FALSE_ALARM_RATE,  /* --false-alarm-rate P */
+    PS_OPTION_BRDF,              /* --brdf NAME[:key=value,...] */
+    PS_OPTION_SMOOTHNESS,        /* --smoothness S */
     PS_OPTION_MAX_FREQUENCY,     /* -k, --max-frequency K */
     PS_OPTION_MAX_DEGREE,        /* -l, --max-degree L */
     PS_OPTION_HEMISPHERE,        /* --hemisphere */
@@ -37,6 +42,7 @@ typedef enum ps_option_id {
     PS_OPTION_DOMAIN,            /* --domain torus|sphere */
     PS_OPTION_WRAP,              /* --wrap */
     PS_OPTION_NORMALIZE_VECTORS, /* --normalize-vectors */
+    PS_OPTION_DROP_BELOW,        /* --drop-below-horizon */
     PS_OPTION_SELECT_SETS,       /* --select-sets A..B */
     PS_OPTION_SELECT_POINTS,     /* --select-points A..B */
     PS_OPTION_MERGE,             /* --merge */
@@ -45,7 +51,9 @@ typedef enum ps_option_id {
     PS_OPTION_FLOOR,             /* --floor P */
     PS_OPTION_PRECISION,         /* --precision auto|single|double|extended */
     PS_OPTION_ENGINE,            /* --engine NAME */
+    PS_OPTION_CASE,              /* --case NAME */
     PS_OPTION_DEVICE,            /* --device SELECTOR */
+    PS_OPTION_MEMORY,            /* --memory BYTES */
     PS_OPTION_NO_SKIP,           /* --no-skip */
     PS_OPTION_NO_SELF_CHECK,     /* --no-self-check */
     PS_OPTION_OUTPUT,            /* -o, --output FILE */
@@ -53,6 +61,7 @@ typedef enum ps_option_id {
     PS_OPTION_PLOT,              /* --plot FILE */
     PS_OPTION_PROFILE,           /* --profile */
     PS_OPTION_QUIET,             /* --quiet */
+    PS_OPTION_QUICK,             /* --quick */
     PS_OPTION_VERBOSE,           /* --verbose */
     PS_OPTION_HELP,              /* -h, --help */
     PS_NUM_OPTIONS
@@ -66,19 +75,25 @@ typedef struct ps_arguments {
     uint64_t seed;                 /* 1 unless given */
     size_t num_samplers;
     const char *samplers[PS_MAX_SAMPLERS];
-    int32_t max_frequency; /* 0 unless given: the default of design.md 3.1 */
-    uint64_t max_degree;   /* 0 unless given: the default of design.md 3.1 */
-    uint64_t per_ring;     /* 0 unless given: all frequencies */
-    const char *coefficients, *harmonics, *frequencies, *full, *weights, *input_format, *columns,
-        *to_columns, *engine, *device, *output, *format, *plot; /* NULL unless given */
-    ps_domain domain;                                           /* PS_DOMAIN_ANY unless given */
-    ps_point_range sets, points;                                /* {0} unless given */
-    bool shells, homogenize, hemisphere, wrap, normalize_vectors, merge, no_skip, no_self_check,
-        profile, quiet, verbose;
-    bool effective;   /* --normalize effective */
-    double tolerance; /* 1e-6 unless given */
-    double floor;     /* 0 unless given */
-    int precision;    /* a ps_precision, -1 for auto */
+    int32_t max_frequency;   /* 0 unless given: the default of design.md 3.1 */
+    uint64_t max_degree;     /* 0 unless given: the default of design.md 3.1 */
+    uint64_t per_ring;       /* 0 unless given: all frequencies */
+    uint64_t memory;         /* 0 unless given: what there is */
+    const char *against;     /* NULL unless given */
+    double false_alarm_rate; /* 1e-3 unless given */
+    const char *brdf, *coefficients, *harmonics, *frequencies, *full, *weights, *input_format,
+        *columns, *to_columns, *engine, *case_name, *device, *output, *format,
+        *plot;                   /* NULL unless given */
+    ps_domain domain;            /* PS_DOMAIN_ANY unless given */
+    ps_point_range sets, points; /* {0} unless given */
+    bool shells, homogenize, hemisphere, wrap, normalize_vectors, drop_below_horizon, merge,
+        no_skip, no_self_check, profile, quick, quiet, verbose;
+    bool effective;        /* --normalize effective */
+    double tolerance;      /* 1e-6 unless given */
+    double standard_error; /* 0 unless given */
+    double floor;          /* 0 unless given */
+    double smoothness;     /* 1.5 unless given */
+    int precision;         /* a ps_precision, -1 for auto */
     size_t num_files;
     const char **files;       /* the remaining words; "-" is standard input */
     const char *command_line; /* the whole line, for headers */

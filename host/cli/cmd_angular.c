@@ -3,24 +3,39 @@
 #include "cli/command.h"
 #include "cli/jobs.h"
 #include "cli/output_check.h"
-#include "cli/spectrum_plot.h"
 #include "io/npy.h"
 
-static const ps_option_id options[] = {PS_OPTION_SAMPLER,      PS_OPTION_POINTS,
-                                       PS_OPTION_REALIZATIONS, PS_OPTION_SEED,
-                                       PS_OPTION_HOMOGENIZE,   PS_OPTION_WEIGHTS,
-                                       PS_OPTION_INPUT_FORMAT, PS_OPTION_COLUMNS,
-                                       PS_OPTION_SELECT_SETS,  PS_OPTION_NORMALIZE_VECTORS,
-                                       PS_OPTION_MAX_DEGREE,   PS_OPTION_HEMISPHERE,
-                                       PS_OPTION_COEFFICIENTS, PS_OPTION_HARMONICS,
-                                       PS_OPTION_NORMALIZE,    PS_OPTION_TOLERANCE,
-                                       PS_OPTION_FLOOR,        PS_OPTION_PRECISION,
-                                       PS_OPTION_ENGINE,       PS_OPTION_DEVICE,
-                                       PS_OPTION_NO_SKIP,      PS_OPTION_NO_SELF_CHECK,
-                                       PS_OPTION_OUTPUT,       PS_OPTION_FORMAT,
-                                       PS_OPTION_PLOT,         PS_OPTION_PROFILE,
-                                       PS_OPTION_QUIET,        PS_OPTION_VERBOSE,
-                                       PS_OPTION_HELP,         PS_NUM_OPTIONS};
+static const ps_option_id options[] = {PS_OPTION_SAMPLER,
+                                       PS_OPTION_POINTS,
+                                       PS_OPTION_REALIZATIONS,
+                                       PS_OPTION_STANDARD_ERROR,
+                                       PS_OPTION_SEED,
+                                       PS_OPTION_HOMOGENIZE,
+                                       PS_OPTION_WEIGHTS,
+                                       PS_OPTION_INPUT_FORMAT,
+                                       PS_OPTION_COLUMNS,
+                                       PS_OPTION_SELECT_SETS,
+                                       PS_OPTION_NORMALIZE_VECTORS,
+                                       PS_OPTION_MAX_DEGREE,
+                                       PS_OPTION_HEMISPHERE,
+                                       PS_OPTION_COEFFICIENTS,
+                                       PS_OPTION_HARMONICS,
+                                       PS_OPTION_NORMALIZE,
+                                       PS_OPTION_TOLERANCE,
+                                       PS_OPTION_FLOOR,
+                                       PS_OPTION_PRECISION,
+                                       PS_OPTION_ENGINE,
+                                       PS_OPTION_DEVICE,
+                                       PS_OPTION_NO_SKIP,
+                                       PS_OPTION_NO_SELF_CHECK,
+                                       PS_OPTION_OUTPUT,
+                                       PS_OPTION_FORMAT,
+                                       PS_OPTION_PLOT,
+                                       PS_OPTION_PROFILE,
+                                       PS_OPTION_QUIET,
+                                       PS_OPTION_VERBOSE,
+                                       PS_OPTION_HELP,
+                                       PS_NUM_OPTIONS};
 
 static pspec_status write_coefficients(const char *path, const ps_power_job *job, ps_error *error) {
     const int32_t max_degree = ps_power_job_problem(job)->frequencies->max_frequency;
@@ -28,20 +43,11 @@ static pspec_status write_coefficients(const char *path, const ps_power_job *job
                                 ps_power_job_coefficients(job), error);
 }
 
-static pspec_status write_results(const ps_arguments *arguments, const ps_power_job *const *jobs,
-                                  size_t num, ps_table_format format, ps_error *error) {
-    ps_table *table = NULL;
-    if (arguments->coefficients != NULL) {
-        PS_TRY(write_coefficients(arguments->coefficients, jobs[0], error));
-    }
-    if (arguments->plot != NULL) {
-        PS_TRY(ps_spectrum_plot(arguments, jobs, num, error));
-    }
-    PS_TRY(ps_angular_table(&table, arguments, jobs, num, error));
-    const pspec_status status =
-        ps_table_write(table, arguments->output != NULL ? arguments->output : "-", format, error);
-    ps_table_destroy(table);
-    return status;
+static pspec_status write_others(const ps_arguments *arguments, const ps_power_job *const *jobs,
+                                 ps_error *error) {
+    return arguments->coefficients != NULL
+               ? write_coefficients(arguments->coefficients, jobs[0], error)
+               : PSPEC_OK;
 }
 
 static pspec_status check_coefficients(const ps_arguments *arguments, ps_error *error) {
@@ -60,8 +66,9 @@ static pspec_status check_coefficients(const ps_arguments *arguments, ps_error *
 }
 
 static pspec_status run(const ps_arguments *arguments, ps_error *error) {
+    static const ps_jobs_output output = {ps_angular_table, write_others};
     PS_TRY(check_coefficients(arguments, error));
-    return ps_jobs_run(arguments, PS_DOMAIN_SPHERE, write_results, error);
+    return ps_jobs_run(arguments, PS_QUESTION_ANGULAR, &output, error);
 }
 
 const ps_command ps_command_angular = {

@@ -1,6 +1,7 @@
 /* pointspec plan: what another command would do, by what, what it skips and why. */
 #include "cli/command.h"
 #include "cli/options.h"
+#include "cli/quadrature_question.h"
 #include "cli/question.h"
 #include "io/table.h"
 
@@ -39,11 +40,10 @@ static pspec_status add_candidates(ps_table *table, const ps_plan *plan, ps_erro
     return PSPEC_OK;
 }
 
+/* What is asked of a job: number `index` of its command. */
 static pspec_status add_header(ps_table *table, const ps_arguments *arguments,
-                               const ps_power_job *job, size_t index, ps_error *error) {
-    const ps_problem *problem = ps_power_job_problem(job);
-    const ps_needs *needs = ps_power_job_needs(job);
-    const ps_device_limits *limits = ps_power_job_limits(job);
+                               const ps_problem *problem, const ps_needs *needs,
+                               const ps_device_limits *limits, size_t index, ps_error *error) {
     if (arguments->num_samplers > 0) {
         PS_TRY(ps_table_add_meta(table, "sampler", PS_TEXT(arguments->samplers[index]), error));
     }
@@ -69,17 +69,16 @@ static pspec_status add_header(ps_table *table, const ps_arguments *arguments,
     return PSPEC_OK;
 }
 
-static pspec_status add_jobs(ps_table *table, const ps_arguments *arguments, ps_domain domain,
+static pspec_status add_jobs(ps_table *table, const ps_arguments *arguments, ps_question_kind kind,
                              ps_error *error) {
     ps_question_list list;
-    PS_TRY(ps_questions_make(&list, arguments, domain, error));
-    PS_TRY(ps_table_add_meta(table, "pointspec_version", PS_TEXT(PS_VERSION), error));
-    PS_TRY(ps_table_add_meta(table, "schema", PS_INTEGER(1), error));
-    PS_TRY(ps_table_add_meta(table, "command", PS_TEXT(arguments->command_line), error));
+    PS_TRY(ps_questions_make(&list, arguments, kind, error));
     for (size_t i = 0; i < list.num; i++) {
         ps_power_job *job = NULL;
         PS_TRY(ps_power_job_create(&job, &list.questions[i], error));
-        pspec_status status = add_header(table, arguments, job, i, error);
+        pspec_status status =
+            add_header(table, arguments, ps_power_job_problem(job), ps_power_job_needs(job),
+                       ps_power_job_limits(job), i, error);
         if (status == PSPEC_OK) {
             status = add_candidates(table, ps_power_job_plan(job), error);
         }
@@ -89,11 +88,53 @@ static pspec_status add_jobs(ps_table *table, const ps_arguments *arguments, ps_
     return PSPEC_OK;
 }
 
-/* Commands that can be planned. */
+static pspec_status add_setup(ps_table *table, const ps_arguments *arguments,
+                              const ps_quadrature_setup *setup, size_t index, ps_error *error) {
+    const ps_device_limits *const limits =
+        setup->device != NULL ? ps_device_get_limits(setup->device) : NULL;
+    PS_TRY(add_header(table, arguments, &setup->problem, &setup->needs, limits, index, error));
+    if (setup->degrees_note[0] != '\0') {
+        PS_TRY(ps_table_add_meta(table, "degrees_note", PS_TEXT(setup->degrees_note), error));
+    }
+    if (setup->weights_note[0] != '\0') {
+        PS_TRY(ps_table_add_meta(table, "weights", PS_TEXT(setup->weights_note), error));
+    }
+    return add_candidates(table, &setup->plan, error);
+}
+
+static pspec_status add_quadrature(ps_table *table, const ps_arguments *arguments,
+                                   ps_error *error) {
+    ps_quadrature_list list;
+    pspec_status status = ps_quadrature_list_make(&list, arguments, error);
+    for (size_t i = 0; status == PSPEC_OK && i < list.num; i++) {
+        ps_quadrature_setup setup;
+        status = ps_quadrature_setup_ask(&setup, &list.questions[i], error);
+        if (status == PSPEC_OK) {
+            status = add_setup(table, arguments, &setup, i, error);
+        }
+        ps_quadrature_setup_free(&setup);
+    }
+    ps_quadrature_list_free(&list);
+    return status;
+}
+
+static pspec_status fill(ps_table *table, const ps_arguments *arguments, const ps_command *command,
+                         ps_question_kind kind, ps_error *error) {
+    PS_TRY(ps_table_add_meta(table, "pointspec_version", PS_TEXT(PS_VERSION), error));
+    PS_TRY(ps_table_add_meta(table, "schema", PS_INTEGER(1), error));
+    PS_TRY(ps_table_add_meta(table, "command", PS_TEXT(arguments->command_line), error));
+    return command == &ps_command_quadrature ? add_quadrature(table, arguments, error)
+                                             : add_jobs(table, arguments, kind, error);
+}
+
+/* Commands that can be planned; the kind is of those whose question is one of a spectrum. */
 static const struct {
     const ps_command *command;
-    ps_domain domain;
-} planned[] = {{&ps_command_power, PS_DOMAIN_TORUS}, {&ps_command_angular, PS_DOMAIN_SPHERE}};
+    ps_question_kind kind;
+} planned[] = {{&ps_command_power, PS_QUESTION_POWER},
+               {&ps_command_angular, PS_QUESTION_ANGULAR},
+               {&ps_command_pairs, PS_QUESTION_PAIRS},
+               {&ps_command_quadrature, PS_QUESTION_PAIRS}};
 enum { NUM_PLANNED = sizeof planned / sizeof planned[0] };
 
 /* Options of the other command only. */
@@ -109,20 +150,22 @@ static pspec_status check_options(const ps_command *command, const ps_arguments 
 }
 
 /* The first word names the command that is asked about; the rest is that command's. */
-static pspec_status take_command(ps_arguments *inner, ps_domain *domain,
-                                 const ps_arguments *arguments, ps_error *error) {
+static pspec_status take_command(ps_arguments *inner, const ps_command **command,
+                                 ps_question_kind *kind, const ps_arguments *arguments,
+                                 ps_error *error) {
     for (size_t i = 0; i < NUM_PLANNED && arguments->num_files > 0; i++) {
         if (strcmp(arguments->files[0], planned[i].command->name) == 0) {
             *inner = *arguments;
             inner->files++;
             inner->num_files--;
-            *domain = planned[i].domain;
+            *kind = planned[i].kind;
+            *command = planned[i].command;
             return check_options(planned[i].command, arguments, error);
         }
     }
     return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                    "name the command to plan first, as in: pointspec plan power --sampler white "
-                   "(power and angular can be planned)");
+                   "(power, angular, pairs and quadrature can be planned)");
 }
 
 static pspec_status run(const ps_arguments *arguments, ps_error *error) {
@@ -131,11 +174,12 @@ static pspec_status run(const ps_arguments *arguments, ps_error *error) {
                                           "bytes",  "error",   "reason"};
     ps_table *table = NULL;
     ps_table_format format = PS_FORMAT_CSV;
-    ps_domain domain = PS_DOMAIN_TORUS;
-    PS_TRY(take_command(&inner, &domain, arguments, error));
+    ps_question_kind kind = PS_QUESTION_POWER;
+    const ps_command *command = NULL;
+    PS_TRY(take_command(&inner, &command, &kind, arguments, error));
     PS_TRY(ps_table_choose_format(&format, arguments->format, arguments->output, error));
     PS_TRY(ps_table_create(&table, "plan", columns, sizeof columns / sizeof columns[0], error));
-    pspec_status status = add_jobs(table, &inner, domain, error);
+    pspec_status status = fill(table, &inner, command, kind, error);
     if (status == PSPEC_OK) {
         status = ps_table_write(table, arguments->output != NULL ? arguments->output : "-", format,
                                 error);
@@ -145,25 +189,32 @@ static pspec_status run(const ps_arguments *arguments, ps_error *error) {
 }
 
 /* Those of all commands that can be planned. */
-static const ps_option_id options[] = {
-    PS_OPTION_SAMPLER,       PS_OPTION_POINTS,       PS_OPTION_REALIZATIONS,
-    PS_OPTION_DIMENSION,     PS_OPTION_SEED,         PS_OPTION_HOMOGENIZE,
-    PS_OPTION_WEIGHTS,       PS_OPTION_INPUT_FORMAT, PS_OPTION_COLUMNS,
-    PS_OPTION_SELECT_SETS,   PS_OPTION_WRAP,         PS_OPTION_NORMALIZE_VECTORS,
-    PS_OPTION_MAX_FREQUENCY, PS_OPTION_MAX_DEGREE,   PS_OPTION_HEMISPHERE,
-    PS_OPTION_COEFFICIENTS,  PS_OPTION_HARMONICS,    PS_OPTION_FREQUENCIES,
-    PS_OPTION_SHELLS,        PS_OPTION_PER_RING,     PS_OPTION_NORMALIZE,
-    PS_OPTION_TOLERANCE,     PS_OPTION_FLOOR,        PS_OPTION_PRECISION,
-    PS_OPTION_ENGINE,        PS_OPTION_DEVICE,       PS_OPTION_NO_SKIP,
-    PS_OPTION_NO_SELF_CHECK, PS_OPTION_OUTPUT,       PS_OPTION_FORMAT,
-    PS_OPTION_FULL,          PS_OPTION_PLOT,         PS_OPTION_PROFILE,
-    PS_OPTION_QUIET,         PS_OPTION_VERBOSE,      PS_OPTION_HELP,
-    PS_NUM_OPTIONS};
+static const ps_option_id options[] = {PS_OPTION_SAMPLER,       PS_OPTION_POINTS,
+                                       PS_OPTION_REALIZATIONS,  PS_OPTION_STANDARD_ERROR,
+                                       PS_OPTION_DIMENSION,     PS_OPTION_BRDF,
+                                       PS_OPTION_SMOOTHNESS,    PS_OPTION_DROP_BELOW,
+                                       PS_OPTION_SEED,          PS_OPTION_HOMOGENIZE,
+                                       PS_OPTION_WEIGHTS,       PS_OPTION_INPUT_FORMAT,
+                                       PS_OPTION_COLUMNS,       PS_OPTION_SELECT_SETS,
+                                       PS_OPTION_WRAP,          PS_OPTION_NORMALIZE_VECTORS,
+                                       PS_OPTION_MAX_FREQUENCY, PS_OPTION_MAX_DEGREE,
+                                       PS_OPTION_HEMISPHERE,    PS_OPTION_COEFFICIENTS,
+                                       PS_OPTION_HARMONICS,     PS_OPTION_FREQUENCIES,
+                                       PS_OPTION_SHELLS,        PS_OPTION_PER_RING,
+                                       PS_OPTION_NORMALIZE,     PS_OPTION_TOLERANCE,
+                                       PS_OPTION_FLOOR,         PS_OPTION_PRECISION,
+                                       PS_OPTION_ENGINE,        PS_OPTION_DEVICE,
+                                       PS_OPTION_NO_SKIP,       PS_OPTION_NO_SELF_CHECK,
+                                       PS_OPTION_OUTPUT,        PS_OPTION_FORMAT,
+                                       PS_OPTION_FULL,          PS_OPTION_PLOT,
+                                       PS_OPTION_PROFILE,       PS_OPTION_MEMORY,
+                                       PS_OPTION_QUIET,         PS_OPTION_VERBOSE,
+                                       PS_OPTION_HELP,          PS_NUM_OPTIONS};
 
 const ps_command ps_command_plan = {
     .name = "plan",
     .summary = "what a command would do: engines, seconds, bytes, error, what is skipped",
-    .usage = "plan power|angular [options of that command]",
+    .usage = "plan power|angular|pairs|quadrature [options of that command]",
     .description = "Takes the same arguments as the command named after it and prints how that "
                    "command would go about it: every engine with its estimated time, memory and "
                    "error, the one chosen, why the others were not, and what is skipped and why. "
@@ -171,6 +222,7 @@ const ps_command ps_command_plan = {
     .options = options,
     .examples = {"pointspec plan power --sampler white -n 4096 -m 1000 -k 128",
                  "pointspec plan angular --sampler white-sphere -n 1e6 -l 512 --tol 1e-9"},
+    .weights = "equal|column|optimal|FILE",
     .samples = PS_DOMAIN_ANY,
     .run = run,
 };

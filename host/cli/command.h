@@ -35,8 +35,9 @@ extern const ps_command *const ps_commands[];
 /* The command of that name; NULL with a sentence that names the nearest one. */
 const ps_command *ps_command_find(const char *name, ps_error *error);
 
-extern const ps_command ps_command_power, ps_command_angular, ps_command_sample, ps_command_convert,
-    ps_command_plan, ps_command_devices;
+extern const ps_command ps_command_power, ps_command_angular, ps_command_pairs,
+    ps_command_quadrature, ps_command_truncation, ps_command_sample, ps_command_convert,
+    ps_command_check, ps_command_plan, ps_command_stress, ps_command_devices;
 
 /* Set by the handler of SIGINT and SIGTERM; commands look at it between batches. The program's only
  * global variable. */
@@ -63,6 +64,7 @@ void ps_help_command(FILE *stream, const ps_command *command);
 typedef struct ps_progress ps_progress;
 ps_progress *ps_progress_begin(const ps_arguments *arguments, const char *what); /* NULL: silent */
 void ps_progress_update(ps_progress *progress, uint64_t done, uint64_t total);
+void ps_progress_hide(ps_progress *progress); /* until the next update: something else is printed */
 void ps_progress_end(ps_progress *progress);
 
 #endif

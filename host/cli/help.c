@@ -1,5 +1,6 @@
 /* --help: everything comes from the tables of commands, options and samplers. */
 #include "cli/options.h"
+#include "integrands/brdf.h"
 #include "samplers/sampler.h"
 
 #include <stdio.h>
@@ -104,6 +105,22 @@ static void print_samplers(FILE *stream, ps_domain domain) {
     if (domain != PS_DOMAIN_TORUS) {
         print_item(stream, "  :" PS_LIFT_KEY "=" PS_LIFT_DEFAULT,
                    "of all samplers of the torus: " PS_LIFT_MEANING);
+        print_item(stream, "  :" PS_MORPH_KEY "=" PS_MORPH_DEFAULT, PS_MORPH_MEANING);
+        print_item(stream, "  :" PS_EXPONENT_KEY "=", PS_EXPONENT_MEANING);
+    }
+}
+
+/* ---- BRDFs --------------------------------------------------------------------------------- */
+
+static void print_brdfs(FILE *stream) {
+    fputs("\nBRDFs, with the defaults of their parameters:\n", stream);
+    for (size_t i = 0; ps_brdf_kinds[i] != NULL; i++) {
+        print_item(stream, ps_brdf_kinds[i]->name, ps_brdf_kinds[i]->summary);
+        for (const ps_parameter *p = ps_brdf_kinds[i]->parameters; p->key != NULL; p++) {
+            char term[128];
+            snprintf(term, sizeof term, "  :%s=%s", p->key, p->default_value);
+            print_item(stream, term, p->meaning);
+        }
     }
 }
 
@@ -120,6 +137,9 @@ void ps_help_command(FILE *stream, const ps_command *command) {
     }
     if (ps_command_takes(command, PS_OPTION_SAMPLER)) {
         print_samplers(stream, command->samples);
+    }
+    if (ps_command_takes(command, PS_OPTION_BRDF)) {
+        print_brdfs(stream);
     }
     fputs("\nExamples:\n", stream);
     for (size_t i = 0; i < sizeof command->examples / sizeof command->examples[0]; i++) {

@@ -1,6 +1,7 @@
 #include "cli/jobs.h"
 
 #include "cli/output_check.h"
+#include "cli/spectrum_plot.h"
 #include "io/plot.h"
 
 #include <stdio.h>
@@ -10,9 +11,7 @@ static int on_progress(uint64_t done, uint64_t total, void *payload) {
     return ps_interrupted;
 }
 
-static void print_profile(const ps_power_job *job) {
-    size_t num_rows = 0;
-    const ps_profile_row *rows = ps_power_job_profile(job, &num_rows);
+void ps_print_profile(const ps_profile_row *rows, size_t num_rows) {
     fprintf(stderr, "%-24s %9s %12s %10s %8s\n", "kernel", "launches", "seconds", "GFLOP/s",
             "GB/s");
     for (size_t i = 0; i < num_rows; i++) {
@@ -24,8 +23,7 @@ static void print_profile(const ps_power_job *job) {
     }
 }
 
-static void print_plan(const ps_power_job *job) {
-    const ps_plan *plan = ps_power_job_plan(job);
+void ps_print_plan(const ps_plan *plan) {
     for (size_t i = 0; i < plan->num_candidates; i++) {
         const ps_candidate *candidate = &plan->candidates[i];
         fprintf(stderr, "%s (%s): %s\n", candidate->engine->name,
@@ -33,23 +31,42 @@ static void print_plan(const ps_power_job *job) {
     }
 }
 
-/* Lattices of many dimensions are larger than people think. */
+/* Lattices of many dimensions, and degrees, which cost their square, are more than people think. */
 static void warn_of_hours(const ps_power_job *job) {
     const double hour = 3600;    /* seconds */
     enum { FEW_DIMENSIONS = 3 }; /* where K has a default, and time is a matter of realizations */
     const ps_candidate *chosen = ps_power_job_plan(job)->chosen;
     const ps_frequencies *set = ps_power_job_problem(job)->frequencies;
-    if (chosen != NULL && chosen->seconds > hour && set->kind != PS_FREQUENCIES_LIST &&
-        set->dimension > FEW_DIMENSIONS) {
+    if (chosen == NULL || chosen->seconds <= hour) {
+        return;
+    }
+    const double hours = chosen->seconds / hour;
+    if (set->kind == PS_FREQUENCIES_DEGREES) {
+        fprintf(stderr,
+                "pointspec: %s will take about %.2g hours to degree %d; fewer degrees "
+                "(--max-degree) take less\n",
+                chosen->engine->name, hours, (int)set->max_frequency);
+    } else if (set->kind != PS_FREQUENCIES_LIST && set->dimension > FEW_DIMENSIONS) {
         fprintf(stderr,
                 "pointspec: %.3g frequencies will take about %.2g hours; a random subset of "
                 "every ring (--per-ring) takes less\n",
-                (double)set->num, chosen->seconds / hour);
+                (double)set->num, hours);
     }
 }
 
-static pspec_status run_job(const ps_arguments *arguments, ps_power_question *question,
-                            ps_power_job **job, ps_error *error) {
+static void warn_of_standard_error(const ps_power_job *job, double standard_error) {
+    const ps_sequential_look *look = ps_power_job_look(job);
+    if (look != NULL && look->corrected > standard_error) {
+        fprintf(stderr,
+                "pointspec: the standard error %.3g was not reached in %llu realizations: it is "
+                "%.3g of bin %lld\n",
+                standard_error, (unsigned long long)ps_power_job_spectrum(job)->num_realizations,
+                look->corrected, (long long)look->bin);
+    }
+}
+
+pspec_status ps_jobs_run_one(const ps_arguments *arguments, ps_power_question *question,
+                             ps_power_job **job, ps_error *error) {
     ps_progress *progress = ps_progress_begin(arguments, "realizations");
     question->progress = on_progress;
     question->payload = progress;
@@ -58,14 +75,19 @@ static pspec_status run_job(const ps_arguments *arguments, ps_power_question *qu
         warn_of_hours(*job);
     }
     if (status == PSPEC_OK && arguments->verbose) {
-        print_plan(*job);
+        ps_print_plan(ps_power_job_plan(*job));
     }
     if (status == PSPEC_OK) {
         status = ps_power_job_run(*job, error);
     }
     ps_progress_end(progress);
+    if (status == PSPEC_OK && !arguments->quiet) {
+        warn_of_standard_error(*job, arguments->standard_error);
+    }
     if (status == PSPEC_OK && arguments->profile) {
-        print_profile(*job);
+        size_t num_rows = 0;
+        const ps_profile_row *const rows = ps_power_job_profile(*job, &num_rows);
+        ps_print_profile(rows, num_rows);
     }
     return status;
 }
@@ -80,18 +102,36 @@ static pspec_status check_outputs(const ps_arguments *arguments, ps_table_format
     return ps_outputs_check(arguments, true, error);
 }
 
-pspec_status ps_jobs_run(const ps_arguments *arguments, ps_domain domain, ps_jobs_write write,
-                         ps_error *error) {
+static pspec_status write_results(const ps_arguments *arguments, const ps_power_job *const *jobs,
+                                  size_t num, const ps_jobs_output *output, ps_table_format format,
+                                  ps_error *error) {
+    ps_table *table = NULL;
+    if (output->write_others != NULL) {
+        PS_TRY(output->write_others(arguments, jobs, error));
+    }
+    if (arguments->plot != NULL) {
+        PS_TRY(ps_spectrum_plot(arguments, jobs, num, error));
+    }
+    PS_TRY(output->make_table(&table, arguments, jobs, num, error));
+    const pspec_status status =
+        ps_table_write(table, arguments->output != NULL ? arguments->output : "-", format, error);
+    ps_table_destroy(table);
+    return status;
+}
+
+pspec_status ps_jobs_run(const ps_arguments *arguments, ps_question_kind kind,
+                         const ps_jobs_output *output, ps_error *error) {
     ps_power_job *jobs[PS_MAX_SAMPLERS] = {NULL};
     ps_question_list list;
     ps_table_format format = PS_FORMAT_CSV;
     pspec_status status = PSPEC_OK;
     PS_TRY(check_outputs(arguments, &format, error));
-    PS_TRY(ps_questions_make(&list, arguments, domain, error));
+    PS_TRY(ps_questions_make(&list, arguments, kind, error));
     for (size_t i = 0; i < list.num; i++) {
-        PS_TRY_OUT(status, run_job(arguments, &list.questions[i], &jobs[i], error));
+        PS_TRY_OUT(status, ps_jobs_run_one(arguments, &list.questions[i], &jobs[i], error));
     }
-    status = write(arguments, (const ps_power_job *const *)jobs, list.num, format, error);
+    status = write_results(arguments, (const ps_power_job *const *)jobs, list.num, output, format,
+                           error);
 out:
     for (size_t i = 0; i < list.num; i++) {
         ps_power_job_destroy(jobs[i]);

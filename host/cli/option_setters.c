@@ -2,6 +2,7 @@
 #include "cli/option_setters.h"
 
 #include "base/text.h"
+#include "math/sobolev.h"
 
 #include <float.h>
 #include <string.h>
@@ -76,6 +77,17 @@ pspec_status ps_set_range(const ps_option *option, const char *words, const char
     return PSPEC_OK;
 }
 
+/* The largest degree is the job's matter, which knows the reason. */
+pspec_status ps_set_max_degree(const ps_option *option, const char *words, const char *value,
+                               ps_arguments *arguments, ps_error *error) {
+    (void)option, (void)words;
+    if (value[0] == '-' || strcmp(value, "0") == 0) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "max degree: %s leaves no degree, the first is 1", value);
+    }
+    return ps_parse_count(value, "max degree", 1, INT64_MAX, &arguments->max_degree, error);
+}
+
 pspec_status ps_set_dimension(const ps_option *option, const char *words, const char *value,
                               ps_arguments *arguments, ps_error *error) {
     uint64_t count = 0;
@@ -117,6 +129,29 @@ pspec_status ps_set_floor(const ps_option *option, const char *words, const char
                           ps_arguments *arguments, ps_error *error) {
     (void)words;
     return parse_positive(option, value, DBL_MAX, &arguments->floor, error);
+}
+
+pspec_status ps_set_standard_error(const ps_option *option, const char *words, const char *value,
+                                   ps_arguments *arguments, ps_error *error) {
+    (void)words;
+    return parse_positive(option, value, 1, &arguments->standard_error, error);
+}
+
+pspec_status ps_set_false_alarm_rate(const ps_option *option, const char *words, const char *value,
+                                     ps_arguments *arguments, ps_error *error) {
+    (void)words;
+    PS_TRY(parse_positive(option, value, 1, &arguments->false_alarm_rate, error));
+    return arguments->false_alarm_rate < 1
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "--%s: %s is not below 1: every check would fail", option->name, value);
+}
+
+pspec_status ps_set_smoothness(const ps_option *option, const char *words, const char *value,
+                               ps_arguments *arguments, ps_error *error) {
+    (void)words;
+    PS_TRY(ps_parse_number(value, option->what, -DBL_MAX, DBL_MAX, &arguments->smoothness, error));
+    return ps_sobolev_check(arguments->smoothness, error);
 }
 
 pspec_status ps_add_sampler(const ps_option *option, const char *words, const char *value,

@@ -22,23 +22,31 @@
 /* In the order of ps_option_id, which is the order of --help. Where an option is repeated the last
  * one counts, but for --sampler. */
 const ps_option ps_options[PS_NUM_OPTIONS] = {
-    [PS_OPTION_POINTS] = {.letter = 'n',
-                          .name = "points",
-                          .metavar = "N",
-                          .help = "points in each realization (default 1024); of files: "
-                                  "points in each set, for formats that do not say (rps)",
-                          COUNT(num_points),
-                          .what = "points",
-                          .minimum = 1,
-                          .maximum = MOST_POINTS},
+    [PS_OPTION_POINTS] =
+        {.letter = 'n',
+         .name = "points",
+         .metavar = "N",
+         .help = "points in each realization (default 1024; check: as saved); of files: "
+                 "points in each set, for formats that do not say (rps)",
+         COUNT(num_points),
+         .what = "points",
+         .minimum = 1,
+         .maximum = MOST_POINTS},
     [PS_OPTION_REALIZATIONS] = {.letter = 'm',
                                 .name = "realizations",
                                 .metavar = "M",
-                                .help = "realizations of each sampler (default 1)",
+                                .help = "realizations of each sampler (default 1; check: as saved)",
                                 COUNT(num_realizations),
                                 .what = "realizations",
                                 .minimum = 1,
                                 .maximum = MOST_REALIZATIONS},
+    [PS_OPTION_STANDARD_ERROR] =
+        {.name = "standard-error",
+         .metavar = "X",
+         .help = "no more realizations than make the relative standard error of every ring or "
+                 "degree X (above --floor; at least 16); -m is then the most (default 1e6)",
+         .set = ps_set_standard_error,
+         .what = "standard error"},
     [PS_OPTION_DIMENSION] = {.letter = 'd',
                              .name = "dimension",
                              .metavar = "D",
@@ -59,6 +67,28 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                            .metavar = "NAME[:key=value,...]",
                            .help = "what makes the points; the names are below",
                            .set = ps_add_sampler},
+    [PS_OPTION_AGAINST] = {.name = "against",
+                           .metavar = "FILE",
+                           .help =
+                               "the saved spectrum: what power or angular wrote with -o FILE.json",
+                           TEXT(against)},
+    [PS_OPTION_FALSE_ALARM_RATE] = {.name = "false-alarm-rate",
+                                    .metavar = "P",
+                                    .help =
+                                        "probability that any ring or degree differs by chance, "
+                                        "above 0 and below 1 (default 0.001)",
+                                    .set = ps_set_false_alarm_rate,
+                                    .what = "false alarm rate"},
+    [PS_OPTION_BRDF] = {.name = "brdf",
+                        .metavar = "NAME[:key=value,...]",
+                        .help = "lobe of reflection; the names are below",
+                        TEXT(brdf)},
+    [PS_OPTION_SMOOTHNESS] = {.name = "smoothness",
+                              .metavar = "S",
+                              .help = "of the integrands, functions of the Sobolev space H^S, "
+                                      "1 < S < 2 (default 1.5)",
+                              .set = ps_set_smoothness,
+                              .what = "smoothness"},
     [PS_OPTION_MAX_FREQUENCY] = {.letter = 'k',
                                  .name = "max-frequency",
                                  .metavar = "K",
@@ -71,12 +101,19 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_MAX_DEGREE] = {.letter = 'l',
                               .name = "max-degree",
                               .metavar = "L",
-                              .help = "degrees 1..L (default ceil(4 sqrt N))",
-                              COUNT(max_degree),
-                              .what = "max degree",
-                              .minimum = 1,
-                              .maximum =
-                                  UINT32_MAX}, /* the question knows the reason of the limit */
+                              .help =
+                                  "the largest degree (default ceil(4 sqrt N), for quadrature at "
+                                  "most; truncation: 20)",
+                              .set = ps_set_max_degree},
+    [PS_OPTION_MEMORY] = {.name = "memory",
+                          .metavar = "BYTES",
+                          .help = "what an engine may take, and the matrix of optimal weights: "
+                                  "beyond it they come from conjugate gradients (default for "
+                                  "the matrix: half of what the machine has)",
+                          COUNT(memory),
+                          .what = "memory",
+                          .minimum = 1,
+                          .maximum = INT64_MAX},
     [PS_OPTION_HEMISPHERE] = {.name = "hemisphere",
                               .help = "points of the hemisphere, that is of the projective plane: "
                                       "even degrees, odd ones vanish",
@@ -88,8 +125,9 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                 TEXT(coefficients)},
     [PS_OPTION_HARMONICS] = {.name = "harmonics",
                              .metavar = "spherical|hemispherical",
-                             .help = "of --coefficients (default spherical); hemispherical ones "
-                                     "are for points with z >= 0",
+                             .help = "of --coefficients, or of the products that are cut "
+                                     "(default spherical); hemispherical ones are for points and "
+                                     "lobes with z >= 0",
                              WORD(harmonics)},
     [PS_OPTION_FREQUENCIES] = {.name = "frequencies",
                                .metavar = "FILE",
@@ -147,6 +185,10 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                      .help = "divide vectors by their length instead of refusing "
                                              "those of another length than 1",
                                      FLAG(normalize_vectors)},
+    [PS_OPTION_DROP_BELOW] = {.name = "drop-below-horizon",
+                              .help = "leave points below the horizon out where the lobe "
+                                      "ends there",
+                              FLAG(drop_below_horizon)},
     [PS_OPTION_SELECT_SETS] = {.name = "select-sets",
                                .metavar = "A..B",
                                .help = "only these sets of each file, counted from 1; also A, A.., "
@@ -167,8 +209,10 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                               WORD(to_columns)},
     [PS_OPTION_TOLERANCE] = {.name = "tol",
                              .metavar = "T",
-                             .help = "largest error of S relative to white noise, above 0 and at "
-                                     "most 1 (default 1e-6)",
+                             .help =
+                                 "largest error, above 0 and at most 1: of S relative to white "
+                                 "noise (default 1e-6); pairs: of Q(l) over (sum |w|)^2 (1e-6); "
+                                 "quadrature: of E^2 over c (sum |w|)^2 (1e-10)",
                              .set = ps_set_tolerance,
                              .what = "tolerance"},
     [PS_OPTION_FLOOR] = {.name = "floor",
@@ -185,6 +229,10 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                           .metavar = "NAME",
                           .help = "this engine; pointspec plan lists them (default: the cheapest)",
                           TEXT(engine)},
+    [PS_OPTION_CASE] = {.name = "case",
+                        .metavar = "NAME",
+                        .help = "this case alone; the first column names them",
+                        TEXT(case_name)},
     [PS_OPTION_DEVICE] = {.name = "device",
                           .metavar = "SELECTOR",
                           .help = "OpenCL device: index, cpu, gpu, accelerator or part of a name "
@@ -216,6 +264,9 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                            .help = "time, flop/s and bytes/s of every kernel on standard error",
                            FLAG(profile)},
     [PS_OPTION_QUIET] = {.name = "quiet", .help = "no progress line, no remarks", FLAG(quiet)},
+    [PS_OPTION_QUICK] = {.name = "quick",
+                         .help = "leave out the cases that take more than a second or so",
+                         FLAG(quick)},
     [PS_OPTION_VERBOSE] = {.name = "verbose",
                            .help = "say on standard error what is being done",
                            FLAG(verbose)},

@@ -59,6 +59,9 @@ static pspec_status check_inputs(const named_path *output, const ps_arguments *a
     if (arguments->frequencies != NULL) {
         PS_TRY(check_pair(output, &(named_path){"--frequencies", arguments->frequencies}, error));
     }
+    if (arguments->against != NULL) {
+        PS_TRY(check_pair(output, &(named_path){"--against", arguments->against}, error));
+    }
     for (size_t i = 0; i < arguments->num_files; i++) {
         PS_TRY(check_pair(output, &(named_path){"the input", arguments->files[i]}, error));
     }
@@ -128,12 +131,6 @@ static pspec_status check_all(const named_path *outputs, size_t num, const ps_ar
     for (size_t i = 0; i < num; i++) {
         if (outputs[i].path == NULL) {
             continue;
-        }
-        if (ends_in(outputs[i].path, ".gz")) {
-            return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                           "%s \"%s\": gzip is read, but not written; write to standard output "
-                           "and pipe that through gzip",
-                           outputs[i].option, outputs[i].path);
         }
         for (size_t j = i + 1; j < num; j++) {
             if (outputs[j].path != NULL) {

@@ -1,5 +1,6 @@
 #include "cli/power_table.h"
 
+#include "cli/job_table.h"
 #include "cli/spectrum_header.h"
 
 #include <math.h>
@@ -71,17 +72,11 @@ static size_t choose_columns(const char **columns, const ps_arguments *arguments
     return num;
 }
 
-static pspec_status fill(ps_table *table, const ps_arguments *arguments,
-                         const ps_power_job *const *jobs, size_t num, ps_error *error) {
-    PS_TRY(ps_header_begin(table, arguments, jobs[0], error));
-    for (size_t i = 0; i < num; i++) {
-        const char *sampler = arguments->num_samplers > 1 ? arguments->samplers[i] : NULL;
-        const ps_spectrum *spectrum = ps_power_job_spectrum(jobs[i]);
-        PS_TRY(ps_header_add_job(table, arguments, jobs[i], i, error));
-        PS_TRY(arguments->frequencies != NULL ? add_frequencies(table, spectrum, sampler, error)
-                                              : add_bins(table, spectrum, sampler, error));
-    }
-    return PSPEC_OK;
+static pspec_status add_rows(ps_table *table, const ps_arguments *arguments,
+                             const ps_power_job *job, const char *sampler, ps_error *error) {
+    const ps_spectrum *spectrum = ps_power_job_spectrum(job);
+    return arguments->frequencies != NULL ? add_frequencies(table, spectrum, sampler, error)
+                                          : add_bins(table, spectrum, sampler, error);
 }
 
 pspec_status ps_power_table(ps_table **out, const ps_arguments *arguments,
@@ -89,11 +84,6 @@ pspec_status ps_power_table(ps_table **out, const ps_arguments *arguments,
     const char *columns[MOST_COLUMNS];
     const unsigned dimension = ps_power_job_problem(jobs[0])->frequencies->dimension;
     const size_t num_columns = choose_columns(columns, arguments, dimension);
-    PS_TRY(ps_table_create(out, "power", columns, num_columns, error));
-    const pspec_status status = fill(*out, arguments, jobs, num, error);
-    if (status != PSPEC_OK) {
-        ps_table_destroy(*out);
-        *out = NULL;
-    }
-    return status;
+    const ps_job_table kind = {"power", columns, num_columns, add_rows};
+    return ps_job_table_make(out, &kind, arguments, jobs, num, error);
 }

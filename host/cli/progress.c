@@ -79,10 +79,15 @@ void ps_progress_update(ps_progress *progress, uint64_t done, uint64_t total) {
     progress->last = time;
 }
 
-void ps_progress_end(ps_progress *progress) {
+void ps_progress_hide(ps_progress *progress) {
     if (progress != NULL && progress->width > 0) {
         replace_line(progress, "");
         fputc('\r', stderr);
+        fflush(stderr);
     }
+}
+
+void ps_progress_end(ps_progress *progress) {
+    ps_progress_hide(progress);
     free(progress);
 }

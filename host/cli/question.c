@@ -69,6 +69,18 @@ static pspec_status check_results(const ps_arguments *arguments, ps_error *error
         if (arguments->per_ring > 0) {
             return fail_conflict("--frequencies", "--per-ring", "the list says it all", error);
         }
+        if (arguments->standard_error > 0) {
+            return fail_conflict("--frequencies", "--standard-error",
+                                 "it is that of rings, and a list has none", error);
+        }
+    }
+    if (arguments->per_ring > 0 && arguments->standard_error > 0) {
+        return fail_conflict("--per-ring", "--standard-error",
+                             "more realizations do not mend the error of the choice", error);
+    }
+    if (arguments->coefficients != NULL && arguments->standard_error > 0) {
+        return fail_conflict("--coefficients", "--standard-error", "coefficients are of one set",
+                             error);
     }
     if (arguments->full != NULL && arguments->per_ring > 0) {
         return fail_conflict("--full", "--per-ring", "a subset does not fill an array", error);
@@ -109,17 +121,43 @@ static void fill_points(ps_power_question *question, const ps_arguments *argumen
     question->point_options.domain = domain;
 }
 
-static ps_power_question make_question(const ps_arguments *arguments, ps_domain domain) {
+static ps_harmonics find_harmonics(const ps_arguments *arguments) {
+    if (arguments->coefficients == NULL) {
+        return PS_NO_HARMONICS;
+    }
+    return arguments->harmonics != NULL && strcmp(arguments->harmonics, "hemispherical") == 0
+               ? PS_HEMISPHERICAL_HARMONICS
+               : PS_SPHERICAL_HARMONICS;
+}
+
+static pspec_normalization choose_normalization(const ps_arguments *arguments,
+                                                ps_question_kind kind) {
+    if (kind == PS_QUESTION_PAIRS) {
+        return PSPEC_NORMALIZATION_PAIRS;
+    }
+    return arguments->effective ? PSPEC_NORMALIZATION_EFFECTIVE : PSPEC_NORMALIZATION_POWER;
+}
+
+static ps_domain domain_of(ps_question_kind kind) {
+    return kind == PS_QUESTION_POWER ? PS_DOMAIN_TORUS : PS_DOMAIN_SPHERE;
+}
+
+/* Of a sampler; a standard error needs a limit, for a sampler may never reach it. */
+static uint64_t count_realizations(const ps_arguments *arguments) {
+    const uint64_t most = 1000000;
+    return arguments->standard_error > 0 && !arguments->is_given[PS_OPTION_REALIZATIONS]
+               ? most
+               : arguments->num_realizations;
+}
+
+static ps_power_question make_question(const ps_arguments *arguments, ps_question_kind kind) {
     ps_power_question question = {
-        .on_sphere = domain == PS_DOMAIN_SPHERE,
+        .on_sphere = domain_of(kind) == PS_DOMAIN_SPHERE,
+        .wants_pair_sums = kind == PS_QUESTION_PAIRS,
         .on_hemisphere = arguments->hemisphere,
-        .wants_coefficients = arguments->coefficients != NULL,
-        .harmonics =
-            arguments->harmonics != NULL && strcmp(arguments->harmonics, "hemispherical") == 0
-                ? PS_HEMISPHERICAL_HARMONICS
-                : PS_SPHERICAL_HARMONICS,
+        .harmonics = find_harmonics(arguments),
         .max_degree = (int64_t)arguments->max_degree,
-        .num_realizations = arguments->num_realizations,
+        .num_realizations = count_realizations(arguments),
         .max_frequency = arguments->max_frequency,
         .frequencies_path = arguments->frequencies,
         .per_ring = arguments->per_ring,
@@ -129,17 +167,19 @@ static ps_power_question make_question(const ps_arguments *arguments, ps_domain 
         .wants_full_array =
             arguments->full != NULL ||
             (arguments->plot != NULL && arguments->num_samplers <= 1 && arguments->per_ring == 0),
-        .normalization =
-            arguments->effective ? PSPEC_NORMALIZATION_EFFECTIVE : PSPEC_NORMALIZATION_POWER,
+        .normalization = choose_normalization(arguments, kind),
         .tolerance = arguments->tolerance,
         .floor = arguments->floor,
+        .standard_error = arguments->standard_error,
+        .may_loosen = arguments->standard_error > 0 && arguments->floor > 0 &&
+                      !arguments->is_given[PS_OPTION_TOLERANCE],
         .no_skip = arguments->no_skip,
         .no_self_check = arguments->no_self_check,
         .constraints = {.engine = arguments->engine, .precision = arguments->precision},
         .device = arguments->device,
         .profile = arguments->profile,
     };
-    fill_points(&question, arguments, domain);
+    fill_points(&question, arguments, domain_of(kind));
     return question;
 }
 
@@ -177,17 +217,17 @@ static pspec_status make_request_of_domain(ps_sampler_request *out, const ps_arg
 }
 
 pspec_status ps_questions_make(ps_question_list *out, const ps_arguments *arguments,
-                               ps_domain domain, ps_error *error) {
+                               ps_question_kind kind, ps_error *error) {
     PS_TRY(check_source(arguments, error));
     PS_TRY(check_results(arguments, error));
     out->num = arguments->num_samplers > 0 ? arguments->num_samplers : 1;
     for (size_t i = 0; i < out->num; i++) {
-        out->questions[i] = make_question(arguments, domain);
+        out->questions[i] = make_question(arguments, kind);
         if (arguments->num_samplers == 0) {
             continue;
         }
         ps_sampler_request *request = &out->requests[i];
-        PS_TRY(make_request_of_domain(request, arguments, i, domain, error));
+        PS_TRY(make_request_of_domain(request, arguments, i, domain_of(kind), error));
         out->questions[i].sampler = request;
     }
     return PSPEC_OK;

@@ -1,5 +1,5 @@
 /* From the command line to what the jobs are asked: what samplers make, how point files are read, and the
- * question of a power job, shared by power, angular and plan. */
+ * question of a power job, shared by power, angular, pairs and plan. */
 #ifndef PS_CLI_QUESTION_H
 #define PS_CLI_QUESTION_H
 
@@ -13,10 +13,16 @@ typedef struct ps_question_list {
     ps_sampler_request requests[PS_MAX_SAMPLERS];
 } ps_question_list;
 
-/* Checks that the options fit together. domain: the torus for power, the sphere for angular. *out must not be
- * moved afterwards. */
+/* Whose question: power, on the torus, or angular or pairs, on the sphere. */
+typedef enum ps_question_kind {
+    PS_QUESTION_POWER,
+    PS_QUESTION_ANGULAR,
+    PS_QUESTION_PAIRS
+} ps_question_kind;
+
+/* Checks that the options fit together. *out must not be moved afterwards. */
 pspec_status ps_questions_make(ps_question_list *out, const ps_arguments *arguments,
-                               ps_domain domain, ps_error *error) PS_MUST_CHECK;
+                               ps_question_kind kind, ps_error *error) PS_MUST_CHECK;
 
 /* What sampler number i_sampler is asked for: parsed, options that were not given left open, resolved
  * and checked. */

@@ -26,18 +26,22 @@ static void put(header *to, const char *key, ps_cell value) {
 }
 
 /* What |S|^2 is called: on the sphere it is a sum over orders. */
-static const char *name_normalization(const ps_arguments *arguments, bool on_sphere) {
+static const char *name_normalization(const ps_arguments *arguments, const ps_problem *problem) {
+    const bool on_sphere = is_on_sphere(problem->frequencies);
+    if (problem->measure == PS_OF_PAIR_SUMS) {
+        return "pairs: Q(l), weights 1/N unless given";
+    }
     if (on_sphere) {
         return arguments->effective ? "effective: Q(l) / sum w^2" : "power: N Q(l) / (sum w)^2";
     }
     return arguments->effective ? "effective: |S|^2 / sum w^2" : "power: N |S|^2 / (sum w)^2";
 }
 
-static void put_common(header *to, const ps_arguments *arguments, bool on_sphere) {
+static void put_common(header *to, const ps_arguments *arguments, const ps_problem *problem) {
     put(to, "pointspec_version", PS_TEXT(PS_VERSION));
     put(to, "schema", PS_INTEGER(1));
     put(to, "command", PS_TEXT(arguments->command_line));
-    put(to, "normalization", PS_TEXT(name_normalization(arguments, on_sphere)));
+    put(to, "normalization", PS_TEXT(name_normalization(arguments, problem)));
     if (arguments->num_samplers > 0 || arguments->per_ring > 0) {
         put(to, "seed", PS_INTEGER(arguments->seed));
     }
@@ -92,9 +96,14 @@ static void put_frequencies(header *to, const ps_arguments *arguments, const ps_
     put_subset(to, arguments, set);
 }
 
-static void put_self_check(header *to, const ps_accuracy *accuracy, bool on_sphere) {
+static void put_self_check(header *to, const ps_accuracy *accuracy, const ps_problem *problem) {
+    const bool on_sphere = is_on_sphere(problem->frequencies);
     char text[96];
-    if (accuracy->was_checked) {
+    if (accuracy->was_checked && problem->measure == PS_OF_PAIR_SUMS) {
+        snprintf(text, sizeof text, "%.2g (sum |w|)^2, largest deviation of Q(l) from host_direct",
+                 accuracy->self_check);
+        put(to, "self_check", PS_TEXT(text));
+    } else if (accuracy->was_checked) {
         snprintf(text, sizeof text, "%.2g sqrt(sum w^2), largest deviation of %s from host_direct",
                  accuracy->self_check, on_sphere ? "sqrt(Q(l))" : "|S|");
         put(to, "self_check", PS_TEXT(text));
@@ -114,6 +123,21 @@ static void put_lengths(header *to, const ps_accuracy *accuracy) {
     }
 }
 
+static void put_look(header *to, const ps_arguments *arguments, const ps_power_job *job) {
+    const ps_sequential_look *look = ps_power_job_look(job);
+    char text[160];
+    if (look == NULL) {
+        return;
+    }
+    snprintf(text, sizeof text, "%.3g, %s; largest %.3g, of %s %lld, %.3g with the correction",
+             arguments->standard_error,
+             look->corrected <= arguments->standard_error ? "reached" : "not reached",
+             look->relative_error,
+             is_on_sphere(ps_power_job_problem(job)->frequencies) ? "degree" : "bin",
+             (long long)look->bin, look->corrected);
+    put(to, "relative_standard_error", PS_TEXT(text));
+}
+
 static void put_job(header *to, const ps_arguments *arguments, const ps_power_job *job,
                     size_t index) {
     const ps_device_limits *limits = ps_power_job_limits(job);
@@ -130,6 +154,7 @@ static void put_job(header *to, const ps_arguments *arguments, const ps_power_jo
         put(to, "input_columns", PS_TEXT(ps_power_job_source_columns(job)));
     }
     put_points(to, ps_power_job_spectrum(job), ps_power_job_needs(job));
+    put_look(to, arguments, job);
     put_lengths(to, ps_power_job_accuracy(job));
     put_frequencies(to, arguments, ps_power_job_problem(job)->frequencies);
     put(to, "device",
@@ -141,8 +166,7 @@ static void put_job(header *to, const ps_arguments *arguments, const ps_power_jo
     if (ps_power_job_was_replanned(job)) {
         put(to, "planned_twice", PS_TEXT("the powers measured needed a more exact engine"));
     }
-    put_self_check(to, ps_power_job_accuracy(job),
-                   is_on_sphere(ps_power_job_problem(job)->frequencies));
+    put_self_check(to, ps_power_job_accuracy(job), ps_power_job_problem(job));
     ps_needs_describe(ps_power_job_needs(job), &skipped);
     if (to->status == PSPEC_OK) {
         to->status = ps_text_check(&skipped, to->error);
@@ -154,7 +178,7 @@ static void put_job(header *to, const ps_arguments *arguments, const ps_power_jo
 pspec_status ps_header_begin(ps_table *table, const ps_arguments *arguments,
                              const ps_power_job *first, ps_error *error) {
     header to = {table, error, PSPEC_OK};
-    put_common(&to, arguments, is_on_sphere(ps_power_job_problem(first)->frequencies));
+    put_common(&to, arguments, ps_power_job_problem(first));
     return to.status;
 }
 

@@ -6,16 +6,26 @@
 #include <math.h>
 #include <stdlib.h>
 
+/* Pair sums are drawn as what they are relative to white noise, Q(l) / sum w^2. */
+static double power_unit(const ps_power_job *job) {
+    const ps_spectrum *spectrum = ps_power_job_spectrum(job);
+    const double sum = spectrum->mean_weight_sum;
+    const double unit = spectrum->mean_sample_size / (sum * sum);
+    return ps_power_job_problem(job)->measure == PS_OF_PAIR_SUMS && isfinite(unit) ? unit : 1;
+}
+
 /* Columns of one curve, in one block: normalized frequency, power, standard error, anisotropy. */
-static pspec_status make_curve(ps_plot_curve *curve, const char *label, const ps_spectrum *spectrum,
+static pspec_status make_curve(ps_plot_curve *curve, const char *label, const ps_power_job *job,
                                void **block, ps_error *error) {
+    const ps_spectrum *spectrum = ps_power_job_spectrum(job);
     const size_t num = spectrum->num_bins;
+    const double unit = power_unit(job);
     PS_TRY(ps_allocate(block, 4 * num, sizeof(double), "a curve", error));
     double *columns = *block;
     for (size_t b = 0; b < num; b++) {
         columns[b] = spectrum->bins[b].normalized_frequency;
-        columns[num + b] = spectrum->bins[b].power;
-        columns[2 * num + b] = spectrum->bins[b].standard_error;
+        columns[num + b] = spectrum->bins[b].power * unit;
+        columns[2 * num + b] = spectrum->bins[b].standard_error * unit;
         columns[3 * num + b] = spectrum->bins[b].anisotropy_db;
     }
     *curve =
@@ -32,17 +42,36 @@ static pspec_status make_image(ps_plot_image *image, double **array, const ps_sp
     return PSPEC_OK;
 }
 
-static void write_title(ps_text *title, const ps_arguments *arguments, const ps_spectrum *spectrum,
-                        size_t num) {
-    if (num == 1) {
-        ps_text_append(title, "%s",
-                       arguments->num_samplers == 1 ? arguments->samplers[0] : arguments->files[0]);
-    } else {
-        ps_text_append(title, "%zu samplers", num);
+/* Samplers choose N themselves where nside or the like says it. */
+static void write_points(ps_text *title, const ps_power_job *const *jobs, size_t num) {
+    double least = ps_power_job_spectrum(jobs[0])->mean_points;
+    double most = least;
+    for (size_t i = 1; i < num; i++) {
+        const double points = ps_power_job_spectrum(jobs[i])->mean_points;
+        least = fmin(least, points);
+        most = fmax(most, points);
     }
-    ps_text_append(title, ", N = %.6g, %llu realization%s", spectrum->mean_points,
-                   (unsigned long long)spectrum->num_realizations,
-                   spectrum->num_realizations == 1 ? "" : "s");
+    ps_text_append(title, ", N = %.6g", least);
+    if (most > least) {
+        ps_text_append(title, " to %.6g", most);
+    }
+}
+
+static void write_title(ps_text *title, const ps_arguments *arguments,
+                        const ps_power_job *const *jobs, size_t num) {
+    const ps_spectrum *first = ps_power_job_spectrum(jobs[0]);
+    if (num > 1) {
+        ps_text_append(title, "%zu samplers", num);
+    } else if (arguments->num_samplers == 1) {
+        ps_text_append(title, "%s", arguments->samplers[0]);
+    } else if (arguments->num_files == 1) {
+        ps_text_append(title, "%s", arguments->files[0]);
+    } else {
+        ps_text_append(title, "%zu files", arguments->num_files);
+    }
+    write_points(title, jobs, num);
+    ps_text_append(title, ", %llu realization%s", (unsigned long long)first->num_realizations,
+                   first->num_realizations == 1 ? "" : "s");
 }
 
 pspec_status ps_spectrum_plot(const ps_arguments *arguments, const ps_power_job *const *jobs,
@@ -59,13 +88,12 @@ pspec_status ps_spectrum_plot(const ps_arguments *arguments, const ps_power_job 
         num == 1 && first->frequencies.dimension == 2 && arguments->per_ring == 0;
     for (size_t i = 0; i < num; i++) {
         const char *label = arguments->num_samplers > 0 ? arguments->samplers[i] : "mean";
-        PS_TRY_OUT(status, make_curve(&curves[i], label, ps_power_job_spectrum(jobs[i]), &blocks[i],
-                                      error));
+        PS_TRY_OUT(status, make_curve(&curves[i], label, jobs[i], &blocks[i], error));
     }
     if (has_image) {
         PS_TRY_OUT(status, make_image(&image, &array, first, error));
     }
-    write_title(&title, arguments, first, num);
+    write_title(&title, arguments, jobs, num);
     PS_TRY_OUT(status, ps_text_check(&title, error));
     const double realizations = (double)first->num_realizations;
     const ps_plot plot = {ps_text_string(&title),

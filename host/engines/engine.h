@@ -21,19 +21,37 @@ typedef enum ps_precision {
 
 const char *ps_precision_name(ps_precision precision);
 
+/* Which harmonics coefficients are of. */
+typedef enum ps_harmonics {
+    PS_NO_HARMONICS = 0,
+    PS_SPHERICAL_HARMONICS,
+    PS_HEMISPHERICAL_HARMONICS
+} ps_harmonics;
+
+/* What the tolerance of a problem is about. */
+typedef enum ps_measure {
+    PS_OF_AMPLITUDES = 0, /* S relative to white noise, see ps_engine.error */
+    PS_OF_PAIR_SUMS = 1   /* Q(l) relative to (sum |w|)^2, on the sphere (engines/error_units.h) */
+} ps_measure;
+
 /* What is to be computed, for the whole job: engines and planner see nothing of batches. */
 typedef struct ps_problem {
     const ps_frequencies *frequencies;
     uint64_t num_points;       /* of the largest realization */
     uint64_t num_realizations; /* 0: not known in advance */
     bool has_weights;
-    double tolerance;      /* of S relative to white noise, see ps_engine.error */
+    ps_measure measure;
+    double tolerance; /* as the measure says */
+    double
+        floor; /* of pair sums: powers, relative to white noise, that are to be right to 10 %; 0: none */
+    double weight_share;   /* largest sum w^2 / (sum |w|)^2 of a set; 0: not known, 1 / N */
     double expected_power; /* mean effective power of the sets; 0: not known, 1 as of white noise */
     uint64_t
         planned_points; /* num_points when the job was planned, which later growth leaves alone, for
                                 choices that must be the same for all of it; 0: num_points */
     uint64_t
         block_points; /* of a set in host memory at a time, where the engine allows it; 0: all */
+    ps_harmonics harmonics; /* whose coefficients are wanted, too, of the only set */
 } ps_problem;
 
 /* That of white noise where nothing is known: 1, with a margin on the sphere. */
@@ -46,6 +64,8 @@ typedef struct ps_work {
     double
         transform_flops; /* what a device at its peak would do while spreading and transforming */
     double harmonics;    /* (point, degree, order) triples, orders from 0 on */
+    double pair_degrees; /* (pair of points, degree), each pair once */
+    double binned_pairs; /* pairs of points put into a histogram */
     double launches;     /* kernel launches */
     double fixed_bytes;  /* memory, whatever the batch */
     double host_bytes;   /* part of that on the host */
@@ -54,7 +74,9 @@ typedef struct ps_work {
     double point_bytes; /* of points of each realization besides, on the device and on the host */
     double coordinate_bytes; /* part of that, on the device both times where memory is unified */
     double largest_buffer_per_realization; /* part of that in one allocation */
-    bool takes_blocks;                     /* ps_engine.stream will */
+    double
+        wanted_batch; /* realizations of a batch that share work, whatever fits into caches; 0: any */
+    bool takes_blocks; /* ps_engine.stream will */
 } ps_work;
 
 /* A batch of realizations. power = scales[r] |S|^2, S with weights w 2^-exponents[r] (NULL: 0); on the sphere
@@ -71,6 +93,9 @@ typedef struct ps_batch {
     bool (*should_stop)(void *payload);
     void *payload;
 } ps_batch;
+
+/* What a pair of points costs before its first degree, in degrees: kernels/pairs/sums.cl. */
+enum { PS_PAIR_BEGIN_DEGREES = 12 };
 
 /* PSPEC_ERROR_CANCELLED when the batch is to stop. */
 pspec_status ps_batch_go_on(const ps_batch *batch, ps_error *error) PS_MUST_CHECK;
@@ -98,6 +123,13 @@ typedef struct ps_engine_stream {
 /* Where points may lie: bits of ps_engine.domains. */
 enum { PS_ON_TORUS = 1, PS_ON_SPHERE = 2 };
 
+/* What the planner asks about a candidate, in one go. */
+typedef struct ps_survey {
+    const char *why_not; /* NULL: applicable; else the rest is not there */
+    ps_work work;
+    double error; /* at the expected power */
+} ps_survey;
+
 typedef struct ps_engine {
     const char *name;
     const char *summary; /* one line, for plan and docs */
@@ -106,6 +138,7 @@ typedef struct ps_engine {
     bool rows_on_host;     /* though it needs a device: they are short */
     bool has_precision[3]; /* by ps_precision */
     bool checks_points;    /* run gives PSPEC_ERROR_INPUT for coordinates outside [0,1) */
+    bool sums_pairs; /* Q(l) = sum_ij w_i w_j P_l(u_i.u_j) over pairs; error is another one then */
 
     /* May it do this problem? limits is NULL without a device. *why_not is a static sentence. */
     bool (*applicable)(const ps_problem *, const ps_device_limits *limits, ps_precision,
@@ -114,31 +147,39 @@ typedef struct ps_engine {
     /* Expected error e of S in sqrt(mean |dS|^2) = e sqrt(sum w^2), mean over the frequencies, for
      * sets whose effective power averaged over the frequencies is mean_power (1: white noise). On the
      * sphere sqrt(4 pi mean |dc_lm|^2), mean over all degrees and orders.
+     * With sums_pairs instead the largest |dQ(l)| = e (sum |w|)^2 of all degrees. engines/error_units.h
+     * brings both to what the problem asks for.
      * The formula and its measured slack are in the engine's page in docs/. */
     double (*error)(const ps_problem *, const ps_device_limits *limits, ps_precision,
                     double mean_power);
-    /* The same for the problem that the state was made for, where that is much cheaper (what error() chooses is
+    /* applicable, work and error in one, where what they have in common takes long; NULL: it does not. */
+    ps_survey (*survey)(const ps_problem *, const ps_device_limits *limits, ps_precision);
+    /* error for the problem that the state was made for, where that is much cheaper (what error() chooses is
      * chosen by then); NULL: it is not. */
     double (*error_of_state)(const void *state, double mean_power);
     /* batch: the largest number of patterns in one run. The problem's frequencies are enumerated
      * and outlive the state. */
     pspec_status (*create)(void **state, const ps_problem *, ps_precision, size_t batch,
                            ps_device *, ps_error *);
-    /* slots[i] is where in a row the power of frequency i stands. */
+    /* slots[i] is where in a row the power of frequency i stands; NULL: at i. */
     void (*get_slots)(const void *state, uint32_t *slots);
     /* Entries in a row. */
     size_t (*get_stride)(const void *state);
     pspec_status (*run)(void *state, const ps_batch *, ps_rows *, ps_error *);
     const ps_engine_stream *stream; /* NULL: whole sets only */
-    /* c_lm = sum w Y_lm(u) of one pattern for l = 0 .. L, 0 <= m <= l, as pairs (real, imaginary) at index
-     * m (2L + 1 - m) / 2 + l: the order of healpy, whose a_lm is the conjugate. Weights as they are. With only even
-     * degrees the others are 0. out has (L + 1)(L + 2) numbers. NULL: an engine without. */
-    pspec_status (*coefficients)(void *state, const pspec_pattern *pattern, double *out,
+    /* c_lm = sum w Y_lm(u) of a batch of one pattern for l = 0 .. L, 0 <= m <= l, as pairs (real, imaginary) at index
+     * m (2L + 1 - m) / 2 + l: the order of healpy, whose a_lm is the conjugate. Weights as they are, whatever the
+     * exponent. With only even degrees the others are 0. out has (L + 1)(L + 2) numbers. Unless rows is NULL also
+     * what run gives, to the bit, from the same sums; only then scales are looked at. NULL: an engine without. */
+    pspec_status (*coefficients)(void *state, const ps_batch *one, ps_rows *rows, double *out,
                                  ps_error *);
     /* "(torus_direct precision=single split=33x32 lanes=16)" */
     void (*describe)(const void *state, ps_text *);
     void (*destroy)(void *state); /* NULL allowed */
 } ps_engine;
+
+/* Numbers of the coefficients up to degree L: (L + 1)(L + 2) doubles. */
+size_t ps_num_coefficients(int32_t max_degree);
 
 /* PS_ON_SPHERE for degrees, else PS_ON_TORUS. */
 unsigned ps_problem_domain(const ps_problem *problem);
@@ -150,6 +191,9 @@ extern const ps_engine *const ps_engines[];
  * has this one? */
 bool ps_engine_on_device(const ps_device_limits *limits, ps_precision precision,
                          const char **why_not);
+
+/* Where in a row of the engine the powers of the num frequencies stand. */
+void ps_engine_slots(const ps_engine *engine, const void *state, size_t num, uint32_t *slots);
 
 /* Lanes of the device kernels: frequencies (or realizations) side by side. The native vector width
  * on CPUs; on GPUs, where it means work per work-item, GPU_LANES. */

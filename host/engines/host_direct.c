@@ -24,9 +24,21 @@ static long double reduced_phase(int32_t k, double x) {
     return whole - rintl(whole) + (long double)k * low;
 }
 
+/* Ten million sorted points add up to a few thousandths, but their partial sums to millions, whose rounding would be
+ * larger than that of engines that sum in pairs: Neumaier's sum. */
+typedef struct compensated {
+    long double sum, rest;
+} compensated;
+
+static void add(compensated *to, long double term) {
+    const long double sum = to->sum + term;
+    to->rest += fabsl(to->sum) >= fabsl(term) ? (to->sum - sum) + term : (term - sum) + to->sum;
+    to->sum = sum;
+}
+
 void ps_host_sum(const pspec_pattern *pattern, const int32_t *k, long double *re, long double *im) {
-    *re = 0;
-    *im = 0;
+    compensated cosines = {0, 0};
+    compensated sines = {0, 0};
     for (size_t j = 0; j < pattern->num_points; j++) {
         const double *x = pattern->points + j * pattern->dimension;
         long double turns = 0;
@@ -35,9 +47,11 @@ void ps_host_sum(const pspec_pattern *pattern, const int32_t *k, long double *re
         }
         const long double angle = two_pi * (turns - rintl(turns));
         const long double weight = pattern->weights != NULL ? pattern->weights[j] : 1;
-        *re += weight * cosl(angle);
-        *im -= weight * sinl(angle);
+        add(&cosines, weight * cosl(angle));
+        add(&sines, weight * sinl(angle));
     }
+    *re = cosines.sum + cosines.rest;
+    *im = -(sines.sum + sines.rest);
 }
 
 /* ---- the engine -------------------------------------------------------------------------- */
@@ -119,13 +133,6 @@ static pspec_status create(void **state, const ps_problem *problem, ps_precision
     return PSPEC_OK;
 }
 
-static void get_slots(const void *state, uint32_t *slots) {
-    const host_direct *self = state;
-    for (size_t i = 0; i < self->frequencies->num; i++) {
-        slots[i] = (uint32_t)i;
-    }
-}
-
 static size_t get_stride(const void *state) {
     return ((const host_direct *)state)->frequencies->num;
 }
@@ -149,6 +156,13 @@ pspec_status ps_host_power(const pspec_pattern *pattern, const ps_frequencies *s
     return PSPEC_OK;
 }
 
+static ps_rows rows_of(const host_direct *self, size_t num_rows) {
+    return (ps_rows){.num_rows = num_rows,
+                     .stride = self->frequencies->num,
+                     .precision = PS_DOUBLE,
+                     .host = self->power};
+}
+
 static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_error *error) {
     host_direct *self = state;
     const ps_frequencies *set = self->frequencies;
@@ -161,29 +175,41 @@ static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_er
             self->power[r * set->num + i] = (double)(power * batch->scales[r]);
         }
     }
-    *rows = (ps_rows){.num_rows = batch->num_patterns,
-                      .stride = set->num,
-                      .precision = PS_DOUBLE,
-                      .host = self->power};
+    *rows = rows_of(self, batch->num_patterns);
     return PSPEC_OK;
 }
 
-/* Degree after degree: within one, orders lie far apart in the output. */
-static pspec_status coefficients(void *state, const pspec_pattern *pattern, double *out,
+/* Orders of a degree, which lie far apart in the output. */
+static void write_degree(const ps_host_degree *degree, int64_t max_degree, double *out) {
+    const int64_t l = degree->degree;
+    for (int64_t m = 0; m <= l; m++) {
+        double *to = out + m * (2 * max_degree + 1 - m) + 2 * l;
+        to[0] = (double)degree->sums[m][0];
+        to[1] = (double)degree->sums[m][1];
+    }
+}
+
+static pspec_status coefficients(void *state, const ps_batch *one, ps_rows *rows, double *out,
                                  ps_error *error) {
-    const ps_frequencies *set = ((const host_direct *)state)->frequencies;
-    const int64_t last = set->max_frequency;
-    memset(out, 0, (size_t)((last + 1) * (last + 2)) * sizeof *out);
-    for (int64_t l = 0; l <= last; l += set->degree_step) {
+    host_direct *self = state;
+    const ps_frequencies *set = self->frequencies;
+    const int exponent = rows != NULL && one->exponents != NULL ? one->exponents[0] : 0;
+    memset(out, 0, ps_num_coefficients(set->max_frequency) * sizeof *out);
+    for (int32_t l = 0; l <= set->max_frequency; l += set->degree_step) {
         ps_host_degree degree;
-        PS_TRY(ps_host_degree_create(&degree, (int32_t)l, error));
-        ps_host_degree_sum(&degree, pattern);
-        for (int64_t m = 0; m <= l; m++) {
-            double *to = out + m * (2 * last + 1 - m) + 2 * l;
-            to[0] = (double)degree.sums[m][0];
-            to[1] = (double)degree.sums[m][1];
+        PS_TRY(ps_batch_go_on(one, error));
+        PS_TRY(ps_host_degree_create(&degree, l, error));
+        ps_host_degree_sum(&degree, one->patterns);
+        write_degree(&degree, set->max_frequency, out);
+        if (rows != NULL && l > 0) {
+            const long double power = ps_host_degree_power(&degree);
+            const long double root = ldexpl(sqrtl(power), -exponent); /* as in ps_host_power */
+            self->power[l / set->degree_step - 1] = (double)(root * root * one->scales[0]);
         }
         ps_host_degree_free(&degree);
+    }
+    if (rows != NULL) {
+        *rows = rows_of(self, 1);
     }
     return PSPEC_OK;
 }
@@ -203,7 +229,6 @@ const ps_engine ps_host_direct = {
     .work = work,
     .error = error_of,
     .create = create,
-    .get_slots = get_slots,
     .get_stride = get_stride,
     .run = run,
     .coefficients = coefficients,

@@ -133,8 +133,7 @@ static bool is_hopeless(const axis_search *search, const ps_nufft_axis *axis) {
         return false;
     }
     choice.axes[0] = *axis;
-    if (choice.is_whole && !ps_nufft_whole_shape(&choice, search->precision,
-                                                 ps_nufft_nominal_lanes(search->precision))) {
+    if (choice.is_whole && !ps_nufft_whole_shape(&choice, search->precision)) {
         return true;
     }
     return ps_nufft_flops(&choice, search->precision, ps_nufft_points(search->problem)) >=
@@ -184,9 +183,8 @@ static ps_nufft_axis find_most_exact(const axis_search *search, uint32_t n) {
 }
 
 /* Cells of a grid's last axis fill whole vectors, twice. */
-static uint32_t length_for(const ps_nufft_choice *whole, unsigned which, uint64_t least,
-                           ps_precision precision) {
-    const uint32_t unit = 2 * ps_nufft_nominal_lanes(precision);
+static uint32_t length_for(const ps_nufft_choice *whole, unsigned which, uint64_t least) {
+    const uint32_t unit = 2 * whole->lanes;
     if (least > MOST_CELLS) {
         return 0;
     }
@@ -203,7 +201,7 @@ static uint32_t next_length(const axis_search *search, uint32_t n) {
     const double twice_k = 2.0 * whole->axes[search->which].max_frequency;
     const uint64_t least = n == 0 ? (uint64_t)fmax(LEAST_CELLS, ceil(least_sigma * twice_k + 1))
                                   : (uint64_t)n + 1 + n / NEXT_LENGTH;
-    const uint32_t next = length_for(whole, search->which, least, search->precision);
+    const uint32_t next = length_for(whole, search->which, least);
     const bool is_too_long = n > 0 && next > (uint64_t)(largest_sigma * twice_k);
     return next <= MOST_CELLS && !is_too_long ? next : 0;
 }
@@ -254,8 +252,7 @@ static uint64_t choose_chunk(const ps_nufft_choice *choice) {
 static void consider_grid(best_choice *best, ps_nufft_choice *choice, const ps_problem *problem,
                           ps_precision precision) {
     choice->chunk = choice->is_gridded && !choice->is_whole ? choose_chunk(choice) : 0;
-    if (!choice->is_whole ||
-        ps_nufft_whole_shape(choice, precision, ps_nufft_nominal_lanes(precision))) {
+    if (!choice->is_whole || ps_nufft_whole_shape(choice, precision)) {
         consider(best, choice, problem, precision);
     }
 }
@@ -302,8 +299,8 @@ static void consider_grids(best_choice *best, ps_nufft_choice *choice, const ps_
 }
 
 /* Direct phases for the whole of axis 0, transforms on all others. */
-static ps_nufft_choice direct_choice(uint32_t max_frequency, unsigned dimension) {
-    ps_nufft_choice choice = {.num_axes = dimension - 1, .span = max_frequency + 1};
+static ps_nufft_choice direct_choice(unsigned lanes, uint32_t max_frequency, unsigned dimension) {
+    ps_nufft_choice choice = {.lanes = lanes, .num_axes = dimension - 1, .span = max_frequency + 1};
     for (unsigned i = 0; i < choice.num_axes; i++) {
         choice.axes[i] =
             (ps_nufft_axis){.axis = i + 1, .factor = 1, .max_frequency = (int32_t)max_frequency};
@@ -312,8 +309,9 @@ static ps_nufft_choice direct_choice(uint32_t max_frequency, unsigned dimension)
 }
 
 /* A grid on all axes. */
-static ps_nufft_choice gridded_choice(uint32_t max_frequency, unsigned dimension) {
-    ps_nufft_choice choice = {.num_axes = dimension, .span = max_frequency + 1, .is_gridded = true};
+static ps_nufft_choice gridded_choice(unsigned lanes, uint32_t max_frequency, unsigned dimension) {
+    ps_nufft_choice choice = {
+        .lanes = lanes, .num_axes = dimension, .span = max_frequency + 1, .is_gridded = true};
     for (unsigned i = 0; i < dimension; i++) {
         choice.axes[i] =
             (ps_nufft_axis){.axis = i, .factor = 1, .max_frequency = (int32_t)max_frequency};
@@ -322,42 +320,49 @@ static ps_nufft_choice gridded_choice(uint32_t max_frequency, unsigned dimension
 }
 
 /* One dimension: a transform of every stride-th frequency. */
-static ps_nufft_choice strided_choice(uint32_t max_frequency, uint32_t stride) {
+static ps_nufft_choice strided_choice(unsigned lanes, uint32_t max_frequency, uint32_t stride) {
     const uint64_t needed = ps_divide_up((uint64_t)max_frequency + 1, stride);
     return (ps_nufft_choice){
+        .lanes = lanes,
         .num_axes = 1,
         .span = stride,
         .stride = stride,
         .axes = {{.axis = 0, .factor = stride, .max_frequency = (int32_t)(needed / 2)}}};
 }
 
+static unsigned lanes_of(const ps_device_limits *limits, ps_precision precision) {
+    const bool is_cpu = limits != NULL && !limits->has_dedicated_local_memory;
+    const unsigned lanes = is_cpu ? ps_engine_lanes(limits, precision) : 1;
+    return lanes > 1 ? lanes : ps_nufft_nominal_lanes(precision);
+}
+
 ps_nufft_choice ps_nufft_choose(const ps_problem *whole, const ps_device_limits *limits,
                                 ps_precision precision) {
     const unsigned dimension = whole->frequencies->dimension;
     const uint32_t max_frequency = (uint32_t)whole->frequencies->max_frequency;
+    const unsigned lanes = lanes_of(limits, precision);
     ps_problem planned = *whole; /* the error of a choice, too, is that of the points planned */
     const ps_problem *problem = &planned;
     planned.num_points = planned.planned_points > 0 ? planned.planned_points : planned.num_points;
     best_choice best = {0};
     if (dimension == 2 || dimension == 3) {
-        ps_nufft_choice choice = direct_choice(max_frequency, dimension);
+        ps_nufft_choice choice = direct_choice(lanes, max_frequency, dimension);
         if (ps_nufft_points(problem) <= most_sorted_points) {
             consider_grids(&best, &choice, problem, precision);
         }
         if (ps_nufft_points(problem) >= least_gridded_points) {
-            choice = gridded_choice(max_frequency, dimension);
+            choice = gridded_choice(lanes, max_frequency, dimension);
             consider_grids(&best, &choice, problem, precision);
         }
     } else {
         for (uint32_t tiles = 1; tiles <= MOST_TILES; tiles *= 2) {
-            ps_nufft_choice choice =
-                strided_choice(max_frequency, tiles * ps_nufft_nominal_lanes(precision));
+            ps_nufft_choice choice = strided_choice(lanes, max_frequency, tiles * lanes);
             consider_grids(&best, &choice, problem, precision);
         }
     }
     if (ps_nufft_points(problem) <= most_whole_points[dimension - 1] &&
         (limits == NULL || !limits->has_dedicated_local_memory)) {
-        ps_nufft_choice choice = gridded_choice(max_frequency, dimension);
+        ps_nufft_choice choice = gridded_choice(lanes, max_frequency, dimension);
         choice.is_whole = true;
         consider_grids(&best, &choice, problem, precision);
     }

@@ -29,6 +29,7 @@ typedef struct ps_nufft_axis {
 } ps_nufft_axis;
 
 typedef struct ps_nufft_choice {
+    unsigned lanes; /* whose cost counts: those of the device, nominal ones where it has none */
     unsigned num_axes;
     uint32_t span;       /* frequencies of axis 0 by direct phases */
     uint32_t stride;     /* the same where axis 0 has a transform, else 0 */
@@ -44,14 +45,14 @@ static inline bool ps_nufft_is_large(const ps_nufft_choice *choice) {
     return choice->is_gridded && !choice->is_whole;
 }
 
-/* Lanes to choose for, whatever the device has. */
+/* Of a wide CPU: lanes to choose for where there is no device, and on GPUs. */
 unsigned ps_nufft_nominal_lanes(ps_precision precision);
 
 /* The axes whose transforms make powers of tiles: all, but for axis 0 of a grid. */
 const ps_nufft_axis *ps_nufft_last_axes(const ps_nufft_choice *choice, unsigned *num);
 
 /* The cheapest that keeps the tolerance; the most exact one when none does. num_axes == 0: rows would be
- * too long for any local memory. limits: whether local memory is apart, as on GPUs; NULL: it is not. */
+ * too long for any local memory. limits: lanes, and whether local memory is apart, as on GPUs; NULL: it is not. */
 ps_nufft_choice ps_nufft_choose(const ps_problem *problem, const ps_device_limits *limits,
                                 ps_precision precision);
 
@@ -63,7 +64,7 @@ double ps_nufft_error(const ps_nufft_choice *choice, const ps_problem *problem,
 double ps_nufft_modes(const ps_problem *problem);
 double ps_nufft_points(const ps_problem *problem);
 
-/* What a device at its peak would do while it works on one realization of num_points points. */
+/* What a device of its lanes would do at its peak while it works on one realization of num_points points. */
 double ps_nufft_flops(const ps_nufft_choice *choice, ps_precision precision, double num_points);
 
 /* Of the two transforms of a whole realization: the largest frequency that each keeps. In one dimension, frequency

@@ -26,12 +26,12 @@ const double ps_nufft_cycles[PS_NUFFT_NUM_PARTS] = {
     [PS_NUFFT_TOUCHED] = 1,
     [PS_NUFFT_CLEARED] = 2.3,
     [PS_NUFFT_POWER] = 12,
-    /* grids of large sets: a point on its way to a block of rows, and a row of the block; a cell cleared and fetched
-     * by the transform, and taken into pairs for every chunk */
-    [PS_NUFFT_GRID_BLOCK] = 80,
-    [PS_NUFFT_GRID_ROW] = 6,
-    [PS_NUFFT_GRID_CELL] = 10,
-    [PS_NUFFT_GRID_PAIR] = 2,
+    /* grids of large sets: a point on its way to a block of rows, and a row of the block; four bytes of a cell
+     * cleared and fetched by the transform, and taken into pairs for every chunk */
+    [PS_NUFFT_GRID_BLOCK] = 40,
+    [PS_NUFFT_GRID_ROW] = 4,
+    [PS_NUFFT_GRID_CELL] = 5,
+    [PS_NUFFT_GRID_PAIR] = 1,
     /* whole realizations (4096 points and K = 64 in the plane): a point to be placed; a vector of polynomials,
      * mirrored ones half; a vector added to a row in the nearest cache, and beyond; a column of cells fetched, and a
      * vector turned into a tile, a quarter; a cell of a lane put into a shared tile; a vector of powers written; a
@@ -109,27 +109,40 @@ static void count_tiles(ps_nufft_counts *counts, const ps_nufft_choice *choice, 
     }
 }
 
+/* Places that are filled for the num_points points of a list, in mean: lists go through whole chunks. */
+static double filled_places(double num_points) {
+    const double half = 0.5; /* of a chunk is empty at the end of a long list */
+    const double is_not_empty = -expm1(-num_points);
+    return PS_NUFFT_CHUNK * fmax(is_not_empty, num_points / PS_NUFFT_CHUNK + half);
+}
+
 /* Spreading by direct phases on axis 0. */
-static void count_spreading(ps_nufft_counts *counts, const ps_nufft_choice *choice, double lanes,
+static void count_spreading(ps_nufft_counts *counts, const ps_nufft_choice *choice,
                             double num_tiles, double num_points) {
     const ps_nufft_axis *first = &choice->axes[0];
     const ps_nufft_axis *last = &choice->axes[choice->num_axes - 1];
     const bool has_rows = choice->num_axes == 2;
-    const double visits = num_points * (has_rows ? first->window.width : 1);
-    const double touched = touched_cells(last, visits / (has_rows ? first->n : 1));
+    /* a list for each row that touches another */
+    const double lists = has_rows ? (double)first->n * first->window.width : 1;
+    const double points_of_list = has_rows ? num_points / first->n : num_points;
+    const double visits = lists * filled_places(points_of_list);
+    const double touched = touched_cells(last, points_of_list);
     const double groups = ceil(num_tiles / fmax(1, floor(rows_at_once(last))));
     const double degree = last->window.width + 2;
     add(counts, PS_NUFFT_PHASE, visits * groups);
-    add(counts, PS_NUFFT_COEFFICIENT, visits * groups * last->window.width * degree / lanes);
+    add(counts, PS_NUFFT_COEFFICIENT,
+        visits * groups * last->window.width * degree / choice->lanes);
     add(counts, PS_NUFFT_VALUE, visits * num_tiles);
     add(counts, PS_NUFFT_TOUCHED, visits * num_tiles * touched);
 }
 
 /* ---- grids of large sets ----------------------------------------------------------------- */
 
+static const size_t word_bytes = sizeof(float);
+
 /* Spreading on a grid and the transform along axis 0. */
-static void count_grid(ps_nufft_counts *counts, const ps_nufft_choice *choice, unsigned lanes,
-                       double num_points) {
+static void count_grid(ps_nufft_counts *counts, const ps_nufft_choice *choice,
+                       ps_precision precision, double num_points) {
     const ps_nufft_axis *axes = choice->axes;
     const ps_nufft_axis *block = &axes[choice->num_axes - 2];
     const ps_nufft_axis *last = &axes[choice->num_axes - 1];
@@ -137,17 +150,18 @@ static void count_grid(ps_nufft_counts *counts, const ps_nufft_choice *choice, u
     const double blocks = (PS_NUFFT_BLOCK_ROWS + block->window.width - 1.0) / PS_NUFFT_BLOCK_ROWS;
     const double strips = last->window.width > PS_NUFFT_BLOCK_ROWS ? 2 : 1;
     const double columns = (choice->num_axes == 3 ? (double)block->n : 1) * last->n;
+    const double words = columns * axes[0].n * (double)(ps_real_bytes(precision) / word_bytes);
     add(counts, PS_NUFFT_GRID_BLOCK, visits * blocks);
     add(counts, PS_NUFFT_GRID_ROW, visits * block->window.width * strips);
-    add_transforms(counts, columns / (2 * lanes), axes[0].n);
-    add(counts, PS_NUFFT_GRID_CELL, columns * axes[0].n);
-    add(counts, PS_NUFFT_GRID_PAIR, columns * axes[0].n * ceil(num_points / (double)choice->chunk));
+    add_transforms(counts, columns / (2 * choice->lanes), axes[0].n);
+    add(counts, PS_NUFFT_GRID_CELL, words);
+    add(counts, PS_NUFFT_GRID_PAIR, words * ceil(num_points / (double)choice->chunk));
 }
 
 /* ---- whole realizations ------------------------------------------------------------------ */
 
-static void count_whole_transforms(ps_nufft_counts *counts, const ps_nufft_choice *choice,
-                                   unsigned lanes) {
+static void count_whole_transforms(ps_nufft_counts *counts, const ps_nufft_choice *choice) {
+    const unsigned lanes = choice->lanes;
     uint32_t kept[2];
     ps_nufft_whole_kept(choice, kept);
     const double groups = (double)ps_divide_up(choice->lengths[1], 2 * lanes);
@@ -163,14 +177,15 @@ static void count_whole_transforms(ps_nufft_counts *counts, const ps_nufft_choic
     add(counts, PS_NUFFT_WHOLE_POWER, tiles * (2.0 * kept[1] + 1));
 }
 
-double ps_nufft_whole_transform_cycles(const ps_nufft_choice *choice, unsigned lanes) {
+double ps_nufft_whole_transform_cycles(const ps_nufft_choice *choice) {
     ps_nufft_counts counts = {{0}};
-    count_whole_transforms(&counts, choice, lanes);
+    count_whole_transforms(&counts, choice);
     return sum_cycles(&counts);
 }
 
 static void count_whole(ps_nufft_counts *counts, const ps_nufft_choice *choice,
-                        ps_precision precision, unsigned lanes, double num_points) {
+                        ps_precision precision, double num_points) {
+    const unsigned lanes = choice->lanes;
     const ps_nufft_whole_sizes sizes = ps_nufft_whole_measure(choice, lanes);
     const ps_nufft_axis *last = &choice->axes[choice->num_axes - 1];
     const bool is_near = (double)(sizes.grid_reals * ps_real_bytes(precision)) <= near_bytes;
@@ -186,33 +201,32 @@ static void count_whole(ps_nufft_counts *counts, const ps_nufft_choice *choice,
     add(counts, PS_NUFFT_WHOLE_POLYNOMIAL, num_points * polynomials);
     add(counts, is_near ? PS_NUFFT_WHOLE_ROW : PS_NUFFT_WHOLE_FAR_ROW, num_points * rows * vectors);
     add(counts, PS_NUFFT_WHOLE_CLEARED, (double)sizes.grid_reals / lanes);
-    count_whole_transforms(counts, choice, lanes);
+    count_whole_transforms(counts, choice);
 }
 
 /* ---- all --------------------------------------------------------------------------------- */
 
 ps_nufft_counts ps_nufft_count(const ps_nufft_choice *choice, ps_precision precision,
                                double num_points) {
-    const unsigned lanes = ps_nufft_nominal_lanes(precision);
     ps_nufft_counts counts = {{0}};
     if (choice->is_whole) {
-        count_whole(&counts, choice, precision, lanes, num_points);
+        count_whole(&counts, choice, precision, num_points);
         return counts;
     }
     const ps_nufft_axis *last = &choice->axes[choice->num_axes - 1];
     const double narrower = ceil(1 / fmin(1, rows_at_once(last)));
-    const double num_tiles = (double)ps_divide_up(choice->span, lanes) * narrower;
+    const double num_tiles = (double)ps_divide_up(choice->span, choice->lanes) * narrower;
     add(&counts, PS_NUFFT_SORTED, num_points);
     count_tiles(&counts, choice, num_tiles);
     if (choice->is_gridded) {
-        count_grid(&counts, choice, lanes, num_points);
+        count_grid(&counts, choice, precision, num_points);
     } else {
-        count_spreading(&counts, choice, lanes, num_tiles, num_points);
+        count_spreading(&counts, choice, num_tiles, num_points);
     }
     return counts;
 }
 
 double ps_nufft_flops(const ps_nufft_choice *choice, ps_precision precision, double num_points) {
     const ps_nufft_counts counts = ps_nufft_count(choice, precision, num_points);
-    return sum_cycles(&counts) * ps_nufft_nominal_lanes(precision) * flops_per_lane;
+    return sum_cycles(&counts) * choice->lanes * flops_per_lane;
 }

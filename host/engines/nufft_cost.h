@@ -44,6 +44,6 @@ ps_nufft_counts ps_nufft_count(const ps_nufft_choice *choice, ps_precision preci
                                double num_points);
 
 /* Cycles of the two transforms of a whole realization, to choose their lengths by. */
-double ps_nufft_whole_transform_cycles(const ps_nufft_choice *choice, unsigned lanes);
+double ps_nufft_whole_transform_cycles(const ps_nufft_choice *choice);
 
 #endif

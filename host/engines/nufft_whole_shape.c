@@ -54,7 +54,7 @@ ps_nufft_whole_sizes ps_nufft_whole_measure(const ps_nufft_choice *choice, unsig
 
 /* In one dimension: the factors of the grid, by what the transforms take. The optimum is flat (first lengths of 128 to
  * 4096 of 131072 cells take the same time within 5 %), so it is looked for up to twice the root. */
-static void choose_lengths(ps_nufft_choice *choice, unsigned lanes) {
+static void choose_lengths(ps_nufft_choice *choice) {
     const uint32_t n = choice->axes[0].n;
     double least = HUGE_VAL;
     for (uint32_t first = 2; first * first <= 4 * n; first++) {
@@ -67,7 +67,7 @@ static void choose_lengths(ps_nufft_choice *choice, unsigned lanes) {
         other.lengths[1] = n / first;
         other.span = first / 2 + 1;
         ps_nufft_whole_kept(&other, kept);
-        const double cycles = ps_nufft_whole_transform_cycles(&other, lanes);
+        const double cycles = ps_nufft_whole_transform_cycles(&other);
         if (2 * kept[1] + 1 <= other.lengths[1] && cycles < least) {
             least = cycles;
             *choice = other;
@@ -75,10 +75,10 @@ static void choose_lengths(ps_nufft_choice *choice, unsigned lanes) {
     }
 }
 
-bool ps_nufft_whole_shape(ps_nufft_choice *choice, ps_precision precision, unsigned lanes) {
+bool ps_nufft_whole_shape(ps_nufft_choice *choice, ps_precision precision) {
     choice->lengths[0] = 0;
     if (choice->num_axes == 1) {
-        choose_lengths(choice, lanes);
+        choose_lengths(choice);
     } else {
         choice->lengths[0] = choice->axes[0].n;
         choice->lengths[1] = choice->axes[1].n;
@@ -86,7 +86,7 @@ bool ps_nufft_whole_shape(ps_nufft_choice *choice, ps_precision precision, unsig
     if (choice->lengths[0] == 0) {
         return false;
     }
-    const ps_nufft_whole_sizes sizes = ps_nufft_whole_measure(choice, lanes);
+    const ps_nufft_whole_sizes sizes = ps_nufft_whole_measure(choice, choice->lanes);
     return (double)(sizes.grid_reals + sizes.row_reals) * (double)ps_real_bytes(precision) <=
            most_bytes;
 }

@@ -19,9 +19,9 @@ typedef struct ps_nufft_whole_sizes {
 
 /* Of a choice whose axes have grids: the lengths of the transforms, and the span of axis 0. False where the
  * cache of a core is too small for it. */
-bool ps_nufft_whole_shape(ps_nufft_choice *choice, ps_precision precision, unsigned lanes);
+bool ps_nufft_whole_shape(ps_nufft_choice *choice, ps_precision precision);
 
-/* Lanes of the last tile that realizations share; 0: they do not. */
+/* Lanes of the last tile that realizations share; 0: they do not. lanes: those of the device, or fewer. */
 uint32_t ps_nufft_whole_shared(const ps_nufft_choice *choice, unsigned lanes);
 
 ps_nufft_whole_sizes ps_nufft_whole_measure(const ps_nufft_choice *choice, unsigned lanes);

@@ -1,5 +1,4 @@
-/* The engine: orders in passes, points in slabs; for each pass and slab directions, sums over points, and after the
- * last slab sums over orders. Usually there is one pass and one slab. */
+/* Orders in passes, points in slabs: for each directions and sums over points, after the last slab sums over orders. */
 #include "engines/sphere_direct.h"
 
 #include "base/memory.h"
@@ -172,13 +171,6 @@ out:
     return status;
 }
 
-static void get_slots(const void *state, uint32_t *slots) {
-    const sphere_direct *self = state;
-    for (size_t i = 0; i < self->frequencies->num; i++) {
-        slots[i] = (uint32_t)i;
-    }
-}
-
 static size_t get_stride(const void *state) {
     return ((const sphere_direct *)state)->frequencies->num;
 }
@@ -281,48 +273,10 @@ static pspec_status sum_pass(sphere_direct *self, const ps_batch *batch, size_t 
     return PSPEC_OK;
 }
 
-/* ---- run --------------------------------------------------------------------------------- */
-
 static double real_at(const sphere_direct *self, size_t i) {
     return self->layout.precision == PS_SINGLE ? (double)((const float *)self->host_rows)[i]
                                                : ((const double *)self->host_rows)[i];
 }
-
-/* Q(l) = (4 pi / (2l + 1)) (|c_l0|^2 + 2 sum_{m > 0} |c_lm|^2). */
-static pspec_status read_powers(sphere_direct *self, const ps_batch *batch, ps_error *error) {
-    const double four_pi = 12.566370614359172;
-    const ps_frequencies *set = self->frequencies;
-    const size_t stride = self->layout.stride;
-    const size_t bytes = PS_SPHERE_POWERS * stride * self->layout.real_bytes;
-    for (size_t r = 0; r < batch->num_patterns; r++) {
-        PS_TRY(
-            ps_buffer_read(self->device, &self->powers, r * bytes, self->host_rows, bytes, error));
-        for (size_t i = 0; i < set->num; i++) {
-            const size_t l = (size_t)set->vectors[i];
-            const double half = real_at(self, l) + real_at(self, stride + l);
-            self->power[r * set->num + i] =
-                2 * four_pi / (2 * (double)l + 1) * half * batch->scales[r];
-        }
-    }
-    return PSPEC_OK;
-}
-
-static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_error *error) {
-    sphere_direct *self = state;
-    const bool has_low = has_low_parts(self, longest_pattern(batch));
-    for (size_t pass = 0; pass < self->layout.num_passes; pass++) {
-        PS_TRY(sum_pass(self, batch, pass, error));
-        PS_TRY(add_orders(self, batch->num_patterns, pass, has_low, error));
-    }
-    PS_TRY(read_powers(self, batch, error));
-    *rows = (ps_rows){.num_rows = batch->num_patterns,
-                      .stride = self->frequencies->num,
-                      .precision = PS_DOUBLE,
-                      .host = self->power};
-    return PSPEC_OK;
-}
-
-/* ---- coefficients ------------------------------------------------------------------------ */
 
 /* c_lm of an order from the first realization's sums, times 2^exponent. */
 static pspec_status read_order(sphere_direct *self, size_t order, int32_t m, bool has_low,
@@ -344,30 +298,72 @@ static pspec_status read_order(sphere_direct *self, size_t order, int32_t m, boo
     return PSPEC_OK;
 }
 
-static int weight_exponent(const pspec_pattern *pattern) {
-    double largest = 0;
-    int exponent = 0;
-    for (size_t j = 0; j < pattern->num_points && pattern->weights != NULL; j++) {
-        largest = fmax(largest, fabs(pattern->weights[j]));
-    }
-    frexp(largest, &exponent);
-    return exponent;
-}
-
-static pspec_status coefficients(void *state, const pspec_pattern *pattern, double *out,
-                                 ps_error *error) {
-    sphere_direct *self = state;
-    const int exponent = weight_exponent(pattern);
-    const ps_batch batch = {.num_patterns = 1, .patterns = pattern, .exponents = &exponent};
-    const bool has_low = has_low_parts(self, pattern->num_points);
-    for (size_t pass = 0; pass < self->layout.num_passes; pass++) {
-        PS_TRY(sum_pass(self, &batch, pass, error));
-        for (size_t i = 0; i < ps_sphere_pass_orders(&self->layout, pass); i++) {
-            const size_t m = pass * self->layout.pass_orders + i;
-            PS_TRY(read_order(self, i, (int32_t)m, has_low, exponent, out, error));
+/* Q(l) = (4 pi / (2l + 1)) (|c_l0|^2 + 2 sum_{m > 0} |c_lm|^2). */
+static pspec_status read_powers(sphere_direct *self, const ps_batch *batch, ps_error *error) {
+    const double four_pi = 12.566370614359172;
+    const ps_frequencies *set = self->frequencies;
+    const size_t stride = self->layout.stride;
+    const size_t bytes = PS_SPHERE_POWERS * stride * self->layout.real_bytes;
+    for (size_t r = 0; r < batch->num_patterns; r++) {
+        PS_TRY(
+            ps_buffer_read(self->device, &self->powers, r * bytes, self->host_rows, bytes, error));
+        for (size_t i = 0; i < set->num; i++) {
+            const size_t l = (size_t)set->vectors[i];
+            const double half = real_at(self, l) + real_at(self, stride + l);
+            self->power[r * set->num + i] =
+                2 * four_pi / (2 * (double)l + 1) * half * batch->scales[r];
         }
     }
     return PSPEC_OK;
+}
+
+static pspec_status read_pass(sphere_direct *self, const ps_batch *one, size_t pass, bool has_low,
+                              double *out, ps_error *error) {
+    const int exponent = one->exponents != NULL ? one->exponents[0] : 0;
+    for (size_t i = 0; i < ps_sphere_pass_orders(&self->layout, pass); i++) {
+        const size_t m = pass * self->layout.pass_orders + i;
+        PS_TRY(read_order(self, i, (int32_t)m, has_low, exponent, out, error));
+    }
+    return PSPEC_OK;
+}
+
+/* Sums on the device, and from them powers there and coefficients here (NULL: none). */
+static pspec_status run_passes(sphere_direct *self, const ps_batch *batch, bool wants_powers,
+                               double *coefficients, ps_error *error) {
+    const bool has_low = has_low_parts(self, longest_pattern(batch));
+    for (size_t pass = 0; pass < self->layout.num_passes; pass++) {
+        PS_TRY(sum_pass(self, batch, pass, error));
+        if (wants_powers) {
+            PS_TRY(add_orders(self, batch->num_patterns, pass, has_low, error));
+        }
+        if (coefficients != NULL) {
+            PS_TRY(read_pass(self, batch, pass, has_low, coefficients, error));
+        }
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status give_rows(sphere_direct *self, const ps_batch *batch, ps_rows *rows,
+                              ps_error *error) {
+    PS_TRY(read_powers(self, batch, error));
+    *rows = (ps_rows){.num_rows = batch->num_patterns,
+                      .stride = self->frequencies->num,
+                      .precision = PS_DOUBLE,
+                      .host = self->power};
+    return PSPEC_OK;
+}
+
+/* ---- run --------------------------------------------------------------------------------- */
+
+static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_error *error) {
+    PS_TRY(run_passes(state, batch, true, NULL, error));
+    return give_rows(state, batch, rows, error);
+}
+
+static pspec_status coefficients(void *state, const ps_batch *one, ps_rows *rows, double *out,
+                                 ps_error *error) {
+    PS_TRY(run_passes(state, one, rows != NULL, out, error));
+    return rows != NULL ? give_rows(state, one, rows, error) : PSPEC_OK;
 }
 
 static void describe(const void *state, ps_text *text) {
@@ -388,7 +384,6 @@ const ps_engine ps_sphere_direct = {
     .work = work,
     .error = ps_sphere_error,
     .create = create,
-    .get_slots = get_slots,
     .get_stride = get_stride,
     .run = run,
     .coefficients = coefficients,

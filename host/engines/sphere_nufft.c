@@ -23,49 +23,76 @@ typedef struct sphere_nufft {
 
 /* ---- what the planner asks --------------------------------------------------------------- */
 
-static bool applicable(const ps_problem *problem, const ps_device_limits *limits,
-                       ps_precision precision, const char **why_not) {
-    if (!ps_engine_on_device(limits, precision, why_not)) {
-        return false;
+/* Why there is no shape, before and after it is made; NULL: there is one. */
+static const char *refuse(const ps_problem *problem, const ps_device_limits *limits,
+                          ps_precision precision) {
+    const char *why_not = NULL;
+    if (!ps_engine_on_device(limits, precision, &why_not)) {
+        return why_not;
     }
     if (!limits->has_fp64) {
-        *why_not = "Legendre functions need double precision, which the device does not have";
-        return false;
+        return "Legendre functions need double precision, which the device does not have";
     }
-    if (problem->num_points > UINT32_MAX) {
-        *why_not = "too many points for 32-bit places";
-        return false;
-    }
-    const ps_sphere_shape shape = ps_sphere_shape_make(problem, limits, precision);
-    if (shape.lanes == 0) {
-        *why_not = "a meridian of the fine grid does not fit into local memory";
-        return false;
-    }
-    if (shape.largest_buffer > limits->max_allocation_bytes) {
-        *why_not = "needs a larger buffer than the device allows";
-        return false;
-    }
-    *why_not = NULL;
-    return true;
+    return problem->num_points > UINT32_MAX ? "too many points for 32-bit places" : NULL;
 }
 
-static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
-                    ps_precision precision) {
-    const ps_sphere_shape shape = ps_sphere_shape_make(problem, limits, precision);
+static const char *refuse_shape(const ps_sphere_shape *shape, const ps_device_limits *limits) {
+    if (shape->lanes == 0) {
+        return "the degree is too large, or local memory too small";
+    }
+    return shape->largest_buffer > limits->max_allocation_bytes
+               ? "needs a larger buffer than the device allows"
+               : NULL;
+}
+
+static ps_work work_of(const ps_sphere_shape *shape, const ps_problem *problem,
+                       ps_precision precision) {
     const double realizations =
         problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
     const double launches_of_some = 4;
     const double row = (double)problem->frequencies->num * sizeof(double);
-    return (ps_work){.transform_flops =
-                         realizations * ps_sphere_nufft_flops(&shape, precision,
-                                                              (double)problem->num_points,
-                                                              realizations),
-                     .launches = launches_of_some * ceil(realizations / (double)shape.at_once),
-                     .fixed_bytes = (double)shape.fixed_bytes,
-                     .host_bytes = (double)shape.host_bytes,
-                     .bytes_per_realization = row,
+    /* coefficients as the kernel keeps them, on the device and on the host */
+    const double kept = problem->harmonics == PS_NO_HARMONICS
+                            ? 0
+                            : (double)(((size_t)shape->max_degree + 1) * 4 * shape->half_pitch) *
+                                  (double)sizeof(double);
+    const double flops =
+        ps_sphere_nufft_flops(shape, precision, (double)problem->num_points, realizations);
+    return (ps_work){.transform_flops = realizations * flops,
+                     .launches = launches_of_some * ceil(realizations / (double)shape->at_once),
+                     .fixed_bytes = (double)shape->fixed_bytes + 2 * kept,
+                     .host_bytes = (double)shape->host_bytes + kept,
+                     .bytes_per_realization = row + (double)shape->each_bytes,
                      .row_bytes = row,
+                     .wanted_batch = (double)shape->at_once,
                      .largest_buffer_per_realization = row};
+}
+
+static ps_survey survey(const ps_problem *problem, const ps_device_limits *limits,
+                        ps_precision precision) {
+    ps_survey result = {.why_not = refuse(problem, limits, precision)};
+    if (result.why_not != NULL) {
+        return result;
+    }
+    const ps_sphere_shape shape = ps_sphere_shape_make(problem, limits, precision);
+    result.why_not = refuse_shape(&shape, limits);
+    if (result.why_not == NULL) {
+        result.work = work_of(&shape, problem, precision);
+        result.error =
+            ps_sphere_nufft_error(&shape.axis, problem, precision, ps_expected_power(problem));
+    }
+    return result;
+}
+
+static bool applicable(const ps_problem *problem, const ps_device_limits *limits,
+                       ps_precision precision, const char **why_not) {
+    *why_not = survey(problem, limits, precision).why_not;
+    return *why_not == NULL;
+}
+
+static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
+                    ps_precision precision) {
+    return survey(problem, limits, precision).work;
 }
 
 static double error_of(const ps_problem *problem, const ps_device_limits *limits,
@@ -104,8 +131,7 @@ static pspec_status create_parts(sphere_nufft *self, size_t batch, ps_error *err
     PS_TRY(ps_allocate(&memory, batch * self->problem.frequencies->num, sizeof(double),
                        "powers of a batch", error));
     self->host_rows = memory;
-    PS_TRY(ps_sphere_places_create(&self->points, shape, self->problem.num_points, self->precision,
-                                   self->device, error));
+    PS_TRY(ps_sphere_places_create(&self->points, shape, self->precision, self->device, error));
     PS_TRY(ps_sphere_tables_create(&self->tables, shape, self->problem.tolerance, self->precision,
                                    self->device, error));
     return ps_sphere_stages_create(&self->stages, shape, &self->points, &self->tables,
@@ -123,11 +149,7 @@ static pspec_status create(void **state, const ps_problem *problem, ps_precision
     self->problem = *problem;
     self->precision = precision;
     self->shape = ps_sphere_shape_make(problem, ps_device_get_limits(device), precision);
-    self->shape.at_once = batch < self->shape.at_once ? batch : self->shape.at_once;
-    if (self->shape.slots > self->shape.at_once) {
-        self->shape.shares *= ps_divide_up(self->shape.slots, self->shape.at_once);
-        self->shape.slots = self->shape.at_once;
-    }
+    ps_sphere_shape_shrink(&self->shape, batch);
     const pspec_status status = create_parts(self, batch, error);
     if (status != PSPEC_OK) {
         destroy(self);
@@ -135,13 +157,6 @@ static pspec_status create(void **state, const ps_problem *problem, ps_precision
     }
     *state = self;
     return PSPEC_OK;
-}
-
-static void get_slots(const void *state, uint32_t *slots) {
-    const sphere_nufft *self = state;
-    for (size_t i = 0; i < self->problem.frequencies->num; i++) {
-        slots[i] = (uint32_t)i;
-    }
 }
 
 static size_t get_stride(const void *state) {
@@ -164,19 +179,58 @@ static void write_rows(sphere_nufft *self, size_t first, const ps_batch *some) {
     }
 }
 
+static ps_batch part_of(const ps_batch *batch, size_t first, size_t most) {
+    const size_t rest = batch->num_patterns - first;
+    ps_batch some = *batch;
+    some.num_patterns = rest < most ? rest : most;
+    some.patterns += first;
+    some.scales = batch->scales != NULL ? batch->scales + first : NULL;
+    some.exponents = batch->exponents != NULL ? batch->exponents + first : NULL;
+    return some;
+}
+
+/* Points of the only pattern, a chunk at a time. */
+static pspec_status add_points(sphere_nufft *self, const ps_batch *one, bool is_first,
+                               ps_error *error) {
+    const size_t most = self->shape.most_points;
+    const pspec_pattern *all = one->patterns;
+    for (size_t at = 0; at < all->num_points; at += most) {
+        pspec_pattern chunk = *all;
+        chunk.points += at * PS_SPHERE_DIMENSION;
+        chunk.weights = all->weights != NULL ? all->weights + at : NULL;
+        chunk.num_points = all->num_points - at < most ? all->num_points - at : most;
+        ps_batch some = *one;
+        some.patterns = &chunk;
+        PS_TRY(ps_batch_go_on(one, error));
+        PS_TRY(ps_sphere_places_make(&self->points, &some, error));
+        PS_TRY(ps_sphere_stages_add_sorted(&self->stages, is_first && at == 0, error));
+    }
+    return PSPEC_OK;
+}
+
+/* Values on rings of at most at_once patterns. */
+static pspec_status make_values(sphere_nufft *self, const ps_batch *batch, ps_error *error) {
+    const size_t together = self->shape.together;
+    for (size_t first = 0; first < batch->num_patterns; first += together) {
+        const ps_batch some = part_of(batch, first, together);
+        PS_TRY(ps_batch_go_on(batch, error));
+        if (self->shape.is_sorted) {
+            PS_TRY(add_points(self, &some, true, error));
+            PS_TRY(ps_sphere_stages_finish_sorted(&self->stages, first, error));
+        } else {
+            PS_TRY(ps_sphere_places_make(&self->points, &some, error));
+            PS_TRY(ps_sphere_stages_make_values(&self->stages, first, some.num_patterns, error));
+        }
+    }
+    return PSPEC_OK;
+}
+
 static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_error *error) {
     sphere_nufft *self = state;
     const size_t at_once = self->shape.at_once;
     for (size_t first = 0; first < batch->num_patterns; first += at_once) {
-        const size_t rest = batch->num_patterns - first;
-        ps_batch some = *batch;
-        some.num_patterns = rest < at_once ? rest : at_once;
-        some.patterns += first;
-        some.scales += first;
-        some.exponents = batch->exponents != NULL ? batch->exponents + first : NULL;
-        PS_TRY(ps_batch_go_on(batch, error));
-        PS_TRY(ps_sphere_places_make(&self->points, &some, error));
-        PS_TRY(ps_sphere_stages_make_values(&self->stages, some.num_patterns, error));
+        const ps_batch some = part_of(batch, first, at_once);
+        PS_TRY(make_values(self, &some, error));
         PS_TRY(ps_sphere_stages_sum(&self->stages, some.num_patterns, self->host_powers, error));
         write_rows(self, first, &some);
     }
@@ -217,14 +271,16 @@ static void write_coefficients(const sphere_nufft *self, const double *from, int
     }
 }
 
-static pspec_status coefficients(void *state, const pspec_pattern *pattern, double *out,
+static pspec_status coefficients(void *state, const ps_batch *one, ps_rows *rows, double *out,
                                  ps_error *error) {
     sphere_nufft *self = state;
-    const int exponent = largest_exponent(pattern);
-    const ps_batch one = {.num_patterns = 1, .patterns = pattern, .exponents = &exponent};
+    const int exponent = largest_exponent(one->patterns);
+    ps_batch scaled = *one;
     void *host = NULL;
-    PS_TRY(ps_sphere_places_make(&self->points, &one, error));
-    PS_TRY(ps_sphere_stages_make_values(&self->stages, 1, error));
+    scaled.exponents = &exponent;
+    PS_TRY(rows != NULL ? run(state, one, rows, error) /* its values stay on the rings */
+                        : make_values(self, &scaled, error));
+    PS_TRY(ps_batch_go_on(one, error));
     PS_TRY(ps_allocate(&host, ((size_t)self->shape.max_degree + 1) * 4 * self->shape.half_pitch,
                        sizeof(double), "coefficients", error));
     const pspec_status status = ps_sphere_stages_keep(&self->stages, host, error);
@@ -240,10 +296,11 @@ static void describe(const void *state, ps_text *text) {
     const ps_sphere_shape *shape = &self->shape;
     ps_text_append(text,
                    "(sphere_nufft precision=%s lanes=%u grid=%lu sigma=%.3g width=%u degree=%u "
-                   "rings=%lu at_once=%zu)",
+                   "rings=%lu at_once=%zu bands=%lu strip=%lu)",
                    ps_precision_name(self->precision), shape->lanes, (unsigned long)shape->axis.n,
                    shape->axis.n / (2.0 * shape->max_degree), shape->axis.window.width,
-                   self->tables.plan.degree, (unsigned long)shape->num_rings, shape->at_once);
+                   self->tables.plan.degree, (unsigned long)shape->num_rings, shape->at_once,
+                   (unsigned long)shape->bands, (unsigned long)shape->strip);
 }
 
 const ps_engine ps_sphere_nufft = {
@@ -256,9 +313,9 @@ const ps_engine ps_sphere_nufft = {
     .applicable = applicable,
     .work = work,
     .error = error_of,
+    .survey = survey,
     .error_of_state = error_of_state,
     .create = create,
-    .get_slots = get_slots,
     .get_stride = get_stride,
     .run = run,
     .coefficients = coefficients,

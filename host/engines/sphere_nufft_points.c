@@ -13,17 +13,31 @@ __extension__ typedef unsigned __int128 wide; /* not in ISO C */
 
 /* ---- create ------------------------------------------------------------------------------ */
 
-static pspec_status create_buffers(ps_sphere_places *self, size_t at_once, ps_error *error) {
-    const size_t turns = ps_round_up(self->most_points, self->lanes);
-    PS_TRY(ps_buffer_create(self->device, &self->vectors,
-                            self->most_points * PS_SPHERE_DIMENSION * sizeof(double), "points",
-                            error));
-    PS_TRY(ps_buffer_create(self->device, &self->turns, turns * 2 * sizeof(uint64_t),
-                            "angles of points", error));
-    PS_TRY(ps_buffer_create(self->device, &self->weights,
-                            self->most_points * ps_real_bytes(self->precision), "weights", error));
-    return ps_buffer_create(self->device, &self->offsets, (at_once + 1) * sizeof(uint64_t),
-                            "offsets", error);
+static pspec_status create_buffers(ps_sphere_places *self, ps_error *error) {
+    const ps_sphere_shape *shape = self->shape;
+    const ps_sphere_bytes bytes = ps_sphere_bytes_of(shape, ps_real_bytes(self->precision));
+    const struct {
+        ps_buffer *buffer;
+        size_t bytes;
+        const char *what;
+        bool is_of_sorted;
+    } wanted[] = {
+        {&self->vectors, bytes.vectors, "points", false},
+        {&self->turns, bytes.turns, "angles of points", false},
+        {&self->weights, bytes.weights, "weights", false},
+        {&self->offsets, (shape->together + 1) * sizeof(uint64_t), "offsets", false},
+        {&self->keys, bytes.keys, "bands of points", true},
+        {&self->sorted, bytes.turns, "sorted points", true},
+        {&self->heights, bytes.weights, "sorted weights", true},
+        {&self->starts, bytes.starts, "starts of bands", true},
+    };
+    for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
+        if (!wanted[i].is_of_sorted || shape->is_sorted) {
+            PS_TRY(ps_buffer_create(self->device, wanted[i].buffer, wanted[i].bytes, wanted[i].what,
+                                    error));
+        }
+    }
+    return PSPEC_OK;
 }
 
 static void set_weight(ps_sphere_places *self, size_t at, double weight) {
@@ -45,24 +59,25 @@ static pspec_status upload_unit_weights(ps_sphere_places *self, ps_error *error)
 }
 
 pspec_status ps_sphere_places_create(ps_sphere_places *out, const ps_sphere_shape *shape,
-                                     uint64_t num_points, ps_precision precision, ps_device *device,
-                                     ps_error *error) {
+                                     ps_precision precision, ps_device *device, ps_error *error) {
     char options[64];
     void *memory = NULL;
     *out = (ps_sphere_places){.device = device,
                               .precision = precision,
-                              .most_points = shape->at_once * num_points,
-                              .lanes = shape->sum_lanes,
+                              .shape = shape,
+                              .most_points = shape->most_points,
+                              .lanes = shape->lanes,
                               .shift = (uint64_t)(((wide)shape->pole << 64) / shape->axis.n)};
     PS_TRY(ps_allocate(&memory, out->most_points, ps_real_bytes(precision), "weights", error));
     out->host_weights = memory;
-    PS_TRY(ps_allocate(&memory, shape->at_once + 1, sizeof(uint64_t), "offsets", error));
+    PS_TRY(ps_allocate(&memory, shape->together + 1, sizeof(uint64_t), "offsets", error));
     out->host_offsets = memory;
     snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u",
              precision == PS_SINGLE ? 32u : 64u, out->lanes);
-    PS_TRY(ps_kernel_create(device, &out->turn, "sphere/orders_turns.cl", "sphere_orders_turns",
-                            options, error));
-    PS_TRY(create_buffers(out, shape->at_once, error));
+    PS_TRY(ps_kernel_create(
+        device, &out->turn, shape->is_sorted ? "sphere/orders_sort.cl" : "sphere/orders_turns.cl",
+        shape->is_sorted ? "sphere_orders_sort" : "sphere_orders_turns", options, error));
+    PS_TRY(create_buffers(out, error));
     return upload_unit_weights(out, error);
 }
 
@@ -74,6 +89,10 @@ void ps_sphere_places_free(ps_sphere_places *points) {
     ps_buffer_release(&points->turns);
     ps_buffer_release(&points->weights);
     ps_buffer_release(&points->offsets);
+    ps_buffer_release(&points->keys);
+    ps_buffer_release(&points->sorted);
+    ps_buffer_release(&points->heights);
+    ps_buffer_release(&points->starts);
     free(points->host_weights);
     free(points->host_offsets);
     *points = (ps_sphere_places){0};
@@ -129,12 +148,31 @@ static pspec_status upload_weights(ps_sphere_places *self, const ps_batch *batch
                            error);
 }
 
+static pspec_status sort_points(ps_sphere_places *self, ps_error *error) {
+    const ps_sphere_shape *shape = self->shape;
+    const double flops_per_point = 1000; /* work-groups of one work-item on CPUs */
+    const size_t parts = ps_divide_up(self->num_points, PS_SPHERE_PART_POINTS);
+    const ps_range range =
+        ps_range_heavy(self->device, parts, 1, 1, flops_per_point * (double)self->num_points, 0);
+    return PS_LAUNCH(self->device, self->turn, &range, error, PS_BUFFER(self->vectors),
+                     PS_BUFFER(self->weights), PS_U64(self->num_points),
+                     PS_U64(PS_SPHERE_PART_POINTS), PS_U64(self->shift), PS_U32(shape->axis.n),
+                     PS_U32(shape->axis.window.width), PS_U32(shape->bands), PS_U32(shape->tiles),
+                     PS_U32(self->has_unit_weights ? 0 : 1), PS_BUFFER(self->turns),
+                     PS_BUFFER(self->keys), PS_BUFFER(self->sorted), PS_BUFFER(self->heights),
+                     PS_BUFFER(self->starts));
+}
+
 pspec_status ps_sphere_places_make(ps_sphere_places *points, const ps_batch *batch,
                                    ps_error *error) {
     const double flops_per_point = 300;
     PS_TRY(upload_points(points, batch, error));
     PS_TRY(upload_weights(points, batch, error));
-    const uint64_t num = points->host_offsets[batch->num_patterns];
+    points->num_points = points->host_offsets[batch->num_patterns];
+    if (points->shape->is_sorted) {
+        return sort_points(points, error);
+    }
+    const uint64_t num = points->num_points;
     const ps_range range = ps_range_light(points->device, ps_divide_up(num, points->lanes), 1, 1,
                                           flops_per_point * (double)num, 0);
     return PS_LAUNCH(points->device, points->turn, &range, error, PS_BUFFER(points->vectors),

@@ -17,27 +17,67 @@ typedef struct ps_sphere_shape {
     uint32_t rings;     /* on a whole great circle through the poles, even and above 2 L */
     uint32_t num_rings; /* in the northern quarter of it */
 
-    unsigned lanes,
-        sum_lanes; /* of orders.cl, and of orders_sum.cl; lanes 0: rows do not fit into local memory */
+    unsigned lanes;            /* 0: L is too large */
     uint32_t pole;             /* cells in front of the north pole */
     uint32_t pitch, grid_rows; /* of a grid */
     uint32_t columns;          /* with cells in them, whole groups */
     uint32_t pairs;            /* of tiles of orders */
     uint32_t ring_pitch;       /* rings up to whole vectors */
+    uint32_t run_vectors;      /* RUN_VECTORS of orders_table.h */
     uint32_t block;            /* rings of a block of orders_sum.cl */
     uint32_t half_pitch;       /* degrees of one parity, and room behind them */
-    size_t at_once;            /* realizations between points and powers */
+    uint32_t bands, band_rows; /* of a grid (kernels/sphere/bands.h) */
+    uint32_t tiles;            /* of angles from the pole, of sorted points */
+    uint32_t strip;            /* columns of a strip (kernels/sphere/orders_strips.h) */
+    bool is_sorted;            /* one realization at a time, in chunks of points */
+    size_t at_once;            /* realizations between values on rings and powers */
+    size_t together;           /* between points and values on rings */
     size_t slots;              /* grids */
     size_t shares;             /* work-groups for each grid */
+    uint64_t most_points;      /* on the device at a time */
+    uint64_t set_points;       /* of a realization that comes in strips, else 0 */
 
-    uint64_t slot_bytes,
-        value_bytes; /* of a grid and its rows; of values on rings of a realization */
+    uint64_t grid_bytes;  /* of a grid, or of a strip */
+    uint64_t row_bytes;   /* of the rows of a realization */
+    uint64_t value_bytes; /* of values on rings of a realization */
+    uint64_t
+        each_bytes; /* of a realization of a batch; what depends on at_once is there or in fixed_bytes */
     uint64_t fixed_bytes, host_bytes, largest_buffer;
 } ps_sphere_shape;
 
 /* What the kernels need of a problem; axis.n == 0: L is too large. */
 ps_sphere_shape ps_sphere_shape_make(const ps_problem *problem, const ps_device_limits *limits,
                                      ps_precision precision);
+
+/* Whether a grid is done in strips, one for each work-group, or lies in memory as a whole. */
+static inline bool ps_sphere_has_strips(const ps_sphere_shape *shape) {
+    return shape->strip < shape->columns;
+}
+
+/* For batches of no more than `batch` realizations. */
+void ps_sphere_shape_shrink(ps_sphere_shape *shape, size_t batch);
+
+/* Its parts, of sphere_nufft_axis.c. The grid, the same on both axes; the most exact one when none keeps the tolerance,
+ * n == 0: L is too large. */
+ps_nufft_axis ps_sphere_choose_axis(const ps_problem *problem, ps_precision precision);
+
+/* Rings on a whole great circle: even, above 2 L, and half of them transforms well. */
+uint32_t ps_sphere_ring_length(int32_t max_degree);
+
+/* Cycles on a core, of what depends on the grid. */
+double ps_sphere_grid_cycles(const ps_nufft_axis *axis, ps_precision precision, double num_points);
+
+/* Of the buffers, as kernels/sphere/ names them; values, powers and sums for each of at_once realizations, sums for one
+ * more. */
+typedef struct ps_sphere_bytes {
+    uint64_t vectors, turns, weights; /* sorted points have turns and weights twice */
+    uint64_t keys, starts;
+    uint64_t grids, rows, scratch;
+    uint64_t strip_turns, strip_weights, strips, strip_starts;
+    uint64_t values, powers, sums;
+    uint64_t states, scales, diagonals;
+} ps_sphere_bytes;
+ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_bytes);
 
 /* axis.loss for the sphere: mean square of what aliases do, and the most when all power is in step. */
 void ps_sphere_nufft_loss(const ps_nufft_axis *axis, double *aliasing, double *worst);
@@ -50,17 +90,21 @@ double ps_sphere_nufft_error(const ps_nufft_axis *axis, const ps_problem *proble
 double ps_sphere_nufft_flops(const ps_sphere_shape *shape, ps_precision precision,
                              double num_points, double num_realizations);
 
-/* Local memory in bytes: of orders.cl (data, spectrum, windows) and of orders_sum.cl (table, coefficients). */
+/* Local memory in bytes: of orders.cl and orders_bands.cl, and of orders_sum.cl. */
 typedef struct ps_sphere_local {
-    size_t data, spectrum, windows, cells;
+    size_t windows, cells;
     size_t table, coefficients, begins;
 } ps_sphere_local;
 ps_sphere_local ps_sphere_local_bytes(const ps_sphere_shape *shape, size_t real_bytes);
 
+/* Points that are sorted together, and parts of a chunk of a large set. Sums depend on them: the same on all devices. */
+enum { PS_SPHERE_PART_POINTS = 1 << 16, PS_SPHERE_PARTS = 16 };
+
 /* Numbers that kernels/sphere/ agrees on, as it names them. */
 enum {
-    PS_SPHERE_RUN_VECTORS = 4, /* orders_table.h */
-    PS_SPHERE_SCALE = 100      /* orders_table.h: the exponent of SCALE_UP */
+    PS_SPHERE_TILE_CELLS = 64,  /* bands.h */
+    PS_SPHERE_RING_VECTORS = 2, /* orders_table.h: the most, in double precision */
+    PS_SPHERE_SCALE = 100       /* orders_table.h: the exponent of SCALE_UP */
 };
 
 #endif

@@ -14,8 +14,9 @@ typedef struct ps_sphere_stages {
     const ps_sphere_shape *shape;
     const ps_sphere_places *points;
     const ps_sphere_tables *tables;
-    cl_kernel orders, sum, fold;
-    ps_buffer grids, rows, values;             /* of orders.cl */
+    cl_kernel orders, bands, sum, fold;     /* bands: of sorted points */
+    ps_buffer grids, rows, scratch, values; /* of orders.cl */
+    ps_buffer strip_turns, strip_weights, strips, strip_starts;
     ps_buffer states, scales, diagonals, sums; /* of orders_sum.cl */
     ps_buffer powers;
 } ps_sphere_stages;
@@ -27,9 +28,15 @@ pspec_status ps_sphere_stages_create(ps_sphere_stages *out, const ps_sphere_shap
                                      ps_error *error) PS_MUST_CHECK;
 void ps_sphere_stages_free(ps_sphere_stages *stages);
 
-/* Values on rings of the first num realizations whose points are on the device. */
-pspec_status ps_sphere_stages_make_values(ps_sphere_stages *stages, size_t num,
+/* Values on rings, from first_value on, of the first num realizations whose points are on the device. */
+pspec_status ps_sphere_stages_make_values(ps_sphere_stages *stages, size_t first_value, size_t num,
                                           ps_error *error) PS_MUST_CHECK;
+/* The same of one realization whose sorted points come in chunks: the sums of all since is_first, ... */
+pspec_status ps_sphere_stages_add_sorted(ps_sphere_stages *stages, bool is_first,
+                                         ps_error *error) PS_MUST_CHECK;
+/* ... and their values on rings. */
+pspec_status ps_sphere_stages_finish_sorted(ps_sphere_stages *stages, size_t value,
+                                            ps_error *error) PS_MUST_CHECK;
 /* Of these, sum_m |c_lm|^2 to powers [realization][even, odd degrees][half_pitch]. */
 pspec_status ps_sphere_stages_sum(ps_sphere_stages *stages, size_t num, double *powers,
                                   ps_error *error) PS_MUST_CHECK;

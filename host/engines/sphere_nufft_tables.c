@@ -8,29 +8,59 @@
 
 static const long double pi = 3.141592653589793238462643383279502884L;
 
-/* ---- gains ------------------------------------------------------------------------------- */
+/* ---- gains and turns ---------------------------------------------------------------------- */
 
 static pspec_status create_gains(ps_sphere_tables *self, const ps_sphere_shape *shape,
                                  ps_precision precision, ps_device *device, ps_error *error) {
     const ps_nufft_axis *axis = &shape->axis;
     const size_t num = (size_t)shape->max_degree + 1;
     void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, 2 * num, sizeof(double), "gains", error));
+    PS_TRY(ps_allocate(&memory, 4 * num, sizeof(double), "gains", error));
     double *around = memory;
-    double *along = around + num;
+    double *along = around + 3 * num;
     for (size_t k = 0; k < num; k++) {
         const double inverse =
             1 / ps_nufft_window_transform(&axis->window, (long double)k / axis->n);
-        around[k] = inverse / 2;
-        along[k] = inverse / 4 / shape->rings;
+        const long double angle = 2 * pi * k / axis->n;
+        around[3 * k] = inverse / 2;
+        around[3 * k + 1] = (double)(-inverse / 2 * sinl(angle));
+        around[3 * k + 2] = (double)(-inverse / 2 * cosl(angle));
+        along[k] = inverse / 2 / shape->rings;
     }
     pspec_status status =
-        ps_reals_upload(device, &self->around_gains, precision, around, num, "gains", error);
+        ps_reals_upload(device, &self->around_gains, precision, around, 3 * num, "gains", error);
     if (status == PSPEC_OK) {
         status = ps_reals_upload(device, &self->along_gains, precision, along, num, "gains", error);
     }
     free(memory);
     return status;
+}
+
+/* exp(-2 pi i j / n), j < num. */
+static pspec_status create_turns(ps_buffer *out, uint32_t n, uint32_t num, ps_precision precision,
+                                 ps_device *device, ps_error *error) {
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, 2 * (size_t)num, sizeof(double), "turns", error));
+    double *turns = memory;
+    for (uint32_t j = 0; j < num; j++) {
+        const long double angle = 2 * pi * j / n;
+        turns[2 * (size_t)j] = (double)cosl(angle);
+        turns[2 * (size_t)j + 1] = (double)-sinl(angle);
+    }
+    const pspec_status status =
+        ps_reals_upload(device, out, precision, turns, 2 * (size_t)num, "turns", error);
+    free(memory);
+    return status;
+}
+
+static pspec_status create_transforms(ps_sphere_tables *self, const ps_sphere_shape *shape,
+                                      ps_precision precision, ps_device *device, ps_error *error) {
+    const uint32_t n = shape->axis.n;
+    PS_TRY(ps_fft_plan_create(&self->halves, n / 2, precision, device, error));
+    PS_TRY(ps_fft_plan_create(&self->rings, shape->rings / 2, precision, device, error));
+    PS_TRY(create_turns(&self->turns, n, n / 2, precision, device, error));
+    return create_turns(&self->ring_turns, shape->rings, shape->num_rings, precision, device,
+                        error);
 }
 
 /* ---- Lambda_mm --------------------------------------------------------------------------- */
@@ -138,20 +168,22 @@ pspec_status ps_sphere_tables_create(ps_sphere_tables *out, const ps_sphere_shap
                                      ps_error *error) {
     *out = (ps_sphere_tables){0};
     PS_TRY(
-        ps_nufft_plan_create(&out->plan, &shape->axis, true, tolerance, precision, device, error));
-    PS_TRY(ps_fft_plan_create(&out->rings, shape->rings, precision, device, error));
+        ps_nufft_plan_create(&out->plan, &shape->axis, false, tolerance, precision, device, error));
+    PS_TRY(create_transforms(out, shape, precision, device, error));
     PS_TRY(create_gains(out, shape, precision, device, error));
     return create_starts(out, shape, device, error);
 }
 
 void ps_sphere_tables_free(ps_sphere_tables *tables) {
-    ps_buffer *const buffers[] = {&tables->around_gains, &tables->along_gains, &tables->starts,
-                                  &tables->start_scales, &tables->steps,       &tables->step_scales,
-                                  &tables->ratios,       &tables->distances};
+    ps_buffer *const buffers[] = {&tables->turns,       &tables->ring_turns,  &tables->around_gains,
+                                  &tables->along_gains, &tables->starts,      &tables->start_scales,
+                                  &tables->steps,       &tables->step_scales, &tables->ratios,
+                                  &tables->distances};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
         ps_buffer_release(buffers[i]);
     }
     ps_nufft_plan_free(&tables->plan);
+    ps_fft_plan_free(&tables->halves);
     ps_fft_plan_free(&tables->rings);
     *tables = (ps_sphere_tables){0};
 }

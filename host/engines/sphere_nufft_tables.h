@@ -7,8 +7,10 @@
 
 /* Names of kernels/sphere/orders.cl and orders_sum.cl. */
 typedef struct ps_sphere_tables {
-    ps_nufft_plan plan; /* of the grid: transform and window */
-    ps_fft_plan rings;  /* transform to rings */
+    ps_nufft_plan plan; /* of the grid: its window */
+    ps_fft_plan halves; /* transforms of half its length */
+    ps_fft_plan rings;  /* transforms to rings, of half their number */
+    ps_buffer turns, ring_turns;
     ps_buffer around_gains, along_gains;
     ps_buffer starts, start_scales, steps, step_scales, ratios, distances;
 } ps_sphere_tables;

@@ -1,6 +1,8 @@
 /* The table of engines. */
 #include "engines/engine.h"
 #include "engines/host_direct.h"
+#include "engines/pairs_direct.h"
+#include "engines/pairs_histogram.h"
 #include "engines/sphere_direct.h"
 #include "engines/sphere_nufft.h"
 #include "engines/torus_direct.h"
@@ -8,8 +10,9 @@
 
 #include <math.h>
 
-const ps_engine *const ps_engines[] = {&ps_torus_nufft,   &ps_torus_direct, &ps_sphere_nufft,
-                                       &ps_sphere_direct, &ps_host_direct,  NULL};
+const ps_engine *const ps_engines[] = {
+    &ps_torus_nufft,  &ps_torus_direct,    &ps_sphere_nufft, &ps_sphere_direct,
+    &ps_pairs_direct, &ps_pairs_histogram, &ps_host_direct,  NULL};
 
 /* Four right frequencies per work-item give 64 accumulators and 6.4 fused operations per number
  * loaded in torus/product.cl; not yet measured on a GPU. */
@@ -48,6 +51,11 @@ pspec_status ps_batch_go_on(const ps_batch *batch, ps_error *error) {
                : PSPEC_OK;
 }
 
+size_t ps_num_coefficients(int32_t max_degree) {
+    const size_t last = (size_t)max_degree;
+    return (last + 1) * (last + 2);
+}
+
 unsigned ps_problem_domain(const ps_problem *problem) {
     return problem->frequencies->kind == PS_FREQUENCIES_DEGREES ? PS_ON_SPHERE : PS_ON_TORUS;
 }
@@ -68,4 +76,14 @@ double ps_expected_power(const ps_problem *problem) {
 const char *ps_precision_name(ps_precision precision) {
     static const char *const names[] = {"single", "double", "extended"};
     return names[precision];
+}
+
+void ps_engine_slots(const ps_engine *engine, const void *state, size_t num, uint32_t *slots) {
+    if (engine->get_slots != NULL) {
+        engine->get_slots(state, slots);
+        return;
+    }
+    for (size_t i = 0; i < num; i++) {
+        slots[i] = (uint32_t)i;
+    }
 }

@@ -108,12 +108,23 @@ static bool are_angles(ps_angle_order order, const double *row) {
     return theta >= -ANGLE_SLACK && theta <= PI + ANGLE_SLACK && fabs(phi) <= 2 * PI + ANGLE_SLACK;
 }
 
-size_t ps_columns_accept(const ps_layout *layout, const ps_point_options *options,
-                         const double *rows, double *points, size_t num) {
-    const unsigned columns = ps_layout_columns(layout);
-    if (layout->coordinates == PS_TORUS_COORDINATES) {
-        return accept_torus(layout->dimension, options->wrap, points, num);
+/* Of a row on the sphere. */
+static bool is_below_horizon(const ps_layout *layout, const double *row) {
+    switch (layout->angles) {
+    case PS_LON_LAT:
+        return row[1] < 0;
+    case PS_THETA_PHI:
+    case PS_PHI_THETA:
+        return cos(row[layout->angles == PS_PHI_THETA]) < 0;
+    case PS_NO_ANGLES:
+        break;
     }
+    return row[2] < 0;
+}
+
+static size_t accept_sphere(const ps_layout *layout, const ps_point_options *options,
+                            const double *rows, double *points, size_t num) {
+    const unsigned columns = ps_layout_columns(layout);
     if (layout->angles == PS_NO_ANGLES) {
         return accept_vectors(options->normalize_vectors, points, num);
     }
@@ -123,6 +134,20 @@ size_t ps_columns_accept(const ps_layout *layout, const ps_point_options *option
         }
     }
     return num;
+}
+
+size_t ps_columns_accept(const ps_layout *layout, const ps_point_options *options,
+                         const double *rows, double *points, size_t num) {
+    if (layout->coordinates == PS_TORUS_COORDINATES) {
+        return accept_torus(layout->dimension, options->wrap, points, num);
+    }
+    const size_t good = accept_sphere(layout, options, rows, points, num);
+    for (size_t i = 0; options->above_horizon && i < good; i++) {
+        if (is_below_horizon(layout, rows + i * ps_layout_columns(layout))) {
+            return i;
+        }
+    }
+    return good;
 }
 
 size_t ps_weights_accept(const double *weights, size_t num) {
@@ -190,15 +215,19 @@ static pspec_status refuse_vector(const ps_point_options *options, const char *w
                        : "");
 }
 
-static pspec_status refuse_angles(const ps_layout *layout, const char *where, const double *row,
-                                  ps_error *error) {
+static pspec_status refuse_angles(const ps_layout *layout, const ps_point_options *options,
+                                  const char *where, const double *row, ps_error *error) {
     char text[2][NUMBER_BYTES];
-    return ps_fail(error, PSPEC_ERROR_INPUT, "%s: %s, %s are not %s", where,
+    const bool was_guessed = options->format == NULL && options->columns == NULL;
+    return ps_fail(error, PSPEC_ERROR_INPUT, "%s: %s, %s are not %s%s", where,
                    show_number(text[0], row[0]), show_number(text[1], row[1]),
                    layout->angles == PS_LON_LAT
                        ? "longitude and latitude in degrees (up to 360 and 90)"
                    : layout->angles == PS_THETA_PHI ? "theta (0 to pi) and phi (up to 2 pi)"
-                                                    : "phi (up to 2 pi) and theta (0 to pi)");
+                                                    : "phi (up to 2 pi) and theta (0 to pi)",
+                   was_guessed ? "; an array (2, N) or (3, N) is taken for rows of angles: "
+                                 "transpose it where its rows are x, y, z"
+                               : "");
 }
 
 pspec_status ps_columns_refuse(const ps_layout *layout, const ps_point_options *options,
@@ -206,7 +235,7 @@ pspec_status ps_columns_refuse(const ps_layout *layout, const ps_point_options *
     if (layout->coordinates == PS_TORUS_COORDINATES) {
         PS_TRY(refuse_torus(layout, options, where, row, error));
     } else if (layout->angles != PS_NO_ANGLES && !are_angles(layout->angles, row)) {
-        return refuse_angles(layout, where, row, error);
+        return refuse_angles(layout, options, where, row, error);
     } else if (layout->angles == PS_NO_ANGLES) {
         double vector[3] = {row[0], row[1], row[2]};
         if (accept_vectors(options->normalize_vectors, vector, 1) == 0) {
@@ -214,6 +243,15 @@ pspec_status ps_columns_refuse(const ps_layout *layout, const ps_point_options *
         }
     }
     char text[NUMBER_BYTES];
+    if (options->above_horizon && layout->coordinates != PS_TORUS_COORDINATES &&
+        is_below_horizon(layout, row)) {
+        const bool is_vector = layout->angles == PS_NO_ANGLES;
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "%s: %s%s is below the horizon, where this BRDF is 0; "
+                       "--drop-below-horizon leaves such points out",
+                       where, is_vector ? "z = " : "a direction",
+                       is_vector ? show_number(text, row[2]) : "");
+    }
     return ps_fail(error, PSPEC_ERROR_INPUT, "%s: weight %s is not a finite number", where,
                    show_number(text, row[ps_layout_columns(layout) - 1]));
 }

@@ -1,4 +1,4 @@
-/* Lists that come beside points: frequency vectors, and weights. */
+/* Lists that come beside points: frequency vectors, weights, tables of two columns. */
 #include "base/memory.h"
 #include "io/decimal.h"
 #include "io/npy.h"
@@ -230,6 +230,57 @@ pspec_status ps_read_weights(const char *path, double **weights, size_t *num_wei
     *weights = list.values;
     *num_weights = list.num_values;
     list.values = NULL;
+out:
+    free(list.values);
+    ps_input_close(&input);
+    return status;
+}
+
+/* ---- pairs ---- */
+
+/* Three values of the list: two numbers, and the line that they stood in. */
+enum { PAIR_VALUES = 3 };
+
+static pspec_status parse_pair(number_list *list, const char *text, size_t line_number,
+                               ps_error *error) {
+    enum { COLUMNS = 2 };
+    for (int column = 0; column < COLUMNS; column++) {
+        double value = 0;
+        PS_TRY(read_token(list, &text, line_number, "a finite number", &value, error));
+        PS_TRY(append(list, value, error));
+        text = skip_blanks(text);
+        text = skip_blanks(text + (column == 0 && *text == ','));
+    }
+    if (*text != '\n') {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "%s, line %zu: more than two numbers; rows have two columns",
+                       list->input->name, line_number);
+    }
+    return append(list, (double)line_number, error);
+}
+
+static pspec_status convert_pairs(const number_list *list, ps_pair **pairs, size_t *num_pairs,
+                                  ps_error *error) {
+    void *memory = NULL;
+    const size_t num = list->num_values / PAIR_VALUES;
+    PS_TRY(ps_allocate(&memory, num, sizeof(ps_pair), "rows", error));
+    *pairs = memory;
+    *num_pairs = num;
+    for (size_t i = 0; i < num; i++) {
+        const double *const row = list->values + PAIR_VALUES * i;
+        (*pairs)[i] = (ps_pair){row[0], row[1], (size_t)row[2]};
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_read_pairs(const char *path, ps_pair **pairs, size_t *num_pairs, ps_error *error) {
+    *pairs = NULL;
+    ps_input input = {0};
+    number_list list = {.input = &input};
+    pspec_status status = PSPEC_OK;
+    PS_TRY_OUT(status, ps_input_open(&input, path, error));
+    PS_TRY_OUT(status, read_lines(&list, parse_pair, error));
+    status = convert_pairs(&list, pairs, num_pairs, error);
 out:
     free(list.values);
     ps_input_close(&input);

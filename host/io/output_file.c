@@ -138,6 +138,13 @@ static pspec_status open_path(ps_output_file *file, const char *path, ps_error *
     return open_temporary(file, error);
 }
 
+/* A name that promises gzip would hold something else. */
+static bool promises_gzip(const char *path) {
+    static const char ending[] = ".gz";
+    const size_t length = strlen(path);
+    return length >= sizeof ending - 1 && strcmp(path + length - (sizeof ending - 1), ending) == 0;
+}
+
 pspec_status ps_output_open(ps_output_file **out, const char *path, ps_error *error) {
     *out = NULL;
     void *memory = NULL;
@@ -150,6 +157,11 @@ pspec_status ps_output_open(ps_output_file **out, const char *path, ps_error *er
         status = ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for a file name");
     } else if (path[0] == '\0') {
         status = ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "the name of an output is empty");
+    } else if (promises_gzip(path)) {
+        status = ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "\"%s\": gzip is read, but not written; write to standard output and "
+                         "pipe that through gzip",
+                         path);
     } else if (is_standard) {
         file->stream = stdout;
         file->is_caller_owned = true;

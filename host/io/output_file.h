@@ -17,6 +17,7 @@
 
 typedef struct ps_output_file ps_output_file;
 
+/* An empty name and one that ends in .gz are PSPEC_ERROR_INVALID_ARGUMENT. */
 pspec_status ps_output_open(ps_output_file **out, const char *path, ps_error *error) PS_MUST_CHECK;
 FILE *ps_output_stream(ps_output_file *file);
 /* fwrite to the stream that remembers why it failed, for check and commit; for large blocks, which

@@ -179,14 +179,24 @@ static pspec_status run_gnuplot(FILE *script, const char *last, ps_text *picture
     return status;
 }
 
+/* A picture of either kind; the other one is NULL. */
+typedef struct drawing {
+    const ps_plot *spectra;
+    const ps_line_plot *lines;
+} drawing;
+
 /* Writes the script to a file without a name, and goes back to its start. */
-static pspec_status make_script(FILE *script, const ps_plot *plot, const char *terminal_name,
+static pspec_status make_script(FILE *script, const drawing *what, const char *terminal_name,
                                 ps_error *error) {
     if (script == NULL) {
         return ps_fail(error, PSPEC_ERROR_IO, "cannot create a temporary file: %s",
                        strerror(errno));
     }
-    PS_TRY(ps_plot_write_script(plot, terminal_name, script, error));
+    if (what->spectra != NULL) {
+        PS_TRY(ps_plot_write_script(what->spectra, terminal_name, script, error));
+    } else {
+        ps_line_plot_write_script(what->lines, terminal_name, script);
+    }
     errno = 0;
     if (fflush(script) != 0 || ferror(script) || fseeko(script, 0, SEEK_SET) != 0) {
         return ps_fail(error, PSPEC_ERROR_IO, "cannot write a temporary file: %s", strerror(errno));
@@ -194,31 +204,27 @@ static pspec_status make_script(FILE *script, const ps_plot *plot, const char *t
     return PSPEC_OK;
 }
 
-static pspec_status check_plot(const char *path, const ps_plot *plot, ps_error *error) {
+/* num: of places in all curves together. */
+static pspec_status check_plot(const char *path, size_t num, ps_error *error) {
     if (!ps_plot_is_supported(path)) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "%s: pictures end in .png, .svg or .pdf", path);
     }
-    size_t num_bins = 0;
-    for (size_t i = 0; i < plot->num_curves; i++) {
-        num_bins += plot->curves[i].num_bins;
-    }
-    if (num_bins == 0) {
+    if (num == 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: there is nothing to plot", path);
     }
     return PSPEC_OK;
 }
 
-pspec_status ps_plot_write(const char *path, const ps_plot *plot, ps_error *error) {
+static pspec_status draw(const char *path, const drawing *what, ps_error *error) {
     ps_output_file *file = NULL;
     FILE *script = NULL;
     ps_text picture = {0};
     pspec_status status = PSPEC_OK;
-    PS_TRY(check_plot(path, plot, error));
     const terminal *const kind = find_terminal(path);
     PS_TRY(ps_output_open(&file, path, error));
     script = tmpfile();
-    PS_TRY_OUT(status, make_script(script, plot, kind->name, error));
+    PS_TRY_OUT(status, make_script(script, what, kind->name, error));
     PS_TRY_OUT(status, run_gnuplot(script, kind->last, &picture, error));
     ps_output_write(file, picture.data, 1, picture.length);
     PS_TRY_OUT(status, ps_output_commit(&file, error));
@@ -229,4 +235,22 @@ out:
         fclose(script);
     }
     return status;
+}
+
+pspec_status ps_plot_write(const char *path, const ps_plot *plot, ps_error *error) {
+    size_t num = 0;
+    for (size_t i = 0; i < plot->num_curves; i++) {
+        num += plot->curves[i].num_bins;
+    }
+    PS_TRY(check_plot(path, num, error));
+    return draw(path, &(drawing){.spectra = plot}, error);
+}
+
+pspec_status ps_line_plot_write(const char *path, const ps_line_plot *plot, ps_error *error) {
+    size_t num = 0;
+    for (size_t i = 0; i < plot->num_lines; i++) {
+        num += plot->lines[i].num;
+    }
+    PS_TRY(check_plot(path, num, error));
+    return draw(path, &(drawing){.lines = plot}, error);
 }

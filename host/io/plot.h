@@ -42,4 +42,24 @@ bool ps_plot_is_supported(const char *path);
  * sentence when gnuplot is not installed. */
 pspec_status ps_plot_write(const char *path, const ps_plot *plot, ps_error *error) PS_MUST_CHECK;
 
+/* ---- lines ---------------------------------------------------------------------------------- */
+
+/* One line through num places; nan is a gap. */
+typedef struct ps_plot_line {
+    const char *label;
+    size_t num;
+    const double *x, *y;
+} ps_plot_line;
+
+/* Lines in one panel with whatever axes. */
+typedef struct ps_line_plot {
+    const char *title, *x_label, *y_label;
+    bool is_log_x, is_log_y; /* what is not above 0 is a gap then */
+    size_t num_lines;
+    const ps_plot_line *lines;
+} ps_line_plot;
+
+pspec_status ps_line_plot_write(const char *path, const ps_line_plot *plot,
+                                ps_error *error) PS_MUST_CHECK;
+
 #endif

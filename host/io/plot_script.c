@@ -21,7 +21,7 @@ static double tone(double power) {
 
 /* A gnuplot text constant; in single quotes only the quote itself is special. Control characters
  * would end the line. */
-static void print_text(const char *text, FILE *stream) {
+void ps_plot_print_text(const char *text, FILE *stream) {
     putc('\'', stream);
     for (; *text != '\0'; text++) {
         const unsigned char byte = (unsigned char)*text;
@@ -33,7 +33,7 @@ static void print_text(const char *text, FILE *stream) {
     putc('\'', stream);
 }
 
-static void print_value(double value, FILE *stream) {
+void ps_plot_print_value(double value, FILE *stream) {
     if (isfinite(value)) {
         fprintf(stream, " %.9g", value);
     } else {
@@ -46,10 +46,10 @@ static void print_value(double value, FILE *stream) {
 static void print_curve(const ps_plot_curve *curve, size_t number, FILE *stream) {
     fprintf(stream, "$curve%zu << EOD\n", number);
     for (size_t i = 0; i < curve->num_bins; i++) {
-        print_value(curve->normalized_frequency[i], stream);
-        print_value(curve->power[i], stream);
-        print_value(curve->standard_error[i], stream);
-        print_value(curve->anisotropy_db[i], stream);
+        ps_plot_print_value(curve->normalized_frequency[i], stream);
+        ps_plot_print_value(curve->power[i], stream);
+        ps_plot_print_value(curve->standard_error[i], stream);
+        ps_plot_print_value(curve->anisotropy_db[i], stream);
         putc('\n', stream);
     }
     fputs("EOD\n", stream);
@@ -113,11 +113,8 @@ static double find_height(const ps_plot *plot) {
     return 1.05 * height;
 }
 
-static void print_head(const ps_plot *plot, const char *terminal, const layout *where,
-                       FILE *stream) {
-    const bool is_pdf = strcmp(terminal, "pdfcairo") == 0;
-    const int width = where->has_image ? 1400 : 1000;
-    if (is_pdf) { /* in inches; 100 pixels each */
+void ps_plot_print_page(const char *title, const char *terminal, int width, FILE *stream) {
+    if (strcmp(terminal, "pdfcairo") == 0) { /* in inches; 100 pixels each */
         fprintf(stream, "set terminal pdfcairo enhanced color size %din,7in font 'Sans,11.5'\n",
                 width / 100);
     } else {
@@ -127,7 +124,7 @@ static void print_head(const ps_plot *plot, const char *terminal, const layout *
     fputs("set encoding utf8\n", stream);
     fputs("set border linewidth 0.8 linecolor '#404040'\nset tics textcolor '#202020'\n", stream);
     fputs("set multiplot\nset label 1 ", stream);
-    print_text(plot->title != NULL ? plot->title : "", stream);
+    ps_plot_print_text(title != NULL ? title : "", stream);
     fprintf(stream, " at screen 0.5,0.962 center noenhanced font ',%d'\n",
             strcmp(terminal, "svg") == 0 ? 20 : 15); /* svg counts pixels, the others points */
 }
@@ -160,7 +157,7 @@ static void print_image_panel(const ps_plot_raster *raster, FILE *stream) {
     fputs("set colorbox user origin screen 0.475, screen 0.10 size screen 0.014, screen 0.82\n",
           stream);
     print_colour_ticks(raster->maximum, stream);
-    fputs("set cblabel 'power' offset -2.2,0\nset xtics out nomirror\nset ytics out nomirror\n"
+    fputs("set cblabel 'power' offset -0.6,0\nset xtics out nomirror\nset ytics out nomirror\n"
           "set xlabel 'normalized frequency k₁ N^{-1/2}'\n"
           "set ylabel 'normalized frequency k₂ N^{-1/2}' offset 1,0\n",
           stream);
@@ -172,17 +169,22 @@ static void print_image_panel(const ps_plot_raster *raster, FILE *stream) {
 }
 
 /* Colour and dashes of a curve. */
-static void print_line_style(size_t number, FILE *stream) {
+void ps_plot_print_style(size_t number, FILE *stream) {
     fprintf(stream, "linecolor rgb '%s' dashtype %zu", colours[number % NUM_COLOURS],
             number / NUM_COLOURS % 4 + 1);
 }
 
-/* Bars while they can be told apart, a band when there are too many. */
+/* No line goes through a single point. */
+static const char *curve_style(const ps_plot_curve *curve) {
+    return curve->num_bins > 1 ? "lines" : "points pointtype 7 pointsize 0.6";
+}
+
+/* Bars while they can be told apart, none without a length, a band when there are too many. */
 static void print_errors(const ps_plot_curve *curve, size_t number, FILE *stream) {
     if (curve->num_bins <= MAX_BARS) {
         fprintf(stream,
-                "$curve%zu using 1:2:3 with yerrorbars pointtype 7 pointsize 0.25 linewidth 0.8 "
-                "linecolor rgb '%s' notitle, ",
+                "$curve%zu using 1:2:($3 > 0 ? $3 : NaN) with yerrorbars pointtype 7 pointsize "
+                "0.25 linewidth 0.8 linecolor rgb '%s' notitle, ",
                 number, colours[number % NUM_COLOURS]);
     } else {
         fprintf(stream,
@@ -223,20 +225,40 @@ static void print_power_panel(const ps_plot *plot, const layout *where, FILE *st
           stream);
     for (size_t i = 0; i < plot->num_curves; i++) {
         print_errors(&plot->curves[i], i, stream);
-        fprintf(stream, "$curve%zu using 1:2 with lines linewidth 1.6 ", i);
-        print_line_style(i, stream);
+        fprintf(stream, "$curve%zu using 1:2 with %s linewidth 1.6 ", i,
+                curve_style(&plot->curves[i]));
+        ps_plot_print_style(i, stream);
         fputs(" title ", stream);
-        print_text(plot->curves[i].label != NULL ? plot->curves[i].label : "", stream);
+        ps_plot_print_text(plot->curves[i].label != NULL ? plot->curves[i].label : "", stream);
         fputs(i + 1 < plot->num_curves ? ", " : "\n", stream);
     }
     fputs("unset arrow 1\nunset label 1\n", stream);
+}
+
+/* Few enough ticks for a low panel: a step of 1, 2 or 5 times a power of ten. */
+static double find_tick_step(const ps_plot *plot) {
+    const double most_ticks = 6;
+    double low = isfinite(plot->noise_level_db) ? plot->noise_level_db : HUGE_VAL;
+    double high = isfinite(plot->noise_level_db) ? plot->noise_level_db : -HUGE_VAL;
+    for (size_t i = 0; i < plot->num_curves; i++) {
+        for (size_t bin = 0; bin < plot->curves[i].num_bins; bin++) {
+            const double value = plot->curves[i].anisotropy_db[bin];
+            low = isfinite(value) ? fmin(low, value) : low;
+            high = isfinite(value) ? fmax(high, value) : high;
+        }
+    }
+    const double least = high > low ? (high - low) / most_ticks : 1;
+    const double unit = pow(10, floor(log10(least)));
+    return unit * (least <= unit ? 1 : least <= 2 * unit ? 2 : least <= 5 * unit ? 5 : 10);
 }
 
 static void print_anisotropy_panel(const ps_plot *plot, const layout *where, FILE *stream) {
     fprintf(stream, "set bmargin at screen 0.10\nset tmargin at screen %g\n",
             where->middle - 0.015);
     print_x_label(where, true, stream);
-    fputs("set ylabel 'anisotropy / dB'\nset yrange [*:*]\n", stream);
+    fprintf(stream,
+            "set ylabel 'anisotropy / dB' offset 0,0\nset yrange [*:*]\nset ytics %g in mirror\n",
+            find_tick_step(plot));
     /* The key holds the noise level alone; without it, it would be an empty box. */
     const bool has_level = isfinite(plot->noise_level_db);
     fputs(has_level ? "set key top right opaque Left reverse width -1 box linecolor '#c0c0c0' "
@@ -251,7 +273,7 @@ static void print_anisotropy_panel(const ps_plot *plot, const layout *where, FIL
     }
     for (size_t i = 0; i < plot->num_curves; i++) {
         fprintf(stream, "$curve%zu using 1:4 with lines linewidth 1.2 ", i);
-        print_line_style(i, stream);
+        ps_plot_print_style(i, stream);
         fputs(i + 1 < plot->num_curves ? " notitle, " : " notitle\n", stream);
     }
 }
@@ -265,8 +287,9 @@ static void print_logarithmic_panel(const ps_plot *plot, const layout *where, FI
           "set xrange [*:*] noextend\nset yrange [*:*]\nplot ",
           stream);
     for (size_t i = 0; i < plot->num_curves; i++) {
-        fprintf(stream, "$curve%zu using 1:($2 > 0 ? $2 : NaN) with lines linewidth 1.2 ", i);
-        print_line_style(i, stream);
+        fprintf(stream, "$curve%zu using 1:($2 > 0 ? $2 : NaN) with %s linewidth 1.2 ", i,
+                curve_style(&plot->curves[i]));
+        ps_plot_print_style(i, stream);
         fputs(i + 1 < plot->num_curves ? " notitle, " : " notitle\n", stream);
     }
 }
@@ -283,7 +306,7 @@ pspec_status ps_plot_write_script(const ps_plot *plot, const char *terminal, FIL
                           .left = has_image ? 0.605 : 0.085,
                           .right = 0.985,
                           .middle = plot->on_sphere ? 0.48 : 0.38};
-    print_head(plot, terminal, &where, stream);
+    ps_plot_print_page(plot->title, terminal, has_image ? 1400 : 1000, stream);
     for (size_t i = 0; i < plot->num_curves; i++) {
         print_curve(&plot->curves[i], i, stream);
     }

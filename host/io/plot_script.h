@@ -10,6 +10,16 @@
 pspec_status ps_plot_write_script(const ps_plot *plot, const char *terminal, FILE *stream,
                                   ps_error *error) PS_MUST_CHECK;
 
+/* The same of lines. */
+void ps_line_plot_write_script(const ps_line_plot *plot, const char *terminal, FILE *stream);
+
+/* What both have: the page, with its title; a text constant of gnuplot; a number or NaN; colour and dashes of line
+ * number. */
+void ps_plot_print_page(const char *title, const char *terminal, int width, FILE *stream);
+void ps_plot_print_text(const char *text, FILE *stream);
+void ps_plot_print_value(double value, FILE *stream);
+void ps_plot_print_style(size_t number, FILE *stream);
+
 /* The image panel's values, ready to draw: blocks averaged until they fit the panel, DC left out,
  * transposed so that x_1 runs to the right. */
 typedef struct ps_plot_raster {

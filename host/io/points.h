@@ -69,6 +69,7 @@ typedef struct ps_point_options {
     bool wrap;              /* torus coordinates outside [0,1) are reduced mod 1, not refused */
     bool normalize_vectors; /* vectors are divided by their length instead of refused when that
                                 differs from 1 by more than 1e-6 */
+    bool above_horizon;     /* points of the sphere with z < 0 are refused */
     bool keep_angles;       /* angles stay angles (theta, phi) instead of becoming vectors */
 } ps_point_options;
 
@@ -137,5 +138,16 @@ pspec_status ps_read_frequencies(const char *path, int **vectors, size_t *num_ve
 /* Reads weights: one number per line or token, or a one-dimensional NPY array. */
 pspec_status ps_read_weights(const char *path, double **weights, size_t *num_weights,
                              ps_error *error) PS_MUST_CHECK;
+
+/* Two numbers of a line, and which line it was. */
+typedef struct ps_pair {
+    double first, second;
+    size_t line;
+} ps_pair;
+
+/* Reads lines of two finite numbers separated by blanks or a comma, '#' lines skipped; *pairs is freed by the
+ * caller. */
+pspec_status ps_read_pairs(const char *path, ps_pair **pairs, size_t *num_pairs,
+                           ps_error *error) PS_MUST_CHECK;
 
 #endif

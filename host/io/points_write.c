@@ -81,23 +81,10 @@ static pspec_status open_output(ps_point_writer *writer, const char *path, ps_er
     return PSPEC_OK;
 }
 
-/* A name that promises gzip would hold something else. */
-static pspec_status check_name(const char *path, ps_error *error) {
-    static const char compressed[] = ".gz";
-    const size_t length = strlen(path);
-    const size_t ending = sizeof compressed - 1;
-    return length > ending && strcmp(path + length - ending, compressed) == 0
-               ? ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "\"%s\": gzip is read, but not written; -o - and a pipe to gzip does it",
-                         path)
-               : PSPEC_OK;
-}
-
 pspec_status ps_points_create(ps_point_writer **out, const char *path, const char *format,
                               const ps_point_shape *shape, ps_error *error) {
     *out = NULL;
     const ps_point_format *chosen = NULL;
-    PS_TRY(check_name(path, error));
     PS_TRY(ps_point_format_find(format != NULL ? format : ps_points_format_by_ending(path), &chosen,
                                 error));
     PS_TRY(check_counts(chosen, shape, error));

@@ -23,6 +23,9 @@ struct ps_table {
 };
 
 /* Both write to a stream, whose errors the caller checks. */
+/* Header lines and column names; rows from first_row on. */
+void ps_table_write_csv_head(const ps_table *table, FILE *stream);
+void ps_table_write_csv_rows(const ps_table *table, size_t first_row, FILE *stream);
 void ps_table_write_csv(const ps_table *table, FILE *stream);
 pspec_status ps_table_write_json(const ps_table *table, bool with_rows, FILE *stream,
                                  ps_error *error) PS_MUST_CHECK;

@@ -63,7 +63,7 @@ static void print_csv_cell(const ps_cell *cell, void (*print_text)(const char *,
     }
 }
 
-void ps_table_write_csv(const ps_table *table, FILE *stream) {
+void ps_table_write_csv_head(const ps_table *table, FILE *stream) {
     for (size_t i = 0; i < table->num_meta; i++) {
         fputs("# ", stream);
         print_header_text(table->meta[i].key, stream);
@@ -75,12 +75,20 @@ void ps_table_write_csv(const ps_table *table, FILE *stream) {
         print_csv_text(table->columns[i], stream);
         putc(i + 1 < table->num_columns ? ',' : '\n', stream);
     }
-    for (size_t row = 0; row < table->num_rows; row++) {
+}
+
+void ps_table_write_csv_rows(const ps_table *table, size_t first_row, FILE *stream) {
+    for (size_t row = first_row; row < table->num_rows; row++) {
         for (size_t i = 0; i < table->num_columns; i++) {
             print_csv_cell(&table->cells[row * table->num_columns + i], print_csv_text, stream);
             putc(i + 1 < table->num_columns ? ',' : '\n', stream);
         }
     }
+}
+
+void ps_table_write_csv(const ps_table *table, FILE *stream) {
+    ps_table_write_csv_head(table, stream);
+    ps_table_write_csv_rows(table, 0, stream);
 }
 
 /* ---- JSON ---- */

@@ -1,6 +1,7 @@
 #include "job/estimator_private.h"
 
 #include "base/memory.h"
+#include "engines/error_units.h"
 #include "job/self_check.h"
 
 #include <math.h>
@@ -13,8 +14,9 @@ static pspec_status create_engine(ps_estimator *self, ps_error *error) {
     const ps_estimator_options *options = &self->options;
     options->engine->destroy(self->engine_state);
     self->engine_state = NULL;
-    return options->engine->create(&self->engine_state, &options->problem, options->precision,
-                                   self->batch, self->device, error);
+    const ps_problem own = ps_engine_problem(options->engine, &options->problem);
+    return options->engine->create(&self->engine_state, &own, options->precision, self->batch,
+                                   self->device, error);
 }
 
 void ps_estimator_halve_batch(ps_estimator *self) {
@@ -58,7 +60,8 @@ static pspec_status create_accumulator(ps_estimator *self, ps_error *error) {
 static pspec_status create_parts(ps_estimator *self, ps_error *error) {
     for (;;) {
         PS_TRY(ps_estimator_make_engine(self, error));
-        self->options.engine->get_slots(self->engine_state, self->slots);
+        ps_engine_slots(self->options.engine, self->engine_state,
+                        self->options.problem.frequencies->num, self->slots);
         const pspec_status status = create_accumulator(self, error);
         if (status != PSPEC_ERROR_MEMORY || self->batch == 1) {
             return status;
@@ -79,7 +82,9 @@ static pspec_status create_arrays(ps_estimator *self, ps_error *error) {
     self->exponents = memory;
     PS_TRY(ps_allocate(&memory, self->batch, sizeof *self->sums, "sums of weights", error));
     self->sums = memory;
-    return PSPEC_OK;
+    return self->options.want_c2
+               ? ps_pair_sums_create(&self->c2, set, self->batch, self->options.observer, error)
+               : PSPEC_OK;
 }
 
 pspec_status ps_estimator_create(ps_estimator **out, const ps_estimator_options *options,
@@ -115,6 +120,7 @@ void ps_estimator_destroy(ps_estimator *estimator) {
     free(estimator->scales);
     free(estimator->exponents);
     free(estimator->sums);
+    ps_pair_sums_free(&estimator->c2);
     free(estimator);
 }
 
@@ -133,15 +139,6 @@ pspec_status ps_estimator_check(const ps_estimator *estimator, const pspec_patte
     const ps_estimator_options *options = &estimator->options;
     return ps_pattern_check(pattern, options->problem.frequencies, options->normalization,
                             realization, sums, error);
-}
-
-void ps_estimator_set_sums(ps_estimator *self, size_t pattern, const ps_pattern_sums *sums) {
-    const double sum = sums->weight_sum;
-    self->sums[pattern] = *sums;
-    self->exponents[pattern] = sums->exponent;
-    self->scales[pattern] = self->options.normalization == PSPEC_NORMALIZATION_POWER
-                                ? self->reference_points / (sum * sum)
-                                : 1 / sums->weight_square_sum;
 }
 
 /* Nothing but the coordinates could be wrong, and the engine sees them anyway. */
@@ -170,7 +167,8 @@ static pspec_status check_all(const ps_estimator *self, const pspec_pattern *pat
 /* Of a pattern without weights. */
 static ps_pattern_sums plain_sums(const pspec_pattern *pattern) {
     const double num = (double)pattern->num_points;
-    return (ps_pattern_sums){.weight_sum = num, .weight_square_sum = num};
+    return (ps_pattern_sums){
+        .is_plain = true, .weight_sum = num, .weight_square_sum = num, .weight_size_sum = num};
 }
 
 /* Scales of the patterns of a batch, whose sums are known or found here, and the largest number of
@@ -212,7 +210,8 @@ static void count_patterns(ps_estimator *self, const pspec_pattern *patterns, si
         totals->sum_points += (double)num_points;
         totals->sum_sample_sizes +=
             self->sums[r].weight_sum * self->sums[r].weight_sum / self->sums[r].weight_square_sum;
-        totals->sum_weights += ldexp(self->sums[r].weight_sum, self->sums[r].exponent);
+        totals->sum_weights += ps_estimator_weight_sum(self, &self->sums[r]);
+        ps_estimator_measure_share(self, &self->sums[r]);
         if (is_first || num_points < totals->smallest_points) {
             totals->smallest_points = num_points;
         }
@@ -243,7 +242,10 @@ static pspec_status compare_with_referee(ps_estimator *self, const ps_rows *rows
         .exponent = self->exponents[0],
         .scale = self->scales[0],
         .weight_square_sum = self->sums[0].weight_square_sum,
-        .engine_error = ps_estimator_error_at(self, 1),
+        .size_square = problem->measure == PS_OF_PAIR_SUMS
+                           ? self->sums[0].weight_size_sum * self->sums[0].weight_size_sum
+                           : 0,
+        .engine_error = ps_estimator_error_of(self, 1, &self->sums[0]),
     };
     return ps_self_check(&input, self->device, &self->accuracy.self_check, error);
 }
@@ -281,8 +283,10 @@ static pspec_status run_batch(ps_estimator *self, const pspec_pattern *patterns,
     for (;;) {
         *num_patterns = *num_patterns < self->batch ? *num_patterns : self->batch;
         const ps_batch batch = ps_estimator_make_batch(self, patterns, *num_patterns);
+        const bool has_coefficients = self->options.coefficients != NULL && *num_patterns == 1;
         const pspec_status status =
-            self->options.engine->run(self->engine_state, &batch, rows, error);
+            has_coefficients ? ps_estimator_run_with_coefficients(self, &batch, rows, error)
+                             : self->options.engine->run(self->engine_state, &batch, rows, error);
         if (status == PSPEC_ERROR_INPUT && self->leaves_checks) {
             PS_TRY(check_all(self, patterns, *num_patterns, error)); /* says which point it is */
         }
@@ -332,6 +336,10 @@ pspec_status ps_estimator_take(ps_estimator *self, const ps_rows *rows,
                                ps_error *error) {
     const double *mean_powers = NULL;
     PS_TRY(ps_accumulator_add(self->accumulator, rows, &mean_powers, error));
+    if (self->options.want_c2) {
+        const ps_batch batch = ps_estimator_make_batch(self, patterns, num_patterns);
+        ps_pair_sums_add(&self->c2, &batch, rows, self->slots);
+    }
     measure_powers(self, mean_powers, num_patterns);
     count_patterns(self, patterns, num_patterns);
     return PSPEC_OK;
@@ -368,5 +376,8 @@ pspec_status ps_estimator_add(ps_estimator *estimator, const pspec_pattern *patt
 pspec_status ps_estimator_reset(ps_estimator *estimator, ps_error *error) {
     estimator->totals = (ps_pattern_totals){0};
     estimator->accuracy = (ps_accuracy){0};
+    if (estimator->options.want_c2) {
+        ps_pair_sums_reset(&estimator->c2);
+    }
     return ps_accumulator_reset(estimator->accumulator, error);
 }

@@ -9,6 +9,7 @@
 
 #include "analysis/spectrum_sums.h"
 #include "base/log.h"
+#include "job/estimator_pairs.h"
 #include "job/pattern_check.h"
 #include "plan/choose.h"
 
@@ -22,8 +23,13 @@ typedef struct ps_estimator_options {
     bool exact_shells;
     bool want_frequencies; /* keep sums per frequency */
     bool mean_only; /* no sums of squares: every standard error is nan, means have the same bits */
+    bool want_c2;   /* C_l^2 of the realizations, on the sphere: ps_estimator_c2 */
+    ps_pair_observer observer; /* with want_c2: told of every realization */
     bool self_check;
     pspec_normalization normalization;
+    /* [ps_num_coefficients(L)] or NULL: where a realization that comes alone in its batch leaves its coefficients, of
+     * problem.harmonics; what there is to sum twice is summed once */
+    double *coefficients;
     bool (*should_stop)(void *payload); /* asked every second or so; may be NULL, see ps_batch */
     void *payload;
     ps_log log; /* told of smaller batches and larger engines */
@@ -34,9 +40,12 @@ typedef struct ps_accuracy {
     double error; /* bound of the engine's formula with the powers that were measured */
     double
         length_error; /* largest | |u| - 1 | of the vectors on the sphere, which were divided by |u| */
+    double largest_share;      /* largest sum w^2 / (sum |w|)^2 of a realization */
     double largest_mean_power; /* largest effective power of a realization, mean over frequencies */
     bool was_checked;
-    double self_check; /* largest deviation of |S| from the referee, in units of sqrt(sum w^2) */
+    double
+        self_check; /* largest deviation from the referee, of |S| in units of sqrt(sum w^2), of pair
+                          sums in (sum |w|)^2 */
 } ps_accuracy;
 
 /* device may be NULL for engines that need none. */
@@ -76,15 +85,9 @@ bool ps_estimator_can_stream(const ps_estimator *estimator);
 pspec_status ps_estimator_add_stream(ps_estimator *estimator, const ps_pattern_stream *stream,
                                      ps_error *error) PS_MUST_CHECK;
 
-/* Which harmonics coefficients are of. */
-typedef enum ps_harmonics { PS_SPHERICAL_HARMONICS, PS_HEMISPHERICAL_HARMONICS } ps_harmonics;
-
-/* Numbers of the coefficients up to degree L: (L + 1)(L + 2) doubles. */
-size_t ps_num_coefficients(int32_t max_degree);
-
 /* Coefficients of one pattern as ps_engine.coefficients has them, out[ps_num_coefficients(L)]; the averages do not
  * change. Hemispherical harmonics are for points with z >= 0. PSPEC_ERROR_INVALID_ARGUMENT where the engine has none,
- * as on the torus. */
+ * as on the torus. should_stop is asked as while realizations are added. */
 pspec_status ps_estimator_coefficients(ps_estimator *estimator, const pspec_pattern *pattern,
                                        ps_harmonics harmonics, double *out,
                                        ps_error *error) PS_MUST_CHECK;
@@ -102,6 +105,11 @@ pspec_status ps_estimator_spectrum(ps_estimator *estimator, ps_spectrum *out,
 /* The sums behind the averages, with the error bound; bins are ps_estimator_bins. */
 pspec_status ps_estimator_sums(ps_estimator *estimator, ps_spectrum_sums *out,
                                ps_error *error) PS_MUST_CHECK;
+/* Mean and standard error of every bin so far, in the units of the result: means[ps_estimator_bins()->num]. */
+pspec_status ps_estimator_bin_means(ps_estimator *estimator, ps_mean *means,
+                                    ps_error *error) PS_MUST_CHECK;
+/* C_l^2 of pair sums, mean and standard error: means[number of degrees]; with want_c2 only. */
+void ps_estimator_c2(const ps_estimator *estimator, ps_mean *means);
 const ps_bins *ps_estimator_bins(const ps_estimator *estimator);
 ps_accuracy ps_estimator_accuracy(const ps_estimator *estimator);
 void ps_estimator_describe(const ps_estimator *estimator, ps_text *text);

@@ -3,6 +3,7 @@
 #define PS_JOB_ESTIMATOR_PRIVATE_H
 
 #include "job/estimator.h"
+#include "job/estimator_pairs.h"
 
 struct ps_estimator {
     ps_estimator_options options;
@@ -16,6 +17,7 @@ struct ps_estimator {
     double *scales;          /* [batch] */
     int *exponents;          /* [batch] of the weights */
     ps_pattern_sums *sums;   /* [batch] */
+    ps_pair_sums c2;         /* with options.want_c2 */
     bool leaves_checks;      /* of this batch's coordinates to the engine */
     ps_pattern_totals totals;
     ps_accuracy accuracy;
@@ -28,17 +30,29 @@ void ps_estimator_halve_batch(ps_estimator *self);
 pspec_status ps_estimator_get_ready(ps_estimator *self, uint64_t num_points,
                                     ps_error *error) PS_MUST_CHECK;
 
-/* Of the engine, for sets of some mean power (ps_engine.error). */
+/* Of the engine, for sets of some mean power (ps_engine.error), in the units of the problem's tolerance. */
 double ps_estimator_error_at(const ps_estimator *self, double mean_power);
+/* The same for one pattern. */
+double ps_estimator_error_of(const ps_estimator *self, double mean_power,
+                             const ps_pattern_sums *sums);
 
 /* Sums, scale and exponent of a pattern of the batch. */
 void ps_estimator_set_sums(ps_estimator *self, size_t pattern, const ps_pattern_sums *sums);
+/* Of the weights that the normalization means: 1/N under that of pairs where there are none. */
+double ps_estimator_weight_sum(const ps_estimator *self, const ps_pattern_sums *sums);
+/* Keeps the largest sum w^2 / (sum |w|)^2. */
+void ps_estimator_measure_share(ps_estimator *self, const ps_pattern_sums *sums);
 ps_batch ps_estimator_make_batch(const ps_estimator *self, const pspec_pattern *patterns,
                                  size_t num_patterns);
 
 /* A pattern too large for long double sums is checked by its first points, in a run of their own. */
 pspec_status ps_estimator_check_beginning(ps_estimator *self, const pspec_pattern *beginning,
                                           ps_error *error) PS_MUST_CHECK;
+
+/* The engine's rows of a batch of one pattern, and its coefficients to options.coefficients: in one go where they
+ * are of the same sums. */
+pspec_status ps_estimator_run_with_coefficients(ps_estimator *self, const ps_batch *one,
+                                                ps_rows *rows, ps_error *error) PS_MUST_CHECK;
 
 /* Adds the rows of a batch to the averages; of the patterns only their numbers of points are looked at. */
 pspec_status ps_estimator_take(ps_estimator *self, const ps_rows *rows,

@@ -1,14 +1,35 @@
 /* What an estimator has found. */
+#include "engines/error_units.h"
 #include "job/estimator_private.h"
 
-double ps_estimator_error_at(const ps_estimator *self, double mean_power) {
-    if (self->engine_state != NULL && self->options.engine->error_of_state != NULL) {
-        return self->options.engine->error_of_state(self->engine_state, mean_power);
+/* In the engine's units. */
+static double own_error(const ps_estimator *self, const ps_problem *problem, double mean_power) {
+    const ps_engine *engine = self->options.engine;
+    if (self->engine_state != NULL && engine->error_of_state != NULL) {
+        return engine->error_of_state(self->engine_state, mean_power);
     }
     const ps_device_limits *limits =
         self->device != NULL ? ps_device_get_limits(self->device) : NULL;
-    return self->options.engine->error(&self->options.problem, limits, self->options.precision,
-                                       mean_power);
+    ps_problem own = ps_engine_problem(engine, &self->options.problem); /* as it was planned */
+    own.weight_share = problem->weight_share;
+    return engine->error(&own, limits, self->options.precision, mean_power);
+}
+
+static double error_for_share(const ps_estimator *self, double mean_power, double share) {
+    ps_problem problem = self->options.problem;
+    problem.weight_share = share;
+    return ps_engine_error_in(self->options.engine, &problem,
+                              own_error(self, &problem, mean_power));
+}
+
+double ps_estimator_error_at(const ps_estimator *self, double mean_power) {
+    return error_for_share(self, mean_power, self->accuracy.largest_share);
+}
+
+double ps_estimator_error_of(const ps_estimator *self, double mean_power,
+                             const ps_pattern_sums *sums) {
+    const double size = sums->weight_size_sum;
+    return error_for_share(self, mean_power, sums->weight_square_sum / (size * size));
 }
 
 static pspec_status require_realizations(const ps_estimator *self, ps_error *error) {
@@ -17,16 +38,31 @@ static pspec_status require_realizations(const ps_estimator *self, ps_error *err
                : ps_fail(error, PSPEC_ERROR_INPUT, "there are no point sets to take a spectrum of");
 }
 
-pspec_status ps_estimator_spectrum(ps_estimator *estimator, ps_spectrum *out, ps_error *error) {
-    const ps_pattern_totals *totals = &estimator->totals;
-    PS_TRY(require_realizations(estimator, error));
+/* From the units of rows to those of the result. */
+static double find_factor(const ps_estimator *self) {
+    const ps_pattern_totals *totals = &self->totals;
     const double mean_points = totals->sum_points / (double)totals->num_realizations;
-    const double factor = estimator->options.normalization == PSPEC_NORMALIZATION_POWER
-                              ? mean_points / estimator->reference_points
-                              : 1;
+    return self->options.normalization == PSPEC_NORMALIZATION_POWER
+               ? mean_points / self->reference_points
+               : 1;
+}
+
+pspec_status ps_estimator_spectrum(ps_estimator *estimator, ps_spectrum *out, ps_error *error) {
+    PS_TRY(require_realizations(estimator, error));
     return ps_spectrum_create(out, estimator->options.problem.frequencies, &estimator->bins,
-                              estimator->accumulator, factor, totals,
+                              estimator->accumulator, find_factor(estimator), &estimator->totals,
                               estimator->options.want_frequencies, error);
+}
+
+pspec_status ps_estimator_bin_means(ps_estimator *estimator, ps_mean *means, ps_error *error) {
+    PS_TRY(require_realizations(estimator, error));
+    PS_TRY(ps_accumulator_bins(estimator->accumulator, means, error));
+    const double factor = find_factor(estimator);
+    for (size_t i = 0; i < estimator->bins.num; i++) {
+        means[i].mean *= factor;
+        means[i].standard_error *= factor;
+    }
+    return PSPEC_OK;
 }
 
 pspec_status ps_estimator_sums(ps_estimator *estimator, ps_spectrum_sums *out, ps_error *error) {
@@ -45,6 +81,10 @@ pspec_status ps_estimator_sums(ps_estimator *estimator, ps_spectrum_sums *out, p
         ps_spectrum_sums_free(out);
     }
     return status;
+}
+
+void ps_estimator_c2(const ps_estimator *estimator, ps_mean *means) {
+    ps_pair_sums_finish(&estimator->c2, means);
 }
 
 const ps_bins *ps_estimator_bins(const ps_estimator *estimator) {

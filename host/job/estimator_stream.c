@@ -17,6 +17,7 @@ static size_t block_unit(const ps_estimator *self) {
 
 bool ps_estimator_can_stream(const ps_estimator *estimator) {
     return estimator->engine_state != NULL && stream_of(estimator) != NULL &&
+           estimator->options.coefficients == NULL && /* they are of whole sets */
            stream_of(estimator)->unit(estimator->engine_state) > 0;
 }
 

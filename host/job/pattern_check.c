@@ -93,7 +93,7 @@ pspec_status ps_pattern_count_finish(const ps_pattern_count *count,
     const unsigned long long set = (unsigned long long)count->realization + 1;
     if (count->num_weights == 0) {
         const double num = (double)count->num_points;
-        *sums = (ps_pattern_sums){0, num, num, count->length_error};
+        *sums = (ps_pattern_sums){0, true, num, num, num, count->length_error};
         return PSPEC_OK;
     }
     if (count->largest == 0) {
@@ -107,8 +107,9 @@ pspec_status ps_pattern_count_finish(const ps_pattern_count *count,
                        "--normalize effective",
                        set);
     }
-    *sums = (ps_pattern_sums){count->exponent, (double)count->sum, (double)count->squares,
-                              count->length_error};
+    *sums = (ps_pattern_sums){count->exponent,      false,
+                              (double)count->sum,   (double)count->squares,
+                              (double)count->sizes, count->length_error};
     return PSPEC_OK;
 }
 

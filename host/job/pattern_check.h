@@ -11,8 +11,10 @@
  * squares of double weights nor sums in single precision overflow or vanish. */
 typedef struct ps_pattern_sums {
     int exponent;             /* 0 for unit weights */
+    bool is_plain;            /* no weights: all 1 */
     double weight_sum;        /* W 2^-exponent */
     double weight_square_sum; /* V 2^(-2 exponent) */
+    double weight_size_sum;   /* sum |w| 2^-exponent */
     double length_error;      /* largest | |u| - 1 | of vectors; 0 on the torus */
 } ps_pattern_sums;
 

@@ -1,33 +1,11 @@
-#include "job/power_job.h"
+#include "job/power_job_private.h"
 
 #include "base/memory.h"
 #include "job/power_frequencies.h"
-#include "job/power_sets.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-struct ps_power_job {
-    const ps_power_question *question;
-    ps_power_sets sets; /* of files, the first is read for planning */
-    unsigned dimension;
-    uint64_t num_points; /* of the first set */
-    ps_frequencies frequencies;
-    ps_needs needs;
-    ps_sampler_request request; /* what is really sampled: without a shift nobody needs */
-    uint64_t num_realizations;  /* that are computed; 0: unknown */
-    uint64_t num_done;
-    ps_problem problem;
-    ps_device *device;
-    ps_plan plan;
-    ps_estimator *estimator;
-    ps_spectrum spectrum;
-    ps_accuracy accuracy;
-    double *coefficients;
-    ps_text description;
-    bool was_replanned;
-};
 
 /* ---- source ------------------------------------------------------------------------------ */
 
@@ -39,6 +17,15 @@ static bool folding_matters(const ps_power_question *question) {
            !question->on_hemisphere;
 }
 
+/* Independent frequencies of the first ring, |k|^2 <= 2, or shell, or of the first degree. */
+static double count_fewest(const ps_power_job *job) {
+    const double d = job->dimension;
+    if (job->question->on_sphere) {
+        return job->question->on_hemisphere ? 2.5 : 1.5;
+    }
+    return job->question->exact_shells ? d : d * d;
+}
+
 /* What is not needed, once dimension and frequencies are known. */
 static void find_needs(ps_power_job *job) {
     const ps_power_question *question = job->question;
@@ -46,7 +33,9 @@ static void find_needs(ps_power_job *job) {
     const bool is_grid = question->frequencies_path == NULL && !question->on_sphere;
     /* coefficients, unlike powers, turn with the set */
     const bool is_invariant =
-        sampler != NULL && !folding_matters(question) && !question->wants_coefficients;
+        sampler != NULL && !folding_matters(question) && question->harmonics == PS_NO_HARMONICS;
+    /* C_l^2 turns with the set, too */
+    const bool turns = question->wants_pair_sums && sampler != NULL && sampler->homogenize;
     const ps_needs_question needs = {
         .dimension = job->dimension,
         .max_frequency = is_grid ? job->frequencies.max_frequency : 0,
@@ -55,9 +44,12 @@ static void find_needs(ps_power_job *job) {
         .wants_full_array = question->wants_full_array,
         .share_not_drawn =
             1 - (double)job->frequencies.num / (double)ps_frequencies_population(&job->frequencies),
-        .has_constant_power = is_invariant && ps_sampler_has_constant_power(sampler),
-        .is_homogenized = is_invariant && sampler->homogenize,
+        .has_constant_power = is_invariant && !turns && ps_sampler_has_constant_power(sampler),
+        .is_homogenized = is_invariant && !turns && sampler->homogenize,
         .num_realizations = question->num_realizations,
+        .standard_error = question->standard_error,
+        .expected_realizations =
+            ps_sequential_expected(count_fewest(job), question->standard_error),
         .no_skip = question->no_skip,
     };
     job->needs = ps_needs_find(&needs);
@@ -125,6 +117,23 @@ static pspec_status make_plan(ps_power_job *job, ps_error *error) {
                         &job->question->constraints, error);
 }
 
+/* That the plan is made for. */
+static uint64_t count_realizations(const ps_power_job *job) {
+    const double expected =
+        ps_sequential_expected(count_fewest(job), job->question->standard_error);
+    const bool is_less = job->needs.sequential && expected < (double)job->num_realizations;
+    return is_less ? (uint64_t)expected : job->num_realizations;
+}
+
+static double find_tolerance(const ps_power_question *question) {
+    if (question->wants_pair_sums) {
+        return question->tolerance;
+    }
+    return question->may_loosen
+               ? ps_plan_statistical_tolerance(question->standard_error, question->floor)
+               : ps_plan_tolerance(question->tolerance, question->floor);
+}
+
 static pspec_status prepare(ps_power_job *job, ps_error *error) {
     const ps_power_question *question = job->question;
     PS_TRY(find_shape(job, error));
@@ -141,11 +150,14 @@ static pspec_status prepare(ps_power_job *job, ps_error *error) {
         .frequencies = &job->frequencies,
         .num_points = job->num_points,
         .planned_points = job->num_points,
-        .num_realizations = job->num_realizations,
+        .num_realizations = question->harmonics != PS_NO_HARMONICS ? 1 : count_realizations(job),
+        .harmonics = question->harmonics,
         .has_weights = job->sets.next.has_weights || job->sets.weights != NULL,
         .block_points =
             question->sampler == NULL && !job->sets.part.is_whole ? job->sets.part.block_points : 0,
-        .tolerance = ps_plan_tolerance(question->tolerance, question->floor),
+        .measure = question->wants_pair_sums ? PS_OF_PAIR_SUMS : PS_OF_AMPLITUDES,
+        .floor = question->wants_pair_sums ? question->floor : 0,
+        .tolerance = find_tolerance(question),
     };
     PS_TRY(open_device(job, error));
     return make_plan(job, error);
@@ -175,6 +187,8 @@ void ps_power_job_destroy(ps_power_job *job) {
     ps_spectrum_free(&job->spectrum);
     ps_text_free(&job->description);
     free(job->coefficients);
+    free(job->c2);
+    free(job->means);
     ps_frequencies_free(&job->frequencies);
     ps_power_sets_free(&job->sets);
     ps_device_close(job->device);
@@ -195,6 +209,8 @@ static pspec_status create_estimator(ps_power_job *job, ps_error *error) {
         .want_frequencies = !question->on_sphere, /* anisotropy needs them, too */
         .self_check = !question->no_self_check,
         .normalization = question->normalization,
+        .coefficients = job->coefficients,
+        .want_c2 = question->wants_pair_sums,
         .should_stop = should_stop,
         .payload = job,
     };
@@ -224,31 +240,52 @@ static pspec_status make_room_for_coefficients(ps_power_job *job, ps_error *erro
     return PSPEC_OK;
 }
 
-/* Of the set that the estimator has just had, which is still where it was read. */
-static pspec_status find_coefficients(ps_power_job *job, ps_error *error) {
-    if (job->num_done != 1) {
-        return ps_fail(
-            error, PSPEC_ERROR_INVALID_ARGUMENT,
-            "coefficients are of one set, but there are more; --select-sets chooses one");
+static pspec_status require_one_set(const ps_power_job *job, ps_error *error) {
+    return job->coefficients == NULL || job->num_done <= 1
+               ? PSPEC_OK
+               : ps_fail(
+                     error, PSPEC_ERROR_INVALID_ARGUMENT,
+                     "coefficients are of one set, but there are more; --select-sets chooses one");
+}
+
+static pspec_status look_at_errors(ps_power_job *job, ps_error *error) {
+    const ps_bins *bins = ps_estimator_bins(job->estimator);
+    void *memory = NULL;
+    if (job->means == NULL) {
+        PS_TRY(ps_allocate(&memory, bins->num, sizeof *job->means, "means of bins", error));
+        job->means = memory;
     }
-    return ps_estimator_coefficients(job->estimator, &job->sets.patterns[0],
-                                     job->question->harmonics, job->coefficients, error);
+    PS_TRY(ps_estimator_bin_means(job->estimator, job->means, error));
+    job->look = ps_sequential_find(bins, job->means, job->question->floor, job->num_done);
+    return PSPEC_OK;
+}
+
+/* All sets, or as many as the standard error needs. */
+static pspec_status add_sets(ps_power_job *job, ps_error *error) {
+    size_t num = 1;
+    bool is_enough = false;
+    while (num > 0 && !is_enough) {
+        const uint64_t next =
+            job->needs.sequential ? ps_sequential_next_look(job->num_done) : UINT64_MAX;
+        PS_TRY(report_progress(job, error));
+        PS_TRY(ps_power_sets_give(&job->sets, job->estimator, job->question->normalization,
+                                  next - job->num_done, &num, error));
+        job->num_done += num;
+        PS_TRY(require_one_set(job, error));
+        if (job->num_done == next) {
+            PS_TRY(look_at_errors(job, error));
+            is_enough = job->look.corrected <= job->question->standard_error;
+        }
+    }
+    const bool is_asked = job->question->standard_error > 0 && job->num_done > 1;
+    return is_asked && !is_enough ? look_at_errors(job, error) : PSPEC_OK;
 }
 
 static pspec_status run_once(ps_power_job *job, ps_error *error) {
-    size_t num = 1;
     job->num_done = 0;
     PS_TRY(create_estimator(job, error));
     PS_TRY(ps_power_sets_allocate(&job->sets, ps_estimator_batch(job->estimator), error));
-    while (num > 0) {
-        PS_TRY(report_progress(job, error));
-        PS_TRY(ps_power_sets_give(&job->sets, job->estimator, job->question->normalization, &num,
-                                  error));
-        job->num_done += num;
-        if (num > 0 && job->question->wants_coefficients) {
-            PS_TRY(find_coefficients(job, error));
-        }
-    }
+    PS_TRY(add_sets(job, error));
     job->accuracy = ps_estimator_accuracy(job->estimator);
     return isfinite(job->accuracy.error)
                ? PSPEC_OK
@@ -258,6 +295,7 @@ static pspec_status run_once(ps_power_job *job, ps_error *error) {
 /* The measured powers make the error larger than the tolerance: plan again with them. */
 static pspec_status run_again(ps_power_job *job, ps_error *error) {
     job->problem.expected_power = job->accuracy.largest_mean_power;
+    job->problem.weight_share = job->accuracy.largest_share;
     PS_TRY(make_plan(job, error));
     PS_TRY(ps_plan_require(&job->plan, &job->problem, error));
     const ps_precision precision = job->plan.chosen->precision;
@@ -276,19 +314,42 @@ static pspec_status run_again(ps_power_job *job, ps_error *error) {
     return run_once(job, error);
 }
 
+static pspec_status find_c2(ps_power_job *job, ps_error *error) {
+    const size_t num = job->frequencies.num;
+    void *memory = NULL;
+    if (!job->question->wants_pair_sums) {
+        return PSPEC_OK;
+    }
+    PS_TRY(ps_allocate(&memory, num, sizeof *job->c2, "C_l^2", error));
+    job->c2 = memory;
+    ps_estimator_c2(job->estimator, job->c2);
+    for (size_t i = 0; job->needs.one_realization && i < num; i++) {
+        job->c2[i].standard_error = 0;
+    }
+    return PSPEC_OK;
+}
+
+/* Realizations that a deterministic one stands for: all, or as few as a standard error takes. */
+static uint64_t count_repeats(const ps_power_question *question) {
+    const uint64_t all = question->num_realizations;
+    return question->standard_error > 0 && all > PS_LEAST_REALIZATIONS ? PS_LEAST_REALIZATIONS
+                                                                       : all;
+}
+
 static pspec_status finish(ps_power_job *job, ps_error *error) {
     ps_estimator_describe(job->estimator, &job->description);
     PS_TRY(ps_text_check(&job->description, error));
     PS_TRY(ps_estimator_spectrum(job->estimator, &job->spectrum, error));
+    PS_TRY(find_c2(job, error));
     if (job->needs.one_realization) {
-        ps_spectrum_repeat(&job->spectrum, job->question->num_realizations);
+        ps_spectrum_repeat(&job->spectrum, count_repeats(job->question));
     }
     return PSPEC_OK;
 }
 
 pspec_status ps_power_job_run(ps_power_job *job, ps_error *error) {
     PS_TRY(ps_plan_require(&job->plan, &job->problem, error));
-    if (job->question->wants_coefficients) {
+    if (job->question->harmonics != PS_NO_HARMONICS) {
         PS_TRY(make_room_for_coefficients(job, error));
     }
     PS_TRY(ps_frequencies_enumerate(&job->frequencies, error));
@@ -297,63 +358,4 @@ pspec_status ps_power_job_run(ps_power_job *job, ps_error *error) {
         PS_TRY(run_again(job, error));
     }
     return finish(job, error);
-}
-
-/* ---- what is known ----------------------------------------------------------------------- */
-
-const ps_plan *ps_power_job_plan(const ps_power_job *job) {
-    return &job->plan;
-}
-
-const ps_needs *ps_power_job_needs(const ps_power_job *job) {
-    return &job->needs;
-}
-
-const ps_problem *ps_power_job_problem(const ps_power_job *job) {
-    return &job->problem;
-}
-
-const ps_device_limits *ps_power_job_limits(const ps_power_job *job) {
-    return job->device != NULL ? ps_device_get_limits(job->device) : NULL;
-}
-
-const ps_sampler_request *ps_power_job_sampler(const ps_power_job *job) {
-    return job->question->sampler;
-}
-
-const char *ps_power_job_source_format(const ps_power_job *job) {
-    return ps_source_format(job->sets.source);
-}
-
-const char *ps_power_job_source_columns(const ps_power_job *job) {
-    return ps_source_columns(job->sets.source);
-}
-
-const ps_spectrum *ps_power_job_spectrum(const ps_power_job *job) {
-    return &job->spectrum;
-}
-
-const ps_accuracy *ps_power_job_accuracy(const ps_power_job *job) {
-    return &job->accuracy;
-}
-
-const char *ps_power_job_description(const ps_power_job *job) {
-    return ps_text_string(&job->description);
-}
-
-const double *ps_power_job_coefficients(const ps_power_job *job) {
-    return job->coefficients;
-}
-
-bool ps_power_job_was_replanned(const ps_power_job *job) {
-    return job->was_replanned;
-}
-
-uint64_t ps_power_job_buffer_bytes(const ps_power_job *job) {
-    return job->device != NULL ? ps_device_most_buffer_bytes(job->device) : 0;
-}
-
-const ps_profile_row *ps_power_job_profile(const ps_power_job *job, size_t *num_rows) {
-    *num_rows = 0;
-    return job->device != NULL ? ps_device_profile(job->device, num_rows) : NULL;
 }

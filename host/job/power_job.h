@@ -8,6 +8,7 @@
 #ifndef PS_JOB_POWER_JOB_H
 #define PS_JOB_POWER_JOB_H
 
+#include "analysis/sequential.h"
 #include "job/estimator.h"
 #include "job/source.h"
 #include "plan/needs.h"
@@ -39,10 +40,14 @@ typedef struct ps_power_question {
     bool wants_full_array;
 
     /* result */
-    bool wants_coefficients; /* of the only set, on the sphere */
-    ps_harmonics harmonics;
+    bool wants_pair_sums;   /* on the sphere: Q(l) itself, weights 1/N unless given, and C_l^2 */
+    ps_harmonics harmonics; /* whose coefficients are wanted, of the only set, on the sphere */
     pspec_normalization normalization;
     double tolerance, floor; /* floor 0: none */
+    bool may_loosen; /* the tolerance, to what standard_error and floor need; not for pair sums */
+    double
+        standard_error; /* relative, of every bin above the floor, at which realizations stop (analysis/sequential.h);
+                              0: all of them are done */
     bool no_skip, no_self_check;
     ps_plan_constraints constraints;
     const char *device; /* selector, NULL: default */
@@ -79,6 +84,11 @@ const ps_accuracy *ps_power_job_accuracy(const ps_power_job *job);
 const char *ps_power_job_description(const ps_power_job *job);
 /* c_lm as ps_engine.coefficients has them, [ps_num_coefficients(L)]; NULL unless they were asked for. */
 const double *ps_power_job_coefficients(const ps_power_job *job);
+/* The bin of the largest standard error when the realizations ended; NULL unless question.standard_error was asked for,
+ * and with one realization that stands for all. */
+const ps_sequential_look *ps_power_job_look(const ps_power_job *job);
+/* C_l^2 of pair sums, [number of degrees]; NULL unless they were asked for. */
+const ps_mean *ps_power_job_c2(const ps_power_job *job);
 /* True when the first run missed the tolerance and the plan was made again. */
 bool ps_power_job_was_replanned(const ps_power_job *job);
 /* The most bytes that buffers of the device had at a time. */

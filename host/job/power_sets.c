@@ -97,8 +97,9 @@ static pspec_status load_next(ps_power_sets *sets, ps_error *error) {
 }
 
 /* A batch, up to the next set that comes in blocks. */
-static pspec_status fill_batch(ps_power_sets *sets, bool can_stream, size_t *num, ps_error *error) {
-    for (*num = 0; *num < sets->capacity; (*num)++) {
+static pspec_status fill_batch(ps_power_sets *sets, bool can_stream, uint64_t most, size_t *num,
+                               ps_error *error) {
+    for (*num = 0; *num < sets->capacity && *num < most; (*num)++) {
         bool has_set = false;
         if (!sets->has_next) { /* read to where it will stay */
             exchange(&sets->next, &sets->sets[*num]);
@@ -175,8 +176,9 @@ static pspec_status stream_next(ps_power_sets *sets, ps_estimator *estimator,
 }
 
 pspec_status ps_power_sets_give(ps_power_sets *sets, ps_estimator *estimator,
-                                pspec_normalization normalization, size_t *num, ps_error *error) {
-    PS_TRY(fill_batch(sets, ps_estimator_can_stream(estimator), num, error));
+                                pspec_normalization normalization, uint64_t most, size_t *num,
+                                ps_error *error) {
+    PS_TRY(fill_batch(sets, ps_estimator_can_stream(estimator), most, num, error));
     if (*num == 0 && sets->has_next) {
         *num = 1;
         return stream_next(sets, estimator, normalization, error);

@@ -35,10 +35,10 @@ pspec_status ps_power_sets_rewind(ps_power_sets *sets, ps_error *error) PS_MUST_
 pspec_status ps_power_sets_peek(ps_power_sets *sets, bool *has_set, ps_error *error) PS_MUST_CHECK;
 uint64_t ps_power_sets_next_points(const ps_power_sets *sets);
 
-/* Gives the estimator the next batch, or the next set if that is too large for one; *num sets were given, 0 at
- * the end. */
+/* Gives the estimator the next batch, of `most` sets at most, or the next set if that is too large for one; *num sets
+ * were given, 0 at the end. */
 pspec_status ps_power_sets_give(ps_power_sets *sets, ps_estimator *estimator,
-                                pspec_normalization normalization, size_t *num,
+                                pspec_normalization normalization, uint64_t most, size_t *num,
                                 ps_error *error) PS_MUST_CHECK;
 
 #endif

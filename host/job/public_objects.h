@@ -23,6 +23,9 @@ pspec_status ps_context_open_device(pspec_context *context) PS_MUST_CHECK;
 pspec_status ps_public_spectrum(pspec_spectrum **out, ps_spectrum_sums *sums, const ps_bins *bins,
                                 ps_error *error) PS_MUST_CHECK;
 
+/* What the spectrum was made of; belongs to it. */
+const ps_spectrum_sums *ps_public_sums(const pspec_spectrum *spectrum);
+
 /* The plan's realizations, all of them in the sums; out of an engine within the tolerance. */
 pspec_status ps_plan_sums(pspec_plan *plan, ps_spectrum_sums *out,
                           const ps_bins **bins) PS_MUST_CHECK;

@@ -3,6 +3,7 @@
 #include "job/gather.h"
 #include "job/public_objects.h"
 #include "job/public_request.h"
+#include "plan/memory_model.h"
 
 #include <stdlib.h>
 #include <time.h>
@@ -15,6 +16,7 @@ struct pspec_plan {
     ps_estimator *estimator;
     ps_gather *gather;
     ps_text text;
+    bool has_c2;
     bool has_failed;   /* its sums may hold a part of a batch */
     double last_asked; /* seconds: when progress was called last */
 };
@@ -93,6 +95,7 @@ static pspec_status create_estimator(pspec_plan *plan, const ps_public_request *
         .batch = plan->choice.chosen->batch,
         .exact_shells = request->exact_shells,
         .want_frequencies = true,
+        .want_c2 = request->want_c2,
         .self_check = !request->no_self_check,
         .normalization = request->normalization,
         .should_stop = should_stop,
@@ -114,13 +117,16 @@ static pspec_status create_estimator(pspec_plan *plan, const ps_public_request *
 
 static pspec_status fill_plan(pspec_plan *plan, const ps_public_request *request, ps_error *error) {
     PS_TRY(ps_frequencies_enumerate(&plan->frequencies, error));
+    const bool is_pairs = request->normalization == PSPEC_NORMALIZATION_PAIRS;
     plan->problem = (ps_problem){
         .frequencies = &plan->frequencies,
         .num_points = request->num_points,
         .planned_points = request->num_points,
         .num_realizations = request->num_realizations,
         .has_weights = true,
-        .tolerance = ps_plan_tolerance(request->tolerance, request->floor),
+        .measure = is_pairs ? PS_OF_PAIR_SUMS : PS_OF_AMPLITUDES,
+        .floor = is_pairs ? request->floor : 0,
+        .tolerance = ps_plan_tolerance(request->tolerance, is_pairs ? 0 : request->floor),
     };
     PS_TRY(choose_engine(plan, request, error));
     return create_estimator(plan, request, error);
@@ -138,6 +144,7 @@ static pspec_status create_plan(pspec_plan **out, pspec_context *context,
     pspec_plan *plan = memory;
     plan->context = context;
     plan->frequencies = request->frequencies;
+    plan->has_c2 = request->want_c2;
     status = fill_plan(plan, request, &context->error);
     if (status != PSPEC_OK) {
         pspec_plan_destroy(plan);
@@ -193,14 +200,17 @@ static pspec_status require_sound(const pspec_plan *plan) {
                : PSPEC_OK;
 }
 
-/* Remembers a failure. Engines that were cancelled do not know how far the whole plan is. */
+/* Engines that were cancelled do not know how far the whole plan is. */
+static pspec_status fail_cancelled(pspec_plan *plan) {
+    return ps_fail(&plan->context->error, PSPEC_ERROR_CANCELLED,
+                   "cancelled by the progress callback after %llu realizations",
+                   (unsigned long long)ps_estimator_num_realizations(plan->estimator));
+}
+
+/* Remembers a failure. */
 static pspec_status note(pspec_plan *plan, pspec_status status) {
     plan->has_failed = status != PSPEC_OK;
-    return status == PSPEC_ERROR_CANCELLED
-               ? ps_fail(&plan->context->error, status,
-                         "cancelled by the progress callback after %llu realizations",
-                         (unsigned long long)ps_estimator_num_realizations(plan->estimator))
-               : status;
+    return status == PSPEC_ERROR_CANCELLED ? fail_cancelled(plan) : status;
 }
 
 pspec_status pspec_plan_run(pspec_plan *plan, const pspec_pattern *patterns, size_t num_patterns) {
@@ -215,6 +225,26 @@ pspec_status pspec_plan_run(pspec_plan *plan, const pspec_pattern *patterns, siz
     return note(plan, ps_gather_add(plan->gather, patterns, num_patterns, &plan->context->error));
 }
 
+/* Are coefficients within the limit that the caller has set, together with what the plan has? The array that they are
+ * for counts, though it is the caller's. */
+static pspec_status require_memory(const pspec_plan *plan, ps_harmonics harmonics) {
+    pspec_context *context = plan->context;
+    const ps_candidate *chosen = plan->choice.chosen;
+    const double limit = (double)context->memory_limit;
+    if (context->memory_limit == 0 || ps_problem_domain(&plan->problem) != PS_ON_SPHERE) {
+        return PSPEC_OK;
+    }
+    const double bytes = ps_memory_of_coefficients(
+        chosen->engine, chosen->precision, &plan->problem,
+        context->device != NULL ? ps_device_get_limits(context->device) : NULL, harmonics);
+    return chosen->bytes + bytes <= limit
+               ? PSPEC_OK
+               : ps_fail(&context->error, PSPEC_ERROR_MEMORY,
+                         "coefficients to degree %d take %.3g bytes; with the %.3g of the plan "
+                         "that is above the memory limit of %.3g",
+                         (int)plan->frequencies.max_frequency, bytes, chosen->bytes, limit);
+}
+
 pspec_status pspec_plan_coefficients(pspec_plan *plan, const pspec_pattern *pattern,
                                      int hemispherical, double *coefficients) {
     if (plan == NULL) {
@@ -224,10 +254,12 @@ pspec_status pspec_plan_coefficients(pspec_plan *plan, const pspec_pattern *patt
         return ps_fail(&plan->context->error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "there is no pattern, or no room for its coefficients");
     }
-    return ps_estimator_coefficients(plan->estimator, pattern,
-                                     hemispherical != 0 ? PS_HEMISPHERICAL_HARMONICS
-                                                        : PS_SPHERICAL_HARMONICS,
-                                     coefficients, &plan->context->error);
+    const ps_harmonics harmonics =
+        hemispherical != 0 ? PS_HEMISPHERICAL_HARMONICS : PS_SPHERICAL_HARMONICS;
+    PS_TRY(require_memory(plan, harmonics));
+    const pspec_status status = ps_estimator_coefficients(plan->estimator, pattern, harmonics,
+                                                          coefficients, &plan->context->error);
+    return status == PSPEC_ERROR_CANCELLED ? fail_cancelled(plan) : status;
 }
 
 pspec_status pspec_plan_reset(pspec_plan *plan) {
@@ -254,6 +286,32 @@ pspec_status ps_plan_sums(pspec_plan *plan, ps_spectrum_sums *out, const ps_bins
                        plan->problem.tolerance);
     }
     return ps_estimator_sums(plan->estimator, out, error);
+}
+
+pspec_status pspec_plan_c2(pspec_plan *plan, pspec_mean *c2) {
+    ps_spectrum_sums sums = {0};
+    const ps_bins *bins = NULL;
+    void *memory = NULL;
+    if (plan == NULL) {
+        return PSPEC_ERROR_INVALID_ARGUMENT;
+    }
+    ps_error *error = &plan->context->error;
+    const size_t num = plan->frequencies.num;
+    if (!plan->has_c2 || c2 == NULL) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       plan->has_c2 ? "there is no room for C_l^2"
+                                    : "this plan does not have C_l^2: its request lacks want_c2");
+    }
+    PS_TRY(ps_plan_sums(plan, &sums, &bins)); /* runs what waits, and checks the tolerance */
+    ps_spectrum_sums_free(&sums);
+    PS_TRY(ps_allocate(&memory, num, sizeof(ps_mean), "C_l^2", error));
+    const ps_mean *const means = memory;
+    ps_estimator_c2(plan->estimator, memory);
+    for (size_t i = 0; i < num; i++) {
+        c2[i] = (pspec_mean){means[i].mean, means[i].standard_error};
+    }
+    free(memory);
+    return PSPEC_OK;
 }
 
 pspec_context *ps_plan_context(const pspec_plan *plan) {

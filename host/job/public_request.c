@@ -8,7 +8,7 @@
 
 /* ---- what both have ---------------------------------------------------------------------- */
 
-static pspec_status parse_precision(const char *name, int *out, ps_error *error) {
+pspec_status ps_public_parse_precision(const char *name, int *out, ps_error *error) {
     *out = -1;
     for (int precision = PS_SINGLE; name != NULL && precision <= PS_EXTENDED; precision++) {
         if (strcmp(name, ps_precision_name((ps_precision)precision)) == 0) {
@@ -21,9 +21,8 @@ static pspec_status parse_precision(const char *name, int *out, ps_error *error)
                          "precision \"%s\" is none of single, double, extended", name);
 }
 
-/* begin_with: the macro of the caller's struct. */
-static pspec_status check_size(size_t found, size_t expected, const char *begin_with,
-                               ps_error *error) {
+pspec_status ps_public_check_size(size_t found, size_t expected, const char *begin_with,
+                                  ps_error *error) {
     return found == expected ? PSPEC_OK
                              : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                                        "struct_size is %zu instead of %zu: begin with %s", found,
@@ -40,7 +39,8 @@ static pspec_status check_common(const ps_public_request *request, ps_error *err
                        request->tolerance, request->floor);
     }
     if (request->normalization != PSPEC_NORMALIZATION_POWER &&
-        request->normalization != PSPEC_NORMALIZATION_EFFECTIVE) {
+        request->normalization != PSPEC_NORMALIZATION_EFFECTIVE &&
+        !(request->is_on_sphere && request->normalization == PSPEC_NORMALIZATION_PAIRS)) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "there is no normalization %d",
                        (int)request->normalization);
     }
@@ -86,7 +86,8 @@ static pspec_status check_power(const pspec_power_request *request, ps_error *er
     if (request == NULL) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "there is no request");
     }
-    PS_TRY(check_size(request->struct_size, sizeof *request, "PSPEC_POWER_REQUEST_INIT", error));
+    PS_TRY(ps_public_check_size(request->struct_size, sizeof *request, "PSPEC_POWER_REQUEST_INIT",
+                                error));
     if (request->dimension < 1 || request->dimension > PS_MAX_TORUS_DIMENSION) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "dimension %u is not between 1 and %d",
                        request->dimension, PS_MAX_TORUS_DIMENSION);
@@ -112,7 +113,7 @@ pspec_status ps_public_request_power(ps_public_request *out, const pspec_power_r
                                .exact_shells = request->exact_shells != 0,
                                .no_self_check = request->no_self_check != 0};
     PS_TRY(check_common(out, error));
-    PS_TRY(parse_precision(request->precision, &out->precision, error));
+    PS_TRY(ps_public_parse_precision(request->precision, &out->precision, error));
     return set_frequencies(&out->frequencies, request, error);
 }
 
@@ -123,16 +124,23 @@ pspec_status ps_public_request_angular(ps_public_request *out, const pspec_angul
     if (request == NULL) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "there is no request");
     }
-    PS_TRY(check_size(request->struct_size, sizeof *request, "PSPEC_ANGULAR_REQUEST_INIT", error));
+    PS_TRY(ps_public_check_size(request->struct_size, sizeof *request, "PSPEC_ANGULAR_REQUEST_INIT",
+                                error));
     *out = (ps_public_request){.num_points = request->num_points,
                                .num_realizations = request->num_realizations,
                                .normalization = request->normalization,
                                .tolerance = request->tolerance,
                                .floor = request->floor,
                                .engine = request->engine,
+                               .is_on_sphere = true,
+                               .want_c2 = request->want_c2 != 0,
                                .no_self_check = request->no_self_check != 0};
     PS_TRY(check_common(out, error));
-    PS_TRY(parse_precision(request->precision, &out->precision, error));
+    if (out->want_c2 && out->normalization != PSPEC_NORMALIZATION_PAIRS) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "want_c2 is for PSPEC_NORMALIZATION_PAIRS");
+    }
+    PS_TRY(ps_public_parse_precision(request->precision, &out->precision, error));
     return ps_frequencies_degrees(&out->frequencies, request->max_degree, request->hemisphere != 0,
                                   error);
 }

@@ -11,8 +11,14 @@ typedef struct ps_public_request {
     double tolerance, floor;
     const char *engine; /* borrowed from the caller's request; NULL: any */
     int precision;      /* a ps_precision, or -1: any */
-    bool exact_shells, no_self_check;
+    bool is_on_sphere, exact_shells, no_self_check, want_c2;
 } ps_public_request;
+
+/* name: NULL for any, which is -1. */
+pspec_status ps_public_parse_precision(const char *name, int *out, ps_error *error) PS_MUST_CHECK;
+/* begin_with: the macro of the caller's struct. */
+pspec_status ps_public_check_size(size_t found, size_t expected, const char *begin_with,
+                                  ps_error *error) PS_MUST_CHECK;
 
 pspec_status ps_public_request_power(ps_public_request *out, const pspec_power_request *request,
                                      ps_error *error) PS_MUST_CHECK;

@@ -89,6 +89,10 @@ pspec_status ps_public_spectrum(pspec_spectrum **out, ps_spectrum_sums *sums, co
     return PSPEC_OK;
 }
 
+const ps_spectrum_sums *ps_public_sums(const pspec_spectrum *spectrum) {
+    return &spectrum->sums;
+}
+
 pspec_status pspec_spectrum_create(pspec_spectrum **out, pspec_plan *plan) {
     ps_spectrum_sums sums = {0};
     const ps_bins *bins = NULL;

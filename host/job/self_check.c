@@ -64,15 +64,19 @@ static pspec_status check_entry(const ps_self_check_input *input, size_t entry, 
     char text[112];
     PS_TRY(read_entry(input->rows, input->slots[entry], device, &power, error));
     PS_TRY(ps_host_power(input->pattern, set, entry, input->exponent, &exact, error));
+    const bool is_pairs = input->size_square > 0;
     const double expected = (double)sqrtl(exact) / unit;
-    const double allowed = allowed_factor * input->engine_error * (1 + expected);
-    *off = fabs(sqrt(power / input->scale) / unit - expected);
+    const double allowed = allowed_factor * input->engine_error * (is_pairs ? 1 : 1 + expected);
+    /* a sum over pairs may be a rounding below 0 */
+    *off = is_pairs ? (double)fabsl(power / input->scale - exact) / input->size_square
+                    : fabs(sqrt(fmax(power, 0) / input->scale) / unit - expected);
     if (!(*off <= allowed)) {
         print_frequency(text, sizeof text, k, set);
         return ps_fail(error, PSPEC_ERROR_CHECK,
-                       "self-check failed: |S| of %s is off by %.3g sqrt(sum w^2), "
+                       "self-check failed: %s of %s is off by %.3g %s, "
                        "expected below %.3g; the device or its driver computes wrongly",
-                       text, *off, allowed);
+                       is_pairs ? "Q" : "|S|", text, *off,
+                       is_pairs ? "(sum |w|)^2" : "sqrt(sum w^2)", allowed);
     }
     return PSPEC_OK;
 }

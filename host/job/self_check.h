@@ -15,11 +15,12 @@ typedef struct ps_self_check_input {
     const pspec_pattern *pattern;
     int exponent;
     double scale, weight_square_sum; /* of the scaled weights */
-    double engine_error;             /* of the engine's formula, for powers of 1 */
+    double size_square;              /* of pair sums: (sum |w|)^2, scaled; else 0 */
+    double engine_error; /* of the engine's formula, for powers of 1, in the units of the problem */
 } ps_self_check_input;
 
 /* Compares entries with long double direct sums; *deviation is the largest
- * | |S| - |S_referee| | / sqrt(V). Fails with PSPEC_ERROR_CHECK when an entry is off by more than is
+ * | |S| - |S_referee| | / sqrt(V), of pair sums | Q - Q_referee | / (sum |w|)^2. Fails with PSPEC_ERROR_CHECK when an entry is off by more than is
  * explicable by the engine's error. */
 pspec_status ps_self_check(const ps_self_check_input *input, ps_device *device, double *deviation,
                            ps_error *error) PS_MUST_CHECK;

@@ -10,7 +10,10 @@ struct ps_source {
     /* sampler */
     ps_sampler_request request;
     uint64_t num_realizations, next_realization;
-    /* files: paths is NULL for a sampler */
+    /* memory: patterns is NULL for others; next_realization counts them */
+    const pspec_pattern *patterns;
+    size_t num_patterns;
+    /* files: paths is NULL for others */
     const char *const *paths;
     size_t num_paths, next_path;
     ps_source_options options;
@@ -55,6 +58,52 @@ pspec_status ps_source_files(ps_source **out, const char *const *paths, size_t n
     if (options->whole_bytes == 0) {
         (*out)->options.whole_bytes = PS_SOURCE_WHOLE_BYTES;
     }
+    return PSPEC_OK;
+}
+
+pspec_status ps_source_patterns(ps_source **out, const pspec_pattern *patterns, size_t num_patterns,
+                                ps_error *error) {
+    PS_TRY(create(out, error));
+    (*out)->patterns = patterns;
+    (*out)->num_patterns = num_patterns;
+    return PSPEC_OK;
+}
+
+static pspec_status check_vectors(const pspec_pattern *pattern, uint64_t realization,
+                                  ps_error *error) {
+    const unsigned long long number = (unsigned long long)realization + 1;
+    ps_pattern_count count = {.realization = realization, .on_sphere = true};
+    ps_pattern_sums sums;
+    if (pattern->dimension != PS_SPHERE_DIMENSION) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "set %llu has dimension %u instead of %d", number,
+                       pattern->dimension, (int)PS_SPHERE_DIMENSION);
+    }
+    if (pattern->num_points == 0 || pattern->points == NULL) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "set %llu has no points", number);
+    }
+    PS_TRY(ps_pattern_count_add(&count, pattern, error));
+    return ps_pattern_count_finish(&count, PSPEC_NORMALIZATION_EFFECTIVE, &sums, error);
+}
+
+static pspec_status next_pattern(ps_source *source, ps_point_set *set, bool *has_set,
+                                 ps_error *error) {
+    *has_set = source->next_realization < source->num_patterns;
+    if (!*has_set) {
+        return PSPEC_OK;
+    }
+    const pspec_pattern *pattern = &source->patterns[source->next_realization];
+    const size_t num = pattern->num_points;
+    PS_TRY(check_vectors(pattern, source->next_realization++, error));
+    set->coordinates = PS_UNIT_VECTORS;
+    set->dimension = pattern->dimension;
+    set->has_weights = pattern->weights != NULL;
+    set->num_points = 0;
+    PS_TRY(ps_points_reserve(set, num, error));
+    memcpy(set->points, pattern->points, num * pattern->dimension * sizeof(double));
+    if (set->has_weights) {
+        memcpy(set->weights, pattern->weights, num * sizeof(double));
+    }
+    set->num_points = num;
     return PSPEC_OK;
 }
 
@@ -224,7 +273,8 @@ pspec_status ps_source_next(ps_source *source, ps_point_set *set, ps_source_part
                             bool *has_set, ps_error *error) {
     if (source->paths == NULL) {
         *part = (ps_source_part){.is_whole = true};
-        return next_sample(source, set, has_set, error);
+        return source->patterns != NULL ? next_pattern(source, set, has_set, error)
+                                        : next_sample(source, set, has_set, error);
     }
     return next_from_files(source, set, part, has_set, error);
 }

@@ -1,4 +1,4 @@
-/* Where realizations come from: a sampler, or point files one after the other.
+/* Where realizations come from: a sampler, point files one after the other, or unit vectors in memory.
  *
  * A source yields point sets in order. It can be rewound unless it reads standard input. Sets of files that
  * are too large to be in memory come in blocks.
@@ -34,6 +34,10 @@ typedef struct ps_source_options {
 /* All sets of all files; paths, and texts of the options, are kept and must outlive the source. */
 pspec_status ps_source_files(ps_source **out, const char *const *paths, size_t num_paths,
                              const ps_source_options *options, ps_error *error) PS_MUST_CHECK;
+
+/* Unit vectors, checked when their turn comes; patterns are kept and must outlive the source. */
+pspec_status ps_source_patterns(ps_source **out, const pspec_pattern *patterns, size_t num_patterns,
+                                ps_error *error) PS_MUST_CHECK;
 
 /* How much of a set has come. */
 typedef struct ps_source_part {

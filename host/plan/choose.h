@@ -12,6 +12,7 @@ typedef struct ps_candidate {
     bool is_excluded; /* by the constraints: --engine, --precision */
     bool is_applicable, is_feasible, is_chosen;
     double seconds, bytes, error; /* of the whole job; meaningful when applicable */
+    double floor_error;           /* relative, of powers at the floor; 0 without one */
     double device_bytes;          /* part of bytes in buffers of the device */
     size_t batch;
     char reason[160]; /* one phrase: why chosen, why not */
@@ -23,6 +24,8 @@ typedef struct ps_plan {
     size_t num_candidates;
     ps_candidate candidates[PS_MAX_CANDIDATES];
     const ps_candidate *chosen; /* NULL: nothing is feasible; points into candidates */
+    int32_t
+        largest_degree; /* on the sphere, of what would be feasible then; 0: none, or not needed */
 } ps_plan;
 
 typedef struct ps_plan_constraints {
@@ -38,6 +41,9 @@ bool ps_plan_may_need_device(const ps_plan_constraints *constraints);
  * three times e still leaving a power of `floor` right to 10 % (mathematics.md 7.2: the relative
  * error of a power P is 2 e / sqrt(P)). */
 double ps_plan_tolerance(double tolerance, double floor);
+/* The loosest tolerance of S with which a standard error, relative, of powers down to `floor` means what it says: the
+ * numerical error of such a power is at most a third of it, three times over, and the powers are right to 10 %. */
+double ps_plan_statistical_tolerance(double standard_error, double floor);
 
 /* Fills *plan. limits is NULL without a device. An unknown engine name is
  * PSPEC_ERROR_INVALID_ARGUMENT with the nearest one; that nothing is feasible is not an error here

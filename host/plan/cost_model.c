@@ -10,9 +10,12 @@ static const struct {
     double product_share;   /* share of the nominal peak that torus/product.cl reaches */
     double transform_share; /* share of its cycles that nufft/ takes */
     double harmonics_per_flop; /* (point, degree, order) triples per nominal flop: sphere/sums.cl */
+    /* pairs/sums.cl and histogram.cl, per nominal flop: on 2 cores of a EPYC with AVX2, bench_pairs, 2026-11 */
+    double pair_degrees_per_flop; /* (pair, degree) */
+    double pairs_per_flop;        /* pairs into a histogram */
 } device_rates[2] = {
-    [PS_SINGLE] = {0.010, 1.15, 1.0, 0.024},
-    [PS_DOUBLE] = {0.0133, 1.14, 1.0, 0.026},
+    [PS_SINGLE] = {0.010, 1.15, 1.0, 0.024, 0.114, 0.005},
+    [PS_DOUBLE] = {0.0133, 1.14, 1.0, 0.026, 0.113, 0.005},
 };
 
 /* Long double cosine and sine of one (point, frequency) pair on one core, same machine. */
@@ -47,6 +50,8 @@ double ps_cost_seconds(const ps_work *work, const ps_device_limits *limits,
            work->product_flops / (peak * device_rates[precision].product_share) +
            work->transform_flops / (peak * device_rates[precision].transform_share) +
            work->harmonics / (peak * device_rates[precision].harmonics_per_flop) +
+           work->pair_degrees / (peak * device_rates[precision].pair_degrees_per_flop) +
+           work->binned_pairs / (peak * device_rates[precision].pairs_per_flop) +
            work->launches * seconds_per_launch;
 }
 
@@ -73,6 +78,8 @@ size_t ps_cost_batch(const ps_work *work, const ps_device_limits *limits,
     double budget = limits->has_dedicated_local_memory ? gpu_batch_bytes
                                                        : cache_share * (double)limits->cache_bytes;
     const double memory = memory_share * (double)limits->global_bytes - work->fixed_bytes;
+    const double wanted = work->wanted_batch * work->bytes_per_realization;
+    budget = budget > wanted ? budget : wanted;
     budget = budget < memory ? budget : memory;
     const double by_budget = budget / work->bytes_per_realization;
     const double by_allocation =

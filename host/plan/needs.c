@@ -18,6 +18,12 @@ static double share_of_corners(unsigned dimension, double max_frequency) {
     return share > 0 ? share : 0;
 }
 
+static double share_not_needed(const ps_needs_question *question) {
+    const double all = (double)question->num_realizations;
+    const double share = all > 0 ? 1 - question->expected_realizations / all : 0;
+    return share > 0 ? share : 0;
+}
+
 ps_needs ps_needs_find(const ps_needs_question *question) {
     ps_needs needs = {0};
     const bool is_grid = question->max_frequency > 0;
@@ -57,6 +63,12 @@ ps_needs ps_needs_find(const ps_needs_question *question) {
         add(&needs, "all realizations but the first",
             "a deterministic set has the same power every time",
             1 - 1 / (double)question->num_realizations);
+    } else if (question->standard_error > 0) {
+        needs.sequential = true;
+        add(&needs, "realizations beyond the standard error asked for",
+            "--standard-error; looked at after 16, 24, 32, 46, .. realizations (share: of white "
+            "noise)",
+            share_not_needed(question));
     }
     return needs;
 }

@@ -17,7 +17,9 @@ typedef struct ps_needs_question {
     bool has_constant_power;   /* all realizations have the same power: deterministic, or shifted */
     bool is_homogenized;       /* a random shift of every realization was asked for */
     uint64_t num_realizations; /* 0: not known */
-    bool no_skip;              /* the user wants everything done; symmetries stay */
+    double standard_error;     /* realizations are to stop at it; 0: all of them are wanted */
+    double expected_realizations; /* that white noise takes to it */
+    bool no_skip;                 /* the user wants everything done; symmetries stay */
 } ps_needs_question;
 
 typedef struct ps_skip {
@@ -30,6 +32,7 @@ enum { PS_MAX_SKIPS = 8 };
 typedef struct ps_needs {
     bool only_ball;       /* leave the corners of the box out */
     bool one_realization; /* one stands for all */
+    bool sequential;      /* no more realizations than the standard error takes */
     bool no_shift;
     size_t num_skips;
     ps_skip skips[PS_MAX_SKIPS];

@@ -4,24 +4,13 @@
 #include "samplers/healpix_pixels.h"
 #include "samplers/values.h"
 
-enum { NSIDE };
 static const double CENTRE = 0.5;
-
-static pspec_status open_points(const ps_sampler_request *request, size_t *num_points,
-                                ps_error *error) {
-    return ps_healpix_open_points(request, NSIDE, num_points, error);
-}
-
-static pspec_status check(const ps_sampler_request *request, ps_error *error) {
-    uint64_t nside = 0;
-    return ps_healpix_nside(request, NSIDE, &nside, error);
-}
 
 static pspec_status generate(const ps_sampler_request *request, uint64_t realization,
                              double *points, ps_error *error) {
     (void)realization;
     uint64_t nside = 0;
-    PS_TRY(ps_healpix_nside(request, NSIDE, &nside, error));
+    PS_TRY(ps_healpix_nside(request, &nside, error));
     for (size_t i = 0; i < 2 * request->num_points; i++) {
         points[i] = CENTRE;
     }
@@ -35,7 +24,7 @@ const ps_sampler ps_sampler_healpix = {
     .domain = PS_SAMPLES_SPHERE,
     .parameters = {PS_NSIDE_PARAMETER},
     .is_deterministic = ps_sampler_always,
-    .open_points = open_points,
-    .check = check,
+    .open_points = ps_healpix_open_points,
+    .check = ps_healpix_check,
     .generate = generate,
 };

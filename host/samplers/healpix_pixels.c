@@ -30,15 +30,19 @@ static uint64_t points_of(uint64_t nside) {
 
 /* ---- requests ------------------------------------------------------------------------------ */
 
-static bool is_given(const ps_sampler_request *request, unsigned i_parameter) {
-    return strcmp(request->values[i_parameter], PS_NSIDE_AUTO) != 0;
+static const char *given_nside(const ps_sampler_request *request) {
+    return request->values[0];
 }
 
-static pspec_status read_nside(const ps_sampler_request *request, unsigned i_parameter,
-                               uint64_t *nside, ps_error *error) {
+static bool is_given(const ps_sampler_request *request) {
+    return strcmp(given_nside(request), PS_NSIDE_AUTO) != 0;
+}
+
+static pspec_status read_nside(const ps_sampler_request *request, uint64_t *nside,
+                               ps_error *error) {
     char what[64];
     snprintf(what, sizeof what, "sampler %s: nside", request->sampler->name);
-    return ps_parse_count(request->values[i_parameter], what, 1, MAXIMUM_NSIDE, nside, error);
+    return ps_parse_count(given_nside(request), what, 1, MAXIMUM_NSIDE, nside, error);
 }
 
 static pspec_status fail_number(const ps_sampler_request *request, uint64_t nside_below,
@@ -52,14 +56,13 @@ static pspec_status fail_number(const ps_sampler_request *request, uint64_t nsid
                    (unsigned long long)low + 1);
 }
 
-pspec_status ps_healpix_nside(const ps_sampler_request *request, unsigned i_parameter,
-                              uint64_t *nside, ps_error *error) {
-    if (!is_given(request, i_parameter)) {
+pspec_status ps_healpix_nside(const ps_sampler_request *request, uint64_t *nside, ps_error *error) {
+    if (!is_given(request)) {
         *nside = (uint64_t)sqrt((double)request->num_points / NUM_FACES);
         return points_of(*nside) == request->num_points ? PSPEC_OK
                                                         : fail_number(request, *nside, error);
     }
-    PS_TRY(read_nside(request, i_parameter, nside, error));
+    PS_TRY(read_nside(request, nside, error));
     if (points_of(*nside) != request->num_points) {
         return ps_fail(
             error, PSPEC_ERROR_INVALID_ARGUMENT,
@@ -71,17 +74,22 @@ pspec_status ps_healpix_nside(const ps_sampler_request *request, unsigned i_para
     return PSPEC_OK;
 }
 
-pspec_status ps_healpix_open_points(const ps_sampler_request *request, unsigned i_parameter,
-                                    size_t *num_points, ps_error *error) {
+pspec_status ps_healpix_check(const ps_sampler_request *request, ps_error *error) {
     uint64_t nside = 0;
-    if (!is_given(request, i_parameter)) {
+    return ps_healpix_nside(request, &nside, error);
+}
+
+pspec_status ps_healpix_open_points(const ps_sampler_request *request, size_t *num_points,
+                                    ps_error *error) {
+    uint64_t nside = 0;
+    if (!is_given(request)) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "sampler %s needs a number of points 12 nside^2, or nside=, as in nside=%d "
                        "for %llu points",
                        request->sampler->name, EXAMPLE_NSIDE,
                        (unsigned long long)points_of(EXAMPLE_NSIDE));
     }
-    PS_TRY(read_nside(request, i_parameter, &nside, error));
+    PS_TRY(read_nside(request, &nside, error));
     *num_points = (size_t)points_of(nside);
     return PSPEC_OK;
 }

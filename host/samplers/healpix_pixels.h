@@ -10,12 +10,13 @@
 #define PS_NSIDE_PARAMETER                                                                         \
     { "nside", PS_NSIDE_AUTO, "N = 12 nside^2, any nside >= 1; auto: from N" }
 
-/* nside of the request, whose parameter i_parameter is "nside". */
-pspec_status ps_healpix_nside(const ps_sampler_request *request, unsigned i_parameter,
-                              uint64_t *nside, ps_error *error) PS_MUST_CHECK;
-/* For open_points of a sampler whose parameter i_parameter is "nside". */
-pspec_status ps_healpix_open_points(const ps_sampler_request *request, unsigned i_parameter,
-                                    size_t *num_points, ps_error *error) PS_MUST_CHECK;
+/* nside of the request. In these functions the sampler's only parameter is PS_NSIDE_PARAMETER. */
+pspec_status ps_healpix_nside(const ps_sampler_request *request, uint64_t *nside,
+                              ps_error *error) PS_MUST_CHECK;
+/* The sampler's open_points and check. */
+pspec_status ps_healpix_open_points(const ps_sampler_request *request, size_t *num_points,
+                                    ps_error *error) PS_MUST_CHECK;
+pspec_status ps_healpix_check(const ps_sampler_request *request, ps_error *error) PS_MUST_CHECK;
 
 /* Turns offsets in the pixels, [num_points][2] in [0,1) at the beginning of the array, into unit vectors
  * [num_points][3]. The map from offsets to the sphere preserves area, (1/2, 1/2) is the centre of a

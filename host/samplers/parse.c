@@ -5,15 +5,6 @@
 
 #include <string.h>
 
-enum { MAXIMUM_WORD = 64 }; /* bytes of a name or key with its NUL: no known one has half as many */
-
-/* Copies the first length bytes of text, cut to what fits. A cut word is unknown anyway. */
-static void copy_word(char word[MAXIMUM_WORD], const char *text, size_t length) {
-    const size_t kept = length < MAXIMUM_WORD ? length : MAXIMUM_WORD - 1;
-    memcpy(word, text, kept);
-    word[kept] = '\0';
-}
-
 /* The sampler with a name or alias nearest to name; *distance is 0 when it is that very name. */
 static const ps_sampler *nearest_sampler(const char *name, size_t *distance,
                                          const char **nearest_name) {
@@ -34,12 +25,9 @@ static const ps_sampler *nearest_sampler(const char *name, size_t *distance,
     return nearest;
 }
 
-static pspec_status find_sampler(ps_sampler_request *request, const char *text, size_t length,
-                                 ps_error *error) {
-    char name[MAXIMUM_WORD];
+static pspec_status find_sampler(ps_sampler_request *request, const char *name, ps_error *error) {
     size_t distance = 0;
     const char *nearest_name = NULL;
-    copy_word(name, text, length);
     request->sampler = nearest_sampler(name, &distance, &nearest_name);
     if (distance > 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
@@ -48,130 +36,157 @@ static pspec_status find_sampler(ps_sampler_request *request, const char *text, 
     return PSPEC_OK;
 }
 
-static void set_defaults(ps_sampler_request *request) {
-    request->lift = PS_SAMPLES_TORUS;
-    memset(request->values, 0, sizeof request->values);
-    for (unsigned i = 0; request->sampler->parameters[i].key != NULL; i++) {
-        copy_word(request->values[i], request->sampler->parameters[i].default_value,
-                  strlen(request->sampler->parameters[i].default_value));
+/* ---- the parameters of many samplers ------------------------------------------------------- */
+
+enum { LIFT = 0, MORPH, EXPONENT, NUM_SHARED };
+
+static const ps_parameter shared[NUM_SHARED] = {
+    [LIFT] = {PS_LIFT_KEY, PS_LIFT_DEFAULT, PS_LIFT_MEANING},
+    [MORPH] = {PS_MORPH_KEY, PS_MORPH_DEFAULT, PS_MORPH_MEANING},
+    [EXPONENT] = {PS_EXPONENT_KEY, "", PS_EXPONENT_MEANING},
+};
+
+static const ps_parameter not_of_hemisphere[] = {{PS_LIFT_KEY, "",
+                                                  "makes points of the sphere without " PS_LIFT_KEY
+                                                  "=, which is for samplers of the torus"},
+                                                 {NULL, NULL, NULL}};
+
+static const ps_parameter not_of_sphere[] = {
+    {PS_LIFT_KEY, "",
+     "makes points of the sphere without " PS_LIFT_KEY "=, which is for samplers of the torus"},
+    {PS_MORPH_KEY, "", "makes points of the whole sphere; " PS_MORPH_KEY "= is for the hemisphere"},
+    {PS_EXPONENT_KEY, "", "has no lobe: " PS_EXPONENT_KEY "= belongs to " PS_MORPH_KEY "="},
+    {NULL, NULL, NULL}};
+
+/* Own parameters of the sampler, then those of all of its domain, with their numbers in shared. */
+typedef struct known_keys {
+    const ps_parameter *parameters[PS_MAX_SAMPLER_PARAMETERS + NUM_SHARED + 1];
+    size_t num_own, first_shared; /* first_shared: the number of parameters[num_own] in shared */
+} known_keys;
+
+static known_keys list_keys(const ps_sampler *sampler) {
+    known_keys known = {.first_shared = sampler->domain == PS_SAMPLES_TORUS        ? LIFT
+                                        : sampler->domain == PS_SAMPLES_HEMISPHERE ? MORPH
+                                                                                   : NUM_SHARED};
+    size_t num = 0;
+    while (sampler->parameters[num].key != NULL) {
+        known.parameters[num] = &sampler->parameters[num];
+        num++;
     }
+    known.num_own = num;
+    for (size_t i = known.first_shared; i < NUM_SHARED; i++) {
+        known.parameters[num++] = &shared[i];
+    }
+    return known;
 }
 
-/* ---- keys and values ------------------------------------------------------------------------- */
-
-/* The number of the parameter lift, behind those of any sampler. */
-enum { LIFT = PS_MAX_SAMPLER_PARAMETERS, NUM_KEYS };
-
-static bool can_be_lifted(const ps_sampler *sampler) {
-    return sampler->domain == PS_SAMPLES_TORUS;
-}
-
-static pspec_status fail_key(const ps_sampler *sampler, const char *key, ps_error *error) {
-    if (strcmp(key, PS_LIFT_KEY) == 0) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "sampler %s makes points of the sphere without " PS_LIFT_KEY
-                       "=, which is for samplers of the torus",
-                       sampler->name);
-    }
-    if (sampler->parameters[0].key == NULL) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "sampler %s has no parameters%s, but \"%s\" was given", sampler->name,
-                       can_be_lifted(sampler) ? " except " PS_LIFT_KEY : "", key);
-    }
-    const char *nearest = can_be_lifted(sampler) ? PS_LIFT_KEY : sampler->parameters[0].key;
-    for (unsigned i = 0; sampler->parameters[i].key != NULL; i++) {
-        const char *candidate = sampler->parameters[i].key;
-        if (ps_text_distance(key, candidate) < ps_text_distance(key, nearest)) {
-            nearest = candidate;
-        }
-    }
-    return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                   "sampler %s has no parameter \"%s\"; did you mean %s?", sampler->name, key,
-                   nearest);
-}
-
-static pspec_status find_key(const ps_sampler *sampler, const char *key, unsigned *i_parameter,
-                             ps_error *error) {
-    for (unsigned i = 0; sampler->parameters[i].key != NULL; i++) {
-        if (strcmp(sampler->parameters[i].key, key) == 0) {
-            *i_parameter = i;
+static pspec_status choose(const ps_sampler *sampler, const ps_parameter *parameter,
+                           const char *const *names, ps_slice value, unsigned *choice,
+                           ps_error *error) {
+    char word[PS_MAX_SAMPLER_VALUE];
+    ps_text list = {0};
+    ps_slice_copy(word, value);
+    for (unsigned i = 0; names[i] != NULL; i++) {
+        if (strcmp(names[i], word) == 0) {
+            *choice = i;
+            ps_text_free(&list);
             return PSPEC_OK;
         }
+        ps_text_append(&list, "%s%s", i > 0 ? ", " : "", names[i]);
     }
-    *i_parameter = LIFT;
-    return can_be_lifted(sampler) && strcmp(key, PS_LIFT_KEY) == 0 ? PSPEC_OK
-                                                                   : fail_key(sampler, key, error);
+    const pspec_status status =
+        ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "sampler %s: %s=%s is not one of %s",
+                sampler->name, parameter->key, word, ps_text_string(&list));
+    ps_text_free(&list);
+    return status;
 }
 
-static pspec_status set_lift(ps_sampler_request *request, const char *value, ps_error *error) {
+static pspec_status set_lift(ps_sampler_request *request, ps_slice value, ps_error *error) {
     static const char *const names[] = {[PS_SAMPLES_TORUS] = PS_LIFT_DEFAULT,
                                         [PS_SAMPLES_SPHERE] = "sphere",
-                                        [PS_SAMPLES_HEMISPHERE] = "hemisphere"};
-    for (int i = PS_SAMPLES_TORUS; i <= PS_SAMPLES_HEMISPHERE; i++) {
-        if (strcmp(names[i], value) == 0) {
-            request->lift = (ps_sampler_domain)i;
-            return PSPEC_OK;
-        }
+                                        [PS_SAMPLES_HEMISPHERE] = "hemisphere",
+                                        NULL};
+    unsigned choice = PS_SAMPLES_TORUS;
+    if (value.text != NULL) {
+        PS_TRY(choose(request->sampler, &shared[LIFT], names, value, &choice, error));
     }
-    return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                   "sampler %s: " PS_LIFT_KEY "=%s is not one of %s, %s, %s",
-                   request->sampler->name, value, names[0], names[1], names[2]);
+    request->lift = (ps_sampler_domain)choice;
+    return PSPEC_OK;
 }
 
-static const char *meaning_of(const ps_sampler *sampler, unsigned i_parameter) {
-    return i_parameter == LIFT ? PS_LIFT_MEANING : sampler->parameters[i_parameter].meaning;
+static pspec_status set_exponent(ps_sampler_request *request, ps_slice value, ps_error *error) {
+    char text[PS_MAX_SAMPLER_VALUE];
+    const bool is_wanted =
+        request->morph.kind == PS_MORPH_GLOSSY || request->morph.kind == PS_MORPH_PHONG;
+    if (is_wanted != (value.text != NULL)) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "sampler %s: %s",
+                       request->sampler->name,
+                       is_wanted ? "this " PS_MORPH_KEY "= needs " PS_EXPONENT_KEY
+                                   "=, the exponent of its lobe"
+                                 : PS_EXPONENT_KEY "= is the exponent of " PS_MORPH_KEY
+                                                   "=glossy and " PS_MORPH_KEY "=phong alone");
+    }
+    if (!is_wanted) {
+        return PSPEC_OK;
+    }
+    ps_slice_copy(text, value);
+    return ps_parse_number(text, "exponent " PS_EXPONENT_KEY " of the lobe", PS_LEAST_EXPONENT,
+                           PS_MOST_EXPONENT, &request->morph.exponent, error);
 }
 
-static pspec_status check_value(const ps_sampler *sampler, const char *key, unsigned i_parameter,
-                                size_t length, ps_error *error) {
-    if (length == 0) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "sampler %s: %s has no value (%s=%s)",
-                       sampler->name, key, key, meaning_of(sampler, i_parameter));
+static pspec_status set_morph(ps_sampler_request *request, ps_slice value, ps_slice exponent,
+                              ps_error *error) {
+    static const ps_morph_kind kinds[] = {PS_MORPH_NONE, PS_MORPH_DIFFUSE, PS_MORPH_GLOSSY,
+                                          PS_MORPH_PHONG};
+    static const char *const names[] = {PS_MORPH_DEFAULT, "diffuse", "glossy", "phong", NULL};
+    unsigned choice = 0;
+    if (value.text != NULL) {
+        PS_TRY(choose(request->sampler, &shared[MORPH], names, value, &choice, error));
     }
-    if (length >= PS_MAX_SAMPLER_VALUE) {
+    request->morph = (ps_morph){kinds[choice], 0};
+    request->has_morph = value.text != NULL;
+    if (choice > 0 && !ps_sampler_is_on_hemisphere(request)) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "sampler %s: the value of %s has %zu characters, more than %d",
-                       sampler->name, key, length, PS_MAX_SAMPLER_VALUE - 1);
+                       "sampler %s: " PS_MORPH_KEY
+                       "=%s is for points of the hemisphere; add " PS_LIFT_KEY "=hemisphere",
+                       request->sampler->name, names[choice]);
     }
-    return PSPEC_OK;
+    return set_exponent(request, exponent, error);
 }
 
-/* One "key=value" of the given length; is_given notes which keys have been seen. */
-static pspec_status set_value(ps_sampler_request *request, const char *text, size_t length,
-                              bool is_given[NUM_KEYS], ps_error *error) {
-    char key[MAXIMUM_WORD];
-    char value[PS_MAX_SAMPLER_VALUE];
-    unsigned i_parameter = 0;
-    const char *equals = memchr(text, '=', length);
-    const size_t key_length = equals != NULL ? (size_t)(equals - text) : length;
-    const size_t value_length = equals != NULL ? length - key_length - 1 : 0;
-    copy_word(key, text, key_length);
-    PS_TRY(find_key(request->sampler, key, &i_parameter, error));
-    PS_TRY(check_value(request->sampler, key, i_parameter, value_length, error));
-    if (is_given[i_parameter]) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "sampler %s: %s is given twice",
-                       request->sampler->name, key);
+/* values: of the keys that the sampler knows. */
+static pspec_status set_shared(ps_sampler_request *request, const known_keys *known,
+                               const ps_slice *values, ps_error *error) {
+    ps_slice all[NUM_SHARED] = {{NULL, 0}};
+    for (size_t i = known->first_shared; i < NUM_SHARED; i++) {
+        all[i] = values[known->num_own + i - known->first_shared];
     }
-    is_given[i_parameter] = true;
-    copy_word(value, equals + 1, value_length);
-    if (i_parameter == LIFT) {
-        return set_lift(request, value, error);
-    }
-    memcpy(request->values[i_parameter], value, value_length + 1);
-    return PSPEC_OK;
+    PS_TRY(set_lift(request, all[LIFT], error));
+    return set_morph(request, all[MORPH], all[EXPONENT], error);
 }
 
 pspec_status ps_sampler_parse(ps_sampler_request *request, const char *text, ps_error *error) {
-    bool is_given[NUM_KEYS] = {false};
-    const size_t name_length = strcspn(text, ":");
-    PS_TRY(find_sampler(request, text, name_length, error));
-    set_defaults(request);
-    const char *rest = text + name_length;
-    while (*rest != '\0') { /* at the colon, later at a comma */
-        rest++;
-        const size_t length = strcspn(rest, ",");
-        PS_TRY(set_value(request, rest, length, is_given, error));
-        rest += length;
+    char name[PS_GRAMMAR_WORD];
+    ps_slice values[PS_MAX_SAMPLER_PARAMETERS + NUM_SHARED];
+    const char *const rest = ps_grammar_name(text, name);
+    PS_TRY(find_sampler(request, name, error));
+    const known_keys known = list_keys(request->sampler);
+    const bool is_of_sphere = request->sampler->domain == PS_SAMPLES_SPHERE;
+    const bool is_of_torus = request->sampler->domain == PS_SAMPLES_TORUS;
+    const ps_grammar grammar = {.kind = "sampler",
+                                .name = request->sampler->name,
+                                .parameters = known.parameters,
+                                .num_own = known.num_own,
+                                .others = is_of_torus    ? NULL
+                                          : is_of_sphere ? not_of_sphere
+                                                         : not_of_hemisphere,
+                                .most_letters = PS_MAX_SAMPLER_VALUE - 1};
+    PS_TRY(ps_grammar_values(&grammar, rest, values, error));
+    memset(request->values, 0, sizeof request->values);
+    for (size_t i = 0; i < known.num_own; i++) {
+        const char *const preset = known.parameters[i]->default_value;
+        ps_slice_copy(request->values[i],
+                      values[i].text != NULL ? values[i] : (ps_slice){preset, strlen(preset)});
     }
-    return PSPEC_OK;
+    return set_shared(request, &known, values, error);
 }

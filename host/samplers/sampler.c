@@ -135,6 +135,9 @@ pspec_status ps_sampler_generate(const ps_sampler_request *request, uint64_t rea
     } else if (request->homogenize) {
         shift_points(request, realization, points);
     }
+    if (ps_sampler_is_on_hemisphere(request)) {
+        ps_morph_points(&request->morph, request->num_points, points);
+    }
     return PSPEC_OK;
 }
 
@@ -145,5 +148,6 @@ const char *ps_sampler_note(const ps_sampler_request *request) {
 
 bool ps_sampler_has_constant_power(const ps_sampler_request *request) {
     const ps_sampler_request own = own_request(request);
-    return own.sampler->is_deterministic(&own);
+    const bool changes_with_rotation = request->homogenize && request->morph.kind != PS_MORPH_NONE;
+    return own.sampler->is_deterministic(&own) && !changes_with_rotation;
 }

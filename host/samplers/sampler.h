@@ -12,7 +12,9 @@
 #ifndef PS_SAMPLERS_SAMPLER_H
 #define PS_SAMPLERS_SAMPLER_H
 
+#include "base/grammar.h"
 #include "base/status.h"
+#include "math/morph.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -40,12 +42,19 @@ typedef enum ps_sampler_domain {
     "none|sphere|hemisphere, points (x,y) of the plane by Lambert's map to z = 2x - 1 or z = x, "  \
     "phi = 2 pi y"
 
+/* The parameters of all samplers of the hemisphere, lifted ones included: points of equal areas take the density of a
+ * lobe, keeping their azimuths (mathematics.md 4.7). */
+#define PS_MORPH_KEY "morph"
+#define PS_MORPH_DEFAULT "none"
+#define PS_MORPH_MEANING                                                                           \
+    "none|diffuse|glossy|phong, on the hemisphere: heights with the density z, e^{n(z-1)} or z^n"
+#define PS_EXPONENT_KEY "n"
+#define PS_EXPONENT_MEANING "exponent of the glossy or Phong lobe, 0.001 to 1e6"
+#define PS_LEAST_EXPONENT 1e-3
+#define PS_MOST_EXPONENT 1e6
+
 /* One key that a sampler understands in NAME:key=value. */
-typedef struct ps_sampler_parameter {
-    const char *key;
-    const char *default_value;
-    const char *meaning; /* one line, for help */
-} ps_sampler_parameter;
+typedef ps_parameter ps_sampler_parameter;
 
 typedef struct ps_sampler ps_sampler;
 
@@ -53,6 +62,8 @@ typedef struct ps_sampler ps_sampler;
 typedef struct ps_sampler_request {
     const ps_sampler *sampler;
     ps_sampler_domain lift; /* of a torus sampler; PS_SAMPLES_TORUS: points stay where they are */
+    ps_morph morph;         /* of points of the hemisphere, after homogenize */
+    bool has_morph;         /* morph= was given: who knows a better default leaves it alone */
     size_t num_points;      /* 0: left open until the request is resolved */
     unsigned dimension;     /* numbers per point: d, on the sphere 3; 0: left open */
     uint64_t seed;
@@ -102,7 +113,7 @@ pspec_status ps_sampler_resolve(ps_sampler_request *request, ps_error *error) PS
 pspec_status ps_sampler_check(const ps_sampler_request *request, ps_error *error) PS_MUST_CHECK;
 
 /* Writes realization r of the request, points [num_points][dimension], random shift or rotation
- * included when it is homogenized. */
+ * included when it is homogenized, then morphed. */
 pspec_status ps_sampler_generate(const ps_sampler_request *request, uint64_t realization,
                                  double *points, ps_error *error) PS_MUST_CHECK;
 
@@ -118,7 +129,8 @@ bool ps_sampler_is_on_hemisphere(const ps_sampler_request *request);
 /* True when all realizations have the same power spectrum: deterministic points, homogenized or not.
  * A shift of the torus and a rotation of the sphere leave P unchanged (mathematics.md 1.1, 2.2), and
  * so does a rotation of the hemisphere with folding for even degrees, the only ones that it has as
- * the projective plane. Its odd degrees, taken as points of the sphere, do change. */
+ * the projective plane. Its odd degrees, taken as points of the sphere, do change. Morphed points change with the
+ * rotation before. */
 bool ps_sampler_has_constant_power(const ps_sampler_request *request);
 
 #endif

@@ -6,13 +6,17 @@
 #ifndef PS_SPHERE_ORDERS_GRID_H
 #define PS_SPHERE_ORDERS_GRID_H
 
+/* Rows of high degrees are longer than local memory. */
+#define FFT_IN_GLOBAL
 #include "nufft/chunk.h"
 #include "nufft/fft.h"
+#include "sphere/bands.h"
 #include "shared/transpose.h"
 
 typedef struct orders_grid {
     __global real *cells;
-    uint pitch, rows; /* in memory: windows go on behind the last row */
+    uint pitch, rows; /* in memory, of all bands: windows go on behind the last row of each */
+    uint origin;      /* the first cell here, as points count them */
 } orders_grid;
 
 static inline void barrier_everywhere(void) {
@@ -24,7 +28,7 @@ static inline void barrier_everywhere(void) {
 /* A chunk by one work-item. (nufft/whole.cl says why not just as many points as there are.) */
 static inline void scatter(const orders_grid grid, const chunk from, const chunk_axes axes) {
     for (uint i = 0; i < CHUNK; i++) {
-        add_global_rows(grid.cells + from.cells[i], grid.pitch, from.across + i,
+        add_global_rows(grid.cells + (from.cells[i] - grid.origin), grid.pitch, from.across + i,
                         from.along + i * axes.along.bins, axes.across.width, axes.along.bins);
     }
 }
@@ -37,7 +41,8 @@ static inline void scatter_together(const orders_grid grid, const chunk from,
         const uint own = (get_local_id(0) + size - from.columns[i] % size) % size;
         for (uint bin = own; bin < axes.along.bins; bin += size) {
             for (uint row = 0; row < axes.across.width; row++) {
-                __global real *to = grid.cells + from.cells[i] + row * grid.pitch + bin;
+                __global real *to =
+                    grid.cells + (from.cells[i] - grid.origin) + row * grid.pitch + bin;
                 *to = fma(from.across[row * CHUNK + i], from.along[i * axes.along.bins + bin], *to);
             }
         }
@@ -52,52 +57,62 @@ static inline void clear_cells(__global real *cells, const size_t num) {
     barrier_everywhere();
 }
 
-/* Rows behind the last are the first ones again. num: cells of them, or 0. */
-static inline void fold_rows(const orders_grid grid, const uint n, const uint num) {
-    for (uint i = get_local_id(0); i < num; i += get_local_size(0)) {
-        grid.cells[i] += grid.cells[(size_t)n * grid.pitch + i];
-    }
-    barrier_everywhere();
-}
-
 /* ---- around the axis ------------------------------------------------------------------------ */
 
-/* 2 LANES columns of the grid, n rows: half of them as real, half as imaginary parts. */
-static inline void load_columns(__local real *data, const orders_grid grid, const uint first_column,
-                                const uint n) {
-    for (uint m = get_local_id(0); m < n; m += get_local_size(0)) {
-        __global const real *from = grid.cells + (size_t)m * grid.pitch + first_column;
-        store_complex(data, m, (complexv){load_global(from, 0), load_global(from, 1)});
+/* LANES columns of the grid, n rows in bands, as n / 2 complex numbers: even rows are real parts, odd rows imaginary
+ * ones. The first rows of a band are also those behind the band before it. */
+static inline void load_columns(__global real *data, const orders_grid grid,
+                                const uint first_column, const uint n, const uint width,
+                                const uint bands) {
+    for (uint band = 0; band < bands; band++) {
+        const uint before = band == 0 ? bands - 1 : band - 1;
+        const uint start = start_of_band(band, n, bands);
+        const uint num = start_of_band(band + 1, n, bands) - start;
+        const uint behind = start_of_band(before + 1, n, bands) - start_of_band(before, n, bands);
+        const size_t band_reals = (size_t)(grid.rows / bands) * grid.pitch;
+        __global const real *own = grid.cells + band * band_reals + first_column;
+        __global const real *other =
+            grid.cells + before * band_reals + behind * (size_t)grid.pitch + first_column;
+        for (uint i = get_local_id(0); i < width; i += get_local_size(0)) {
+            store_global(data, start + i,
+                         load_global(own + i * (size_t)grid.pitch, 0) +
+                             load_global(other + i * (size_t)grid.pitch, 0));
+        }
+        for (uint i = width + get_local_id(0); i < num; i += get_local_size(0)) {
+            store_global(data, start + i, load_global(own + i * (size_t)grid.pitch, 0));
+        }
     }
 }
 
-/* Orders first_order, first_order + 2, ... of 2 LANES columns, turned so that lanes are orders: [column][re, im][LANES].
- * With Z = A + i B, A(m) = (Z(m) + conj Z(-m)) / 2 and B(m) = (Z(m) - conj Z(-m)) / 2i. gains [L + 1] have the half
- * and undo the window; orders above L are zeros. */
+/* Orders first_order, first_order + 2, ... of LANES columns, turned so that lanes are orders: [column][re, im][LANES].
+ * The transform Z of half the length n gives that of all rows, X(m) = S / 2 + exp(-2 pi i m / n) D / 2i with
+ * S, D = Z(m) +- conj Z(n/2 - m). gains [L + 1][3] have the factors of S and D (re, im), and undo the window; orders
+ * above L are zeros. */
 static inline __attribute__((always_inline)) void
-turn_orders(__local const real *data, __global const uint *position, const uint n, const uint L,
-            __global const real *gains, const uint first_order, __global real *to) {
-    realv a_re[LANES], a_im[LANES], b_re[LANES], b_im[LANES];
+turn_orders(__global const real *data, __global const uint *position, const uint middle,
+            const uint L, __global const real *gains, const uint first_order, __global real *to) {
+    realv re[LANES], im[LANES];
 #pragma unroll
     for (int i = 0; i < LANES; i++) {
         const uint order = first_order + 2 * i;
         const uint at = min(order, L);
         const complexv z = load_complex(data, position[at]);
-        const complexv other = load_complex(data, position[at == 0 ? 0 : n - at]);
-        const realv factor = (realv)(order <= L ? gains[at] : 0);
-        a_re[i] = (z.re + other.re) * factor;
-        a_im[i] = (z.im - other.im) * factor;
-        b_re[i] = (z.im + other.im) * factor;
-        b_im[i] = (other.re - z.re) * factor;
+        const complexv other = load_complex(data, position[at == 0 ? 0 : middle - at]);
+        const real is_there = order <= L ? 1 : 0;
+        const realv own = (realv)(gains[3 * at] * is_there);
+        const realv turn_re = (realv)(gains[3 * at + 1] * is_there);
+        const realv turn_im = (realv)(gains[3 * at + 2] * is_there);
+        const complexv sum = {z.re + other.re, z.im - other.im};
+        const complexv difference = {z.re - other.re, z.im + other.im};
+        const complexv turned = complex_multiply_lanes(difference, turn_re, turn_im);
+        re[i] = fma(sum.re, own, turned.re);
+        im[i] = fma(sum.im, own, turned.im);
     }
-    transpose(a_re);
-    transpose(a_im);
-    transpose(b_re);
-    transpose(b_im);
+    transpose(re);
+    transpose(im);
 #pragma unroll
     for (int i = 0; i < LANES; i++) {
-        store_global_complex(to, i, (complexv){a_re[i], a_im[i]});
-        store_global_complex(to, LANES + i, (complexv){b_re[i], b_im[i]});
+        store_global_complex(to, i, (complexv){re[i], im[i]});
     }
 }
 

@@ -51,19 +51,23 @@ static inline void finish_sums(__global double *powers, const size_t powers_apar
                 im[r][v] = rows.is_first ? (realv)0 : load_global(from, 1);                        \
             }                                                                                      \
         }                                                                                          \
+        __local const real *row = rows.table + rows.first * TABLE_ROW;                             \
+        __global const real *value = values + 2 * rows.first;                                      \
         for (uint i = rows.first; i < rows.end; i++) {                                             \
             realv lambda[VECTORS];                                                                 \
             _Pragma("unroll") for (int v = 0; v < VECTORS; v++) {                                  \
-                lambda[v] = load_local(rows.table + i * TABLE_ROW, v);                             \
+                lambda[v] = load_local(row, v);                                                    \
             }                                                                                      \
             _Pragma("unroll") for (int r = 0; r < NUM; r++) {                                      \
-                __global const real *value = values + r * apart + 2 * i;                           \
-                const realv value_re = (realv)value[0], value_im = (realv)value[1];                \
+                const realv value_re = (realv)value[r * apart];                                    \
+                const realv value_im = (realv)value[r * apart + 1];                                \
                 _Pragma("unroll") for (int v = 0; v < VECTORS; v++) {                              \
                     re[r][v] = fma(lambda[v], value_re, re[r][v]);                                 \
                     im[r][v] = fma(lambda[v], value_im, im[r][v]);                                 \
                 }                                                                                  \
             }                                                                                      \
+            row += TABLE_ROW;                                                                      \
+            value += 2;                                                                            \
         }                                                                                          \
         _Pragma("unroll") for (int r = 0; r < NUM; r++) {                                          \
             _Pragma("unroll") for (int v = 0; v < VECTORS; v++) {                                  \
@@ -81,12 +85,16 @@ static inline void finish_sums(__global double *powers, const size_t powers_apar
 
 PRODUCT(1, 1)
 PRODUCT(1, 2)
+#if RUN_VECTORS > 2
 PRODUCT(1, 3)
 PRODUCT(1, 4)
+#endif
 PRODUCT(2, 1)
 PRODUCT(2, 2)
+#if RUN_VECTORS > 2
 PRODUCT(2, 3)
 PRODUCT(2, 4)
+#endif
 
 #define PRODUCT_CASE(NUM, VECTORS)                                                                 \
     case VECTORS:                                                                                  \
@@ -99,8 +107,10 @@ static inline void product_of_one(const product_rows rows, __global const real *
     switch (vectors) {
         PRODUCT_CASE(1, 1);
         PRODUCT_CASE(1, 2);
+#if RUN_VECTORS > 2
         PRODUCT_CASE(1, 3);
         PRODUCT_CASE(1, 4);
+#endif
     }
 }
 
@@ -110,8 +120,10 @@ static inline void product_of_two(const product_rows rows, __global const real *
     switch (vectors) {
         PRODUCT_CASE(2, 1);
         PRODUCT_CASE(2, 2);
+#if RUN_VECTORS > 2
         PRODUCT_CASE(2, 3);
         PRODUCT_CASE(2, 4);
+#endif
     }
 }
 

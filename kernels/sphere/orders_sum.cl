@@ -2,14 +2,15 @@
  * groups, so that what it adds up does not depend on the device. For each order, Lambda_lm is made for a run of degrees
  * and a block of rings at a time, and used by all realizations. Launch: (work-items of one group, groups).
  *
- *   values     [realization][order][even, odd l - m][ring_pitch][re, im] of orders.cl
+ *   values     [order][value_sets, realizations][even, odd l - m][ring_pitch][re, im] of orders.cl: side by side, so
+ *              that what an order needs comes in a row
  *   starts, start_scales  [group][ring_pitch]: Lambda_mm of the first order of a group (orders_table.h), 0 behind the
  *              last ring
  *   steps, step_scales    [ring_pitch]: sin^groups(theta)
  *   ratios     [order]: norm of Lambda_mm over that of the order `groups` below, with the sign of both
  *   distances  [ring_pitch]: t = 1 - cos(theta)
  *   only_even  even degrees only
- *   block      rings of a block, a multiple of LANES
+ *   block      rings of a block, a multiple of RING_UNIT
  *   states, scales  [group][2][ring_pitch], [group][2][ring_pitch]: scratch
  *   diagonal   [group][ring_pitch]: scratch
  *   sums       [group][pair of realizations][even, odd l - m][2][RUN_VECTORS][re, im][LANES]: scratch, room for one
@@ -19,7 +20,7 @@
  *              [order][even, odd l - m][re, im][half_pitch]
  *   table      local, [even, odd l - m][block][TABLE_ROW]
  *   coefficients  local, [3][RUN_DEGREES]
- *   begins     local, [block / LANES]
+ *   begins     local, [block / RING_UNIT]
  */
 #include "sphere/orders_product.h"
 
@@ -32,17 +33,18 @@ static inline void normalize(double *value, int *scale) {
 }
 
 __kernel void
-sphere_orders_sum(__global const real *restrict values, const uint num_realizations,
-                  __global const double *restrict starts, __global const int *restrict start_scales,
-                  __global const double *restrict steps, __global const int *restrict step_scales,
-                  __global const double *restrict ratios, __global const double *restrict distances,
-                  const uint L, const uint num_rings, const uint ring_pitch, const uint only_even,
-                  const uint block, const uint half_pitch, __global double *restrict all_states,
+sphere_orders_sum(__global const real *restrict values, const uint value_sets,
+                  const uint num_realizations, __global const double *restrict starts,
+                  __global const int *restrict start_scales, __global const double *restrict steps,
+                  __global const int *restrict step_scales, __global const double *restrict ratios,
+                  __global const double *restrict distances, const uint L, const uint num_rings,
+                  const uint ring_pitch, const uint only_even, const uint block,
+                  const uint half_pitch, __global double *restrict all_states,
                   __global int *restrict all_scales, __global double *restrict all_diagonals,
                   __global real *restrict all_sums, __global double *restrict all_powers,
                   __local real *table, __local double *coefficients, __local uint *begins) {
     const uint group = get_global_id(1), groups = get_global_size(1);
-    const size_t apart = 4 * (size_t)ring_pitch * (L + 1);
+    const size_t apart = 4 * (size_t)ring_pitch;
     const size_t powers_apart = 2 * (size_t)half_pitch;
     __global double *states = all_states + group * 2 * (size_t)ring_pitch;
     __global int *scales = all_scales + group * 2 * (size_t)ring_pitch;
@@ -70,16 +72,18 @@ sphere_orders_sum(__global const real *restrict values, const uint num_realizati
             barrier(CLK_LOCAL_MEM_FENCE);
             for (uint ring = 0; ring < num_rings; ring += block) {
                 const uint here = min(num_rings - ring, block);
-                for (uint i = get_local_id(0) * LANES; i < here; i += get_local_size(0) * LANES) {
-                    begins[i / LANES] = make_run(own, ring + i, coefficients, table + i * TABLE_ROW,
-                                                 table + (block + i) * TABLE_ROW, vectors)
-                                            ? i
-                                            : block;
+                for (uint i = get_local_id(0) * RING_UNIT; i < here;
+                     i += get_local_size(0) * RING_UNIT) {
+                    begins[i / RING_UNIT] =
+                        make_run(own, ring + i, coefficients, table + i * TABLE_ROW,
+                                 table + (block + i) * TABLE_ROW, vectors)
+                            ? i
+                            : block;
                 }
                 barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
                 uint begin = block;
-                for (uint i = 0; i < here; i += LANES) {
-                    begin = min(begin, begins[i / LANES]);
+                for (uint i = 0; i < here; i += RING_UNIT) {
+                    begin = min(begin, begins[i / RING_UNIT]);
                 }
                 for (uint job = get_local_id(0); job < num_realizations + 1;
                      job += get_local_size(0)) {
@@ -92,8 +96,8 @@ sphere_orders_sum(__global const real *restrict values, const uint num_realizati
                     const product_rows rows = {
                         table + odd * block * TABLE_ROW, begin,      here,          ring == 0,
                         ring + block >= num_rings,       m == group, m == 0 ? 1 : 2};
-                    __global const real *from =
-                        values + r * apart + (m * 2 + odd) * 2 * (size_t)ring_pitch + 2 * ring;
+                    __global const real *from = values + (m * (size_t)value_sets + r) * apart +
+                                                odd * 2 * (size_t)ring_pitch + 2 * ring;
                     __global real *to = sums + (r * 2 + odd * 2) * (RUN_VECTORS * 2 * LANES);
 #if KEEP
                     __global double *to_powers =

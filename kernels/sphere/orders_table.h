@@ -39,6 +39,15 @@ typedef intv unaligned_intv __attribute__((aligned(sizeof(int))));
 #define RUN_DEGREES (2 * RUN_VECTORS * LANES)
 #define TABLE_ROW (RUN_VECTORS * LANES)
 
+/* Rings are done in units of so many vectors: each step of the recurrence waits for the one before, and in single
+ * precision a vector of its doubles is two of the processor's. */
+#if PRECISION == 64
+#define RING_VECTORS 2
+#else
+#define RING_VECTORS 1
+#endif
+#define RING_UNIT (RING_VECTORS * LANES)
+
 /* Rings below this (2^-40, 2^-70) in the last degree of a run count as zeros in all of it: towards the poles
  * Lambda_lm falls faster than exponentially, and grows with l. */
 #if PRECISION == 64
@@ -87,59 +96,84 @@ static inline realv shown(const lambda_state *state, const bool is_scaled) {
 }
 
 static inline void advance(lambda_state *state, __local const double *coefficients) {
-    const doublev product = (doublev)coefficients[RUN_DEGREES] * state->t * state->value;
-    state->difference = fma((doublev)coefficients[0], state->difference, product);
+    const doublev step = (doublev)coefficients[RUN_DEGREES] * state->t;
+    const doublev rest = (doublev)coefficients[0] * state->difference;
+    state->difference = fma(step, state->value, rest);
     state->value = fma((doublev)coefficients[2 * RUN_DEGREES], state->value, state->difference);
 }
 
-/* 2 LANES degrees of LANES rings: table [ring][degree] of even and of odd l - m. */
-static inline __attribute__((always_inline)) void make_square(lambda_state *state,
+/* 2 LANES degrees of RING_UNIT rings: table [ring][degree] of even and of odd l - m. */
+static inline __attribute__((always_inline)) void make_square(lambda_state *states,
                                                               __local const double *coefficients,
                                                               __local real *even, __local real *odd,
                                                               const bool is_scaled) {
-    realv of_even[LANES], of_odd[LANES];
+    realv of_even[RING_VECTORS][LANES], of_odd[RING_VECTORS][LANES];
 #pragma unroll
     for (int i = 0; i < LANES; i++) {
-        of_even[i] = shown(state, is_scaled);
-        advance(state, coefficients + 2 * i);
-        of_odd[i] = shown(state, is_scaled);
-        advance(state, coefficients + 2 * i + 1);
-        if (is_scaled && i % (DEGREES_BETWEEN_LOOKS / 2) == 1) {
-            look(state);
+#pragma unroll
+        for (int j = 0; j < RING_VECTORS; j++) {
+            of_even[j][i] = shown(&states[j], is_scaled);
+            advance(&states[j], coefficients + 2 * i);
+        }
+#pragma unroll
+        for (int j = 0; j < RING_VECTORS; j++) {
+            of_odd[j][i] = shown(&states[j], is_scaled);
+            advance(&states[j], coefficients + 2 * i + 1);
+            if (is_scaled && i % (DEGREES_BETWEEN_LOOKS / 2) == 1) {
+                look(&states[j]);
+            }
         }
     }
-    transpose(of_even);
-    transpose(of_odd);
 #pragma unroll
-    for (int i = 0; i < LANES; i++) {
-        store_local(even + i * TABLE_ROW, 0, of_even[i]);
-        store_local(odd + i * TABLE_ROW, 0, of_odd[i]);
+    for (int j = 0; j < RING_VECTORS; j++) {
+        transpose(of_even[j]);
+        transpose(of_odd[j]);
+#pragma unroll
+        for (int i = 0; i < LANES; i++) {
+            store_local(even + (j * LANES + i) * TABLE_ROW, 0, of_even[j][i]);
+            store_local(odd + (j * LANES + i) * TABLE_ROW, 0, of_odd[j][i]);
+        }
     }
 }
 
-/* A run of LANES rings from `ring` on, `vectors` of it; whether there is more than zeros in it. */
+static inline bool is_more_than_zeros(const lambda_state *state) {
+    return any(TO_LONGV(state->scale) <= (longv)0 &&
+               fmax(fabs(state->value), fabs(state->difference)) > (doublev)NEGLIGIBLE) != 0;
+}
+
+/* A run of RING_UNIT rings from `ring` on, `vectors` of it; whether there is more than zeros in it. */
 static inline bool make_run(const ring_states states, const uint ring,
                             __local const double *coefficients, __local real *even,
                             __local real *odd, const uint vectors) {
-    lambda_state state = {*(__global const unaligned_doublev *)(states.value + ring),
-                          *(__global const unaligned_doublev *)(states.difference + ring),
-                          *(__global const unaligned_doublev *)(states.t + ring),
-                          *(__global const unaligned_intv *)(states.scale + ring)};
-    const bool is_scaled = any(TO_LONGV(state.scale) > (longv)0) != 0;
+    lambda_state state[RING_VECTORS];
+    bool is_scaled = false, is_there = false;
+#pragma unroll
+    for (int j = 0; j < RING_VECTORS; j++) {
+        const uint at = ring + j * LANES;
+        state[j].value = *(__global const unaligned_doublev *)(states.value + at);
+        state[j].difference = *(__global const unaligned_doublev *)(states.difference + at);
+        state[j].t = *(__global const unaligned_doublev *)(states.t + at);
+        state[j].scale = *(__global const unaligned_intv *)(states.scale + at);
+        is_scaled = is_scaled || any(TO_LONGV(state[j].scale) > (longv)0) != 0;
+    }
     for (uint i = 0; i < vectors; i++) {
         if (is_scaled) {
-            make_square(&state, coefficients + 2 * LANES * i, even + LANES * i, odd + LANES * i,
+            make_square(state, coefficients + 2 * LANES * i, even + LANES * i, odd + LANES * i,
                         true);
         } else {
-            make_square(&state, coefficients + 2 * LANES * i, even + LANES * i, odd + LANES * i,
+            make_square(state, coefficients + 2 * LANES * i, even + LANES * i, odd + LANES * i,
                         false);
         }
     }
-    *(__global unaligned_doublev *)(states.value + ring) = state.value;
-    *(__global unaligned_doublev *)(states.difference + ring) = state.difference;
-    *(__global unaligned_intv *)(states.scale + ring) = state.scale;
-    return any(TO_LONGV(state.scale) <= (longv)0 &&
-               fmax(fabs(state.value), fabs(state.difference)) > (doublev)NEGLIGIBLE) != 0;
+#pragma unroll
+    for (int j = 0; j < RING_VECTORS; j++) {
+        const uint at = ring + j * LANES;
+        *(__global unaligned_doublev *)(states.value + at) = state[j].value;
+        *(__global unaligned_doublev *)(states.difference + at) = state[j].difference;
+        *(__global unaligned_intv *)(states.scale + at) = state[j].scale;
+        is_there = is_there || is_more_than_zeros(&state[j]);
+    }
+    return is_there;
 }
 
 #endif

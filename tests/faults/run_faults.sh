@@ -51,11 +51,14 @@ make_inputs() {
     "$program" sample --sampler white -n 8 -m 2 -o points.npy
     "$program" sample --sampler white -n 1500 -o many.txt
     printf '1 2 -1 0.5 1 2 1 0.5\n' | tr ' ' '\n' >weights.txt
+    printf '0 0\n0.5 2\n1 1\n' >weighted.lobe
     paste -d ' ' points.txt weights.txt | grep -v '#' >weighted.txt
     printf '1 0\n0 1\n1000 -3\n' >vectors.txt
     gzip -n <points.txt >packed.gz
     printf '0,90\n45,0\n-30,-60\n' >angles.csv
     make_fortran_array >columns.npy
+    "$program" power --engine host_direct --sampler white -n 8 -m 3 -k 2 -o saved.json
+    "$program" angular --engine host_direct --sampler zphi -n 6 -m 3 -l 2 -o sphere.json
     for ending in csv json npy png txt; do echo "an earlier result" >old.$ending; done
     cd - >/dev/null
 }
@@ -74,7 +77,7 @@ prepare_case() { # NAME STDIN [VARIABLE=VALUE...] WORD...
     { [[ $stdin == - ]] && echo /dev/null || echo "$scratch/initial/$stdin"; } >"$case/stdin"
     # Names that a sentence about a file may have: files without endings, since some lie beside others.
     { printf 'standard (in|out)put|temporary file|gnuplot|kernel source'
-        printf '%s\n' "${words[@]}" | sed -n 's/^\([a-z]*\)\.[a-z]*$/|\1\\./p' | tr -d '\n'; } >"$case/things"
+        printf '%s\n' "${words[@]}" | sed -nE 's/^([a-z:]*=)?([a-z]*)\.[a-z]*$/|\2\\./p' | tr -d '\n'; } >"$case/things"
     for round in expected again; do
         mkdir "$case/$round"
         cp -r "$scratch/initial" "$case/$round/folder"

@@ -29,6 +29,9 @@ ALLOCATION(aligned_alloc, void *, (size_t alignment, size_t bytes), (alignment, 
 ALLOCATION(strdup, char *, (const char *text), (text))
 ALLOCATION(strndup, char *, (const char *text, size_t length), (text, length))
 ALLOCATION(cJSON_CreateString, cJSON *, (const char *text), (text))
+ALLOCATION(cJSON_ParseWithLengthOpts, cJSON *,
+           (const char *text, size_t length, const char **end, cJSON_bool needs_nul),
+           (text, length, end, needs_nul))
 ALLOCATION(cJSON_PrintUnformatted, char *, (const cJSON *item), (item))
 
 WRAPPER(realloc, void *, (void *old, size_t bytes)) {

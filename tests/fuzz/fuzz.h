@@ -64,8 +64,10 @@ void fuzz_points(const char *argument, fuzz_bytes input);
 void fuzz_frequencies(const char *argument, fuzz_bytes input);
 void fuzz_weights(const char *argument, fuzz_bytes input);
 void fuzz_spectrum(const char *argument, fuzz_bytes input);
+void fuzz_saved(const char *argument, fuzz_bytes input);
 void fuzz_decimal(const char *argument, fuzz_bytes input);
 void fuzz_sampler(const char *argument, fuzz_bytes input);
+void fuzz_brdf(const char *argument, fuzz_bytes input);
 void fuzz_arguments(const char *argument, fuzz_bytes input);
 
 #endif

@@ -136,6 +136,13 @@ printf '\x1f\x8b' | seed detection gzip-magic "$torus"
 
 # ---- lists -----------------------------------------------------------------------------------
 
+printf '0 0\n0.5,2\n1 1\n' | seed brdf table '\0'
+printf '1 1\n0 0\n-1 0\n' | seed brdf falling '\0'
+printf '0 1\n0 1\n' | seed brdf twice '\0'
+printf '0 1e308\n1 1e308\n' | seed brdf huge '\0'
+printf 'glossy:n=30,cut=none' | seed brdf glossy '\1'
+printf 'phong:n=1e6' | seed brdf phong '\1'
+printf 'glossy:n=-1' | seed brdf negative '\1'
 printf '1 0\n-3 7\n' | seed frequencies plane '\0'
 printf '# k\n1,2,3\r\n4 , 5 , -1073741824\n' | seed frequencies commas '\1'
 printf '1e3\n1.5\n' | seed frequencies fraction '\0'
@@ -164,7 +171,8 @@ for text in white sobol:scramble=owen,skip=3 jittered:strata=4x4 halton regular 
 done
 # Nothing but the text: what is left open is 0.
 for text in white-sphere white-hemisphere zphi:strata=16x64 healpix healpix-jittered:nside=3 fibonacci \
-    fibonacci-hemisphere spiral sobol:scramble=owen,lift=hemisphere 'regular:lift=ball' healpix:nside=1e9; do
+    fibonacci-hemisphere spiral sobol:scramble=owen,lift=hemisphere 'regular:lift=ball' healpix:nside=1e9 \
+    fibonacci-hemisphere:morph=glossy,n=5 halton:lift=hemisphere,morph=phong,n=1e6; do
     i=$((i + 1))
     printf '%s' "$text" | seed sampler "$i" '\0\0\0'
 done
@@ -205,3 +213,17 @@ sums() { # NUMBER
     sums 6
 } | seed spectrum sample '\1'
 { spectrum box 1 4 rings 2 power; sums 6; } | seed spectrum unchecked '\0'
+
+# saved COMMAND META COLUMNS ROWS: a table as JSON
+saved() {
+    printf '{"schema": 1, "command": "%s", "meta": {"normalization": "power: x", "realizations": 4,
+"predicted_error": 1e-7, "seed": 1, %s}, "columns": [%s], "rows": [%s]}\n' "$@"
+}
+ring_columns='"bin", "frequency", "count", "power", "standard_error"'
+saved power '"points": 8, "dimension": 2, "max_frequency": 2' "$ring_columns" \
+    '[1, 1.2, 8, 0.5, 0.1], [2, 2.1, 12, 0.7, 0]' | seed saved rings ''
+saved power '"points": 8, "dimension": 3, "max_frequency": 1, "per_ring": 2' "$ring_columns" '[1, 1, 6, 0.5, 0.1]' |
+    seed saved shells ''
+saved angular '"points": "mean 7.5, from 7 to 8", "domain": "hemisphere, even degrees", "max_degree": 2' \
+    '"degree", "power", "standard_error"' '[2, 1.5, 0.25]' | seed saved degrees ''
+saved power '"points": 8, "dimension": 2, "max_frequency": 2' "$ring_columns" '[1, 1.2, 8, 0.5, null]' | seed saved missing ''

@@ -4,9 +4,11 @@
 #include "cli/options.h"
 #include "cli/question.h"
 #include "fuzz.h"
+#include "integrands/brdf.h"
 #include "samplers/sampler.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -58,6 +60,44 @@ void fuzz_sampler(const char *argument, fuzz_bytes input) {
     free(text);
 }
 
+/* ---- BRDFs ------------------------------------------------------------------------------- */
+
+static void check_coefficients(const ps_brdf *brdf) {
+    enum { LAST = 8 };
+    double b[LAST + 1];
+    ps_error error = {0};
+    const pspec_status status = ps_brdf_spherical(brdf, LAST, b, &error);
+    fuzz_check_error(status, &error, FUZZ_QUOTES_INPUT);
+    for (size_t l = 0; status == PSPEC_OK && l <= LAST; l++) {
+        if (!isfinite(b[l])) {
+            fuzz_fail("b_%zu = %g", l, b[l]);
+        }
+    }
+}
+
+/* The first byte is 0: a table of a lobe follows. Else: the text of a BRDF, which finds no files. */
+void fuzz_brdf(const char *argument, fuzz_bytes input) {
+    (void)argument;
+    const bool is_table = fuzz_take(&input) == 0;
+    fuzz_file file = fuzz_file_make(input);
+    char *const text = fuzz_copy_text(input);
+    char name[4200];
+    ps_brdf *brdf = NULL;
+    ps_error error = {0};
+    snprintf(name, sizeof name, "zonal:file=%s", file.path);
+    const bool names_file = strstr(text, "file") != NULL;
+    if (is_table || !names_file) {
+        const pspec_status status = ps_brdf_parse(&brdf, is_table ? name : text, &error);
+        fuzz_check_error(status, &error, FUZZ_QUOTES_INPUT);
+        if (status == PSPEC_OK) {
+            check_coefficients(brdf);
+        }
+    }
+    ps_brdf_destroy(brdf);
+    free(text);
+    fuzz_file_close(&file);
+}
+
 /* ---- commands ---------------------------------------------------------------------------- */
 
 enum { MOST_WORDS = 64 };
@@ -98,7 +138,7 @@ static void check_questions(const ps_arguments *arguments) {
     ps_question_list *const list = fuzz_allocate(NULL, 1, sizeof *list);
     ps_error error = {0};
     memset(list, 0, sizeof *list);
-    const pspec_status status = ps_questions_make(list, arguments, PS_DOMAIN_TORUS, &error);
+    const pspec_status status = ps_questions_make(list, arguments, PS_QUESTION_POWER, &error);
     fuzz_check_error(status, &error, FUZZ_QUOTES_INPUT);
     if (status == PSPEC_OK && (list->num < 1 || list->num > PS_MAX_SAMPLERS)) {
         fuzz_fail("%zu questions", list->num);

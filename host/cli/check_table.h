@@ -1,0 +1,24 @@
+/* The table of pointspec check: a row for every ring, shell or degree. */
+#ifndef PS_CLI_CHECK_TABLE_H
+#define PS_CLI_CHECK_TABLE_H
+
+#include "analysis/compare.h"
+#include "cli/arguments.h"
+#include "io/table.h"
+#include "job/power_job.h"
+#include "job/saved_spectrum.h"
+
+typedef struct ps_check_results {
+    const ps_saved_spectrum *saved;
+    const ps_power_job *job;   /* has run */
+    const ps_comparison *rows; /* [saved->num_bins] */
+    size_t num_different;
+} ps_check_results;
+
+/* "ring", "shell" or "degree" */
+const char *ps_check_bin_name(const ps_saved_spectrum *saved);
+
+pspec_status ps_check_table(ps_table **out, const ps_arguments *arguments,
+                            const ps_check_results *results, ps_error *error) PS_MUST_CHECK;
+
+#endif

@@ -1,0 +1,112 @@
+/* pointspec quadrature: quadrature spectrum and worst-case error of rules for a BRDF. */
+#include "cli/command.h"
+#include "cli/jobs.h"
+#include "cli/output_check.h"
+#include "cli/quadrature_table.h"
+#include "io/plot.h"
+
+static int on_progress(uint64_t done, uint64_t total, void *payload) {
+    ps_progress_update(payload, done, total);
+    return ps_interrupted;
+}
+
+static void tell_plan(void *payload, const ps_plan *plan) {
+    (void)payload;
+    ps_print_plan(plan);
+}
+
+static void tell_profile(void *payload, const ps_profile_row *rows, size_t num_rows) {
+    (void)payload;
+    ps_print_profile(rows, num_rows);
+}
+
+static pspec_status run_job(ps_quadrature_result *result, const ps_arguments *arguments,
+                            ps_quadrature_question *question, ps_error *error) {
+    ps_progress *const progress = ps_progress_begin(arguments, "realizations");
+    question->progress = on_progress;
+    question->tell_plan = arguments->verbose ? tell_plan : NULL;
+    question->tell_profile = arguments->profile ? tell_profile : NULL;
+    question->payload = progress;
+    const pspec_status status = ps_quadrature_run(result, question, error);
+    ps_progress_end(progress);
+    return status;
+}
+
+static pspec_status write_results(const ps_arguments *arguments, const ps_quadrature_list *list,
+                                  const ps_quadrature_result *results, ps_table_format format,
+                                  ps_error *error) {
+    ps_table *table = NULL;
+    if (arguments->plot != NULL) {
+        PS_TRY(ps_quadrature_plot(arguments, list, results, error));
+    }
+    PS_TRY(ps_quadrature_table(&table, arguments, list, results, error));
+    const pspec_status status =
+        ps_table_write(table, arguments->output != NULL ? arguments->output : "-", format, error);
+    ps_table_destroy(table);
+    return status;
+}
+
+static pspec_status check_outputs(const ps_arguments *arguments, ps_table_format *format,
+                                  ps_error *error) {
+    if (arguments->plot != NULL && !ps_plot_is_supported(arguments->plot)) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "--plot draws .png, .svg and .pdf, not \"%s\"", arguments->plot);
+    }
+    PS_TRY(ps_table_choose_format(format, arguments->format,
+                                  arguments->output != NULL ? arguments->output : "-", error));
+    return ps_outputs_check(arguments, true, error);
+}
+
+static pspec_status run(const ps_arguments *arguments, ps_error *error) {
+    ps_table_format format = PS_FORMAT_CSV;
+    ps_quadrature_list list = {0};
+    ps_quadrature_result results[PS_MAX_SAMPLERS] = {{0}};
+    pspec_status status = PSPEC_OK;
+    PS_TRY(check_outputs(arguments, &format, error));
+    PS_TRY_OUT(status, ps_quadrature_list_make(&list, arguments, error));
+    for (size_t i = 0; i < list.num; i++) {
+        PS_TRY_OUT(status, run_job(&results[i], arguments, &list.questions[i], error));
+    }
+    status = write_results(arguments, &list, results, format, error);
+out:
+    for (size_t i = 0; i < list.num; i++) {
+        ps_quadrature_free(&results[i]);
+    }
+    ps_quadrature_list_free(&list);
+    return status;
+}
+
+static const ps_option_id options[] = {
+    PS_OPTION_SAMPLER,    PS_OPTION_POINTS,      PS_OPTION_REALIZATIONS,
+    PS_OPTION_SEED,       PS_OPTION_HOMOGENIZE,  PS_OPTION_BRDF,
+    PS_OPTION_SMOOTHNESS, PS_OPTION_WEIGHTS,     PS_OPTION_INPUT_FORMAT,
+    PS_OPTION_COLUMNS,    PS_OPTION_SELECT_SETS, PS_OPTION_NORMALIZE_VECTORS,
+    PS_OPTION_MAX_DEGREE, PS_OPTION_TOLERANCE,   PS_OPTION_PRECISION,
+    PS_OPTION_ENGINE,     PS_OPTION_DEVICE,      PS_OPTION_NO_SKIP,
+    PS_OPTION_OUTPUT,     PS_OPTION_FORMAT,      PS_OPTION_PLOT,
+    PS_OPTION_DROP_BELOW, PS_OPTION_MEMORY,      PS_OPTION_PROFILE,
+    PS_OPTION_QUIET,      PS_OPTION_VERBOSE,     PS_OPTION_HELP,
+    PS_NUM_OPTIONS};
+
+const ps_command ps_command_quadrature = {
+    .name = "quadrature",
+    .summary = "quadrature spectrum and worst-case error of rules for a BRDF",
+    .usage = "quadrature --brdf NAME [options] --sampler NAME | quadrature --brdf NAME [options] "
+             "FILE...",
+    .description =
+        "For directions u_j with weights w_j (1/N unless given) as a rule for the integral of "
+        "light times a BRDF, averages over realizations d_l^2 = (b_l - c_l0)^2, C_l^2 = 2 "
+        "sum_{m>0} |c_lm|^2, c_lm = sum_j w_j Y_lm(u_j), and their share a_l (d_l^2 + C_l^2) of "
+        "the squared worst-case error E^2 over the unit ball of the Sobolev space H^S. The header "
+        "has E by the kernel form, the root of the mean of E^2, and the rest of E^2 beyond degree "
+        "L. Points of samplers of the hemisphere are morphed to the BRDF unless morph= says "
+        "otherwise.",
+    .options = options,
+    .weights = "equal|column|optimal|FILE",
+    .samples = PS_DOMAIN_SPHERE,
+    .examples = {"pointspec quadrature --sampler fibonacci-hemisphere -n 256 --brdf diffuse "
+                 "--smoothness 1.5 --weights optimal",
+                 "pointspec quadrature --sampler white-hemisphere -n 64 -m 50 --brdf glossy:n=30 "
+                 "-l 40"},
+    .run = run,
+};

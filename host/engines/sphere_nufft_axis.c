@@ -1,0 +1,150 @@
+/* Which fine grid, window and rings sphere_nufft takes: the cheapest that keep the tolerance. */
+#include "engines/nufft_fft.h"
+#include "engines/nufft_kernels.h"
+#include "engines/nufft_plan.h"
+#include "engines/sphere_nufft_shape.h"
+
+#include <math.h>
+
+/* Fine grids from sigma = n / 2L on, as in nufft_choice.c. */
+static const double least_sigma = 1.2;
+static const double largest_sigma = 4;
+
+/* Windows in front of a pole and behind it must not meet. */
+enum { LEAST_CELLS = 4 * PS_NUFFT_MAX_WIDTH };
+
+/* A grid of all cells has 32-bit indices. */
+enum { MOST_CELLS = 1 << 16 };
+
+/* Of candidates, each longer than the one before by this part at least. */
+enum { NEXT_LENGTH = 32 };
+
+/* The cheapest even length from `least` on; 0: beyond 32 bits. */
+static uint32_t even_length(uint64_t least) {
+    return 2 * ps_fft_good_length((least + 1) / 2);
+}
+
+/* A few more than the least where the two transforms of half the length are cheaper by more than products take. */
+uint32_t ps_sphere_ring_length(int32_t max_degree) {
+    const double cycles_of_products =
+        0.44; /* for a degree and a ring, where transforms have one order */
+    const uint64_t least = (uint64_t)max_degree + 1;
+    uint32_t best = 0;
+    double best_cycles = HUGE_VAL;
+    for (uint32_t half = ps_fft_length(least); half != 0 && half <= least + least / 8;
+         half = ps_fft_length((uint64_t)half + 1)) {
+        const double cycles = ps_fft_cycles(half) + cycles_of_products * max_degree * half;
+        if (cycles < best_cycles) {
+            best = half;
+            best_cycles = cycles;
+        }
+    }
+    return 2 * best;
+}
+
+static ps_nufft_axis make_axis(int32_t max_degree, uint32_t n, unsigned width) {
+    ps_nufft_axis axis = {.factor = 1, .max_frequency = max_degree, .n = n};
+    uint32_t radices[PS_FFT_MAX_PASSES];
+    axis.window = ps_nufft_window_make(width, max_degree, n);
+    axis.loss = ps_nufft_window_loss(&axis.window, max_degree, n);
+    ps_sphere_nufft_loss(&axis, &axis.loss.aliasing, &axis.loss.worst);
+    ps_fft_radices(n / 2, radices);
+    while (radices[axis.passes] != 0) {
+        axis.passes++;
+    }
+    axis.passes++; /* the halves meet */
+    return axis;
+}
+
+/* Where to begin: aliases fall about as exp(-pi w sqrt(1 - 1 / sigma)). */
+static unsigned hopeful_width(const ps_problem *problem, uint32_t n) {
+    const double margin =
+        3; /* wider than needed would cost; narrower ones are tried if nothing else will do */
+    const double share = 2.0 * problem->frequencies->max_frequency / n;
+    const double width = -log(problem->tolerance) / (3.14 * sqrt(1 - share)) - margin;
+    return width > PS_NUFFT_MAX_WIDTH   ? PS_NUFFT_MAX_WIDTH
+           : width > PS_NUFFT_MIN_WIDTH ? (unsigned)width
+                                        : PS_NUFFT_MIN_WIDTH;
+}
+
+/* Of widths first .. last of a length, into best if it is more exact: the narrowest window that keeps the tolerance,
+ * else the most exact one. */
+static void try_widths(ps_nufft_axis *best, const ps_problem *problem, uint32_t n,
+                       ps_precision precision, unsigned first, unsigned last, double *least_error) {
+    for (unsigned width = first; width <= last && *least_error > problem->tolerance; width++) {
+        const ps_nufft_axis axis = make_axis(problem->frequencies->max_frequency, n, width);
+        const double error =
+            ps_sphere_nufft_error(&axis, problem, precision, ps_expected_power(problem));
+        if (error < *least_error) {
+            *best = axis;
+            *least_error = error;
+        }
+    }
+}
+
+static ps_nufft_axis choose_width(const ps_problem *problem, uint32_t n, ps_precision precision,
+                                  double *least_error) {
+    const unsigned first = hopeful_width(problem, n);
+    ps_nufft_axis best = {0};
+    *least_error = HUGE_VAL;
+    try_widths(&best, problem, n, precision, first, PS_NUFFT_MAX_WIDTH, least_error);
+    try_widths(&best, problem, n, precision, PS_NUFFT_MIN_WIDTH, first - 1, least_error);
+    return best;
+}
+
+/* Cycles on a core, of what depends on the grid (Zen 5, PoCL 3.1, 2026-11, steps of kernels/sphere/orders.cl left
+ * out in turn, N = 1024 L = 128 and N = 4096 L = 256); spreading as in nufft_whole_shape.c, and two arc tangents. */
+double ps_sphere_grid_cycles(const ps_nufft_axis *axis, ps_precision precision, double num_points) {
+    const double cycles_per_point = 16;
+    const double cycles_per_row = 2.4;
+    const double cycles_per_polynomial = 0.6;
+    const double cycles_per_turned = 14; /* of a vector of cells, into tiles of two parities */
+    const double cycles_per_cell = 5;
+    const double cycles_per_meridian_cell =
+        20; /* fetched from two tiles, taken to the other transform */
+    const double lanes = ps_nufft_nominal_lanes(precision);
+    const double width = axis->window.width;
+    const double bins = ps_nufft_bins(axis);
+    const double n = axis->n;
+    const double groups = ceil((n / 2 + width + 1) / (2 * lanes));
+    const double pairs = floor(axis->max_frequency / (2 * lanes)) + 1;
+    const double spread =
+        num_points * (cycles_per_point + cycles_per_polynomial * 2 * (width + 2) * bins / lanes +
+                      cycles_per_row * width * ceil(bins / lanes));
+    const double around = groups * (ps_fft_cycles(axis->n) + cycles_per_cell * n +
+                                    pairs * 2 * 2 * lanes * cycles_per_turned);
+    return spread + around + pairs * (ps_fft_cycles(axis->n) + cycles_per_meridian_cell * n) +
+           n * n / 2 / lanes;
+}
+
+ps_nufft_axis ps_sphere_choose_axis(const ps_problem *problem, ps_precision precision) {
+    const double twice = 2.0 * problem->frequencies->max_frequency;
+    const double points = ps_nufft_points(problem);
+    const uint64_t last = (uint64_t)fmax(LEAST_CELLS, largest_sigma * twice);
+    ps_nufft_axis best = {0};
+    double best_error = HUGE_VAL;
+    double best_cycles = HUGE_VAL;
+    for (uint32_t n = even_length((uint64_t)fmax(LEAST_CELLS, ceil(least_sigma * twice + 1)));
+         n != 0 && n <= MOST_CELLS && (best.n == 0 || n <= last);
+         n = even_length((uint64_t)n + 1 + n / NEXT_LENGTH)) {
+        double error = 0;
+        const ps_nufft_axis least = {.max_frequency = problem->frequencies->max_frequency,
+                                     .n = n,
+                                     .window = {.width = hopeful_width(problem, n)}};
+        if (best_error <= problem->tolerance &&
+            ps_sphere_grid_cycles(&least, precision, points) >= best_cycles) {
+            continue;
+        }
+        const ps_nufft_axis axis = choose_width(problem, n, precision, &error);
+        const double cycles = ps_sphere_grid_cycles(&axis, precision, points);
+        const bool is_enough = error <= problem->tolerance;
+        const bool was_enough = best_error <= problem->tolerance;
+        if (best.n == 0 ||
+            (was_enough ? is_enough && cycles < best_cycles : is_enough || error < best_error)) {
+            best = axis;
+            best_error = error;
+            best_cycles = cycles;
+        }
+    }
+    return best;
+}

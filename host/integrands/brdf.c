@@ -1,0 +1,171 @@
+#include "integrands/brdf_kind.h"
+
+#include "base/memory.h"
+#include "base/text.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* In the order of the help text. A new lobe is a file and a row here. */
+const ps_brdf_kind *const ps_brdf_kinds[] = {&ps_brdf_diffuse, &ps_brdf_glossy, &ps_brdf_phong,
+                                             &ps_brdf_zonal, NULL};
+
+enum { MOST_LETTERS = 4095 }; /* of a value: a path */
+
+double ps_zonal_at_pole(size_t l) {
+    return sqrt((2 * (double)l + 1) / (4 * PS_PI));
+}
+
+pspec_status ps_brdf_read_exponent(ps_brdf *brdf, const char *text, ps_error *error) {
+    if (text[0] == '\0') {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "BRDF %s needs its exponent, as in %s:n=30", brdf->kind->name,
+                       brdf->kind->name);
+    }
+    return ps_parse_number(text, "exponent n of the lobe", PS_LEAST_LOBE, PS_MOST_LOBE,
+                           &brdf->exponent, error);
+}
+
+/* ---- parsing ------------------------------------------------------------------------------- */
+
+static pspec_status find_kind(const ps_brdf_kind **kind, const char *name, ps_error *error) {
+    size_t best = SIZE_MAX;
+    for (size_t i = 0; ps_brdf_kinds[i] != NULL; i++) {
+        const size_t distance = ps_text_distance(name, ps_brdf_kinds[i]->name);
+        if (distance < best) {
+            best = distance;
+            *kind = ps_brdf_kinds[i];
+        }
+    }
+    return best == 0 ? PSPEC_OK
+                     : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                               "unknown BRDF \"%s\"; did you mean %s?", name, (*kind)->name);
+}
+
+/* Values as texts of their own, [num] pointers and then their letters in one block. */
+static pspec_status copy_values(char ***out, const ps_parameter *const *parameters, size_t num,
+                                const ps_slice *values, ps_error *error) {
+    void *block = NULL;
+    size_t num_bytes = num * sizeof(char *) + 1;
+    for (size_t i = 0; i < num; i++) {
+        num_bytes += values[i].length + strlen(parameters[i]->default_value) + 1;
+    }
+    PS_TRY(ps_allocate(&block, num_bytes, 1, "a BRDF", error));
+    char **const texts = block;
+    char *letters = (char *)(texts + num);
+    for (size_t i = 0; i < num; i++) {
+        const char *const preset = parameters[i]->default_value;
+        ps_slice_copy(letters,
+                      values[i].text != NULL ? values[i] : (ps_slice){preset, strlen(preset)});
+        texts[i] = letters;
+        letters += strlen(letters) + 1;
+    }
+    *out = texts;
+    return PSPEC_OK;
+}
+
+static pspec_status read_values(ps_brdf *brdf, const char *rest, ps_error *error) {
+    const ps_parameter *parameters[PS_MAX_BRDF_PARAMETERS + 1] = {NULL};
+    ps_slice values[PS_MAX_BRDF_PARAMETERS];
+    char **texts = NULL;
+    size_t num = 0;
+    while (brdf->kind->parameters[num].key != NULL) {
+        parameters[num] = &brdf->kind->parameters[num];
+        num++;
+    }
+    const ps_grammar grammar = {.kind = "BRDF",
+                                .name = brdf->kind->name,
+                                .parameters = parameters,
+                                .num_own = num,
+                                .most_letters = MOST_LETTERS};
+    PS_TRY(ps_grammar_values(&grammar, rest, values, error));
+    if (brdf->kind->create == NULL) {
+        return PSPEC_OK;
+    }
+    PS_TRY(copy_values(&texts, parameters, num, values, error));
+    const pspec_status status = brdf->kind->create(brdf, (const char *const *)texts, error);
+    free(texts);
+    return status;
+}
+
+pspec_status ps_brdf_parse(ps_brdf **out, const char *text, ps_error *error) {
+    char name[PS_GRAMMAR_WORD];
+    const ps_brdf_kind *kind = NULL;
+    void *memory = NULL;
+    *out = NULL;
+    const char *const rest = ps_grammar_name(text, name);
+    PS_TRY(find_kind(&kind, name, error));
+    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_brdf), "a BRDF", error));
+    ps_brdf *const brdf = memory;
+    brdf->kind = kind;
+    const pspec_status status = read_values(brdf, rest, error);
+    if (status != PSPEC_OK) {
+        ps_brdf_destroy(brdf);
+        return status;
+    }
+    *out = brdf;
+    return PSPEC_OK;
+}
+
+void ps_brdf_destroy(ps_brdf *brdf) {
+    if (brdf != NULL) {
+        free(brdf->nodes);
+        free(brdf->values);
+        free(brdf);
+    }
+}
+
+/* ---- what lobes tell ----------------------------------------------------------------------- */
+
+const ps_brdf_kind *ps_brdf_get_kind(const ps_brdf *brdf) {
+    return brdf->kind;
+}
+
+double ps_brdf_norm(const ps_brdf *brdf) {
+    return brdf->kind->norm(brdf);
+}
+
+double ps_brdf_energy(const ps_brdf *brdf) {
+    return brdf->kind->energy(brdf);
+}
+
+double ps_brdf_density(const ps_brdf *brdf, double z) {
+    return brdf->kind->density(brdf, z) / (2 * PS_PI * brdf->kind->norm(brdf));
+}
+
+pspec_status ps_brdf_spherical(const ps_brdf *brdf, size_t max_degree, double *b, ps_error *error) {
+    return brdf->kind->spherical(brdf, max_degree, b, error);
+}
+
+pspec_status ps_brdf_hemispherical(const ps_brdf *brdf, size_t max_degree, double *b,
+                                   ps_error *error) {
+    if (ps_brdf_is_below_horizon(brdf)) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "this BRDF %s goes below the horizon, where hemispherical harmonics are not "
+                       "defined; use spherical ones",
+                       brdf->kind->name);
+    }
+    return brdf->kind->hemispherical(brdf, max_degree, b, error);
+}
+
+bool ps_brdf_is_below_horizon(const ps_brdf *brdf) {
+    return brdf->kind->is_below != NULL && brdf->kind->is_below(brdf);
+}
+
+bool ps_brdf_mean_distance(const ps_brdf *brdf, double smoothness, double *d_0) {
+    if (brdf->kind->mean_distance == NULL) {
+        return false;
+    }
+    *d_0 = brdf->kind->mean_distance(brdf, smoothness);
+    return true;
+}
+
+ps_morph ps_brdf_morph(const ps_brdf *brdf) {
+    return brdf->kind->morph != NULL ? brdf->kind->morph(brdf) : (ps_morph){PS_MORPH_NONE, 0};
+}
+
+const char *ps_brdf_note(const ps_brdf *brdf) {
+    return brdf->kind->note != NULL ? brdf->kind->note(brdf) : NULL;
+}

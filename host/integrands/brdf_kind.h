@@ -1,0 +1,31 @@
+/* What the files of the lobes share. Private to host/integrands. */
+#ifndef PS_INTEGRANDS_BRDF_KIND_H
+#define PS_INTEGRANDS_BRDF_KIND_H
+
+#include "integrands/brdf.h"
+
+#include <stddef.h>
+
+#define PS_PI 3.14159265358979323846
+
+/* Exponents that the tests cover. */
+#define PS_LEAST_LOBE 1e-3
+#define PS_MOST_LOBE 1e6
+
+struct ps_brdf {
+    const ps_brdf_kind *kind;
+    double exponent;      /* n of glossy and Phong lobes */
+    bool is_whole_sphere; /* glossy: not cut at the horizon */
+    size_t num_nodes;     /* of a table: p is linear in z between them, 0 outside */
+    double *nodes, *values;
+};
+
+extern const ps_brdf_kind ps_brdf_diffuse, ps_brdf_glossy, ps_brdf_phong, ps_brdf_zonal;
+
+/* Reads n of a lobe, PS_LEAST_LOBE .. PS_MOST_LOBE. */
+pspec_status ps_brdf_read_exponent(ps_brdf *brdf, const char *text, ps_error *error) PS_MUST_CHECK;
+
+/* sqrt((2l+1)/(4 pi)), the value of Y_l0 at the pole. */
+double ps_zonal_at_pole(size_t l);
+
+#endif

@@ -1,0 +1,52 @@
+#include "math/half_range.h"
+
+#include "base/memory.h"
+#include "math/gauss_legendre.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* sqrt(2l+1) P_l(x), l = 0 .. max_degree. */
+static void fill_legendre(size_t max_degree, double x, double *values) {
+    double before = 0;
+    double value = 1;
+    for (size_t l = 0; l <= max_degree; l++) {
+        const double degree = (double)l;
+        values[l] = sqrt(2 * degree + 1) * value;
+        const double next = ((2 * degree + 1) * x * value - degree * before) / (degree + 1);
+        before = value;
+        value = next;
+    }
+}
+
+static void add_node(size_t max_from, size_t max_to, double factor, const double *from,
+                     const double *to, double *matrix) {
+    for (size_t i = 0; i <= max_from; i++) {
+        double *const row = matrix + i * (max_to + 1);
+        const double left = factor * from[i];
+        for (size_t l = i; l <= max_to; l++) { /* 0 before */
+            row[l] += left * to[l];
+        }
+    }
+}
+
+pspec_status ps_half_range_matrix(size_t max_from, size_t max_to, double *matrix, ps_error *error) {
+    const size_t num_nodes = (max_from + max_to) / 2 + 1;
+    void *block = NULL;
+    PS_TRY(ps_allocate(&block, 2 * num_nodes + max_from + max_to + 2, sizeof(double),
+                       "hemispherical harmonics", error));
+    double *const nodes = block;
+    double *const weights = nodes + num_nodes;
+    double *const from = weights + num_nodes;
+    double *const to = from + max_from + 1;
+    ps_gauss_legendre(num_nodes, nodes, weights);
+    memset(matrix, 0, (max_from + 1) * (max_to + 1) * sizeof *matrix);
+    for (size_t i = 0; i < num_nodes; i++) {
+        fill_legendre(max_from, 2 * nodes[i] - 1, from);
+        fill_legendre(max_to, nodes[i], to);
+        add_node(max_from, max_to, weights[i] * sqrt(0.5), from, to, matrix);
+    }
+    free(block);
+    return PSPEC_OK;
+}

@@ -1,0 +1,89 @@
+#include "plan/memory_model.h"
+
+#include "base/round.h"
+
+#include <math.h>
+
+/* Realizations side by side in sums of pieces of bins: whole vectors, shorter ones where most lanes would be empty
+ * (analysis/accumulate_device). */
+static double padded_rows(const ps_device_limits *limits, ps_precision precision, size_t batch) {
+    unsigned lanes = ps_engine_lanes(limits, precision);
+    while (lanes > 1 && lanes >= 4 * batch) {
+        lanes /= 2;
+    }
+    return (double)ps_round_up(batch, lanes);
+}
+
+/* Of rows of powers on the device: their sums and sums of squares in pairs, also read back; members of bins, and
+ * the pieces of bins in the blocks of 512 slots of a row: 3 numbers for each, and its sum in pairs. In one dimension
+ * all frequencies of a block are one piece; else rings cross a block in about 36. */
+static void add_accumulator(ps_memory *sum, const ps_work *work, const ps_problem *problem,
+                            double rows, double real_bytes) {
+    const double block = 512;
+    const double pieces_of_block = problem->frequencies->dimension == 1 ? 1 : 36;
+    const double num = (double)problem->frequencies->num;
+    const double blocks = ceil(work->row_bytes / real_bytes / block);
+    const double pieces = fmin(num, blocks * pieces_of_block);
+    sum->device += 4 * work->row_bytes + num * (double)sizeof(uint16_t) +
+                   pieces * (2 * rows * real_bytes + 3 * (double)sizeof(uint32_t));
+    sum->host += 4 * work->row_bytes;
+}
+
+double ps_memory_of_set(const ps_problem *problem, const ps_work *work) {
+    const unsigned columns = problem->frequencies->dimension + (problem->has_weights ? 1 : 0);
+    const uint64_t points = work->takes_blocks && problem->block_points > 0 ? problem->block_points
+                                                                            : problem->num_points;
+    return (double)points * columns * (double)sizeof(double);
+}
+
+/* The result, and for hemispherical harmonics the stretched points. */
+static double coefficient_bytes(const ps_problem *problem) {
+    const double stretched = problem->harmonics == PS_HEMISPHERICAL_HARMONICS
+                                 ? (double)problem->num_points * PS_SPHERE_DIMENSION
+                                 : 0;
+    return problem->harmonics == PS_NO_HARMONICS
+               ? 0
+               : ((double)ps_num_coefficients(problem->frequencies->max_frequency) + stretched) *
+                     (double)sizeof(double);
+}
+
+ps_memory ps_memory_count(const ps_engine *engine, ps_precision precision,
+                          const ps_problem *problem, const ps_work *work,
+                          const ps_device_limits *limits, size_t batch) {
+    const unsigned dimension = problem->frequencies->dimension;
+    const double num = (double)problem->frequencies->num;
+    const double moved = limits != NULL && limits->has_unified_memory ? work->coordinate_bytes : 0;
+    /* of every frequency twice its vector and its slot, its place in a bin, mean and standard error */
+    ps_memory sum = {
+        .device = work->fixed_bytes - work->host_bytes +
+                  (work->bytes_per_realization + work->point_bytes + moved) * (double)batch,
+        .host = work->host_bytes + coefficient_bytes(problem) +
+                (ps_memory_of_set(problem, work) + work->point_bytes - moved) * (double)batch +
+                num * (2 * dimension * (double)sizeof(int32_t) + 3 * (double)sizeof(uint32_t) +
+                       2 * (double)sizeof(double))};
+    if (limits == NULL || engine->rows_on_host) {
+        sum.host += num * 4 * (double)sizeof(double); /* the sums of the accumulator */
+    }
+    if (limits == NULL) {
+        sum.host += sum.device;
+        sum.device = 0;
+    }
+    if (limits == NULL || engine->rows_on_host) {
+        return sum;
+    }
+    add_accumulator(&sum, work, problem, padded_rows(limits, precision, batch),
+                    precision == PS_SINGLE ? sizeof(float) : sizeof(double));
+    return sum;
+}
+
+double ps_memory_of_coefficients(const ps_engine *engine, ps_precision precision,
+                                 const ps_problem *problem, const ps_device_limits *limits,
+                                 ps_harmonics harmonics) {
+    const ps_device_limits *used = engine->needs_device ? limits : NULL;
+    ps_problem with = *problem;
+    ps_problem without = *problem;
+    with.harmonics = harmonics;
+    without.harmonics = PS_NO_HARMONICS;
+    return coefficient_bytes(&with) + engine->work(&with, used, precision).fixed_bytes -
+           engine->work(&without, used, precision).fixed_bytes;
+}

@@ -1,0 +1,41 @@
+/* Sorted points of a large set spread on the fine grid, a band of longitudes by each work-group: part by part, so that
+ * every cell adds the same numbers in the same order. Launch: (work-items of one group, bands).
+ *
+ *   sorted, heights, starts  of orders_sort.cl, in parts of part_points
+ *   window, n, width, degree, bins, pitch  of orders.cl
+ *   grid       of sphere/bands.h, continued unless is_first
+ *   windows, cells  local, of a chunk: nufft/chunk.h
+ */
+#include "sphere/bands.h"
+#include "sphere/orders_grid.h"
+
+__kernel void sphere_orders_bands(
+    __global const ulong *restrict sorted, __global const real *restrict heights,
+    __global const uint *restrict starts, const uint num_parts, const ulong part_points,
+    const uint tiles, const uint is_first, __global const real *restrict window, const uint n,
+    const uint width, const uint degree, const uint bins, const uint bands, const uint band_rows,
+    const uint pitch, __global real *restrict grid, __local real *windows, __local uint *cells) {
+    const uint band = get_global_id(1);
+    const window_axis across = {window, n, width, 0, degree, bins, 0, 1};
+    const window_axis along = {window, n, width, 1, degree, bins, 0, 1};
+    const chunk_axes axes = {across, across, along, 2, 0};
+    __global real *own = grid + band * (size_t)band_rows * pitch;
+    const orders_grid to = {own, pitch, band_rows, start_of_band(band, n, bands) * pitch};
+    const chunk chunk = make_chunk(windows, cells, across, along);
+    clear_cells(own, is_first ? (size_t)band_rows * pitch : 0);
+    for (uint part = 0; part < num_parts; part++) {
+        __global const uint *start =
+            starts + part * ((size_t)bands * tiles + 1) + (size_t)band * tiles;
+        const size_t end = part * part_points + start[tiles];
+        for (size_t place = part * part_points + start[0]; place < end; place += CHUNK) {
+            const uint count = (uint)min((size_t)CHUNK, end - place);
+            fill_chunk(chunk, sorted + place * 2, heights + place, count, CHUNK, pitch, axes);
+            if (get_local_size(0) == 1) {
+                scatter(to, chunk, axes);
+            } else {
+                scatter_together(to, chunk, axes);
+            }
+            barrier_everywhere();
+        }
+    }
+}

@@ -1,0 +1,70 @@
+/* Points of a large set in the order of bands of longitudes, within them of tiles of angles from the pole: a counting
+ * sort, stable, of each part by one work-item. Launch: (parts), rounded up at will.
+ *
+ *   points, weights  [num_points][3], [num_points]
+ *   part_points      of each part but the last, a multiple of LANES
+ *   turns            [num_points, rounded up to LANES][2]: scratch
+ *   keys             [num_points]: scratch
+ *   sorted, heights  [num_points][2] of sphere/turns.h, [num_points]: as long as the points; heights are left alone
+ *                    without weights
+ *   starts           [part][bands tiles + 1]: from the beginning of the part
+ *   n, width         of the fine grid (nufft/cells.h)
+ */
+#include "sphere/bands.h"
+#include "sphere/turns.h"
+
+/* Of points first .. first + LANES - 1. */
+static inline void make_keys(__global const ulong *turns, __global uint *keys, const size_t first,
+                             const uint num, const uint n, const uint width, const uint bands,
+                             const uint tiles) {
+    union {
+        uintv together;
+        uint each[LANES];
+    } row, column;
+    wordv fraction;
+    row.together = first_cells(load_coordinates(turns + first * 2, 2, 0), n, width, &fraction);
+    column.together = first_cells(load_coordinates(turns + first * 2, 2, 1), n, width, &fraction);
+    for (uint i = 0; i < num; i++) {
+        const uint tile = min(column.each[i] / TILE_CELLS, tiles - 1);
+        keys[first + i] = band_of_cell(row.each[i], n, bands) * tiles + tile;
+    }
+}
+
+__kernel void sphere_orders_sort(__global const double *restrict points,
+                                 __global const real *restrict weights, const ulong num_points,
+                                 const ulong part_points, const ulong shift, const uint n,
+                                 const uint width, const uint bands, const uint tiles,
+                                 const uint has_weights, __global ulong *restrict turns,
+                                 __global uint *restrict keys, __global ulong *restrict sorted,
+                                 __global real *restrict heights, __global uint *restrict starts) {
+    const size_t part = get_global_id(0), begin = part * part_points;
+    const uint num_keys = bands * tiles;
+    if (begin >= num_points) {
+        return;
+    }
+    const size_t end = min(begin + part_points, (size_t)num_points);
+    __global uint *start = starts + part * ((size_t)num_keys + 1);
+    for (uint key = 0; key <= num_keys; key++) {
+        start[key] = 0;
+    }
+    for (size_t first = begin; first < end; first += LANES) {
+        const uint num = (uint)min((size_t)LANES, end - first);
+        make_turns(points, turns, first, num_points, shift);
+        make_keys(turns, keys, first, num, n, width, bands, tiles);
+        for (uint i = 0; i < num; i++) {
+            start[keys[first + i]]++;
+        }
+    }
+    for (uint key = 1; key < num_keys; key++) { /* to the end of each, ... */
+        start[key] += start[key - 1];
+    }
+    start[num_keys] = (uint)(end - begin);
+    for (size_t i = end; i-- > begin;) { /* ... from which it goes back to its beginning */
+        const size_t place = begin + --start[keys[i]];
+        sorted[place * 2] = turns[i * 2];
+        sorted[place * 2 + 1] = turns[i * 2 + 1];
+        if (has_weights) {
+            heights[place] = weights[i];
+        }
+    }
+}

@@ -1,0 +1,38 @@
+# shellcheck shell=bash
+# To be sourced by the test of a command: . harness.sh COMMAND PROGRAM. Goes to an empty folder.
+set -euo pipefail
+command=$1
+program=$(realpath "$2")
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch"
+unset POINTSPEC_DEVICE
+
+checked=0 bad=0
+complain() {
+    printf 'cli_%s: %s\n' "$command" "$*" >&2
+    bad=1
+}
+runs() { # EXIT ARGS...: standard output in out, standard error in err
+    local expected=$1 code=0
+    shift
+    checked=$((checked + 1))
+    "$program" "$command" "$@" </dev/null >out 2>err || code=$?
+    [[ $code == "$expected" ]] || complain "exit $code, not $expected: $*: $(<err)"
+}
+says() { # PART: of standard error, which is one line
+    [[ $(wc -l <err) == 1 && $(<err) == *"$1"* ]] || complain "not \"$1\": $(<err)"
+}
+refuses() { # PART ARGS...: one line of standard error with that part, nothing on standard output
+    local part=$1
+    shift
+    runs 2 "$@"
+    [[ $(wc -l <err) == 1 && $(<err) == *"$part"* && ! -s out ]] || complain "not \"$part\": $* $(<err)"
+}
+key() { # NAME: of the header
+    sed -n "s/^# $1: //p" out
+}
+finish() {
+    echo "cli_$command: $checked command lines"
+    exit $bad
+}

@@ -1,0 +1,136 @@
+/* The quadrature job: the same bits in any batches, the same answer by any route, the tolerance kept. */
+#include "harness.h"
+
+#include "job/quadrature_job.h"
+#include "samplers/sampler.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { LAST = 12 };
+
+typedef struct asked {
+    ps_brdf *brdf;
+    ps_sampler_request request;
+    ps_quadrature_question question;
+} asked;
+
+/* *of must not be moved. */
+static void ask(asked *of, const char *sampler, size_t num_points, uint64_t num_realizations,
+                const char *engine) {
+    *of = (asked){.request = {.num_points = num_points, .seed = 7}};
+    assert_ok(ps_brdf_parse(&of->brdf, "diffuse", error));
+    assert_ok(ps_sampler_parse(&of->request, sampler, error));
+    assert_ok(ps_sampler_resolve(&of->request, error));
+    of->question = (ps_quadrature_question){.brdf = of->brdf,
+                                            .smoothness = 1.5,
+                                            .sampler = &of->request,
+                                            .num_realizations = num_realizations,
+                                            .max_degree = LAST,
+                                            .tolerance = 1e-10,
+                                            .constraints = {.engine = engine, .precision = -1}};
+}
+
+static ps_quadrature_result run(const ps_quadrature_question *question) {
+    ps_quadrature_result result;
+    assert_ok(ps_quadrature_run(&result, question, error));
+    assert_int_equal(result.max_degree, LAST);
+    return result;
+}
+
+static void same_bits(const ps_quadrature_result *a, const ps_quadrature_result *b) {
+    assert_int_equal(a->num_realizations, b->num_realizations);
+    assert_memory_equal(a->degrees, b->degrees, (LAST + 1) * sizeof *a->degrees);
+    assert_memory_equal(&a->squared, &b->squared, sizeof a->squared);
+    assert_memory_equal(&a->zonal, &b->zonal, sizeof a->zonal);
+    assert_memory_equal(&a->anisotropic, &b->anisotropic, sizeof a->anisotropic);
+    assert_memory_equal(&a->tail, &b->tail, sizeof a->tail);
+}
+
+static void batches(void **state) {
+    static const char *const engines[] = {"host_direct", "sphere_direct", "sphere_nufft",
+                                          "pairs_direct", "pairs_histogram"};
+    static const size_t sizes[] = {1, 3, 7};
+    (void)state;
+    for (size_t i = 0; i < sizeof engines / sizeof engines[0]; i++) {
+        asked of;
+        ask(&of, "white-hemisphere:morph=diffuse", 24, 10, engines[i]);
+        ps_quadrature_result whole = run(&of.question);
+        assert_true(strstr(whole.engine, engines[i]) != NULL);
+        for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; k++) {
+            of.question.batch = sizes[k];
+            ps_quadrature_result parts = run(&of.question);
+            same_bits(&whole, &parts);
+            ps_quadrature_free(&parts);
+        }
+        ps_quadrature_free(&whole);
+        ps_brdf_destroy(of.brdf);
+    }
+}
+
+/* Sums over pairs against coefficients: |dC_l^2| <= (2l + 1) / (4 pi) tol (sum |w|)^2, and so do d_l^2 and e_l^2 follow. */
+static void near(const ps_quadrature_result *a, const ps_quadrature_result *b, double tolerance) {
+    double e = 0;
+    for (size_t l = 0; l <= LAST; l++) {
+        const double factor = (2 * (double)l + 1) / 12.566370614359172;
+        assert_true(fabs(a->degrees[l].c2.mean - b->degrees[l].c2.mean) <= factor * tolerance);
+        assert_true(fabs(a->degrees[l].d2.mean - b->degrees[l].d2.mean) <= factor * tolerance);
+        e += fabs(a->degrees[l].e2.mean - b->degrees[l].e2.mean);
+    }
+    assert_true(e <= tolerance * a->representer.constant);
+    assert_true(fabs(a->squared.mean - b->squared.mean) <= a->numerical_bound + b->numerical_bound);
+}
+
+/* A set alone goes through its coefficients, unless an engine for pairs is named. */
+static void two_routes(void **state) {
+    static const char *const samplers[] = {"fibonacci-hemisphere:morph=diffuse",
+                                           "white-hemisphere:morph=none"};
+    (void)state;
+    for (size_t i = 0; i < 2; i++) {
+        asked of;
+        ask(&of, samplers[i], 64, 1, "host_direct");
+        ps_quadrature_result coefficients = run(&of.question);
+        of.question.constraints.engine = "pairs_direct";
+        ps_quadrature_result pairs = run(&of.question);
+        assert_true(strstr(pairs.engine, "pairs_direct") != NULL);
+        near(&coefficients, &pairs, 1e-14);
+        ps_quadrature_free(&coefficients);
+        ps_quadrature_free(&pairs);
+        ps_brdf_destroy(of.brdf);
+    }
+}
+
+/* Points in a heap, which no lobe predicts: the plan is made again with the powers that were measured, and what comes
+ * out is within the tolerance. */
+static void replanned(void **state) {
+    static const double tolerances[] = {5e-7, 7e-7, 1e-6,
+                                        2e-6}; /* near what single precision has */
+    int num_replanned = 0;
+    (void)state;
+    for (size_t i = 0; i < sizeof tolerances / sizeof tolerances[0]; i++) {
+        asked of;
+        ask(&of, "white-hemisphere:morph=glossy,n=5000", 64, 4, "sphere_nufft");
+        of.question.tolerance = tolerances[i];
+        ps_quadrature_result result = run(&of.question);
+        of.question.constraints.engine = "host_direct";
+        ps_quadrature_result exact = run(&of.question);
+        near(&exact, &result, tolerances[i]);
+        assert_false(exact.was_replanned);
+        num_replanned += result.was_replanned ? 1 : 0;
+        ps_quadrature_free(&exact);
+        ps_quadrature_free(&result);
+        ps_brdf_destroy(of.brdf);
+    }
+    assert_true(num_replanned > 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(batches),
+        cmocka_unit_test(two_routes),
+        cmocka_unit_test(replanned),
+    };
+    ps_device_close(test_open_device()); /* skips where there is none */
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,156 @@
+/* kappa and kappa_0 of wide lobes, whose series converge slowest, against integrals over rings. */
+#include "harness_quadrature.h"
+
+#include "integrands/brdf.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static const long double PI = 3.141592653589793238462643383279502884L;
+
+/* ---- quadrature: tanh-sinh, whose error does not mind what happens at the ends --------------- */
+
+typedef long double (*integrand)(const void *payload, long double x);
+
+/* Of f from a to b; nodes come as near to the ends as a long double can tell. */
+static long double integrate(integrand f, const void *payload, long double a, long double b) {
+    enum { NODES = 100 };
+    const long double step = 0.04L;
+    const long double half = (b - a) / 2;
+    long double sum = 0;
+    for (int k = -NODES; k <= NODES; k++) {
+        const long double t = step * k;
+        const long double u = PI / 2 * sinhl(t);
+        const long double gap = half * expl(-fabsl(u)) / coshl(u); /* to the nearer end */
+        const long double x = k < 0 ? a + gap : b - gap;
+        if (x > a && x < b) {
+            sum += PI / 2 * coshl(t) / (coshl(u) * coshl(u)) * f(payload, x);
+        }
+    }
+    return half * step * sum;
+}
+
+/* ---- the distance from u to the lobe, by rings around u -------------------------------------- */
+
+typedef struct ring {
+    const ps_brdf *brdf;
+    long double smoothness, cosine, sine; /* of the angle between u and the axis */
+    long double x, y;                     /* z = x + y cos phi on the ring */
+} ring;
+
+static long double on_ring(const void *payload, long double phi) {
+    const ring *const of = payload;
+    const long double z = of->x + of->y * cosl(phi);
+    return ps_brdf_density(of->brdf, (double)fmaxl(z, 0));
+}
+
+/* |u-v|^(2s-2) phat over the ring of radius g around u. */
+static long double of_ring(const void *payload, long double g) {
+    ring of = *(const ring *)payload;
+    of.x = of.cosine * cosl(g);
+    of.y = of.sine * sinl(g);
+    if (of.x <= -of.y) {
+        return 0;
+    }
+    const long double last = of.x >= of.y ? PI : acosl(-of.x / of.y); /* above the horizon */
+    const long double mean = integrate(on_ring, &of, 0, last);
+    return powl(2 * sinl(g / 2), 2 * of.smoothness - 2) * 2 * mean * sinl(g);
+}
+
+/* D(u) = int |u-v|^(2s-2) phat(v) dS(v), split where rings begin and end to cross the horizon. */
+static long double distance_from(const ps_brdf *brdf, double smoothness, long double z) {
+    ring of = {
+        .brdf = brdf, .smoothness = smoothness, .cosine = z, .sine = sqrtl((1 - z) * (1 + z))};
+    const long double theta = acosl(z);
+    const long double first = fabsl(PI / 2 - theta);
+    const long double second = theta <= PI / 2 ? PI / 2 + theta : 3 * PI / 2 - theta;
+    return integrate(of_ring, &of, 0, first) + integrate(of_ring, &of, first, second) +
+           integrate(of_ring, &of, second, PI);
+}
+
+/* ---- tests ----------------------------------------------------------------------------------- */
+
+static const char *const lobes[] = {"glossy:n=0.01", "glossy:n=0.1", "glossy:n=1", "phong:n=0.1",
+                                    "phong:n=0.5",   "diffuse",      "phong:n=2",  "glossy:n=8"};
+enum { NUM_LOBES = sizeof lobes / sizeof lobes[0] };
+
+/* The integrals themselves: the diffuse lobe at the poles has a closed form. */
+static void rings_are_right(void **state) {
+    (void)state;
+    ps_brdf *brdf = NULL;
+    assert_ok(ps_brdf_parse(&brdf, "diffuse", error));
+    for (double s = 1.1; s < 2; s += 0.4) {
+        const long double top = powl(2, s) / (s * (s + 1));
+        const long double bottom =
+            powl(2, s) * ((powl(2, s + 1) - 1) / (s + 1) - (powl(2, s) - 1) / s);
+        assert_true(fabsl(distance_from(brdf, s, 1) - top) <= 1e-15L);
+        assert_true(fabsl(distance_from(brdf, s, -1) - bottom) <= 1e-15L);
+    }
+    ps_brdf_destroy(brdf);
+}
+
+static void kappa_of_wide_lobes(void **state) {
+    static const double heights[] = {1, 0.1, 0, -1};
+    enum { NUM = sizeof heights / sizeof heights[0] };
+    (void)state;
+    double points[3 * NUM];
+    double kappa[NUM];
+    for (int i = 0; i < NUM; i++) {
+        points[3 * i] = sqrt(1 - heights[i] * heights[i]);
+        points[3 * i + 1] = 0;
+        points[3 * i + 2] = heights[i];
+    }
+    for (int k = 0; k < NUM_LOBES; k++) {
+        ps_brdf *brdf = NULL;
+        assert_ok(ps_brdf_parse(&brdf, lobes[k], error));
+        for (double s = 1.1; s < 2; s += 0.4) {
+            ps_representer r = test_representer(lobes[k], s, PS_REPRESENTER_TOLERANCE);
+            double worst = 0;
+            ps_representer_kappa(&r, NUM, points, kappa);
+            for (int i = 0; i < NUM; i++) {
+                const long double d = distance_from(brdf, s, heights[i]);
+                worst = fmax(worst, fabs((double)((long double)r.constant - d - kappa[i])));
+            }
+            print_message("%-14s s %.1f: L %5zu, kappa off by %.1e, %.1e estimated\n", lobes[k], s,
+                          r.max_degree, worst, r.kappa_estimate);
+            /* and rounding */
+            assert_true(worst <= r.kappa_estimate + 1e-14);
+            assert_true(worst <= 7e-13 && worst <= r.kappa_bound + 1e-14);
+            ps_representer_destroy(&r);
+        }
+        ps_brdf_destroy(brdf);
+    }
+}
+
+/* Where degrees are too few for kappa: what it is off by is what is said. */
+static void estimates(void **state) {
+    static const double heights[] = {1, 0};
+    (void)state;
+    for (int k = 0; k < NUM_LOBES; k++) {
+        ps_brdf *brdf = NULL;
+        assert_ok(ps_brdf_parse(&brdf, lobes[k], error));
+        for (double tolerance = 1e-5; tolerance > 1e-10; tolerance *= 1e-2) {
+            ps_representer r = test_representer(lobes[k], 1.3, tolerance);
+            double worst = 0;
+            for (int i = 0; i < 2; i++) {
+                const double u[3] = {1 - heights[i], 0, heights[i]};
+                double kappa = 0;
+                ps_representer_kappa(&r, 1, u, &kappa);
+                const long double d = distance_from(brdf, 1.3, heights[i]);
+                worst = fmax(worst, fabs((double)((long double)r.constant - d - kappa)));
+            }
+            assert_true(r.kappa_estimate <= tolerance);
+            assert_true(worst <= r.kappa_estimate + 1e-14);
+            assert_true(worst >= r.kappa_estimate / 50); /* it says something */
+            ps_representer_destroy(&r);
+        }
+        ps_brdf_destroy(brdf);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(rings_are_right),
+                                       cmocka_unit_test(kappa_of_wide_lobes),
+                                       cmocka_unit_test(estimates)};
+    return cmocka_run_group_tests_name("representer", tests, NULL, NULL);
+}
