@@ -106,7 +106,8 @@ static void rule_keeps_its_promise(void **state) {
                   "100 are needed and %.0f were expected\n",
                   broken[1], JOBS, broken[0], sum / JOBS, ps_sequential_expected(1, asked));
     assert_true((double)broken[1] < 0.02 * JOBS);
-    assert_true((double)broken[0] > 0.2 * JOBS); /* else the correction is not needed, or this test blind */
+    assert_true((double)broken[0] >
+                0.2 * JOBS); /* else the correction is not needed, or this test blind */
     assert_true(sum / JOBS < 2 * 100);
 }
 
