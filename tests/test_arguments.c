@@ -1,7 +1,7 @@
 /* The parser of the command line: forms of options, limits, and the sentences for what is wrong. */
-#include "cli/arguments.h"
+#include "cli/command.h"
 
-#include "cli/options.h"
+#include "scene/options.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -23,7 +23,7 @@ typedef struct line {
     char bytes[MOST_BYTES];
     char *words[MOST_WORDS];
     int num_words;
-    ps_arguments arguments;
+    ps_request arguments;
     ps_error error;
 } line;
 
@@ -308,7 +308,7 @@ static void missing_values_are_said(void **state) {
 
 static void many_samplers_fit_and_one_more_does_not(void **state) {
     (void)state;
-    ps_arguments arguments;
+    ps_request arguments;
     ps_error error;
     char word[] = "--sampler=white";
     char *words[PS_MAX_SAMPLERS + 1];

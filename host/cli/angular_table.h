@@ -2,12 +2,12 @@
 #ifndef PS_CLI_ANGULAR_TABLE_H
 #define PS_CLI_ANGULAR_TABLE_H
 
-#include "cli/question.h"
+#include "scene/question.h"
 #include "io/table.h"
 
 /* Header lines and rows of num jobs that have run; the table of several samplers begins with a
  * column `sampler`. */
-pspec_status ps_angular_table(ps_table **out, const ps_arguments *arguments,
+pspec_status ps_angular_table(ps_table **out, const ps_request *arguments,
                               const ps_power_job *const *jobs, size_t num,
                               ps_error *error) PS_MUST_CHECK;
 

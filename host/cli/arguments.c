@@ -1,8 +1,7 @@
-/* Words of the command line -> ps_arguments, by the table of options. */
-#include "cli/arguments.h"
-
+/* Words of the command line -> ps_request, by the table of options. */
 #include "base/memory.h"
-#include "cli/options.h"
+#include "cli/command.h"
+#include "scene/options.h"
 
 #include <ctype.h>
 #include <stdlib.h>
@@ -10,7 +9,7 @@
 
 typedef struct parser {
     const ps_command *command;
-    ps_arguments *arguments;
+    ps_request *arguments;
     char **words;
     int num_words, next; /* next: the first word that has not been looked at */
     ps_error *error;
@@ -72,7 +71,7 @@ static bool is_option_like(const char *word) {
 /* The next word as the value of an option. --output=--odd is the way to a value that looks like an
  * option. */
 static pspec_status take_value(parser *p, ps_option_id id, shown_option shown, const char **value) {
-    const char *const metavar = ps_option_metavar(p->command, id);
+    const char *const metavar = ps_command_metavar(p->command, id);
     if (p->next == p->num_words) {
         return ps_fail(p->error, PSPEC_ERROR_INVALID_ARGUMENT, "%.*s needs a value: %.*s %s",
                        shown.length, shown.text, shown.length, shown.text, metavar);
@@ -97,7 +96,7 @@ static pspec_status apply(parser *p, ps_option_id id, shown_option shown, const 
         PS_TRY(take_value(p, id, shown, &value));
     }
     p->arguments->is_given[id] = true;
-    return option->set(option, ps_option_words(p->command, id), value, p->arguments, p->error);
+    return option->set(option, ps_command_words(p->command, id), value, p->arguments, p->error);
 }
 
 static bool has_name(ps_option_id id, const char *name, size_t length) {
@@ -151,19 +150,8 @@ static pspec_status parse_word(parser *p, bool *is_over) {
     return word[1] == '-' ? parse_long(p, word) : parse_short(p, word);
 }
 
-static const ps_arguments defaults = {.num_points = 1024,
-                                      .num_realizations = 1,
-                                      .dimension = 2,
-                                      .seed = 1,
-                                      .domain = PS_DOMAIN_ANY,
-                                      .tolerance = 1e-6,
-                                      .false_alarm_rate = 1e-3,
-                                      .smoothness = 1.5,
-                                      .precision = -1,
-                                      .command_line = ""};
-
 /* Whatever reads it first leaves nothing for the second. */
-static pspec_status check_standard_input(const ps_arguments *arguments, ps_error *error) {
+static pspec_status check_standard_input(const ps_request *arguments, ps_error *error) {
     size_t num = 0;
     for (size_t i = 0; i < arguments->num_files; i++) {
         num += strcmp(arguments->files[i], "-") == 0;
@@ -173,10 +161,10 @@ static pspec_status check_standard_input(const ps_arguments *arguments, ps_error
                               "standard input (-) is named %zu times, but can be read once", num);
 }
 
-pspec_status ps_arguments_parse(ps_arguments *arguments, const ps_command *command, int num_words,
+pspec_status ps_arguments_parse(ps_request *arguments, const ps_command *command, int num_words,
                                 char **words, ps_error *error) {
     void *memory = NULL;
-    *arguments = defaults;
+    *arguments = ps_request_default;
     PS_TRY(
         ps_allocate(&memory, (size_t)num_words, sizeof *arguments->files, "names of files", error));
     arguments->files = memory;
@@ -188,7 +176,7 @@ pspec_status ps_arguments_parse(ps_arguments *arguments, const ps_command *comma
     return arguments->is_given[PS_OPTION_HELP] ? PSPEC_OK : check_standard_input(arguments, error);
 }
 
-void ps_arguments_free(ps_arguments *arguments) {
+void ps_arguments_free(ps_request *arguments) {
     free(arguments->files);
     arguments->files = NULL;
     arguments->num_files = 0;

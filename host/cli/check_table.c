@@ -57,7 +57,7 @@ static double smallest_p_value(const ps_check_results *results) {
 }
 
 /* One seed, one sampler: the realizations are those that were saved. */
-static pspec_status add_seed_note(ps_table *table, const ps_arguments *arguments,
+static pspec_status add_seed_note(ps_table *table, const ps_request *arguments,
                                   const ps_saved_spectrum *saved, ps_error *error) {
     return arguments->num_samplers > 0 && saved->has_seed && arguments->seed == saved->seed
                ? ps_table_add_meta(table, "note",
@@ -67,7 +67,7 @@ static pspec_status add_seed_note(ps_table *table, const ps_arguments *arguments
                : PSPEC_OK;
 }
 
-static pspec_status add_verdict(ps_table *table, const ps_arguments *arguments,
+static pspec_status add_verdict(ps_table *table, const ps_request *arguments,
                                 const ps_check_results *results, ps_error *error) {
     enum { TEXT_BYTES = 96 };
     char text[TEXT_BYTES];
@@ -87,7 +87,7 @@ static pspec_status add_verdict(ps_table *table, const ps_arguments *arguments,
     return add_seed_note(table, arguments, saved, error);
 }
 
-static pspec_status fill(ps_table *table, const ps_arguments *arguments,
+static pspec_status fill(ps_table *table, const ps_request *arguments,
                          const ps_check_results *results, size_t first, ps_error *error) {
     PS_TRY(ps_header_begin(table, arguments, results->job, error));
     PS_TRY(add_verdict(table, arguments, results, error));
@@ -95,7 +95,7 @@ static pspec_status fill(ps_table *table, const ps_arguments *arguments,
     return add_rows(table, results, first, error);
 }
 
-pspec_status ps_check_table(ps_table **out, const ps_arguments *arguments,
+pspec_status ps_check_table(ps_table **out, const ps_request *arguments,
                             const ps_check_results *results, ps_error *error) {
     /* a degree is its own frequency */
     const bool on_sphere = results->saved->on_sphere;

@@ -3,7 +3,7 @@
 #define PS_CLI_CHECK_TABLE_H
 
 #include "analysis/compare.h"
-#include "cli/arguments.h"
+#include "scene/request.h"
 #include "io/table.h"
 #include "job/power_job.h"
 #include "job/saved_spectrum.h"
@@ -18,7 +18,7 @@ typedef struct ps_check_results {
 /* "ring", "shell" or "degree" */
 const char *ps_check_bin_name(const ps_saved_spectrum *saved);
 
-pspec_status ps_check_table(ps_table **out, const ps_arguments *arguments,
+pspec_status ps_check_table(ps_table **out, const ps_request *arguments,
                             const ps_check_results *results, ps_error *error) PS_MUST_CHECK;
 
 #endif

@@ -5,37 +5,11 @@
 #include "cli/output_check.h"
 #include "io/npy.h"
 
-static const ps_option_id options[] = {PS_OPTION_SAMPLER,
-                                       PS_OPTION_POINTS,
-                                       PS_OPTION_REALIZATIONS,
-                                       PS_OPTION_STANDARD_ERROR,
-                                       PS_OPTION_SEED,
-                                       PS_OPTION_HOMOGENIZE,
-                                       PS_OPTION_WEIGHTS,
-                                       PS_OPTION_INPUT_FORMAT,
-                                       PS_OPTION_COLUMNS,
-                                       PS_OPTION_SELECT_SETS,
-                                       PS_OPTION_NORMALIZE_VECTORS,
-                                       PS_OPTION_MAX_DEGREE,
-                                       PS_OPTION_HEMISPHERE,
-                                       PS_OPTION_COEFFICIENTS,
-                                       PS_OPTION_HARMONICS,
-                                       PS_OPTION_NORMALIZE,
-                                       PS_OPTION_TOLERANCE,
-                                       PS_OPTION_FLOOR,
-                                       PS_OPTION_PRECISION,
-                                       PS_OPTION_ENGINE,
-                                       PS_OPTION_DEVICE,
-                                       PS_OPTION_NO_SKIP,
-                                       PS_OPTION_NO_SELF_CHECK,
-                                       PS_OPTION_OUTPUT,
-                                       PS_OPTION_FORMAT,
-                                       PS_OPTION_PLOT,
-                                       PS_OPTION_PROFILE,
-                                       PS_OPTION_QUIET,
-                                       PS_OPTION_VERBOSE,
-                                       PS_OPTION_HELP,
-                                       PS_NUM_OPTIONS};
+/* Beside those of the question. */
+static const ps_option_id options[] = {
+    PS_OPTION_COEFFICIENTS, PS_OPTION_HARMONICS, PS_OPTION_OUTPUT, PS_OPTION_FORMAT,
+    PS_OPTION_PLOT,         PS_OPTION_PROFILE,   PS_OPTION_QUIET,  PS_OPTION_VERBOSE,
+    PS_OPTION_HELP,         PS_NUM_OPTIONS};
 
 static pspec_status write_coefficients(const char *path, const ps_power_job *job, ps_error *error) {
     const int32_t max_degree = ps_power_job_problem(job)->frequencies->max_frequency;
@@ -43,14 +17,14 @@ static pspec_status write_coefficients(const char *path, const ps_power_job *job
                                 ps_power_job_coefficients(job), error);
 }
 
-static pspec_status write_others(const ps_arguments *arguments, const ps_power_job *const *jobs,
+static pspec_status write_others(const ps_request *arguments, const ps_power_job *const *jobs,
                                  ps_error *error) {
     return arguments->coefficients != NULL
                ? write_coefficients(arguments->coefficients, jobs[0], error)
                : PSPEC_OK;
 }
 
-static pspec_status check_coefficients(const ps_arguments *arguments, ps_error *error) {
+static pspec_status check_coefficients(const ps_request *arguments, ps_error *error) {
     if (arguments->coefficients == NULL) {
         return arguments->harmonics == NULL
                    ? PSPEC_OK
@@ -65,7 +39,7 @@ static pspec_status check_coefficients(const ps_arguments *arguments, ps_error *
     return ps_output_check_ending("--coefficients", arguments->coefficients, ".npy", error);
 }
 
-static pspec_status run(const ps_arguments *arguments, ps_error *error) {
+static pspec_status run(const ps_request *arguments, ps_error *error) {
     static const ps_jobs_output output = {ps_angular_table, write_others};
     PS_TRY(check_coefficients(arguments, error));
     return ps_jobs_run(arguments, PS_QUESTION_ANGULAR, &output, error);
@@ -83,9 +57,9 @@ const ps_command ps_command_angular = {
         "realizations. With --hemisphere a point stands for its direction and the opposite one: "
         "even degrees only. The default --tol of 1e-6 bounds the numerical error of the "
         "coefficients relative to white noise.",
+    .result = &ps_result_angular,
     .options = options,
     .examples = {"pointspec angular --sampler healpix-jittered:nside=8 -m 100 -l 64",
                  "pointspec sample --sampler fibonacci -n 256 | pointspec angular -l 32 -"},
-    .samples = PS_DOMAIN_SPHERE,
     .run = run,
 };

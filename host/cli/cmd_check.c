@@ -9,39 +9,17 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const ps_option_id options[] = {PS_OPTION_AGAINST,
-                                       PS_OPTION_FALSE_ALARM_RATE,
-                                       PS_OPTION_SAMPLER,
-                                       PS_OPTION_POINTS,
-                                       PS_OPTION_REALIZATIONS,
-                                       PS_OPTION_SEED,
-                                       PS_OPTION_HOMOGENIZE,
-                                       PS_OPTION_WEIGHTS,
-                                       PS_OPTION_INPUT_FORMAT,
-                                       PS_OPTION_COLUMNS,
-                                       PS_OPTION_SELECT_SETS,
-                                       PS_OPTION_WRAP,
-                                       PS_OPTION_TOLERANCE,
-                                       PS_OPTION_PRECISION,
-                                       PS_OPTION_NORMALIZE_VECTORS,
-                                       PS_OPTION_ENGINE,
-                                       PS_OPTION_DEVICE,
-                                       PS_OPTION_NO_SKIP,
-                                       PS_OPTION_OUTPUT,
-                                       PS_OPTION_FORMAT,
-                                       PS_OPTION_NO_SELF_CHECK,
-                                       PS_OPTION_PROFILE,
-                                       PS_OPTION_QUIET,
-                                       PS_OPTION_VERBOSE,
-                                       PS_OPTION_HELP,
+/* Beside those of the question. */
+static const ps_option_id options[] = {PS_OPTION_OUTPUT, PS_OPTION_FORMAT,  PS_OPTION_PROFILE,
+                                       PS_OPTION_QUIET,  PS_OPTION_VERBOSE, PS_OPTION_HELP,
                                        PS_NUM_OPTIONS};
 
 /* ---- the question ------------------------------------------------------------------------ */
 
 /* The question is that of the saved spectrum, but for the seed: realizations must be independent of those
  * that were saved. */
-static ps_arguments complete(const ps_arguments *arguments, const ps_saved_spectrum *saved) {
-    ps_arguments own = *arguments;
+static ps_request complete(const ps_request *arguments, const ps_saved_spectrum *saved) {
+    ps_request own = *arguments;
     own.is_given[PS_OPTION_DIMENSION] = !saved->on_sphere;
     own.dimension = saved->dimension;
     own.max_frequency = saved->on_sphere ? 0 : saved->max_frequency;
@@ -66,7 +44,7 @@ static ps_arguments complete(const ps_arguments *arguments, const ps_saved_spect
     return own;
 }
 
-static pspec_status check_arguments(const ps_arguments *arguments, ps_table_format *format,
+static pspec_status check_arguments(const ps_request *arguments, ps_table_format *format,
                                     ps_error *error) {
     if (arguments->against == NULL) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
@@ -137,7 +115,7 @@ static void make_sides(ps_compared *saved_side, ps_compared *measured_side,
     }
 }
 
-static pspec_status compare(ps_comparison *rows, const ps_arguments *arguments,
+static pspec_status compare(ps_comparison *rows, const ps_request *arguments,
                             const ps_saved_spectrum *saved, const ps_power_job *job,
                             ps_error *error) {
     void *memory = NULL;
@@ -179,7 +157,7 @@ static void append_worst(ps_text *text, const ps_check_results *results) {
     ps_text_append(text, "%s", num < results->num_different ? ", ..." : "");
 }
 
-static pspec_status judge(const ps_arguments *arguments, const ps_check_results *results,
+static pspec_status judge(const ps_request *arguments, const ps_check_results *results,
                           ps_error *error) {
     ps_text worst = {0};
     if (results->num_different == 0) {
@@ -199,7 +177,7 @@ static pspec_status judge(const ps_arguments *arguments, const ps_check_results 
     return status;
 }
 
-static pspec_status write_table(const ps_arguments *arguments, const ps_check_results *results,
+static pspec_status write_table(const ps_request *arguments, const ps_check_results *results,
                                 ps_table_format format, ps_error *error) {
     ps_table *table = NULL;
     PS_TRY(ps_check_table(&table, arguments, results, error));
@@ -210,7 +188,7 @@ static pspec_status write_table(const ps_arguments *arguments, const ps_check_re
 }
 
 /* The table is there whatever the verdict. */
-static pspec_status answer(const ps_arguments *arguments, const ps_saved_spectrum *saved,
+static pspec_status answer(const ps_request *arguments, const ps_saved_spectrum *saved,
                            const ps_power_job *job, ps_table_format format, ps_error *error) {
     const ps_spectrum *const measured = ps_power_job_spectrum(job);
     void *memory = NULL;
@@ -234,9 +212,9 @@ static pspec_status answer(const ps_arguments *arguments, const ps_saved_spectru
 
 /* ---- all --------------------------------------------------------------------------------- */
 
-static pspec_status run_saved(const ps_arguments *arguments, const ps_saved_spectrum *saved,
+static pspec_status run_saved(const ps_request *arguments, const ps_saved_spectrum *saved,
                               ps_table_format format, ps_error *error) {
-    const ps_arguments own = complete(arguments, saved);
+    const ps_request own = complete(arguments, saved);
     ps_question_list list;
     ps_power_job *job = NULL;
     PS_TRY(ps_questions_make(&list, &own,
@@ -250,7 +228,7 @@ static pspec_status run_saved(const ps_arguments *arguments, const ps_saved_spec
     return status;
 }
 
-static pspec_status run(const ps_arguments *arguments, ps_error *error) {
+static pspec_status run(const ps_request *arguments, ps_error *error) {
     ps_saved_spectrum saved;
     ps_table_format format = PS_FORMAT_CSV;
     PS_TRY(check_arguments(arguments, &format, error));
@@ -275,6 +253,7 @@ const ps_command ps_command_check = {
         "saved spectrum is a table of power or angular as JSON, or a file of pspec_spectrum_save. "
         "A sampler gets as many points and realizations as were saved and the seed after the saved "
         "one, unless others are given.",
+    .result = &ps_result_check,
     .options = options,
     .examples =
         {"pointspec power --sampler jittered -n 256 -m 64 -o saved.json && pointspec check "
@@ -282,6 +261,5 @@ const ps_command ps_command_check = {
          "pointspec sample --sampler jittered -n 256 -m 16 -s 7 | pointspec check --against "
          "saved.json -"},
     .formats = "csv|json",
-    .samples = PS_DOMAIN_ANY,
     .run = run,
 };

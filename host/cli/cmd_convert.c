@@ -1,13 +1,13 @@
 /* pointspec convert: point files into another format, block by block. */
 #include "cli/command.h"
 #include "cli/output_check.h"
-#include "cli/question.h"
+#include "scene/question.h"
 #include "job/convert.h"
 
 #include <string.h>
 #include <unistd.h>
 
-static pspec_status check_words(const ps_arguments *arguments, ps_error *error) {
+static pspec_status check_words(const ps_request *arguments, ps_error *error) {
     if (arguments->num_files == 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "nothing to convert: name point files (- for standard input)");
@@ -21,12 +21,12 @@ static int on_progress(uint64_t num_points, void *payload) {
 }
 
 /* A progress line would run into points that go to the same terminal. */
-static ps_progress *begin_progress(const ps_arguments *arguments, const char *path) {
+static ps_progress *begin_progress(const ps_request *arguments, const char *path) {
     const bool shares_terminal = strcmp(path, "-") == 0 && isatty(STDOUT_FILENO);
     return shares_terminal ? NULL : ps_progress_begin(arguments, "points");
 }
 
-static pspec_status run(const ps_arguments *arguments, ps_error *error) {
+static pspec_status run(const ps_request *arguments, ps_error *error) {
     const char *const output = arguments->output != NULL ? arguments->output : "-";
     ps_text loss = {0};
     PS_TRY(check_words(arguments, error));

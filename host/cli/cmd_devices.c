@@ -44,7 +44,7 @@ static pspec_status add_device(ps_table *table, const ps_device_limits *limits, 
     return ps_table_add_row(table, cells, error);
 }
 
-static pspec_status add_header(ps_table *table, const ps_arguments *arguments,
+static pspec_status add_header(ps_table *table, const ps_request *arguments,
                                const ps_device_limits *chosen, ps_error *error) {
     PS_TRY(ps_table_add_meta(table, "pointspec_version", PS_TEXT(pspec_version()), error));
     PS_TRY(ps_table_add_meta(table, "schema", PS_INTEGER(1), error));
@@ -52,7 +52,7 @@ static pspec_status add_header(ps_table *table, const ps_arguments *arguments,
     return ps_table_add_meta(table, "device", PS_TEXT(chosen->name), error);
 }
 
-static pspec_status fill_table(ps_table *table, const ps_arguments *arguments, ps_error *error) {
+static pspec_status fill_table(ps_table *table, const ps_request *arguments, ps_error *error) {
     ps_device_limits *limits = NULL;
     size_t num_devices = 0;
     size_t chosen = 0;
@@ -68,7 +68,7 @@ out:
     return status;
 }
 
-static pspec_status run(const ps_arguments *arguments, ps_error *error) {
+static pspec_status run(const ps_request *arguments, ps_error *error) {
     const char *const path = arguments->output != NULL ? arguments->output : "-";
     ps_table_format format = PS_FORMAT_CSV;
     ps_table *table = NULL;

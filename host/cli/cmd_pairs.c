@@ -3,36 +3,12 @@
 #include "cli/jobs.h"
 #include "cli/pairs_table.h"
 
-static const ps_option_id options[] = {PS_OPTION_SAMPLER,
-                                       PS_OPTION_POINTS,
-                                       PS_OPTION_REALIZATIONS,
-                                       PS_OPTION_STANDARD_ERROR,
-                                       PS_OPTION_SEED,
-                                       PS_OPTION_HOMOGENIZE,
-                                       PS_OPTION_WEIGHTS,
-                                       PS_OPTION_INPUT_FORMAT,
-                                       PS_OPTION_COLUMNS,
-                                       PS_OPTION_SELECT_SETS,
-                                       PS_OPTION_NORMALIZE_VECTORS,
-                                       PS_OPTION_MAX_DEGREE,
-                                       PS_OPTION_HEMISPHERE,
-                                       PS_OPTION_TOLERANCE,
-                                       PS_OPTION_FLOOR,
-                                       PS_OPTION_PRECISION,
-                                       PS_OPTION_ENGINE,
-                                       PS_OPTION_DEVICE,
-                                       PS_OPTION_NO_SKIP,
-                                       PS_OPTION_NO_SELF_CHECK,
-                                       PS_OPTION_OUTPUT,
-                                       PS_OPTION_FORMAT,
-                                       PS_OPTION_PLOT,
-                                       PS_OPTION_PROFILE,
-                                       PS_OPTION_QUIET,
-                                       PS_OPTION_VERBOSE,
-                                       PS_OPTION_HELP,
-                                       PS_NUM_OPTIONS};
+/* Beside those of the question. */
+static const ps_option_id options[] = {PS_OPTION_OUTPUT,  PS_OPTION_FORMAT, PS_OPTION_PLOT,
+                                       PS_OPTION_PROFILE, PS_OPTION_QUIET,  PS_OPTION_VERBOSE,
+                                       PS_OPTION_HELP,    PS_NUM_OPTIONS};
 
-static pspec_status run(const ps_arguments *arguments, ps_error *error) {
+static pspec_status run(const ps_request *arguments, ps_error *error) {
     static const ps_jobs_output output = {ps_pairs_table, NULL};
     return ps_jobs_run(arguments, PS_QUESTION_PAIRS, &output, error);
 }
@@ -51,9 +27,9 @@ const ps_command ps_command_pairs = {
         "the "
         "largest error of Q(l) in units of (sum |w|)^2; --floor P asks for sums down to P sum w^2 "
         "right to 10 %, which sums over pairs lose sooner than sums of squares do.",
+    .result = &ps_result_pairs,
     .options = options,
     .examples = {"pointspec pairs --sampler fibonacci -n 256 -l 32",
                  "pointspec pairs --sampler white-hemisphere -n 64 -m 100 -l 16 --tol 1e-10"},
-    .samples = PS_DOMAIN_SPHERE,
     .run = run,
 };

@@ -1,8 +1,8 @@
 /* pointspec plan: what another command would do, by what, what it skips and why. */
 #include "cli/command.h"
-#include "cli/options.h"
-#include "cli/quadrature_question.h"
-#include "cli/question.h"
+#include "scene/options.h"
+#include "scene/quadrature_question.h"
+#include "scene/question.h"
 #include "io/table.h"
 
 #include "pointspec_version.h"
@@ -41,7 +41,7 @@ static pspec_status add_candidates(ps_table *table, const ps_plan *plan, ps_erro
 }
 
 /* What is asked of a job: number `index` of its command. */
-static pspec_status add_header(ps_table *table, const ps_arguments *arguments,
+static pspec_status add_header(ps_table *table, const ps_request *arguments,
                                const ps_problem *problem, const ps_needs *needs,
                                const ps_device_limits *limits, size_t index, ps_error *error) {
     if (arguments->num_samplers > 0) {
@@ -69,7 +69,7 @@ static pspec_status add_header(ps_table *table, const ps_arguments *arguments,
     return PSPEC_OK;
 }
 
-static pspec_status add_jobs(ps_table *table, const ps_arguments *arguments, ps_question_kind kind,
+static pspec_status add_jobs(ps_table *table, const ps_request *arguments, ps_question_kind kind,
                              ps_error *error) {
     ps_question_list list;
     PS_TRY(ps_questions_make(&list, arguments, kind, error));
@@ -88,7 +88,7 @@ static pspec_status add_jobs(ps_table *table, const ps_arguments *arguments, ps_
     return PSPEC_OK;
 }
 
-static pspec_status add_setup(ps_table *table, const ps_arguments *arguments,
+static pspec_status add_setup(ps_table *table, const ps_request *arguments,
                               const ps_quadrature_setup *setup, size_t index, ps_error *error) {
     const ps_device_limits *const limits =
         setup->device != NULL ? ps_device_get_limits(setup->device) : NULL;
@@ -102,8 +102,7 @@ static pspec_status add_setup(ps_table *table, const ps_arguments *arguments,
     return add_candidates(table, &setup->plan, error);
 }
 
-static pspec_status add_quadrature(ps_table *table, const ps_arguments *arguments,
-                                   ps_error *error) {
+static pspec_status add_quadrature(ps_table *table, const ps_request *arguments, ps_error *error) {
     ps_quadrature_list list;
     pspec_status status = ps_quadrature_list_make(&list, arguments, error);
     for (size_t i = 0; status == PSPEC_OK && i < list.num; i++) {
@@ -118,7 +117,7 @@ static pspec_status add_quadrature(ps_table *table, const ps_arguments *argument
     return status;
 }
 
-static pspec_status fill(ps_table *table, const ps_arguments *arguments, const ps_command *command,
+static pspec_status fill(ps_table *table, const ps_request *arguments, const ps_command *command,
                          ps_question_kind kind, ps_error *error) {
     PS_TRY(ps_table_add_meta(table, "pointspec_version", PS_TEXT(PS_VERSION), error));
     PS_TRY(ps_table_add_meta(table, "schema", PS_INTEGER(1), error));
@@ -138,7 +137,7 @@ static const struct {
 enum { NUM_PLANNED = sizeof planned / sizeof planned[0] };
 
 /* Options of the other command only. */
-static pspec_status check_options(const ps_command *command, const ps_arguments *arguments,
+static pspec_status check_options(const ps_command *command, const ps_request *arguments,
                                   ps_error *error) {
     for (int id = 0; id < PS_NUM_OPTIONS; id++) {
         if (arguments->is_given[id] && !ps_command_takes(command, (ps_option_id)id)) {
@@ -150,8 +149,8 @@ static pspec_status check_options(const ps_command *command, const ps_arguments 
 }
 
 /* The first word names the command that is asked about; the rest is that command's. */
-static pspec_status take_command(ps_arguments *inner, const ps_command **command,
-                                 ps_question_kind *kind, const ps_arguments *arguments,
+static pspec_status take_command(ps_request *inner, const ps_command **command,
+                                 ps_question_kind *kind, const ps_request *arguments,
                                  ps_error *error) {
     for (size_t i = 0; i < NUM_PLANNED && arguments->num_files > 0; i++) {
         if (strcmp(arguments->files[0], planned[i].command->name) == 0) {
@@ -168,8 +167,8 @@ static pspec_status take_command(ps_arguments *inner, const ps_command **command
                    "(power, angular, pairs and quadrature can be planned)");
 }
 
-static pspec_status run(const ps_arguments *arguments, ps_error *error) {
-    ps_arguments inner;
+static pspec_status run(const ps_request *arguments, ps_error *error) {
+    ps_request inner;
     static const char *const columns[] = {"engine", "verdict", "seconds",
                                           "bytes",  "error",   "reason"};
     ps_table *table = NULL;

@@ -4,25 +4,17 @@
 #include "cli/power_table.h"
 #include "cli/spectrum_plot.h"
 
-static const ps_option_id options[] = {
-    PS_OPTION_SAMPLER,        PS_OPTION_POINTS,      PS_OPTION_REALIZATIONS,
-    PS_OPTION_STANDARD_ERROR, PS_OPTION_DIMENSION,   PS_OPTION_SEED,
-    PS_OPTION_HOMOGENIZE,     PS_OPTION_WEIGHTS,     PS_OPTION_INPUT_FORMAT,
-    PS_OPTION_COLUMNS,        PS_OPTION_SELECT_SETS, PS_OPTION_WRAP,
-    PS_OPTION_MAX_FREQUENCY,  PS_OPTION_FREQUENCIES, PS_OPTION_SHELLS,
-    PS_OPTION_PER_RING,       PS_OPTION_NORMALIZE,   PS_OPTION_TOLERANCE,
-    PS_OPTION_FLOOR,          PS_OPTION_PRECISION,   PS_OPTION_ENGINE,
-    PS_OPTION_DEVICE,         PS_OPTION_NO_SKIP,     PS_OPTION_NO_SELF_CHECK,
-    PS_OPTION_OUTPUT,         PS_OPTION_FORMAT,      PS_OPTION_FULL,
-    PS_OPTION_PLOT,           PS_OPTION_PROFILE,     PS_OPTION_QUIET,
-    PS_OPTION_VERBOSE,        PS_OPTION_HELP,        PS_NUM_OPTIONS};
+/* Beside those of the question. */
+static const ps_option_id options[] = {PS_OPTION_FULL,    PS_OPTION_OUTPUT,  PS_OPTION_FORMAT,
+                                       PS_OPTION_PLOT,    PS_OPTION_PROFILE, PS_OPTION_QUIET,
+                                       PS_OPTION_VERBOSE, PS_OPTION_HELP,    PS_NUM_OPTIONS};
 
-static pspec_status write_others(const ps_arguments *arguments, const ps_power_job *const *jobs,
+static pspec_status write_others(const ps_request *arguments, const ps_power_job *const *jobs,
                                  ps_error *error) {
     return arguments->full != NULL ? ps_power_write_full(arguments, jobs[0], error) : PSPEC_OK;
 }
 
-static pspec_status run(const ps_arguments *arguments, ps_error *error) {
+static pspec_status run(const ps_request *arguments, ps_error *error) {
     static const ps_jobs_output output = {ps_power_table, write_others};
     PS_TRY(ps_power_check_full(arguments, error));
     return ps_jobs_run(arguments, PS_QUESTION_POWER, &output, error);
@@ -39,6 +31,7 @@ const ps_command ps_command_power = {
         "Files hold points of [0,1)^d; several files, and several sets in a file, are "
         "realizations. "
         "The default --tol of 1e-6 bounds the numerical error of S relative to white noise.",
+    .result = &ps_result_power,
     .options = options,
     .examples = {"pointspec power --sampler jittered -n 1024 -m 100 -k 64",
                  "pointspec sample --sampler halton -n 256 | pointspec power -k 32 -"},

@@ -20,7 +20,7 @@ static void tell_profile(void *payload, const ps_profile_row *rows, size_t num_r
     ps_print_profile(rows, num_rows);
 }
 
-static pspec_status run_job(ps_quadrature_result *result, const ps_arguments *arguments,
+static pspec_status run_job(ps_quadrature_result *result, const ps_request *arguments,
                             ps_quadrature_question *question, ps_error *error) {
     ps_progress *const progress = ps_progress_begin(arguments, "realizations");
     question->progress = on_progress;
@@ -32,7 +32,7 @@ static pspec_status run_job(ps_quadrature_result *result, const ps_arguments *ar
     return status;
 }
 
-static pspec_status write_results(const ps_arguments *arguments, const ps_quadrature_list *list,
+static pspec_status write_results(const ps_request *arguments, const ps_quadrature_list *list,
                                   const ps_quadrature_result *results, ps_table_format format,
                                   ps_error *error) {
     ps_table *table = NULL;
@@ -46,7 +46,7 @@ static pspec_status write_results(const ps_arguments *arguments, const ps_quadra
     return status;
 }
 
-static pspec_status check_outputs(const ps_arguments *arguments, ps_table_format *format,
+static pspec_status check_outputs(const ps_request *arguments, ps_table_format *format,
                                   ps_error *error) {
     if (arguments->plot != NULL && !ps_plot_is_supported(arguments->plot)) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
@@ -57,7 +57,7 @@ static pspec_status check_outputs(const ps_arguments *arguments, ps_table_format
     return ps_outputs_check(arguments, true, error);
 }
 
-static pspec_status run(const ps_arguments *arguments, ps_error *error) {
+static pspec_status run(const ps_request *arguments, ps_error *error) {
     ps_table_format format = PS_FORMAT_CSV;
     ps_quadrature_list list = {0};
     ps_quadrature_result results[PS_MAX_SAMPLERS] = {{0}};
@@ -76,17 +76,10 @@ out:
     return status;
 }
 
-static const ps_option_id options[] = {
-    PS_OPTION_SAMPLER,    PS_OPTION_POINTS,      PS_OPTION_REALIZATIONS,
-    PS_OPTION_SEED,       PS_OPTION_HOMOGENIZE,  PS_OPTION_BRDF,
-    PS_OPTION_SMOOTHNESS, PS_OPTION_WEIGHTS,     PS_OPTION_INPUT_FORMAT,
-    PS_OPTION_COLUMNS,    PS_OPTION_SELECT_SETS, PS_OPTION_NORMALIZE_VECTORS,
-    PS_OPTION_MAX_DEGREE, PS_OPTION_TOLERANCE,   PS_OPTION_PRECISION,
-    PS_OPTION_ENGINE,     PS_OPTION_DEVICE,      PS_OPTION_NO_SKIP,
-    PS_OPTION_OUTPUT,     PS_OPTION_FORMAT,      PS_OPTION_PLOT,
-    PS_OPTION_DROP_BELOW, PS_OPTION_MEMORY,      PS_OPTION_PROFILE,
-    PS_OPTION_QUIET,      PS_OPTION_VERBOSE,     PS_OPTION_HELP,
-    PS_NUM_OPTIONS};
+/* Beside those of the question. */
+static const ps_option_id options[] = {PS_OPTION_OUTPUT,  PS_OPTION_FORMAT, PS_OPTION_PLOT,
+                                       PS_OPTION_PROFILE, PS_OPTION_QUIET,  PS_OPTION_VERBOSE,
+                                       PS_OPTION_HELP,    PS_NUM_OPTIONS};
 
 const ps_command ps_command_quadrature = {
     .name = "quadrature",
@@ -101,9 +94,8 @@ const ps_command ps_command_quadrature = {
         "has E by the kernel form, the root of the mean of E^2, and the rest of E^2 beyond degree "
         "L. Points of samplers of the hemisphere are morphed to the BRDF unless morph= says "
         "otherwise.",
+    .result = &ps_result_quadrature,
     .options = options,
-    .weights = "equal|column|optimal|FILE",
-    .samples = PS_DOMAIN_SPHERE,
     .examples = {"pointspec quadrature --sampler fibonacci-hemisphere -n 256 --brdf diffuse "
                  "--smoothness 1.5 --weights optimal",
                  "pointspec quadrature --sampler white-hemisphere -n 64 -m 50 --brdf glossy:n=30 "

@@ -1,8 +1,9 @@
 /* pointspec sample: point sets to a file or standard output, one realization in memory at a time.
  */
+#include "cli/command.h"
 #include "base/memory.h"
 #include "base/text.h"
-#include "cli/question.h"
+#include "scene/question.h"
 #include "io/points.h"
 #include "samplers/sampler.h"
 
@@ -21,7 +22,7 @@ static pspec_status fail_without_sampler(ps_error *error) {
     return PSPEC_ERROR_INVALID_ARGUMENT;
 }
 
-static pspec_status check_words(const ps_arguments *arguments, ps_error *error) {
+static pspec_status check_words(const ps_request *arguments, ps_error *error) {
     if (arguments->num_files > 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "no input file is read, but %s was given; -o FILE names the output",
@@ -39,7 +40,7 @@ static pspec_status check_words(const ps_arguments *arguments, ps_error *error) 
 }
 
 /* A progress line would run into points that go to the same terminal. */
-static ps_progress *begin_progress(const ps_arguments *arguments, const char *path) {
+static ps_progress *begin_progress(const ps_request *arguments, const char *path) {
     const bool shares_terminal = strcmp(path, "-") == 0 && isatty(STDOUT_FILENO);
     return shares_terminal ? NULL : ps_progress_begin(arguments, "realizations");
 }
@@ -61,7 +62,7 @@ static pspec_status write_realizations(const ps_sampler_request *request, uint64
     return PSPEC_OK;
 }
 
-static void print_loss(const ps_arguments *arguments, const ps_point_writer *writer) {
+static void print_loss(const ps_request *arguments, const ps_point_writer *writer) {
     char loss[256];
     ps_points_describe_loss(writer, loss, sizeof loss);
     if (loss[0] != '\0' && !arguments->quiet) {
@@ -69,7 +70,7 @@ static void print_loss(const ps_arguments *arguments, const ps_point_writer *wri
     }
 }
 
-static pspec_status run(const ps_arguments *arguments, ps_error *error) {
+static pspec_status run(const ps_request *arguments, ps_error *error) {
     const char *const path = arguments->output != NULL ? arguments->output : "-";
     ps_sampler_request request = {0};
     void *points = NULL;

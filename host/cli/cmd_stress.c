@@ -7,7 +7,7 @@
 #include <stdio.h>
 
 typedef struct answer {
-    const ps_arguments *arguments;
+    const ps_request *arguments;
     ps_device *device; /* NULL: for what the host computes alone */
     ps_table *table;
     ps_table_stream *stream;
@@ -41,7 +41,7 @@ static bool should_stop(void *payload) {
 /* ---- the table ----------------------------------------------------------------------------- */
 
 static pspec_status add_header(const answer *of, ps_error *error) {
-    const ps_arguments *const arguments = of->arguments;
+    const ps_request *const arguments = of->arguments;
     const ps_device_limits *const limits =
         of->device != NULL ? ps_device_get_limits(of->device) : NULL;
     const struct {
@@ -89,7 +89,7 @@ static pspec_status conclude(const ps_stress_totals *totals, ps_error *error) {
                    is_refused ? first->reason : "the device or its driver computes wrongly");
 }
 
-static pspec_status check_words(const ps_arguments *arguments, const ps_stress_options *options,
+static pspec_status check_words(const ps_request *arguments, const ps_stress_options *options,
                                 ps_error *error) {
     if (arguments->num_files > 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "no file is read, but %s was given",
@@ -98,7 +98,7 @@ static pspec_status check_words(const ps_arguments *arguments, const ps_stress_o
     return ps_stress_check(options, error);
 }
 
-static pspec_status run(const ps_arguments *arguments, ps_error *error) {
+static pspec_status run(const ps_request *arguments, ps_error *error) {
     const char *const path = arguments->output != NULL ? arguments->output : "-";
     answer of = {.arguments = arguments};
     const ps_stress_options options = {.case_name = arguments->case_name,

@@ -23,7 +23,7 @@ static const double BRACKET = 1e-4;
 static const double SUM_RULE = 1e-9;
 
 typedef struct answer {
-    const ps_arguments *arguments;
+    const ps_request *arguments;
     ps_brdf *brdf;
     ps_representer representer;
     bool is_hemispherical;
@@ -33,7 +33,7 @@ typedef struct answer {
 
 /* ---- the numbers --------------------------------------------------------------------------- */
 
-static pspec_status check_words(const ps_arguments *arguments, ps_error *error) {
+static pspec_status check_words(const ps_request *arguments, ps_error *error) {
     if (arguments->num_files > 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "no file is read, but %s was given",
                        arguments->files[0]);
@@ -85,7 +85,7 @@ static pspec_status find_points(const answer *of, ps_progress *progress, ps_erro
 
 static pspec_status find_answer(answer *of, ps_error *error) {
     enum { COLUMNS = 4 };
-    const ps_arguments *const arguments = of->arguments;
+    const ps_request *const arguments = of->arguments;
     const size_t num = of->max_degree + 1;
     void *memory = NULL;
     PS_TRY(ps_brdf_parse(&of->brdf, arguments->brdf, error));
@@ -198,7 +198,7 @@ static pspec_status write_plot(const answer *of, ps_error *error) {
     return status;
 }
 
-static pspec_status run(const ps_arguments *arguments, ps_error *error) {
+static pspec_status run(const ps_request *arguments, ps_error *error) {
     const char *const harmonics = arguments->harmonics;
     ps_table_format format = PS_FORMAT_CSV;
     answer of = {.arguments = arguments,
@@ -222,10 +222,9 @@ out:
     return status;
 }
 
-static const ps_option_id options[] = {
-    PS_OPTION_BRDF,   PS_OPTION_SMOOTHNESS, PS_OPTION_MAX_DEGREE, PS_OPTION_HARMONICS,
-    PS_OPTION_OUTPUT, PS_OPTION_FORMAT,     PS_OPTION_PLOT,       PS_OPTION_QUIET,
-    PS_OPTION_HELP,   PS_NUM_OPTIONS};
+/* Beside those of the question. */
+static const ps_option_id options[] = {PS_OPTION_OUTPUT, PS_OPTION_FORMAT, PS_OPTION_PLOT,
+                                       PS_OPTION_QUIET,  PS_OPTION_HELP,   PS_NUM_OPTIONS};
 
 const ps_command ps_command_truncation = {
     .name = "truncation",
@@ -237,6 +236,7 @@ const ps_command ps_command_truncation = {
         "the Sobolev space H^S: E(L)^2 = sum_{l>L} a_l b_l^2 for spherical harmonics. "
         "equivalent_points is the number of spherical Fibonacci points, morphed to the lobe and "
         "with equal weights, whose worst-case error is the same.",
+    .result = &ps_result_truncation,
     .options = options,
     .examples =
         {"pointspec truncation --brdf glossy:n=30 --smoothness 1.5",

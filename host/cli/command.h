@@ -2,7 +2,7 @@
 #ifndef PS_CLI_COMMAND_H
 #define PS_CLI_COMMAND_H
 
-#include "cli/arguments.h"
+#include "scene/results.h"
 
 #include <signal.h>
 #include <stdio.h>
@@ -18,15 +18,17 @@ enum {
 
 typedef struct ps_command {
     const char *name;
-    const char *summary;         /* one line */
-    const char *usage;           /* after "pointspec ", for example "power [options] [FILE...]" */
-    const char *description;     /* a paragraph for --help */
-    const ps_option_id *options; /* ended by PS_NUM_OPTIONS */
+    const char *summary;     /* one line */
+    const char *usage;       /* after "pointspec ", for example "power [options] [FILE...]" */
+    const char *description; /* a paragraph for --help */
+    const ps_result_kind
+        *result; /* what it prints, with the options of that question; NULL: something else */
+    const ps_option_id *options; /* others that it takes, ended by PS_NUM_OPTIONS */
     const char *examples[2];     /* complete command lines, run by the tests */
     const char *formats;         /* words of --format, the default first; NULL: csv|json|npy */
-    const char *weights;         /* words of --weights; NULL: equal|column|FILE */
-    ps_domain samples; /* which samplers it takes, for --help; the torus unless it says more */
-    pspec_status (*run)(const ps_arguments *, ps_error *);
+    const char *weights; /* words of --weights, where no result says so; NULL: equal|column|FILE */
+    ps_domain samples;   /* which samplers it takes, where no result says so, for --help */
+    pspec_status (*run)(const ps_request *, ps_error *);
 } ps_command;
 
 /* Ended by NULL. */
@@ -39,6 +41,16 @@ extern const ps_command ps_command_power, ps_command_angular, ps_command_pairs,
     ps_command_quadrature, ps_command_truncation, ps_command_sample, ps_command_convert,
     ps_command_check, ps_command_plan, ps_command_stress, ps_command_devices;
 
+/* Every command takes --help, also when its list does not say so. */
+bool ps_command_takes(const ps_command *command, ps_option_id id);
+
+/* The values that the command admits for the option, "one|two|FILE"; NULL for a flag. */
+const char *ps_command_words(const ps_command *command, ps_option_id id);
+
+/* What stands after the option in usage and help: these values, or NAME when they are too many for
+ * a line; NULL for a flag. */
+const char *ps_command_metavar(const ps_command *command, ps_option_id id);
+
 /* Set by the handler of SIGINT and SIGTERM; commands look at it between batches. The program's only
  * global variable. */
 extern volatile sig_atomic_t ps_interrupted;
@@ -47,9 +59,9 @@ extern volatile sig_atomic_t ps_interrupted;
  * "-" is a file. --name value, --name=value, -n value, -nvalue; an option given again replaces what
  * it said before, but --sampler adds. Errors name the nearest option that the command takes. --help
  * ends the parsing: see is_given[PS_OPTION_HELP]. Call ps_arguments_free also after an error. */
-pspec_status ps_arguments_parse(ps_arguments *arguments, const ps_command *command, int num_words,
+pspec_status ps_arguments_parse(ps_request *arguments, const ps_command *command, int num_words,
                                 char **words, ps_error *error) PS_MUST_CHECK;
-void ps_arguments_free(ps_arguments *arguments);
+void ps_arguments_free(ps_request *arguments);
 
 /* Exit code that goes with a status. */
 int ps_exit_code(pspec_status status);
@@ -62,7 +74,7 @@ void ps_help_command(FILE *stream, const ps_command *command);
  * time left; updated at most ten times a second, erased at the end. total 0: unknown. what names
  * the things counted, for example "realizations", and must outlive the progress. */
 typedef struct ps_progress ps_progress;
-ps_progress *ps_progress_begin(const ps_arguments *arguments, const char *what); /* NULL: silent */
+ps_progress *ps_progress_begin(const ps_request *arguments, const char *what); /* NULL: silent */
 void ps_progress_update(ps_progress *progress, uint64_t done, uint64_t total);
 void ps_progress_hide(ps_progress *progress); /* until the next update: something else is printed */
 void ps_progress_end(ps_progress *progress);

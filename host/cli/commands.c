@@ -1,7 +1,7 @@
 /* The table of commands. */
 #include "cli/command.h"
 
-#include "cli/options.h"
+#include "scene/options.h"
 
 #include <string.h>
 

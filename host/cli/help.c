@@ -1,5 +1,6 @@
 /* --help: everything comes from the tables of commands, options and samplers. */
-#include "cli/options.h"
+#include "cli/command.h"
+#include "scene/options.h"
 #include "integrands/brdf.h"
 #include "samplers/sampler.h"
 
@@ -54,14 +55,14 @@ static void append_names(char text[TEXT_BYTES], const char *words, const char *m
 
 static void print_option(FILE *stream, const ps_command *command, ps_option_id id) {
     const ps_option *const option = &ps_options[id];
-    const char *const metavar = ps_option_metavar(command, id);
+    const char *const metavar = ps_command_metavar(command, id);
     char term[128];
     const char letter[] = {'-', option->letter, ',', ' ', '\0'};
     snprintf(term, sizeof term, "%s--%s%s%s", option->letter != 0 ? letter : "    ", option->name,
              metavar != NULL ? " " : "", metavar != NULL ? metavar : "");
     char text[TEXT_BYTES];
     snprintf(text, sizeof text, "%s", option->help);
-    append_names(text, ps_option_words(command, id), metavar);
+    append_names(text, ps_command_words(command, id), metavar);
     print_item(stream, term, text);
 }
 
@@ -136,7 +137,8 @@ void ps_help_command(FILE *stream, const ps_command *command) {
         }
     }
     if (ps_command_takes(command, PS_OPTION_SAMPLER)) {
-        print_samplers(stream, command->samples);
+        print_samplers(stream,
+                       command->result != NULL ? command->result->samples : command->samples);
     }
     if (ps_command_takes(command, PS_OPTION_BRDF)) {
         print_brdfs(stream);

@@ -2,7 +2,7 @@
 
 #include "cli/spectrum_header.h"
 
-static pspec_status fill(ps_table *table, const ps_job_table *kind, const ps_arguments *arguments,
+static pspec_status fill(ps_table *table, const ps_job_table *kind, const ps_request *arguments,
                          const ps_power_job *const *jobs, size_t num, ps_error *error) {
     PS_TRY(ps_header_begin(table, arguments, jobs[0], error));
     for (size_t i = 0; i < num; i++) {
@@ -14,7 +14,7 @@ static pspec_status fill(ps_table *table, const ps_job_table *kind, const ps_arg
 }
 
 pspec_status ps_job_table_make(ps_table **out, const ps_job_table *kind,
-                               const ps_arguments *arguments, const ps_power_job *const *jobs,
+                               const ps_request *arguments, const ps_power_job *const *jobs,
                                size_t num, ps_error *error) {
     PS_TRY(ps_table_create(out, kind->name, kind->columns, kind->num_columns, error));
     const pspec_status status = fill(*out, kind, arguments, jobs, num, error);

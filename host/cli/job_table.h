@@ -3,7 +3,7 @@
 #ifndef PS_CLI_JOB_TABLE_H
 #define PS_CLI_JOB_TABLE_H
 
-#include "cli/question.h"
+#include "scene/question.h"
 #include "io/table.h"
 
 typedef struct ps_job_table {
@@ -11,13 +11,13 @@ typedef struct ps_job_table {
     const char *const *columns;
     size_t num_columns;
     /* The rows of a job; sampler: NULL unless the table begins with a column of samplers. */
-    pspec_status (*add_rows)(ps_table *, const ps_arguments *, const ps_power_job *,
+    pspec_status (*add_rows)(ps_table *, const ps_request *, const ps_power_job *,
                              const char *sampler, ps_error *);
 } ps_job_table;
 
 /* Of num jobs that have run. */
 pspec_status ps_job_table_make(ps_table **out, const ps_job_table *kind,
-                               const ps_arguments *arguments, const ps_power_job *const *jobs,
+                               const ps_request *arguments, const ps_power_job *const *jobs,
                                size_t num, ps_error *error) PS_MUST_CHECK;
 
 #endif

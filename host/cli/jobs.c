@@ -1,5 +1,6 @@
 #include "cli/jobs.h"
 
+#include "cli/command.h"
 #include "cli/output_check.h"
 #include "cli/spectrum_plot.h"
 #include "io/plot.h"
@@ -65,7 +66,7 @@ static void warn_of_standard_error(const ps_power_job *job, double standard_erro
     }
 }
 
-pspec_status ps_jobs_run_one(const ps_arguments *arguments, ps_power_question *question,
+pspec_status ps_jobs_run_one(const ps_request *arguments, ps_power_question *question,
                              ps_power_job **job, ps_error *error) {
     ps_progress *progress = ps_progress_begin(arguments, "realizations");
     question->progress = on_progress;
@@ -92,7 +93,7 @@ pspec_status ps_jobs_run_one(const ps_arguments *arguments, ps_power_question *q
     return status;
 }
 
-static pspec_status check_outputs(const ps_arguments *arguments, ps_table_format *format,
+static pspec_status check_outputs(const ps_request *arguments, ps_table_format *format,
                                   ps_error *error) {
     if (arguments->plot != NULL && !ps_plot_is_supported(arguments->plot)) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
@@ -102,7 +103,7 @@ static pspec_status check_outputs(const ps_arguments *arguments, ps_table_format
     return ps_outputs_check(arguments, true, error);
 }
 
-static pspec_status write_results(const ps_arguments *arguments, const ps_power_job *const *jobs,
+static pspec_status write_results(const ps_request *arguments, const ps_power_job *const *jobs,
                                   size_t num, const ps_jobs_output *output, ps_table_format format,
                                   ps_error *error) {
     ps_table *table = NULL;
@@ -119,7 +120,7 @@ static pspec_status write_results(const ps_arguments *arguments, const ps_power_
     return status;
 }
 
-pspec_status ps_jobs_run(const ps_arguments *arguments, ps_question_kind kind,
+pspec_status ps_jobs_run(const ps_request *arguments, ps_question_kind kind,
                          const ps_jobs_output *output, ps_error *error) {
     ps_power_job *jobs[PS_MAX_SAMPLERS] = {NULL};
     ps_question_list list;

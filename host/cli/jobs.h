@@ -3,15 +3,15 @@
 #ifndef PS_CLI_JOBS_H
 #define PS_CLI_JOBS_H
 
-#include "cli/question.h"
+#include "scene/question.h"
 #include "io/table.h"
 
 /* What becomes of jobs that have run, besides pictures. */
 typedef struct ps_jobs_output {
-    pspec_status (*make_table)(ps_table **out, const ps_arguments *arguments,
+    pspec_status (*make_table)(ps_table **out, const ps_request *arguments,
                                const ps_power_job *const *jobs, size_t num, ps_error *error);
     /* Writes other files that were asked for; NULL: there are none. */
-    pspec_status (*write_others)(const ps_arguments *arguments, const ps_power_job *const *jobs,
+    pspec_status (*write_others)(const ps_request *arguments, const ps_power_job *const *jobs,
                                  ps_error *error);
 } ps_jobs_output;
 
@@ -20,12 +20,12 @@ void ps_print_plan(const ps_plan *plan);
 void ps_print_profile(const ps_profile_row *rows, size_t num_rows);
 
 /* Whatever can be refused is refused before hours of work, not after. */
-pspec_status ps_jobs_run(const ps_arguments *arguments, ps_question_kind kind,
+pspec_status ps_jobs_run(const ps_request *arguments, ps_question_kind kind,
                          const ps_jobs_output *output, ps_error *error) PS_MUST_CHECK;
 
 /* One job, made and run with progress on standard error; the question must outlive it. *job may be there after
  * a failure, too. */
-pspec_status ps_jobs_run_one(const ps_arguments *arguments, ps_power_question *question,
+pspec_status ps_jobs_run_one(const ps_request *arguments, ps_power_question *question,
                              ps_power_job **job, ps_error *error) PS_MUST_CHECK;
 
 #endif

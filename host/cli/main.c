@@ -2,7 +2,7 @@
  * its message into one line on standard error. */
 #include "base/text.h"
 #include "cli/command.h"
-#include "cli/options.h"
+#include "scene/options.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -107,8 +107,7 @@ static void append_word(ps_text *line, const char *word) {
     ps_text_append(line, "'");
 }
 
-static pspec_status run_parsed(const ps_command *command, ps_arguments *arguments,
-                               ps_error *error) {
+static pspec_status run_parsed(const ps_command *command, ps_request *arguments, ps_error *error) {
     if (!arguments->is_given[PS_OPTION_DEVICE]) {
         arguments->device = getenv("POINTSPEC_DEVICE");
     }
@@ -123,7 +122,7 @@ static pspec_status run_parsed(const ps_command *command, ps_arguments *argument
 /* words: those after "pointspec". */
 static int run_command(int num_words, char **words) {
     ps_error error = {0};
-    ps_arguments arguments;
+    ps_request arguments;
     ps_text line = {0};
     const ps_command *const command = ps_command_find(words[0], &error);
     if (command == NULL) {

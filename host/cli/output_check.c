@@ -48,7 +48,7 @@ static pspec_status check_pair(const named_path *output, const named_path *other
                     : PSPEC_OK;
 }
 
-static pspec_status check_inputs(const named_path *output, const ps_arguments *arguments,
+static pspec_status check_inputs(const named_path *output, const ps_request *arguments,
                                  ps_error *error) {
     const char *weights = arguments->weights;
     const bool is_file =
@@ -69,7 +69,7 @@ static pspec_status check_inputs(const named_path *output, const ps_arguments *a
 }
 
 /* "convert a >>a" would read what it writes, without an end. */
-static pspec_status check_standard_output(const ps_arguments *arguments, ps_error *error) {
+static pspec_status check_standard_output(const ps_request *arguments, ps_error *error) {
     struct stat output;
     struct stat input;
     if (fstat(STDOUT_FILENO, &output) != 0 || !S_ISREG(output.st_mode)) {
@@ -126,7 +126,7 @@ static void replace_ending(ps_text *out, const char *path, const char *ending) {
     ps_text_append(out, "%s", ending);
 }
 
-static pspec_status check_all(const named_path *outputs, size_t num, const ps_arguments *arguments,
+static pspec_status check_all(const named_path *outputs, size_t num, const ps_request *arguments,
                               ps_error *error) {
     for (size_t i = 0; i < num; i++) {
         if (outputs[i].path == NULL) {
@@ -143,7 +143,7 @@ static pspec_status check_all(const named_path *outputs, size_t num, const ps_ar
     return PSPEC_OK;
 }
 
-pspec_status ps_outputs_check(const ps_arguments *arguments, bool is_table, ps_error *error) {
+pspec_status ps_outputs_check(const ps_request *arguments, bool is_table, ps_error *error) {
     ps_text sidecar = {0};         /* names of the columns beside a table in NPY */
     ps_text standard_errors = {0}; /* beside the array of --full */
     const bool is_npy = is_table && arguments->output != NULL &&

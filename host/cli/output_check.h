@@ -2,12 +2,12 @@
 #ifndef PS_CLI_OUTPUT_CHECK_H
 #define PS_CLI_OUTPUT_CHECK_H
 
-#include "cli/arguments.h"
+#include "scene/request.h"
 
 /* Refuses outputs that would overwrite each other or an input, and those whose folder cannot be
  * written. Pipes and devices are not opened: somebody may be waiting at their other end. is_table: --output is
  * one, which as NPY has a file of column names beside it. */
-pspec_status ps_outputs_check(const ps_arguments *arguments, bool is_table,
+pspec_status ps_outputs_check(const ps_request *arguments, bool is_table,
                               ps_error *error) PS_MUST_CHECK;
 
 /* Does the path end so, as the only format that the option writes does? */

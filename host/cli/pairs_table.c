@@ -7,7 +7,7 @@ static const char *const columns[] = {"sampler", "degree",  "legendre_sum", "leg
                                       "c2",      "c2_error"};
 enum { NUM_COLUMNS = sizeof columns / sizeof columns[0] };
 
-static pspec_status add_degrees(ps_table *table, const ps_arguments *arguments,
+static pspec_status add_degrees(ps_table *table, const ps_request *arguments,
                                 const ps_power_job *job, const char *sampler, ps_error *error) {
     (void)arguments;
     const ps_spectrum *spectrum = ps_power_job_spectrum(job);
@@ -24,7 +24,7 @@ static pspec_status add_degrees(ps_table *table, const ps_arguments *arguments,
     return PSPEC_OK;
 }
 
-pspec_status ps_pairs_table(ps_table **out, const ps_arguments *arguments,
+pspec_status ps_pairs_table(ps_table **out, const ps_request *arguments,
                             const ps_power_job *const *jobs, size_t num, ps_error *error) {
     const size_t first = arguments->num_samplers > 1 ? 0 : 1;
     const ps_job_table kind = {"pairs", columns + first, NUM_COLUMNS - first, add_degrees};

@@ -10,11 +10,11 @@
 /* ---- --full ------------------------------------------------------------------------------ */
 
 /* P(0) = N W^2 / W^2 = N, or W^2 / V. */
-static double dc_power(const ps_arguments *arguments, const ps_spectrum *spectrum) {
+static double dc_power(const ps_request *arguments, const ps_spectrum *spectrum) {
     return arguments->effective ? spectrum->mean_sample_size : spectrum->mean_points;
 }
 
-static pspec_status write_array(const char *path, const ps_arguments *arguments,
+static pspec_status write_array(const char *path, const ps_request *arguments,
                                 const ps_spectrum *spectrum, int which, ps_error *error) {
     double *array = NULL;
     size_t num_entries = 0;
@@ -37,13 +37,13 @@ static size_t stem_length(const char *path) {
     return strlen(path) - (sizeof array_ending - 1);
 }
 
-pspec_status ps_power_check_full(const ps_arguments *arguments, ps_error *error) {
+pspec_status ps_power_check_full(const ps_request *arguments, ps_error *error) {
     return arguments->full == NULL
                ? PSPEC_OK
                : ps_output_check_ending("--full", arguments->full, array_ending, error);
 }
 
-pspec_status ps_power_write_full(const ps_arguments *arguments, const ps_power_job *job,
+pspec_status ps_power_write_full(const ps_request *arguments, const ps_power_job *job,
                                  ps_error *error) {
     const char *path = arguments->full;
     const ps_spectrum *spectrum = ps_power_job_spectrum(job);

@@ -52,7 +52,7 @@ static pspec_status add_frequencies(ps_table *table, const ps_spectrum *spectrum
     return PSPEC_OK;
 }
 
-static size_t choose_columns(const char **columns, const ps_arguments *arguments,
+static size_t choose_columns(const char **columns, const ps_request *arguments,
                              unsigned dimension) {
     size_t num = 0;
     if (arguments->num_samplers > 1) {
@@ -72,14 +72,14 @@ static size_t choose_columns(const char **columns, const ps_arguments *arguments
     return num;
 }
 
-static pspec_status add_rows(ps_table *table, const ps_arguments *arguments,
-                             const ps_power_job *job, const char *sampler, ps_error *error) {
+static pspec_status add_rows(ps_table *table, const ps_request *arguments, const ps_power_job *job,
+                             const char *sampler, ps_error *error) {
     const ps_spectrum *spectrum = ps_power_job_spectrum(job);
     return arguments->frequencies != NULL ? add_frequencies(table, spectrum, sampler, error)
                                           : add_bins(table, spectrum, sampler, error);
 }
 
-pspec_status ps_power_table(ps_table **out, const ps_arguments *arguments,
+pspec_status ps_power_table(ps_table **out, const ps_request *arguments,
                             const ps_power_job *const *jobs, size_t num, ps_error *error) {
     const char *columns[MOST_COLUMNS];
     const unsigned dimension = ps_power_job_problem(jobs[0])->frequencies->dimension;

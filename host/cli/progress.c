@@ -25,7 +25,7 @@ static double now(void) {
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-ps_progress *ps_progress_begin(const ps_arguments *arguments, const char *what) {
+ps_progress *ps_progress_begin(const ps_request *arguments, const char *what) {
     if (arguments->quiet || !isatty(STDERR_FILENO)) {
         return NULL;
     }

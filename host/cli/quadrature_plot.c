@@ -35,7 +35,7 @@ static pspec_status make_curves(curves *out, ps_plot_line *lines, const char *sa
     return PSPEC_OK;
 }
 
-static pspec_status write_plot(const ps_arguments *arguments, const ps_plot_line *lines,
+static pspec_status write_plot(const ps_request *arguments, const ps_plot_line *lines,
                                size_t num_lines, const ps_quadrature_result *first,
                                ps_error *error) {
     ps_text title = {0};
@@ -58,7 +58,7 @@ static pspec_status write_plot(const ps_arguments *arguments, const ps_plot_line
     return status;
 }
 
-pspec_status ps_quadrature_plot(const ps_arguments *arguments, const ps_quadrature_list *list,
+pspec_status ps_quadrature_plot(const ps_request *arguments, const ps_quadrature_list *list,
                                 const ps_quadrature_result *results, ps_error *error) {
     curves all[PS_MAX_SAMPLERS] = {{.numbers = NULL}};
     ps_plot_line lines[LINES * PS_MAX_SAMPLERS];

@@ -40,7 +40,7 @@ static const char *name_weights(const ps_quadrature_question *question) {
 }
 
 /* What all jobs have in common. */
-static pspec_status add_question(ps_table *table, const ps_arguments *arguments,
+static pspec_status add_question(ps_table *table, const ps_request *arguments,
                                  const ps_quadrature_list *list, ps_error *error) {
     const ps_quadrature_question *const question = &list->questions[0];
     const entry entries[] = {
@@ -146,7 +146,7 @@ static pspec_status add_degrees(ps_table *table, const char *sampler,
     return PSPEC_OK;
 }
 
-static pspec_status fill(ps_table *table, const ps_arguments *arguments,
+static pspec_status fill(ps_table *table, const ps_request *arguments,
                          const ps_quadrature_list *list, const ps_quadrature_result *results,
                          ps_error *error) {
     PS_TRY(add_question(table, arguments, list, error));
@@ -160,7 +160,7 @@ static pspec_status fill(ps_table *table, const ps_arguments *arguments,
     return PSPEC_OK;
 }
 
-pspec_status ps_quadrature_table(ps_table **out, const ps_arguments *arguments,
+pspec_status ps_quadrature_table(ps_table **out, const ps_request *arguments,
                                  const ps_quadrature_list *list,
                                  const ps_quadrature_result *results, ps_error *error) {
     const size_t first = list->num > 1 ? 0 : 1;

@@ -2,17 +2,17 @@
 #ifndef PS_CLI_QUADRATURE_TABLE_H
 #define PS_CLI_QUADRATURE_TABLE_H
 
-#include "cli/quadrature_question.h"
+#include "scene/quadrature_question.h"
 #include "io/table.h"
 
 /* results[list->num]; with several samplers the first column names them. */
-pspec_status ps_quadrature_table(ps_table **out, const ps_arguments *arguments,
+pspec_status ps_quadrature_table(ps_table **out, const ps_request *arguments,
                                  const ps_quadrature_list *list,
                                  const ps_quadrature_result *results,
                                  ps_error *error) PS_MUST_CHECK;
 
 /* d_l^2, C_l^2 and e_l^2 against the degree, to arguments->plot. */
-pspec_status ps_quadrature_plot(const ps_arguments *arguments, const ps_quadrature_list *list,
+pspec_status ps_quadrature_plot(const ps_request *arguments, const ps_quadrature_list *list,
                                 const ps_quadrature_result *results, ps_error *error) PS_MUST_CHECK;
 
 #endif

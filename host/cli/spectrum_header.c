@@ -26,7 +26,7 @@ static void put(header *to, const char *key, ps_cell value) {
 }
 
 /* What |S|^2 is called: on the sphere it is a sum over orders. */
-static const char *name_normalization(const ps_arguments *arguments, const ps_problem *problem) {
+static const char *name_normalization(const ps_request *arguments, const ps_problem *problem) {
     const bool on_sphere = is_on_sphere(problem->frequencies);
     if (problem->measure == PS_OF_PAIR_SUMS) {
         return "pairs: Q(l), weights 1/N unless given";
@@ -37,7 +37,7 @@ static const char *name_normalization(const ps_arguments *arguments, const ps_pr
     return arguments->effective ? "effective: |S|^2 / sum w^2" : "power: N |S|^2 / (sum w)^2";
 }
 
-static void put_common(header *to, const ps_arguments *arguments, const ps_problem *problem) {
+static void put_common(header *to, const ps_request *arguments, const ps_problem *problem) {
     put(to, "pointspec_version", PS_TEXT(PS_VERSION));
     put(to, "schema", PS_INTEGER(1));
     put(to, "command", PS_TEXT(arguments->command_line));
@@ -73,7 +73,7 @@ static void put_points(header *to, const ps_spectrum *spectrum, const ps_needs *
 }
 
 /* Both signs, as in the table. */
-static void put_subset(header *to, const ps_arguments *arguments, const ps_frequencies *set) {
+static void put_subset(header *to, const ps_request *arguments, const ps_frequencies *set) {
     char text[128];
     if (arguments->per_ring == 0) {
         return;
@@ -85,7 +85,7 @@ static void put_subset(header *to, const ps_arguments *arguments, const ps_frequ
     put(to, "computed", PS_TEXT(text));
 }
 
-static void put_frequencies(header *to, const ps_arguments *arguments, const ps_frequencies *set) {
+static void put_frequencies(header *to, const ps_request *arguments, const ps_frequencies *set) {
     if (is_on_sphere(set)) {
         put(to, "domain", PS_TEXT(set->degree_step > 1 ? "hemisphere, even degrees" : "sphere"));
         put(to, "max_degree", PS_INTEGER(set->max_frequency));
@@ -123,7 +123,7 @@ static void put_lengths(header *to, const ps_accuracy *accuracy) {
     }
 }
 
-static void put_look(header *to, const ps_arguments *arguments, const ps_power_job *job) {
+static void put_look(header *to, const ps_request *arguments, const ps_power_job *job) {
     const ps_sequential_look *look = ps_power_job_look(job);
     char text[160];
     if (look == NULL) {
@@ -138,7 +138,7 @@ static void put_look(header *to, const ps_arguments *arguments, const ps_power_j
     put(to, "relative_standard_error", PS_TEXT(text));
 }
 
-static void put_job(header *to, const ps_arguments *arguments, const ps_power_job *job,
+static void put_job(header *to, const ps_request *arguments, const ps_power_job *job,
                     size_t index) {
     const ps_device_limits *limits = ps_power_job_limits(job);
     const ps_candidate *chosen = ps_power_job_plan(job)->chosen;
@@ -175,14 +175,14 @@ static void put_job(header *to, const ps_arguments *arguments, const ps_power_jo
     ps_text_free(&skipped);
 }
 
-pspec_status ps_header_begin(ps_table *table, const ps_arguments *arguments,
+pspec_status ps_header_begin(ps_table *table, const ps_request *arguments,
                              const ps_power_job *first, ps_error *error) {
     header to = {table, error, PSPEC_OK};
     put_common(&to, arguments, ps_power_job_problem(first));
     return to.status;
 }
 
-pspec_status ps_header_add_job(ps_table *table, const ps_arguments *arguments,
+pspec_status ps_header_add_job(ps_table *table, const ps_request *arguments,
                                const ps_power_job *job, size_t index, ps_error *error) {
     header to = {table, error, PSPEC_OK};
     put_job(&to, arguments, job, index);

@@ -2,14 +2,14 @@
 #ifndef PS_CLI_SPECTRUM_HEADER_H
 #define PS_CLI_SPECTRUM_HEADER_H
 
-#include "cli/question.h"
+#include "scene/question.h"
 #include "io/table.h"
 
 /* What all jobs have in common. */
-pspec_status ps_header_begin(ps_table *table, const ps_arguments *arguments,
+pspec_status ps_header_begin(ps_table *table, const ps_request *arguments,
                              const ps_power_job *first, ps_error *error) PS_MUST_CHECK;
 /* Of job number `index`, which has run. */
-pspec_status ps_header_add_job(ps_table *table, const ps_arguments *arguments,
+pspec_status ps_header_add_job(ps_table *table, const ps_request *arguments,
                                const ps_power_job *job, size_t index,
                                ps_error *error) PS_MUST_CHECK;
 

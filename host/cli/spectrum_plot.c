@@ -57,7 +57,7 @@ static void write_points(ps_text *title, const ps_power_job *const *jobs, size_t
     }
 }
 
-static void write_title(ps_text *title, const ps_arguments *arguments,
+static void write_title(ps_text *title, const ps_request *arguments,
                         const ps_power_job *const *jobs, size_t num) {
     const ps_spectrum *first = ps_power_job_spectrum(jobs[0]);
     if (num > 1) {
@@ -74,7 +74,7 @@ static void write_title(ps_text *title, const ps_arguments *arguments,
                    first->num_realizations == 1 ? "" : "s");
 }
 
-pspec_status ps_spectrum_plot(const ps_arguments *arguments, const ps_power_job *const *jobs,
+pspec_status ps_spectrum_plot(const ps_request *arguments, const ps_power_job *const *jobs,
                               size_t num, ps_error *error) {
     ps_plot_curve curves[PS_MAX_SAMPLERS];
     void *blocks[PS_MAX_SAMPLERS] = {NULL};

@@ -1,8 +1,8 @@
 /* What people type: samplers with their parameters, and the words of commands. */
 #include "base/text.h"
 #include "cli/command.h"
-#include "cli/options.h"
-#include "cli/question.h"
+#include "scene/options.h"
+#include "scene/question.h"
 #include "fuzz.h"
 #include "integrands/brdf.h"
 #include "samplers/sampler.h"
@@ -116,7 +116,7 @@ static int split_words(char *text, size_t size, char *words[MOST_WORDS]) {
 }
 
 /* The limits of the options, which everything behind the parser relies on. */
-static void check_ranges(const ps_command *command, const ps_arguments *a, int num_words) {
+static void check_ranges(const ps_command *command, const ps_request *a, int num_words) {
     enum { MOST_DIMENSIONS = 6, MOST_PRECISION = 2 };
     const bool is_good = a->num_points >= 1 && a->num_realizations >= 1 && a->dimension >= 1 &&
                          a->dimension <= MOST_DIMENSIONS && a->max_frequency >= 0 &&
@@ -134,7 +134,7 @@ static void check_ranges(const ps_command *command, const ps_arguments *a, int n
     }
 }
 
-static void check_questions(const ps_arguments *arguments) {
+static void check_questions(const ps_request *arguments) {
     ps_question_list *const list = fuzz_allocate(NULL, 1, sizeof *list);
     ps_error error = {0};
     memset(list, 0, sizeof *list);
@@ -147,7 +147,7 @@ static void check_questions(const ps_arguments *arguments) {
 }
 
 static void parse_words(const ps_command *command, int num_words, char **words) {
-    ps_arguments arguments;
+    ps_request arguments;
     ps_error error = {0};
     const pspec_status status = ps_arguments_parse(&arguments, command, num_words, words, &error);
     fuzz_check_error(status, &error, FUZZ_QUOTES_INPUT);

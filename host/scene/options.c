@@ -1,7 +1,7 @@
-#include "cli/options.h"
+#include "scene/options.h"
 
 #include "base/text.h"
-#include "cli/option_setters.h"
+#include "scene/option_setters.h"
 #include "engines/frequency_sample.h"
 #include "io/points.h"
 
@@ -9,11 +9,11 @@
 
 /* ---- the table ----------------------------------------------------------------------------- */
 
-#define FLAG(field) .set = ps_set_flag, .offset = offsetof(ps_arguments, field)
-#define TEXT(field) .set = ps_set_text, .offset = offsetof(ps_arguments, field)
-#define WORD(field) .set = ps_set_word, .offset = offsetof(ps_arguments, field)
-#define RANGE(field) .set = ps_set_range, .offset = offsetof(ps_arguments, field)
-#define COUNT(field) .set = ps_set_count, .offset = offsetof(ps_arguments, field)
+#define FLAG(field) .set = ps_set_flag, .offset = offsetof(ps_request, field)
+#define TEXT(field) .set = ps_set_text, .offset = offsetof(ps_request, field)
+#define WORD(field) .set = ps_set_word, .offset = offsetof(ps_request, field)
+#define RANGE(field) .set = ps_set_range, .offset = offsetof(ps_request, field)
+#define COUNT(field) .set = ps_set_count, .offset = offsetof(ps_request, field)
 
 /* 10^10 points of the plane are 160 GB. */
 #define MOST_POINTS UINT64_C(10000000000)
@@ -163,7 +163,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                    "last one of the files (default: those that the format or "
                                    "--columns has, else all 1)",
                            .set = ps_set_weights,
-                           .offset = offsetof(ps_arguments, weights)},
+                           .offset = offsetof(ps_request, weights)},
     [PS_OPTION_INPUT_FORMAT] = {.name = "input-format",
                                 .metavar = PS_POINT_FORMATS,
                                 .help = "format of the point files (default: detected)",
@@ -273,32 +273,15 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_HELP] = {.letter = 'h', .name = "help", .help = "this text", .set = ps_set_nothing},
 };
 
-/* ---- what a command takes ------------------------------------------------------------------ */
+/* ---- lists of options ---------------------------------------------------------------------- */
 
-bool ps_command_takes(const ps_command *command, ps_option_id id) {
-    if (id == PS_OPTION_HELP) {
-        return true;
-    }
-    for (const ps_option_id *own = command->options; *own != PS_NUM_OPTIONS; own++) {
-        if (*own == id) {
+bool ps_options_have(const ps_option_id *list, ps_option_id id) {
+    for (; list != NULL && *list != PS_NUM_OPTIONS; list++) {
+        if (*list == id) {
             return true;
         }
     }
     return false;
-}
-
-const char *ps_option_words(const ps_command *command, ps_option_id id) {
-    if (id == PS_OPTION_FORMAT && command->formats != NULL) {
-        return command->formats;
-    }
-    return id == PS_OPTION_WEIGHTS && command->weights != NULL ? command->weights
-                                                               : ps_options[id].metavar;
-}
-
-const char *ps_option_metavar(const ps_command *command, ps_option_id id) {
-    enum { MOST_LETTERS = 40 };
-    const char *const words = ps_option_words(command, id);
-    return words != NULL && strlen(words) > MOST_LETTERS ? "NAME" : words;
 }
 
 size_t ps_name_distance(const char *typed, const char *known) {

@@ -1,13 +1,13 @@
-#include "cli/quadrature_question.h"
+#include "scene/quadrature_question.h"
 
-#include "cli/question.h"
+#include "scene/question.h"
 
 #include <string.h>
 
 /* Of E^2: good rules of many points have an E^2 of 1e-7 and less. */
 static const double TOLERANCE = 1e-10;
 
-static pspec_status check_source(const ps_arguments *arguments, ps_error *error) {
+static pspec_status check_source(const ps_request *arguments, ps_error *error) {
     if (arguments->brdf == NULL) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "--brdf NAME is needed, as in --brdf diffuse or --brdf glossy:n=30");
@@ -26,7 +26,7 @@ static pspec_status check_source(const ps_arguments *arguments, ps_error *error)
 }
 
 /* Points of the hemisphere get the density of the lobe, unless morph= says otherwise. */
-static pspec_status make_request(ps_sampler_request *request, const ps_arguments *arguments,
+static pspec_status make_request(ps_sampler_request *request, const ps_request *arguments,
                                  size_t index, const ps_brdf *brdf, ps_error *error) {
     const char *const name = arguments->samplers[index];
     PS_TRY(ps_sampler_request_make(request, arguments, index, error));
@@ -51,7 +51,7 @@ static pspec_status make_request(ps_sampler_request *request, const ps_arguments
     return PSPEC_OK;
 }
 
-static ps_rule_weights choose_weights(const ps_arguments *arguments, const char **path) {
+static ps_rule_weights choose_weights(const ps_request *arguments, const char **path) {
     const char *const weights = arguments->weights;
     *path = NULL;
     if (weights == NULL || strcmp(weights, "column") == 0) {
@@ -67,7 +67,7 @@ static ps_rule_weights choose_weights(const ps_arguments *arguments, const char 
     return PS_WEIGHTS_GIVEN;
 }
 
-static ps_quadrature_question make_question(const ps_arguments *arguments, const ps_brdf *brdf) {
+static ps_quadrature_question make_question(const ps_request *arguments, const ps_brdf *brdf) {
     ps_quadrature_question out = {
         .brdf = brdf,
         .smoothness = arguments->smoothness,
@@ -94,7 +94,7 @@ static ps_quadrature_question make_question(const ps_arguments *arguments, const
     return out;
 }
 
-pspec_status ps_quadrature_list_make(ps_quadrature_list *out, const ps_arguments *arguments,
+pspec_status ps_quadrature_list_make(ps_quadrature_list *out, const ps_request *arguments,
                                      ps_error *error) {
     *out = (ps_quadrature_list){.num = arguments->num_samplers > 0 ? arguments->num_samplers : 1};
     PS_TRY(check_source(arguments, error));

@@ -1,20 +1,21 @@
-/* From the text of a value to a field of ps_arguments. */
-#include "cli/option_setters.h"
+/* From the text of a value to a field of ps_request. */
+#include "scene/option_setters.h"
 
 #include "base/text.h"
 #include "math/sobolev.h"
 
 #include <float.h>
+#include <stdio.h>
 #include <string.h>
 
 /* ---- setters ------------------------------------------------------------------------------- */
 
-static void *find_field(const ps_option *option, ps_arguments *arguments) {
+static void *find_field(const ps_option *option, ps_request *arguments) {
     return (char *)arguments + option->offset;
 }
 
 pspec_status ps_set_flag(const ps_option *option, const char *words, const char *value,
-                         ps_arguments *arguments, ps_error *error) {
+                         ps_request *arguments, ps_error *error) {
     (void)words, (void)value, (void)error;
     bool *const field = find_field(option, arguments);
     *field = true;
@@ -22,7 +23,7 @@ pspec_status ps_set_flag(const ps_option *option, const char *words, const char 
 }
 
 pspec_status ps_set_text(const ps_option *option, const char *words, const char *value,
-                         ps_arguments *arguments, ps_error *error) {
+                         ps_request *arguments, ps_error *error) {
     (void)words, (void)error;
     const char **const field = find_field(option, arguments);
     *field = value;
@@ -30,13 +31,13 @@ pspec_status ps_set_text(const ps_option *option, const char *words, const char 
 }
 
 pspec_status ps_set_nothing(const ps_option *option, const char *words, const char *value,
-                            ps_arguments *arguments, ps_error *error) {
+                            ps_request *arguments, ps_error *error) {
     (void)option, (void)words, (void)value, (void)arguments, (void)error;
     return PSPEC_OK;
 }
 
 pspec_status ps_set_count(const ps_option *option, const char *words, const char *value,
-                          ps_arguments *arguments, ps_error *error) {
+                          ps_request *arguments, ps_error *error) {
     (void)words;
     return ps_parse_count(value, option->what, option->minimum, option->maximum,
                           find_field(option, arguments), error);
@@ -55,7 +56,7 @@ static pspec_status parse_end(const ps_option *option, const char *text, size_t 
 
 /* "A..B", "A", "A.." or "..B" */
 pspec_status ps_set_range(const ps_option *option, const char *words, const char *value,
-                          ps_arguments *arguments, ps_error *error) {
+                          ps_request *arguments, ps_error *error) {
     static const char dots[] = "..";
     ps_point_range *const field = find_field(option, arguments);
     ps_point_range range = {1, UINT64_MAX};
@@ -79,7 +80,7 @@ pspec_status ps_set_range(const ps_option *option, const char *words, const char
 
 /* The largest degree is the job's matter, which knows the reason. */
 pspec_status ps_set_max_degree(const ps_option *option, const char *words, const char *value,
-                               ps_arguments *arguments, ps_error *error) {
+                               ps_request *arguments, ps_error *error) {
     (void)option, (void)words;
     if (value[0] == '-' || strcmp(value, "0") == 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
@@ -89,7 +90,7 @@ pspec_status ps_set_max_degree(const ps_option *option, const char *words, const
 }
 
 pspec_status ps_set_dimension(const ps_option *option, const char *words, const char *value,
-                              ps_arguments *arguments, ps_error *error) {
+                              ps_request *arguments, ps_error *error) {
     uint64_t count = 0;
     (void)words;
     PS_TRY(ps_parse_count(value, option->what, option->minimum, option->maximum, &count, error));
@@ -98,7 +99,7 @@ pspec_status ps_set_dimension(const ps_option *option, const char *words, const 
 }
 
 pspec_status ps_set_max_frequency(const ps_option *option, const char *words, const char *value,
-                                  ps_arguments *arguments, ps_error *error) {
+                                  ps_request *arguments, ps_error *error) {
     uint64_t count = 0;
     (void)words;
     PS_TRY(ps_parse_count(value, option->what, option->minimum, option->maximum, &count, error));
@@ -120,25 +121,25 @@ static pspec_status parse_positive(const ps_option *option, const char *value, d
 }
 
 pspec_status ps_set_tolerance(const ps_option *option, const char *words, const char *value,
-                              ps_arguments *arguments, ps_error *error) {
+                              ps_request *arguments, ps_error *error) {
     (void)words;
     return parse_positive(option, value, 1, &arguments->tolerance, error);
 }
 
 pspec_status ps_set_floor(const ps_option *option, const char *words, const char *value,
-                          ps_arguments *arguments, ps_error *error) {
+                          ps_request *arguments, ps_error *error) {
     (void)words;
     return parse_positive(option, value, DBL_MAX, &arguments->floor, error);
 }
 
 pspec_status ps_set_standard_error(const ps_option *option, const char *words, const char *value,
-                                   ps_arguments *arguments, ps_error *error) {
+                                   ps_request *arguments, ps_error *error) {
     (void)words;
     return parse_positive(option, value, 1, &arguments->standard_error, error);
 }
 
 pspec_status ps_set_false_alarm_rate(const ps_option *option, const char *words, const char *value,
-                                     ps_arguments *arguments, ps_error *error) {
+                                     ps_request *arguments, ps_error *error) {
     (void)words;
     PS_TRY(parse_positive(option, value, 1, &arguments->false_alarm_rate, error));
     return arguments->false_alarm_rate < 1
@@ -148,14 +149,14 @@ pspec_status ps_set_false_alarm_rate(const ps_option *option, const char *words,
 }
 
 pspec_status ps_set_smoothness(const ps_option *option, const char *words, const char *value,
-                               ps_arguments *arguments, ps_error *error) {
+                               ps_request *arguments, ps_error *error) {
     (void)words;
     PS_TRY(ps_parse_number(value, option->what, -DBL_MAX, DBL_MAX, &arguments->smoothness, error));
     return ps_sobolev_check(arguments->smoothness, error);
 }
 
 pspec_status ps_add_sampler(const ps_option *option, const char *words, const char *value,
-                            ps_arguments *arguments, ps_error *error) {
+                            ps_request *arguments, ps_error *error) {
     (void)option, (void)words;
     if (arguments->num_samplers == PS_MAX_SAMPLERS) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "more than %d samplers",
@@ -197,7 +198,7 @@ static pspec_status find_word(const ps_option *option, const char *words, const 
 }
 
 pspec_status ps_set_word(const ps_option *option, const char *words, const char *value,
-                         ps_arguments *arguments, ps_error *error) {
+                         ps_request *arguments, ps_error *error) {
     int index = 0;
     PS_TRY(find_word(option, words, value, &index, error));
     return ps_set_text(option, words, value, arguments, error);
@@ -205,14 +206,14 @@ pspec_status ps_set_word(const ps_option *option, const char *words, const char 
 
 /* One of the words, or the name of a file where FILE is one of them. */
 pspec_status ps_set_weights(const ps_option *option, const char *words, const char *value,
-                            ps_arguments *arguments, ps_error *error) {
+                            ps_request *arguments, ps_error *error) {
     return strstr(words, "FILE") != NULL ? ps_set_text(option, words, value, arguments, error)
                                          : ps_set_word(option, words, value, arguments, error);
 }
 
 /* The words stand in the order of ps_domain. */
 pspec_status ps_set_domain(const ps_option *option, const char *words, const char *value,
-                           ps_arguments *arguments, ps_error *error) {
+                           ps_request *arguments, ps_error *error) {
     int index = 0;
     PS_TRY(find_word(option, words, value, &index, error));
     arguments->domain = (ps_domain)index;
@@ -220,7 +221,7 @@ pspec_status ps_set_domain(const ps_option *option, const char *words, const cha
 }
 
 pspec_status ps_set_normalize(const ps_option *option, const char *words, const char *value,
-                              ps_arguments *arguments, ps_error *error) {
+                              ps_request *arguments, ps_error *error) {
     int index = 0;
     PS_TRY(find_word(option, words, value, &index, error));
     arguments->effective = index == 1;
@@ -229,7 +230,7 @@ pspec_status ps_set_normalize(const ps_option *option, const char *words, const 
 
 /* The words after "auto" stand in the order of ps_precision. */
 pspec_status ps_set_precision(const ps_option *option, const char *words, const char *value,
-                              ps_arguments *arguments, ps_error *error) {
+                              ps_request *arguments, ps_error *error) {
     int index = 0;
     PS_TRY(find_word(option, words, value, &index, error));
     arguments->precision = index - 1;

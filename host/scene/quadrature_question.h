@@ -1,8 +1,8 @@
-/* From the command line to what quadrature jobs are asked, for `quadrature` and `plan`. */
-#ifndef PS_CLI_QUADRATURE_QUESTION_H
-#define PS_CLI_QUADRATURE_QUESTION_H
+/* From a request to what quadrature jobs are asked, for `quadrature` and `plan`. */
+#ifndef PS_SCENE_QUADRATURE_QUESTION_H
+#define PS_SCENE_QUADRATURE_QUESTION_H
 
-#include "cli/command.h"
+#include "scene/request.h"
 #include "job/quadrature_setup.h"
 
 /* One question per sampler, or one for the files. The questions borrow from the arguments and from here. */
@@ -14,7 +14,7 @@ typedef struct ps_quadrature_list {
 } ps_quadrature_list;
 
 /* Checks that the options fit together. *out must not be moved; freed by ps_quadrature_list_free, also after an error. */
-pspec_status ps_quadrature_list_make(ps_quadrature_list *out, const ps_arguments *arguments,
+pspec_status ps_quadrature_list_make(ps_quadrature_list *out, const ps_request *arguments,
                                      ps_error *error) PS_MUST_CHECK;
 void ps_quadrature_list_free(ps_quadrature_list *list);
 

@@ -1,8 +1,8 @@
-/* What the command line said, after parsing. One struct for all commands; each command lists the
- * options it takes in a table (cli/command.h), from which parser, usage and help are made.
+/* What is asked for, by a command line or in a scene file, after parsing. One struct for all kinds of results
+ * (scene/results.h), each of which lists the options that belong to it.
  */
-#ifndef PS_CLI_ARGUMENTS_H
-#define PS_CLI_ARGUMENTS_H
+#ifndef PS_SCENE_REQUEST_H
+#define PS_SCENE_REQUEST_H
 
 #include "base/status.h"
 #include "io/points.h"
@@ -67,8 +67,8 @@ typedef enum ps_option_id {
     PS_NUM_OPTIONS
 } ps_option_id;
 
-typedef struct ps_arguments {
-    bool is_given[PS_NUM_OPTIONS]; /* which options stood on the command line */
+typedef struct ps_request {
+    bool is_given[PS_NUM_OPTIONS]; /* which options were said */
     uint64_t num_points;           /* 1024 unless given */
     uint64_t num_realizations;     /* 1 unless given */
     unsigned dimension;            /* 2 unless given, 1..6 */
@@ -97,6 +97,9 @@ typedef struct ps_arguments {
     size_t num_files;
     const char **files;       /* the remaining words; "-" is standard input */
     const char *command_line; /* the whole line, for headers */
-} ps_arguments;
+} ps_request;
+
+/* Nothing was said. */
+extern const ps_request ps_request_default;
 
 #endif

@@ -1,4 +1,4 @@
-#include "cli/question.h"
+#include "scene/question.h"
 
 #include <string.h>
 
@@ -7,7 +7,7 @@ static pspec_status fail_conflict(const char *a, const char *b, const char *why,
 }
 
 /* Options that are about the other kind of source. */
-static pspec_status check_other_source(const ps_arguments *arguments, ps_error *error) {
+static pspec_status check_other_source(const ps_request *arguments, ps_error *error) {
     static const struct {
         ps_option_id option;
         const char *name;
@@ -34,7 +34,7 @@ static pspec_status check_other_source(const ps_arguments *arguments, ps_error *
     return PSPEC_OK;
 }
 
-static pspec_status check_source(const ps_arguments *arguments, ps_error *error) {
+static pspec_status check_source(const ps_request *arguments, ps_error *error) {
     if (arguments->num_samplers == 0 && arguments->num_files == 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "nothing to take a spectrum of: name point files (- for standard input) or "
@@ -52,7 +52,7 @@ static pspec_status check_source(const ps_arguments *arguments, ps_error *error)
     return PSPEC_OK;
 }
 
-static pspec_status check_results(const ps_arguments *arguments, ps_error *error) {
+static pspec_status check_results(const ps_request *arguments, ps_error *error) {
     if (arguments->frequencies != NULL) {
         if (arguments->max_frequency > 0) {
             return fail_conflict("--frequencies", "--max-frequency", "the list says it all", error);
@@ -92,7 +92,7 @@ static pspec_status check_results(const ps_arguments *arguments, ps_error *error
 }
 
 /* Weights of the files are used where their columns name them, unless others are given. */
-ps_point_options ps_point_options_make(const ps_arguments *arguments) {
+ps_point_options ps_point_options_make(const ps_request *arguments) {
     const char *const weights = arguments->weights;
     const bool is_column = weights != NULL && strcmp(weights, "column") == 0;
     return (ps_point_options){
@@ -109,7 +109,7 @@ ps_point_options ps_point_options_make(const ps_arguments *arguments) {
     };
 }
 
-static void fill_points(ps_power_question *question, const ps_arguments *arguments,
+static void fill_points(ps_power_question *question, const ps_request *arguments,
                         ps_domain domain) {
     const char *const weights = arguments->weights;
     const bool is_word =
@@ -121,7 +121,7 @@ static void fill_points(ps_power_question *question, const ps_arguments *argumen
     question->point_options.domain = domain;
 }
 
-static ps_harmonics find_harmonics(const ps_arguments *arguments) {
+static ps_harmonics find_harmonics(const ps_request *arguments) {
     if (arguments->coefficients == NULL) {
         return PS_NO_HARMONICS;
     }
@@ -130,7 +130,7 @@ static ps_harmonics find_harmonics(const ps_arguments *arguments) {
                : PS_SPHERICAL_HARMONICS;
 }
 
-static pspec_normalization choose_normalization(const ps_arguments *arguments,
+static pspec_normalization choose_normalization(const ps_request *arguments,
                                                 ps_question_kind kind) {
     if (kind == PS_QUESTION_PAIRS) {
         return PSPEC_NORMALIZATION_PAIRS;
@@ -143,14 +143,14 @@ static ps_domain domain_of(ps_question_kind kind) {
 }
 
 /* Of a sampler; a standard error needs a limit, for a sampler may never reach it. */
-static uint64_t count_realizations(const ps_arguments *arguments) {
+static uint64_t count_realizations(const ps_request *arguments) {
     const uint64_t most = 1000000;
     return arguments->standard_error > 0 && !arguments->is_given[PS_OPTION_REALIZATIONS]
                ? most
                : arguments->num_realizations;
 }
 
-static ps_power_question make_question(const ps_arguments *arguments, ps_question_kind kind) {
+static ps_power_question make_question(const ps_request *arguments, ps_question_kind kind) {
     ps_power_question question = {
         .on_sphere = domain_of(kind) == PS_DOMAIN_SPHERE,
         .wants_pair_sums = kind == PS_QUESTION_PAIRS,
@@ -183,7 +183,7 @@ static ps_power_question make_question(const ps_arguments *arguments, ps_questio
     return question;
 }
 
-pspec_status ps_sampler_request_make(ps_sampler_request *out, const ps_arguments *arguments,
+pspec_status ps_sampler_request_make(ps_sampler_request *out, const ps_request *arguments,
                                      size_t i_sampler, ps_error *error) {
     *out = (ps_sampler_request){
         .num_points = arguments->is_given[PS_OPTION_POINTS] ? (size_t)arguments->num_points : 0,
@@ -195,7 +195,7 @@ pspec_status ps_sampler_request_make(ps_sampler_request *out, const ps_arguments
 }
 
 /* The wrong domain is named before anything else that may be wrong with a sampler. */
-static pspec_status make_request_of_domain(ps_sampler_request *out, const ps_arguments *arguments,
+static pspec_status make_request_of_domain(ps_sampler_request *out, const ps_request *arguments,
                                            size_t i_sampler, ps_domain domain, ps_error *error) {
     const char *const text = arguments->samplers[i_sampler];
     PS_TRY(ps_sampler_parse(out, text, error));
@@ -216,7 +216,7 @@ static pspec_status make_request_of_domain(ps_sampler_request *out, const ps_arg
     return ps_sampler_request_make(out, arguments, i_sampler, error);
 }
 
-pspec_status ps_questions_make(ps_question_list *out, const ps_arguments *arguments,
+pspec_status ps_questions_make(ps_question_list *out, const ps_request *arguments,
                                ps_question_kind kind, ps_error *error) {
     PS_TRY(check_source(arguments, error));
     PS_TRY(check_results(arguments, error));

@@ -1,9 +1,9 @@
-/* From the command line to what the jobs are asked: what samplers make, how point files are read, and the
+/* From a request to what the jobs are asked: what samplers make, how point files are read, and the
  * question of a power job, shared by power, angular, pairs and plan. */
-#ifndef PS_CLI_QUESTION_H
-#define PS_CLI_QUESTION_H
+#ifndef PS_SCENE_QUESTION_H
+#define PS_SCENE_QUESTION_H
 
-#include "cli/command.h"
+#include "scene/request.h"
 #include "job/power_job.h"
 
 /* One question per sampler, or one for the files. The questions borrow from the arguments. */
@@ -21,15 +21,15 @@ typedef enum ps_question_kind {
 } ps_question_kind;
 
 /* Checks that the options fit together. *out must not be moved afterwards. */
-pspec_status ps_questions_make(ps_question_list *out, const ps_arguments *arguments,
+pspec_status ps_questions_make(ps_question_list *out, const ps_request *arguments,
                                ps_question_kind kind, ps_error *error) PS_MUST_CHECK;
 
 /* What sampler number i_sampler is asked for: parsed, options that were not given left open, resolved
  * and checked. */
-pspec_status ps_sampler_request_make(ps_sampler_request *out, const ps_arguments *arguments,
+pspec_status ps_sampler_request_make(ps_sampler_request *out, const ps_request *arguments,
                                      size_t i_sampler, ps_error *error) PS_MUST_CHECK;
 
 /* How point files are read. */
-ps_point_options ps_point_options_make(const ps_arguments *arguments);
+ps_point_options ps_point_options_make(const ps_request *arguments);
 
 #endif

@@ -1,8 +1,8 @@
 /* How options store their values: the setters of the table of options. */
-#ifndef PS_CLI_OPTION_SETTERS_H
-#define PS_CLI_OPTION_SETTERS_H
+#ifndef PS_SCENE_OPTION_SETTERS_H
+#define PS_SCENE_OPTION_SETTERS_H
 
-#include "cli/options.h"
+#include "scene/options.h"
 
 /* Of the field at option->offset: a bool, a text, a uint64_t within limits, a ps_point_range, one of
  * words. */

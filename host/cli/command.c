@@ -1,0 +1,26 @@
+/* What a command takes. */
+#include "cli/command.h"
+
+#include "scene/options.h"
+
+#include <string.h>
+
+bool ps_command_takes(const ps_command *command, ps_option_id id) {
+    return id == PS_OPTION_HELP || ps_options_have(command->options, id) ||
+           (command->result != NULL && ps_options_have(command->result->options, id));
+}
+
+const char *ps_command_words(const ps_command *command, ps_option_id id) {
+    const char *const weights =
+        command->result != NULL ? command->result->weights : command->weights;
+    if (id == PS_OPTION_FORMAT && command->formats != NULL) {
+        return command->formats;
+    }
+    return id == PS_OPTION_WEIGHTS && weights != NULL ? weights : ps_options[id].metavar;
+}
+
+const char *ps_command_metavar(const ps_command *command, ps_option_id id) {
+    enum { MOST_LETTERS = 40 };
+    const char *const words = ps_command_words(command, id);
+    return words != NULL && strlen(words) > MOST_LETTERS ? "NAME" : words;
+}
