@@ -43,6 +43,25 @@ void ps_text_append(ps_text *text, const char *format, ...) {
     free(piece);
 }
 
+void ps_text_append_word(ps_text *text, const char *word) {
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                                "_-+=:,./@%^";
+    ps_text_append(text, " ");
+    if (word[0] != '\0' && word[strspn(word, plain)] == '\0') {
+        ps_text_append(text, "%s", word);
+        return;
+    }
+    ps_text_append(text, "'");
+    for (; *word != '\0'; word++) {
+        if (*word == '\'') {
+            ps_text_append(text, "'\\''");
+        } else {
+            ps_text_append_bytes(text, word, 1);
+        }
+    }
+    ps_text_append(text, "'");
+}
+
 const char *ps_text_string(const ps_text *text) {
     return text->data != NULL ? text->data : "";
 }

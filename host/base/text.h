@@ -18,6 +18,8 @@ typedef struct ps_text {
 
 void ps_text_append(ps_text *text, const char *format, ...) PS_PRINTF(2, 3);
 void ps_text_append_bytes(ps_text *text, const char *bytes, size_t num_bytes);
+/* A blank and a word that a shell takes back as it is. */
+void ps_text_append_word(ps_text *text, const char *word);
 const char *ps_text_string(const ps_text *text); /* never NULL */
 void ps_text_free(ps_text *text);
 /* PSPEC_ERROR_MEMORY when an append ran out of memory. */

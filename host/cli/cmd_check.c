@@ -44,17 +44,20 @@ static ps_request complete(const ps_request *arguments, const ps_saved_spectrum 
     return own;
 }
 
-static pspec_status check_arguments(const ps_request *arguments, ps_table_format *format,
-                                    ps_error *error) {
+static pspec_status check_question(const ps_request *arguments, ps_error *error) {
     if (arguments->against == NULL) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "--against FILE is needed: the saved spectrum");
     }
-    if (arguments->num_samplers > 1) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "one sampler is compared with one saved spectrum, but %zu were given",
-                       arguments->num_samplers);
-    }
+    return arguments->num_samplers <= 1
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "one sampler is compared with one saved spectrum, but %zu were given",
+                         arguments->num_samplers);
+}
+
+static pspec_status check_output(const ps_request *arguments, ps_table_format *format,
+                                 ps_error *error) {
     PS_TRY(ps_table_choose_format(format, arguments->format, arguments->output, error));
     if (*format == PS_FORMAT_NPY) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
@@ -177,19 +180,10 @@ static pspec_status judge(const ps_request *arguments, const ps_check_results *r
     return status;
 }
 
-static pspec_status write_table(const ps_request *arguments, const ps_check_results *results,
-                                ps_table_format format, ps_error *error) {
-    ps_table *table = NULL;
-    PS_TRY(ps_check_table(&table, arguments, results, error));
-    const pspec_status status =
-        ps_table_write(table, arguments->output != NULL ? arguments->output : "-", format, error);
-    ps_table_destroy(table);
-    return status;
-}
-
 /* The table is there whatever the verdict. */
-static pspec_status answer(const ps_request *arguments, const ps_saved_spectrum *saved,
-                           const ps_power_job *job, ps_table_format format, ps_error *error) {
+static pspec_status answer(ps_table **out, ps_error *verdict, const ps_request *arguments,
+                           const ps_saved_spectrum *saved, const ps_power_job *job,
+                           ps_error *error) {
     const ps_spectrum *const measured = ps_power_job_spectrum(job);
     void *memory = NULL;
     PS_TRY(check_points(saved, measured, arguments->against, error));
@@ -201,10 +195,15 @@ static pspec_status answer(const ps_request *arguments, const ps_saved_spectrum 
         results.num_different += results.rows[b].differs;
     }
     if (status == PSPEC_OK) {
-        status = write_table(arguments, &results, format, error);
+        status = ps_check_table(out, arguments, &results, error);
     }
     if (status == PSPEC_OK) {
         status = judge(arguments, &results, error);
+    }
+    if (status == PSPEC_ERROR_CHECK) {
+        *verdict = *error;
+        *error = (ps_error){0};
+        status = PSPEC_OK;
     }
     free(memory);
     return status;
@@ -212,29 +211,58 @@ static pspec_status answer(const ps_request *arguments, const ps_saved_spectrum 
 
 /* ---- all --------------------------------------------------------------------------------- */
 
-static pspec_status run_saved(const ps_request *arguments, const ps_saved_spectrum *saved,
-                              ps_table_format format, ps_error *error) {
+static pspec_status answer_saved(ps_table **out, ps_error *verdict, const ps_request *arguments,
+                                 const ps_answer_hooks *hooks, const ps_saved_spectrum *saved,
+                                 ps_error *error) {
     const ps_request own = complete(arguments, saved);
     ps_question_list list;
     ps_power_job *job = NULL;
     PS_TRY(ps_questions_make(&list, &own,
                              saved->on_sphere ? PS_QUESTION_ANGULAR : PS_QUESTION_POWER, error));
     list.questions[0].per_ring_seed = saved->seed;
-    pspec_status status = ps_jobs_run_one(&own, &list.questions[0], &job, error);
+    pspec_status status = ps_jobs_run_one(&own, &list.questions[0], hooks, &job, error);
     if (status == PSPEC_OK) {
-        status = answer(&own, saved, job, format, error);
+        status = answer(out, verdict, &own, saved, job, error);
     }
     ps_power_job_destroy(job);
     return status;
 }
 
-static pspec_status run(const ps_request *arguments, ps_error *error) {
+static pspec_status find_answer(ps_table **out, ps_error *verdict, const ps_request *arguments,
+                                const ps_answer_hooks *hooks, ps_error *error) {
     ps_saved_spectrum saved;
-    ps_table_format format = PS_FORMAT_CSV;
-    PS_TRY(check_arguments(arguments, &format, error));
+    PS_TRY(check_question(arguments, error));
     PS_TRY(ps_saved_spectrum_read(&saved, arguments->against, error));
-    const pspec_status status = run_saved(arguments, &saved, format, error);
+    const pspec_status status = answer_saved(out, verdict, arguments, hooks, &saved, error);
     ps_saved_spectrum_free(&saved);
+    return status;
+}
+
+pspec_status ps_check_answer(ps_table **out, const ps_request *request,
+                             const ps_answer_hooks *hooks, ps_error *error) {
+    ps_error verdict = {0}; /* the table has it too */
+    return find_answer(out, &verdict, request, hooks, error);
+}
+
+static pspec_status run(const ps_request *arguments, ps_error *error) {
+    ps_error verdict = {0};
+    ps_table *table = NULL;
+    ps_table_format format = PS_FORMAT_CSV;
+    PS_TRY(check_question(arguments, error));
+    PS_TRY(check_output(arguments, &format, error));
+    ps_progress *const progress = ps_progress_begin(arguments, "realizations");
+    const ps_answer_hooks hooks = {.progress = ps_progress_tell, .payload = progress};
+    pspec_status status = find_answer(&table, &verdict, arguments, &hooks, error);
+    ps_progress_end(progress);
+    if (status == PSPEC_OK) {
+        status = ps_table_write(table, arguments->output != NULL ? arguments->output : "-", format,
+                                error);
+    }
+    ps_table_destroy(table);
+    if (status == PSPEC_OK && verdict.status != PSPEC_OK) {
+        *error = verdict;
+        return verdict.status;
+    }
     return status;
 }
 

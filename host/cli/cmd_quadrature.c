@@ -5,11 +5,6 @@
 #include "cli/quadrature_table.h"
 #include "io/plot.h"
 
-static int on_progress(uint64_t done, uint64_t total, void *payload) {
-    ps_progress_update(payload, done, total);
-    return ps_interrupted;
-}
-
 static void tell_plan(void *payload, const ps_plan *plan) {
     (void)payload;
     ps_print_plan(plan);
@@ -21,14 +16,38 @@ static void tell_profile(void *payload, const ps_profile_row *rows, size_t num_r
 }
 
 static pspec_status run_job(ps_quadrature_result *result, const ps_request *arguments,
-                            ps_quadrature_question *question, ps_error *error) {
-    ps_progress *const progress = ps_progress_begin(arguments, "realizations");
-    question->progress = on_progress;
+                            ps_quadrature_question *question, const ps_answer_hooks *hooks,
+                            ps_error *error) {
+    question->progress = hooks->progress;
+    question->payload = hooks->payload;
+    question->open_device = hooks->device;
     question->tell_plan = arguments->verbose ? tell_plan : NULL;
     question->tell_profile = arguments->profile ? tell_profile : NULL;
-    question->payload = progress;
-    const pspec_status status = ps_quadrature_run(result, question, error);
+    return ps_quadrature_run(result, question, error);
+}
+
+static pspec_status run_shown(ps_quadrature_result *result, const ps_request *arguments,
+                              ps_quadrature_question *question, ps_error *error) {
+    ps_progress *const progress = ps_progress_begin(arguments, "realizations");
+    const ps_answer_hooks hooks = {.progress = ps_progress_tell, .payload = progress};
+    const pspec_status status = run_job(result, arguments, question, &hooks, error);
     ps_progress_end(progress);
+    return status;
+}
+
+pspec_status ps_quadrature_answer(ps_table **out, const ps_request *request,
+                                  const ps_answer_hooks *hooks, ps_error *error) {
+    ps_quadrature_list list = {0};
+    ps_quadrature_result result = {0};
+    pspec_status status = ps_quadrature_list_make(&list, request, error);
+    if (status == PSPEC_OK) {
+        status = run_job(&result, request, &list.questions[0], hooks, error);
+    }
+    if (status == PSPEC_OK) {
+        status = ps_quadrature_table(out, request, &list, &result, error);
+    }
+    ps_quadrature_free(&result);
+    ps_quadrature_list_free(&list);
     return status;
 }
 
@@ -65,7 +84,7 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
     PS_TRY(check_outputs(arguments, &format, error));
     PS_TRY_OUT(status, ps_quadrature_list_make(&list, arguments, error));
     for (size_t i = 0; i < list.num; i++) {
-        PS_TRY_OUT(status, run_job(&results[i], arguments, &list.questions[i], error));
+        PS_TRY_OUT(status, run_shown(&results[i], arguments, &list.questions[i], error));
     }
     status = write_results(arguments, &list, results, format, error);
 out:

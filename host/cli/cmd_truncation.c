@@ -3,7 +3,7 @@
 #include "analysis/truncation.h"
 #include "base/memory.h"
 #include "base/text.h"
-#include "cli/command.h"
+#include "cli/answer.h"
 #include "cli/output_check.h"
 #include "cli/spectrum_header.h"
 #include "io/plot.h"
@@ -67,15 +67,14 @@ static pspec_status check_sum_rule(const answer *of, double *off, ps_error *erro
                                       *off);
 }
 
-static pspec_status find_points(const answer *of, ps_progress *progress, ps_error *error) {
+static pspec_status find_points(const answer *of, const ps_answer_hooks *hooks, ps_error *error) {
     ps_equal_error equal = {.representer = &of->representer, .morph = ps_brdf_morph(of->brdf)};
     for (size_t l = 0; l <= of->max_degree; l++) {
         of->points[l] = NAN;
         if (equal.morph.kind != PS_MORPH_NONE && of->errors[l] > 0) {
             PS_TRY(ps_equal_error_points(&equal, of->errors[l], &of->points[l], error));
         }
-        ps_progress_update(progress, l + 1, of->max_degree + 1);
-        if (ps_interrupted) {
+        if (hooks->progress != NULL && hooks->progress(l + 1, of->max_degree + 1, hooks->payload)) {
             return ps_fail(error, PSPEC_ERROR_CANCELLED, "interrupted after degree %zu of %zu", l,
                            of->max_degree);
         }
@@ -83,7 +82,7 @@ static pspec_status find_points(const answer *of, ps_progress *progress, ps_erro
     return PSPEC_OK;
 }
 
-static pspec_status find_answer(answer *of, ps_error *error) {
+static pspec_status find_answer(answer *of, const ps_answer_hooks *hooks, ps_error *error) {
     enum { COLUMNS = 4 };
     const ps_request *const arguments = of->arguments;
     const size_t num = of->max_degree + 1;
@@ -108,10 +107,7 @@ static pspec_status find_answer(answer *of, ps_error *error) {
         PS_TRY(ps_truncation_spherical(&of->representer, of->max_degree, of->errors, of->bounds,
                                        error));
     }
-    ps_progress *const progress = ps_progress_begin(arguments, "degrees");
-    const pspec_status status = find_points(of, progress, error);
-    ps_progress_end(progress);
-    return status;
+    return find_points(of, hooks, error);
 }
 
 /* ---- the table ----------------------------------------------------------------------------- */
@@ -160,23 +156,17 @@ static pspec_status add_header(ps_table *table, const answer *of, ps_error *erro
     return note != NULL ? ps_table_add_meta(table, "note", PS_TEXT(note), error) : PSPEC_OK;
 }
 
-static pspec_status write_table(const answer *of, ps_table_format format, ps_error *error) {
+static pspec_status make_table(ps_table **out, const answer *of, ps_error *error) {
     static const char *const columns[] = {"degree", "error", "equivalent_points"};
     enum { NUM_COLUMNS = sizeof columns / sizeof columns[0] };
-    ps_table *table = NULL;
-    pspec_status status = PSPEC_OK;
-    const char *const path = of->arguments->output != NULL ? of->arguments->output : "-";
-    PS_TRY(ps_table_create(&table, "truncation", columns, NUM_COLUMNS, error));
-    PS_TRY_OUT(status, add_header(table, of, error));
+    PS_TRY(ps_table_create(out, "truncation", columns, NUM_COLUMNS, error));
+    PS_TRY(add_header(*out, of, error));
     for (size_t l = 0; l <= of->max_degree; l++) {
         const ps_cell cells[NUM_COLUMNS] = {PS_INTEGER(l), PS_NUMBER(of->errors[l]),
                                             ps_number_or_missing(of->points[l])};
-        PS_TRY_OUT(status, ps_table_add_row(table, cells, error));
+        PS_TRY(ps_table_add_row(*out, cells, error));
     }
-    status = ps_table_write(table, path, format, error);
-out:
-    ps_table_destroy(table);
-    return status;
+    return PSPEC_OK;
 }
 
 static pspec_status write_plot(const answer *of, ps_error *error) {
@@ -198,27 +188,58 @@ static pspec_status write_plot(const answer *of, ps_error *error) {
     return status;
 }
 
-static pspec_status run(const ps_request *arguments, ps_error *error) {
+static answer begin(const ps_request *arguments) {
     const char *const harmonics = arguments->harmonics;
+    return (answer){
+        .arguments = arguments,
+        .is_hemispherical = harmonics != NULL && strcmp(harmonics, "hemispherical") == 0,
+        .max_degree = arguments->max_degree > 0 ? (size_t)arguments->max_degree : DEFAULT_DEGREE};
+}
+
+static void end(answer *of) {
+    free(of->degrees);
+    ps_representer_destroy(&of->representer);
+    ps_brdf_destroy(of->brdf);
+}
+
+pspec_status ps_truncation_answer(ps_table **out, const ps_request *request,
+                                  const ps_answer_hooks *hooks, ps_error *error) {
+    answer of = begin(request);
+    PS_TRY(check_words(request, error));
+    pspec_status status = find_answer(&of, hooks, error);
+    if (status == PSPEC_OK) {
+        status = make_table(out, &of, error);
+    }
+    end(&of);
+    return status;
+}
+
+static pspec_status find_shown(answer *of, ps_error *error) {
+    ps_progress *const progress = ps_progress_begin(of->arguments, "degrees");
+    const ps_answer_hooks hooks = {.progress = ps_progress_tell, .payload = progress};
+    const pspec_status status = find_answer(of, &hooks, error);
+    ps_progress_end(progress);
+    return status;
+}
+
+static pspec_status run(const ps_request *arguments, ps_error *error) {
+    const char *const path = arguments->output != NULL ? arguments->output : "-";
     ps_table_format format = PS_FORMAT_CSV;
-    answer of = {.arguments = arguments,
-                 .is_hemispherical = harmonics != NULL && strcmp(harmonics, "hemispherical") == 0,
-                 .max_degree =
-                     arguments->max_degree > 0 ? (size_t)arguments->max_degree : DEFAULT_DEGREE};
+    ps_table *table = NULL;
+    answer of = begin(arguments);
     pspec_status status = PSPEC_OK;
     PS_TRY(check_words(arguments, error));
-    PS_TRY(ps_table_choose_format(&format, arguments->format,
-                                  arguments->output != NULL ? arguments->output : "-", error));
+    PS_TRY(ps_table_choose_format(&format, arguments->format, path, error));
     PS_TRY(ps_outputs_check(arguments, true, error));
-    PS_TRY_OUT(status, find_answer(&of, error));
+    PS_TRY_OUT(status, find_shown(&of, error));
     if (arguments->plot != NULL) {
         PS_TRY_OUT(status, write_plot(&of, error));
     }
-    status = write_table(&of, format, error);
+    PS_TRY_OUT(status, make_table(&table, &of, error));
+    status = ps_table_write(table, path, format, error);
 out:
-    free(of.degrees);
-    ps_representer_destroy(&of.representer);
-    ps_brdf_destroy(of.brdf);
+    ps_table_destroy(table);
+    end(&of);
     return status;
 }
 

@@ -78,5 +78,7 @@ ps_progress *ps_progress_begin(const ps_request *arguments, const char *what); /
 void ps_progress_update(ps_progress *progress, uint64_t done, uint64_t total);
 void ps_progress_hide(ps_progress *progress); /* until the next update: something else is printed */
 void ps_progress_end(ps_progress *progress);
+/* A ps_progress_callback whose payload is a progress line; an interrupt cancels. */
+int ps_progress_tell(uint64_t done, uint64_t total, void *progress);
 
 #endif

@@ -7,11 +7,6 @@
 
 #include <stdio.h>
 
-static int on_progress(uint64_t done, uint64_t total, void *payload) {
-    ps_progress_update(payload, done, total);
-    return ps_interrupted;
-}
-
 void ps_print_profile(const ps_profile_row *rows, size_t num_rows) {
     fprintf(stderr, "%-24s %9s %12s %10s %8s\n", "kernel", "launches", "seconds", "GFLOP/s",
             "GB/s");
@@ -66,30 +61,41 @@ static void warn_of_standard_error(const ps_power_job *job, double standard_erro
     }
 }
 
-pspec_status ps_jobs_run_one(const ps_request *arguments, ps_power_question *question,
-                             ps_power_job **job, ps_error *error) {
-    ps_progress *progress = ps_progress_begin(arguments, "realizations");
-    question->progress = on_progress;
-    question->payload = progress;
-    pspec_status status = ps_power_job_create(job, question, error);
-    if (status == PSPEC_OK && !arguments->quiet) {
+static pspec_status run_job(const ps_request *arguments, const ps_power_question *question,
+                            ps_power_job **job, ps_error *error) {
+    PS_TRY(ps_power_job_create(job, question, error));
+    if (!arguments->quiet) {
         warn_of_hours(*job);
     }
-    if (status == PSPEC_OK && arguments->verbose) {
+    if (arguments->verbose) {
         ps_print_plan(ps_power_job_plan(*job));
     }
-    if (status == PSPEC_OK) {
-        status = ps_power_job_run(*job, error);
-    }
-    ps_progress_end(progress);
-    if (status == PSPEC_OK && !arguments->quiet) {
+    return ps_power_job_run(*job, error);
+}
+
+pspec_status ps_jobs_run_one(const ps_request *arguments, ps_power_question *question,
+                             const ps_answer_hooks *hooks, ps_power_job **job, ps_error *error) {
+    question->progress = hooks->progress;
+    question->payload = hooks->payload;
+    question->open_device = hooks->device;
+    PS_TRY(run_job(arguments, question, job, error));
+    if (!arguments->quiet) {
         warn_of_standard_error(*job, arguments->standard_error);
     }
-    if (status == PSPEC_OK && arguments->profile) {
+    if (arguments->profile) {
         size_t num_rows = 0;
         const ps_profile_row *const rows = ps_power_job_profile(*job, &num_rows);
         ps_print_profile(rows, num_rows);
     }
+    return PSPEC_OK;
+}
+
+static pspec_status run_shown(const ps_request *arguments, ps_power_question *question,
+                              ps_power_job **job, ps_error *error) {
+    ps_progress *const progress = ps_progress_begin(arguments, "realizations");
+    const ps_answer_hooks hooks = {.progress = ps_progress_tell, .payload = progress};
+    const pspec_status status = ps_jobs_run_one(arguments, question, &hooks, job, error);
+    ps_progress_end(progress);
     return status;
 }
 
@@ -129,7 +135,7 @@ pspec_status ps_jobs_run(const ps_request *arguments, ps_question_kind kind,
     PS_TRY(check_outputs(arguments, &format, error));
     PS_TRY(ps_questions_make(&list, arguments, kind, error));
     for (size_t i = 0; i < list.num; i++) {
-        PS_TRY_OUT(status, ps_jobs_run_one(arguments, &list.questions[i], &jobs[i], error));
+        PS_TRY_OUT(status, run_shown(arguments, &list.questions[i], &jobs[i], error));
     }
     status = write_results(arguments, (const ps_power_job *const *)jobs, list.num, output, format,
                            error);

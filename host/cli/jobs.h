@@ -3,8 +3,8 @@
 #ifndef PS_CLI_JOBS_H
 #define PS_CLI_JOBS_H
 
+#include "cli/answer.h"
 #include "scene/question.h"
-#include "io/table.h"
 
 /* What becomes of jobs that have run, besides pictures. */
 typedef struct ps_jobs_output {
@@ -23,9 +23,9 @@ void ps_print_profile(const ps_profile_row *rows, size_t num_rows);
 pspec_status ps_jobs_run(const ps_request *arguments, ps_question_kind kind,
                          const ps_jobs_output *output, ps_error *error) PS_MUST_CHECK;
 
-/* One job, made and run with progress on standard error; the question must outlive it. *job may be there after
- * a failure, too. */
+/* One job, made and run; the question must outlive it. *job may be there after a failure, too. */
 pspec_status ps_jobs_run_one(const ps_request *arguments, ps_power_question *question,
-                             ps_power_job **job, ps_error *error) PS_MUST_CHECK;
+                             const ps_answer_hooks *hooks, ps_power_job **job,
+                             ps_error *error) PS_MUST_CHECK;
 
 #endif

@@ -91,3 +91,8 @@ void ps_progress_end(ps_progress *progress) {
     ps_progress_hide(progress);
     free(progress);
 }
+
+int ps_progress_tell(uint64_t done, uint64_t total, void *progress) {
+    ps_progress_update(progress, done, total);
+    return ps_interrupted;
+}

@@ -107,7 +107,12 @@ static pspec_status find_shape(ps_power_job *job, ps_error *error) {
 /* A device is opened unless the user's choice of engine or precision leaves none that needs one. */
 static pspec_status open_device(ps_power_job *job, ps_error *error) {
     const ps_power_question *question = job->question;
-    return ps_plan_may_need_device(&question->constraints)
+    if (!ps_plan_may_need_device(&question->constraints)) {
+        return PSPEC_OK;
+    }
+    job->owns_device = question->open_device == NULL;
+    job->device = question->open_device;
+    return job->owns_device
                ? ps_device_open(&job->device, question->device, question->profile, error)
                : PSPEC_OK;
 }
@@ -191,7 +196,9 @@ void ps_power_job_destroy(ps_power_job *job) {
     free(job->means);
     ps_frequencies_free(&job->frequencies);
     ps_power_sets_free(&job->sets);
-    ps_device_close(job->device);
+    if (job->owns_device) {
+        ps_device_close(job->device);
+    }
     free(job);
 }
 

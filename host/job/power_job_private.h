@@ -17,6 +17,7 @@ struct ps_power_job {
     uint64_t num_done;
     ps_problem problem;
     ps_device *device;
+    bool owns_device;
     ps_plan plan;
     ps_estimator *estimator;
     ps_spectrum spectrum;

@@ -165,7 +165,7 @@ static ps_power_question make_question(const ps_request *arguments, ps_question_
         .exact_shells = arguments->shells,
         /* the picture of one spectrum shows the corners; several, and subsets, are curves only */
         .wants_full_array =
-            arguments->full != NULL ||
+            arguments->full != NULL || arguments->wants_picture ||
             (arguments->plot != NULL && arguments->num_samplers <= 1 && arguments->per_ring == 0),
         .normalization = choose_normalization(arguments, kind),
         .tolerance = arguments->tolerance,

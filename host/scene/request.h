@@ -88,7 +88,9 @@ typedef struct ps_request {
     ps_point_range sets, points; /* {0} unless given */
     bool shells, homogenize, hemisphere, wrap, normalize_vectors, drop_below_horizon, merge,
         no_skip, no_self_check, profile, quick, quiet, verbose;
-    bool effective;        /* --normalize effective */
+    bool
+        wants_picture; /* of the averaged periodogram on the whole square, which no option asks for */
+    bool effective;    /* --normalize effective */
     double tolerance;      /* 1e-6 unless given */
     double standard_error; /* 0 unless given */
     double floor;          /* 0 unless given */

@@ -1,0 +1,96 @@
+/* A scene: a YAML file that asks for several results (docs/scenes.md has the schema).
+ *
+ *     scene: 1
+ *     results:
+ *       - result: power
+ *         samplers: [white, jittered]
+ *         points: 256..4096
+ *
+ * A key of a result is an option of the command of that name. A list of values asks for every one of them: a result
+ * has one question for each combination, of which the key that stands last in the file changes fastest.
+ */
+#ifndef PS_SCENE_SCENE_H
+#define PS_SCENE_SCENE_H
+
+#include "base/text.h"
+#include "scene/results.h"
+
+/* One value of a key: a text; of `files`, the paths that belong together. */
+typedef struct ps_scene_value {
+    size_t num_texts;
+    const char **texts; /* paths relative to the current folder */
+    const char *
+        *originals; /* as the file has them; the first is what tables and pages call the value */
+    int line;
+} ps_scene_value;
+
+enum { PS_SCENE_FILES = PS_NUM_OPTIONS }; /* the "option" of point files */
+
+typedef struct ps_scene_entry {
+    int option; /* a ps_option_id, or PS_SCENE_FILES */
+    int line;
+    size_t num_values;
+    ps_scene_value *values;
+} ps_scene_entry;
+
+typedef struct ps_scene_result {
+    const ps_result_kind *kind;
+    const char *name, *title; /* name: letters, digits, - and _; unique in the scene */
+    int line;
+    size_t num_entries;
+    ps_scene_entry
+        *entries;    /* of the result, then those of the defaults that it takes and does not say */
+    bool wants_plot; /* unless the file says no */
+    bool
+        wants_pictures; /* of the averaged periodogram of every question: where the file asks for them */
+} ps_scene_result;
+
+typedef struct ps_scene {
+    const char *path;                /* borrowed */
+    const char *title, *description; /* NULL: none */
+    const char *
+        folder; /* what relative paths of the scene are relative to, with its /; "" for the current one */
+    size_t num_results;
+    ps_scene_result *results;
+    /* of a record: what the questions, in their order, gave then; NULL in other scenes */
+    size_t num_digests;
+    const char **digests;
+    const char *recorded_version, *recorded_device;
+    struct ps_scene_memory *memory; /* what the texts and arrays are in */
+} ps_scene;
+
+/* Complaints are PSPEC_ERROR_INPUT and begin with file and line. Every value was looked at by itself; whether those of a
+ * question fit together is found out by who asks it. Freed by ps_scene_free, also after an error. */
+pspec_status ps_scene_read(ps_scene *out, const char *path, ps_error *error) PS_MUST_CHECK;
+void ps_scene_free(ps_scene *scene);
+
+/* One question of a result. */
+typedef struct ps_scene_question {
+    const ps_scene_result *result;
+    size_t number;      /* in the result, from 0 */
+    ps_request request; /* quiet; texts borrowed from the scene and from command */
+    ps_text command;    /* the command line that asks the same */
+} ps_scene_question;
+
+size_t ps_scene_num_questions(const ps_scene_result *result);
+/* Freed by ps_scene_question_free, also after an error. */
+pspec_status ps_scene_question_make(ps_scene_question *out, const ps_scene_result *result,
+                                    size_t number, ps_error *error) PS_MUST_CHECK;
+void ps_scene_question_free(ps_scene_question *question);
+
+/* The value that question `number` has of an entry. */
+const ps_scene_value *ps_scene_value_of(const ps_scene_result *result, size_t number,
+                                        size_t i_entry);
+/* The key of an entry, for complaints and names of columns: "points". */
+const char *ps_scene_key(const ps_scene_entry *entry);
+
+/* The sentence in *error gets file, line and name of the result in front of it. */
+pspec_status ps_scene_blame(const ps_scene *scene, const ps_scene_result *result, ps_error *error);
+
+/* Appends the scene as JSON, which is YAML too: what ps_scene_read makes the same questions of, wherever the text lies.
+ * Ends before the closing brace, so that a record can add to it. */
+void ps_scene_print(const ps_scene *scene, ps_text *out);
+/* A JSON string with its quotes. */
+void ps_scene_print_text(const char *text, ps_text *out);
+
+#endif

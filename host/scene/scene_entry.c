@@ -1,0 +1,241 @@
+/* The values of one key of a scene. */
+#include "scene/options.h"
+#include "scene/scene_file.h"
+
+#include <string.h>
+
+/* Of one key; lists are typed by people. */
+enum { MOST_VALUES = 1000 };
+
+pspec_status ps_scene_apply(ps_request *request, const ps_result_kind *kind, ps_option_id option,
+                            const char *text, ps_error *error) {
+    const ps_option *const row = &ps_options[option];
+    const char *const words =
+        option == PS_OPTION_WEIGHTS && kind->weights != NULL ? kind->weights : row->metavar;
+    if (row->metavar == NULL) {
+        if (strcmp(text, "false") == 0) {
+            return PSPEC_OK;
+        }
+        if (strcmp(text, "true") != 0) {
+            return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "true or false, not \"%s\"", text);
+        }
+    }
+    request->is_given[option] = true;
+    return row->set(row, words, text, request, error);
+}
+
+/* ---- paths ------------------------------------------------------------------------------- */
+
+static bool is_absolute(const char *path) {
+    return path[0] == '/';
+}
+
+/* From what the scene's folder is relative to. */
+static pspec_status resolve(ps_scene *scene, const ps_scene_file *file, const ps_scene_value *value,
+                            const char **path) {
+    if (strcmp(*path, "-") == 0) {
+        return ps_scene_complain(file, value->line, NULL,
+                                 "a scene can be run again, standard input (-) cannot");
+    }
+    return is_absolute(*path) ? PSPEC_OK
+                              : ps_scene_copy(scene, scene->folder, *path, path, file->error);
+}
+
+static bool is_weight_word(const char *text) {
+    return strcmp(text, "equal") == 0 || strcmp(text, "column") == 0 ||
+           strcmp(text, "optimal") == 0;
+}
+
+/* The table of a lobe, "zonal:file=PATH". */
+static pspec_status resolve_lobe(ps_scene *scene, const ps_scene_file *file, const char **text) {
+    static const char key[] = "file=";
+    const char *const found = strstr(*text, key);
+    if (found == NULL || is_absolute(found + strlen(key))) {
+        return PSPEC_OK;
+    }
+    ps_text joined = {0};
+    const size_t before = (size_t)(found - *text) + strlen(key);
+    ps_text_append_bytes(&joined, *text, before);
+    ps_text_append(&joined, "%s%s", scene->folder, found + strlen(key));
+    pspec_status status = ps_text_check(&joined, file->error);
+    if (status == PSPEC_OK) {
+        status = ps_scene_copy(scene, "", ps_text_string(&joined), text, file->error);
+    }
+    ps_text_free(&joined);
+    return status;
+}
+
+static pspec_status resolve_paths(ps_scene *scene, const ps_scene_file *file, int option,
+                                  ps_scene_value *value) {
+    const bool is_path = option == PS_SCENE_FILES || option == PS_OPTION_FREQUENCIES ||
+                         option == PS_OPTION_AGAINST ||
+                         (option == PS_OPTION_WEIGHTS && !is_weight_word(value->texts[0]));
+    for (size_t i = 0; is_path && i < value->num_texts; i++) {
+        PS_TRY(resolve(scene, file, value, &value->texts[i]));
+    }
+    return option == PS_OPTION_BRDF ? resolve_lobe(scene, file, &value->texts[0]) : PSPEC_OK;
+}
+
+/* ---- values ------------------------------------------------------------------------------ */
+
+/* The sentence of an option without the name that the complaint has already. */
+static pspec_status complain_of_value(const ps_scene_file *file, int line, const char *key,
+                                      const ps_error *reason) {
+    const char *sentence = reason->message;
+    sentence += strncmp(sentence, "--", 2) == 0 ? 2 : 0;
+    const size_t length = strlen(key);
+    if (strncmp(sentence, key, length) == 0 && strncmp(sentence + length, ": ", 2) == 0) {
+        sentence += length + 2;
+    }
+    return ps_scene_complain(file, line, key, "%s", sentence);
+}
+
+static pspec_status check_value(const ps_scene_file *file, const ps_result_kind *kind, int option,
+                                const char *key, const ps_scene_value *value) {
+    ps_request scratch = ps_request_default;
+    ps_error reason = {0};
+    if (option == PS_SCENE_FILES) {
+        return PSPEC_OK;
+    }
+    return ps_scene_apply(&scratch, kind, (ps_option_id)option, value->texts[0], &reason) ==
+                   PSPEC_OK
+               ? PSPEC_OK
+               : complain_of_value(file, value->line, key, &reason);
+}
+
+/* A value of num texts, which are set one by one. */
+static pspec_status make_value(ps_scene *scene, size_t num, int line, ps_scene_value *out,
+                               ps_error *error) {
+    void *memory = NULL;
+    PS_TRY(ps_scene_allocate(scene, 2 * num, sizeof *out->texts, &memory, error));
+    *out = (ps_scene_value){.num_texts = num, .texts = memory, .line = line};
+    out->originals = out->texts + num;
+    return PSPEC_OK;
+}
+
+static pspec_status set_text(ps_scene *scene, ps_scene_value *value, size_t index, const char *text,
+                             ps_error *error) {
+    PS_TRY(ps_scene_copy(scene, "", text, &value->originals[index], error));
+    value->texts[index] = value->originals[index];
+    return PSPEC_OK;
+}
+
+/* The scalars of a node as the texts of one value. */
+static pspec_status take_value(ps_scene *scene, const ps_scene_file *file, const char *key,
+                               yaml_node_t *node, ps_scene_value *out) {
+    const size_t num = ps_scene_num_items(node);
+    if (num == 0) {
+        return ps_scene_complain(file, ps_scene_line(node), key, "an empty list");
+    }
+    PS_TRY(make_value(scene, num, ps_scene_line(node), out, file->error));
+    for (size_t i = 0; i < num; i++) {
+        const char *text = NULL;
+        PS_TRY(ps_scene_take_text(file, ps_scene_item(file, node, i), key, &text));
+        PS_TRY(set_text(scene, out, i, text, file->error));
+    }
+    return PSPEC_OK;
+}
+
+/* A list of paths is one value; a list in which there are lists has a value in each item. */
+static bool has_lists(const ps_scene_file *file, yaml_node_t *node) {
+    for (size_t i = 0; i < ps_scene_num_items(node); i++) {
+        if (node->type == YAML_SEQUENCE_NODE &&
+            ps_scene_item(file, node, i)->type == YAML_SEQUENCE_NODE) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* "16..4096": powers of 2 times the first. num 0: the text is no such range. */
+static pspec_status read_range(const char *text, uint64_t *first, size_t *num, ps_error *error) {
+    enum { MOST_LETTERS = 31 };
+    char left[MOST_LETTERS + 1];
+    const char *const dots = strstr(text, "..");
+    uint64_t last = 0;
+    *num = 0;
+    if (dots == NULL || dots - text > MOST_LETTERS) {
+        return PSPEC_OK;
+    }
+    memcpy(left, text, (size_t)(dots - text));
+    left[dots - text] = '\0';
+    PS_TRY(ps_parse_count(left, "points", 1, INT64_MAX, first, error));
+    PS_TRY(ps_parse_count(dots + 2, "points", 1, INT64_MAX, &last, error));
+    if (last < *first) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "points: \"%s\": the first number is the larger one", text);
+    }
+    for (uint64_t n = *first; n <= last; n *= 2) {
+        ++*num;
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status expand_range(ps_scene *scene, const ps_scene_file *file, yaml_node_t *node,
+                                 ps_scene_entry *out, bool *is_range) {
+    enum { NUMBER = 24 };
+    const char *text = NULL;
+    uint64_t first = 0;
+    size_t num = 0;
+    ps_error reason = {0};
+    void *values = NULL;
+    *is_range = false;
+    if (out->option != PS_OPTION_POINTS || node->type != YAML_SCALAR_NODE) {
+        return PSPEC_OK;
+    }
+    PS_TRY(ps_scene_take_text(file, node, "points", &text));
+    if (read_range(text, &first, &num, &reason) != PSPEC_OK) {
+        return complain_of_value(file, ps_scene_line(node), "points", &reason);
+    }
+    *is_range = num > 0;
+    PS_TRY(ps_scene_allocate(scene, num, sizeof *out->values, &values, file->error));
+    out->values = values;
+    out->num_values = num;
+    for (size_t i = 0; i < num; i++) {
+        char number[NUMBER];
+        snprintf(number, sizeof number, "%llu", (unsigned long long)(first << i));
+        PS_TRY(make_value(scene, 1, out->line, &out->values[i], file->error));
+        PS_TRY(set_text(scene, &out->values[i], 0, number, file->error));
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status take_values(ps_scene *scene, const ps_scene_file *file, const char *key,
+                                yaml_node_t *node, ps_scene_entry *out) {
+    const bool is_one = out->option == PS_SCENE_FILES && !has_lists(file, node);
+    const size_t num = is_one ? 1 : ps_scene_num_items(node);
+    void *values = NULL;
+    if (num == 0 || num > MOST_VALUES) {
+        return num == 0 ? ps_scene_complain(file, ps_scene_line(node), key, "an empty list")
+                        : ps_scene_complain(file, ps_scene_line(node), key,
+                                            "%zu values, more than %d", num, MOST_VALUES);
+    }
+    PS_TRY(ps_scene_allocate(scene, num, sizeof *out->values, &values, file->error));
+    out->values = values;
+    out->num_values = num;
+    for (size_t i = 0; i < num; i++) {
+        yaml_node_t *const item = is_one ? node : ps_scene_item(file, node, i);
+        if (item->type == YAML_SEQUENCE_NODE && out->option != PS_SCENE_FILES) {
+            return ps_scene_complain(file, ps_scene_line(item), key,
+                                     "a list in a list; only files have those");
+        }
+        PS_TRY(take_value(scene, file, key, item, &out->values[i]));
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_scene_take_entry(ps_scene *scene, const ps_scene_file *file,
+                                 const ps_result_kind *kind, int option, const char *key,
+                                 yaml_node_t *value, ps_scene_entry *out) {
+    bool is_range = false;
+    *out = (ps_scene_entry){.option = option, .line = ps_scene_line(value)};
+    PS_TRY(expand_range(scene, file, value, out, &is_range));
+    if (!is_range) {
+        PS_TRY(take_values(scene, file, key, value, out));
+    }
+    for (size_t i = 0; i < out->num_values; i++) {
+        PS_TRY(resolve_paths(scene, file, option, &out->values[i]));
+        PS_TRY(check_value(file, kind, option, key, &out->values[i]));
+    }
+    return PSPEC_OK;
+}

@@ -1,0 +1,59 @@
+/* The YAML below a scene: nodes with their lines, complaints, memory. Private to host/scene. */
+#ifndef PS_SCENE_SCENE_FILE_H
+#define PS_SCENE_SCENE_FILE_H
+
+#include "scene/scene.h"
+
+#include <yaml.h>
+
+typedef struct ps_scene_file {
+    const char *path;
+    yaml_document_t document;
+    bool has_document;
+    ps_error *error;
+} ps_scene_file;
+
+/* Reads the only document of a file, "-" for standard input. Closed by ps_scene_file_close, also after an error. */
+pspec_status ps_scene_file_open(ps_scene_file *out, const char *path,
+                                ps_error *error) PS_MUST_CHECK;
+void ps_scene_file_close(ps_scene_file *file);
+
+int ps_scene_line(const yaml_node_t *node);
+/* "scene.yaml:3: points: ..."; key NULL: of no key. Returns PSPEC_ERROR_INPUT. */
+pspec_status ps_scene_complain(const ps_scene_file *file, int line, const char *key,
+                               const char *format, ...) PS_PRINTF(4, 5);
+
+/* The text of a scalar; anything else is complained of. */
+pspec_status ps_scene_take_text(const ps_scene_file *file, yaml_node_t *node, const char *key,
+                                const char **out) PS_MUST_CHECK;
+
+/* Items of a sequence; a node that is none counts as its only item. */
+size_t ps_scene_num_items(const yaml_node_t *node);
+yaml_node_t *ps_scene_item(const ps_scene_file *file, yaml_node_t *node, size_t index);
+
+/* Pairs of a mapping. A key that is no text, and one that stands there twice, is complained of. */
+size_t ps_scene_num_pairs(const yaml_node_t *node);
+pspec_status ps_scene_pair(const ps_scene_file *file, yaml_node_t *mapping, size_t index,
+                           const char **key, yaml_node_t **value) PS_MUST_CHECK;
+
+/* Memory that lives as long as the scene. */
+struct ps_scene_memory {
+    struct ps_scene_memory *next;
+    max_align_t bytes[];
+};
+pspec_status ps_scene_allocate(ps_scene *scene, size_t count, size_t element_bytes, void **out,
+                               ps_error *error) PS_MUST_CHECK;
+/* A copy of prefix followed by text. */
+pspec_status ps_scene_copy(ps_scene *scene, const char *prefix, const char *text, const char **out,
+                           ps_error *error) PS_MUST_CHECK;
+
+/* The values of an option, which word says: paths are made relative to the current folder. */
+pspec_status ps_scene_take_entry(ps_scene *scene, const ps_scene_file *file,
+                                 const ps_result_kind *kind, int option, const char *key,
+                                 yaml_node_t *value, ps_scene_entry *out) PS_MUST_CHECK;
+
+/* Sets an option of a request to a text; flags are true or false. */
+pspec_status ps_scene_apply(ps_request *request, const ps_result_kind *kind, ps_option_id option,
+                            const char *text, ps_error *error) PS_MUST_CHECK;
+
+#endif

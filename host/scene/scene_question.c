@@ -1,0 +1,78 @@
+/* The questions of a result: one for each combination of its values. */
+#include "scene/options.h"
+#include "scene/scene_file.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+const char *ps_scene_key(const ps_scene_entry *entry) {
+    return entry->option == PS_SCENE_FILES ? "files" : ps_options[entry->option].name;
+}
+
+size_t ps_scene_num_questions(const ps_scene_result *result) {
+    size_t num = 1;
+    for (size_t i = 0; i < result->num_entries; i++) {
+        num *= result->entries[i].num_values;
+    }
+    return num;
+}
+
+/* Like the digits of a number: the last entry changes fastest. */
+const ps_scene_value *ps_scene_value_of(const ps_scene_result *result, size_t number,
+                                        size_t i_entry) {
+    for (size_t i = result->num_entries; --i > i_entry;) {
+        number /= result->entries[i].num_values;
+    }
+    const ps_scene_entry *const entry = &result->entries[i_entry];
+    return &entry->values[number % entry->num_values];
+}
+
+static void append_option(ps_text *command, const ps_scene_entry *entry, const char *text) {
+    const bool is_flag = ps_options[entry->option].metavar == NULL;
+    if (is_flag && strcmp(text, "true") != 0) {
+        return;
+    }
+    ps_text_append(command, " --%s", ps_scene_key(entry));
+    if (!is_flag) {
+        ps_text_append_word(command, text);
+    }
+}
+
+static pspec_status take_value(ps_scene_question *out, const ps_scene_entry *entry,
+                               const ps_scene_value *value, ps_error *error) {
+    if (entry->option == PS_SCENE_FILES) {
+        out->request.files = value->texts;
+        out->request.num_files = value->num_texts;
+        return PSPEC_OK;
+    }
+    append_option(&out->command, entry, value->texts[0]);
+    return ps_scene_apply(&out->request, out->result->kind, (ps_option_id)entry->option,
+                          value->texts[0], error);
+}
+
+pspec_status ps_scene_question_make(ps_scene_question *out, const ps_scene_result *result,
+                                    size_t number, ps_error *error) {
+    *out = (ps_scene_question){.result = result, .number = number, .request = ps_request_default};
+    ps_text_append(&out->command, "pointspec %s", result->kind->name);
+    for (size_t i = 0; i < result->num_entries; i++) {
+        PS_TRY(take_value(out, &result->entries[i], ps_scene_value_of(result, number, i), error));
+    }
+    for (size_t i = 0; i < out->request.num_files; i++) {
+        ps_text_append_word(&out->command, out->request.files[i]);
+    }
+    PS_TRY(ps_text_check(&out->command, error));
+    out->request.quiet = true;
+    out->request.wants_picture = result->wants_pictures;
+    out->request.command_line = ps_text_string(&out->command);
+    return PSPEC_OK;
+}
+
+void ps_scene_question_free(ps_scene_question *question) {
+    ps_text_free(&question->command);
+}
+
+pspec_status ps_scene_blame(const ps_scene *scene, const ps_scene_result *result, ps_error *error) {
+    ps_error reason = *error;
+    return ps_fail(error, reason.status, "%s:%d: %s: %s", scene->path, result->line, result->name,
+                   reason.message);
+}
