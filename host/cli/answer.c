@@ -64,6 +64,12 @@ pspec_status ps_answer_make(ps_answer *out, const ps_result_kind *kind, const ps
                                          : ps_check_answer(&out->table, request, hooks, error);
 }
 
+pspec_status ps_answer_check(const ps_result_kind *kind, const ps_request *request,
+                             ps_error *error) {
+    return kind == &ps_result_truncation ? ps_truncation_check(request, error)
+                                         : ps_check_check(request, error);
+}
+
 void ps_answer_free(ps_answer *answer) {
     ps_table_destroy(answer->table);
     free(answer->array);

@@ -28,11 +28,17 @@ pspec_status ps_answer_make(ps_answer *out, const ps_result_kind *kind, const ps
                             const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
 void ps_answer_free(ps_answer *answer);
 
+/* What an answer would refuse before any work, of the kinds truncation and check. */
+pspec_status ps_answer_check(const ps_result_kind *kind, const ps_request *request,
+                             ps_error *error) PS_MUST_CHECK;
+
 /* Of kinds whose command is more than a spectrum job; arguments were looked at by the command. */
 pspec_status ps_quadrature_answer(ps_table **out, const ps_request *request,
                                   const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
 pspec_status ps_truncation_answer(ps_table **out, const ps_request *request,
                                   const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
+pspec_status ps_truncation_check(const ps_request *request, ps_error *error) PS_MUST_CHECK;
+pspec_status ps_check_check(const ps_request *request, ps_error *error) PS_MUST_CHECK;
 pspec_status ps_check_answer(ps_table **out, const ps_request *request,
                              const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
 

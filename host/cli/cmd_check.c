@@ -44,7 +44,7 @@ static ps_request complete(const ps_request *arguments, const ps_saved_spectrum 
     return own;
 }
 
-static pspec_status check_question(const ps_request *arguments, ps_error *error) {
+pspec_status ps_check_check(const ps_request *arguments, ps_error *error) {
     if (arguments->against == NULL) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "--against FILE is needed: the saved spectrum");
@@ -231,7 +231,7 @@ static pspec_status answer_saved(ps_table **out, ps_error *verdict, const ps_req
 static pspec_status find_answer(ps_table **out, ps_error *verdict, const ps_request *arguments,
                                 const ps_answer_hooks *hooks, ps_error *error) {
     ps_saved_spectrum saved;
-    PS_TRY(check_question(arguments, error));
+    PS_TRY(ps_check_check(arguments, error));
     PS_TRY(ps_saved_spectrum_read(&saved, arguments->against, error));
     const pspec_status status = answer_saved(out, verdict, arguments, hooks, &saved, error);
     ps_saved_spectrum_free(&saved);
@@ -248,7 +248,7 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
     ps_error verdict = {0};
     ps_table *table = NULL;
     ps_table_format format = PS_FORMAT_CSV;
-    PS_TRY(check_question(arguments, error));
+    PS_TRY(ps_check_check(arguments, error));
     PS_TRY(check_output(arguments, &format, error));
     ps_progress *const progress = ps_progress_begin(arguments, "realizations");
     const ps_answer_hooks hooks = {.progress = ps_progress_tell, .payload = progress};

@@ -33,7 +33,7 @@ typedef struct answer {
 
 /* ---- the numbers --------------------------------------------------------------------------- */
 
-static pspec_status check_words(const ps_request *arguments, ps_error *error) {
+pspec_status ps_truncation_check(const ps_request *arguments, ps_error *error) {
     if (arguments->num_files > 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "no file is read, but %s was given",
                        arguments->files[0]);
@@ -205,7 +205,7 @@ static void end(answer *of) {
 pspec_status ps_truncation_answer(ps_table **out, const ps_request *request,
                                   const ps_answer_hooks *hooks, ps_error *error) {
     answer of = begin(request);
-    PS_TRY(check_words(request, error));
+    PS_TRY(ps_truncation_check(request, error));
     pspec_status status = find_answer(&of, hooks, error);
     if (status == PSPEC_OK) {
         status = make_table(out, &of, error);
@@ -228,7 +228,7 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
     ps_table *table = NULL;
     answer of = begin(arguments);
     pspec_status status = PSPEC_OK;
-    PS_TRY(check_words(arguments, error));
+    PS_TRY(ps_truncation_check(arguments, error));
     PS_TRY(ps_table_choose_format(&format, arguments->format, path, error));
     PS_TRY(ps_outputs_check(arguments, true, error));
     PS_TRY_OUT(status, find_shown(&of, error));

@@ -39,7 +39,7 @@ const ps_command *ps_command_find(const char *name, ps_error *error);
 
 extern const ps_command ps_command_power, ps_command_angular, ps_command_pairs,
     ps_command_quadrature, ps_command_truncation, ps_command_sample, ps_command_convert,
-    ps_command_check, ps_command_plan, ps_command_stress, ps_command_devices;
+    ps_command_check, ps_command_run, ps_command_plan, ps_command_stress, ps_command_devices;
 
 /* Every command takes --help, also when its list does not say so. */
 bool ps_command_takes(const ps_command *command, ps_option_id id);
@@ -76,6 +76,8 @@ void ps_help_command(FILE *stream, const ps_command *command);
 typedef struct ps_progress ps_progress;
 ps_progress *ps_progress_begin(const ps_request *arguments, const char *what); /* NULL: silent */
 void ps_progress_update(ps_progress *progress, uint64_t done, uint64_t total);
+/* From now on the line is about a part of the work, which it names first; time and rate begin anew. */
+void ps_progress_part(ps_progress *progress, const char *format, ...) PS_PRINTF(2, 3);
 void ps_progress_hide(ps_progress *progress); /* until the next update: something else is printed */
 void ps_progress_end(ps_progress *progress);
 /* A ps_progress_callback whose payload is a progress line; an interrupt cancels. */

@@ -2,6 +2,7 @@
 #include "cli/command.h"
 
 #include <inttypes.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
@@ -11,12 +12,13 @@
  * flicker. */
 static const double FIRST_DELAY = 0.5, DELAY = 0.1;
 
-enum { LINE_BYTES = 160 }; /* two numbers of 20 digits; what occurs fits 80 columns */
+enum { LINE_BYTES = 256, PART_BYTES = 64 }; /* two numbers of 20 digits; what occurs fits 80 columns */
 
 struct ps_progress {
     const char *what;
     double start, last; /* last: when the line was last written, or when it may first be */
     int width;          /* of the line that stands there now */
+    char part[PART_BYTES]; /* what the line begins with */
 };
 
 static double now(void) {
@@ -32,7 +34,7 @@ ps_progress *ps_progress_begin(const ps_request *arguments, const char *what) {
     ps_progress *const progress = malloc(sizeof *progress);
     if (progress != NULL) { /* without memory for it there is no progress line */
         const double start = now();
-        *progress = (ps_progress){what, start, start + FIRST_DELAY - DELAY, 0};
+        *progress = (ps_progress){what, start, start + FIRST_DELAY - DELAY, 0, ""};
     }
     return progress;
 }
@@ -68,15 +70,27 @@ void ps_progress_update(ps_progress *progress, uint64_t done, uint64_t total) {
     const double rate = (double)done / (time - progress->start);
     char line[LINE_BYTES];
     if (total == 0 || done == 0 || done > total) {
-        snprintf(line, sizeof line, "%" PRIu64 " %s, %.3g/s", done, progress->what, rate);
+        snprintf(line, sizeof line, "%s%" PRIu64 " %s, %.3g/s", progress->part, done,
+                 progress->what, rate);
     } else {
         char left[32];
         format_duration(left, sizeof left, (double)(total - done) / rate);
-        snprintf(line, sizeof line, "%" PRIu64 " of %" PRIu64 " %s, %.3g/s, %s left", done, total,
-                 progress->what, rate, left);
+        snprintf(line, sizeof line, "%s%" PRIu64 " of %" PRIu64 " %s, %.3g/s, %s left",
+                 progress->part, done, total, progress->what, rate, left);
     }
     replace_line(progress, line);
     progress->last = time;
+}
+
+void ps_progress_part(ps_progress *progress, const char *format, ...) {
+    va_list arguments;
+    if (progress == NULL) {
+        return;
+    }
+    va_start(arguments, format);
+    vsnprintf(progress->part, sizeof progress->part, format, arguments);
+    va_end(arguments);
+    progress->start = now();
 }
 
 void ps_progress_hide(ps_progress *progress) {

@@ -205,52 +205,77 @@ static pspec_status make_script(FILE *script, const drawing *what, const char *t
 }
 
 /* num: of places in all curves together. */
-static pspec_status check_plot(const char *path, size_t num, ps_error *error) {
-    if (!ps_plot_is_supported(path)) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "%s: pictures end in .png, .svg or .pdf", path);
-    }
-    if (num == 0) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: there is nothing to plot", path);
-    }
-    return PSPEC_OK;
+static pspec_status check_plot(const char *name, size_t num, ps_error *error) {
+    return num > 0 ? PSPEC_OK
+                   : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: there is nothing to plot",
+                             name);
 }
 
-static pspec_status draw(const char *path, const drawing *what, ps_error *error) {
-    ps_output_file *file = NULL;
-    FILE *script = NULL;
-    ps_text picture = {0};
-    pspec_status status = PSPEC_OK;
-    const terminal *const kind = find_terminal(path);
-    PS_TRY(ps_output_open(&file, path, error));
-    script = tmpfile();
-    PS_TRY_OUT(status, make_script(script, what, kind->name, error));
-    PS_TRY_OUT(status, run_gnuplot(script, kind->last, &picture, error));
-    ps_output_write(file, picture.data, 1, picture.length);
-    PS_TRY_OUT(status, ps_output_commit(&file, error));
-out:
-    ps_output_discard(&file);
-    ps_text_free(&picture);
+static pspec_status draw(ps_text *picture, const terminal *kind, const drawing *what,
+                         ps_error *error) {
+    FILE *const script = tmpfile();
+    pspec_status status = make_script(script, what, kind->name, error);
+    if (status == PSPEC_OK) {
+        status = run_gnuplot(script, kind->last, picture, error);
+    }
     if (script != NULL) {
         fclose(script);
     }
     return status;
 }
 
-pspec_status ps_plot_write(const char *path, const ps_plot *plot, ps_error *error) {
+/* The file is opened first: what cannot be written is not drawn. */
+static pspec_status draw_file(const char *path, const drawing *what, ps_error *error) {
+    ps_output_file *file = NULL;
+    ps_text picture = {0};
+    pspec_status status = PSPEC_OK;
+    const terminal *const kind = find_terminal(path);
+    if (kind == NULL) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "%s: pictures end in .png, .svg or .pdf", path);
+    }
+    PS_TRY(ps_output_open(&file, path, error));
+    PS_TRY_OUT(status, draw(&picture, kind, what, error));
+    ps_output_write(file, picture.data, 1, picture.length);
+    PS_TRY_OUT(status, ps_output_commit(&file, error));
+out:
+    ps_output_discard(&file);
+    ps_text_free(&picture);
+    return status;
+}
+
+static size_t count_bins(const ps_plot *plot) {
     size_t num = 0;
     for (size_t i = 0; i < plot->num_curves; i++) {
         num += plot->curves[i].num_bins;
     }
-    PS_TRY(check_plot(path, num, error));
-    return draw(path, &(drawing){.spectra = plot}, error);
+    return num;
 }
 
-pspec_status ps_line_plot_write(const char *path, const ps_line_plot *plot, ps_error *error) {
+static size_t count_places(const ps_line_plot *plot) {
     size_t num = 0;
     for (size_t i = 0; i < plot->num_lines; i++) {
         num += plot->lines[i].num;
     }
-    PS_TRY(check_plot(path, num, error));
-    return draw(path, &(drawing){.lines = plot}, error);
+    return num;
+}
+
+pspec_status ps_plot_write(const char *path, const ps_plot *plot, ps_error *error) {
+    PS_TRY(check_plot(path, count_bins(plot), error));
+    return draw_file(path, &(drawing){.spectra = plot}, error);
+}
+
+pspec_status ps_line_plot_write(const char *path, const ps_line_plot *plot, ps_error *error) {
+    PS_TRY(check_plot(path, count_places(plot), error));
+    return draw_file(path, &(drawing){.lines = plot}, error);
+}
+
+pspec_status ps_plot_draw_svg(ps_text *svg, const ps_plot *plot, ps_error *error) {
+    PS_TRY(check_plot(plot->title, count_bins(plot), error));
+    return draw(svg, find_terminal(".svg"), &(drawing){.spectra = plot}, error);
+}
+
+pspec_status ps_line_plot_draw_svg(ps_text *svg, const ps_line_plot *plot, ps_error *error) {
+    PS_TRY(check_plot(plot->title, count_places(plot), error));
+    return draw(svg, find_terminal(".svg"), &(drawing){.lines = plot}, error);
 }

@@ -8,6 +8,7 @@
 #define PS_IO_PLOT_H
 
 #include "base/status.h"
+#include "base/text.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -41,6 +42,8 @@ bool ps_plot_is_supported(const char *path);
 /* Draws into path, which appears when the picture is complete and on the disk. Fails with one
  * sentence when gnuplot is not installed. */
 pspec_status ps_plot_write(const char *path, const ps_plot *plot, ps_error *error) PS_MUST_CHECK;
+/* Appends the picture to a text. */
+pspec_status ps_plot_draw_svg(ps_text *svg, const ps_plot *plot, ps_error *error) PS_MUST_CHECK;
 
 /* ---- lines ---------------------------------------------------------------------------------- */
 
@@ -61,5 +64,7 @@ typedef struct ps_line_plot {
 
 pspec_status ps_line_plot_write(const char *path, const ps_line_plot *plot,
                                 ps_error *error) PS_MUST_CHECK;
+pspec_status ps_line_plot_draw_svg(ps_text *svg, const ps_line_plot *plot,
+                                   ps_error *error) PS_MUST_CHECK;
 
 #endif

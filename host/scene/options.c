@@ -239,6 +239,14 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                   "(default: POINTSPEC_DEVICE, else the first GPU, else the first "
                                   "CPU)",
                           TEXT(device)},
+    [PS_OPTION_CACHE] = {.name = "cache",
+                         .metavar = "BYTES",
+                         .help = "what the cache of results may take on the disk; 0: nothing is "
+                                 "taken from it or kept (default 1e9)",
+                         COUNT(cache_bytes),
+                         .what = "cache",
+                         .minimum = 0,
+                         .maximum = INT64_MAX},
     [PS_OPTION_NO_SKIP] = {.name = "no-skip",
                            .help = "do also what the question does not need",
                            FLAG(no_skip)},

@@ -1,0 +1,76 @@
+/* pointspec run: a scene answered, and what becomes of the answers. cmd_run.c goes through it once:
+ *
+ *     run_answers.c   every question from the cache or computed
+ *     run_tables.c    tables of the results, and summaries
+ *     run_plots.c     their pictures
+ *     run_page.c      the page that shows them
+ *     run_record.c    the record that repeats them
+ */
+#ifndef PS_CLI_RUN_H
+#define PS_CLI_RUN_H
+
+#include "cli/answer.h"
+#include "io/digest.h"
+#include "io/result_cache.h"
+#include "scene/scene.h"
+
+typedef struct ps_run_question {
+    ps_scene_question asked;
+    ps_answer answer;
+    double seconds; /* of computing it, or of reading it from the cache */
+    bool is_cached;
+    char digest[PS_DIGEST_BYTES]; /* of the rows of the table and of the array */
+} ps_run_question;
+
+typedef struct ps_run_plot {
+    char *name; /* of the file, without .svg */
+    char *svg;
+} ps_run_plot;
+
+typedef struct ps_run_result {
+    const ps_scene_result *asked;
+    size_t num;
+    ps_run_question *questions;
+    ps_table *table, *summary; /* the summary has a row for each question */
+    size_t num_plots, plot_capacity;
+    ps_run_plot *plots;
+} ps_run_result;
+
+typedef struct ps_run {
+    const ps_request *arguments;
+    const ps_scene *scene;
+    const char *folder; /* for the results */
+    ps_cache *cache;    /* NULL: none */
+    ps_text identity;   /* of program and device, for the keys of the cache */
+    ps_device *device;  /* NULL: not opened yet */
+    size_t num_results, num_questions, num_cached;
+    double seconds;
+    ps_run_result *results;
+} ps_run;
+
+/* Makes all questions and looks whether they can be asked, without work. */
+pspec_status ps_run_ask(ps_run *run, ps_error *error) PS_MUST_CHECK;
+pspec_status ps_run_answer(ps_run *run, ps_error *error) PS_MUST_CHECK;
+/* Is the answer in the cache? *out is to be freed in either case. */
+pspec_status ps_run_fetch(ps_run *run, const ps_run_question *question, ps_answer *out,
+                          bool *is_found, ps_error *error) PS_MUST_CHECK;
+void ps_run_free(ps_run *run);
+
+pspec_status ps_run_make_tables(const ps_run *run, ps_run_result *result,
+                                ps_error *error) PS_MUST_CHECK;
+pspec_status ps_run_make_plots(const ps_run *run, ps_run_result *result,
+                               ps_error *error) PS_MUST_CHECK;
+/* Whole texts: HTML and JSON. */
+pspec_status ps_run_page(const ps_run *run, ps_text *out, ps_error *error) PS_MUST_CHECK;
+pspec_status ps_run_record(const ps_run *run, ps_text *out, ps_error *error) PS_MUST_CHECK;
+/* PSPEC_ERROR_CHECK where the scene is a record whose digests are others. */
+pspec_status ps_run_compare(const ps_run *run, ps_error *error) PS_MUST_CHECK;
+
+/* What tells a question from the others of its result, "jittered, 1024"; the kind where nothing does. */
+void ps_run_label(const ps_run_result *result, size_t number, ps_text *out);
+/* Has this entry several values? */
+bool ps_run_varies(const ps_scene_entry *entry);
+/* The first header entry of that key; kind missing: there is none. */
+ps_cell ps_run_meta(const ps_table *table, const char *key);
+
+#endif

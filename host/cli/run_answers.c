@@ -1,0 +1,310 @@
+/* Every question of a scene, from the cache or computed. */
+#include "base/memory.h"
+#include "cli/run.h"
+#include "io/table_pack.h"
+#include "scene/quadrature_question.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+static double now(void) {
+    struct timespec time = {0};
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+/* ---- questions --------------------------------------------------------------------------- */
+
+/* What can be refused is refused before the first hour of work. */
+static pspec_status check_question(const ps_result_kind *kind, const ps_request *request,
+                                   ps_error *error) {
+    ps_question_list spectra;
+    ps_quadrature_list rules = {0};
+    if (kind == &ps_result_quadrature) {
+        const pspec_status status = ps_quadrature_list_make(&rules, request, error);
+        ps_quadrature_list_free(&rules);
+        return status;
+    }
+    if (kind == &ps_result_truncation || kind == &ps_result_check) {
+        return ps_answer_check(kind, request, error);
+    }
+    return ps_questions_make(&spectra, request,
+                             kind == &ps_result_power     ? PS_QUESTION_POWER
+                             : kind == &ps_result_angular ? PS_QUESTION_ANGULAR
+                                                          : PS_QUESTION_PAIRS,
+                             error);
+}
+
+static pspec_status ask_one(ps_run *run, ps_run_result *result, size_t number, ps_error *error) {
+    ps_scene_question *const asked = &result->questions[number].asked;
+    pspec_status status = ps_scene_question_make(asked, result->asked, number, error);
+    result->num = number + 1;
+    if (run->arguments->no_skip) {
+        asked->request.no_skip = true;
+    }
+    asked->request.device = run->arguments->device;
+    if (status == PSPEC_OK) {
+        status = check_question(result->asked->kind, &asked->request, error);
+    }
+    return status == PSPEC_OK ? PSPEC_OK : ps_scene_blame(run->scene, result->asked, error);
+}
+
+pspec_status ps_run_ask(ps_run *run, ps_error *error) {
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, run->scene->num_results, sizeof *run->results, "results", error));
+    run->results = memory;
+    run->num_results = run->scene->num_results;
+    for (size_t i = 0; i < run->num_results; i++) {
+        ps_run_result *const result = &run->results[i];
+        result->asked = &run->scene->results[i];
+        const size_t num = ps_scene_num_questions(result->asked);
+        PS_TRY(ps_allocate(&memory, num, sizeof *result->questions, "questions", error));
+        result->questions = memory;
+        for (size_t q = 0; q < num; q++) {
+            PS_TRY(ask_one(run, result, q, error));
+        }
+        run->num_questions += num;
+    }
+    return PSPEC_OK;
+}
+
+/* ---- keys of the cache ------------------------------------------------------------------- */
+
+/* Everything that the bits of an answer depend on: the program, the device, the question, and what is in the files. */
+static pspec_status add_file(ps_text *key, const char *path, ps_error *error) {
+    char digest[PS_DIGEST_BYTES];
+    PS_TRY(ps_digest_file(path, digest, error));
+    ps_text_append(key, "file %s\n", digest);
+    return PSPEC_OK;
+}
+
+static pspec_status add_files(ps_text *key, const ps_request *request, ps_error *error) {
+    static const char table_of_lobe[] = "file=";
+    for (size_t i = 0; i < request->num_files; i++) {
+        PS_TRY(add_file(key, request->files[i], error));
+    }
+    const char *const weights = request->weights;
+    if (weights != NULL && strcmp(weights, "equal") != 0 && strcmp(weights, "column") != 0 &&
+        strcmp(weights, "optimal") != 0) {
+        PS_TRY(add_file(key, weights, error));
+    }
+    if (request->frequencies != NULL) {
+        PS_TRY(add_file(key, request->frequencies, error));
+    }
+    if (request->against != NULL) {
+        PS_TRY(add_file(key, request->against, error));
+    }
+    const char *const lobe = request->brdf != NULL ? strstr(request->brdf, table_of_lobe) : NULL;
+    return lobe != NULL ? add_file(key, lobe + strlen(table_of_lobe), error) : PSPEC_OK;
+}
+
+static pspec_status make_key(const ps_run *run, const ps_run_question *question, ps_text *key,
+                             ps_error *error) {
+    const ps_request *const request = &question->asked.request;
+    ps_text_append(key, "%s%s\npicture %d\nno-skip %d\n", ps_text_string(&run->identity),
+                   request->command_line, request->wants_picture, request->no_skip);
+    PS_TRY(add_files(key, request, error));
+    return ps_text_check(key, error);
+}
+
+/* ---- answers as bytes -------------------------------------------------------------------- */
+
+/* The size of the packed table, the table, the side of the array, the array. */
+static pspec_status pack(const ps_answer *answer, ps_text *out, ps_error *error) {
+    void *bytes = NULL;
+    size_t num = 0;
+    const uint64_t side = answer->side;
+    PS_TRY(ps_table_pack(answer->table, &bytes, &num, error));
+    const uint64_t table_bytes = num;
+    ps_text_append_bytes(out, (const char *)&table_bytes, sizeof table_bytes);
+    ps_text_append_bytes(out, bytes, num);
+    ps_text_append_bytes(out, (const char *)&side, sizeof side);
+    ps_text_append_bytes(out, (const char *)answer->array, side * side * sizeof(double));
+    free(bytes);
+    return ps_text_check(out, error);
+}
+
+/* What another version may have packed is no answer: PSPEC_ERROR_INPUT. */
+static pspec_status unpack(ps_answer *out, const char *bytes, size_t num, ps_error *error) {
+    uint64_t table_bytes = 0;
+    uint64_t side = 0;
+    void *array = NULL;
+    if (num < 2 * sizeof(uint64_t)) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "an entry of %zu bytes is no answer", num);
+    }
+    memcpy(&table_bytes, bytes, sizeof table_bytes);
+    if (table_bytes > num - 2 * sizeof(uint64_t)) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "an entry is cut off");
+    }
+    memcpy(&side, bytes + sizeof side + table_bytes, sizeof side);
+    const size_t rest = num - (size_t)table_bytes - 2 * sizeof(uint64_t);
+    if (side > rest || side * side * sizeof(double) != rest) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "the array of an entry is cut off");
+    }
+    PS_TRY(ps_table_unpack(&out->table, bytes + sizeof table_bytes, (size_t)table_bytes, error));
+    if (side > 0) {
+        PS_TRY(ps_allocate(&array, rest / sizeof(double), sizeof(double), "an array", error));
+        memcpy(array, bytes + num - rest, rest);
+    }
+    out->array = array;
+    out->side = (size_t)side;
+    return PSPEC_OK;
+}
+
+/* The header says how the rows came about, with versions and paths; the rows are the result. */
+static pspec_status digest(const ps_answer *answer, char out[PS_DIGEST_BYTES], ps_error *error) {
+    ps_text bytes = {0};
+    const size_t num_columns = ps_table_num_columns(answer->table);
+    for (size_t row = 0; row < ps_table_num_rows(answer->table); row++) {
+        for (size_t column = 0; column < num_columns; column++) {
+            const ps_cell cell = ps_table_cell(answer->table, row, column);
+            ps_text_append_bytes(&bytes, (const char *)&cell.number, sizeof cell.number);
+            ps_text_append_bytes(&bytes, (const char *)&cell.integer, sizeof cell.integer);
+            ps_text_append(&bytes, "%d %s;", (int)cell.kind, cell.text != NULL ? cell.text : "");
+        }
+    }
+    ps_text_append_bytes(&bytes, (const char *)answer->array,
+                         answer->side * answer->side * sizeof(double));
+    ps_digest_bytes(ps_text_string(&bytes), bytes.length, out);
+    const pspec_status status = ps_text_check(&bytes, error);
+    ps_text_free(&bytes);
+    return status;
+}
+
+/* ---- one question ------------------------------------------------------------------------ */
+
+/* What is wrong with the cache does not keep anyone from computing. */
+static void warn(const ps_run *run, ps_error *reason) {
+    if (!run->arguments->quiet) {
+        fprintf(stderr, "pointspec: the cache of results: %s\n", reason->message);
+    }
+    *reason = (ps_error){0};
+}
+
+pspec_status ps_run_fetch(ps_run *run, const ps_run_question *question, ps_answer *out,
+                          bool *is_found, ps_error *error) {
+    ps_text key = {0};
+    void *bytes = NULL;
+    size_t num = 0;
+    ps_error reason = {0};
+    *is_found = false;
+    *out = (ps_answer){0};
+    if (run->cache == NULL) {
+        return PSPEC_OK;
+    }
+    pspec_status status = make_key(run, question, &key, error);
+    if (status == PSPEC_OK &&
+        ps_cache_get(run->cache, key.data, key.length, &bytes, &num, is_found, &reason) !=
+            PSPEC_OK) {
+        warn(run, &reason);
+    }
+    if (*is_found && unpack(out, bytes, num, &reason) != PSPEC_OK) {
+        warn(run, &reason);
+        ps_answer_free(out);
+        *is_found = false;
+    }
+    free(bytes);
+    ps_text_free(&key);
+    return status;
+}
+
+static pspec_status keep(ps_run *run, const ps_run_question *question, ps_error *error) {
+    ps_text key = {0};
+    ps_text bytes = {0};
+    ps_error reason = {0};
+    pspec_status status = PSPEC_OK;
+    if (run->cache == NULL) {
+        return PSPEC_OK;
+    }
+    PS_TRY_OUT(status, make_key(run, question, &key, error));
+    PS_TRY_OUT(status, pack(&question->answer, &bytes, error));
+    if (ps_cache_put(run->cache, key.data, key.length, bytes.data, bytes.length, &reason) !=
+        PSPEC_OK) {
+        warn(run, &reason);
+    }
+out:
+    ps_text_free(&key);
+    ps_text_free(&bytes);
+    return status;
+}
+
+/* One device for all questions: its programs are built once. */
+static pspec_status open_device(ps_run *run, const ps_run_result *result, ps_error *error) {
+    return run->device != NULL || result->asked->kind == &ps_result_truncation
+               ? PSPEC_OK
+               : ps_device_open(&run->device, run->arguments->device, false, error);
+}
+
+static pspec_status answer_one(ps_run *run, ps_run_result *result, ps_run_question *question,
+                               ps_progress *progress, ps_error *error) {
+    const double start = now();
+    PS_TRY(ps_run_fetch(run, question, &question->answer, &question->is_cached, error));
+    if (!question->is_cached) {
+        PS_TRY(open_device(run, result, error));
+        const ps_answer_hooks hooks = {ps_progress_tell, progress, run->device};
+        PS_TRY(ps_answer_make(&question->answer, result->asked->kind, &question->asked.request,
+                              &hooks, error));
+        PS_TRY(keep(run, question, error));
+    }
+    run->num_cached += question->is_cached;
+    question->seconds = now() - start;
+    return digest(&question->answer, question->digest, error);
+}
+
+static pspec_status answer_result(ps_run *run, ps_run_result *result, size_t *done,
+                                  ps_progress *progress, ps_error *error) {
+    for (size_t q = 0; q < result->num; q++) {
+        if (ps_interrupted) {
+            return ps_fail(error, PSPEC_ERROR_CANCELLED, "interrupted after %zu of %zu questions",
+                           *done, run->num_questions);
+        }
+        ps_progress_part(progress, "%s, question %zu of %zu: ", result->asked->name, *done + 1,
+                         run->num_questions);
+        if (answer_one(run, result, &result->questions[q], progress, error) != PSPEC_OK) {
+            return ps_scene_blame(run->scene, result->asked, error);
+        }
+        ++*done;
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_run_answer(ps_run *run, ps_error *error) {
+    size_t done = 0;
+    pspec_status status = PSPEC_OK;
+    const double start = now();
+    ps_progress *const progress = ps_progress_begin(run->arguments, "realizations");
+    for (size_t i = 0; status == PSPEC_OK && i < run->num_results; i++) {
+        status = answer_result(run, &run->results[i], &done, progress, error);
+    }
+    ps_progress_end(progress);
+    run->seconds = now() - start;
+    return status;
+}
+
+/* ---- end --------------------------------------------------------------------------------- */
+
+static void free_result(ps_run_result *result) {
+    for (size_t q = 0; q < result->num; q++) {
+        ps_scene_question_free(&result->questions[q].asked);
+        ps_answer_free(&result->questions[q].answer);
+    }
+    for (size_t p = 0; p < result->num_plots; p++) {
+        free(result->plots[p].name);
+        free(result->plots[p].svg);
+    }
+    free(result->questions);
+    free(result->plots);
+    ps_table_destroy(result->table);
+    ps_table_destroy(result->summary);
+}
+
+void ps_run_free(ps_run *run) {
+    for (size_t i = 0; i < run->num_results; i++) {
+        free_result(&run->results[i]);
+    }
+    free(run->results);
+    ps_cache_close(run->cache);
+    ps_device_close(run->device);
+    ps_text_free(&run->identity);
+}
