@@ -36,9 +36,15 @@ pspec_status ps_cache_entry_write(const char *path, const void *key, size_t key_
     const ps_cache_head head = ps_cache_head_make(key, key_bytes, data, data_bytes);
     ps_output_file *file = NULL;
     PS_TRY(ps_output_open(&file, path, error));
-    ps_output_write(file, &head, sizeof head, 1);
-    ps_output_write(file, key, 1, key_bytes);
-    ps_output_write(file, data, 1, data_bytes);
+    const struct {
+        const void *bytes;
+        size_t num;
+    } parts[] = {{&head, sizeof head}, {key, key_bytes}, {data, data_bytes}};
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
+        if (parts[i].num > 0) { /* without bytes there may be no address */
+            ps_output_write(file, parts[i].bytes, 1, parts[i].num);
+        }
+    }
     return ps_output_commit(&file, error);
 }
 

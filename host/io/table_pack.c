@@ -117,11 +117,13 @@ static pspec_status take_text(packed *in, char **text, ps_error *error) {
     if (memchr(in->next, '\0', length) != NULL) {
         return fail_packed("a text has a NUL inside", error);
     }
-    *text = strndup((const char *)in->next, length);
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, length + 1, 1, "text", error)); /* zeroed, so it ends in NUL */
+    memcpy(memory, in->next, length);
+    *text = memory;
     in->next += length;
     in->left -= length;
-    return *text != NULL ? PSPEC_OK
-                         : ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for text");
+    return PSPEC_OK;
 }
 
 /* What follows the kind; the text belongs to the table. */
