@@ -133,6 +133,44 @@ static void writes_devices_and_pipes_directly(void **state) {
     assert_true(S_ISFIFO(facts.st_mode));
 }
 
+/* ---- a file that goes between two calls (the linker sends them here) ---- */
+
+static const char *removed_by_access;   /* before access looks at it, or NULL */
+static const char *removed_by_realpath; /* before realpath does, or NULL */
+
+int __real_access(const char *path, int mode);
+int __wrap_access(const char *path, int mode);
+char *__real_realpath(const char *path, char *resolved);
+char *__wrap_realpath(const char *path, char *resolved);
+
+int __wrap_access(const char *path, int mode) {
+    if (removed_by_access != NULL) {
+        unlink(removed_by_access);
+    }
+    return __real_access(path, mode);
+}
+
+char *__wrap_realpath(const char *path, char *resolved) {
+    if (removed_by_realpath != NULL) {
+        unlink(removed_by_realpath);
+    }
+    return __real_realpath(path, resolved);
+}
+
+static void what_is_removed_meanwhile_is_new(void **state) {
+    char path[TEST_PATH_BYTES];
+    test_path(*state, "file", path);
+    for (int round = 0; round < 2; round++) {
+        const char **const culprit = round == 0 ? &removed_by_access : &removed_by_realpath;
+        write_text(path, "old");
+        *culprit = path;
+        write_text(path, "new");
+        *culprit = NULL;
+        check_text(path, "new");
+        assert_int_equal(test_folder_count(*state, false), 1);
+    }
+}
+
 static void refuses_what_cannot_be_written(void **state) {
     const test_folder *const folder = *state;
     char path[TEST_PATH_BYTES];
@@ -224,6 +262,7 @@ int main(void) {
         IN_FOLDER(permissions_are_those_of_fopen),
         IN_FOLDER(writes_through_links),
         IN_FOLDER(writes_devices_and_pipes_directly),
+        IN_FOLDER(what_is_removed_meanwhile_is_new),
         IN_FOLDER(refuses_what_cannot_be_written),
         IN_FOLDER(a_full_device_is_reported),
         IN_FOLDER(a_disk_that_fills_leaves_no_file),

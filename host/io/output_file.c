@@ -127,11 +127,15 @@ static pspec_status open_path(ps_output_file *file, const char *path, ps_error *
     if (names_descriptor(path) || (exists && !S_ISREG(facts.st_mode))) {
         return open_directly(file, path, error);
     }
-    if (exists && access(path, W_OK) != 0) {
+    if (exists && access(path, W_OK) != 0 && errno != ENOENT) {
         return fail_write(file->name, errno, error);
     }
     file->mode = exists ? facts.st_mode & 0777 : 0;
-    file->target = exists ? realpath(path, NULL) : strdup(path);
+    file->target = exists ? realpath(path, NULL) : NULL;
+    if (file->target == NULL &&
+        (!exists || errno == ENOENT)) { /* new, or just removed by another */
+        file->target = strdup(path);
+    }
     if (file->target == NULL) {
         return fail_write(file->name, errno, error);
     }

@@ -37,17 +37,26 @@ static void free_cell(const ps_cell *cell) {
     free((void *)(uintptr_t)cell->text); /* const for the callers that pass cells */
 }
 
+static pspec_status copy_columns(ps_table *table, const char *const *columns, size_t num_columns,
+                                 ps_error *error) {
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, num_columns, sizeof *table->columns, "columns", error));
+    table->columns = memory;
+    while (table->num_columns < num_columns) { /* counts those that are to be freed */
+        PS_TRY(copy_text(&table->columns[table->num_columns], columns[table->num_columns], error));
+        table->num_columns++;
+    }
+    return PSPEC_OK;
+}
+
 pspec_status ps_table_create(ps_table **out, const char *command, const char *const *columns,
                              size_t num_columns, ps_error *error) {
     *out = NULL;
     void *memory = NULL;
     PS_TRY(ps_allocate(&memory, 1, sizeof(ps_table), "table", error));
     ps_table *table = memory;
-    table->num_columns = num_columns;
-    pspec_status status = ps_allocate(&memory, num_columns, sizeof *columns, "columns", error);
+    pspec_status status = copy_columns(table, columns, num_columns, error);
     if (status == PSPEC_OK) {
-        table->columns = memory;
-        memcpy(table->columns, columns, num_columns * sizeof *columns);
         status = copy_text(&table->command, command, error);
     }
     if (status != PSPEC_OK) {
@@ -105,11 +114,55 @@ void ps_table_destroy(ps_table *table) {
     for (size_t i = 0; i < table->num_rows * table->num_columns; i++) {
         free_cell(&table->cells[i]);
     }
+    for (size_t i = 0; i < table->num_columns; i++) {
+        free(table->columns[i]);
+    }
     free(table->meta);
     free(table->cells);
     free(table->columns);
     free(table->command);
     free(table);
+}
+
+/* ---- reading ---- */
+
+const char *ps_table_command(const ps_table *table) {
+    return table->command;
+}
+
+size_t ps_table_num_columns(const ps_table *table) {
+    return table->num_columns;
+}
+
+const char *ps_table_column_name(const ps_table *table, size_t column) {
+    return table->columns[column];
+}
+
+bool ps_table_find_column(const ps_table *table, const char *name, size_t *column) {
+    for (size_t i = 0; i < table->num_columns; i++) {
+        if (strcmp(table->columns[i], name) == 0) {
+            *column = i;
+            return true;
+        }
+    }
+    return false;
+}
+
+size_t ps_table_num_rows(const ps_table *table) {
+    return table->num_rows;
+}
+
+ps_cell ps_table_cell(const ps_table *table, size_t row, size_t column) {
+    return table->cells[row * table->num_columns + column];
+}
+
+size_t ps_table_num_meta(const ps_table *table) {
+    return table->num_meta;
+}
+
+ps_cell ps_table_meta(const ps_table *table, size_t i, const char **key) {
+    *key = table->meta[i].key;
+    return table->meta[i].value;
 }
 
 /* ---- choosing ---- */

@@ -11,6 +11,7 @@
 
 #include "base/status.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -37,7 +38,7 @@ typedef struct ps_table ps_table;
 
 typedef enum ps_table_format { PS_FORMAT_CSV = 0, PS_FORMAT_JSON, PS_FORMAT_NPY } ps_table_format;
 
-/* The array of columns is copied; the names are borrowed for the life of the table (literals). */
+/* The names of the columns are copied. */
 pspec_status ps_table_create(ps_table **out, const char *command, const char *const *columns,
                              size_t num_columns, ps_error *error) PS_MUST_CHECK;
 /* Header entries, kept in order; the same key may occur several times (CSV: several lines; JSON: an
@@ -52,6 +53,20 @@ pspec_status ps_table_choose_format(ps_table_format *out, const char *name, cons
  * NPY of a table with text columns is refused, with the column named. */
 pspec_status ps_table_write(const ps_table *table, const char *path, ps_table_format format,
                             ps_error *error) PS_MUST_CHECK;
+
+/* ---- reading it: texts belong to the table and stay as long as it does; indices must be below the numbers ---- */
+
+const char *ps_table_command(const ps_table *table);
+size_t ps_table_num_columns(const ps_table *table);
+const char *ps_table_column_name(const ps_table *table, size_t column);
+/* The first column of that name; false: there is none. */
+bool ps_table_find_column(const ps_table *table, const char *name, size_t *column);
+size_t ps_table_num_rows(const ps_table *table);
+ps_cell ps_table_cell(const ps_table *table, size_t row, size_t column);
+size_t ps_table_num_meta(const ps_table *table);
+/* Header entry i, in the order in which they were added. */
+ps_cell ps_table_meta(const ps_table *table, size_t i, const char **key);
+
 /* NULL is allowed. */
 void ps_table_destroy(ps_table *table);
 

@@ -14,7 +14,7 @@ typedef struct ps_table_entry {
 
 struct ps_table {
     char *command;
-    const char **columns;
+    char **columns; /* names */
     size_t num_columns;
     ps_table_entry *meta;
     size_t num_meta, meta_capacity;

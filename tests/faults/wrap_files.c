@@ -2,11 +2,13 @@
  * it failed, as close(2) does. */
 #include "faults.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <spawn.h>
 #include <stdarg.h>
 #include <stdint.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -42,16 +44,47 @@ WRAPPER(unlink, int, (const char *path)) {
     return __real_unlink(path);
 }
 
+WRAPPER(unlinkat, int, (int folder, const char *name, int flags)) {
+    if (fault_is_due_alone(FAULT_FILE, "unlinkat")) {
+        errno = EIO;
+        return -1;
+    }
+    return __real_unlinkat(folder, name, flags);
+}
+
 WRAPPER(realpath, char *, (const char *path, char *room)) {
     char *const resolved = fails("realpath", EIO) ? NULL : __real_realpath(path, room);
     fault_gain(room == NULL ? resolved : NULL, "realpath");
     return resolved;
 }
 
+/* ---- folders ------------------------------------------------------------------------------- */
+
+CALL(fstatat64, int, EIO, (int folder, const char *name, struct stat *facts, int flags),
+     (folder, name, facts, flags))
+
+WRAPPER(opendir, DIR *, (const char *path)) {
+    DIR *const folder = fails("opendir", EMFILE) ? NULL : __real_opendir(path);
+    fault_gain(folder, "opendir");
+    return folder;
+}
+
+WRAPPER(readdir64, struct dirent *, (DIR * folder)) {
+    return fails("readdir", EIO) ? NULL : __real_readdir64(folder);
+}
+
+/* A descriptor for reading: everything was read, and nobody asks. */
+WRAPPER(closedir, int, (DIR * folder)) {
+    fault_lose(folder);
+    return __real_closedir(folder);
+}
+
 /* ---- descriptors --------------------------------------------------------------------------- */
 
 CALL(fstat64, int, EIO, (int descriptor, struct stat *facts), (descriptor, facts))
 CALL(fchmod, int, EPERM, (int descriptor, mode_t mode), (descriptor, mode))
+CALL(futimens, int, EPERM, (int descriptor, const struct timespec times[2]), (descriptor, times))
+CALL(flock, int, ENOLCK, (int descriptor, int operation), (descriptor, operation))
 CALL(ftruncate64, int, EIO, (int descriptor, off_t length), (descriptor, length))
 CALL(lseek64, off_t, EIO, (int descriptor, off_t offset, int whence), (descriptor, offset, whence))
 CALL(read, ssize_t, EIO, (int descriptor, void *out, size_t bytes), (descriptor, out, bytes))

@@ -65,6 +65,8 @@ void fuzz_frequencies(const char *argument, fuzz_bytes input);
 void fuzz_weights(const char *argument, fuzz_bytes input);
 void fuzz_spectrum(const char *argument, fuzz_bytes input);
 void fuzz_saved(const char *argument, fuzz_bytes input);
+void fuzz_cache(const char *argument, fuzz_bytes input);
+void fuzz_table(const char *argument, fuzz_bytes input);
 void fuzz_decimal(const char *argument, fuzz_bytes input);
 void fuzz_sampler(const char *argument, fuzz_bytes input);
 void fuzz_brdf(const char *argument, fuzz_bytes input);

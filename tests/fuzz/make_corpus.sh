@@ -214,6 +214,33 @@ sums() { # NUMBER
 } | seed spectrum sample '\1'
 { spectrum box 1 4 rings 2 power; sums 6; } | seed spectrum unchecked '\0'
 
+# entry KEY DATA: a file of the cache, whose checksums the target sets
+entry() {
+    printf 'psresult'
+    u32 1 0 ${#1} 0 ${#2} 0 0 0 0 0 0 0
+    printf %s "$1$2"
+}
+entry key 'some data' | seed cache found '\3'
+entry key 'some data' | seed cache other '\1'
+entry '' '' | seed cache empty '\3'
+entry key 'some data' | seed cache unchecked '\2'
+
+text() { u32 ${#1} 0 && printf %s "$1"; }
+# Cells: missing, a number, an integer, a text
+cells() {
+    printf '\0\1' && f64 0.1
+    printf '\2' && u32 4294967294 4294967295
+    printf '\3' && text "white:a=1"
+}
+{
+    printf pstable1 && text power
+    u32 4 0 && for name in none number integer sampler; do text $name; done
+    u32 3 0 && for value in one two; do text skipped && printf '\3' && text $value; done
+    text empty && printf '\0'
+    u32 2 0 && cells && cells
+} | seed table rows ''
+{ printf pstable1 && text angular && u32 1 0 && text x && u32 0 0 0 0; } | seed table empty ''
+
 # saved COMMAND META COLUMNS ROWS: a table as JSON
 saved() {
     printf '{"schema": 1, "command": "%s", "meta": {"normalization": "power: x", "realizations": 4,

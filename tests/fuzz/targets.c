@@ -19,6 +19,8 @@ const fuzz_target fuzz_targets[] = {
     {"weights", fuzz_weights, NULL, "binary.dict"},
     {"spectrum", fuzz_spectrum, NULL, "text.dict"},
     {"saved", fuzz_saved, NULL, "text.dict"},
+    {"cache", fuzz_cache, NULL, "binary.dict"},
+    {"table", fuzz_table, NULL, "binary.dict"},
     {"decimal", fuzz_decimal, NULL, "text.dict"},
     {"brdf", fuzz_brdf, NULL, "text.dict"},
     {"sampler", fuzz_sampler, NULL, "words.dict"},
