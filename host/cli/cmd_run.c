@@ -34,8 +34,8 @@ static pspec_status is_empty_folder(const char *path, bool *is_empty, ps_error *
     }
     *is_empty = true;
     for (const struct dirent *entry; (entry = readdir(folder)) != NULL;) {
-        *is_empty = *is_empty &&
-                    (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0);
+        *is_empty =
+            *is_empty && (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0);
     }
     closedir(folder);
     return PSPEC_OK;
@@ -57,8 +57,7 @@ static pspec_status check_folder(const char *path, ps_error *error) {
     }
     ps_text_append(&record, "%s/record.json", path);
     pspec_status status = ps_text_check(&record, error);
-    const bool has_record =
-        status == PSPEC_OK && access(ps_text_string(&record), F_OK) == 0;
+    const bool has_record = status == PSPEC_OK && access(ps_text_string(&record), F_OK) == 0;
     ps_text_free(&record);
     if (status == PSPEC_OK && !has_record) {
         status = is_empty_folder(path, &is_empty, error);
@@ -231,8 +230,7 @@ static pspec_status identify_device(const ps_run *run, ps_text *out, ps_error *e
         *error = none;
         return listed;
     }
-    const pspec_status status =
-        ps_device_choose(all, num, run->arguments->device, &index, error);
+    const pspec_status status = ps_device_choose(all, num, run->arguments->device, &index, error);
     if (status == PSPEC_OK) {
         const ps_device_limits *const limits = &all[index];
         ps_text_append(out, "%s\n%s\n%s\n%s\n%u %u\n", limits->platform, limits->name,

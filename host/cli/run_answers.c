@@ -3,6 +3,7 @@
 #include "cli/run.h"
 #include "io/table_pack.h"
 #include "scene/quadrature_question.h"
+#include "scene/question.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -194,9 +195,8 @@ pspec_status ps_run_fetch(ps_run *run, const ps_run_question *question, ps_answe
         return PSPEC_OK;
     }
     pspec_status status = make_key(run, question, &key, error);
-    if (status == PSPEC_OK &&
-        ps_cache_get(run->cache, key.data, key.length, &bytes, &num, is_found, &reason) !=
-            PSPEC_OK) {
+    if (status == PSPEC_OK && ps_cache_get(run->cache, key.data, key.length, &bytes, &num, is_found,
+                                           &reason) != PSPEC_OK) {
         warn(run, &reason);
     }
     if (*is_found && unpack(out, bytes, num, &reason) != PSPEC_OK) {
