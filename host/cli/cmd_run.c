@@ -324,7 +324,8 @@ const ps_command ps_command_run = {
         "same bits. Answers are kept in a cache that all scenes share. Exit status 3 when a check "
         "finds another spectrum than the saved one, or a record is not repeated.",
     .options = options,
-    .examples = {"pointspec run docs/scenes/rules.yaml -o rules",
-                 "pointspec plan run docs/scenes/rules.yaml"},
+    .examples = {"printf 'scene: 1\\nresults:\\n  - {result: power, samplers: [white, jittered], "
+                 "points: 64..256, realizations: 16}\\n' >scene.yaml && pointspec run scene.yaml",
+                 "pointspec run scene.yaml -o again --no-skip"},
     .run = run,
 };
