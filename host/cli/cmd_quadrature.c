@@ -4,6 +4,9 @@
 #include "cli/output_check.h"
 #include "cli/quadrature_table.h"
 #include "io/plot.h"
+#include "job/quadrature_looks.h"
+
+#include <stdio.h>
 
 static void tell_plan(void *payload, const ps_plan *plan) {
     (void)payload;
@@ -13,6 +16,18 @@ static void tell_plan(void *payload, const ps_plan *plan) {
 static void tell_profile(void *payload, const ps_profile_row *rows, size_t num_rows) {
     (void)payload;
     ps_print_profile(rows, num_rows);
+}
+
+static void warn_of_standard_error(const ps_quadrature_result *result, double standard_error) {
+    char where[48];
+    if (result->has_look && !(result->look.corrected <= standard_error)) {
+        ps_quadrature_look_name(where, sizeof where, &result->look);
+        fprintf(stderr,
+                "pointspec: the standard error %.3g was not reached in %llu realizations: it is "
+                "%.3g of %s\n",
+                standard_error, (unsigned long long)result->num_realizations,
+                result->look.corrected, where);
+    }
 }
 
 static pspec_status run_job(ps_quadrature_result *result, const ps_request *arguments,
@@ -32,6 +47,9 @@ static pspec_status run_shown(ps_quadrature_result *result, const ps_request *ar
     const ps_answer_hooks hooks = {.progress = ps_progress_tell, .payload = progress};
     const pspec_status status = run_job(result, arguments, question, &hooks, error);
     ps_progress_end(progress);
+    if (status == PSPEC_OK && !arguments->quiet) {
+        warn_of_standard_error(result, arguments->standard_error);
+    }
     return status;
 }
 

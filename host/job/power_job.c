@@ -42,6 +42,7 @@ static void find_needs(ps_power_job *job) {
         .on_sphere = question->on_sphere,
         .on_hemisphere = question->on_hemisphere,
         .wants_full_array = question->wants_full_array,
+        .wants_frequency_errors = question->wants_full_array || question->per_ring > 0,
         .share_not_drawn =
             1 - (double)job->frequencies.num / (double)ps_frequencies_population(&job->frequencies),
         .has_constant_power = is_invariant && !turns && ps_sampler_has_constant_power(sampler),
@@ -117,9 +118,18 @@ static pspec_status open_device(ps_power_job *job, ps_error *error) {
                : PSPEC_OK;
 }
 
+/* Without a statistical target. */
+static double strict_tolerance(const ps_power_question *question) {
+    return question->wants_pair_sums ? question->tolerance
+                                     : ps_plan_tolerance(question->tolerance, question->floor);
+}
+
 static pspec_status make_plan(ps_power_job *job, ps_error *error) {
-    return ps_plan_make(&job->plan, &job->problem, ps_power_job_limits(job),
-                        &job->question->constraints, error);
+    const ps_power_question *question = job->question;
+    const ps_needs_strict strict = {
+        question->may_loosen ? strict_tolerance(question) : job->problem.tolerance, 0};
+    return ps_needs_plan(&job->needs, &job->plan, &job->problem, ps_power_job_limits(job),
+                         &question->constraints, &strict, error);
 }
 
 /* That the plan is made for. */
@@ -131,12 +141,9 @@ static uint64_t count_realizations(const ps_power_job *job) {
 }
 
 static double find_tolerance(const ps_power_question *question) {
-    if (question->wants_pair_sums) {
-        return question->tolerance;
-    }
-    return question->may_loosen
+    return question->may_loosen && !question->wants_pair_sums && !question->no_skip
                ? ps_plan_statistical_tolerance(question->standard_error, question->floor)
-               : ps_plan_tolerance(question->tolerance, question->floor);
+               : strict_tolerance(question);
 }
 
 static pspec_status prepare(ps_power_job *job, ps_error *error) {
@@ -214,6 +221,7 @@ static pspec_status create_estimator(ps_power_job *job, ps_error *error) {
         .batch = chosen->batch,
         .exact_shells = question->exact_shells,
         .want_frequencies = !question->on_sphere, /* anisotropy needs them, too */
+        .no_frequency_errors = job->needs.no_frequency_errors,
         .self_check = !question->no_self_check,
         .normalization = question->normalization,
         .coefficients = job->coefficients,

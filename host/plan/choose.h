@@ -32,6 +32,7 @@ typedef struct ps_plan_constraints {
     const char *engine;    /* NULL: any */
     int precision;         /* a ps_precision, or -1: any */
     uint64_t memory_limit; /* bytes; 0: what the device reports, or no limit on the host */
+    bool prefers_double;   /* before any other precision, even where less is within the tolerance */
 } ps_plan_constraints;
 
 /* May an engine that these constraints leave need a device? */
