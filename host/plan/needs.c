@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 void ps_needs_add(ps_needs *needs, const char *what, const char *why, double share) {
     if (needs->num_skips < PS_MAX_SKIPS) {
@@ -51,7 +52,7 @@ ps_needs ps_needs_find(const ps_needs_question *question) {
     }
     if (is_grid && question->dimension > 1 && !question->wants_full_array) {
         needs.only_ball = true;
-        ps_needs_add(&needs, "corners of the box", "only ring means are asked for, and rings end at K",
+        ps_needs_add(&needs, PS_SKIP_CORNERS, "only ring means are asked for, and rings end at K",
             share_of_corners(question->dimension, question->max_frequency));
     }
     needs.no_frequency_errors = is_grid && !question->wants_frequency_errors;
@@ -77,6 +78,14 @@ ps_needs ps_needs_find(const ps_needs_question *question) {
             share_not_needed(question));
     }
     return needs;
+}
+
+void ps_needs_rate(ps_needs *needs, const char *what, double share) {
+    for (size_t i = 0; i < needs->num_skips; i++) {
+        if (strcmp(needs->skips[i].what, what) == 0) {
+            needs->skips[i].share = share;
+        }
+    }
 }
 
 void ps_needs_describe(const ps_needs *needs, ps_text *text) {

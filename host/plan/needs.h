@@ -48,6 +48,10 @@ ps_needs ps_needs_find(const ps_needs_question *question);
 /* One more skip of the question, before a plan is made. */
 void ps_needs_add(ps_needs *needs, const char *what, const char *why, double share);
 
+/* The share of a skip, once the plan tells more of it than the question does; nothing where there is no such skip. */
+void ps_needs_rate(ps_needs *needs, const char *what, double share);
+#define PS_SKIP_CORNERS "corners of the box"
+
 /* What a job would be without skips. */
 typedef struct ps_needs_strict {
     double tolerance;     /* that holds without a statistical target */

@@ -94,8 +94,8 @@ pspec_status ps_needs_plan(ps_needs *needs, ps_plan *plan, const ps_problem *pro
         return PSPEC_OK;
     }
     if (!needs->no_skip) {
-        PS_TRY(make_exact(&strict, problem, limits, constraints, strict_tolerance, error));
-        skip_precision(needs, plan, &strict, problem->tolerance, strict->tolerance);
+        PS_TRY(make_exact(&exact, problem, limits, constraints, strict->tolerance, error));
+        skip_precision(needs, plan, problem->tolerance, &exact, strict);
         skip_squares(needs, problem, plan, limits);
     }
     add_matters_of_course(needs, plan, constraints);
