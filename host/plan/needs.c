@@ -50,12 +50,14 @@ ps_needs ps_needs_find(const ps_needs_question *question) {
     if (question->no_skip) {
         return needs;
     }
-    if (is_grid && question->dimension > 1 && !question->wants_full_array) {
+    if (is_grid && question->dimension > 1 && !question->wants_full_array &&
+        !(question->share_not_drawn > 0)) {
         needs.only_ball = true;
         ps_needs_add(&needs, PS_SKIP_CORNERS, "only ring means are asked for, and rings end at K",
             share_of_corners(question->dimension, question->max_frequency));
     }
-    needs.no_frequency_errors = is_grid && !question->wants_frequency_errors;
+    needs.no_frequency_errors =
+        is_grid && question->dimension > 1 && !question->wants_frequency_errors;
     if (question->is_homogenized) {
         needs.no_shift = true;
         if (question->on_sphere) {
