@@ -75,6 +75,7 @@ static pspec_status add_list(ps_table *table, const ps_request *arguments,
     for (size_t i = 0; i < list->num; i++) {
         ps_power_job *job = NULL;
         PS_TRY(ps_power_job_create(&job, &list->questions[i], error));
+        ps_power_job_rate_skips(job);
         pspec_status status =
             add_header(table, arguments, ps_power_job_problem(job), ps_power_job_needs(job),
                        ps_power_job_limits(job), i, error);

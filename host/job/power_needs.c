@@ -52,13 +52,13 @@ static double strict_tolerance(const ps_power_question *question) {
                                      : ps_plan_tolerance(question->tolerance, question->floor);
 }
 
-/* Engines that transform grids save less than frequencies by leaving corners out. */
-static void rate_corners(ps_power_job *job) {
+void ps_power_job_rate_skips(ps_power_job *job) {
     const ps_candidate *const chosen = job->plan.chosen;
     ps_frequencies box;
     ps_plan plan;
     ps_problem problem = job->problem;
     const bool is_box_possible =
+        job->frequencies.kind == PS_FREQUENCIES_BALL && chosen != NULL &&
         ps_frequencies_lattice(&box, job->dimension, job->frequencies.max_frequency, false, NULL) ==
         PSPEC_OK;
     problem.frequencies = &box;
@@ -75,12 +75,8 @@ pspec_status ps_power_needs_plan(ps_power_job *job, ps_error *error) {
     const ps_power_question *question = job->question;
     const ps_needs_strict strict = {
         question->may_loosen ? strict_tolerance(question) : job->problem.tolerance, 0};
-    PS_TRY(ps_needs_plan(&job->needs, &job->plan, &job->problem, ps_power_job_limits(job),
-                         &question->constraints, &strict, error));
-    if (job->frequencies.kind == PS_FREQUENCIES_BALL && job->plan.chosen != NULL) {
-        rate_corners(job);
-    }
-    return PSPEC_OK;
+    return ps_needs_plan(&job->needs, &job->plan, &job->problem, ps_power_job_limits(job),
+                         &question->constraints, &strict, error);
 }
 
 uint64_t ps_power_needs_realizations(const ps_power_job *job) {

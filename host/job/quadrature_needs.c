@@ -106,21 +106,32 @@ static pspec_status plan_all(double *seconds, const ps_quadrature_setup *setup,
     return status;
 }
 
-/* Degrees that would be there without the tolerance. */
-static pspec_status list_degrees(ps_quadrature_setup *setup, const ps_quadrature_question *question,
-                                 ps_error *error) {
+static void name_degrees(char *what, size_t size, const ps_quadrature_setup *setup) {
+    snprintf(what, size, "degrees %zu to %zu", setup->max_degree + 1, setup->most_degree);
+}
+
+/* Degrees that would be there without the tolerance; their share of degrees, until it is rated. */
+static void list_degrees(ps_quadrature_setup *setup) {
     char what[sizeof setup->needs.skips[0].what];
     char why[sizeof setup->needs.skips[0].why];
-    double seconds = 0;
-    if (setup->max_degree >= setup->most_degree) {
-        return PSPEC_OK;
+    if (setup->max_degree < setup->most_degree) {
+        name_degrees(what, sizeof what, setup);
+        snprintf(why, sizeof why, "their share of E^2 is below --tol, at most %.3g",
+                 setup->beyond_bound);
+        ps_needs_add(&setup->needs, what, why,
+                     1 - (double)setup->max_degree / (double)setup->most_degree);
     }
-    PS_TRY(plan_all(&seconds, setup, question, error));
-    snprintf(what, sizeof what, "degrees %zu to %zu", setup->max_degree + 1, setup->most_degree);
-    snprintf(why, sizeof why, "their share of E^2 is below --tol, at most %.3g",
-             setup->beyond_bound);
-    ps_needs_add(&setup->needs, what, why,
-                 share_of(seconds - setup->plan.chosen->seconds, setup));
+}
+
+pspec_status ps_quadrature_needs_rate(ps_quadrature_setup *setup,
+                                      const ps_quadrature_question *question, ps_error *error) {
+    char what[sizeof setup->needs.skips[0].what];
+    double seconds = 0;
+    if (setup->max_degree < setup->most_degree && setup->plan.chosen != NULL) {
+        PS_TRY(plan_all(&seconds, setup, question, error));
+        name_degrees(what, sizeof what, setup);
+        ps_needs_rate(&setup->needs, what, share_of(seconds - setup->plan.chosen->seconds, setup));
+    }
     return PSPEC_OK;
 }
 
@@ -133,7 +144,7 @@ pspec_status ps_quadrature_needs_plan(ps_quadrature_setup *setup,
     if (setup->plan.chosen == NULL || setup->needs.no_skip) {
         return PSPEC_OK;
     }
-    PS_TRY(list_degrees(setup, question, error));
+    list_degrees(setup);
     list_terms(setup);
     return PSPEC_OK;
 }

@@ -15,5 +15,9 @@ void ps_quadrature_needs_terms(ps_quadrature_setup *setup, double accuracy);
 pspec_status ps_quadrature_needs_plan(ps_quadrature_setup *setup,
                                       const ps_quadrature_question *question,
                                       ps_error *error) PS_MUST_CHECK;
+/* For who shows the shares: that of degrees becomes what planning for all of them says. */
+pspec_status ps_quadrature_needs_rate(ps_quadrature_setup *setup,
+                                      const ps_quadrature_question *question,
+                                      ps_error *error) PS_MUST_CHECK;
 
 #endif

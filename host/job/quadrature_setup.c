@@ -156,6 +156,9 @@ pspec_status ps_quadrature_setup_ask(ps_quadrature_setup *out,
     if (status == PSPEC_OK) {
         status = ps_quadrature_setup_make(out, question, &shape, error);
     }
+    if (status == PSPEC_OK) {
+        status = ps_quadrature_needs_rate(out, question, error);
+    }
     ps_rules_free(&rules);
     return status;
 }

@@ -144,11 +144,10 @@ static void judge(ps_candidate *candidate, const ps_problem *problem,
     }
 }
 
-/* precision < 0: any. NULL: none is feasible. */
-static ps_candidate *find_cheapest(ps_plan *plan, int precision) {
-    ps_candidate *best = NULL;
+const ps_candidate *ps_plan_cheapest(const ps_plan *plan, int precision) {
+    const ps_candidate *best = NULL;
     for (size_t i = 0; i < plan->num_candidates; i++) {
-        ps_candidate *candidate = &plan->candidates[i];
+        const ps_candidate *candidate = &plan->candidates[i];
         const bool is_asked = precision < 0 || precision == (int)candidate->precision;
         if (candidate->is_feasible && is_asked &&
             (best == NULL || candidate->seconds < best->seconds)) {
@@ -159,8 +158,8 @@ static ps_candidate *find_cheapest(ps_plan *plan, int precision) {
 }
 
 static void choose_cheapest(ps_plan *plan, bool prefers_double) {
-    ps_candidate *best = prefers_double ? find_cheapest(plan, PS_DOUBLE) : NULL;
-    best = best != NULL ? best : find_cheapest(plan, -1);
+    const ps_candidate *best = prefers_double ? ps_plan_cheapest(plan, PS_DOUBLE) : NULL;
+    best = best != NULL ? best : ps_plan_cheapest(plan, -1);
     for (size_t i = 0; best != NULL && i < plan->num_candidates; i++) {
         ps_candidate *candidate = &plan->candidates[i];
         if (candidate->is_feasible && candidate != best) {
@@ -172,8 +171,9 @@ static void choose_cheapest(ps_plan *plan, bool prefers_double) {
         }
     }
     if (best != NULL) {
-        best->is_chosen = true;
-        snprintf(best->reason, sizeof best->reason, "cheapest within the tolerance");
+        ps_candidate *const chosen = &plan->candidates[best - plan->candidates];
+        chosen->is_chosen = true;
+        snprintf(chosen->reason, sizeof chosen->reason, "cheapest within the tolerance");
     }
     plan->chosen = best;
 }

@@ -20,14 +20,12 @@ static pspec_status make_exact(ps_plan *plan, const ps_problem *problem,
     return ps_plan_make(plan, &exact, limits, &own, error);
 }
 
-static void skip_precision(ps_needs *needs, const ps_plan *plan, double tolerance,
-                           const ps_plan *exact_plan, const ps_needs_strict *strict) {
+static void skip_precision(ps_needs *needs, const ps_candidate *chosen, double tolerance,
+                           const ps_candidate *exact, const ps_needs_strict *strict) {
     char what[sizeof needs->skips[0].what];
     char why[sizeof needs->skips[0].why];
-    const ps_candidate *const chosen = plan->chosen;
-    const ps_candidate *const exact = exact_plan->chosen;
     const bool is_looser = tolerance > strict->tolerance;
-    if (exact == NULL || (exact->precision == chosen->precision && !is_looser)) {
+    if (exact == NULL || (chosen->precision >= exact->precision && !is_looser)) {
         return; /* what could be more exact cannot do it, or is no more exact */
     }
     const double share = share_saved(chosen->seconds + strict->other_seconds,
@@ -35,7 +33,7 @@ static void skip_precision(ps_needs *needs, const ps_plan *plan, double toleranc
     if (share <= 0) {
         return; /* the cheapest way is the exact one */
     }
-    if (exact->precision == chosen->precision) {
+    if (chosen->precision >= exact->precision) {
         snprintf(what, sizeof what, "digits beyond %.2g", tolerance);
     } else {
         snprintf(what, sizeof what, "%s precision", ps_precision_name(exact->precision));
@@ -83,7 +81,7 @@ pspec_status ps_needs_plan(ps_needs *needs, ps_plan *plan, const ps_problem *pro
                            const ps_device_limits *limits, const ps_plan_constraints *constraints,
                            const ps_needs_strict *strict, ps_error *error) {
     const size_t num_of_question = needs->num_of_question;
-    ps_plan exact;
+    ps_plan other;
     needs->num_skips = num_of_question;
     if (needs->no_skip) {
         PS_TRY(make_exact(plan, problem, limits, constraints, problem->tolerance, error));
@@ -94,8 +92,12 @@ pspec_status ps_needs_plan(ps_needs *needs, ps_plan *plan, const ps_problem *pro
         return PSPEC_OK;
     }
     if (!needs->no_skip) {
-        PS_TRY(make_exact(&exact, problem, limits, constraints, strict->tolerance, error));
-        skip_precision(needs, plan, problem->tolerance, &exact, strict);
+        const ps_candidate *exact = ps_plan_cheapest(plan, PS_DOUBLE);
+        if (strict->tolerance != problem->tolerance) { /* planning takes milliseconds */
+            PS_TRY(make_exact(&other, problem, limits, constraints, strict->tolerance, error));
+            exact = other.chosen;
+        }
+        skip_precision(needs, plan->chosen, problem->tolerance, exact, strict);
         skip_squares(needs, problem, plan, limits);
     }
     add_matters_of_course(needs, plan, constraints);
