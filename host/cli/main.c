@@ -16,24 +16,6 @@ volatile sig_atomic_t ps_interrupted = 0;
 
 /* ---- the process --------------------------------------------------------------------------- */
 
-/* OpenBLAS starts its threads when it is loaded, and for a tenth of a second they spin beside the start of the device.
- * One is what host/math/cholesky.c takes of it in any case. Only the functions of .preinit_array come before libraries
- * do. Sanitizers have theirs there, in no particular order. */
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define HAS_SANITIZER
-#endif
-#endif
-#if defined(__ELF__) && !defined(HAS_SANITIZER) && !defined(__SANITIZE_ADDRESS__) &&               \
-    !defined(__SANITIZE_THREAD__)
-static void ask_for_one_thread(void) {
-    setenv("OPENBLAS_NUM_THREADS", "1", 0);
-}
-
-__attribute__((section(".preinit_array"), used)) static void (*const before_libraries)(void) =
-    ask_for_one_thread;
-#endif
-
 /* The first signal asks the command to stop and clean up; a later one ends the process. Not one of the
  * same moment: timeout(1) signals a program and then its process group. */
 static void interrupt(int signal_number) {
