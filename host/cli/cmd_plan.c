@@ -1,4 +1,5 @@
 /* pointspec plan: what another command would do, by what, what it skips and why. */
+#include "cli/answer.h"
 #include "cli/command.h"
 #include "scene/check_question.h"
 #include "scene/options.h"

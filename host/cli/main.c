@@ -87,26 +87,6 @@ static int finish_output(void) {
 
 /* ---- commands ------------------------------------------------------------------------------ */
 
-/* "pointspec power ..." for the header of results, in words that a shell takes back. */
-static void append_word(ps_text *line, const char *word) {
-    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
-                                "_-+=:,./@%^";
-    ps_text_append(line, " ");
-    if (word[0] != '\0' && word[strspn(word, plain)] == '\0') {
-        ps_text_append(line, "%s", word);
-        return;
-    }
-    ps_text_append(line, "'");
-    for (; *word != '\0'; word++) {
-        if (*word == '\'') {
-            ps_text_append(line, "'\\''");
-        } else {
-            ps_text_append_bytes(line, word, 1);
-        }
-    }
-    ps_text_append(line, "'");
-}
-
 static pspec_status run_parsed(const ps_command *command, ps_request *arguments, ps_error *error) {
     if (!arguments->is_given[PS_OPTION_DEVICE]) {
         arguments->device = getenv("POINTSPEC_DEVICE");
@@ -130,7 +110,7 @@ static int run_command(int num_words, char **words) {
     }
     ps_text_append(&line, "pointspec");
     for (int i = 0; i < num_words; i++) {
-        append_word(&line, words[i]); /* before the parser, which cuts words */
+        ps_text_append_word(&line, words[i]); /* before the parser, which cuts words */
     }
     pspec_status status = ps_arguments_parse(&arguments, command, num_words - 1, words + 1, &error);
     const bool wants_help = status == PSPEC_OK && arguments.is_given[PS_OPTION_HELP];
