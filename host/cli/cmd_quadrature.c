@@ -42,9 +42,11 @@ static pspec_status run_job(ps_quadrature_result *result, const ps_request *argu
 }
 
 static pspec_status run_shown(ps_quadrature_result *result, const ps_request *arguments,
-                              ps_quadrature_question *question, ps_error *error) {
+                              ps_quadrature_question *question, ps_device *device,
+                              ps_error *error) {
     ps_progress *const progress = ps_progress_begin(arguments, "realizations");
-    const ps_answer_hooks hooks = {.progress = ps_progress_tell, .payload = progress};
+    const ps_answer_hooks hooks = {
+        .progress = ps_progress_tell, .payload = progress, .device = device};
     const pspec_status status = run_job(result, arguments, question, &hooks, error);
     ps_progress_end(progress);
     if (status == PSPEC_OK && !arguments->quiet) {
@@ -100,9 +102,12 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
     ps_quadrature_result results[PS_MAX_SAMPLERS] = {{0}};
     pspec_status status = PSPEC_OK;
     PS_TRY(check_outputs(arguments, &format, error));
+    ps_device *device = NULL;
     PS_TRY_OUT(status, ps_quadrature_list_make(&list, arguments, error));
+    PS_TRY_OUT(status, ps_jobs_open_device(&device, arguments, &list.questions[0].constraints,
+                                           list.num, error));
     for (size_t i = 0; i < list.num; i++) {
-        PS_TRY_OUT(status, run_shown(&results[i], arguments, &list.questions[i], error));
+        PS_TRY_OUT(status, run_shown(&results[i], arguments, &list.questions[i], device, error));
     }
     status = write_results(arguments, &list, results, format, error);
 out:
@@ -110,6 +115,7 @@ out:
         ps_quadrature_free(&results[i]);
     }
     ps_quadrature_list_free(&list);
+    ps_device_close(device);
     return status;
 }
 
