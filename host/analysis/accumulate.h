@@ -32,6 +32,7 @@ typedef struct ps_accumulator_options {
     unsigned lanes;         /* of device rows */
     bool want_frequencies;  /* keep sums per frequency */
     bool mean_only;         /* no sums of squares: standard errors are nan */
+    bool no_frequency_errors; /* no sums of squares of single frequencies: theirs are nan */
 } ps_accumulator_options;
 
 pspec_status ps_accumulator_create(ps_accumulator **out, const ps_accumulator_options *options,

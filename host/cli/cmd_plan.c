@@ -1,5 +1,7 @@
 /* pointspec plan: what another command would do, by what, what it skips and why. */
+#include "cli/answer.h"
 #include "cli/command.h"
+#include "scene/check_question.h"
 #include "scene/options.h"
 #include "scene/quadrature_question.h"
 #include "scene/question.h"
@@ -61,7 +63,7 @@ static pspec_status add_header(ps_table *table, const ps_request *arguments,
                              PS_INTEGER(problem->frequencies->num), error));
     PS_TRY(ps_table_add_meta(table, "tolerance", PS_NUMBER(problem->tolerance), error));
     for (size_t i = 0; i < needs->num_skips; i++) {
-        char text[256];
+        char text[sizeof(ps_skip) + 32]; /* with a number and separators */
         snprintf(text, sizeof text, "%s; %s; %.3g", needs->skips[i].what, needs->skips[i].why,
                  needs->skips[i].share);
         PS_TRY(ps_table_add_meta(table, "skip", PS_TEXT(text), error));
@@ -69,13 +71,12 @@ static pspec_status add_header(ps_table *table, const ps_request *arguments,
     return PSPEC_OK;
 }
 
-static pspec_status add_jobs(ps_table *table, const ps_request *arguments, ps_question_kind kind,
-                             ps_error *error) {
-    ps_question_list list;
-    PS_TRY(ps_questions_make(&list, arguments, kind, error));
-    for (size_t i = 0; i < list.num; i++) {
+static pspec_status add_list(ps_table *table, const ps_request *arguments,
+                             const ps_question_list *list, ps_error *error) {
+    for (size_t i = 0; i < list->num; i++) {
         ps_power_job *job = NULL;
-        PS_TRY(ps_power_job_create(&job, &list.questions[i], error));
+        PS_TRY(ps_power_job_create(&job, &list->questions[i], error));
+        ps_power_job_rate_skips(job);
         pspec_status status =
             add_header(table, arguments, ps_power_job_problem(job), ps_power_job_needs(job),
                        ps_power_job_limits(job), i, error);
@@ -86,6 +87,27 @@ static pspec_status add_jobs(ps_table *table, const ps_request *arguments, ps_qu
         PS_TRY(status);
     }
     return PSPEC_OK;
+}
+
+static pspec_status add_jobs(ps_table *table, const ps_request *arguments, ps_question_kind kind,
+                             ps_error *error) {
+    ps_question_list list;
+    PS_TRY(ps_questions_make(&list, arguments, kind, error));
+    return add_list(table, arguments, &list, error);
+}
+
+static pspec_status add_check(ps_table *table, const ps_request *arguments, ps_error *error) {
+    ps_saved_spectrum saved;
+    ps_question_list list;
+    PS_TRY(ps_check_check(arguments, error));
+    PS_TRY(ps_saved_spectrum_read(&saved, arguments->against, error));
+    const ps_request own = ps_check_request(arguments, &saved);
+    pspec_status status = ps_check_question_make(&list, &own, &saved, error);
+    if (status == PSPEC_OK) {
+        status = add_list(table, &own, &list, error);
+    }
+    ps_saved_spectrum_free(&saved);
+    return status;
 }
 
 static pspec_status add_setup(ps_table *table, const ps_request *arguments,
@@ -123,6 +145,7 @@ static pspec_status fill(ps_table *table, const ps_request *arguments, const ps_
     PS_TRY(ps_table_add_meta(table, "schema", PS_INTEGER(1), error));
     PS_TRY(ps_table_add_meta(table, "command", PS_TEXT(arguments->command_line), error));
     return command == &ps_command_quadrature ? add_quadrature(table, arguments, error)
+           : command == &ps_command_check    ? add_check(table, arguments, error)
                                              : add_jobs(table, arguments, kind, error);
 }
 
@@ -133,7 +156,8 @@ static const struct {
 } planned[] = {{&ps_command_power, PS_QUESTION_POWER},
                {&ps_command_angular, PS_QUESTION_ANGULAR},
                {&ps_command_pairs, PS_QUESTION_PAIRS},
-               {&ps_command_quadrature, PS_QUESTION_PAIRS}};
+               {&ps_command_quadrature, PS_QUESTION_PAIRS},
+               {&ps_command_check, PS_QUESTION_POWER}};
 enum { NUM_PLANNED = sizeof planned / sizeof planned[0] };
 
 /* Options of the other command only. */
@@ -164,7 +188,7 @@ static pspec_status take_command(ps_request *inner, const ps_command **command,
     }
     return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                    "name the command to plan first, as in: pointspec plan power --sampler white "
-                   "(power, angular, pairs and quadrature can be planned)");
+                   "(power, angular, pairs, quadrature and check can be planned)");
 }
 
 static pspec_status run(const ps_request *arguments, ps_error *error) {
@@ -190,6 +214,7 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
 /* Those of all commands that can be planned. */
 static const ps_option_id options[] = {PS_OPTION_SAMPLER,       PS_OPTION_POINTS,
                                        PS_OPTION_REALIZATIONS,  PS_OPTION_STANDARD_ERROR,
+                                       PS_OPTION_AGAINST,       PS_OPTION_FALSE_ALARM_RATE,
                                        PS_OPTION_DIMENSION,     PS_OPTION_BRDF,
                                        PS_OPTION_SMOOTHNESS,    PS_OPTION_DROP_BELOW,
                                        PS_OPTION_SEED,          PS_OPTION_HOMOGENIZE,
@@ -213,7 +238,7 @@ static const ps_option_id options[] = {PS_OPTION_SAMPLER,       PS_OPTION_POINTS
 const ps_command ps_command_plan = {
     .name = "plan",
     .summary = "what a command would do: engines, seconds, bytes, error, what is skipped",
-    .usage = "plan power|angular|pairs|quadrature [options of that command]",
+    .usage = "plan power|angular|pairs|quadrature|check [options of that command]",
     .description = "Takes the same arguments as the command named after it and prints how that "
                    "command would go about it: every engine with its estimated time, memory and "
                    "error, the one chosen, why the others were not, and what is skipped and why. "
