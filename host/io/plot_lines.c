@@ -27,7 +27,7 @@ static void print_axis(const char *axis, const char *label, bool is_log, FILE *s
 
 void ps_line_plot_write_script(const ps_line_plot *plot, const char *terminal, FILE *stream) {
     enum { WIDTH = 1000 };
-    ps_plot_print_page(plot->title, terminal, WIDTH, stream);
+    ps_plot_print_page(plot->title, terminal, WIDTH, PS_PLOT_HEIGHT, stream);
     for (size_t i = 0; i < plot->num_lines; i++) {
         print_line(plot, i, stream);
     }
