@@ -47,8 +47,8 @@ static void print_look(const ps_plot_series *series, FILE *stream) {
 
 /* Margins of cell number `cell`, in pixels of the page. */
 static void print_margins(const ps_panel_plot *plot, size_t cell, FILE *stream) {
-    const double left = 68;
-    const double right = 12;
+    const double left = 82;
+    const double right = 20;
     const double above = 30;
     const double below = 52;
     const size_t columns = num_columns(plot);
@@ -119,7 +119,7 @@ void ps_panel_plot_write_script(const ps_panel_plot *plot, const char *terminal,
           "set grid linecolor '#d8d8d8' linewidth 0.8 dashtype solid\nunset key\n",
           stream);
     print_label("x", plot->x_label, "0,0.3", stream);
-    print_label("y", plot->y_label, "0.8,0", stream);
+    print_label("y", plot->y_label, "0.4,0", stream);
     for (size_t i = 0; i < plot->num_panels; i++) {
         print_panel(plot, i, stream);
     }
