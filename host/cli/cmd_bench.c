@@ -107,9 +107,10 @@ static pspec_status add_explanation(const answer *of, ps_error *error) {
                           "that referee")},
         {"tolerance", PS_TEXT("the tightest of 1e-2 1e-4 ... 1e-12 that leads to this computation; "
                               "what takes longer than 2 s, on the host 0.5 s, is left out")},
-        {"fraction_of_peak", PS_TEXT("arithmetic that the launches count, of the peak measured "
-                                     "now; fraction_of_bandwidth: points read and powers written "
-                                     "once, of a copy")},
+        {"fraction_of_peak",
+         PS_TEXT("arithmetic that the launches count, of the peak measured "
+                 "beside the case; fraction_of_bandwidth: points read and powers written "
+                 "once, of a copy")},
     };
     return add_entries(of->table, entries, sizeof entries / sizeof entries[0], error);
 }
@@ -194,6 +195,7 @@ static pspec_status calibrate(answer *of, const ps_bench_options *options, ps_ta
     const ps_device_limits *const limits = ps_device_get_limits(of->device);
     ps_figures figures;
     ps_text file = {0};
+    PS_TRY(ps_figures_make_folder(folder, error)); /* before the work */
     of->progress = ps_progress_begin(of->arguments, "cases");
     pspec_status status = ps_bench_calibrate(options, of->device, &figures, error);
     ps_progress_end(of->progress);

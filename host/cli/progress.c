@@ -28,13 +28,8 @@ ps_progress *ps_progress_begin(const ps_request *arguments, const char *what) {
     }
     ps_progress *const progress = malloc(sizeof *progress);
     if (progress != NULL) { /* without memory for it there is no progress line */
-<<<<<<< HEAD
-        const double start = now();
-        *progress = (ps_progress){what, start, start + FIRST_DELAY - DELAY, 0, ""};
-=======
         const double start = ps_clock_seconds();
-        *progress = (ps_progress){what, start, start + FIRST_DELAY - DELAY, 0};
->>>>>>> 8bb67ec (pointspec bench: run time against error of every engine; figures per device)
+        *progress = (ps_progress){what, start, start + FIRST_DELAY - DELAY, 0, ""};
     }
     return progress;
 }

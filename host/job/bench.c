@@ -114,7 +114,7 @@ ps_problem ps_bench_problem(const ps_bench_case *what, const ps_stress_sample *s
 typedef struct bench {
     const ps_bench_options *options;
     ps_device *device;
-    const ps_device_peaks *peaks;
+    ps_device_peaks peaks; /* of arithmetic: measured beside the case */
     const ps_bench_case *what;
     ps_stress_sample sample;
     ps_bench_sets sets;
@@ -152,9 +152,9 @@ static pspec_status measure_row(bench *self, const ps_problem *problem,
                        .fraction_of_peak = nan_rate,
                        .fraction_of_bandwidth = nan_rate};
     if (engine->needs_device) {
-        row->fraction_of_peak = time.flops / time.seconds / self->peaks->flops[row->precision];
+        row->fraction_of_peak = time.flops / time.seconds / self->peaks.flops[row->precision];
         row->fraction_of_bandwidth =
-            least_bytes(problem, row->precision) / time.seconds / self->peaks->copied_bytes;
+            least_bytes(problem, row->precision) / time.seconds / self->peaks.copied_bytes;
     }
     return ps_stress_measure(&self->sample, problem, engine, candidate->precision, self->device,
                              &row->error, &bound, error);
@@ -196,6 +196,7 @@ static pspec_status try_tolerance(bench *self, double tolerance, ps_error *error
 static pspec_status run_case(bench *self, ps_error *error) {
     const ps_device_limits *limits = ps_device_get_limits(self->device);
     self->num_rows = 0;
+    PS_TRY(ps_device_flops_measure(self->device, &self->peaks, error));
     PS_TRY(ps_stress_sample_create(&self->sample, &self->what->what, error));
     pspec_status status = ps_bench_sets_create(
         &self->sets, self->what,
@@ -235,7 +236,7 @@ pspec_status ps_bench_run(const ps_bench_options *options, ps_device *device,
     size_t done = 0;
     PS_TRY(ps_allocate(&memory, 1, sizeof(bench), "a benchmark", error));
     bench *self = memory;
-    *self = (bench){.options = options, .device = device, .peaks = peaks};
+    *self = (bench){.options = options, .device = device, .peaks = *peaks};
     pspec_status status = PSPEC_OK;
     for (self->what = ps_bench_cases; self->what->what.name != NULL && status == PSPEC_OK;
          self->what++) {

@@ -145,6 +145,7 @@ pspec_status ps_bandwidth_measure(ps_device *device, double *bytes_per_second, p
 static pspec_status measure_flops(ps_device *device, ps_precision precision, double *best,
                                   ps_error *error) {
     ps_peak peak;
+    *best = 0;
     pspec_status status = ps_peak_create(&peak, device, precision, error);
     for (int i = 0; i < REPEATS && status == PSPEC_OK; i++) {
         double rate = 0;
@@ -155,11 +156,15 @@ static pspec_status measure_flops(ps_device *device, ps_precision precision, dou
     return status;
 }
 
+pspec_status ps_device_flops_measure(ps_device *device, ps_device_peaks *peaks, ps_error *error) {
+    PS_TRY(measure_flops(device, PS_SINGLE, &peaks->flops[PS_SINGLE], error));
+    return ps_device_get_limits(device)->has_fp64
+               ? measure_flops(device, PS_DOUBLE, &peaks->flops[PS_DOUBLE], error)
+               : PSPEC_OK;
+}
+
 pspec_status ps_device_peaks_measure(ps_device *device, ps_device_peaks *peaks, ps_error *error) {
     *peaks = (ps_device_peaks){{0, 0}, 0};
-    PS_TRY(measure_flops(device, PS_SINGLE, &peaks->flops[PS_SINGLE], error));
-    if (ps_device_get_limits(device)->has_fp64) {
-        PS_TRY(measure_flops(device, PS_DOUBLE, &peaks->flops[PS_DOUBLE], error));
-    }
+    PS_TRY(ps_device_flops_measure(device, peaks, error));
     return ps_bandwidth_measure(device, &peaks->copied_bytes, error);
 }

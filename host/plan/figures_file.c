@@ -41,18 +41,12 @@ uint64_t ps_figures_checksum(const char *text, size_t length) {
     return hash(hash_begin, text, length);
 }
 
-static pspec_status find_folder(ps_text *path, const char *folder, ps_error *error) {
-    ps_text_append(path, "%s/devices", folder);
-    return ps_text_check(path, error);
-}
-
 pspec_status ps_figures_path(ps_text *path, const char *folder, const ps_device_limits *limits,
                              ps_error *error) {
     uint64_t sum = hash(hash_begin, limits->name, strlen(limits->name) + 1);
     sum = hash(sum, limits->platform, strlen(limits->platform) + 1);
     sum = hash(sum, limits->driver, strlen(limits->driver));
-    PS_TRY(find_folder(path, folder, error));
-    ps_text_append(path, "/%016" PRIx64 ".txt", sum);
+    ps_text_append(path, "%s/devices/%016" PRIx64 ".txt", folder, sum);
     return ps_text_check(path, error);
 }
 
@@ -105,16 +99,24 @@ pspec_status ps_figures_format(ps_text *text, const ps_figures *figures,
     return ps_text_check(text, error);
 }
 
+pspec_status ps_figures_make_folder(const char *folder, ps_error *error) {
+    ps_text path = {0};
+    ps_text_append(&path, "%s/devices", folder);
+    pspec_status status = ps_text_check(&path, error);
+    if (status == PSPEC_OK) {
+        status = ps_cache_folder_make(ps_text_string(&path), error);
+    }
+    ps_text_free(&path);
+    return status;
+}
+
 pspec_status ps_figures_write(const char *folder, const ps_figures *figures,
                               const ps_device_limits *limits, ps_error *error) {
     ps_text text = {0};
     ps_text path = {0};
     ps_output_file *file = NULL;
     pspec_status status = PSPEC_OK;
-    PS_TRY_OUT(status, find_folder(&path, folder, error));
-    PS_TRY_OUT(status, ps_cache_folder_make(ps_text_string(&path), error));
-    ps_text_free(&path);
-    path = (ps_text){0};
+    PS_TRY_OUT(status, ps_figures_make_folder(folder, error));
     PS_TRY_OUT(status, ps_figures_path(&path, folder, limits, error));
     PS_TRY_OUT(status, ps_figures_format(&text, figures, limits, error));
     PS_TRY_OUT(status, ps_output_open(&file, ps_text_string(&path), error));
@@ -281,8 +283,12 @@ static pspec_status read_file(ps_figures *figures, const char *path, const ps_de
         status = ps_input_read(&input, memory, MOST_BYTES, &length, error);
     }
     if (status == PSPEC_OK) {
-        status = length == MOST_BYTES ? fail("it is too long", error)
-                                      : ps_figures_parse(figures, memory, length, limits, error);
+        ps_error why = {0};
+        status = length == MOST_BYTES ? fail("it is too long", &why)
+                                      : ps_figures_parse(figures, memory, length, limits, &why);
+        if (status != PSPEC_OK) {
+            ps_fail(error, status, "%s: %s", path, why.message);
+        }
     }
     free(memory);
     ps_input_close(&input);
@@ -291,7 +297,8 @@ static pspec_status read_file(ps_figures *figures, const char *path, const ps_de
 
 static void say_builtin(ps_figures *figures, const char *why) {
     *figures = (ps_figures){0};
-    snprintf(figures->note, sizeof figures->note, "built-in: %s", why);
+    snprintf(figures->note, sizeof figures->note, "built-in: %.*s", (int)sizeof figures->note - 16,
+             why);
 }
 
 pspec_status ps_figures_read(ps_figures *figures, const char *folder,
@@ -310,9 +317,7 @@ pspec_status ps_figures_read(ps_figures *figures, const char *folder,
     } else if (status == PSPEC_OK) {
         status = read_file(figures, path.data, limits, &own);
         if (status != PSPEC_OK) {
-            char why[256];
-            snprintf(why, sizeof why, "%.80s: %.160s", strrchr(path.data, '/') + 1, own.message);
-            say_builtin(figures, why);
+            say_builtin(figures, own.message);
         }
         status = status == PSPEC_ERROR_MEMORY || status == PSPEC_ERROR_CANCELLED
                      ? ps_fail(error, status, "%s", own.message)

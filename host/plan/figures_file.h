@@ -23,7 +23,9 @@ pspec_status ps_figures_parse(ps_figures *figures, const char *text, size_t leng
 /* The checksum that ends a text of these bytes. */
 uint64_t ps_figures_checksum(const char *text, size_t length);
 
-/* Makes the folder if needed; the file is there whole, or as it was. */
+/* Makes the folder of the files, unless it is there. */
+pspec_status ps_figures_make_folder(const char *folder, ps_error *error) PS_MUST_CHECK;
+/* That, too; the file is there whole, or as it was. */
 pspec_status ps_figures_write(const char *folder, const ps_figures *figures,
                               const ps_device_limits *limits, ps_error *error) PS_MUST_CHECK;
 /* A file that is absent or not to be used gives the built-in figures with a note, no error: that is only for memory. folder
