@@ -2,7 +2,7 @@
  * its message into one line on standard error. */
 #include "base/text.h"
 #include "cli/command.h"
-#include "io/cache_directory.h"
+#include "io/result_cache.h"
 #include "scene/options.h"
 
 #include <errno.h>

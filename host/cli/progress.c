@@ -85,7 +85,7 @@ void ps_progress_part(ps_progress *progress, const char *format, ...) {
     va_start(arguments, format);
     vsnprintf(progress->part, sizeof progress->part, format, arguments);
     va_end(arguments);
-    progress->start = now();
+    progress->start = ps_clock_seconds();
 }
 
 void ps_progress_hide(ps_progress *progress) {

@@ -17,7 +17,7 @@ typedef struct ps_engine_figure {
 
 typedef struct ps_figures {
     bool is_measured;    /* false: the built-in figures, and nothing below but the note */
-    char note[320];      /* which figures these are, and why: "built-in", "measured on DATE" */
+    char note[320];      /* "built-in: WHY", "measured on DATE (CHECKSUM)" */
     char date[32];       /* as 2026-11-22T10:00:00Z */
     double flops[2];     /* peak of fused operations per second, single and double; 0: not known */
     double copied_bytes; /* per second, read and written by a copy; 0: not known */

@@ -291,5 +291,5 @@ pspec_status ps_panel_plot_write(const char *path, const ps_panel_plot *plot, ps
         }
     }
     PS_TRY(check_plot(path, num, error));
-    return draw(path, &(drawing){.panels = plot}, error);
+    return draw_file(path, &(drawing){.panels = plot}, error);
 }

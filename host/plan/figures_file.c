@@ -2,7 +2,7 @@
 
 #include "base/memory.h"
 #include "engines/engine.h"
-#include "io/cache_directory.h"
+#include "io/cache_folder.h"
 #include "io/decimal.h"
 #include "io/input_file.h"
 #include "io/output_file.h"
@@ -266,7 +266,8 @@ pspec_status ps_figures_parse(ps_figures *figures, const char *text, size_t leng
         return status;
     }
     figures->is_measured = true;
-    snprintf(figures->note, sizeof figures->note, "measured on %s", figures->date);
+    snprintf(figures->note, sizeof figures->note, "measured on %s (%016" PRIx64 ")", figures->date,
+             ps_figures_checksum(text, length));
     return PSPEC_OK;
 }
 
