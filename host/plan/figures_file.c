@@ -4,13 +4,13 @@
 #include "engines/engine.h"
 #include "io/cache_folder.h"
 #include "io/decimal.h"
+#include "io/digest.h"
 #include "io/input_file.h"
 #include "io/output_file.h"
 
 #include "pointspec_version.h"
 
 #include <errno.h>
-#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,33 +24,7 @@ static const double least_scale = 1e-3, most_scale = 1e3;
 
 enum { MOST_BYTES = 1 << 16 }; /* of a file; ours have about one thousand */
 
-/* ---- names and sums ------------------------------------------------------------------------ */
-
-/* FNV-1a, 64 bits (Fowler, Noll, Vo; public domain): good enough against accidents. */
-static uint64_t hash(uint64_t sum, const char *bytes, size_t num) {
-    const uint64_t prime = 0x100000001b3;
-    for (size_t i = 0; i < num; i++) {
-        sum = (sum ^ (unsigned char)bytes[i]) * prime;
-    }
-    return sum;
-}
-
-static const uint64_t hash_begin = 0xcbf29ce484222325;
-
-uint64_t ps_figures_checksum(const char *text, size_t length) {
-    return hash(hash_begin, text, length);
-}
-
-pspec_status ps_figures_path(ps_text *path, const char *folder, const ps_device_limits *limits,
-                             ps_error *error) {
-    uint64_t sum = hash(hash_begin, limits->name, strlen(limits->name) + 1);
-    sum = hash(sum, limits->platform, strlen(limits->platform) + 1);
-    sum = hash(sum, limits->driver, strlen(limits->driver));
-    ps_text_append(path, "%s/devices/%016" PRIx64 ".txt", folder, sum);
-    return ps_text_check(path, error);
-}
-
-/* ---- writing ------------------------------------------------------------------------------- */
+/* ---- names --------------------------------------------------------------------------------- */
 
 /* Names of devices on a line of their own, whatever is in them. */
 static void append_name(ps_text *text, const char *key, const char *name) {
@@ -68,12 +42,35 @@ static void append_device(ps_text *text, const ps_device_limits *limits) {
     append_name(text, "driver", limits->driver);
 }
 
+pspec_status ps_figures_path(ps_text *path, const char *folder, const ps_device_limits *limits,
+                             ps_error *error) {
+    char digest[PS_DIGEST_BYTES];
+    ps_text device = {0};
+    append_device(&device, limits);
+    const pspec_status status = ps_text_check(&device, error);
+    if (status == PSPEC_OK) {
+        ps_digest_bytes(device.data, device.length, digest);
+        ps_text_append(path, "%s/devices/%s.txt", folder, digest);
+    }
+    ps_text_free(&device);
+    PS_TRY(status);
+    return ps_text_check(path, error);
+}
+
+/* ---- writing ------------------------------------------------------------------------------- */
+
 static void append_number(ps_text *text, const char *key, const char *of, double value) {
     char number[PS_DECIMAL_BYTES];
     if (value > 0) {
         ps_decimal_format(number, value);
         ps_text_append(text, "%s %s %s\n", key, of, number);
     }
+}
+
+void ps_figures_add_checksum(ps_text *text) {
+    char digest[PS_DIGEST_BYTES];
+    ps_digest_bytes(ps_text_string(text), text->length, digest);
+    ps_text_append(text, "checksum %s\n", digest);
 }
 
 pspec_status ps_figures_format(ps_text *text, const ps_figures *figures,
@@ -94,8 +91,7 @@ pspec_status ps_figures_format(ps_text *text, const ps_figures *figures,
         }
     }
     PS_TRY(ps_text_check(text, error));
-    ps_text_append(text, "checksum %016" PRIx64 "\n",
-                   ps_figures_checksum(text->data, text->length));
+    ps_figures_add_checksum(text);
     return ps_text_check(text, error);
 }
 
@@ -209,17 +205,21 @@ static pspec_status take_lines(ps_figures *figures, char *text, ps_error *error)
 
 /* Where the last line begins, if the sum in it is right. */
 static pspec_status check_sum(const char *text, size_t length, size_t *body, ps_error *error) {
-    char expected[32];
+    static const char key[] = "checksum ";
+    char digest[PS_DIGEST_BYTES];
     size_t begin = length > 0 ? length - 1 : 0;
     while (begin > 0 && text[begin - 1] != '\n') {
         begin--;
     }
-    const int num = snprintf(expected, sizeof expected, "checksum %016" PRIx64 "\n",
-                             ps_figures_checksum(text, begin));
+    ps_digest_bytes(text, begin, digest);
     *body = begin;
-    return length - begin == (size_t)num && memcmp(text + begin, expected, (size_t)num) == 0
-               ? PSPEC_OK
-               : fail("its checksum is wrong", error);
+    const size_t key_bytes = sizeof key - 1;
+    const size_t digest_bytes = strlen(digest);
+    const bool is_right = length - begin == key_bytes + digest_bytes + 1 &&
+                          memcmp(text + begin, key, key_bytes) == 0 &&
+                          memcmp(text + begin + key_bytes, digest, digest_bytes) == 0 &&
+                          text[length - 1] == '\n';
+    return is_right ? PSPEC_OK : fail("its checksum is wrong", error);
 }
 
 /* Version and device at the beginning; *used bytes are theirs. */
@@ -266,8 +266,9 @@ pspec_status ps_figures_parse(ps_figures *figures, const char *text, size_t leng
         return status;
     }
     figures->is_measured = true;
-    snprintf(figures->note, sizeof figures->note, "measured on %s (%016" PRIx64 ")", figures->date,
-             ps_figures_checksum(text, length));
+    char digest[PS_DIGEST_BYTES];
+    ps_digest_bytes(text, length, digest);
+    snprintf(figures->note, sizeof figures->note, "measured on %s (%.16s)", figures->date, digest);
     return PSPEC_OK;
 }
 

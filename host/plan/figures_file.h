@@ -20,8 +20,8 @@ pspec_status ps_figures_format(ps_text *text, const ps_figures *figures,
 /* PSPEC_ERROR_INPUT with the reason when the text is not one of this device; *figures is then without figures. */
 pspec_status ps_figures_parse(ps_figures *figures, const char *text, size_t length,
                               const ps_device_limits *limits, ps_error *error) PS_MUST_CHECK;
-/* The checksum that ends a text of these bytes. */
-uint64_t ps_figures_checksum(const char *text, size_t length);
+/* Appends the last line of a file. */
+void ps_figures_add_checksum(ps_text *text);
 
 /* Makes the folder of the files, unless it is there. */
 pspec_status ps_figures_make_folder(const char *folder, ps_error *error) PS_MUST_CHECK;
