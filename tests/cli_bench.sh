@@ -80,7 +80,7 @@ plan
 [[ $(figures) == measured* ]] || complain "whole again: $(figures)"
 
 POINTSPEC_CACHE_DIR=/dev/null runs 1 --calibrate --case list --quick
-says 'cannot make the folder /dev/null/devices'
+says '/dev/null/devices: Not a directory'
 code=0
 env -u POINTSPEC_CACHE_DIR -u XDG_CACHE_HOME -u HOME "$program" bench --calibrate --case list >out 2>err || code=$?
 [[ $code == 2 && $(<err) == *'set POINTSPEC_CACHE_DIR'* ]] || complain "no folder: $code $(<err)"

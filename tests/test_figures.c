@@ -115,9 +115,10 @@ static void others_are_refused(void **state) {
 /* A file of this device with a right checksum, and one line more. */
 static ps_text with_line(const char *line) {
     ps_text text = {0};
-    ps_text_append(&text, "pointspec-figures 1 " PS_VERSION
-                          "\ndevice a device?with two lines\nplatform a platform\ndriver 1.2\n"
-                          "date today\n%s",
+    ps_text_append(&text,
+                   "pointspec-figures 1 " PS_VERSION
+                   "\ndevice a device?with two lines\nplatform a platform\ndriver 1.2\n"
+                   "date today\n%s",
                    line);
     ps_figures_add_checksum(&text);
     return text;
@@ -229,7 +230,8 @@ static void files(void **state) {
     read_note(folder.data, "was not measured");
     ps_error said = {0};
     assert_int_equal(ps_figures_write("/dev/null", &figures, &limits, &said), PSPEC_ERROR_IO);
-    for (size_t length = folder.length; length >= strlen(root); length--) { /* from the inmost out */
+    for (size_t length = folder.length; length >= strlen(root);
+         length--) { /* from the inmost out */
         if (folder.data[length] == '\0' || folder.data[length] == '/') {
             folder.data[length] = '\0';
             if (length == folder.length) {
@@ -300,10 +302,14 @@ static void planner_chooses_by_them(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(comes_back),         cmocka_unit_test(any_damage_is_seen),
-        cmocka_unit_test(others_are_refused), cmocka_unit_test(wrong_lines),
-        cmocka_unit_test(too_many_engines),   cmocka_unit_test(files),
-        cmocka_unit_test(planner_scales_seconds), cmocka_unit_test(planner_chooses_by_them),
+        cmocka_unit_test(comes_back),
+        cmocka_unit_test(any_damage_is_seen),
+        cmocka_unit_test(others_are_refused),
+        cmocka_unit_test(wrong_lines),
+        cmocka_unit_test(too_many_engines),
+        cmocka_unit_test(files),
+        cmocka_unit_test(planner_scales_seconds),
+        cmocka_unit_test(planner_chooses_by_them),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

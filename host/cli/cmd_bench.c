@@ -102,7 +102,7 @@ static pspec_status add_explanation(const answer *of, ps_error *error) {
     const entry entries[] = {
         {"figures", PS_TEXT(ps_device_get_limits(of->device)->figures->note)},
         {"time", PS_TEXT("of a realization, from points in host memory to powers on the device: "
-                         "median of 3 to 7 runs; setup is not counted")},
+                         "median of 7 runs, with --quick 3; setup is not counted")},
         {"error", PS_TEXT("measured against long double sums, in units of --tol; 0: the engine is "
                           "that referee")},
         {"tolerance", PS_TEXT("the tightest of 1e-2 1e-4 ... 1e-12 that leads to this computation; "
@@ -294,7 +294,8 @@ const ps_command ps_command_bench = {
         "on. Wants a quiet machine; a plain run takes about three minutes.",
     .options = options,
     .formats = "csv|json",
-    .examples = {"pointspec bench --quick --precision single -o bench.csv --plot bench.svg",
-                 "pointspec bench --case sphere --engine sphere_nufft --format json"},
+    .examples =
+        {"pointspec bench --case plane-many --quick -o bench.csv --plot bench.svg",
+         "pointspec bench --case sphere --engine sphere_nufft --precision single --format json"},
     .run = run,
 };

@@ -11,12 +11,10 @@
 
 /* A run lasts so long, if one realization is not longer: enough for the clock and for batches to weigh little. */
 static const double run_seconds = 0.06, quick_run_seconds = 0.03;
-/* No further run begins after so long in all, once there are three. */
-static const double most_seconds = 0.6, quick_most_seconds = 0.2;
 /* A realization that takes longer than this is not timed: of the device, and of the referee. */
 static const double most_device_seconds = 2, most_host_seconds = 0.5, quick_most_host_seconds = 0.1;
 
-enum { MOST_RUNS = 7, LEAST_RUNS = 3 };
+enum { RUNS = 7, QUICK_RUNS = 3 };
 
 /* ---- realizations -------------------------------------------------------------------------- */
 
@@ -92,18 +90,15 @@ static int compare(const void *a, const void *b) {
 }
 
 /* The first run builds kernels and touches memory; on the host there is nothing of that. */
-static pspec_status run_all(const timing *self, double most, ps_bench_time *out, ps_error *error) {
-    double seconds[MOST_RUNS];
+static pspec_status run_all(const timing *self, size_t num, ps_bench_time *out, ps_error *error) {
+    double seconds[RUNS];
     double ignored = 0;
-    double sum = 0;
-    size_t num = 0;
     if (self->engine->needs_device) {
         PS_TRY(run_once(self, &ignored, error));
     }
     const double flops = ps_device_launched_flops(self->device);
-    while (num < LEAST_RUNS || (num < MOST_RUNS && sum < most)) {
-        PS_TRY(run_once(self, &seconds[num], error));
-        sum += seconds[num++];
+    for (size_t i = 0; i < num; i++) {
+        PS_TRY(run_once(self, &seconds[i], error));
     }
     const double realizations = (double)self->num;
     out->flops = (ps_device_launched_flops(self->device) - flops) / (double)num / realizations;
@@ -154,7 +149,7 @@ pspec_status ps_bench_measure_time(ps_bench_sets *sets, const ps_problem *proble
     pspec_status status =
         self.engine->create(&self.state, &own, candidate->precision, self.batch, device, error);
     if (status == PSPEC_OK) {
-        status = run_all(&self, options->quick ? quick_most_seconds : most_seconds, out, error);
+        status = run_all(&self, options->quick ? QUICK_RUNS : RUNS, out, error);
     }
     self.engine->destroy(self.state);
     return status;
