@@ -35,8 +35,8 @@ static pspec_status is_empty_folder(const char *path, bool *is_empty, ps_error *
     }
     *is_empty = true;
     for (const struct dirent *entry; (entry = readdir(folder)) != NULL;) {
-        *is_empty = *is_empty &&
-                    (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0);
+        *is_empty =
+            *is_empty && (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0);
     }
     closedir(folder);
     return PSPEC_OK;
@@ -58,8 +58,7 @@ static pspec_status check_folder(const char *path, ps_error *error) {
     }
     ps_text_append(&record, "%s/record.json", path);
     pspec_status status = ps_text_check(&record, error);
-    const bool has_record =
-        status == PSPEC_OK && access(ps_text_string(&record), F_OK) == 0;
+    const bool has_record = status == PSPEC_OK && access(ps_text_string(&record), F_OK) == 0;
     ps_text_free(&record);
     if (status == PSPEC_OK && !has_record) {
         status = is_empty_folder(path, &is_empty, error);

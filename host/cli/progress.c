@@ -13,12 +13,15 @@
  * flicker. */
 static const double FIRST_DELAY = 0.5, DELAY = 0.1;
 
-enum { LINE_BYTES = 256, PART_BYTES = 64 }; /* two numbers of 20 digits; what occurs fits 80 columns */
+enum {
+    LINE_BYTES = 256,
+    PART_BYTES = 64
+}; /* two numbers of 20 digits; what occurs fits 80 columns */
 
 struct ps_progress {
     const char *what;
-    double start, last; /* last: when the line was last written, or when it may first be */
-    int width;          /* of the line that stands there now */
+    double start, last;    /* last: when the line was last written, or when it may first be */
+    int width;             /* of the line that stands there now */
     char part[PART_BYTES]; /* what the line begins with */
 };
 

@@ -17,7 +17,7 @@
 typedef struct ps_run_question {
     ps_scene_question asked;
     ps_answer answer;
-    double seconds; /* of computing it, or of reading it from the cache */
+    double seconds; /* that it took to compute, also when the cache has it */
     bool is_cached;
     char digest[PS_DIGEST_BYTES]; /* of the rows of the table and of the array */
 } ps_run_question;
@@ -44,16 +44,16 @@ typedef struct ps_run {
     ps_text identity;   /* of program and device, for the keys of the cache */
     ps_device *device;  /* NULL: not opened yet */
     size_t num_results, num_questions, num_cached;
-    double seconds;
+    double seconds; /* of this run */
     ps_run_result *results;
 } ps_run;
 
 /* Makes all questions and looks whether they can be asked, without work. */
 pspec_status ps_run_ask(ps_run *run, ps_error *error) PS_MUST_CHECK;
 pspec_status ps_run_answer(ps_run *run, ps_error *error) PS_MUST_CHECK;
-/* Is the answer in the cache? *out is to be freed in either case. */
+/* Is the answer in the cache? *out is to be freed in either case; *seconds is what computing it took. */
 pspec_status ps_run_fetch(ps_run *run, const ps_run_question *question, ps_answer *out,
-                          bool *is_found, ps_error *error) PS_MUST_CHECK;
+                          double *seconds, bool *is_found, ps_error *error) PS_MUST_CHECK;
 void ps_run_free(ps_run *run);
 
 pspec_status ps_run_make_tables(const ps_run *run, ps_run_result *result,

@@ -112,45 +112,48 @@ static pspec_status make_key(const ps_run *run, const ps_run_question *question,
 
 /* ---- answers as bytes -------------------------------------------------------------------- */
 
-/* The size of the packed table, the table, the side of the array, the array. */
-static pspec_status pack(const ps_answer *answer, ps_text *out, ps_error *error) {
+/* What it took, the size of the packed table and the side of the array; the table, the array. */
+typedef struct packed_head {
+    double seconds;
+    uint64_t table_bytes, side;
+} packed_head;
+
+static pspec_status pack(const ps_answer *answer, double seconds, ps_text *out, ps_error *error) {
     void *bytes = NULL;
     size_t num = 0;
-    const uint64_t side = answer->side;
     PS_TRY(ps_table_pack(answer->table, &bytes, &num, error));
-    const uint64_t table_bytes = num;
-    ps_text_append_bytes(out, (const char *)&table_bytes, sizeof table_bytes);
+    const packed_head head = {seconds, num, answer->side};
+    ps_text_append_bytes(out, (const char *)&head, sizeof head);
     ps_text_append_bytes(out, bytes, num);
-    ps_text_append_bytes(out, (const char *)&side, sizeof side);
-    ps_text_append_bytes(out, (const char *)answer->array, side * side * sizeof(double));
+    ps_text_append_bytes(out, (const char *)answer->array,
+                         answer->side * answer->side * sizeof(double));
     free(bytes);
     return ps_text_check(out, error);
 }
 
 /* What another version may have packed is no answer: PSPEC_ERROR_INPUT. */
-static pspec_status unpack(ps_answer *out, const char *bytes, size_t num, ps_error *error) {
-    uint64_t table_bytes = 0;
-    uint64_t side = 0;
+static pspec_status unpack(ps_answer *out, double *seconds, const char *bytes, size_t num,
+                           ps_error *error) {
+    packed_head head;
     void *array = NULL;
-    if (num < 2 * sizeof(uint64_t)) {
+    if (num < sizeof head) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "an entry of %zu bytes is no answer", num);
     }
-    memcpy(&table_bytes, bytes, sizeof table_bytes);
-    if (table_bytes > num - 2 * sizeof(uint64_t)) {
-        return ps_fail(error, PSPEC_ERROR_INPUT, "an entry is cut off");
+    memcpy(&head, bytes, sizeof head);
+    const size_t rest = num - sizeof head;
+    if (head.table_bytes > rest || head.side > rest ||
+        head.side * head.side * sizeof(double) != rest - head.table_bytes) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "an entry of %zu bytes is cut off", num);
     }
-    memcpy(&side, bytes + sizeof side + table_bytes, sizeof side);
-    const size_t rest = num - (size_t)table_bytes - 2 * sizeof(uint64_t);
-    if (side > rest || side * side * sizeof(double) != rest) {
-        return ps_fail(error, PSPEC_ERROR_INPUT, "the array of an entry is cut off");
-    }
-    PS_TRY(ps_table_unpack(&out->table, bytes + sizeof table_bytes, (size_t)table_bytes, error));
-    if (side > 0) {
-        PS_TRY(ps_allocate(&array, rest / sizeof(double), sizeof(double), "an array", error));
-        memcpy(array, bytes + num - rest, rest);
+    PS_TRY(ps_table_unpack(&out->table, bytes + sizeof head, (size_t)head.table_bytes, error));
+    if (head.side > 0) {
+        const size_t num_entries = (size_t)(head.side * head.side);
+        PS_TRY(ps_allocate(&array, num_entries, sizeof(double), "an array", error));
+        memcpy(array, bytes + sizeof head + head.table_bytes, num_entries * sizeof(double));
     }
     out->array = array;
-    out->side = (size_t)side;
+    out->side = (size_t)head.side;
+    *seconds = head.seconds;
     return PSPEC_OK;
 }
 
@@ -185,7 +188,7 @@ static void warn(const ps_run *run, ps_error *reason) {
 }
 
 pspec_status ps_run_fetch(ps_run *run, const ps_run_question *question, ps_answer *out,
-                          bool *is_found, ps_error *error) {
+                          double *seconds, bool *is_found, ps_error *error) {
     ps_text key = {0};
     void *bytes = NULL;
     size_t num = 0;
@@ -196,12 +199,11 @@ pspec_status ps_run_fetch(ps_run *run, const ps_run_question *question, ps_answe
         return PSPEC_OK;
     }
     pspec_status status = make_key(run, question, &key, error);
-    if (status == PSPEC_OK &&
-        ps_cache_get(run->cache, key.data, key.length, &bytes, &num, is_found, &reason) !=
-            PSPEC_OK) {
+    if (status == PSPEC_OK && ps_cache_get(run->cache, key.data, key.length, &bytes, &num, is_found,
+                                           &reason) != PSPEC_OK) {
         warn(run, &reason);
     }
-    if (*is_found && unpack(out, bytes, num, &reason) != PSPEC_OK) {
+    if (*is_found && unpack(out, seconds, bytes, num, &reason) != PSPEC_OK) {
         warn(run, &reason);
         ps_answer_free(out);
         *is_found = false;
@@ -211,7 +213,8 @@ pspec_status ps_run_fetch(ps_run *run, const ps_run_question *question, ps_answe
     return status;
 }
 
-static pspec_status keep(ps_run *run, const ps_run_question *question, ps_error *error) {
+static pspec_status keep(ps_run *run, const ps_run_question *question, double seconds,
+                         ps_error *error) {
     ps_text key = {0};
     ps_text bytes = {0};
     ps_error reason = {0};
@@ -220,7 +223,7 @@ static pspec_status keep(ps_run *run, const ps_run_question *question, ps_error 
         return PSPEC_OK;
     }
     PS_TRY_OUT(status, make_key(run, question, &key, error));
-    PS_TRY_OUT(status, pack(&question->answer, &bytes, error));
+    PS_TRY_OUT(status, pack(&question->answer, seconds, &bytes, error));
     if (ps_cache_put(run->cache, key.data, key.length, bytes.data, bytes.length, &reason) !=
         PSPEC_OK) {
         warn(run, &reason);
@@ -242,16 +245,17 @@ static pspec_status open_device(ps_run *run, const ps_run_result *result, ps_err
 static pspec_status answer_one(ps_run *run, ps_run_result *result, ps_run_question *question,
                                ps_progress *progress, ps_error *error) {
     const double start = now();
-    PS_TRY(ps_run_fetch(run, question, &question->answer, &question->is_cached, error));
+    PS_TRY(ps_run_fetch(run, question, &question->answer, &question->seconds, &question->is_cached,
+                        error));
     if (!question->is_cached) {
         PS_TRY(open_device(run, result, error));
         const ps_answer_hooks hooks = {ps_progress_tell, progress, run->device};
         PS_TRY(ps_answer_make(&question->answer, result->asked->kind, &question->asked.request,
                               &hooks, error));
-        PS_TRY(keep(run, question, error));
+        question->seconds = now() - start;
+        PS_TRY(keep(run, question, question->seconds, error));
     }
     run->num_cached += question->is_cached;
-    question->seconds = now() - start;
     return digest(&question->answer, question->digest, error);
 }
 

@@ -6,20 +6,21 @@
 #include <string.h>
 
 static const char style[] =
-    "body{font:15px/1.45 sans-serif;color:#222;max-width:1180px;margin:1.5em auto;padding:0 1em}\n"
-    "h1{font-size:1.6em;margin:.2em 0}h2{font-size:1.2em;margin:2em 0 .3em;border-top:1px solid "
-    "#ccc;padding-top:.8em}\n"
+    "body{font:15px/1.45 sans-serif;color:#222;max-width:1280px;margin:1.5em auto;padding:0 1em}\n"
+    "h1{font-size:1.6em;margin:.2em 0}\n"
+    "h2{font-size:1.2em;margin:2em 0 .3em;border-top:1px solid #ccc;padding-top:.8em}\n"
     ".facts{color:#555;margin:.2em 0}.scroll{overflow-x:auto}\n"
     "table{border-collapse:collapse;margin:.6em 0;font-size:.87em}\n"
-    "th,td{padding:.15em .7em;text-align:right;border-bottom:1px solid #e4e4e4;white-space:nowrap}\n"
-    "th{background:#f3f3f3;text-align:right}td.text,th.text{text-align:left}\n"
-    ".plots{display:flex;flex-wrap:wrap;gap:.6em}.plots>svg{width:100%;max-width:580px;height:auto;"
-    "flex:1 1 460px;border:1px solid #eee}\n"
+    "th,td{padding:.15em .7em;text-align:right;border-bottom:1px solid #e4e4e4}\n"
+    "td{white-space:nowrap}th{background:#f3f3f3;vertical-align:bottom}\n"
+    "td.text,th.text{text-align:left}\n"
+    ".plots{display:flex;flex-wrap:wrap;gap:.6em}\n"
+    ".plots>svg{width:100%;max-width:580px;height:auto;flex:1 1 460px;border:1px solid #eee}\n"
     ".plots.one>svg{max-width:900px}\n"
     ".bad{color:#b00020;font-weight:bold}.good{color:#006b3c;font-weight:bold}\n"
     "details{margin:.4em 0}summary{cursor:pointer;color:#0b5394}code{font-size:.92em}\n"
-    "dl{display:grid;grid-template-columns:max-content auto;gap:.1em 1em;font-size:.87em;margin:.3em "
-    "0 1em}dt{color:#555}dd{margin:0;overflow-wrap:anywhere}\n";
+    "dl{display:grid;grid-template-columns:max-content auto;gap:.1em 1em;font-size:.87em}\n"
+    "dl{margin:.3em 0 1em}dt{color:#555}dd{margin:0;overflow-wrap:anywhere}\n";
 
 /* ---- texts ------------------------------------------------------------------------------- */
 
@@ -41,6 +42,13 @@ static void print_text(const char *text, ps_text *out) {
         default:
             ps_text_append_bytes(out, text, 1);
         }
+    }
+}
+
+/* The name of a column in words, which may stand below each other. */
+static void print_name(const char *name, ps_text *out) {
+    for (; *name != '\0'; name++) {
+        ps_text_append(out, "%c", *name == '_' ? ' ' : *name);
     }
 }
 
@@ -113,7 +121,7 @@ static void print_summary(const ps_run_result *result, ps_text *out) {
     for (size_t column = 0; column < ps_table_num_columns(table); column++) {
         const bool is_text = ps_table_cell(table, 0, column).kind == PS_CELL_TEXT;
         ps_text_append(out, "<th%s>", is_text ? " class=\"text\"" : "");
-        print_text(ps_table_column_name(table, column), out);
+        print_name(ps_table_column_name(table, column), out);
         ps_text_append(out, "</th>");
     }
     ps_text_append(out, "<th>time</th><th class=\"text\">from</th></tr>\n");
@@ -164,8 +172,9 @@ static void print_result(const ps_run_result *result, ps_text *out) {
     const ps_scene_result *const asked = result->asked;
     ps_text_append(out, "<h2 id=\"%s\">", asked->name);
     print_text(asked->title != NULL ? asked->title : asked->name, out);
-    ps_text_append(out, "</h2>\n<p class=\"facts\">%s; tables <a href=\"%s.csv\">%s.csv</a>, "
-                        "<a href=\"%s.summary.csv\">%s.summary.csv</a></p>\n",
+    ps_text_append(out,
+                   "</h2>\n<p class=\"facts\">%s; tables <a href=\"%s.csv\">%s.csv</a>, "
+                   "<a href=\"%s.summary.csv\">%s.summary.csv</a></p>\n",
                    asked->kind->name, asked->name, asked->name, asked->name, asked->name);
     print_plots(result, out);
     print_summary(result, out);
@@ -186,8 +195,9 @@ static void print_facts(const ps_run *run, ps_text *out) {
             }
         }
     }
-    ps_text_append(out, "<p class=\"facts\">pointspec %s; %zu result%s, %zu question%s, %zu from the "
-                        "cache; ",
+    ps_text_append(out,
+                   "<p class=\"facts\">pointspec %s; %zu result%s, %zu question%s, %zu from the "
+                   "cache; ",
                    PS_VERSION, run->num_results, run->num_results == 1 ? "" : "s",
                    run->num_questions, run->num_questions == 1 ? "" : "s", run->num_cached);
     print_seconds(run->seconds, out);

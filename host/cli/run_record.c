@@ -18,8 +18,7 @@ static const char *meta_text(const ps_table *table, const char *key) {
 /* The devices that results say they were made on; that of the first with one. */
 static const char *find_device(const ps_run *run) {
     for (size_t i = 0; i < run->num_results; i++) {
-        const char *const device =
-            meta_text(run->results[i].questions[0].answer.table, "device");
+        const char *const device = meta_text(run->results[i].questions[0].answer.table, "device");
         if (device[0] != '\0' && strcmp(device, "none") != 0) {
             return device;
         }

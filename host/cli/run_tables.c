@@ -50,8 +50,8 @@ static pspec_status begin(ps_table **out, const ps_run *run, const ps_run_result
     PS_TRY(ps_table_create(out, result->asked->kind->name, columns, num_columns, error));
     PS_TRY(ps_table_add_meta(*out, "pointspec_version", PS_TEXT(PS_VERSION), error));
     PS_TRY(ps_table_add_meta(*out, "schema", PS_INTEGER(1), error));
-    PS_TRY(ps_table_add_meta(*out, "scene", PS_TEXT(scene->title != NULL ? scene->title : ""),
-                             error));
+    PS_TRY(
+        ps_table_add_meta(*out, "scene", PS_TEXT(scene->title != NULL ? scene->title : ""), error));
     return ps_table_add_meta(*out, "result", PS_TEXT(result->asked->name), error);
 }
 
@@ -137,8 +137,7 @@ static pspec_status fill_table(const ps_run *run, ps_run_result *result, const c
 }
 
 /* Spectra on the torus and on the sphere have other columns, and so may files with other domains. */
-static pspec_status check_columns(const ps_run *run, const ps_run_result *result,
-                                  ps_error *error) {
+static pspec_status check_columns(const ps_run *run, const ps_run_result *result, ps_error *error) {
     const size_t num = ps_table_num_columns(result->questions[0].answer.table);
     for (size_t q = 1; q < result->num; q++) {
         if (ps_table_num_columns(result->questions[q].answer.table) != num) {
@@ -183,10 +182,10 @@ static const char *const of_rules[] = {"points",
                                        "tail",
                                        "predicted_error",
                                        NULL};
-static const char *const of_truncation[] = {"brdf", "smoothness", "harmonics", "kappa_0",
-                                            "predicted_error", NULL};
-static const char *const of_checks[] = {
-    "points", "realizations", "different", "adjusted_p_value", "verdict", NULL};
+static const char *const of_truncation[] = {"brdf",    "smoothness",      "harmonics",
+                                            "kappa_0", "predicted_error", NULL};
+static const char *const of_checks[] = {"points",           "realizations", "different",
+                                        "adjusted_p_value", "verdict",      NULL};
 
 static const char *const *summary_keys(const ps_result_kind *kind) {
     return kind == &ps_result_quadrature   ? of_rules

@@ -22,9 +22,9 @@ static pspec_status digest_stream(FILE *file, XXH3_state_t *state, const char *p
     while ((got = fread(block, 1, sizeof block, file)) > 0) {
         XXH3_128bits_update(state, block, got);
     }
-    return ferror(file) ? ps_fail(error, PSPEC_ERROR_IO, "cannot read \"%s\": %s", path,
-                                  strerror(errno))
-                        : PSPEC_OK;
+    return ferror(file)
+               ? ps_fail(error, PSPEC_ERROR_IO, "cannot read \"%s\": %s", path, strerror(errno))
+               : PSPEC_OK;
 }
 
 pspec_status ps_digest_file(const char *path, char out[PS_DIGEST_BYTES], ps_error *error) {

@@ -209,9 +209,9 @@ static pspec_status make_script(FILE *script, const drawing *what, const char *t
 
 /* num: of places in all curves together. */
 static pspec_status check_plot(const char *name, size_t num, ps_error *error) {
-    return num > 0 ? PSPEC_OK
-                   : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: there is nothing to plot",
-                             name);
+    return num > 0
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: there is nothing to plot", name);
 }
 
 static pspec_status draw(ps_text *picture, const terminal *kind, const drawing *what,

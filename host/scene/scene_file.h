@@ -56,4 +56,25 @@ pspec_status ps_scene_take_entry(ps_scene *scene, const ps_scene_file *file,
 pspec_status ps_scene_apply(ps_request *request, const ps_result_kind *kind, ps_option_id option,
                             const char *text, ps_error *error) PS_MUST_CHECK;
 
+/* What reads a scene. */
+typedef struct ps_scene_reader {
+    ps_scene *scene;
+    ps_scene_file *file;
+    yaml_node_t *defaults; /* NULL: none */
+} ps_scene_reader;
+
+/* The text of a scalar, kept with the scene. */
+pspec_status ps_scene_keep_text(const ps_scene_reader *from, yaml_node_t *node, const char *key,
+                                const char **out) PS_MUST_CHECK;
+/* One of the results, but for a name that the file does not say. */
+pspec_status ps_scene_take_result(const ps_scene_reader *from, yaml_node_t *node,
+                                  ps_scene_result *out) PS_MUST_CHECK;
+
+/* The word that a complaint may suggest: begins as {0}, and ends as the nearest of those considered. */
+typedef struct ps_scene_nearest {
+    const char *word;
+    size_t distance;
+} ps_scene_nearest;
+void ps_scene_consider(ps_scene_nearest *best, const char *typed, const char *known);
+
 #endif

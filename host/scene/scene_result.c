@@ -1,0 +1,234 @@
+/* One result of a scene: its keys, and those of the defaults. */
+#include "scene/options.h"
+#include "scene/scene_file.h"
+
+#include <ctype.h>
+#include <string.h>
+
+/* Pages of more are of no use to anyone. */
+enum { MOST_QUESTIONS = 10000 };
+
+void ps_scene_consider(ps_scene_nearest *best, const char *typed, const char *known) {
+    const size_t distance = ps_name_distance(typed, known);
+    if (best->word == NULL || distance < best->distance) {
+        *best = (ps_scene_nearest){known, distance};
+    }
+}
+
+static const char *const own_keys[] = {"result",   "name",  "title",   "plot",
+                                       "pictures", "files", "samplers"};
+enum { NUM_OWN_KEYS = sizeof own_keys / sizeof own_keys[0] };
+
+/* The option that a key of a result means; -1: none. */
+static int find_option(const ps_result_kind *kind, const char *key) {
+    const bool takes_points = ps_options_have(kind->options, PS_OPTION_SAMPLER);
+    if (strcmp(key, "files") == 0) {
+        return takes_points ? PS_SCENE_FILES : -1;
+    }
+    const char *const name = strcmp(key, "samplers") == 0 ? "sampler" : key;
+    for (int id = 0; id < PS_NUM_OPTIONS; id++) {
+        if (strcmp(ps_options[id].name, name) == 0) {
+            return ps_options_have(kind->options, (ps_option_id)id) ? id : -1;
+        }
+    }
+    return -1;
+}
+
+static bool is_any_option(const char *key) {
+    for (size_t i = 0; ps_result_kinds[i] != NULL; i++) {
+        if (find_option(ps_result_kinds[i], key) >= 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static pspec_status complain_of_key(const ps_scene_reader *from, const ps_result_kind *kind,
+                                    int line, const char *key) {
+    ps_scene_nearest best = {NULL, 0};
+    for (size_t i = 0; i < NUM_OWN_KEYS; i++) {
+        ps_scene_consider(&best, key, own_keys[i]);
+    }
+    for (int id = 0; id < PS_NUM_OPTIONS; id++) {
+        if (ps_options_have(kind->options, (ps_option_id)id)) {
+            ps_scene_consider(&best, key, ps_options[id].name);
+        }
+    }
+    return ps_scene_complain(from->file, line, key, "%s; did you mean %s?",
+                             is_any_option(key) ? "not a key of this result" : "unknown key",
+                             best.word);
+}
+
+/* ---- one result -------------------------------------------------------------------------- */
+
+static pspec_status take_switch(const ps_scene_reader *from, yaml_node_t *node, const char *key,
+                                bool *out) {
+    const char *text = NULL;
+    PS_TRY(ps_scene_take_text(from->file, node, key, &text));
+    *out = strcmp(text, "true") == 0;
+    return *out || strcmp(text, "false") == 0
+               ? PSPEC_OK
+               : ps_scene_complain(from->file, ps_scene_line(node), key,
+                                   "true or false, not \"%s\"", text);
+}
+
+pspec_status ps_scene_keep_text(const ps_scene_reader *from, yaml_node_t *node, const char *key,
+                                const char **out) {
+    PS_TRY(ps_scene_take_text(from->file, node, key, out));
+    return ps_scene_copy(from->scene, "", *out, out, from->file->error);
+}
+
+/* It becomes the name of files. */
+static pspec_status take_name(const ps_scene_reader *from, yaml_node_t *node, const char **out) {
+    enum { MOST_LETTERS = 64 };
+    PS_TRY(ps_scene_keep_text(from, node, "name", out));
+    bool is_good = strlen(*out) <= MOST_LETTERS && (*out)[0] != '-';
+    for (const char *c = *out; *c != '\0'; c++) {
+        is_good = is_good && (isalnum((unsigned char)*c) || *c == '-' || *c == '_');
+    }
+    return is_good
+               ? PSPEC_OK
+               : ps_scene_complain(from->file, ps_scene_line(node), "name",
+                                   "\"%s\" cannot name files: up to %d letters, digits, - and _",
+                                   *out, MOST_LETTERS);
+}
+
+static pspec_status take_kind(const ps_scene_reader *from, yaml_node_t *node,
+                              const ps_result_kind **out) {
+    const char *text = NULL;
+    ps_scene_nearest best = {NULL, 0};
+    PS_TRY(ps_scene_take_text(from->file, node, "result", &text));
+    for (size_t i = 0; ps_result_kinds[i] != NULL; i++) {
+        ps_scene_consider(&best, text, ps_result_kinds[i]->name);
+        if (strcmp(text, ps_result_kinds[i]->name) == 0) {
+            *out = ps_result_kinds[i];
+            return PSPEC_OK;
+        }
+    }
+    return ps_scene_complain(from->file, ps_scene_line(node), "result",
+                             "\"%s\" is no kind of result; did you mean %s?", text, best.word);
+}
+
+static pspec_status take_pair(const ps_scene_reader *from, ps_scene_result *out, const char *key,
+                              int line, yaml_node_t *value) {
+    if (strcmp(key, "result") == 0) {
+        return PSPEC_OK; /* taken before all others */
+    }
+    if (strcmp(key, "name") == 0) {
+        return take_name(from, value, &out->name);
+    }
+    if (strcmp(key, "title") == 0) {
+        return ps_scene_keep_text(from, value, key, &out->title);
+    }
+    if (strcmp(key, "plot") == 0) {
+        return take_switch(from, value, key, &out->wants_plot);
+    }
+    if (strcmp(key, "pictures") == 0 && out->kind == &ps_result_power) {
+        return take_switch(from, value, key, &out->wants_pictures);
+    }
+    const int option = find_option(out->kind, key);
+    if (option < 0) {
+        return complain_of_key(from, out->kind, line, key);
+    }
+    return ps_scene_take_entry(from->scene, from->file, out->kind, option, key, value,
+                               &out->entries[out->num_entries++]);
+}
+
+static bool has_entry(const ps_scene_result *result, int option) {
+    for (size_t i = 0; i < result->num_entries; i++) {
+        if (result->entries[i].option == option) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Points come from a sampler or from files: the defaults' one gives way to the result's other. */
+static bool is_settled(const ps_scene_result *result, int option) {
+    return has_entry(result, option) ||
+           (option == PS_OPTION_SAMPLER && has_entry(result, PS_SCENE_FILES)) ||
+           (option == PS_SCENE_FILES && has_entry(result, PS_OPTION_SAMPLER));
+}
+
+static pspec_status take_defaults(const ps_scene_reader *from, ps_scene_result *out) {
+    const size_t num_own = out->num_entries;
+    ps_scene_result own = *out;
+    for (size_t i = 0; from->defaults != NULL && i < ps_scene_num_pairs(from->defaults); i++) {
+        const char *key = NULL;
+        yaml_node_t *value = NULL;
+        PS_TRY(ps_scene_pair(from->file, from->defaults, i, &key, &value));
+        const int option = find_option(out->kind, key);
+        own.num_entries = num_own;
+        if (option >= 0 && !is_settled(&own, option)) {
+            PS_TRY(ps_scene_take_entry(from->scene, from->file, out->kind, option, key, value,
+                                       &out->entries[out->num_entries++]));
+        } else if (option < 0 && !is_any_option(key)) {
+            return complain_of_key(from, out->kind, ps_scene_line(value), key);
+        }
+    }
+    return PSPEC_OK;
+}
+
+/* Which result it is says what the other keys may be. */
+static pspec_status find_kind(const ps_scene_reader *from, yaml_node_t *node,
+                              ps_scene_result *out) {
+    for (size_t i = 0; i < ps_scene_num_pairs(node); i++) {
+        const char *key = NULL;
+        yaml_node_t *value = NULL;
+        PS_TRY(ps_scene_pair(from->file, node, i, &key, &value));
+        if (strcmp(key, "result") == 0) {
+            return take_kind(from, value, &out->kind);
+        }
+    }
+    return ps_scene_complain(from->file, ps_scene_line(node), "result",
+                             "is missing: power, angular, pairs, quadrature, truncation or check");
+}
+
+static pspec_status check_twice(const ps_scene_reader *from, const ps_scene_result *result) {
+    for (size_t i = 0; i < result->num_entries; i++) {
+        for (size_t j = 0; j < i; j++) {
+            if (result->entries[i].option == result->entries[j].option) {
+                return ps_scene_complain(from->file, result->entries[i].line,
+                                         ps_scene_key(&result->entries[i]),
+                                         "stands in line %d already", result->entries[j].line);
+            }
+        }
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status check_questions(const ps_scene_reader *from, const ps_scene_result *result) {
+    double num = 1;
+    for (size_t i = 0; i < result->num_entries; i++) {
+        num *= (double)result->entries[i].num_values;
+    }
+    return num <= MOST_QUESTIONS
+               ? PSPEC_OK
+               : ps_scene_complain(from->file, result->line, NULL,
+                                   "the lists of this result ask %.3g questions, more than %d", num,
+                                   MOST_QUESTIONS);
+}
+
+pspec_status ps_scene_take_result(const ps_scene_reader *from, yaml_node_t *node,
+                                  ps_scene_result *out) {
+    void *entries = NULL;
+    *out = (ps_scene_result){.line = ps_scene_line(node), .wants_plot = true};
+    if (node->type != YAML_MAPPING_NODE) {
+        return ps_scene_complain(from->file, out->line, "results", "a result is a mapping of keys");
+    }
+    PS_TRY(find_kind(from, node, out));
+    /* every option, files, and `sampler` beside `samplers` */
+    PS_TRY(ps_scene_allocate(from->scene, PS_NUM_OPTIONS + 2, sizeof *out->entries, &entries,
+                             from->file->error));
+    out->entries = entries;
+    for (size_t i = 0; i < ps_scene_num_pairs(node); i++) {
+        const char *key = NULL;
+        yaml_node_t *value = NULL;
+        PS_TRY(ps_scene_pair(from->file, node, i, &key, &value));
+        PS_TRY(take_pair(from, out, key, ps_scene_line(value), value));
+    }
+    PS_TRY(check_twice(from, out));
+    PS_TRY(take_defaults(from, out));
+    PS_TRY(check_twice(from, out));
+    return check_questions(from, out);
+}
