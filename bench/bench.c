@@ -1,5 +1,6 @@
 #include "bench.h"
 
+#include "base/clock.h"
 #include "engines/host_direct.h"
 #include "math/random.h"
 #include "plan/cost_model.h"
@@ -7,7 +8,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 void bench_die(const char *message) {
     fprintf(stderr, "bench: %s\n", message);
@@ -15,10 +15,7 @@ void bench_die(const char *message) {
 }
 
 double bench_seconds(void) {
-    const double nanoseconds = 1e-9;
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + (double)now.tv_nsec * nanoseconds;
+    return ps_clock_seconds();
 }
 
 static void *allocate(size_t count, size_t bytes) {
@@ -47,38 +44,10 @@ double bench_median(double *numbers, size_t num) {
     return numbers[num / 2];
 }
 
-/* ---- peak -------------------------------------------------------------------------------- */
-
-void bench_peak_create(bench_peak *peak, ps_device *device, ps_precision precision) {
-    enum { CPU_ITEMS = 1024, GPU_ITEMS = 1 << 17, STEPS = 4096, CHAINS = 16 };
-    const ps_device_limits *limits = ps_device_get_limits(device);
-    const unsigned lanes = ps_engine_lanes(limits, precision);
-    const size_t items = limits->has_dedicated_local_memory ? GPU_ITEMS : CPU_ITEMS;
-    ps_text options = {0};
-    *peak = (bench_peak){.device = device};
-    ps_text_append(&options, "-DPRECISION=%d -DLANES=%u -DSTEPS=%d",
-                   precision == PS_SINGLE ? 32 : 64, lanes, STEPS);
-    BENCH_TRY(ps_kernel_create(device, &peak->kernel, "probe/peak.cl", "probe_peak",
-                               ps_text_string(&options), error));
-    BENCH_TRY(
-        ps_buffer_create(device, &peak->result, items * lanes * sizeof(double), "results", error));
-    peak->range =
-        ps_range_light(device, items, 1, 1, 2.0 * (double)items * STEPS * CHAINS * lanes, 0);
-    ps_text_free(&options);
-    bench_peak_run(peak); /* builds the kernel, touches the memory */
-}
-
-double bench_peak_run(bench_peak *peak) {
-    const double begin = bench_seconds();
-    BENCH_TRY(PS_LAUNCH(peak->device, peak->kernel, &peak->range, error, PS_BUFFER(peak->result),
-                        PS_U32(1)));
-    BENCH_TRY(ps_device_finish(peak->device, error));
-    return peak->range.flops / (bench_seconds() - begin);
-}
-
-void bench_peak_destroy(bench_peak *peak) {
-    clReleaseKernel(peak->kernel);
-    ps_buffer_release(&peak->result);
+double bench_peak_run(const ps_peak *peak) {
+    double rate = 0;
+    BENCH_TRY(ps_peak_run(peak, &rate, error));
+    return rate;
 }
 
 /* ---- jobs -------------------------------------------------------------------------------- */

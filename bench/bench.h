@@ -5,6 +5,7 @@
 #define BENCH_H
 
 #include "engines/engine.h"
+#include "job/device_peaks.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -25,18 +26,8 @@ double bench_seconds(void);
 /* count numbers in [0,1), the same for the same seed. The caller frees them. */
 double *bench_uniform(size_t count, uint64_t seed);
 
-/* The peak of fused multiply-adds, measured by probe/peak.cl. On a shared machine it changes from second
- * to second, so it is measured again beside every run that is compared with it. */
-typedef struct bench_peak {
-    ps_device *device;
-    cl_kernel kernel;
-    ps_buffer result;
-    ps_range range;
-} bench_peak;
-
-void bench_peak_create(bench_peak *peak, ps_device *device, ps_precision precision);
-double bench_peak_run(bench_peak *peak); /* flop/s, one run of about ten milliseconds on a CPU */
-void bench_peak_destroy(bench_peak *peak);
+/* One run, flop/s: job/device_peaks.h. */
+double bench_peak_run(const ps_peak *peak);
 
 /* One engine on R realizations of N white points with scale 1/N. */
 typedef struct bench_job {

@@ -49,54 +49,6 @@ static device_case parse_case(const char *text, const ps_device_limits *limits) 
     return out;
 }
 
-/* ---- bandwidth --------------------------------------------------------------------------- */
-
-/* Much more than any cache, and little of the memory. */
-static size_t copied_bytes(const ps_device_limits *limits) {
-    const size_t most = limits->has_dedicated_local_memory ? (size_t)1 << 30 : (size_t)1 << 27;
-    const size_t unit = 1 << 20;
-    return most < limits->max_allocation_bytes / 2
-               ? most
-               : (size_t)limits->max_allocation_bytes / 2 / unit * unit;
-}
-
-/* Bytes per second, read and written: nothing but disturbance makes a copy slower, so the best of some. */
-static double measure_bandwidth(ps_device *device) {
-    const ps_device_limits *limits = ps_device_get_limits(device);
-    const unsigned lanes = ps_engine_lanes(limits, PS_SINGLE);
-    const size_t bytes = copied_bytes(limits);
-    const ps_range range = ps_range_light(device, bytes / (lanes * sizeof(float)), 1, 1, 0, 0);
-    const float mark = 0.75F;
-    float found = 0;
-    double best = HUGE_VAL;
-    cl_kernel kernel = NULL;
-    ps_buffer from = {0};
-    ps_buffer to = {0};
-    ps_text options = {0};
-    ps_text_append(&options, "-DPRECISION=32 -DLANES=%u", lanes);
-    BENCH_TRY(ps_kernel_create(device, &kernel, "probe/copy.cl", "probe_copy",
-                               ps_text_string(&options), error));
-    BENCH_TRY(ps_buffer_create(device, &from, bytes, "a copy", error));
-    BENCH_TRY(ps_buffer_create(device, &to, bytes, "a copy", error));
-    BENCH_TRY(ps_buffer_clear(device, &from, error));
-    BENCH_TRY(ps_buffer_write(device, &from, bytes - sizeof mark, &mark, sizeof mark, error));
-    for (int i = 0; i <= 2 * REPEATS; i++) { /* the first builds the kernel and touches memory */
-        const double begin = bench_seconds();
-        BENCH_TRY(PS_LAUNCH(device, kernel, &range, error, PS_BUFFER(from), PS_BUFFER(to)));
-        BENCH_TRY(ps_device_finish(device, error));
-        best = fmin(best, bench_seconds() - begin);
-    }
-    BENCH_TRY(ps_buffer_read(device, &to, bytes - sizeof found, &found, sizeof found, error));
-    if (found != mark) {
-        bench_die("a copy differs from what was copied");
-    }
-    clReleaseKernel(kernel);
-    ps_buffer_release(&from);
-    ps_buffer_release(&to);
-    ps_text_free(&options);
-    return 2 * (double)bytes / best;
-}
-
 /* ---- counted work ------------------------------------------------------------------------ */
 
 static double direct_flops(const device_case *what, const bench_job *job) {
@@ -183,32 +135,21 @@ static void run_case(const char *text, ps_device *device, double bandwidth) {
     run_engine(text, &what, &ps_torus_direct, device, bandwidth);
 }
 
-static double measure_peak(ps_device *device, ps_precision precision) {
-    bench_peak peak;
-    double best = 0;
-    bench_peak_create(&peak, device, precision);
-    for (int i = 0; i < REPEATS; i++) {
-        best = fmax(best, bench_peak_run(&peak));
-    }
-    bench_peak_destroy(&peak);
-    return best;
-}
-
 int main(int argc, char **argv) {
     ps_device *device = NULL;
     BENCH_TRY(ps_device_open(&device, getenv("POINTSPEC_DEVICE"), false, error));
     const ps_device_limits *limits = ps_device_get_limits(device);
-    const double bandwidth = measure_bandwidth(device);
+    ps_device_peaks peaks;
+    BENCH_TRY(ps_device_peaks_measure(device, &peaks, error));
     printf("# device: %s (%s, driver %s), %u compute units\n", limits->name, limits->version,
            limits->driver, limits->compute_units);
     printf("# measured peaks: %.0f GFLOP/s single, %.0f GFLOP/s double, copy %.1f GB/s\n",
-           measure_peak(device, PS_SINGLE) * 1e-9,
-           limits->has_fp64 ? measure_peak(device, PS_DOUBLE) * 1e-9 : 0.0, bandwidth * 1e-9);
+           peaks.flops[PS_SINGLE] * 1e-9, peaks.flops[PS_DOUBLE] * 1e-9, peaks.copied_bytes * 1e-9);
     printf("%-29s %-12s %7s %11s %9s %9s %8s %8s\n", "d N K R tolerance", "engine", "R", "us/R",
            "error", "GFLOP/s", "GB/s", "of peak");
     const int num = argc > 1 ? argc - 1 : (int)(sizeof default_cases / sizeof default_cases[0]);
     for (int i = 0; i < num; i++) {
-        run_case(argc > 1 ? argv[i + 1] : default_cases[i], device, bandwidth);
+        run_case(argc > 1 ? argv[i + 1] : default_cases[i], device, peaks.copied_bytes);
     }
     ps_device_close(device);
     return 0;

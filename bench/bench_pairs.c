@@ -29,7 +29,7 @@ static double cpu_seconds(void) {
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static double cpu_of_peak(bench_peak *peak) {
+static double cpu_of_peak(ps_peak *peak) {
     const double begin = cpu_seconds(), clock = bench_seconds();
     const double flops = bench_peak_run(peak) * (bench_seconds() - clock);
     return flops / (cpu_seconds() - begin);
@@ -48,7 +48,7 @@ typedef struct question {
 static double run_question(ps_device *device, const question *ask, double *peak_flops) {
     ps_frequencies degrees = {0};
     bench_job job;
-    bench_peak peak;
+    ps_peak peak;
     ps_rows rows = {0};
     double cpu = HUGE_VAL;
     BENCH_TRY(ps_frequencies_degrees(&degrees, ask->degree, false, error));
@@ -59,7 +59,7 @@ static double run_question(ps_device *device, const question *ask, double *peak_
                               .tolerance = ask->tolerance};
     const ps_problem own = ps_engine_problem(ask->engine, &asked);
     bench_job_create_for(&job, ask->engine, ask->precision, &own, device);
-    bench_peak_create(&peak, device, ask->precision);
+    BENCH_TRY(ps_peak_create(&peak, device, ask->precision, error));
     bench_job_run(&job, &rows);
     *peak_flops = 0;
     for (int i = 0; i < REPEATS; i++) {
@@ -68,7 +68,7 @@ static double run_question(ps_device *device, const question *ask, double *peak_
         cpu = fmin(cpu, cpu_seconds() - begin);
         *peak_flops = fmax(*peak_flops, cpu_of_peak(&peak));
     }
-    bench_peak_destroy(&peak);
+    ps_peak_destroy(&peak);
     bench_job_destroy(&job);
     return cpu / (double)ask->num_realizations;
 }

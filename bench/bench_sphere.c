@@ -19,14 +19,14 @@ static void measure(ps_device *device, ps_precision precision, size_t num_points
                     bool only_even, size_t num_realizations) {
     ps_frequencies degrees = {0};
     bench_job job;
-    bench_peak peak;
+    ps_peak peak;
     ps_rows rows = {0};
     double best = HUGE_VAL;
     double best_peak = 0;
     BENCH_TRY(ps_frequencies_degrees(&degrees, degree, only_even, error));
     bench_job_create(&job, &ps_sphere_direct, precision, 1, device, degrees, num_points,
                      num_realizations);
-    bench_peak_create(&peak, device, precision);
+    BENCH_TRY(ps_peak_create(&peak, device, precision, error));
     bench_job_run(&job, &rows);
     for (int i = 0; i < REPEATS; i++) {
         best = fmin(best, bench_job_run(&job, &rows));
@@ -41,7 +41,7 @@ static void measure(ps_device *device, ps_precision precision, size_t num_points
            1e6 * best / (double)num_realizations, harmonics / best, best_peak * 1e-9,
            FLOPS_PER_HARMONIC * harmonics / best / best_peak,
            ps_sphere_direct.error(&problem, limits, precision, 1));
-    bench_peak_destroy(&peak);
+    ps_peak_destroy(&peak);
     bench_job_destroy(&job);
 }
 

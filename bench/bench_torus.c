@@ -126,7 +126,7 @@ typedef struct timing {
     double plain_seconds, plain_error; /* of a (point, frequency) pair */
 } timing;
 
-static timing measure(const bench_case *what, bench_job *job, bench_peak *peak) {
+static timing measure(const bench_case *what, bench_job *job, ps_peak *peak) {
     timing out = {0};
     ps_rows rows = {0};
     const double pairs =
@@ -143,7 +143,7 @@ static timing measure(const bench_case *what, bench_job *job, bench_peak *peak) 
     return out;
 }
 
-static void run_case(const char *text, ps_device *device, bench_peak *peaks) {
+static void run_case(const char *text, ps_device *device, ps_peak *peaks) {
     bench_case what;
     bench_job job;
     if (!parse_case(text, &what)) {
@@ -169,9 +169,10 @@ int main(int argc, char **argv) {
     ps_device *device = NULL;
     BENCH_TRY(ps_device_open(&device, getenv("POINTSPEC_DEVICE"), false, error));
     const ps_device_limits *limits = ps_device_get_limits(device);
-    bench_peak peaks[2];
-    bench_peak_create(&peaks[PS_SINGLE], device, PS_SINGLE);
-    bench_peak_create(&peaks[PS_DOUBLE], device, limits->has_fp64 ? PS_DOUBLE : PS_SINGLE);
+    ps_peak peaks[2];
+    BENCH_TRY(ps_peak_create(&peaks[PS_SINGLE], device, PS_SINGLE, error));
+    BENCH_TRY(
+        ps_peak_create(&peaks[PS_DOUBLE], device, limits->has_fp64 ? PS_DOUBLE : PS_SINGLE, error));
     printf("# device: %s (%s), %u compute units\n", limits->name, limits->version,
            limits->compute_units);
     printf("# measured peak now: %.0f GFLOP/s single, %.0f GFLOP/s double; measured again beside "
@@ -187,8 +188,8 @@ int main(int argc, char **argv) {
     for (int i = 0; i < num; i++) {
         run_case(argc > 1 ? argv[i + 1] : default_cases[i], device, peaks);
     }
-    bench_peak_destroy(&peaks[PS_SINGLE]);
-    bench_peak_destroy(&peaks[PS_DOUBLE]);
+    ps_peak_destroy(&peaks[PS_SINGLE]);
+    ps_peak_destroy(&peaks[PS_DOUBLE]);
     ps_device_close(device);
     return 0;
 }

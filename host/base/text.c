@@ -148,3 +148,9 @@ size_t ps_text_distance(const char *a, const char *b) {
     }
     return row[b_length];
 }
+
+void ps_text_keep_nearest(const char *name, const char *known, const char **nearest) {
+    if (*nearest == NULL || ps_text_distance(name, known) < ps_text_distance(name, *nearest)) {
+        *nearest = known;
+    }
+}

@@ -34,6 +34,9 @@ pspec_status ps_parse_count(const char *text, const char *what, uint64_t minimum
 pspec_status ps_parse_number(const char *text, const char *what, double minimum, double maximum,
                              double *out, ps_error *error) PS_MUST_CHECK;
 
+/* The nearer one to name of *nearest, which may be NULL at first, and known. */
+void ps_text_keep_nearest(const char *name, const char *known, const char **nearest);
+
 /* Edit distance, for "did you mean": insertions, deletions, substitutions cost 1. */
 size_t ps_text_distance(const char *a, const char *b);
 

@@ -1,7 +1,8 @@
 /* pointspec devices: what OpenCL offers here, and which device would be used. */
 #include "cli/command.h"
-#include "device/device.h"
 #include "io/table.h"
+#include "plan/figures_file.h"
+#include "engines/engine.h"
 
 #include <stdlib.h>
 
@@ -14,6 +15,8 @@ static const char *const columns[] = {
     "float_lanes",    "double_lanes",
     "global_bytes",   "max_allocation_bytes",
     "local_bytes",    "cache_bytes",
+    "figures",        "single_flops",
+    "double_flops",   "copied_bytes",
 };
 enum { NUM_COLUMNS = sizeof columns / sizeof columns[0] };
 
@@ -21,8 +24,15 @@ static const char *device_type(const ps_device_limits *limits) {
     return limits->is_gpu ? "gpu" : limits->is_cpu ? "cpu" : "accelerator";
 }
 
+/* Measured, or not known. */
+static ps_cell rate(double value) {
+    return value > 0 ? PS_NUMBER(value) : PS_MISSING;
+}
+
 static pspec_status add_device(ps_table *table, const ps_device_limits *limits, size_t index,
-                               bool is_default, ps_error *error) {
+                               bool is_default, const char *folder, ps_error *error) {
+    ps_figures figures;
+    PS_TRY(ps_figures_read(&figures, folder, limits, error));
     const ps_cell cells[NUM_COLUMNS] = {
         PS_INTEGER(index),
         PS_INTEGER(is_default),
@@ -40,6 +50,10 @@ static pspec_status add_device(ps_table *table, const ps_device_limits *limits, 
         PS_INTEGER(limits->max_allocation_bytes),
         PS_INTEGER(limits->local_bytes),
         PS_INTEGER(limits->cache_bytes),
+        PS_TEXT(figures.note),
+        rate(figures.flops[PS_SINGLE]),
+        rate(figures.flops[PS_DOUBLE]),
+        rate(figures.copied_bytes),
     };
     return ps_table_add_row(table, cells, error);
 }
@@ -61,7 +75,8 @@ static pspec_status fill_table(ps_table *table, const ps_request *arguments, ps_
     PS_TRY_OUT(status, ps_device_choose(limits, num_devices, arguments->device, &chosen, error));
     PS_TRY_OUT(status, add_header(table, arguments, &limits[chosen], error));
     for (size_t i = 0; i < num_devices; i++) {
-        PS_TRY_OUT(status, add_device(table, &limits[i], i, i == chosen, error));
+        PS_TRY_OUT(status,
+                   add_device(table, &limits[i], i, i == chosen, arguments->cache_folder, error));
     }
 out:
     free(limits);
@@ -96,7 +111,9 @@ const ps_command ps_command_devices = {
     .description =
         "Lists every device of every OpenCL driver. The column default is 1 for the device that "
         "the other commands would use with the same --device and POINTSPEC_DEVICE. Lanes are the "
-        "native vector widths.",
+        "native vector widths. The last columns say whether the planner has figures measured on "
+        "the "
+        "device, and its peaks per second: see pointspec bench --calibrate.",
     .options = options,
     .formats = "csv|json",
     .examples = {"pointspec devices", "pointspec devices --device cpu --format json"},

@@ -51,6 +51,11 @@ static pspec_status add_header(ps_table *table, const ps_request *arguments,
     }
     PS_TRY(
         ps_table_add_meta(table, "device", PS_TEXT(limits != NULL ? limits->name : "host"), error));
+    PS_TRY(ps_table_add_meta(table, "figures",
+                             PS_TEXT(limits != NULL && limits->figures != NULL
+                                         ? limits->figures->note
+                                         : "built-in: no device"),
+                             error));
     PS_TRY(ps_table_add_meta(table, "points", PS_INTEGER(problem->num_points), error));
     PS_TRY(ps_table_add_meta(table, "realizations",
                              problem->num_realizations > 0 ? PS_INTEGER(problem->num_realizations)

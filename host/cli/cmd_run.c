@@ -3,6 +3,7 @@
 #include "cli/command.h"
 #include "cli/run.h"
 #include "io/output_file.h"
+#include "plan/figures_file.h"
 #include "pointspec_version.h"
 
 #include <dirent.h>
@@ -230,12 +231,16 @@ static pspec_status identify_device(const ps_run *run, ps_text *out, ps_error *e
         *error = none;
         return listed;
     }
-    const pspec_status status = ps_device_choose(all, num, run->arguments->device, &index, error);
+    ps_figures figures; /* plans, and so bits, depend on them */
+    pspec_status status = ps_device_choose(all, num, run->arguments->device, &index, error);
+    if (status == PSPEC_OK) {
+        status = ps_figures_read(&figures, run->arguments->cache_folder, &all[index], error);
+    }
     if (status == PSPEC_OK) {
         const ps_device_limits *const limits = &all[index];
-        ps_text_append(out, "%s\n%s\n%s\n%s\n%u %u\n", limits->platform, limits->name,
-                       limits->driver, limits->version, limits->native_float_lanes,
-                       limits->native_double_lanes);
+        ps_text_append(out, "%s\n%s\n%s\n%s\n%u %u\nfigures %s\n", limits->platform,
+                       limits->name, limits->driver, limits->version, limits->native_float_lanes,
+                       limits->native_double_lanes, figures.is_measured ? figures.note : "");
     }
     free(all);
     return status;

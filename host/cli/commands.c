@@ -18,6 +18,7 @@ const ps_command *const ps_commands[] = {
     &ps_command_check,
     &ps_command_run,
     &ps_command_plan,
+    &ps_command_bench,
     &ps_command_stress,
     &ps_command_devices,
     NULL,

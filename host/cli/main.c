@@ -2,6 +2,7 @@
  * its message into one line on standard error. */
 #include "base/text.h"
 #include "cli/command.h"
+#include "io/result_cache.h"
 #include "scene/options.h"
 
 #include <errno.h>
@@ -91,7 +92,12 @@ static pspec_status run_parsed(const ps_command *command, ps_request *arguments,
     if (!arguments->is_given[PS_OPTION_DEVICE]) {
         arguments->device = getenv("POINTSPEC_DEVICE");
     }
+    ps_text folder = {0};
+    if (ps_cache_default_directory(&folder, NULL) == PSPEC_OK) {
+        arguments->cache_folder = ps_text_string(&folder);
+    }
     const pspec_status status = command->run(arguments, error);
+    ps_text_free(&folder);
     /* A signal may make anything fail that was going on (a compiler in the driver, a read): what the
      * user did is the reason, not what it led to. */
     return status != PSPEC_OK && ps_interrupted

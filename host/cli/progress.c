@@ -1,11 +1,12 @@
 /* The progress line. It appears on terminals only, and only for work that takes a while. */
 #include "cli/command.h"
 
+#include "base/clock.h"
+
 #include <inttypes.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 #include <unistd.h>
 
 /* Seconds before the first line, and between two: short work shows nothing, long work does not
@@ -24,19 +25,13 @@ struct ps_progress {
     char part[PART_BYTES]; /* what the line begins with */
 };
 
-static double now(void) {
-    struct timespec time = {0};
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
 ps_progress *ps_progress_begin(const ps_request *arguments, const char *what) {
     if (arguments->quiet || !isatty(STDERR_FILENO)) {
         return NULL;
     }
     ps_progress *const progress = malloc(sizeof *progress);
     if (progress != NULL) { /* without memory for it there is no progress line */
-        const double start = now();
+        const double start = ps_clock_seconds();
         *progress = (ps_progress){what, start, start + FIRST_DELAY - DELAY, 0, ""};
     }
     return progress;
@@ -66,7 +61,7 @@ static void format_duration(char *text, size_t bytes, double seconds) {
 }
 
 void ps_progress_update(ps_progress *progress, uint64_t done, uint64_t total) {
-    const double time = progress != NULL ? now() : 0;
+    const double time = progress != NULL ? ps_clock_seconds() : 0;
     if (progress == NULL || time < progress->last + DELAY) {
         return;
     }
@@ -93,7 +88,7 @@ void ps_progress_part(ps_progress *progress, const char *format, ...) {
     va_start(arguments, format);
     vsnprintf(progress->part, sizeof progress->part, format, arguments);
     va_end(arguments);
-    progress->start = now();
+    progress->start = ps_clock_seconds();
 }
 
 void ps_progress_hide(ps_progress *progress) {

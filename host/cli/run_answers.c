@@ -2,6 +2,7 @@
 #include "base/memory.h"
 #include "cli/run.h"
 #include "io/table_pack.h"
+#include "plan/figures_file.h"
 #include "scene/quadrature_question.h"
 #include "scene/question.h"
 
@@ -237,7 +238,8 @@ out:
 static pspec_status open_device(ps_run *run, const ps_run_result *result, ps_error *error) {
     return run->device != NULL || result->asked->kind == &ps_result_truncation
                ? PSPEC_OK
-               : ps_device_open(&run->device, run->arguments->device, false, error);
+               : ps_figures_open_device(&run->device, run->arguments->device, false,
+                                        run->arguments->cache_folder, error);
 }
 
 static pspec_status answer_one(ps_run *run, ps_run_result *result, ps_run_question *question,

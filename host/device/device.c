@@ -293,6 +293,7 @@ void ps_device_close(ps_device *device) {
         free(device->programs[i].key);
     }
     free(device->programs);
+    free(device->figures);
     if (device->queue != NULL) {
         clReleaseCommandQueue(device->queue);
     }
@@ -304,6 +305,17 @@ void ps_device_close(ps_device *device) {
 
 const ps_device_limits *ps_device_get_limits(const ps_device *device) {
     return &device->limits;
+}
+
+pspec_status ps_device_set_figures(ps_device *device, const ps_figures *figures, ps_error *error) {
+    void *memory = device->figures;
+    if (memory == NULL) {
+        PS_TRY(ps_allocate(&memory, 1, sizeof *figures, "figures of a device", error));
+    }
+    device->figures = memory;
+    *device->figures = *figures;
+    device->limits.figures = device->figures;
+    return PSPEC_OK;
 }
 
 pspec_status ps_device_finish(ps_device *device, ps_error *error) {

@@ -7,6 +7,7 @@
 #define PS_DEVICE_DEVICE_H
 
 #include "base/status.h"
+#include "device/figures.h"
 
 #include <CL/cl.h>
 #include <stdbool.h>
@@ -25,6 +26,7 @@ typedef struct ps_device_limits {
     unsigned native_float_lanes, native_double_lanes;
     size_t max_work_group_size;
     uint64_t global_bytes, max_allocation_bytes, local_bytes, cache_bytes;
+    const ps_figures *figures; /* what was measured of it, owned by the open device; NULL: nothing */
 } ps_device_limits;
 
 /* Limits of every device of every driver, in the order of their indices; *limits is freed by the
@@ -45,6 +47,9 @@ pspec_status ps_device_open(ps_device **out, const char *selector, bool with_pro
                             ps_error *error) PS_MUST_CHECK;
 void ps_device_close(ps_device *device);
 const ps_device_limits *ps_device_get_limits(const ps_device *device);
+/* What the planner is to know of the device from now on; copied. */
+pspec_status ps_device_set_figures(ps_device *device, const ps_figures *figures,
+                                   ps_error *error) PS_MUST_CHECK;
 /* Waits until everything enqueued is done; failures of earlier commands show here. */
 pspec_status ps_device_finish(ps_device *device, ps_error *error) PS_MUST_CHECK;
 
@@ -156,6 +161,9 @@ pspec_status ps_launch_arguments(ps_device *device, cl_kernel kernel, const ps_r
 #define PS_LAUNCH(device, kernel, range, error, ...)                                               \
     ps_launch_arguments((device), (kernel), (range), (const ps_argument[]){__VA_ARGS__},           \
                         sizeof((const ps_argument[]){__VA_ARGS__}) / sizeof(ps_argument), (error))
+
+/* Arithmetic of everything launched so far, as its ranges count it. */
+double ps_device_launched_flops(const ps_device *device);
 
 /* ---- profile --------------------------------------------------------------------------------- */
 

@@ -24,6 +24,8 @@ struct ps_device {
     ps_built_program *programs;
     size_t num_programs, programs_capacity;
     size_t group_size;                        /* see ps_device_set_group_size; 0: default */
+    ps_figures *figures; /* that limits.figures points to, or NULL */
+    double launched_flops;
     uint64_t buffer_bytes, most_buffer_bytes; /* of all buffers, now and at most */
     bool has_profile;
     ps_profile_row profile[PS_PROFILE_ROWS];

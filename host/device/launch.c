@@ -112,6 +112,7 @@ pspec_status ps_launch_arguments(ps_device *device, cl_kernel kernel, const ps_r
                                      range->local[0] > 0 ? range->local : NULL, 0, NULL,
                                      device->has_profile ? &event : NULL),
               error);
+    device->launched_flops += range->flops;
     const cl_int code = clFlush(device->queue); /* it works while the host prepares more */
     if (code != CL_SUCCESS) {
         if (event != NULL) {
@@ -120,4 +121,8 @@ pspec_status ps_launch_arguments(ps_device *device, cl_kernel kernel, const ps_r
         return ps_device_fail(code, "clFlush", error);
     }
     return device->has_profile ? ps_profile_add(device, kernel, range, event, error) : PSPEC_OK;
+}
+
+double ps_device_launched_flops(const ps_device *device) {
+    return device->launched_flops;
 }

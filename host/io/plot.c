@@ -179,10 +179,11 @@ static pspec_status run_gnuplot(FILE *script, const char *last, ps_text *picture
     return status;
 }
 
-/* A picture of either kind; the other one is NULL. */
+/* A picture of one kind; the others are NULL. */
 typedef struct drawing {
     const ps_plot *spectra;
     const ps_line_plot *lines;
+    const ps_panel_plot *panels;
 } drawing;
 
 /* Writes the script to a file without a name, and goes back to its start. */
@@ -194,8 +195,10 @@ static pspec_status make_script(FILE *script, const drawing *what, const char *t
     }
     if (what->spectra != NULL) {
         PS_TRY(ps_plot_write_script(what->spectra, terminal_name, script, error));
-    } else {
+    } else if (what->lines != NULL) {
         ps_line_plot_write_script(what->lines, terminal_name, script);
+    } else {
+        ps_panel_plot_write_script(what->panels, terminal_name, script);
     }
     errno = 0;
     if (fflush(script) != 0 || ferror(script) || fseeko(script, 0, SEEK_SET) != 0) {
@@ -278,4 +281,15 @@ pspec_status ps_plot_draw_svg(ps_text *svg, const ps_plot *plot, ps_error *error
 pspec_status ps_line_plot_draw_svg(ps_text *svg, const ps_line_plot *plot, ps_error *error) {
     PS_TRY(check_plot(plot->title, count_places(plot), error));
     return draw(svg, find_terminal(".svg"), &(drawing){.lines = plot}, error);
+}
+
+pspec_status ps_panel_plot_write(const char *path, const ps_panel_plot *plot, ps_error *error) {
+    size_t num = 0;
+    for (size_t i = 0; i < plot->num_panels; i++) {
+        for (size_t j = 0; j < plot->panels[i].num_series; j++) {
+            num += plot->panels[i].series[j].num;
+        }
+    }
+    PS_TRY(check_plot(path, num, error));
+    return draw_file(path, &(drawing){.panels = plot}, error);
 }

@@ -67,4 +67,31 @@ pspec_status ps_line_plot_write(const char *path, const ps_line_plot *plot,
 pspec_status ps_line_plot_draw_svg(ps_text *svg, const ps_line_plot *plot,
                                    ps_error *error) PS_MUST_CHECK;
 
+/* ---- panels --------------------------------------------------------------------------------- */
+
+/* Places of one kind in a panel. Kinds are numbered from 0; a kind has the same look and label in every panel. */
+typedef struct ps_plot_series {
+    const char *label;
+    size_t kind;
+    bool is_front; /* joined by a line, in grey, instead of marked */
+    size_t num;
+    const double *x, *y;
+} ps_plot_series;
+
+typedef struct ps_plot_panel {
+    const char *title;
+    size_t num_series;
+    const ps_plot_series *series;
+} ps_plot_panel;
+
+/* Panels side by side, three in a row, all axes logarithmic, with one key for all of them. */
+typedef struct ps_panel_plot {
+    const char *title, *x_label, *y_label;
+    size_t num_panels;
+    const ps_plot_panel *panels;
+} ps_panel_plot;
+
+pspec_status ps_panel_plot_write(const char *path, const ps_panel_plot *plot,
+                                 ps_error *error) PS_MUST_CHECK;
+
 #endif

@@ -73,7 +73,7 @@ void ps_line_plot_write_script(const ps_line_plot *plot, const char *terminal, F
     enum { WIDTH = 1000 };
     const double bottom = 0.11; /* of the page: numbers and label of the axis */
     const double row = 0.033;   /* a line of the key */
-    ps_plot_print_page(plot->title, terminal, WIDTH, stream);
+    ps_plot_print_page(plot->title, terminal, WIDTH, PS_PLOT_HEIGHT, stream);
     for (size_t i = 0; i < plot->num_lines; i++) {
         print_line(plot, i, stream);
     }

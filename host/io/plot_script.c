@@ -113,19 +113,21 @@ static double find_height(const ps_plot *plot) {
     return 1.05 * height;
 }
 
-void ps_plot_print_page(const char *title, const char *terminal, int width, FILE *stream) {
+void ps_plot_print_page(const char *title, const char *terminal, int width, int height,
+                        FILE *stream) {
     if (strcmp(terminal, "pdfcairo") == 0) { /* in inches; 100 pixels each */
-        fprintf(stream, "set terminal pdfcairo enhanced color size %din,7in font 'Sans,11.5'\n",
-                width / 100);
+        fprintf(stream, "set terminal pdfcairo enhanced color size %gin,%gin font 'Sans,11.5'\n",
+                width / 100.0, height / 100.0);
     } else {
-        fprintf(stream, "set terminal %s enhanced size %d,700 background '#ffffff' font '%s'\n",
-                terminal, width, strcmp(terminal, "svg") == 0 ? "sans-serif,16" : "Sans,12");
+        fprintf(stream, "set terminal %s enhanced size %d,%d background '#ffffff' font '%s'\n",
+                terminal, width, height,
+                strcmp(terminal, "svg") == 0 ? "sans-serif,16" : "Sans,12");
     }
     fputs("set encoding utf8\n", stream);
     fputs("set border linewidth 0.8 linecolor '#404040'\nset tics textcolor '#202020'\n", stream);
     fputs("set multiplot\nset label 1 ", stream);
     ps_plot_print_text(title != NULL ? title : "", stream);
-    fprintf(stream, " at screen 0.5,0.962 center noenhanced font ',%d'\n",
+    fprintf(stream, " at screen 0.5,%.4g center noenhanced font ',%d'\n", 1 - 26.6 / height,
             strcmp(terminal, "svg") == 0 ? 20 : 15); /* svg counts pixels, the others points */
 }
 
@@ -306,7 +308,7 @@ pspec_status ps_plot_write_script(const ps_plot *plot, const char *terminal, FIL
                           .left = has_image ? 0.605 : 0.085,
                           .right = 0.985,
                           .middle = plot->on_sphere ? 0.48 : 0.38};
-    ps_plot_print_page(plot->title, terminal, has_image ? 1400 : 1000, stream);
+    ps_plot_print_page(plot->title, terminal, has_image ? 1400 : 1000, PS_PLOT_HEIGHT, stream);
     for (size_t i = 0; i < plot->num_curves; i++) {
         print_curve(&plot->curves[i], i, stream);
     }

@@ -13,9 +13,14 @@ pspec_status ps_plot_write_script(const ps_plot *plot, const char *terminal, FIL
 /* The same of lines. */
 void ps_line_plot_write_script(const ps_line_plot *plot, const char *terminal, FILE *stream);
 
-/* What both have: the page, with its title; a text constant of gnuplot; a number or NaN; colour and dashes of line
+/* The same of panels. */
+void ps_panel_plot_write_script(const ps_panel_plot *plot, const char *terminal, FILE *stream);
+
+/* What all have: the page, with its title, in pixels; a text constant of gnuplot; a number or NaN; colour and dashes of line
  * number. */
-void ps_plot_print_page(const char *title, const char *terminal, int width, FILE *stream);
+void ps_plot_print_page(const char *title, const char *terminal, int width, int height,
+                        FILE *stream);
+enum { PS_PLOT_HEIGHT = 700 }; /* of one row of panels */
 void ps_plot_print_text(const char *text, FILE *stream);
 void ps_plot_print_value(double value, FILE *stream);
 void ps_plot_print_style(size_t number, FILE *stream);

@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "job/power_frequencies.h"
 #include "job/power_needs.h"
+#include "plan/figures_file.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -68,7 +69,8 @@ static pspec_status open_device(ps_power_job *job, ps_error *error) {
     job->owns_device = question->open_device == NULL;
     job->device = question->open_device;
     return job->owns_device
-               ? ps_device_open(&job->device, question->device, question->profile, error)
+               ? ps_figures_open_device(&job->device, question->device, question->profile,
+                                        question->figures_folder, error)
                : PSPEC_OK;
 }
 

@@ -52,6 +52,7 @@ typedef struct ps_power_question {
     ps_plan_constraints constraints;
     ps_device *open_device; /* borrowed; NULL: the one that `device` selects is opened */
     const char *device;     /* selector, NULL: default */
+    const char *figures_folder; /* plan/figures_file.h; NULL: the built-in figures */
     bool profile;
     ps_progress_callback progress; /* may be NULL */
     void *payload;

@@ -1,4 +1,5 @@
 /* The public library: plans over the estimator, and the callbacks of their context. */
+#include "base/clock.h"
 #include "base/memory.h"
 #include "job/gather.h"
 #include "job/public_objects.h"
@@ -6,7 +7,6 @@
 #include "plan/memory_model.h"
 
 #include <stdlib.h>
-#include <time.h>
 
 struct pspec_plan {
     pspec_context *context;
@@ -30,13 +30,6 @@ static bool ask_to_stop(pspec_plan *plan) {
                              plan->problem.num_realizations, context->progress_payload) != 0;
 }
 
-static double now(void) {
-    const double nano = 1e-9;
-    struct timespec time = {0};
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + nano * (double)time.tv_nsec;
-}
-
 /* Asked by engines, some of them for every frequency: the callback is not called as often. */
 static bool should_stop(void *payload) {
     const double interval = 0.1; /* seconds; what people call at once */
@@ -44,7 +37,7 @@ static bool should_stop(void *payload) {
     if (plan->context->progress == NULL) {
         return false;
     }
-    const double time = now();
+    const double time = ps_clock_seconds();
     if (time - plan->last_asked < interval) {
         return false;
     }

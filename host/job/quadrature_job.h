@@ -40,6 +40,7 @@ typedef struct ps_quadrature_question {
     bool no_skip; /* all realizations, all degrees to ceil(4 sqrt N), in double precision */
     ps_device *open_device; /* borrowed; NULL: the one that `device` selects is opened */
     const char *device;
+    const char *figures_folder; /* plan/figures_file.h; NULL: the built-in figures */
     bool profile;
     ps_progress_callback progress;              /* may be NULL */
     void (*tell_plan)(void *, const ps_plan *); /* called before the work begins; may be NULL */

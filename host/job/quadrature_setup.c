@@ -3,6 +3,7 @@
 #include "job/quadrature_needs.h"
 #include "job/quadrature_rules.h"
 #include "math/sobolev.h"
+#include "plan/figures_file.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -108,7 +109,8 @@ static pspec_status get_device(ps_quadrature_setup *out, const ps_quadrature_que
     if (out->device != NULL) {
         return PSPEC_OK;
     }
-    PS_TRY(ps_device_open(&out->device, question->device, question->profile, error));
+    PS_TRY(ps_figures_open_device(&out->device, question->device, question->profile,
+                                  question->figures_folder, error));
     out->owns_device = true;
     return PSPEC_OK;
 }

@@ -68,16 +68,10 @@ bool ps_stress_needs_device(const ps_stress_options *options) {
     return false;
 }
 
-static void keep_nearest(const char *name, const char *known, const char **nearest) {
-    if (*nearest == NULL || ps_text_distance(name, known) < ps_text_distance(name, *nearest)) {
-        *nearest = known;
-    }
-}
-
 static pspec_status check_case(const char *name, ps_error *error) {
     const char *nearest = NULL;
     for (const ps_stress_case *what = ps_stress_cases; what->name != NULL; what++) {
-        keep_nearest(name, what->name, &nearest);
+        ps_text_keep_nearest(name, what->name, &nearest);
     }
     return strcmp(name, nearest) == 0
                ? PSPEC_OK
@@ -89,12 +83,12 @@ static pspec_status check_engine(const char *name, ps_error *error) {
     const char *nearest = NULL;
     for (const ps_stress_case *what = ps_stress_cases; what->name != NULL; what++) {
         if (what->kind == PS_STRESS_PROBE) {
-            keep_nearest(name, what->probe->engine, &nearest);
+            ps_text_keep_nearest(name, what->probe->engine, &nearest);
         }
     }
     for (const ps_engine *const *engine = ps_engines; *engine != NULL; engine++) {
         if ((*engine)->needs_device) {
-            keep_nearest(name, (*engine)->name, &nearest);
+            ps_text_keep_nearest(name, (*engine)->name, &nearest);
         }
     }
     return strcmp(name, nearest) == 0
@@ -219,8 +213,8 @@ static pspec_status try_engine(const run *self, ps_stress_sample *sample, const 
         return PSPEC_OK; /* not made for it, on any device */
     }
     PS_TRY(ps_stress_sample_judge(sample, options->should_stop, options->payload, error));
-    const pspec_status status =
-        ps_stress_measure(sample, engine, precision, self->device, &row.error, &row.bound, error);
+    const pspec_status status = ps_stress_measure(sample, &problem, engine, precision, self->device,
+                                                  &row.error, &row.bound, error);
     return judge(self, &row, status, error);
 }
 

@@ -36,6 +36,7 @@ typedef struct ps_stress_case {
     uint64_t num_points;
     unsigned dimension;   /* of the torus */
     int32_t reach;        /* K of a box, the largest |k_i| of a list, L */
+    bool is_hemisphere;   /* even degrees only */
     unsigned num_listed;  /* frequencies of a list; 0: the box */
     unsigned num_checked; /* of all frequencies or degrees, by the referee; 0: all */
     unsigned group_size;  /* work-items of work-groups that need not be 1; 0: as the device likes */

@@ -158,14 +158,14 @@ static double bound_of(const measurement *self) {
     return ps_engine_error_in(self->engine, &self->problem, own);
 }
 
-pspec_status ps_stress_measure(const ps_stress_sample *sample, const ps_engine *engine,
-                               ps_precision precision, ps_device *device, double *found,
-                               double *bound, ps_error *error) {
+pspec_status ps_stress_measure(const ps_stress_sample *sample, const ps_problem *problem,
+                               const ps_engine *engine, ps_precision precision, ps_device *device,
+                               double *found, double *bound, ps_error *error) {
     measurement self = {.sample = sample,
                         .engine = engine,
                         .precision = precision,
                         .device = device,
-                        .problem = ps_stress_problem(sample, precision)};
+                        .problem = *problem};
     self.own = ps_engine_problem(engine, &self.problem);
     pspec_status status = prepare(&self, error);
     if (status == PSPEC_OK) {

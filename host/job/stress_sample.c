@@ -36,7 +36,7 @@ static pspec_status make_list(ps_stress_sample *self, ps_error *error) {
 static pspec_status make_frequencies(ps_stress_sample *self, ps_error *error) {
     const ps_stress_case *what = self->what;
     if (what->kind != PS_STRESS_TORUS) {
-        PS_TRY(ps_frequencies_degrees(&self->frequencies, what->reach, false, error));
+        PS_TRY(ps_frequencies_degrees(&self->frequencies, what->reach, what->is_hemisphere, error));
     } else if (what->num_listed > 0) {
         return make_list(self, error);
     } else {
@@ -60,14 +60,30 @@ static pspec_status choose_checked(ps_stress_sample *self, ps_error *error) {
     return PSPEC_OK;
 }
 
-static pspec_status make_points(ps_stress_sample *self, ps_error *error) {
-    const ps_stress_case *what = self->what;
+/* Points below the horizon become their antipodes. */
+static void lift_above_horizon(pspec_pattern *pattern) {
+    double *const points = (double *)(uintptr_t)pattern->points; /* our own */
+    for (size_t j = 0; j < pattern->num_points; j++) {
+        double *const u = points + j * PS_SPHERE_DIMENSION;
+        for (int axis = 0; axis < PS_SPHERE_DIMENSION && u[2] < 0; axis++) {
+            u[axis] = -u[axis]; /* the height last */
+        }
+    }
+}
+
+pspec_status ps_stress_points_make(const ps_stress_case *what, uint64_t realization,
+                                   pspec_pattern *out, ps_error *error) {
+    const uint64_t seed = points_seed + realization;
     if (what->kind == PS_STRESS_TORUS) {
         return ps_torus_shape_make(ps_torus_shape_find(what->shape), what->dimension,
-                                   (size_t)what->num_points, points_seed, &self->pattern, error);
+                                   (size_t)what->num_points, seed, out, error);
     }
-    return ps_vector_shape_make(ps_vector_shape_find(what->shape), (size_t)what->num_points,
-                                points_seed, &self->pattern, error);
+    PS_TRY(ps_vector_shape_make(ps_vector_shape_find(what->shape), (size_t)what->num_points, seed,
+                                out, error));
+    if (what->is_hemisphere) {
+        lift_above_horizon(out);
+    }
+    return PSPEC_OK;
 }
 
 pspec_status ps_stress_sample_create(ps_stress_sample *out, const ps_stress_case *what,
@@ -78,7 +94,7 @@ pspec_status ps_stress_sample_create(ps_stress_sample *out, const ps_stress_case
         status = choose_checked(out, error);
     }
     if (status == PSPEC_OK) {
-        status = make_points(out, error);
+        status = ps_stress_points_make(what, 0, &out->pattern, error);
     }
     if (status == PSPEC_OK) {
         status = ps_pattern_check(&out->pattern, &out->frequencies, PSPEC_NORMALIZATION_EFFECTIVE,
@@ -163,6 +179,16 @@ static pspec_status ask_sphere(ps_stress_sample *self, size_t i) {
     return PSPEC_OK;
 }
 
+/* Of some degrees only: much less than all pairs. */
+static pspec_status ask_pairs_degree(ps_stress_sample *self, size_t i) {
+    ps_host_degree degree;
+    PS_TRY(ps_host_degree_create(&degree, self->frequencies.vectors[self->checked[i]], NULL));
+    ps_host_degree_sum(&degree, &self->pattern);
+    self->truth[i] = ldexpl(ps_host_degree_power(&degree), -2 * self->sums.exponent);
+    ps_host_degree_free(&degree);
+    return PSPEC_OK;
+}
+
 static void ask(void *payload, unsigned index) {
     const inquiry *self = payload;
     ps_stress_sample *sample = self->sample;
@@ -174,7 +200,9 @@ static void ask(void *payload, unsigned index) {
         if (sample->what->kind == PS_STRESS_TORUS) {
             ask_torus(sample, i);
         } else if (self->statuses[index] == PSPEC_OK) {
-            self->statuses[index] = ask_sphere(sample, i);
+            self->statuses[index] = sample->what->kind == PS_STRESS_PAIRS
+                                        ? ask_pairs_degree(sample, i)
+                                        : ask_sphere(sample, i);
         }
     }
 }
@@ -237,9 +265,10 @@ pspec_status ps_stress_sample_judge(ps_stress_sample *sample, bool (*should_stop
                            sizeof *sample->harmonics, "orders", error));
         sample->harmonics = memory;
     }
-    PS_TRY(sample->what->kind == PS_STRESS_PAIRS ? ask_pairs(sample, error)
-                                                 : ask_all(sample, should_stop, payload, error));
     const bool is_whole = sample->num_checked == sample->frequencies.num;
+    PS_TRY(is_whole && sample->what->kind == PS_STRESS_PAIRS
+               ? ask_pairs(sample, error)
+               : ask_all(sample, should_stop, payload, error));
     sample->mean_power = is_whole ? measure_power(sample) : 0;
     return PSPEC_OK;
 }

@@ -29,12 +29,16 @@ void ps_stress_sample_free(ps_stress_sample *sample);
 /* The weight that the power of a frequency or degree has in means: 1, or 2l + 1. */
 double ps_stress_modes(const ps_stress_sample *sample, size_t frequency);
 
-/* What an engine is asked for; frequencies belong to the sample. */
+/* The points of a realization of the case; those of the sample are of realization 0. */
+pspec_status ps_stress_points_make(const ps_stress_case *what, uint64_t realization,
+                                   pspec_pattern *out, ps_error *error) PS_MUST_CHECK;
+
+/* What `pointspec stress` asks an engine for; frequencies belong to the sample. */
 ps_problem ps_stress_problem(const ps_stress_sample *sample, ps_precision precision);
 
-/* The error of an engine, and its formula with the power that was measured. */
-pspec_status ps_stress_measure(const ps_stress_sample *sample, const ps_engine *engine,
-                               ps_precision precision, ps_device *device, double *found,
-                               double *bound, ps_error *error) PS_MUST_CHECK;
+/* The error of an engine that is asked for the problem, and its formula with the power that was measured. */
+pspec_status ps_stress_measure(const ps_stress_sample *sample, const ps_problem *problem,
+                               const ps_engine *engine, ps_precision precision, ps_device *device,
+                               double *found, double *bound, ps_error *error) PS_MUST_CHECK;
 
 #endif

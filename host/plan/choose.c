@@ -51,7 +51,9 @@ static void estimate(ps_candidate *candidate, const ps_problem *asked, const ps_
         sum = ps_memory_count(candidate->engine, candidate->precision, problem, &work, used,
                               candidate->batch);
     }
-    candidate->seconds = ps_cost_seconds(&work, used, candidate->precision);
+    candidate->seconds = ps_cost_seconds(&work, used, candidate->precision) *
+                         ps_figures_scale(limits != NULL ? limits->figures : NULL,
+                                          candidate->engine->name, candidate->precision);
     candidate->device_bytes = sum.device;
     candidate->bytes = sum.device + sum.host;
     candidate->error = ps_engine_error_in(candidate->engine, asked, survey->error);

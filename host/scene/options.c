@@ -233,6 +233,9 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                         .metavar = "NAME",
                         .help = "this case alone; the first column names them",
                         TEXT(case_name)},
+    [PS_OPTION_CALIBRATE] = {.name = "calibrate",
+                             .help = "measure this device's figures for the planner and keep them",
+                             FLAG(calibrate)},
     [PS_OPTION_DEVICE] = {.name = "device",
                           .metavar = "SELECTOR",
                           .help = "OpenCL device: index, cpu, gpu, accelerator or part of a name "

@@ -84,6 +84,7 @@ static ps_quadrature_question make_question(const ps_request *arguments, const p
                         .memory_limit = arguments->memory},
         .no_skip = arguments->no_skip,
         .device = arguments->device,
+        .figures_folder = arguments->cache_folder,
         .profile = arguments->profile,
     };
     out.weights = choose_weights(arguments, &out.weights_path);

@@ -177,6 +177,7 @@ static ps_power_question make_question(const ps_request *arguments, ps_question_
         .no_self_check = arguments->no_self_check,
         .constraints = {.engine = arguments->engine, .precision = arguments->precision},
         .device = arguments->device,
+        .figures_folder = arguments->cache_folder,
         .profile = arguments->profile,
     };
     fill_points(&question, arguments, domain_of(kind));

@@ -52,6 +52,7 @@ typedef enum ps_option_id {
     PS_OPTION_PRECISION,         /* --precision auto|single|double|extended */
     PS_OPTION_ENGINE,            /* --engine NAME */
     PS_OPTION_CASE,              /* --case NAME */
+    PS_OPTION_CALIBRATE,         /* --calibrate */
     PS_OPTION_DEVICE,            /* --device SELECTOR */
     PS_OPTION_MEMORY,            /* --memory BYTES */
     PS_OPTION_CACHE,             /* --cache BYTES */
@@ -86,10 +87,11 @@ typedef struct ps_request {
     const char *brdf, *coefficients, *harmonics, *frequencies, *full, *weights, *input_format,
         *columns, *to_columns, *engine, *case_name, *device, *output, *format,
         *plot;                   /* NULL unless given */
+    const char *cache_folder;    /* of what can be made again; NULL: there is none */
     ps_domain domain;            /* PS_DOMAIN_ANY unless given */
     ps_point_range sets, points; /* {0} unless given */
     bool shells, homogenize, hemisphere, wrap, normalize_vectors, drop_below_horizon, merge,
-        no_skip, no_self_check, profile, quick, quiet, verbose;
+        no_skip, no_self_check, profile, calibrate, quick, quiet, verbose;
     bool
         wants_picture; /* of the averaged periodogram on the whole square, which no option asks for */
     bool effective;    /* --normalize effective */

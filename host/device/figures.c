@@ -1,0 +1,32 @@
+#include "device/figures.h"
+
+#include <string.h>
+
+double ps_figures_scale(const ps_figures *figures, const char *engine, unsigned precision) {
+    if (figures == NULL || !figures->is_measured || precision >= PS_FIGURES_PRECISIONS) {
+        return 1;
+    }
+    for (size_t i = 0; i < figures->num_engines; i++) {
+        if (strcmp(figures->engines[i].engine, engine) == 0) {
+            const double scale = figures->engines[i].scales[precision];
+            return scale > 0 ? scale : 1;
+        }
+    }
+    return 1;
+}
+
+ps_engine_figure *ps_figures_row(ps_figures *figures, const char *engine) {
+    for (size_t i = 0; i < figures->num_engines; i++) {
+        if (strcmp(figures->engines[i].engine, engine) == 0) {
+            return &figures->engines[i];
+        }
+    }
+    if (figures->num_engines == PS_FIGURES_ENGINES ||
+        strlen(engine) >= sizeof figures->engines[0].engine) {
+        return NULL;
+    }
+    ps_engine_figure *row = &figures->engines[figures->num_engines++];
+    *row = (ps_engine_figure){{0}, {0}};
+    memcpy(row->engine, engine, strlen(engine) + 1);
+    return row;
+}

@@ -1,0 +1,62 @@
+/* Run time against error: every engine in every precision at tolerances from loose to tight, on cases that stand for what
+ * people ask. The error is measured against the long double referee, in the units of the tolerance contract (design.md 3.1),
+ * on the first realization; where everything would take minutes on frequencies or degrees evenly spread over all.
+ *
+ * The time is that of a realization, from points in host memory to powers on the device: the median of some runs of many
+ * realizations each, without what is done once per job.
+ */
+#ifndef PS_JOB_BENCH_H
+#define PS_JOB_BENCH_H
+
+#include "job/device_peaks.h"
+#include "job/stress.h"
+
+typedef struct ps_bench_case {
+    ps_stress_case what;       /* points, frequencies, and how many of them are checked */
+    uint64_t num_realizations; /* of the job that is planned; times GPU_REALIZATIONS on a GPU */
+} ps_bench_case;
+
+/* Ended by a row without a name. what.is_quick: one of those of --quick. */
+extern const ps_bench_case ps_bench_cases[];
+
+typedef struct ps_bench_row {
+    const ps_bench_case *what;
+    const ps_engine *engine;
+    ps_precision precision;
+    double tolerance; /* the tightest of those tried that leads to this computation */
+    double seconds, predicted_seconds; /* of a realization */
+    double error, predicted_error;     /* as the tolerance counts */
+    double
+        fraction_of_peak; /* measured beside the case, of arithmetic that the launches count; nan: no device */
+    double
+        fraction_of_bandwidth; /* of a copy, by points read and powers written once; nan: no device */
+    bool is_pareto;            /* no other row of the case is as fast and as exact */
+} ps_bench_row;
+
+typedef struct ps_bench_options {
+    const char *case_name, *engine; /* NULL: all */
+    int precision;                  /* a ps_precision, or -1: all */
+    bool quick; /* the quick cases only, unless one is named, and shorter runs */
+    bool (*should_stop)(void *payload);
+    /* Told of the rows of a case when it is done, tightest tolerance first; and of cases done and to be done. */
+    pspec_status (*report)(void *payload, const ps_bench_row *rows, size_t num, ps_error *error);
+    void (*advance)(void *payload, size_t done, size_t total);
+    void *payload;
+} ps_bench_options;
+
+/* Names a case and an engine that tries one of those left, or PSPEC_ERROR_INVALID_ARGUMENT with the nearest. */
+pspec_status ps_bench_check(const ps_bench_options *options, ps_error *error) PS_MUST_CHECK;
+
+/* peaks->copied_bytes is what fractions of bandwidth are of. */
+pspec_status ps_bench_run(const ps_bench_options *options, ps_device *device,
+                          const ps_device_peaks *peaks, ps_error *error) PS_MUST_CHECK;
+
+/* Marks the rows that no other one of the same case is at once no slower and no less exact than, and better in one of both. */
+void ps_bench_mark_pareto(ps_bench_row *rows, size_t num);
+
+/* Peaks of the device, and how long every engine takes against the built-in cost model: the geometric mean over the
+ * cases; options.engine and .precision are not looked at. figures->date is left to the caller. */
+pspec_status ps_bench_calibrate(const ps_bench_options *options, ps_device *device,
+                                ps_figures *figures, ps_error *error) PS_MUST_CHECK;
+
+#endif
