@@ -4,6 +4,7 @@
 #include "cli/output_check.h"
 #include "cli/spectrum_plot.h"
 #include "io/plot.h"
+#include "plan/figures_file.h"
 
 #include <stdio.h>
 
@@ -95,7 +96,8 @@ pspec_status ps_jobs_open_device(ps_device **out, const ps_request *arguments,
                                  ps_error *error) {
     *out = NULL;
     return num_jobs > 1 && !arguments->profile && ps_plan_may_need_device(constraints)
-               ? ps_device_open(out, arguments->device, false, error)
+               ? ps_figures_open_device(out, arguments->device, false, arguments->cache_folder,
+                                        error)
                : PSPEC_OK;
 }
 
@@ -145,8 +147,8 @@ pspec_status ps_jobs_run(const ps_request *arguments, ps_question_kind kind,
     PS_TRY(check_outputs(arguments, &format, error));
     ps_device *device = NULL;
     PS_TRY(ps_questions_make(&list, arguments, kind, error));
-    PS_TRY(ps_jobs_open_device(&device, arguments, &list.questions[0].constraints, list.num,
-                               error));
+    PS_TRY(
+        ps_jobs_open_device(&device, arguments, &list.questions[0].constraints, list.num, error));
     for (size_t i = 0; i < list.num; i++) {
         PS_TRY_OUT(status, run_shown(arguments, &list.questions[i], device, &jobs[i], error));
     }
