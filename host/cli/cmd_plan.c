@@ -212,28 +212,22 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
 }
 
 /* Those of all commands that can be planned. */
-static const ps_option_id options[] = {PS_OPTION_SAMPLER,       PS_OPTION_POINTS,
-                                       PS_OPTION_REALIZATIONS,  PS_OPTION_STANDARD_ERROR,
-                                       PS_OPTION_AGAINST,       PS_OPTION_FALSE_ALARM_RATE,
-                                       PS_OPTION_DIMENSION,     PS_OPTION_BRDF,
-                                       PS_OPTION_SMOOTHNESS,    PS_OPTION_DROP_BELOW,
-                                       PS_OPTION_SEED,          PS_OPTION_HOMOGENIZE,
-                                       PS_OPTION_WEIGHTS,       PS_OPTION_INPUT_FORMAT,
-                                       PS_OPTION_COLUMNS,       PS_OPTION_SELECT_SETS,
-                                       PS_OPTION_WRAP,          PS_OPTION_NORMALIZE_VECTORS,
-                                       PS_OPTION_MAX_FREQUENCY, PS_OPTION_MAX_DEGREE,
-                                       PS_OPTION_HEMISPHERE,    PS_OPTION_COEFFICIENTS,
-                                       PS_OPTION_HARMONICS,     PS_OPTION_FREQUENCIES,
-                                       PS_OPTION_SHELLS,        PS_OPTION_PER_RING,
-                                       PS_OPTION_NORMALIZE,     PS_OPTION_TOLERANCE,
-                                       PS_OPTION_FLOOR,         PS_OPTION_PRECISION,
-                                       PS_OPTION_ENGINE,        PS_OPTION_DEVICE,
-                                       PS_OPTION_NO_SKIP,       PS_OPTION_NO_SELF_CHECK,
-                                       PS_OPTION_OUTPUT,        PS_OPTION_FORMAT,
-                                       PS_OPTION_FULL,          PS_OPTION_PLOT,
-                                       PS_OPTION_PROFILE,       PS_OPTION_MEMORY,
-                                       PS_OPTION_QUIET,         PS_OPTION_VERBOSE,
-                                       PS_OPTION_HELP,          PS_NUM_OPTIONS};
+static const ps_option_id options[] = {
+    PS_OPTION_SAMPLER,        PS_OPTION_POINTS,       PS_OPTION_REALIZATIONS,
+    PS_OPTION_STANDARD_ERROR, PS_OPTION_AGAINST,      PS_OPTION_FALSE_ALARM_RATE,
+    PS_OPTION_DIMENSION,      PS_OPTION_BRDF,         PS_OPTION_SMOOTHNESS,
+    PS_OPTION_DROP_BELOW,     PS_OPTION_SEED,         PS_OPTION_HOMOGENIZE,
+    PS_OPTION_WEIGHTS,        PS_OPTION_INPUT_FORMAT, PS_OPTION_COLUMNS,
+    PS_OPTION_SELECT_SETS,    PS_OPTION_WRAP,         PS_OPTION_NORMALIZE_VECTORS,
+    PS_OPTION_MAX_FREQUENCY,  PS_OPTION_MAX_DEGREE,   PS_OPTION_HEMISPHERE,
+    PS_OPTION_COEFFICIENTS,   PS_OPTION_HARMONICS,    PS_OPTION_FREQUENCIES,
+    PS_OPTION_SHELLS,         PS_OPTION_PER_RING,     PS_OPTION_NORMALIZE,
+    PS_OPTION_TOLERANCE,      PS_OPTION_FLOOR,        PS_OPTION_PRECISION,
+    PS_OPTION_ENGINE,         PS_OPTION_DEVICE,       PS_OPTION_NO_SKIP,
+    PS_OPTION_NO_SELF_CHECK,  PS_OPTION_OUTPUT,       PS_OPTION_FORMAT,
+    PS_OPTION_FULL,           PS_OPTION_PLOT,         PS_OPTION_PROFILE,
+    PS_OPTION_MEMORY,         PS_OPTION_QUIET,        PS_OPTION_VERBOSE,
+    PS_OPTION_HELP,           PS_NUM_OPTIONS};
 
 const ps_command ps_command_plan = {
     .name = "plan",

@@ -145,8 +145,8 @@ pspec_status ps_jobs_run(const ps_request *arguments, ps_question_kind kind,
     PS_TRY(check_outputs(arguments, &format, error));
     ps_device *device = NULL;
     PS_TRY(ps_questions_make(&list, arguments, kind, error));
-    PS_TRY(ps_jobs_open_device(&device, arguments, &list.questions[0].constraints, list.num,
-                               error));
+    PS_TRY(
+        ps_jobs_open_device(&device, arguments, &list.questions[0].constraints, list.num, error));
     for (size_t i = 0; i < list.num; i++) {
         PS_TRY_OUT(status, run_shown(arguments, &list.questions[i], device, &jobs[i], error));
     }
