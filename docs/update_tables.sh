@@ -43,6 +43,7 @@ table_pairs_routes() {
         "$docs/pairs_routes.sh" table "$docs/../bench-output/pairs_routes.txt"
 }
 table_bench_weights() { bench weights; }
+table_needs_times() { need pointspec && "$docs/needs_times.sh" "$build/pointspec"; }
 
 # A quarter of an hour each, less with PEERS_OPTIONS=--quick; they also write bench-output/peers.csv,
 # peers_sphere.csv and peers_pairs.csv, which make_figures.sh draws.

@@ -155,41 +155,6 @@ static void check_mean_only(const ps_frequencies *set, const ps_engine *engine,
     test_free_sample(&what);
 }
 
-/* Without those of frequencies everything else has the same bits, in one dimension, where rings are frequencies, too. */
-static void check_bins_only(const ps_frequencies *set, const ps_engine *engine,
-                            ps_precision precision) {
-    test_sample what = test_make_sample(23, set->dimension, 40, 3, true);
-    ps_estimator_options options = test_make_options(set, engine, precision, 200, 7);
-    ps_spectrum with = test_estimate(&options, &what, 23, device);
-    options.no_frequency_errors = true;
-    ps_spectrum without = test_estimate(&options, &what, 23, device);
-    assert_int_equal(with.num_bins, without.num_bins);
-    for (size_t b = 0; b < with.num_bins; b++) {
-        const ps_spectrum_bin *const x = &with.bins[b];
-        const ps_spectrum_bin *const y = &without.bins[b];
-        assert_true(x->power == y->power && x->standard_error == y->standard_error);
-        assert_true(isnan(x->anisotropy_db) ? isnan(y->anisotropy_db)
-                                            : x->anisotropy_db == y->anisotropy_db);
-    }
-    for (size_t i = 0; i < set->num; i++) {
-        assert_true(with.powers[i].mean == without.powers[i].mean);
-        assert_true(set->dimension == 1 || isnan(without.powers[i].standard_error));
-    }
-    ps_spectrum_free(&with);
-    ps_spectrum_free(&without);
-    test_free_sample(&what);
-}
-
-static void same_bins_without_errors_of_frequencies(void **state) {
-    (void)state;
-    for (unsigned dimension = 1; dimension <= 2; dimension++) {
-        ps_frequencies grid = test_make_lattice(dimension, 9, false);
-        check_bins_only(&grid, &ps_torus_direct, PS_SINGLE);
-        check_bins_only(&grid, &ps_host_direct, PS_EXTENDED);
-        ps_frequencies_free(&grid);
-    }
-}
-
 static void same_means_without_standard_errors(void **state) {
     (void)state;
     ps_frequencies grid = test_make_lattice(2, 9, false);
@@ -416,7 +381,6 @@ int main(void) {
         cmocka_unit_test(same_bits_for_large_sets),
         cmocka_unit_test(rings_of_one_frequency),
         cmocka_unit_test(same_means_without_standard_errors),
-        cmocka_unit_test(same_bins_without_errors_of_frequencies),
         cmocka_unit_test(shifts_leave_the_power_unchanged),
         cmocka_unit_test(equal_points_have_power_n),
         cmocka_unit_test(merging_duplicates_changes_nothing),

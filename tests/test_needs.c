@@ -235,8 +235,8 @@ static void matters_of_course(void **state) {
     assert_null(strstr(ps_text_string(&text), "kernels"));
     ps_text_free(&text);
     of.constraints.engine = "host_direct";
-    assert_ok(ps_needs_plan(&needs, &of.plan, &of.problem, NULL, &of.constraints, &of.strict,
-                            error));
+    assert_ok(
+        ps_needs_plan(&needs, &of.plan, &of.problem, NULL, &of.constraints, &of.strict, error));
     assert_non_null(find_skip(&needs, "OpenCL devices"));
     assert_null(find_skip(&needs, "kernels"));
 }

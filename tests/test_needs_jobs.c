@@ -1,6 +1,8 @@
 /* Random small jobs give the same answer with and without skips, within the tolerance asked. */
-#include "harness.h"
+#include "harness_estimator.h"
 
+#include "engines/host_direct.h"
+#include "engines/torus_direct.h"
 #include "job/power_job.h"
 #include "job/quadrature_job.h"
 
@@ -16,10 +18,8 @@ static double pick_power(uint64_t *state, double low, double high) {
 
 static void sample(ps_sampler_request *request, const char *text, size_t num_points,
                    unsigned dimension, uint64_t seed, bool homogenize) {
-    *request = (ps_sampler_request){.num_points = num_points,
-                                    .dimension = dimension,
-                                    .seed = seed,
-                                    .homogenize = homogenize};
+    *request = (ps_sampler_request){
+        .num_points = num_points, .dimension = dimension, .seed = seed, .homogenize = homogenize};
     assert_ok(ps_sampler_parse(request, text, error));
     assert_ok(ps_sampler_resolve(request, error));
 }
@@ -56,7 +56,8 @@ static void compare_spectra(const ps_power_job *a, const ps_power_job *b) {
         const double most = of_pairs ? 2 * tolerance : allowed(&x->bins[i], modes, tolerance);
         assert_int_equal(x->bins[i].key, y->bins[i].key);
         assert_true(fabs(x->bins[i].power - y->bins[i].power) <= most + 1e-14);
-        if (x->num_realizations > 1) { /* of white noise at most a few powers, so a few errors of one */
+        if (x->num_realizations >
+            1) { /* of white noise at most a few powers, so a few errors of one */
             assert_true(fabs(x->bins[i].standard_error - y->bins[i].standard_error) <=
                         2 * most + 1e-13 * (1 + x->bins[i].power));
         }
@@ -64,8 +65,8 @@ static void compare_spectra(const ps_power_job *a, const ps_power_job *b) {
 }
 
 static void torus(void **state) {
-    static const char *const samplers[] = {"white", "jittered", "latin-hypercube", "regular",
-                                           "sobol", "hammersley"};
+    static const char *const samplers[] = {"white",   "jittered", "latin-hypercube",
+                                           "regular", "sobol",    "hammersley"};
     enum { JOBS = 10 };
     uint64_t random = 41;
     size_t skipped = 0;
@@ -75,8 +76,11 @@ static void torus(void **state) {
         const size_t side = 4 + pick(&random, 9);
         const unsigned dimension = 1 + (unsigned)pick(&random, 3);
         const char *const name = samplers[pick(&random, dimension < 3 ? 6 : 2)];
-        sample(&request, name, dimension == 2 ? side * side : dimension == 3 ? 64 : side, dimension,
-               i + 1, test_uniform(&random) < 0.3);
+        sample(&request, name,
+               dimension == 2   ? side * side
+               : dimension == 3 ? 64
+                                : side,
+               dimension, i + 1, test_uniform(&random) < 0.3);
         ps_power_question question = {
             .sampler = &request,
             .num_realizations = 1 + pick(&random, 12),
@@ -108,17 +112,17 @@ static void sphere(void **state) {
         const bool of_pairs = i % 2 == 1;
         sample(&request, samplers[pick(&random, 5)], 16 + pick(&random, 100), 0, i + 1,
                test_uniform(&random) < 0.3);
-        ps_power_question question = {
-            .on_sphere = true,
-            .on_hemisphere = test_uniform(&random) < 0.3,
-            .wants_pair_sums = of_pairs,
-            .sampler = &request,
-            .num_realizations = 1 + pick(&random, 6),
-            .max_degree = 2 + (int64_t)pick(&random, 30),
-            .normalization = of_pairs ? PSPEC_NORMALIZATION_PAIRS : PSPEC_NORMALIZATION_POWER,
-            .tolerance = pick_power(&random, 1e-9, 1e-2),
-            .no_self_check = true,
-            .constraints = {.precision = -1}};
+        ps_power_question question = {.on_sphere = true,
+                                      .on_hemisphere = test_uniform(&random) < 0.3,
+                                      .wants_pair_sums = of_pairs,
+                                      .sampler = &request,
+                                      .num_realizations = 1 + pick(&random, 6),
+                                      .max_degree = 2 + (int64_t)pick(&random, 30),
+                                      .normalization = of_pairs ? PSPEC_NORMALIZATION_PAIRS
+                                                                : PSPEC_NORMALIZATION_POWER,
+                                      .tolerance = pick_power(&random, 1e-9, 1e-2),
+                                      .no_self_check = true,
+                                      .constraints = {.precision = -1}};
         ps_power_job *const lean = run_power(&question, false);
         ps_power_job *const full = run_power(&question, true);
         skipped += ps_power_job_needs(lean)->num_skips - ps_power_job_needs(full)->num_skips;
@@ -171,8 +175,8 @@ static ps_quadrature_result run_rule(ps_quadrature_question *question, bool no_s
  * left out are together is within it. */
 static void compare_rules(const ps_quadrature_result *lean, const ps_quadrature_result *full,
                           double tolerance) {
-    const double most = tolerance * lean->representer.constant * full->weight_size *
-                        full->weight_size;
+    const double most =
+        tolerance * lean->representer.constant * full->weight_size * full->weight_size;
     double differ = 0;
     double beyond = 0;
     assert_true(lean->max_degree <= full->max_degree);
@@ -232,10 +236,52 @@ static void quadrature(void **state) {
     assert_true(fewer_degrees > 0 && fewer_sets > 0);
 }
 
+/* ---- standard errors of single frequencies ------------------------------------------------------ */
+
+/* Without those of frequencies everything else has the same bits, in one dimension, where rings are frequencies, too. */
+static void check_bins_only(const ps_frequencies *set, const ps_engine *engine,
+                            ps_precision precision, ps_device *device) {
+    test_sample what = test_make_sample(23, set->dimension, 40, 3, true);
+    ps_estimator_options options = test_make_options(set, engine, precision, 200, 7);
+    ps_spectrum with = test_estimate(&options, &what, 23, device);
+    options.no_frequency_errors = true;
+    ps_spectrum without = test_estimate(&options, &what, 23, device);
+    assert_int_equal(with.num_bins, without.num_bins);
+    for (size_t b = 0; b < with.num_bins; b++) {
+        const ps_spectrum_bin *const x = &with.bins[b];
+        const ps_spectrum_bin *const y = &without.bins[b];
+        assert_true(x->power == y->power && x->standard_error == y->standard_error);
+        assert_true(isnan(x->anisotropy_db) ? isnan(y->anisotropy_db)
+                                            : x->anisotropy_db == y->anisotropy_db);
+    }
+    for (size_t i = 0; i < set->num; i++) {
+        assert_true(with.powers[i].mean == without.powers[i].mean);
+        assert_true(set->dimension == 1 || isnan(without.powers[i].standard_error));
+    }
+    ps_spectrum_free(&with);
+    ps_spectrum_free(&without);
+    test_free_sample(&what);
+}
+
+static void same_bins_without_errors_of_frequencies(void **state) {
+    ps_device *const device = test_open_device();
+    (void)state;
+    for (unsigned dimension = 1; dimension <= 2; dimension++) {
+        ps_frequencies grid = test_make_lattice(dimension, 9, false);
+        check_bins_only(&grid, &ps_torus_direct, PS_SINGLE, device);
+        check_bins_only(&grid, &ps_host_direct, PS_EXTENDED, device);
+        ps_frequencies_free(&grid);
+    }
+    ps_device_close(device);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(torus),      cmocka_unit_test(sphere),     cmocka_unit_test(statistics),
+        cmocka_unit_test(torus),
+        cmocka_unit_test(sphere),
+        cmocka_unit_test(statistics),
         cmocka_unit_test(quadrature),
+        cmocka_unit_test(same_bins_without_errors_of_frequencies),
     };
     ps_device_close(test_open_device()); /* skips where there is none */
     return cmocka_run_group_tests_name("needs_jobs", tests, NULL, NULL);

@@ -141,11 +141,13 @@ static void looks(void **state) {
     const ps_quadrature_sums all = {2, sums + 1, 1, sums};
     const double root = sqrt(3.0);
     ps_sequential_look look = ps_quadrature_look(&all, 1e-8, 3);
-    assert_int_equal(look.bin, PS_LOOK_AT_E2); /* 1, 2, 3: standard error 1 / sqrt 3 of a mean of 2 */
+    assert_int_equal(look.bin,
+                     PS_LOOK_AT_E2); /* 1, 2, 3: standard error 1 / sqrt 3 of a mean of 2 */
     assert_true(fabs(look.relative_error - 1 / root / 2) < 1e-15);
     assert_true(fabs(look.corrected - look.relative_error * (1 + 0.75 * sqrt((2 + 4.0) / 3))) <
                 1e-15);
-    look = ps_quadrature_look(&all, 3, 3); /* degree 0 alone is above that: one real number, kurtosis 12 */
+    look = ps_quadrature_look(&all, 3,
+                              3); /* degree 0 alone is above that: one real number, kurtosis 12 */
     assert_int_equal(look.bin, 0);
     assert_true(fabs(look.relative_error - 1 / root / 5) < 1e-15);
     assert_true(fabs(look.corrected - look.relative_error * (1 + 0.75 * sqrt(14.0 / 3))) < 1e-15);
@@ -214,12 +216,8 @@ static void one_is_enough(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(batches),
-        cmocka_unit_test(two_routes),
-        cmocka_unit_test(replanned),
-        cmocka_unit_test(looks),
-        cmocka_unit_test(stops),
-        cmocka_unit_test(one_is_enough),
+        cmocka_unit_test(batches), cmocka_unit_test(two_routes), cmocka_unit_test(replanned),
+        cmocka_unit_test(looks),   cmocka_unit_test(stops),      cmocka_unit_test(one_is_enough),
     };
     ps_device_close(test_open_device()); /* skips where there is none */
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -154,8 +154,11 @@ static void left_out(void **state) {
     static const struct {
         const char *lobe;
         bool is_even;
-    } cases[] = {{"diffuse", true},      {"phong:n=1", true},           {"phong:n=2", false},
-                 {"glossy:n=30", false}, {"glossy:n=200,cut=none", false}};
+    } cases[] = {{"diffuse", true},
+                 {"phong:n=1", true},
+                 {"phong:n=2", false},
+                 {"glossy:n=30", false},
+                 {"glossy:n=200,cut=none", false}};
     enum { NUM = 41, LEAST = 600 };
     const double most = 1e-14;
     double points[3 * NUM], kept[NUM], all[NUM];

@@ -16,13 +16,14 @@ typedef struct ps_representer {
     double *a, *b;               /* [L + 2], [L + 1] */
     double *series;              /* [L + 2]: a_l b_l Y_l0(pole), 0 beyond L */
     double *factors;             /* [L + 2][2]: of the recurrence, l/(l+1) and (2l+1)/(l+1) */
-    size_t num_terms;            /* of the series of kappa; L + 1, or less where terms are left out */
-    bool only_even; /* no odd term but that of degree 1: num_terms even ones, in series and factors of their own */
-    double first;   /* that of degree 1, for only_even */
-    double energy;               /* sum of all b_l^2 */
-    double kappa_0, d_0;         /* D_0 = c - kappa_0 */
-    double kappa_0_error;        /* a bound on the error of both, rounding aside */
-    double kappa_bound;          /* rigorous, on the truncation error of kappa(u) anywhere */
+    size_t num_terms; /* of the series of kappa; L + 1, or less where terms are left out */
+    bool
+        only_even; /* no odd term but that of degree 1: num_terms even ones, in series and factors of their own */
+    double first;          /* that of degree 1, for only_even */
+    double energy;         /* sum of all b_l^2 */
+    double kappa_0, d_0;   /* D_0 = c - kappa_0 */
+    double kappa_0_error;  /* a bound on the error of both, rounding aside */
+    double kappa_bound;    /* rigorous, on the truncation error of kappa(u) anywhere */
     double kappa_estimate; /* what that error is at most, as measured; a few hundred times less */
 } ps_representer;
 

@@ -90,7 +90,8 @@ static pspec_status prepare(ps_power_job *job, ps_error *error) {
         .frequencies = &job->frequencies,
         .num_points = job->num_points,
         .planned_points = job->num_points,
-        .num_realizations = question->harmonics != PS_NO_HARMONICS ? 1 : ps_power_needs_realizations(job),
+        .num_realizations =
+            question->harmonics != PS_NO_HARMONICS ? 1 : ps_power_needs_realizations(job),
         .harmonics = question->harmonics,
         .has_weights = job->sets.next.has_weights || job->sets.weights != NULL,
         .block_points =

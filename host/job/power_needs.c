@@ -60,7 +60,7 @@ void ps_power_job_rate_skips(ps_power_job *job) {
     const bool is_box_possible =
         job->frequencies.kind == PS_FREQUENCIES_BALL && chosen != NULL &&
         ps_frequencies_lattice(&box, job->dimension, job->frequencies.max_frequency, false, NULL) ==
-        PSPEC_OK;
+            PSPEC_OK;
     problem.frequencies = &box;
     if (is_box_possible &&
         ps_plan_make(&plan, &problem, ps_power_job_limits(job), &job->question->constraints,

@@ -173,8 +173,7 @@ static void look_at_errors(job *of) {
     const ps_quadrature_sums sums = {of->setup.max_degree + 1, of->sums + E2, SUMS, &of->squared};
     const double unit = of->setup.representer.constant * out->weight_size * out->weight_size;
     out->has_look = true;
-    out->look =
-        ps_quadrature_look(&sums, of->question->tolerance * unit, out->num_realizations);
+    out->look = ps_quadrature_look(&sums, of->question->tolerance * unit, out->num_realizations);
 }
 
 /* The next batch, up to the next look. *ends: there are no more rules, or there are enough. */

@@ -97,10 +97,9 @@ static pspec_status plan_all(double *seconds, const ps_quadrature_setup *setup,
     ps_problem problem = setup->problem;
     PS_TRY(ps_frequencies_degrees(&all, (int64_t)setup->most_degree, false, error));
     problem.frequencies = &all;
-    const pspec_status status =
-        ps_plan_make(&plan, &problem,
-                     setup->device != NULL ? ps_device_get_limits(setup->device) : NULL,
-                     &question->constraints, error);
+    const pspec_status status = ps_plan_make(
+        &plan, &problem, setup->device != NULL ? ps_device_get_limits(setup->device) : NULL,
+        &question->constraints, error);
     *seconds = status == PSPEC_OK && plan.chosen != NULL ? plan.chosen->seconds : 0;
     ps_frequencies_free(&all);
     return status;

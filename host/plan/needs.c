@@ -37,15 +37,17 @@ ps_needs ps_needs_find(const ps_needs_question *question) {
         ps_needs_add(&needs, "frequencies -k", "real weights: P(-k) = P(k), a symmetry", 0.5);
     }
     if (question->on_sphere) {
-        ps_needs_add(&needs, "orders m < 0", "real weights: c_l,-m = (-1)^m conj c_lm, a symmetry", 0.5);
+        ps_needs_add(&needs, "orders m < 0", "real weights: c_l,-m = (-1)^m conj c_lm, a symmetry",
+                     0.5);
     }
     if (question->on_hemisphere) {
-        ps_needs_add(&needs, "odd degrees", "they vanish on the hemisphere, the projective plane", 0.5);
+        ps_needs_add(&needs, "odd degrees", "they vanish on the hemisphere, the projective plane",
+                     0.5);
     }
     if (question->share_not_drawn > 0) {
         ps_needs_add(&needs, "frequencies outside the random subset of each ring",
-            "asked for by --per-ring; the standard error has the error of the choice",
-            question->share_not_drawn);
+                     "asked for by --per-ring; the standard error has the error of the choice",
+                     question->share_not_drawn);
     }
     if (question->no_skip) {
         return needs;
@@ -54,27 +56,29 @@ ps_needs ps_needs_find(const ps_needs_question *question) {
         !(question->share_not_drawn > 0)) {
         needs.only_ball = true;
         ps_needs_add(&needs, PS_SKIP_CORNERS, "only ring means are asked for, and rings end at K",
-            share_of_corners(question->dimension, question->max_frequency));
+                     share_of_corners(question->dimension, question->max_frequency));
     }
     needs.no_frequency_errors =
         is_grid && question->dimension > 1 && !question->wants_frequency_errors;
     if (question->is_homogenized) {
         needs.no_shift = true;
         if (question->on_sphere) {
-            ps_needs_add(&needs, "random rotations", "a rotation of the sphere leaves the power unchanged",
-                0);
+            ps_needs_add(&needs, "random rotations",
+                         "a rotation of the sphere leaves the power unchanged", 0);
         } else {
-            ps_needs_add(&needs, "random shifts", "a shift of the torus leaves the power unchanged", 0);
+            ps_needs_add(&needs, "random shifts", "a shift of the torus leaves the power unchanged",
+                         0);
         }
     }
     if (question->has_constant_power && question->num_realizations > 1) {
         needs.one_realization = true;
         ps_needs_add(&needs, "all realizations but the first",
-            "a deterministic set has the same power every time",
-            1 - 1 / (double)question->num_realizations);
+                     "a deterministic set has the same power every time",
+                     1 - 1 / (double)question->num_realizations);
     } else if (question->standard_error > 0) {
         needs.sequential = true;
-        ps_needs_add(&needs, "realizations beyond the standard error asked for",
+        ps_needs_add(
+            &needs, "realizations beyond the standard error asked for",
             "--standard-error; looked at after 16, 24, 32, 46, .. realizations (share: of white "
             "noise)",
             share_not_needed(question));

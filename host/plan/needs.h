@@ -26,7 +26,7 @@ typedef struct ps_needs_question {
 
 typedef struct ps_skip {
     char what[80], why[160];
-    double share;   /* of the work that would be done without this skip */
+    double share;             /* of the work that would be done without this skip */
     bool is_matter_of_course; /* of any job: `plan` lists it, headers of results do not */
 } ps_skip;
 
@@ -38,7 +38,7 @@ typedef struct ps_needs {
     bool sequential;      /* no more realizations than the standard error takes */
     bool no_shift;
     bool no_frequency_errors; /* only bins have standard errors */
-    bool no_skip;    /* of the question */
+    bool no_skip;             /* of the question */
     size_t num_skips;
     size_t num_of_question; /* of them, first, that do not depend on the plan */
     ps_skip skips[PS_MAX_SKIPS];

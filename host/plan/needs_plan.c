@@ -10,9 +10,9 @@ static double share_saved(double seconds, double seconds_without) {
 
 /* A plan for the same without the skip. */
 static pspec_status make_exact(ps_plan *plan, const ps_problem *problem,
-                                const ps_device_limits *limits,
-                                const ps_plan_constraints *constraints, double tolerance,
-                                ps_error *error) {
+                               const ps_device_limits *limits,
+                               const ps_plan_constraints *constraints, double tolerance,
+                               ps_error *error) {
     ps_problem exact = *problem;
     ps_plan_constraints own = *constraints;
     exact.tolerance = tolerance;
