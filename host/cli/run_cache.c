@@ -56,14 +56,12 @@ pspec_status ps_run_open_cache(ps_run *run, ps_error *error) {
     const bool is_known = identify_program(&run->identity);
     PS_TRY(identify_device(run, &run->identity, error));
     PS_TRY(ps_text_check(&run->identity, error));
-    if (most == 0 || run->arguments->no_skip || !is_known || getenv("POINTSPEC_KERNEL_DIR")) {
+    if (most == 0 || run->arguments->no_skip || run->arguments->cache_folder == NULL || !is_known ||
+        getenv("POINTSPEC_KERNEL_DIR") != NULL) {
         return PSPEC_OK;
     }
-    pspec_status status = ps_cache_default_directory(&folder, &reason);
-    if (status == PSPEC_OK) {
-        ps_text_append(&folder, "/results");
-        status = ps_text_check(&folder, &reason);
-    }
+    ps_text_append(&folder, "%s/results", run->arguments->cache_folder);
+    pspec_status status = ps_text_check(&folder, &reason);
     if (status == PSPEC_OK) {
         status = ps_cache_open(&run->cache, ps_text_string(&folder), most, &reason);
     }
