@@ -130,6 +130,12 @@ plot "grid-single.txt" with linespoints pointtype 7 linecolor "#0072b2" \
         title "list of 4096 frequencies, single"
 GNUPLOT
 
+# Run time against error, for performance.md: the picture of the last update_tables.sh, whose numbers the page has.
+echo "figures: bench.png" >&2
+bench=$docs/../bench-output/bench.png
+[[ -s $bench ]] || { mkdir -p "${bench%/*}" && "$pointspec" bench --quiet -o bench.csv --plot "$bench"; }
+cp "$bench" "$images/bench.png"
+
 # Ways to pair sums, for pairs_direct.md: some minutes, unless the last update_tables.sh left its numbers.
 echo "figures: pairs_routes.png" >&2
 routes=$docs/../bench-output/pairs_routes.txt

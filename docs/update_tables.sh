@@ -45,6 +45,22 @@ table_pairs_routes() {
 table_bench_weights() { bench weights; }
 table_needs_times() { need pointspec && "$docs/needs_times.sh" "$build/pointspec"; }
 
+# Rows on the Pareto fronts of pointspec bench. Also for the picture of make_figures.sh, which wants the same run.
+table_bench_fronts() {
+    need pointspec || return 1
+    mkdir -p "$docs/../bench-output"
+    POINTSPEC_CACHE_DIR=$scratch/cache "$build/pointspec" bench --quiet -o "$scratch/bench.csv" --plot "$docs/../bench-output/bench.png" ||
+        return 1
+    awk -F, '
+        /^# device: / { sub(/^# device: /, ""); print "# " $0 }
+        /^# peak_flops_single: / { split($0, word, ": "); single = word[2] / 1e9 }
+        /^# peak_flops_double: / { split($0, word, ": "); printf "# at its beginning %.0f GFLOP/s single, %.0f double\n", single, word[2] / 1e9 }
+        /^case,/ { printf "%-13s %-16s %-9s %9s %12s %9s %12s %8s\n", "case", "engine", "precision", "tolerance", "us/R", "error", "points/s", "of peak" }
+        !/^#/ && $12 == 1 {
+            printf "%-13s %-16s %-9s %9.0e %12.2f %9.1e %12.3g %8s\n", $1, $2, $8, $3, $4 * 1e6, $5, $6, $7 == "" ? "-" : sprintf("%.2f", $7)
+        }' "$scratch/bench.csv"
+}
+
 # A quarter of an hour each, less with PEERS_OPTIONS=--quick; they also write bench-output/peers.csv,
 # peers_sphere.csv and peers_pairs.csv, which make_figures.sh draws.
 peers() { # DOMAIN

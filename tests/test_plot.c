@@ -250,11 +250,40 @@ static void a_single_bin_is_a_point(void **state) {
     assert_false(script_contains(&data.plot, "with lines"));
 }
 
+/* One panel and many, some of them empty, in every format. */
+static void draws_panels(void **state) {
+    static const double x[] = {1e-5, 1e-4, 0, 1e-3};
+    static const double y[] = {1e-3, (double)NAN, 1e-6, 1e-12};
+    const ps_plot_series series[] = {
+        {.label = "it's a front", .is_front = true, .num = 4, .x = x, .y = y},
+        {.label = "a_b {x}", .kind = 3, .num = 4, .x = x, .y = y}};
+    const ps_plot_panel panels[] = {{"first's", 2, series},
+                                    {"none", 0, NULL},
+                                    {"2", 1, series},
+                                    {"3", 2, series},
+                                    {"4", 2, series}};
+    static const char *const names[] = {"panels.svg", "panels.png", "panels.pdf"};
+    ps_error said = {0};
+    char path[TEST_PATH_BYTES];
+    ps_panel_plot plot = {"it's \"a_b\"", "x", "y", 5, panels};
+    for (size_t i = 0; i < sizeof names / sizeof names[0] && has_gnuplot(); i++) {
+        plot.num_panels = i == 0 ? 1 : 5;
+        assert_int_equal(ps_panel_plot_write(test_path(*state, names[i], path), &plot, &said),
+                         PSPEC_OK);
+    }
+    assert_int_equal(test_folder_count(*state, false), has_gnuplot() ? 3 : 0);
+    plot.num_panels = 0;
+    assert_int_equal(ps_panel_plot_write(test_path(*state, "no.svg", path), &plot, &said),
+                     PSPEC_ERROR_INVALID_ARGUMENT);
+    assert_non_null(strstr(said.message, "nothing to plot"));
+}
+
 int main(void) {
 #define IN_FOLDER(test)                                                                            \
     cmocka_unit_test_setup_teardown(test, test_folder_create, test_folder_remove)
     const struct CMUnitTest tests[] = {
         IN_FOLDER(draws_every_kind),
+        IN_FOLDER(draws_panels),
         IN_FOLDER(refuses_what_cannot_be_drawn),
         IN_FOLDER(names_the_package_without_gnuplot),
         IN_FOLDER(passes_on_what_gnuplot_says),

@@ -93,10 +93,13 @@ static pspec_status run_parsed(const ps_command *command, ps_request *arguments,
         arguments->device = getenv("POINTSPEC_DEVICE");
     }
     ps_text folder = {0};
-    if (ps_cache_default_directory(&folder, NULL) == PSPEC_OK) {
+    pspec_status status = ps_cache_default_directory(&folder, error);
+    if (status == PSPEC_OK) {
         arguments->cache_folder = ps_text_string(&folder);
     }
-    const pspec_status status = command->run(arguments, error);
+    if (status != PSPEC_ERROR_MEMORY) { /* there need not be one */
+        status = command->run(arguments, error);
+    }
     ps_text_free(&folder);
     /* A signal may make anything fail that was going on (a compiler in the driver, a read): what the
      * user did is the reason, not what it led to. */

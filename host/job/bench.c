@@ -196,7 +196,6 @@ static pspec_status try_tolerance(bench *self, double tolerance, ps_error *error
 static pspec_status run_case(bench *self, ps_error *error) {
     const ps_device_limits *limits = ps_device_get_limits(self->device);
     self->num_rows = 0;
-    PS_TRY(ps_device_flops_measure(self->device, &self->peaks, error));
     PS_TRY(ps_stress_sample_create(&self->sample, &self->what->what, error));
     pspec_status status = ps_bench_sets_create(
         &self->sets, self->what,
@@ -244,7 +243,12 @@ pspec_status ps_bench_run(const ps_bench_options *options, ps_device *device,
             if (options->advance != NULL) {
                 options->advance(options->payload, done, total);
             }
-            status = run_case(self, error);
+            if (done > 0) { /* the first ones were measured just now */
+                status = ps_device_flops_measure(device, &self->peaks, error);
+            }
+            if (status == PSPEC_OK) {
+                status = run_case(self, error);
+            }
             done++;
         }
     }

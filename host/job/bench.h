@@ -26,8 +26,7 @@ typedef struct ps_bench_row {
     double tolerance; /* the tightest of those tried that leads to this computation */
     double seconds, predicted_seconds; /* of a realization */
     double error, predicted_error;     /* as the tolerance counts */
-    double
-        fraction_of_peak; /* measured beside the case, of arithmetic that the launches count; nan: no device */
+    double fraction_of_peak; /* of arithmetic, by what the launches count; nan: no device */
     double
         fraction_of_bandwidth; /* of a copy, by points read and powers written once; nan: no device */
     bool is_pareto;            /* no other row of the case is as fast and as exact */
@@ -47,7 +46,7 @@ typedef struct ps_bench_options {
 /* Names a case and an engine that tries one of those left, or PSPEC_ERROR_INVALID_ARGUMENT with the nearest. */
 pspec_status ps_bench_check(const ps_bench_options *options, ps_error *error) PS_MUST_CHECK;
 
-/* peaks->copied_bytes is what fractions of bandwidth are of. */
+/* peaks were measured just now; those of arithmetic are measured anew beside every further case. */
 pspec_status ps_bench_run(const ps_bench_options *options, ps_device *device,
                           const ps_device_peaks *peaks, ps_error *error) PS_MUST_CHECK;
 

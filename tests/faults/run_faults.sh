@@ -59,6 +59,7 @@ make_inputs() {
     make_fortran_array >columns.npy
     "$program" power --engine host_direct --sampler white -n 8 -m 3 -k 2 -o saved.json
     "$program" angular --engine host_direct --sampler zphi -n 6 -m 3 -l 2 -o sphere.json
+    POINTSPEC_CACHE_DIR=$scratch/cache "$program" bench --calibrate --case list --quick -o /dev/null
     for ending in csv json npy png txt; do echo "an earlier result" >old.$ending; done
     cd - >/dev/null
 }
@@ -68,6 +69,7 @@ prepare_case() { # NAME STDIN [VARIABLE=VALUE...] WORD...
     local name=$1 case=$scratch/cases/$1 stdin=$2 words=() round
     shift 2
     while [[ $1 =~ ^[A-Z_]+= ]]; do
+        set -- "${1//@cache@/$scratch/cache}" "${@:2}"
         words+=("${1//@kernels@/$here/../../kernels}")
         shift
     done
@@ -76,7 +78,7 @@ prepare_case() { # NAME STDIN [VARIABLE=VALUE...] WORD...
     printf '%s\n' "${words[@]}" >"$case/words"
     { [[ $stdin == - ]] && echo /dev/null || echo "$scratch/initial/$stdin"; } >"$case/stdin"
     # Names that a sentence about a file may have: files without endings, since some lie beside others.
-    { printf 'standard (in|out)put|temporary file|gnuplot|kernel source'
+    { printf 'standard (in|out)put|temporary file|gnuplot|kernel source|/dev/null'
         printf '%s\n' "${words[@]}" | sed -nE 's/^([a-z:]*=)?([a-z]*)\.[a-z]*$/|\2\\./p' | tr -d '\n'; } >"$case/things"
     for round in expected again; do
         mkdir "$case/$round"

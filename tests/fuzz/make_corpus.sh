@@ -241,6 +241,17 @@ cells() {
 } | seed table rows ''
 { printf pstable1 && text angular && u32 1 0 && text x && u32 0 0 0 0; } | seed table empty ''
 
+# figures VERSION LINES: of the device of figures.c; the first byte asks for a right checksum
+figures() {
+    printf 'pointspec-figures 1 %s\ndevice d\nplatform p\ndriver 1\n%b' "$@"
+}
+version=$(sed -n 's/^project(.*VERSION \([0-9.]*\).*/\1/p' "$corpus/../../../CMakeLists.txt")
+figures "$version" 'date 2026-11-22\nflops single 3e11\nbytes copied 5e10\nscale torus_nufft double 1.25\n' |
+    seed figures whole '\x01'
+figures "$version" 'scale torus_nufft single nan\nscale torus_nufft single 1e4\n' | seed figures numbers '\x01'
+figures 0.0.0 'date today\n' | seed figures version '\x01'
+printf 'flops single 1\n' | seed figures unchecked '\x00'
+
 # saved COMMAND META COLUMNS ROWS: a table as JSON
 saved() {
     printf '{"schema": 1, "command": "%s", "meta": {"normalization": "power: x", "realizations": 4,

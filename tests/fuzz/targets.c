@@ -21,6 +21,7 @@ const fuzz_target fuzz_targets[] = {
     {"saved", fuzz_saved, NULL, "text.dict"},
     {"cache", fuzz_cache, NULL, "binary.dict"},
     {"table", fuzz_table, NULL, "binary.dict"},
+    {"figures", fuzz_figures, NULL, "text.dict"},
     {"decimal", fuzz_decimal, NULL, "text.dict"},
     {"brdf", fuzz_brdf, NULL, "text.dict"},
     {"sampler", fuzz_sampler, NULL, "words.dict"},
