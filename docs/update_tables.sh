@@ -25,6 +25,13 @@ table_bench_nufft() { bench nufft; }
 table_bench_sphere() { bench sphere; }
 # The problems of the bench one by one would be a page of their own: those that went wrong, and the sum.
 table_bench_choice() { bench choice | awk 'NR == 1 || /^#/ || $NF > 1.3'; }
+# On the clock, so a busy machine matters.
+table_bench_scenes() {
+    need pointspec && "$build/pointspec" bench --scenes "$docs"/scenes/{diffuse,glossy,radial_mean}.yaml |
+        awk -F, '!/^#/ { n = split($1, part, "/"); printf "%-18s %-8s %9s %10s %15s %8s %11s %s\n", part[n], $2, $3,
+            $4 + 0 ? sprintf("%.2f", $4) : $4, $5 + 0 ? sprintf("%.2f", $5) : $5, $6 + 0 ? sprintf("%.1f", $6) : $6,
+            $7 + 0 ? sprintf("%.2f", $7) : $7, $8 }'
+}
 table_bench_reading() { bench reading; }
 table_bench_errors() { bench errors; }
 table_bench_memory() { bench memory; }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # docs.sh PROGRAM SOURCE_DIR: every ```sh block of the README, the tutorial, the conventions, the
-# formats, quadrature and gate runs, in the order of the page, in one empty folder for each page; ```python blocks too where there is numpy.
+# formats, quadrature, gate, needs and scenes runs, in the order of the page, in one empty folder for each page; ```python blocks too where there is numpy.
 # Lines that begin with ./dev are left out. Then relative links of all pages are looked up.
 set -euo pipefail
 program=$(realpath "$1")
@@ -10,6 +10,7 @@ trap 'rm -rf "$scratch"' EXIT
 PATH=$(dirname "$program"):$PATH
 [[ $(basename "$program") == pointspec ]] || { echo "the program must be called pointspec" >&2; exit 1; }
 # Leaks are other tests' business; the leak sanitizer trips over threads of PoCL in short runs.
+export POINTSPEC_CACHE_DIR=$scratch/cache # neither figures nor results of who runs the tests
 export ASAN_OPTIONS=${ASAN_OPTIONS-}:detect_leaks=0
 bad=0
 
@@ -25,8 +26,9 @@ extract() { # PAGE
 
 run_page() { # PAGE
     local page=$1 block runner
-    mkdir "$scratch/page"
+    mkdir -p "$scratch/page/docs"
     cd "$scratch/page"
+    cp -r "$source_dir/docs/scenes" docs/ # the pages name them as they lie in the source
     extract "$source_dir/$page"
     for block in block-*; do
         [[ -f $block ]] || { echo "$page: no block to run" >&2; bad=1; break; }
@@ -54,7 +56,7 @@ check_links() { # PAGE
     done < <(grep -o '](\([^) ]*\))' "$1" | sed 's/^](//; s/)$//')
 }
 
-for page in README.md docs/tutorial.md docs/conventions.md docs/formats.md docs/quadrature.md docs/gate.md docs/needs.md; do
+for page in README.md docs/tutorial.md docs/conventions.md docs/formats.md docs/quadrature.md docs/gate.md docs/needs.md docs/scenes.md; do
     run_page "$page"
 done
 for page in "$source_dir"/*.md "$source_dir"/docs/*.md; do
