@@ -43,6 +43,7 @@ table_pairs_routes() {
         "$docs/pairs_routes.sh" table "$docs/../bench-output/pairs_routes.txt"
 }
 table_bench_weights() { bench weights; }
+table_needs_times() { need pointspec && "$docs/needs_times.sh" "$build/pointspec"; }
 
 # Rows on the Pareto fronts of pointspec bench. Also for the picture of make_figures.sh, which wants the same run.
 table_bench_fronts() {

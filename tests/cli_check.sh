@@ -18,6 +18,10 @@ runs 0 --against saved.json --sampler jittered -m 8
 [[ $(key verdict) == same && $(key different) == "0 of 12 rings" && $(key seed) == 2 ]] || complain "header: $(<out)"
 [[ $(key points) == 64 && $(key realizations) == 8 && $(key saved_realizations) == 40 ]] || complain "question: $(<out)"
 [[ $(key max_frequency) == 12 && $(key false_alarm_rate) == 0.001 && $(rows) == 13 ]] || complain "rows: $(<out)"
+"$program" plan check --against saved.json --sampler jittered >planned.txt 2>err || complain "plan: $(<err)"
+[[ $(grep -c ',chosen,' planned.txt) == 1 && $(<planned.txt) == *'# skip: frequencies -k'* ]] || complain "plan: $(<planned.txt)"
+"$program" plan check --sampler jittered >planned.txt 2>err && complain "plan without --against"
+[[ $(<err) == *'--against FILE is needed'* ]] || complain "plan without --against: $(<err)"
 [[ $(grep '^bin' out) == bin,frequency,saved,saved_error,measured,measured_error,z_score,p_value,adjusted_p_value,detectable_change,verdict ]] ||
     complain "columns: $(<out)"
 [[ $(column saved 1) == "$(sed -n 's/^ *\[1, 1.2[^,]*, [^,]*, 8, \([^,]*\),.*/\1/p' saved.json)" ]] || complain "saved power: $(<out)"

@@ -24,7 +24,7 @@ examples_of_page() { # PAGE
 }
 lacks_examples() { # PAGE, with the text of a --help on standard input
     local text example
-    text=$(sed 's/\\-/-/g' "$1")
+    text=$(sed 's/\\-/-/g; s/\\e/\\/g' "$1")
     tail -n 2 | while IFS= read -r example; do
         grep -qxF -e "${example#  }" <<<"$text" || echo "${example#  }"
     done

@@ -102,6 +102,19 @@ few=$(key max_degree)
 runs 0 --sampler fibonacci-hemisphere -n 256 -m 2 --brdf diffuse --tol 1e-2 --no-skip
 [[ $(key max_degree) == 64 && $few -lt 64 && $(key realizations) == 2 ]] || complain "--no-skip: $(grep '^#' out)"
 [[ $(key skipped) != *realizations* ]] || complain "--no-skip: $(key skipped)"
+# --standard-error: ends at a look, says where it stands and warns where it does not get there; plan says so before
+white=(--sampler white-hemisphere -n 16 --brdf diffuse -l 8)
+runs 0 "${white[@]}" --standard-error 0.2
+[[ $(key relative_standard_error) == "0.2, reached; largest "*", of "*" with the correction" ]] || complain "look: $(key relative_standard_error)"
+[[ $(key realizations) -gt 16 && $(key skipped) == *'beyond the standard error'* ]] || complain "$(key realizations) realizations: $(key skipped)"
+num=$(key realizations)
+runs 0 "${white[@]}" --standard-error 0.2 -m 20
+[[ $(key relative_standard_error) == *'not reached'* && $(<err) == *'was not reached in 20 realizations'* ]] || complain "not reached: $(<err)"
+runs 0 "${white[@]}" --standard-error 0.2 -m 200 --no-skip
+[[ $(key realizations) == 200 && $num -lt 200 ]] || complain "--standard-error --no-skip: $(key realizations)"
+"$program" plan quadrature "${white[@]}" --standard-error 0.2 -m 1000 >out 2>err || complain "plan: $(<err)"
+grep -q '^# skip: realizations beyond the standard error asked for; .*; 0\.[0-9]*$' out || complain "plan: $(grep skip out)"
+grep -q '^# skip: odd degrees above 1 of kappa; ' out || complain "plan: $(grep skip out)"
 runs 0 --sampler fibonacci-hemisphere -n 16 --brdf diffuse --verbose
 grep -q '^sphere_direct (double): ' err || complain "--verbose: $(<err)"
 if "$program" devices >out 2>err && grep -q '^[0-9]' out; then

@@ -54,7 +54,7 @@ check_links() { # PAGE
     done < <(grep -o '](\([^) ]*\))' "$1" | sed 's/^](//; s/)$//')
 }
 
-for page in README.md docs/tutorial.md docs/conventions.md docs/formats.md docs/quadrature.md docs/gate.md; do
+for page in README.md docs/tutorial.md docs/conventions.md docs/formats.md docs/quadrature.md docs/gate.md docs/needs.md; do
     run_page "$page"
 done
 for page in "$source_dir"/*.md "$source_dir"/docs/*.md; do

@@ -1,5 +1,5 @@
 /* What is skipped, why and what it saves: every skip on and off. */
-#include "harness.h"
+#include "harness_plan.h"
 
 #include "plan/needs.h"
 
@@ -122,10 +122,123 @@ static void everything_is_done_on_request(void **state) {
     ps_needs_question question = ordinary();
     question.is_homogenized = question.has_constant_power = true;
     assert_int_equal(ps_needs_find(&question).num_skips, 4);
+    assert_true(ps_needs_find(&question).no_frequency_errors);
     question.no_skip = true;
     const ps_needs needs = ps_needs_find(&question);
     assert_false(needs.only_ball || needs.one_realization || needs.no_shift);
+    assert_false(needs.no_frequency_errors);
     assert_int_equal(needs.num_skips, 1);
+}
+
+/* Those of rings come from rings; a list, one dimension and arrays have frequencies of their own. */
+static void errors_of_frequencies(void **state) {
+    (void)state;
+    ps_needs_question question = ordinary();
+    assert_true(ps_needs_find(&question).no_frequency_errors);
+    question.wants_frequency_errors = true;
+    assert_false(ps_needs_find(&question).no_frequency_errors);
+    question = ordinary();
+    question.dimension = 1;
+    assert_false(ps_needs_find(&question).no_frequency_errors);
+    question = ordinary();
+    question.max_frequency = 0;
+    assert_false(ps_needs_find(&question).no_frequency_errors);
+}
+
+/* ---- what depends on the plan ---------------------------------------------------------------- */
+
+/* A problem of the torus for a device with vectors, and double precision if it is to have that. */
+typedef struct planned {
+    ps_frequencies frequencies;
+    ps_problem problem;
+    ps_device_limits limits;
+    ps_plan_constraints constraints;
+    ps_needs_strict strict;
+    ps_plan plan;
+} planned;
+
+static ps_needs plan(planned *of, double tolerance, double strict_tolerance, bool has_double,
+                     bool no_skip) {
+    ps_needs_question question = ordinary();
+    question.no_skip = no_skip;
+    ps_needs needs = ps_needs_find(&question);
+    *of = (planned){.limits = test_cpu(), .constraints = {.precision = -1}};
+    of->limits.has_fp64 = has_double;
+    assert_ok(ps_frequencies_lattice(&of->frequencies, 2, 64, true, error));
+    of->problem = (ps_problem){.frequencies = &of->frequencies,
+                               .num_points = 1024,
+                               .num_realizations = 100,
+                               .tolerance = tolerance};
+    of->strict.tolerance = strict_tolerance;
+    assert_ok(ps_needs_plan(&needs, &of->plan, &of->problem, &of->limits, &of->constraints,
+                            &of->strict, error));
+    assert_non_null(of->plan.chosen);
+    return needs;
+}
+
+static void precision(void **state) {
+    (void)state;
+    planned of;
+    ps_needs needs = plan(&of, 1e-4, 1e-4, true, false);
+    const ps_candidate *const exact = ps_plan_cheapest(&of.plan, PS_DOUBLE);
+    const ps_skip *const skip = find_skip(&needs, "double precision");
+    assert_int_equal(of.plan.chosen->precision, PS_SINGLE);
+    assert_non_null(strstr(skip->why, "within the tolerance"));
+    assert_true(fabs(skip->share - (1 - of.plan.chosen->seconds / exact->seconds)) < 1e-12);
+    needs = plan(&of, 1e-4, 1e-4, true, true); /* and with --no-skip it is what is done */
+    assert_int_equal(of.plan.chosen->precision, PS_DOUBLE);
+    assert_null(find_skip(&needs, "precision"));
+    needs = plan(&of, 1e-4, 1e-4, false, true); /* as far as there is any */
+    assert_int_equal(of.plan.chosen->precision, PS_SINGLE);
+    needs = plan(&of, 1e-4, 1e-4, false, false);
+    assert_null(find_skip(&needs, "precision"));
+    needs = plan(&of, 1e-12, 1e-12, true, false); /* double precision is needed */
+    assert_int_equal(of.plan.chosen->precision, PS_DOUBLE);
+    assert_null(find_skip(&needs, "precision"));
+}
+
+/* A statistical target that is looser than the tolerance. */
+static void digits(void **state) {
+    (void)state;
+    planned of;
+    ps_needs needs = plan(&of, 1e-3, 1e-6, true, false);
+    assert_non_null(strstr(find_skip(&needs, "double precision")->why, "--standard-error"));
+    needs = plan(&of, 1e-9, 1e-12, true, false); /* double precision both times */
+    assert_non_null(strstr(find_skip(&needs, "digits beyond")->why, "--floor"));
+}
+
+/* Beside other work the share is less. */
+static void share_is_of_the_job(void **state) {
+    (void)state;
+    planned of;
+    ps_needs needs = plan(&of, 1e-4, 1e-4, true, false);
+    const double alone = find_skip(&needs, "double precision")->share;
+    of.strict.other_seconds = of.plan.chosen->seconds;
+    assert_ok(ps_needs_plan(&needs, &of.plan, &of.problem, &of.limits, &of.constraints, &of.strict,
+                            error));
+    const double beside = find_skip(&needs, "double precision")->share;
+    assert_true(beside > 0 && beside < alone);
+}
+
+/* What nobody could turn on is for `plan`, not for headers; planning again does not list things twice. */
+static void matters_of_course(void **state) {
+    (void)state;
+    planned of;
+    ps_text text = {0};
+    ps_needs needs = plan(&of, 1e-4, 1e-4, true, false);
+    const size_t num = needs.num_skips;
+    assert_true(find_skip(&needs, "kernels of other engines")->is_matter_of_course);
+    assert_ok(ps_needs_plan(&needs, &of.plan, &of.problem, &of.limits, &of.constraints, &of.strict,
+                            error));
+    assert_int_equal(needs.num_skips, num);
+    ps_needs_describe(&needs, &text);
+    assert_null(strstr(ps_text_string(&text), "kernels"));
+    ps_text_free(&text);
+    of.constraints.engine = "host_direct";
+    assert_ok(
+        ps_needs_plan(&needs, &of.plan, &of.problem, NULL, &of.constraints, &of.strict, error));
+    assert_non_null(find_skip(&needs, "OpenCL devices"));
+    assert_null(find_skip(&needs, "kernels"));
 }
 
 static void description(void **state) {
@@ -155,6 +268,11 @@ int main(void) {
         cmocka_unit_test(one_realization_for_all),
         cmocka_unit_test(shifts),
         cmocka_unit_test(everything_is_done_on_request),
+        cmocka_unit_test(errors_of_frequencies),
+        cmocka_unit_test(precision),
+        cmocka_unit_test(digits),
+        cmocka_unit_test(share_is_of_the_job),
+        cmocka_unit_test(matters_of_course),
         cmocka_unit_test(description),
     };
     return cmocka_run_group_tests_name("needs", tests, NULL, NULL);

@@ -2,6 +2,7 @@
 #include "harness.h"
 
 #include "job/quadrature_job.h"
+#include "job/quadrature_looks.h"
 #include "samplers/sampler.h"
 
 #include <math.h>
@@ -125,11 +126,98 @@ static void replanned(void **state) {
     assert_true(num_replanned > 0);
 }
 
+/* ---- standard error -------------------------------------------------------------------------- */
+
+/* E^2 and two degrees from sums of three realizations; the second degree is small. */
+static void looks(void **state) {
+    static const double values[3][3] = {{1, 2, 3}, {4, 5, 6}, {0, 1e-9, 2e-9}};
+    ps_sums sums[3] = {{0}};
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        for (int r = 0; r < 3; r++) {
+            ps_sums_add(&sums[i], values[i][r]);
+        }
+    }
+    const ps_quadrature_sums all = {2, sums + 1, 1, sums};
+    const double root = sqrt(3.0);
+    ps_sequential_look look = ps_quadrature_look(&all, 1e-8, 3);
+    assert_int_equal(look.bin,
+                     PS_LOOK_AT_E2); /* 1, 2, 3: standard error 1 / sqrt 3 of a mean of 2 */
+    assert_true(fabs(look.relative_error - 1 / root / 2) < 1e-15);
+    assert_true(fabs(look.corrected - look.relative_error * (1 + 0.75 * sqrt((2 + 4.0) / 3))) <
+                1e-15);
+    look = ps_quadrature_look(&all, 3,
+                              3); /* degree 0 alone is above that: one real number, kurtosis 12 */
+    assert_int_equal(look.bin, 0);
+    assert_true(fabs(look.relative_error - 1 / root / 5) < 1e-15);
+    assert_true(fabs(look.corrected - look.relative_error * (1 + 0.75 * sqrt(14.0 / 3))) < 1e-15);
+    look = ps_quadrature_look(&all, 1e-10, 3); /* and now the small one counts */
+    assert_int_equal(look.bin, 1);
+    look = ps_quadrature_look(&all, 10, 3);
+    assert_true(look.bin == PS_LOOK_AT_NOTHING && look.corrected == 0);
+}
+
+/* Ends at a look, whatever the batch, with the bits of a job of so many realizations; and what it says is true. */
+static void stops(void **state) {
+    static const size_t sizes[] = {0, 5, 100};
+    static const ps_rule_weights weights[] = {PS_WEIGHTS_EQUAL, PS_WEIGHTS_OPTIMAL};
+    const double wanted = 0.2;
+    (void)state;
+    for (size_t i = 0; i < sizeof weights / sizeof weights[0]; i++) {
+        asked of;
+        ask(&of, "white-hemisphere:morph=diffuse", 16, 5000, "pairs_direct");
+        of.question.weights = weights[i];
+        of.question.standard_error = wanted;
+        ps_quadrature_result whole = run(&of.question);
+        const uint64_t num = whole.num_realizations;
+        assert_true(num > PS_LEAST_REALIZATIONS && num < 1000);
+        assert_int_equal(ps_sequential_next_look(num - 1), num);
+        assert_true(whole.has_look && whole.look.corrected <= wanted);
+        assert_true(whole.squared.standard_error <= wanted * whole.squared.mean);
+        const double least = of.question.tolerance * whole.representer.constant *
+                             whole.weight_size * whole.weight_size;
+        for (size_t l = 0; l <= LAST; l++) {
+            const ps_mean e2 = whole.degrees[l].e2;
+            assert_true(e2.mean <= least || e2.standard_error <= wanted * e2.mean);
+        }
+        for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; k++) {
+            of.question.batch = sizes[k];
+            ps_quadrature_result parts = run(&of.question);
+            same_bits(&whole, &parts);
+            ps_quadrature_free(&parts);
+        }
+        of.question.standard_error = 0;
+        of.question.num_realizations = num;
+        ps_quadrature_result exactly = run(&of.question);
+        same_bits(&whole, &exactly);
+        assert_false(exactly.has_look);
+        ps_quadrature_free(&exactly);
+        ps_quadrature_free(&whole);
+        ps_brdf_destroy(of.brdf);
+    }
+}
+
+/* A deterministic rule is done once; without skips all there are, which is said. */
+static void one_is_enough(void **state) {
+    asked of;
+    (void)state;
+    ask(&of, "fibonacci-hemisphere:morph=diffuse", 24, 20, NULL);
+    of.question.standard_error = 0.01;
+    ps_quadrature_result once = run(&of.question);
+    assert_true(once.num_realizations == 1 && !once.has_look);
+    of.question.no_skip = true;
+    ps_quadrature_result all = run(&of.question);
+    assert_true(all.num_realizations == 20 && all.has_look && all.look.corrected < 1e-12);
+    assert_true(fabs(once.squared.mean - all.squared.mean) <= 1e-15);
+    ps_quadrature_free(&once);
+    ps_quadrature_free(&all);
+    ps_brdf_destroy(of.brdf);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(batches),
-        cmocka_unit_test(two_routes),
-        cmocka_unit_test(replanned),
+        cmocka_unit_test(batches), cmocka_unit_test(two_routes), cmocka_unit_test(replanned),
+        cmocka_unit_test(looks),   cmocka_unit_test(stops),      cmocka_unit_test(one_is_enough),
     };
     ps_device_close(test_open_device()); /* skips where there is none */
     return cmocka_run_group_tests(tests, NULL, NULL);

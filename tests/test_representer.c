@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static const long double PI = 3.141592653589793238462643383279502884L;
 
@@ -148,9 +149,54 @@ static void estimates(void **state) {
     }
 }
 
+/* Without odd degrees that are 0 and degrees behind the decay kappa is what it was; other lobes keep their terms. */
+static void left_out(void **state) {
+    static const struct {
+        const char *lobe;
+        bool is_even;
+    } cases[] = {{"diffuse", true},
+                 {"phong:n=1", true},
+                 {"phong:n=2", false},
+                 {"glossy:n=30", false},
+                 {"glossy:n=200,cut=none", false}};
+    enum { NUM = 41, LEAST = 600 };
+    const double most = 1e-14;
+    double points[3 * NUM], kept[NUM], all[NUM];
+    (void)state;
+    for (int i = 0; i < NUM; i++) {
+        const double z = i / 20.0 - 1;
+        points[3 * i] = 0.6 * sqrt(1 - z * z);
+        points[3 * i + 1] = -0.8 * sqrt(1 - z * z);
+        points[3 * i + 2] = z;
+    }
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        ps_representer r;
+        ps_brdf *brdf = NULL;
+        assert_ok(ps_brdf_parse(&brdf, cases[k].lobe, error));
+        assert_ok(ps_representer_create(&r, brdf, 1.5, PS_REPRESENTER_TOLERANCE, LEAST, error));
+        const size_t num = r.num_terms;
+        const double estimate = r.kappa_estimate;
+        ps_representer_kappa(&r, NUM, points, all);
+        ps_representer_skip(&r, most);
+        ps_representer_kappa(&r, NUM, points, kept);
+        for (int i = 0; i < NUM; i++) {
+            assert_true(fabs(kept[i] - all[i]) <= most + 4e-15);
+        }
+        assert_true(r.only_even == cases[k].is_even);
+        assert_true(r.kappa_estimate >= estimate && r.kappa_estimate <= estimate + most);
+        assert_true(cases[k].is_even ? r.num_terms <= num / 2 + 1 : r.num_terms <= num);
+        print_message("%-22s %zu terms of %zu\n", cases[k].lobe, r.num_terms, num);
+        if (strncmp(cases[k].lobe, "glossy", strlen("glossy")) == 0) {
+            assert_true(2 * r.num_terms < num);
+        }
+        ps_representer_destroy(&r);
+        ps_brdf_destroy(brdf);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(rings_are_right),
                                        cmocka_unit_test(kappa_of_wide_lobes),
-                                       cmocka_unit_test(estimates)};
+                                       cmocka_unit_test(estimates), cmocka_unit_test(left_out)};
     return cmocka_run_group_tests_name("representer", tests, NULL, NULL);
 }

@@ -52,12 +52,17 @@ static void clear(ps_sums *sums, size_t num, bool mean_only) {
     }
 }
 
+/* Of single frequencies. */
+static bool no_squares(const ps_accumulator_options *options) {
+    return options->mean_only || options->no_frequency_errors;
+}
+
 static void clear_all(ps_accumulator *self) {
     const ps_accumulator_options *options = &self->options;
     self->num_realizations = 0;
     clear(self->bin_sums, options->bins->num, options->mean_only);
     if (self->frequency_sums != NULL) {
-        clear(self->frequency_sums, options->num_frequencies, options->mean_only);
+        clear(self->frequency_sums, options->num_frequencies, no_squares(options));
     }
 }
 
@@ -77,6 +82,7 @@ static void form_one_bin(ps_accumulator *self) {
                           .num_members = bins->num_members};
     self->formed = &self->one;
     self->options.want_frequencies = true;
+    self->options.no_frequency_errors = false; /* those of bins are theirs */
 }
 
 pspec_status ps_accumulator_create(ps_accumulator **out, const ps_accumulator_options *options,
@@ -95,6 +101,7 @@ pspec_status ps_accumulator_create(ps_accumulator **out, const ps_accumulator_op
     if (status == PSPEC_OK && options->is_on_device) {
         ps_accumulator_options on_device = self->options;
         on_device.bins = self->formed;
+        on_device.mean_only = no_squares(&self->options);
         status = ps_device_accumulator_create(&self->on_device, &on_device, device, error);
     }
     if (status != PSPEC_OK) {
@@ -119,8 +126,8 @@ void ps_accumulator_destroy(ps_accumulator *accumulator) {
     free(accumulator);
 }
 
-static void add(const ps_accumulator *self, ps_sums *sums, double power) {
-    if (self->options.mean_only) {
+static void add(ps_sums *sums, double power, bool mean_only) {
+    if (mean_only) {
         ps_sums_add_to_mean(sums, power);
     } else {
         ps_sums_add(sums, power);
@@ -144,7 +151,7 @@ static void add_host_rows(ps_accumulator *self, const ps_rows *rows) {
         const double *row = rows->host + r * rows->stride;
         average_bins(self, row, self->bin_powers + r * self->options.bins->num);
         for (size_t i = 0; self->frequency_sums != NULL && i < self->options.num_frequencies; i++) {
-            add(self, &self->frequency_sums[i], row[self->slots[i]]);
+            add(&self->frequency_sums[i], row[self->slots[i]], no_squares(&self->options));
         }
     }
 }
@@ -166,7 +173,7 @@ static void add_bins(ps_accumulator *self, size_t num_rows) {
         const double *bin_powers = self->bin_powers + r * bins->num;
         self->mean_powers[r] = mean_power(bins, bin_powers);
         for (size_t b = 0; bins == self->options.bins && b < bins->num; b++) {
-            add(self, &self->bin_sums[b], bin_powers[b]);
+            add(&self->bin_sums[b], bin_powers[b], self->options.mean_only);
         }
     }
 }

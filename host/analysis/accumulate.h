@@ -28,10 +28,11 @@ typedef struct ps_accumulator_options {
     const uint32_t *slots; /* [num_frequencies] places in a row, copied */
     size_t stride, batch;  /* of the rows; batch is the largest number of rows at a time */
     bool is_on_device;
-    ps_precision precision; /* of the rows */
-    unsigned lanes;         /* of device rows */
-    bool want_frequencies;  /* keep sums per frequency */
-    bool mean_only;         /* no sums of squares: standard errors are nan */
+    ps_precision precision;   /* of the rows */
+    unsigned lanes;           /* of device rows */
+    bool want_frequencies;    /* keep sums per frequency */
+    bool mean_only;           /* no sums of squares: standard errors are nan */
+    bool no_frequency_errors; /* no sums of squares of single frequencies: theirs are nan */
 } ps_accumulator_options;
 
 pspec_status ps_accumulator_create(ps_accumulator **out, const ps_accumulator_options *options,

@@ -95,6 +95,7 @@ static pspec_status fill(ps_representer *of, const ps_brdf *brdf, size_t max_deg
     of->series = of->b + max_degree + 2;
     of->factors = of->series + max_degree + 2;
     of->max_degree = max_degree;
+    of->num_terms = max_degree + 1;
     ps_sobolev_eigenvalues(of->smoothness, max_degree + 1, of->a);
     PS_TRY(ps_brdf_spherical(brdf, max_degree, of->b, error));
     fill_series(of);
@@ -131,6 +132,56 @@ pspec_status ps_representer_create(ps_representer *out, const ps_brdf *brdf, dou
     const double rest = ps_representer_rest(out, degree, &half_width);
     out->kappa_bound = sqrt(tail * (rest + half_width));
     return PSPEC_OK;
+}
+
+/* ---- terms that kappa does not need ---------------------------------------------------------- */
+
+/* Terms behind the last that is needed; what they are together is added to *dropped. */
+static size_t count_needed(const double *series, size_t num, double error, double *dropped) {
+    double sum = 0;
+    while (num > 1 && sum + fabs(series[num - 1]) <= error) {
+        sum += fabs(series[--num]);
+    }
+    *dropped = sum;
+    return num;
+}
+
+static bool is_even_above_1(const ps_representer *of) {
+    bool is_even = true;
+    for (size_t l = 3; l <= of->max_degree; l += 2) {
+        is_even = is_even && of->b[l] == 0;
+    }
+    return is_even;
+}
+
+/* P_2k(z) is the Jacobi polynomial P_k^(0,-1/2)(2 z^2 - 1), whose recurrence of differences has the form of that of
+ * P_l, with 2 (1 - z^2) for 1 - z: half as many steps. */
+static void keep_even(ps_representer *of) {
+    const size_t num = of->max_degree / 2 + 1;
+    of->only_even = true;
+    of->first = of->series[1];
+    for (size_t k = 0; k < num; k++) {
+        const double n = (double)k;
+        const double up = (n + 1) * (2 * n + 1) / ((2 * n + 0.5) * (2 * n + 1.5));
+        const double down = k > 0 ? n * (2 * n - 1) / ((2 * n - 0.5) * (2 * n + 0.5)) : 0;
+        of->series[k] = of->series[2 * k];
+        of->factors[2 * k] = down / up;
+        of->factors[2 * k + 1] = 1 / up;
+    }
+    of->series[num] = 0; /* steps are taken in twos */
+    of->num_terms = num;
+}
+
+void ps_representer_skip(ps_representer *representer, double error) {
+    double dropped = 0;
+    if (is_even_above_1(representer)) {
+        keep_even(representer);
+    }
+    const size_t num = count_needed(representer->series, representer->num_terms, error, &dropped);
+    representer->series[num] = 0;
+    representer->num_terms = num;
+    representer->kappa_estimate += dropped;
+    representer->kappa_bound += dropped;
 }
 
 /* ---- kappa --------------------------------------------------------------------------------- */
@@ -214,12 +265,15 @@ static void do_block(const kappa_work *work, size_t first) {
     const size_t num = work->num - first < LANES ? work->num - first : LANES;
     for (size_t i = 0; i < num; i++) {
         const double *const u = work->points + 3 * (first + i);
-        t[i] = (u[0] * u[0] + u[1] * u[1]) / (1 + fabs(u[2]));
+        const double square = u[0] * u[0] + u[1] * u[1];
+        t[i] = of->only_even ? 2 * square : square / (1 + fabs(u[2]));
     }
-    sum_series(of->max_degree + 1, of->series, of->factors, t, even, odd);
+    sum_series(of->num_terms, of->series, of->factors, t, even, odd);
     for (size_t i = 0; i < num; i++) {
-        work->kappa[first + i] =
-            work->points[3 * (first + i) + 2] < 0 ? even[i] - odd[i] : even[i] + odd[i];
+        const double z = work->points[3 * (first + i) + 2];
+        work->kappa[first + i] = of->only_even ? even[i] + odd[i] + of->first * z
+                                 : z < 0       ? even[i] - odd[i]
+                                               : even[i] + odd[i];
     }
 }
 
@@ -236,5 +290,5 @@ void ps_representer_kappa(const ps_representer *representer, size_t num, const d
                           double *kappa) {
     const kappa_work work = {
         .representer = representer, .num = num, .points = points, .kappa = kappa};
-    ps_workers_share(num * (representer->max_degree + 1), do_share, (void *)&work);
+    ps_workers_share(num * representer->num_terms, do_share, (void *)&work);
 }

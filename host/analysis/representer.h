@@ -16,10 +16,14 @@ typedef struct ps_representer {
     double *a, *b;               /* [L + 2], [L + 1] */
     double *series;              /* [L + 2]: a_l b_l Y_l0(pole), 0 beyond L */
     double *factors;             /* [L + 2][2]: of the recurrence, l/(l+1) and (2l+1)/(l+1) */
-    double energy;               /* sum of all b_l^2 */
-    double kappa_0, d_0;         /* D_0 = c - kappa_0 */
-    double kappa_0_error;        /* a bound on the error of both, rounding aside */
-    double kappa_bound;          /* rigorous, on the truncation error of kappa(u) anywhere */
+    size_t num_terms; /* of the series of kappa; L + 1, or less where terms are left out */
+    bool
+        only_even; /* no odd term but that of degree 1: num_terms even ones, in series and factors of their own */
+    double first;          /* that of degree 1, for only_even */
+    double energy;         /* sum of all b_l^2 */
+    double kappa_0, d_0;   /* D_0 = c - kappa_0 */
+    double kappa_0_error;  /* a bound on the error of both, rounding aside */
+    double kappa_bound;    /* rigorous, on the truncation error of kappa(u) anywhere */
     double kappa_estimate; /* what that error is at most, as measured; a few hundred times less */
 } ps_representer;
 
@@ -33,6 +37,9 @@ enum { PS_MOST_REPRESENTER_DEGREE = 20000 };
 pspec_status ps_representer_create(ps_representer *out, const ps_brdf *brdf, double smoothness,
                                    double tolerance, size_t min_degree,
                                    ps_error *error) PS_MUST_CHECK;
+/* Leaves terms out of kappa that cannot matter: odd ones where all above degree 1 are 0, and those behind the last, all
+ * together at most `error` (the decay of a smooth lobe). kappa_0 and coefficients stay. */
+void ps_representer_skip(ps_representer *representer, double error);
 void ps_representer_destroy(ps_representer *representer);
 
 /* PSPEC_ERROR_INVALID_ARGUMENT unless max_degree <= representer->max_degree. */

@@ -26,19 +26,22 @@ static double correction(double independent, double num_realizations) {
     return 1 + deviations / 2 * sqrt((2 + kurtosis) / num_realizations);
 }
 
+void ps_sequential_look_at(ps_sequential_look *look, ps_mean mean, double independent,
+                           uint64_t num_realizations, int64_t bin) {
+    const double relative = mean.standard_error / mean.mean;
+    const double corrected = relative * correction(independent, (double)num_realizations);
+    if (!(corrected <= look->corrected)) {
+        *look = (ps_sequential_look){relative, corrected, bin};
+    }
+}
+
 ps_sequential_look ps_sequential_find(const ps_bins *bins, const ps_mean *means, double floor,
                                       uint64_t num_realizations) {
     ps_sequential_look look = {0};
     for (size_t i = 0; i < bins->num_reported; i++) {
-        const double mean = means[i].mean;
-        if (!(mean > 0) || mean <= floor) {
-            continue;
-        }
-        const double relative = means[i].standard_error / mean;
-        const double corrected =
-            relative * correction(count_independent(bins, i), (double)num_realizations);
-        if (!(corrected <= look.corrected)) {
-            look = (ps_sequential_look){relative, corrected, bins->bins[i].key};
+        if (means[i].mean > 0 && !(means[i].mean <= floor)) {
+            ps_sequential_look_at(&look, means[i], count_independent(bins, i), num_realizations,
+                                  bins->bins[i].key);
         }
     }
     return look;

@@ -32,6 +32,10 @@ typedef struct ps_sequential_look {
     int64_t bin;                      /* its key; 0: none */
 } ps_sequential_look;
 
+/* One more mean > 0, of so many independent numbers: *look becomes that of `bin` when its error is larger. */
+void ps_sequential_look_at(ps_sequential_look *look, ps_mean mean, double independent,
+                           uint64_t num_realizations, int64_t bin);
+
 /* means[bins->num], from num_realizations >= 2. Bins of mean <= floor, and all of power 0, are not looked at. */
 ps_sequential_look ps_sequential_find(const ps_bins *bins, const ps_mean *means, double floor,
                                       uint64_t num_realizations);

@@ -1,10 +1,12 @@
 /* pointspec bench: run time against error on this device, and its figures for the planner. */
 #include "cli/bench_plot.h"
+#include "cli/bench_scenes.h"
 #include "cli/command.h"
 #include "cli/output_check.h"
 #include "io/plot.h"
 #include "io/table_stream.h"
 #include "plan/figures_file.h"
+#include "scene/options.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -213,20 +215,24 @@ out:
 
 /* ---- the command --------------------------------------------------------------------------- */
 
-static pspec_status check_calibration(const ps_request *arguments, ps_error *error) {
-    static const struct {
-        ps_option_id id;
-        const char *name;
-    } others[] = {{PS_OPTION_ENGINE, "--engine"},
-                  {PS_OPTION_PRECISION, "--precision"},
-                  {PS_OPTION_PLOT, "--plot"}};
-    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
-        if (arguments->is_given[others[i].id]) {
-            return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                           "%s does not go with --calibrate: all engines are measured",
-                           others[i].name);
+/* Options that are about cases. */
+static pspec_status check_others(const ps_request *arguments, const char *flag, const char *why,
+                                 ps_error *error) {
+    static const ps_option_id ids[] = {PS_OPTION_ENGINE, PS_OPTION_PRECISION, PS_OPTION_PLOT,
+                                       PS_OPTION_CASE, PS_OPTION_QUICK};
+    const bool has_quick = arguments->calibrate; /* which leaves cases out there, too */
+    const size_t num = sizeof ids / sizeof ids[0] - (has_quick ? 2 : 0);
+    for (size_t i = 0; i < num; i++) {
+        if (arguments->is_given[ids[i]]) {
+            return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "--%s does not go with %s: %s",
+                           ps_options[ids[i]].name, flag, why);
         }
     }
+    return PSPEC_OK;
+}
+
+static pspec_status check_calibration(const ps_request *arguments, ps_error *error) {
+    PS_TRY(check_others(arguments, "--calibrate", "all engines are measured", error));
     return arguments->cache_folder != NULL
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
@@ -236,7 +242,8 @@ static pspec_status check_calibration(const ps_request *arguments, ps_error *err
 static pspec_status check_words(const ps_request *arguments, const ps_bench_options *options,
                                 ps_error *error) {
     if (arguments->num_files > 0) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "no file is read, but %s was given",
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "no file is read, but %s was given; --scenes is for scenes",
                        arguments->files[0]);
     }
     if (arguments->plot != NULL && !ps_plot_is_supported(arguments->plot)) {
@@ -249,7 +256,37 @@ static pspec_status check_words(const ps_request *arguments, const ps_bench_opti
     return ps_bench_check(options, error);
 }
 
+/* The table is there also when answers differ. */
+static pspec_status run_scenes(const ps_request *arguments, ps_error *error) {
+    const char *const path = arguments->output != NULL ? arguments->output : "-";
+    ps_table *table = NULL;
+    ps_table_format format = PS_FORMAT_CSV;
+    ps_error unwritten = {0};
+    if (arguments->num_files == 0) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "--scenes needs scenes, as in --scenes docs/scenes/diffuse.yaml");
+    }
+    PS_TRY(check_others(arguments, "--scenes", "scenes are timed as they are", error));
+    if (arguments->calibrate) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "--calibrate does not go with --scenes: one at a time");
+    }
+    PS_TRY(ps_table_choose_format(&format, arguments->format, path, error));
+    PS_TRY(ps_outputs_check(arguments, true, error));
+    pspec_status status = ps_bench_scenes(&table, arguments, error);
+    if ((status == PSPEC_OK || status == PSPEC_ERROR_CHECK) &&
+        ps_table_write(table, path, format, &unwritten) != PSPEC_OK) {
+        *error = unwritten;
+        status = unwritten.status;
+    }
+    ps_table_destroy(table);
+    return status;
+}
+
 static pspec_status run(const ps_request *arguments, ps_error *error) {
+    if (arguments->scenes) {
+        return run_scenes(arguments, error);
+    }
     const char *const path = arguments->output != NULL ? arguments->output : "-";
     answer of = {.arguments = arguments};
     const ps_bench_options options = {.case_name = arguments->case_name,
@@ -276,15 +313,15 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
     return status;
 }
 
-static const ps_option_id options[] = {PS_OPTION_CASE,   PS_OPTION_QUICK,     PS_OPTION_PRECISION,
-                                       PS_OPTION_ENGINE, PS_OPTION_DEVICE,    PS_OPTION_OUTPUT,
-                                       PS_OPTION_FORMAT, PS_OPTION_PLOT,      PS_OPTION_QUIET,
-                                       PS_OPTION_HELP,   PS_OPTION_CALIBRATE, PS_NUM_OPTIONS};
+static const ps_option_id options[] = {
+    PS_OPTION_CASE,      PS_OPTION_QUICK,  PS_OPTION_PRECISION, PS_OPTION_ENGINE, PS_OPTION_DEVICE,
+    PS_OPTION_OUTPUT,    PS_OPTION_FORMAT, PS_OPTION_PLOT,      PS_OPTION_QUIET,  PS_OPTION_HELP,
+    PS_OPTION_CALIBRATE, PS_OPTION_SCENES, PS_NUM_OPTIONS};
 
 const ps_command ps_command_bench = {
     .name = "bench",
     .summary = "run time against error on this device; its figures for the planner",
-    .usage = "bench [options]",
+    .usage = "bench [options] | bench --scenes [options] SCENE.yaml...",
     .description =
         "Runs every engine in every precision at tolerances from 1e-2 to 1e-12 on cases of the "
         "torus, the sphere, the hemisphere and pair sums, and prints the time of a realization "
@@ -292,7 +329,10 @@ const ps_command ps_command_bench = {
         "is as fast and as exact. --calibrate measures instead how far this device is from the "
         "planner's cost model and keeps that below POINTSPEC_CACHE_DIR (else "
         "XDG_CACHE_HOME/pointspec, else ~/.cache/pointspec): the commands plan with it from then "
-        "on. Wants a quiet machine; a plain run takes about three minutes.",
+        "on. --scenes runs scenes with and without skips instead, without the cache of results, "
+        "and "
+        "compares time and answers; exit status 3 when they differ. Wants a quiet machine; a plain "
+        "run takes about three minutes.",
     .options = options,
     .formats = "csv|json",
     .examples =

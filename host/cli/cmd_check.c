@@ -3,6 +3,7 @@
 #include "cli/command.h"
 #include "cli/jobs.h"
 #include "cli/output_check.h"
+#include "scene/check_question.h"
 
 #include "base/memory.h"
 
@@ -13,36 +14,6 @@
 static const ps_option_id options[] = {PS_OPTION_OUTPUT, PS_OPTION_FORMAT,  PS_OPTION_PROFILE,
                                        PS_OPTION_QUIET,  PS_OPTION_VERBOSE, PS_OPTION_HELP,
                                        PS_NUM_OPTIONS};
-
-/* ---- the question ------------------------------------------------------------------------ */
-
-/* The question is that of the saved spectrum, but for the seed: realizations must be independent of those
- * that were saved. */
-static ps_request complete(const ps_request *arguments, const ps_saved_spectrum *saved) {
-    ps_request own = *arguments;
-    own.is_given[PS_OPTION_DIMENSION] = !saved->on_sphere;
-    own.dimension = saved->dimension;
-    own.max_frequency = saved->on_sphere ? 0 : saved->max_frequency;
-    own.max_degree = saved->on_sphere ? (uint64_t)saved->max_frequency : 0;
-    own.hemisphere = saved->on_hemisphere;
-    own.shells = saved->exact_shells;
-    own.per_ring = saved->per_ring;
-    own.effective = saved->normalization == PSPEC_NORMALIZATION_EFFECTIVE;
-    if (arguments->num_samplers == 0) {
-        return own;
-    }
-    if (!arguments->is_given[PS_OPTION_POINTS]) {
-        own.is_given[PS_OPTION_POINTS] = true;
-        own.num_points = (uint64_t)llround(saved->mean_points);
-    }
-    if (!arguments->is_given[PS_OPTION_REALIZATIONS]) {
-        own.num_realizations = saved->num_realizations;
-    }
-    if (!arguments->is_given[PS_OPTION_SEED] && saved->has_seed) {
-        own.seed = saved->seed + 1;
-    }
-    return own;
-}
 
 pspec_status ps_check_check(const ps_request *arguments, ps_error *error) {
     if (arguments->against == NULL) {
@@ -214,12 +185,10 @@ static pspec_status answer(ps_table **out, ps_error *verdict, const ps_request *
 static pspec_status answer_saved(ps_table **out, ps_error *verdict, const ps_request *arguments,
                                  const ps_answer_hooks *hooks, const ps_saved_spectrum *saved,
                                  ps_error *error) {
-    const ps_request own = complete(arguments, saved);
+    const ps_request own = ps_check_request(arguments, saved);
     ps_question_list list;
     ps_power_job *job = NULL;
-    PS_TRY(ps_questions_make(&list, &own,
-                             saved->on_sphere ? PS_QUESTION_ANGULAR : PS_QUESTION_POWER, error));
-    list.questions[0].per_ring_seed = saved->seed;
+    PS_TRY(ps_check_question_make(&list, &own, saved, error));
     pspec_status status = ps_jobs_run_one(&own, &list.questions[0], hooks, &job, error);
     if (status == PSPEC_OK) {
         status = answer(out, verdict, &own, saved, job, error);

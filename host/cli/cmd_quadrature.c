@@ -4,6 +4,9 @@
 #include "cli/output_check.h"
 #include "cli/quadrature_table.h"
 #include "io/plot.h"
+#include "job/quadrature_looks.h"
+
+#include <stdio.h>
 
 static void tell_plan(void *payload, const ps_plan *plan) {
     (void)payload;
@@ -13,6 +16,18 @@ static void tell_plan(void *payload, const ps_plan *plan) {
 static void tell_profile(void *payload, const ps_profile_row *rows, size_t num_rows) {
     (void)payload;
     ps_print_profile(rows, num_rows);
+}
+
+static void warn_of_standard_error(const ps_quadrature_result *result, double standard_error) {
+    char where[48];
+    if (result->has_look && !(result->look.corrected <= standard_error)) {
+        ps_quadrature_look_name(where, sizeof where, &result->look);
+        fprintf(stderr,
+                "pointspec: the standard error %.3g was not reached in %llu realizations: it is "
+                "%.3g of %s\n",
+                standard_error, (unsigned long long)result->num_realizations,
+                result->look.corrected, where);
+    }
 }
 
 static pspec_status run_job(ps_quadrature_result *result, const ps_request *arguments,
@@ -27,11 +42,16 @@ static pspec_status run_job(ps_quadrature_result *result, const ps_request *argu
 }
 
 static pspec_status run_shown(ps_quadrature_result *result, const ps_request *arguments,
-                              ps_quadrature_question *question, ps_error *error) {
+                              ps_quadrature_question *question, ps_device *device,
+                              ps_error *error) {
     ps_progress *const progress = ps_progress_begin(arguments, "realizations");
-    const ps_answer_hooks hooks = {.progress = ps_progress_tell, .payload = progress};
+    const ps_answer_hooks hooks = {
+        .progress = ps_progress_tell, .payload = progress, .device = device};
     const pspec_status status = run_job(result, arguments, question, &hooks, error);
     ps_progress_end(progress);
+    if (status == PSPEC_OK && !arguments->quiet) {
+        warn_of_standard_error(result, arguments->standard_error);
+    }
     return status;
 }
 
@@ -82,9 +102,12 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
     ps_quadrature_result results[PS_MAX_SAMPLERS] = {{0}};
     pspec_status status = PSPEC_OK;
     PS_TRY(check_outputs(arguments, &format, error));
+    ps_device *device = NULL;
     PS_TRY_OUT(status, ps_quadrature_list_make(&list, arguments, error));
+    PS_TRY_OUT(status, ps_jobs_open_device(&device, arguments, &list.questions[0].constraints,
+                                           list.num, error));
     for (size_t i = 0; i < list.num; i++) {
-        PS_TRY_OUT(status, run_shown(&results[i], arguments, &list.questions[i], error));
+        PS_TRY_OUT(status, run_shown(&results[i], arguments, &list.questions[i], device, error));
     }
     status = write_results(arguments, &list, results, format, error);
 out:
@@ -92,6 +115,7 @@ out:
         ps_quadrature_free(&results[i]);
     }
     ps_quadrature_list_free(&list);
+    ps_device_close(device);
     return status;
 }
 

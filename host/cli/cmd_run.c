@@ -3,7 +3,6 @@
 #include "cli/command.h"
 #include "cli/run.h"
 #include "io/output_file.h"
-#include "plan/figures_file.h"
 #include "pointspec_version.h"
 
 #include <dirent.h>
@@ -206,78 +205,12 @@ static pspec_status judge(const ps_run *run, ps_error *error) {
                    first->asked.request.command_line);
 }
 
-/* ---- what there is before ---------------------------------------------------------------- */
-
-/* The program is one of the things that results depend on; where the system does not show it, nothing is kept. */
-static bool identify_program(ps_text *out) {
-    char digest[PS_DIGEST_BYTES];
-    ps_error ignored = {0};
-    const bool is_known = ps_digest_file("/proc/self/exe", digest, &ignored) == PSPEC_OK;
-    ps_text_append(out, "pointspec %s %s\n", PS_VERSION, is_known ? digest : "");
-    return is_known;
-}
-
-static pspec_status identify_device(const ps_run *run, ps_text *out, ps_error *error) {
-    ps_device_limits *all = NULL;
-    size_t num = 0;
-    size_t index = 0;
-    ps_error none = {0};
-    const pspec_status listed = ps_device_list(&all, &num, &none);
-    if (listed == PSPEC_ERROR_NO_DEVICE) {
-        ps_text_append(out, "no device\n");
-        return PSPEC_OK;
-    }
-    if (listed != PSPEC_OK) {
-        *error = none;
-        return listed;
-    }
-    ps_figures figures; /* plans, and so bits, depend on them */
-    pspec_status status = ps_device_choose(all, num, run->arguments->device, &index, error);
-    if (status == PSPEC_OK) {
-        status = ps_figures_read(&figures, run->arguments->cache_folder, &all[index], error);
-    }
-    if (status == PSPEC_OK) {
-        const ps_device_limits *const limits = &all[index];
-        ps_text_append(out, "%s\n%s\n%s\n%s\n%u %u\nfigures %s\n", limits->platform,
-                       limits->name, limits->driver, limits->version, limits->native_float_lanes,
-                       limits->native_double_lanes, figures.is_measured ? figures.note : "");
-    }
-    free(all);
-    return status;
-}
-
-/* Kernels of somebody's own are not part of the key: their results are not kept. */
-static pspec_status open_cache(ps_run *run, ps_error *error) {
-    const uint64_t most = run->arguments->cache_bytes;
-    ps_text folder = {0};
-    ps_error reason = {0};
-    const bool is_known = identify_program(&run->identity);
-    PS_TRY(identify_device(run, &run->identity, error));
-    PS_TRY(ps_text_check(&run->identity, error));
-    if (most == 0 || run->arguments->no_skip || !is_known || getenv("POINTSPEC_KERNEL_DIR")) {
-        return PSPEC_OK;
-    }
-    pspec_status status = ps_cache_default_directory(&folder, &reason);
-    if (status == PSPEC_OK) {
-        ps_text_append(&folder, "/results");
-        status = ps_text_check(&folder, &reason);
-    }
-    if (status == PSPEC_OK) {
-        status = ps_cache_open(&run->cache, ps_text_string(&folder), most, &reason);
-    }
-    if (status != PSPEC_OK && !run->arguments->quiet) {
-        fprintf(stderr, "pointspec: no cache of results: %s\n", reason.message);
-    }
-    ps_text_free(&folder);
-    return PSPEC_OK;
-}
-
 /* ---- all --------------------------------------------------------------------------------- */
 
 static pspec_status run_scene(ps_run *run, ps_error *error) {
     PS_TRY(ps_run_ask(run, error));
     PS_TRY(check_folder(run->folder, error));
-    PS_TRY(open_cache(run, error));
+    PS_TRY(ps_run_open_cache(run, error));
     PS_TRY(ps_run_answer(run, error));
     PS_TRY(write_all(run, error));
     PS_TRY(print_results(run, error));
@@ -329,7 +262,8 @@ const ps_command ps_command_run = {
         "same bits. Answers are kept in a cache that all scenes share. Exit status 3 when a check "
         "finds another spectrum than the saved one, or a record is not repeated.",
     .options = options,
-    .examples = {"pointspec run docs/scenes/rules.yaml -o rules",
-                 "pointspec plan run docs/scenes/rules.yaml"},
+    .examples = {"printf 'scene: 1\\nresults:\\n  - {result: power, samplers: [white, jittered], "
+                 "points: 64..256, realizations: 16}\\n' >scene.yaml && pointspec run scene.yaml",
+                 "pointspec run scene.yaml -o again --no-skip"},
     .run = run,
 };

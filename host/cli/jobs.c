@@ -4,6 +4,7 @@
 #include "cli/output_check.h"
 #include "cli/spectrum_plot.h"
 #include "io/plot.h"
+#include "plan/figures_file.h"
 
 #include <stdio.h>
 
@@ -90,10 +91,21 @@ pspec_status ps_jobs_run_one(const ps_request *arguments, ps_power_question *que
     return PSPEC_OK;
 }
 
+pspec_status ps_jobs_open_device(ps_device **out, const ps_request *arguments,
+                                 const ps_plan_constraints *constraints, size_t num_jobs,
+                                 ps_error *error) {
+    *out = NULL;
+    return num_jobs > 1 && !arguments->profile && ps_plan_may_need_device(constraints)
+               ? ps_figures_open_device(out, arguments->device, false, arguments->cache_folder,
+                                        error)
+               : PSPEC_OK;
+}
+
 static pspec_status run_shown(const ps_request *arguments, ps_power_question *question,
-                              ps_power_job **job, ps_error *error) {
+                              ps_device *device, ps_power_job **job, ps_error *error) {
     ps_progress *const progress = ps_progress_begin(arguments, "realizations");
-    const ps_answer_hooks hooks = {.progress = ps_progress_tell, .payload = progress};
+    const ps_answer_hooks hooks = {
+        .progress = ps_progress_tell, .payload = progress, .device = device};
     const pspec_status status = ps_jobs_run_one(arguments, question, &hooks, job, error);
     ps_progress_end(progress);
     return status;
@@ -133,9 +145,12 @@ pspec_status ps_jobs_run(const ps_request *arguments, ps_question_kind kind,
     ps_table_format format = PS_FORMAT_CSV;
     pspec_status status = PSPEC_OK;
     PS_TRY(check_outputs(arguments, &format, error));
+    ps_device *device = NULL;
     PS_TRY(ps_questions_make(&list, arguments, kind, error));
+    PS_TRY(
+        ps_jobs_open_device(&device, arguments, &list.questions[0].constraints, list.num, error));
     for (size_t i = 0; i < list.num; i++) {
-        PS_TRY_OUT(status, run_shown(arguments, &list.questions[i], &jobs[i], error));
+        PS_TRY_OUT(status, run_shown(arguments, &list.questions[i], device, &jobs[i], error));
     }
     status = write_results(arguments, (const ps_power_job *const *)jobs, list.num, output, format,
                            error);
@@ -143,5 +158,6 @@ out:
     for (size_t i = 0; i < list.num; i++) {
         ps_power_job_destroy(jobs[i]);
     }
+    ps_device_close(device);
     return status;
 }

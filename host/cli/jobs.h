@@ -28,4 +28,10 @@ pspec_status ps_jobs_run_one(const ps_request *arguments, ps_power_question *que
                              const ps_answer_hooks *hooks, ps_power_job **job,
                              ps_error *error) PS_MUST_CHECK;
 
+/* One device for several jobs, whose kernels are then built once. NULL where each job is to find its own: for a single job, where
+ * none is needed, and for --profile, which is of one job. Closed by the caller, after the jobs. */
+pspec_status ps_jobs_open_device(ps_device **out, const ps_request *arguments,
+                                 const ps_plan_constraints *constraints, size_t num_jobs,
+                                 ps_error *error) PS_MUST_CHECK;
+
 #endif

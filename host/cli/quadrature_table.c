@@ -1,6 +1,7 @@
 #include "cli/quadrature_table.h"
 
 #include "cli/spectrum_header.h"
+#include "job/quadrature_looks.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -75,6 +76,22 @@ static pspec_status add_facts(ps_table *table, const char *sampler,
     return result->num_dropped > 0 ? ps_table_add_meta(table, "dropped_below_horizon",
                                                        PS_INTEGER(result->num_dropped), error)
                                    : PSPEC_OK;
+}
+
+/* As other commands say it. */
+static pspec_status add_look(ps_table *table, double wanted, const ps_quadrature_result *result,
+                             ps_error *error) {
+    char text[160];
+    char where[48];
+    const ps_sequential_look *const look = &result->look;
+    if (!result->has_look) {
+        return PSPEC_OK;
+    }
+    ps_quadrature_look_name(where, sizeof where, look);
+    snprintf(text, sizeof text, "%.3g, %s; largest %.3g, of %s, %.3g with the correction", wanted,
+             look->corrected <= wanted ? "reached" : "not reached", look->relative_error, where,
+             look->corrected);
+    return ps_table_add_meta(table, "relative_standard_error", PS_TEXT(text), error);
 }
 
 /* E from the mean of E^2, where rounding may have left less than nothing. */
@@ -153,6 +170,7 @@ static pspec_status fill(ps_table *table, const ps_request *arguments,
     for (size_t i = 0; i < list->num; i++) {
         const char *const sampler = arguments->num_samplers > 0 ? arguments->samplers[i] : NULL;
         PS_TRY(add_facts(table, sampler, &results[i], error));
+        PS_TRY(add_look(table, arguments->standard_error, &results[i], error));
         PS_TRY(add_answer(table, &results[i], error));
         PS_TRY(add_condition(table, &results[i], error));
         PS_TRY(add_degrees(table, list->num > 1 ? sampler : NULL, &results[i], error));

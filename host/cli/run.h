@@ -1,6 +1,7 @@
 /* pointspec run: a scene answered, and what becomes of the answers. cmd_run.c goes through it once:
  *
  *     run_answers.c   every question from the cache or computed
+ *     run_cache.c     keys and bytes of answers in the cache
  *     run_tables.c    tables of the results, and summaries
  *     run_plots.c     their pictures
  *     run_page.c      the page that shows them
@@ -51,6 +52,14 @@ typedef struct ps_run {
 /* Makes all questions and looks whether they can be asked, without work. */
 pspec_status ps_run_ask(ps_run *run, ps_error *error) PS_MUST_CHECK;
 pspec_status ps_run_answer(ps_run *run, ps_error *error) PS_MUST_CHECK;
+/* The device of all questions: its programs are built once. None where the result needs none. */
+pspec_status ps_run_open_device(ps_run *run, const ps_run_result *result,
+                                ps_error *error) PS_MUST_CHECK;
+/* Finds out who we are, and opens the cache unless the arguments say that there is none. A cache that cannot be had is no
+ * error, but a warning. */
+pspec_status ps_run_open_cache(ps_run *run, ps_error *error) PS_MUST_CHECK;
+pspec_status ps_run_keep(ps_run *run, const ps_run_question *question, double seconds,
+                         ps_error *error) PS_MUST_CHECK;
 /* Is the answer in the cache? *out is to be freed in either case; *seconds is what computing it took. */
 pspec_status ps_run_fetch(ps_run *run, const ps_run_question *question, ps_answer *out,
                           double *seconds, bool *is_found, ps_error *error) PS_MUST_CHECK;

@@ -25,14 +25,14 @@ static const double beyond_edge = 2.7;
 
 ps_nufft_window ps_nufft_window_make(unsigned width, int32_t max_frequency, uint32_t n) {
     const double alias = pi * width * (1 - (double)max_frequency / (double)n);
-    return (ps_nufft_window){.width = width,
-                             .beta = sqrt(alias * alias - beyond_edge * beyond_edge)};
+    const double beta = sqrt(alias * alias - beyond_edge * beyond_edge);
+    return (ps_nufft_window){.width = width, .beta = beta, .peak = bessel_i0(beta)};
 }
 
 static long double value(const ps_nufft_window *window, long double t) {
     const long double x = 2 * t / window->width;
     const long double square = 1 - x * x;
-    return square < 0 ? 0 : bessel_i0(window->beta * sqrtl(square)) / bessel_i0(window->beta);
+    return square < 0 ? 0 : bessel_i0(window->beta * sqrtl(square)) / window->peak;
 }
 
 double ps_nufft_window_value(const ps_nufft_window *window, double t) {
@@ -53,7 +53,7 @@ double ps_nufft_window_transform(const ps_nufft_window *window, long double f) {
     const long double square = (long double)window->beta * window->beta - z * z;
     const long double root = sqrtl(fabsl(square));
     const long double ratio = root == 0 ? 1 : (square > 0 ? sinhl(root) : sinl(root)) / root;
-    return (double)(window->width * ratio / bessel_i0(window->beta));
+    return (double)(window->width * ratio / window->peak);
 }
 
 typedef struct alias_sums {

@@ -12,6 +12,7 @@
 typedef struct ps_nufft_window {
     unsigned width; /* w */
     double beta;
+    long double peak; /* I_0(beta), of which planning would make thousands */
 } ps_nufft_window;
 
 enum { PS_NUFFT_MIN_WIDTH = 2, PS_NUFFT_MAX_WIDTH = 16, PS_NUFFT_MAX_DEGREE = 25 };

@@ -52,6 +52,7 @@ static pspec_status create_accumulator(ps_estimator *self, ps_error *error) {
                      : 1,
         .want_frequencies = options->want_frequencies,
         .mean_only = options->mean_only,
+        .no_frequency_errors = options->no_frequency_errors,
     };
     return ps_accumulator_create(&self->accumulator, &accumulator, self->device, error);
 }

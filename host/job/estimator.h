@@ -23,7 +23,8 @@ typedef struct ps_estimator_options {
     bool exact_shells;
     bool want_frequencies; /* keep sums per frequency */
     bool mean_only; /* no sums of squares: every standard error is nan, means have the same bits */
-    bool want_c2;   /* C_l^2 of the realizations, on the sphere: ps_estimator_c2 */
+    bool no_frequency_errors;  /* those of single frequencies are nan, means have the same bits */
+    bool want_c2;              /* C_l^2 of the realizations, on the sphere: ps_estimator_c2 */
     ps_pair_observer observer; /* with want_c2: told of every realization */
     bool self_check;
     pspec_normalization normalization;

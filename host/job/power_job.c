@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "job/power_frequencies.h"
+#include "job/power_needs.h"
 #include "plan/figures_file.h"
 
 #include <math.h>
@@ -9,52 +10,6 @@
 #include <string.h>
 
 /* ---- source ------------------------------------------------------------------------------ */
-
-/* Rotated points of the hemisphere that go below it become their antipodes. That changes no even degree, but
- * the odd ones, which points have when they are taken as points of the sphere. */
-static bool folding_matters(const ps_power_question *question) {
-    const ps_sampler_request *sampler = question->sampler;
-    return sampler != NULL && sampler->homogenize && ps_sampler_is_on_hemisphere(sampler) &&
-           !question->on_hemisphere;
-}
-
-/* Independent frequencies of the first ring, |k|^2 <= 2, or shell, or of the first degree. */
-static double count_fewest(const ps_power_job *job) {
-    const double d = job->dimension;
-    if (job->question->on_sphere) {
-        return job->question->on_hemisphere ? 2.5 : 1.5;
-    }
-    return job->question->exact_shells ? d : d * d;
-}
-
-/* What is not needed, once dimension and frequencies are known. */
-static void find_needs(ps_power_job *job) {
-    const ps_power_question *question = job->question;
-    const ps_sampler_request *sampler = question->sampler;
-    const bool is_grid = question->frequencies_path == NULL && !question->on_sphere;
-    /* coefficients, unlike powers, turn with the set */
-    const bool is_invariant =
-        sampler != NULL && !folding_matters(question) && question->harmonics == PS_NO_HARMONICS;
-    /* C_l^2 turns with the set, too */
-    const bool turns = question->wants_pair_sums && sampler != NULL && sampler->homogenize;
-    const ps_needs_question needs = {
-        .dimension = job->dimension,
-        .max_frequency = is_grid ? job->frequencies.max_frequency : 0,
-        .on_sphere = question->on_sphere,
-        .on_hemisphere = question->on_hemisphere,
-        .wants_full_array = question->wants_full_array,
-        .share_not_drawn =
-            1 - (double)job->frequencies.num / (double)ps_frequencies_population(&job->frequencies),
-        .has_constant_power = is_invariant && !turns && ps_sampler_has_constant_power(sampler),
-        .is_homogenized = is_invariant && !turns && sampler->homogenize,
-        .num_realizations = question->num_realizations,
-        .standard_error = question->standard_error,
-        .expected_realizations =
-            ps_sequential_expected(count_fewest(job), question->standard_error),
-        .no_skip = question->no_skip,
-    };
-    job->needs = ps_needs_find(&needs);
-}
 
 /* The sampler as it is needed: without shifts that nobody sees, one realization that stands for all. */
 static pspec_status open_sampler(ps_power_job *job, ps_error *error) {
@@ -119,34 +74,12 @@ static pspec_status open_device(ps_power_job *job, ps_error *error) {
                : PSPEC_OK;
 }
 
-static pspec_status make_plan(ps_power_job *job, ps_error *error) {
-    return ps_plan_make(&job->plan, &job->problem, ps_power_job_limits(job),
-                        &job->question->constraints, error);
-}
-
-/* That the plan is made for. */
-static uint64_t count_realizations(const ps_power_job *job) {
-    const double expected =
-        ps_sequential_expected(count_fewest(job), job->question->standard_error);
-    const bool is_less = job->needs.sequential && expected < (double)job->num_realizations;
-    return is_less ? (uint64_t)expected : job->num_realizations;
-}
-
-static double find_tolerance(const ps_power_question *question) {
-    if (question->wants_pair_sums) {
-        return question->tolerance;
-    }
-    return question->may_loosen
-               ? ps_plan_statistical_tolerance(question->standard_error, question->floor)
-               : ps_plan_tolerance(question->tolerance, question->floor);
-}
-
 static pspec_status prepare(ps_power_job *job, ps_error *error) {
     const ps_power_question *question = job->question;
     PS_TRY(find_shape(job, error));
     PS_TRY(ps_power_frequencies(&job->frequencies, question, job->dimension,
                                 (size_t)job->num_points, error));
-    find_needs(job);
+    ps_power_needs_find(job);
     if (question->sampler != NULL) {
         PS_TRY(open_sampler(job, error));
     }
@@ -157,17 +90,18 @@ static pspec_status prepare(ps_power_job *job, ps_error *error) {
         .frequencies = &job->frequencies,
         .num_points = job->num_points,
         .planned_points = job->num_points,
-        .num_realizations = question->harmonics != PS_NO_HARMONICS ? 1 : count_realizations(job),
+        .num_realizations =
+            question->harmonics != PS_NO_HARMONICS ? 1 : ps_power_needs_realizations(job),
         .harmonics = question->harmonics,
         .has_weights = job->sets.next.has_weights || job->sets.weights != NULL,
         .block_points =
             question->sampler == NULL && !job->sets.part.is_whole ? job->sets.part.block_points : 0,
         .measure = question->wants_pair_sums ? PS_OF_PAIR_SUMS : PS_OF_AMPLITUDES,
         .floor = question->wants_pair_sums ? question->floor : 0,
-        .tolerance = find_tolerance(question),
+        .tolerance = ps_power_needs_tolerance(question),
     };
     PS_TRY(open_device(job, error));
-    return make_plan(job, error);
+    return ps_power_needs_plan(job, error);
 }
 
 pspec_status ps_power_job_create(ps_power_job **out, const ps_power_question *question,
@@ -216,6 +150,7 @@ static pspec_status create_estimator(ps_power_job *job, ps_error *error) {
         .batch = chosen->batch,
         .exact_shells = question->exact_shells,
         .want_frequencies = !question->on_sphere, /* anisotropy needs them, too */
+        .no_frequency_errors = job->needs.no_frequency_errors,
         .self_check = !question->no_self_check,
         .normalization = question->normalization,
         .coefficients = job->coefficients,
@@ -305,7 +240,7 @@ static pspec_status run_once(ps_power_job *job, ps_error *error) {
 static pspec_status run_again(ps_power_job *job, ps_error *error) {
     job->problem.expected_power = job->accuracy.largest_mean_power;
     job->problem.weight_share = job->accuracy.largest_share;
-    PS_TRY(make_plan(job, error));
+    PS_TRY(ps_power_needs_plan(job, error));
     PS_TRY(ps_plan_require(&job->plan, &job->problem, error));
     const ps_precision precision = job->plan.chosen->precision;
     if (!ps_source_can_rewind(job->sets.source)) {

@@ -70,6 +70,10 @@ void ps_power_job_destroy(ps_power_job *job);
 
 pspec_status ps_power_job_run(ps_power_job *job, ps_error *error) PS_MUST_CHECK;
 
+/* For who shows the shares of skips: makes those that depend on the plan better than from counts, by planning again,
+ * which takes milliseconds. Before run. */
+void ps_power_job_rate_skips(ps_power_job *job);
+
 /* What is known after create. */
 const ps_plan *ps_power_job_plan(const ps_power_job *job);
 const ps_needs *ps_power_job_needs(const ps_power_job *job);

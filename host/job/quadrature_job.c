@@ -2,6 +2,7 @@
 
 #include "analysis/sums.h"
 #include "base/memory.h"
+#include "job/quadrature_looks.h"
 #include "job/quadrature_rules.h"
 
 #include <math.h>
@@ -165,14 +166,47 @@ static pspec_status do_batch(job *of, ps_error *error) {
     return PSPEC_OK;
 }
 
+/* e_l^2 matters where it is above the tolerance, and so does E^2. */
+static void look_at_errors(job *of) {
+    enum { E2 = 2, SUMS = 3 }; /* of a degree */
+    ps_quadrature_result *const out = of->out;
+    const ps_quadrature_sums sums = {of->setup.max_degree + 1, of->sums + E2, SUMS, &of->squared};
+    const double unit = of->setup.representer.constant * out->weight_size * out->weight_size;
+    out->has_look = true;
+    out->look = ps_quadrature_look(&sums, of->question->tolerance * unit, out->num_realizations);
+}
+
+/* The next batch, up to the next look. *ends: there are no more rules, or there are enough. */
+static pspec_status run_batch(job *of, bool *ends, ps_error *error) {
+    const double wanted = of->question->standard_error;
+    ps_rules *const rules = &of->rules;
+    const uint64_t done = of->out->num_realizations;
+    rules->until = of->setup.needs.sequential ? ps_sequential_next_look(done) : UINT64_MAX;
+    PS_TRY(ps_rules_next(rules, &of->setup.representer, error));
+    if (rules->num == 0) {
+        *ends = true;
+        if (wanted > 0 && done > 1) {
+            look_at_errors(of);
+        }
+        return PSPEC_OK;
+    }
+    PS_TRY(do_batch(of, error));
+    if (of->out->num_realizations == rules->until) {
+        look_at_errors(of);
+        *ends = of->out->look.corrected <= wanted;
+    }
+    return PSPEC_OK;
+}
+
+/* The looks, and so what ends a job, do not depend on batches. */
 static pspec_status run_batches(job *of, ps_error *error) {
+    bool ends = false;
     PS_TRY(ps_rules_allocate(&of->rules, choose_batch(of), error));
     for (;;) {
-        PS_TRY(ps_rules_next(&of->rules, &of->setup.representer, error));
-        if (of->rules.num == 0) {
+        PS_TRY(run_batch(of, &ends, error));
+        if (ends) {
             return PSPEC_OK;
         }
-        PS_TRY(do_batch(of, error));
         if (should_stop(of)) {
             return ps_fail(error, PSPEC_ERROR_CANCELLED, "interrupted after %llu realizations",
                            (unsigned long long)of->out->num_realizations);

@@ -33,9 +33,12 @@ typedef struct ps_quadrature_question {
         max_degree; /* 0: where the bound of what is beyond meets the tolerance, at most ceil(4 sqrt N) */
     double
         tolerance; /* of E^2, in units of c (sum |w|)^2, c = 2^(2s-1)/s: |dQ(l)| <= tolerance (sum |w|)^2 */
+    double
+        standard_error; /* relative, of the means of E^2 and of every e_l^2 above the tolerance, at which realizations
+                              stop (analysis/sequential.h); 0: all of them are done */
     ps_plan_constraints constraints;
     size_t batch; /* rules at a time, the results the same; 0: what the plan and memory say */
-    bool no_skip; /* all realizations and all degrees to ceil(4 sqrt N) */
+    bool no_skip; /* all realizations, all degrees to ceil(4 sqrt N), in double precision */
     ps_device *open_device; /* borrowed; NULL: the one that `device` selects is opened */
     const char *device;
     const char *figures_folder; /* plan/figures_file.h; NULL: the built-in figures */
@@ -75,9 +78,13 @@ typedef struct ps_quadrature_result {
     char engine[160];   /* "(sphere_direct ..)" */
     char device[160];
     const char *precision;
+    ps_sequential_look
+        look; /* of the largest standard error when the realizations ended; its bin is a degree or
+                                job/quadrature_looks.h's */
+    bool has_look;          /* false without question.standard_error, and for one realization */
     bool was_replanned;     /* the first run missed the tolerance */
     char degrees_note[192]; /* why the degrees end where they do; "" when L was asked for */
-    char skipped[512];      /* what was not computed, and why */
+    char skipped[2048];     /* what was not computed, and why */
     ps_representer representer;
 } ps_quadrature_result;
 

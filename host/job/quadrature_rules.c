@@ -309,8 +309,8 @@ static pspec_status complete(ps_rules *rules, const ps_representer *representer,
 }
 
 static pspec_status read_batch(ps_rules *rules, ps_error *error) {
-    for (rules->num = 0; rules->num < rules->capacity && rules->num_read < rules->most;
-         rules->num++) {
+    const uint64_t end = rules->until < rules->most ? rules->until : rules->most;
+    for (rules->num = 0; rules->num < rules->capacity && rules->num_read < end; rules->num++) {
         ps_weighted_rule *const rule = &rules->batch[rules->num];
         bool has_set = false;
         PS_TRY(read_set(rules, &rule->set, &has_set, error));

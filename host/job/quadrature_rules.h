@@ -28,6 +28,7 @@ typedef struct ps_rules {
     pspec_pattern *patterns;
     size_t capacity, num;    /* rules in batch */
     uint64_t num_read, most; /* rules; others are left unread */
+    uint64_t until;          /* the next batch ends there at the latest */
     /* for the result */
     uint64_t num_dropped, num_duplicates;
     double largest_condition; /* 0 without optimal weights */

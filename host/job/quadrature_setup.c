@@ -1,5 +1,6 @@
 #include "job/quadrature_setup.h"
 
+#include "job/quadrature_needs.h"
 #include "job/quadrature_rules.h"
 #include "math/sobolev.h"
 #include "plan/figures_file.h"
@@ -45,6 +46,7 @@ static void choose_degrees(ps_quadrature_setup *out, double tolerance, size_t mo
     const size_t last = find_degree(&out->representer, most, wanted);
     const double bound = bound_tail(&out->representer, last);
     out->max_degree = last;
+    out->beyond_bound = bound;
     if (bound <= wanted) {
         snprintf(out->degrees_note, sizeof out->degrees_note,
                  "%zu, where what is beyond, at most %.3g of E^2, meets the tolerance %.3g", last,
@@ -57,33 +59,6 @@ static void choose_degrees(ps_quadrature_setup *out, double tolerance, size_t mo
              "%zu = 4 sqrt N: the bound of the rest, %.3g, meets the tolerance %.3g near degree "
              "%.1g only; -l asks for more, and E has all degrees in any case",
              last, bound, wanted, (double)last * pow(bound / wanted, 1 / power));
-}
-
-/* ---- what is skipped ----------------------------------------------------------------------- */
-
-static void find_needs(ps_quadrature_setup *out, const ps_quadrature_question *question) {
-    const ps_sampler_request *const sampler = question->sampler;
-    const ps_needs_question needs = {.on_sphere = true,
-                                     /* c_l0 and C_l^2 turn with the set */
-                                     .has_constant_power = sampler != NULL &&
-                                                           !sampler->homogenize &&
-                                                           ps_sampler_has_constant_power(sampler),
-                                     .num_realizations = question->num_realizations,
-                                     .no_skip = question->no_skip};
-    out->needs = ps_needs_find(&needs);
-    out->num_realizations = out->needs.one_realization ? 1 : question->num_realizations;
-}
-
-/* Degrees that would be there without the tolerance. */
-static void skip_degrees(ps_quadrature_setup *out, size_t most) {
-    if (out->max_degree == most || out->needs.num_skips == PS_MAX_SKIPS) {
-        return;
-    }
-    snprintf(out->beyond, sizeof out->beyond, "degrees %zu to %zu", out->max_degree + 1, most);
-    snprintf(out->bound, sizeof out->bound, "their share of E^2 is below --tol, at most %.3g",
-             bound_tail(&out->representer, out->max_degree));
-    out->needs.skips[out->needs.num_skips++] =
-        (ps_skip){out->beyond, out->bound, 1 - (double)out->max_degree / (double)most};
 }
 
 /* ---- engine -------------------------------------------------------------------------------- */
@@ -119,7 +94,7 @@ static ps_problem make_problem(const ps_quadrature_setup *of,
     return (ps_problem){.frequencies = &of->frequencies,
                         .num_points = shape->num_points,
                         .planned_points = shape->num_points,
-                        .num_realizations = of->num_realizations,
+                        .num_realizations = of->planned_realizations,
                         .has_weights = true,
                         .measure = of->by_pairs ? PS_OF_PAIR_SUMS : PS_OF_AMPLITUDES,
                         .tolerance =
@@ -148,17 +123,7 @@ static pspec_status plan_engine(ps_quadrature_setup *out, const ps_quadrature_qu
         PS_TRY(get_device(out, question, error));
     }
     out->problem = make_problem(out, question, shape);
-    return ps_plan_make(&out->plan, &out->problem,
-                        out->device != NULL ? ps_device_get_limits(out->device) : NULL,
-                        &question->constraints, error);
-}
-
-/* Of kappa, whose degrees are most of the work of many small rules. */
-static double choose_accuracy(bool has_several, double tolerance) {
-    const double share = 0.01; /* of the tolerance */
-    const double most = 1e-9;  /* still below the E^2 of any rule */
-    return has_several ? fmin(fmax(share * tolerance, PS_REPRESENTER_TOLERANCE), most)
-                       : PS_REPRESENTER_TOLERANCE;
+    return ps_quadrature_needs_plan(out, question, error);
 }
 
 pspec_status ps_quadrature_setup_make(ps_quadrature_setup *out,
@@ -166,19 +131,18 @@ pspec_status ps_quadrature_setup_make(ps_quadrature_setup *out,
                                       const ps_rule_shape *shape, ps_error *error) {
     const size_t most = most_degrees(shape->num_points);
     const size_t asked = question->max_degree;
-    *out = (ps_quadrature_setup){.max_degree = asked};
-    find_needs(out, question);
+    *out = (ps_quadrature_setup){.max_degree = asked > 0 ? asked : most};
+    out->most_degree = out->max_degree;
+    ps_quadrature_needs_find(out, question);
     const bool has_several = shape->has_several && out->num_realizations != 1;
+    const double accuracy = ps_quadrature_needs_accuracy(out, question, has_several);
     out->by_pairs = has_several || is_for_pairs(question->constraints.engine);
-    PS_TRY(ps_representer_create(&out->representer, question->brdf, question->smoothness,
-                                 choose_accuracy(has_several, question->tolerance),
-                                 2 * (asked > 0 ? asked : most), error));
-    if (asked == 0 && question->no_skip) {
-        out->max_degree = most;
-    } else if (asked == 0) {
+    PS_TRY(ps_representer_create(&out->representer, question->brdf, question->smoothness, accuracy,
+                                 2 * out->most_degree, error));
+    if (asked == 0 && !question->no_skip) {
         choose_degrees(out, question->tolerance, most);
-        skip_degrees(out, most);
     }
+    ps_quadrature_needs_terms(out, accuracy);
     PS_TRY(plan_engine(out, question, shape, error));
     ps_rules_plan_weights(question, shape->num_points, out->device, out->weights_note,
                           sizeof out->weights_note);
@@ -193,6 +157,9 @@ pspec_status ps_quadrature_setup_ask(ps_quadrature_setup *out,
     pspec_status status = ps_rules_open(&rules, &shape, error);
     if (status == PSPEC_OK) {
         status = ps_quadrature_setup_make(out, question, &shape, error);
+    }
+    if (status == PSPEC_OK) {
+        status = ps_quadrature_needs_rate(out, question, error);
     }
     ps_rules_free(&rules);
     return status;

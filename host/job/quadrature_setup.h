@@ -22,14 +22,16 @@ typedef struct ps_quadrature_setup {
     bool owns_device;
     ps_plan plan;
     ps_needs needs;
-    uint64_t num_realizations; /* that are computed; 0: unknown */
+    uint64_t num_realizations;     /* that are computed, at most; 0: unknown */
+    uint64_t planned_realizations; /* that a standard error is expected to take of them */
     /* C_l^2 = (2l+1)/(4 pi) Q(l) - c_l0^2 in batches by any engine; else from the c_lm of one rule at a time, which loses
      * no digits where C_l^2 is next to nothing */
     bool by_pairs;
     size_t max_degree;
-    char degrees_note[192];     /* why it ends there; "" when L was asked for */
-    char weights_note[256];     /* how optimal weights will be made; "" without */
-    char beyond[64], bound[96]; /* texts of the skip of what is beyond */
+    size_t most_degree;     /* that would be there if no degree were skipped */
+    double beyond_bound;    /* of what those in between are of E^2 */
+    char degrees_note[192]; /* why it ends there; "" when L was asked for */
+    char weights_note[256]; /* how optimal weights will be made; "" without */
 } ps_quadrature_setup;
 
 /* Opens the device unless no engine that may be chosen needs it, and plans. Nothing feasible is no error here

@@ -146,24 +146,36 @@ static void judge(ps_candidate *candidate, const ps_problem *problem,
     }
 }
 
-static void choose_cheapest(ps_plan *plan) {
-    ps_candidate *best = NULL;
+const ps_candidate *ps_plan_cheapest(const ps_plan *plan, int precision) {
+    const ps_candidate *best = NULL;
     for (size_t i = 0; i < plan->num_candidates; i++) {
-        ps_candidate *candidate = &plan->candidates[i];
-        if (candidate->is_feasible && (best == NULL || candidate->seconds < best->seconds)) {
+        const ps_candidate *candidate = &plan->candidates[i];
+        const bool is_asked = precision < 0 || precision == (int)candidate->precision;
+        if (candidate->is_feasible && is_asked &&
+            (best == NULL || candidate->seconds < best->seconds)) {
             best = candidate;
         }
     }
+    return best;
+}
+
+static void choose_cheapest(ps_plan *plan, bool prefers_double) {
+    const ps_candidate *best = prefers_double ? ps_plan_cheapest(plan, PS_DOUBLE) : NULL;
+    best = best != NULL ? best : ps_plan_cheapest(plan, -1);
     for (size_t i = 0; best != NULL && i < plan->num_candidates; i++) {
         ps_candidate *candidate = &plan->candidates[i];
         if (candidate->is_feasible && candidate != best) {
-            snprintf(candidate->reason, sizeof candidate->reason, "%.3g times slower",
-                     candidate->seconds / best->seconds);
+            const bool is_faster = candidate->seconds < best->seconds;
+            snprintf(candidate->reason, sizeof candidate->reason, "%.3g times %s",
+                     is_faster ? best->seconds / candidate->seconds
+                               : candidate->seconds / best->seconds,
+                     is_faster ? "faster, but --no-skip takes double precision" : "slower");
         }
     }
     if (best != NULL) {
-        best->is_chosen = true;
-        snprintf(best->reason, sizeof best->reason, "cheapest within the tolerance");
+        ps_candidate *const chosen = &plan->candidates[best - plan->candidates];
+        chosen->is_chosen = true;
+        snprintf(chosen->reason, sizeof chosen->reason, "cheapest within the tolerance");
     }
     plan->chosen = best;
 }
@@ -261,7 +273,7 @@ pspec_status ps_plan_make(ps_plan *plan, const ps_problem *problem, const ps_dev
             judge(candidate, problem, limits, constraints);
         }
     }
-    choose_cheapest(plan);
+    choose_cheapest(plan, constraints->prefers_double);
     if (ps_problem_domain(problem) == PS_ON_SPHERE && is_too_large(plan, problem)) {
         plan->largest_degree = find_largest_degree(problem, limits, constraints);
     }

@@ -32,6 +32,7 @@ typedef struct ps_plan_constraints {
     const char *engine;    /* NULL: any */
     int precision;         /* a ps_precision, or -1: any */
     uint64_t memory_limit; /* bytes; 0: what the device reports, or no limit on the host */
+    bool prefers_double;   /* before any other precision, even where less is within the tolerance */
 } ps_plan_constraints;
 
 /* May an engine that these constraints leave need a device? */
@@ -50,6 +51,9 @@ double ps_plan_statistical_tolerance(double standard_error, double floor);
  * (see ps_plan_require). *plan must not be moved afterwards. */
 pspec_status ps_plan_make(ps_plan *plan, const ps_problem *problem, const ps_device_limits *limits,
                           const ps_plan_constraints *constraints, ps_error *error) PS_MUST_CHECK;
+
+/* The cheapest feasible candidate of that precision, or of any for precision < 0; NULL: there is none. */
+const ps_candidate *ps_plan_cheapest(const ps_plan *plan, int precision);
 
 /* Fails when nothing is feasible: PSPEC_ERROR_TOLERANCE when only the tolerance stood in the way
  * (with the best error that can be reached), else PSPEC_ERROR_MEMORY or _INVALID_ARGUMENT. */

@@ -21,6 +21,11 @@ static const struct {
 /* Long double cosine and sine of one (point, frequency) pair on one core, same machine. */
 static const double host_seconds_per_phase = 190e-9;
 
+/* analysis/worst_case_error.c and representer.c on one core, same machine: perf record pointspec quadrature --brdf diffuse
+ * --sampler white-hemisphere -n 1024 -m 3000. For the shares of skips only. */
+static const double host_seconds_per_rule_pair = 1.1e-9;
+static const double host_seconds_per_kappa_term = 0.4e-9;
+
 /* Enqueueing one kernel: 10 microseconds cover PoCL and GPU drivers. */
 static const double seconds_per_launch = 10e-6;
 
@@ -53,6 +58,10 @@ double ps_cost_seconds(const ps_work *work, const ps_device_limits *limits,
            work->pair_degrees / (peak * device_rates[precision].pair_degrees_per_flop) +
            work->binned_pairs / (peak * device_rates[precision].pairs_per_flop) +
            work->launches * seconds_per_launch;
+}
+
+double ps_cost_rule_seconds(double pairs, double terms) {
+    return pairs * host_seconds_per_rule_pair + terms * host_seconds_per_kappa_term;
 }
 
 /* ---- batches ----------------------------------------------------------------------------- */

@@ -12,6 +12,9 @@ double ps_cost_nominal_flops(const ps_device_limits *limits, ps_precision precis
  * for work on the host. */
 double ps_cost_seconds(const ps_work *work, const ps_device_limits *limits, ps_precision precision);
 
+/* Of the kernel form of quadrature rules, on one core of the host: pairs of points, and (point, degree) of kappa. */
+double ps_cost_rule_seconds(double pairs, double terms);
+
 /* Realizations of one batch: rows of powers that stay in the cache of a CPU until they are summed up,
  * within the limits of one allocation and of memory. Not more
  * than num_realizations unless that is 0 (unknown). At least 1. */

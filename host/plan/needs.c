@@ -1,10 +1,16 @@
 #include "plan/needs.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
-static void add(ps_needs *needs, const char *what, const char *why, double share) {
+void ps_needs_add(ps_needs *needs, const char *what, const char *why, double share) {
     if (needs->num_skips < PS_MAX_SKIPS) {
-        needs->skips[needs->num_skips++] = (ps_skip){what, why, share};
+        ps_skip *const skip = &needs->skips[needs->num_skips++];
+        *skip = (ps_skip){.share = share};
+        snprintf(skip->what, sizeof skip->what, "%s", what);
+        snprintf(skip->why, sizeof skip->why, "%s", why);
+        needs->num_of_question = needs->num_skips;
     }
 }
 
@@ -25,47 +31,54 @@ static double share_not_needed(const ps_needs_question *question) {
 }
 
 ps_needs ps_needs_find(const ps_needs_question *question) {
-    ps_needs needs = {0};
+    ps_needs needs = {.no_skip = question->no_skip};
     const bool is_grid = question->max_frequency > 0;
     if (is_grid) {
-        add(&needs, "frequencies -k", "real weights: P(-k) = P(k), a symmetry", 0.5);
+        ps_needs_add(&needs, "frequencies -k", "real weights: P(-k) = P(k), a symmetry", 0.5);
     }
     if (question->on_sphere) {
-        add(&needs, "orders m < 0", "real weights: c_l,-m = (-1)^m conj c_lm, a symmetry", 0.5);
+        ps_needs_add(&needs, "orders m < 0", "real weights: c_l,-m = (-1)^m conj c_lm, a symmetry",
+                     0.5);
     }
     if (question->on_hemisphere) {
-        add(&needs, "odd degrees", "they vanish on the hemisphere, the projective plane", 0.5);
+        ps_needs_add(&needs, "odd degrees", "they vanish on the hemisphere, the projective plane",
+                     0.5);
     }
     if (question->share_not_drawn > 0) {
-        add(&needs, "frequencies outside the random subset of each ring",
-            "asked for by --per-ring; the standard error has the error of the choice",
-            question->share_not_drawn);
+        ps_needs_add(&needs, "frequencies outside the random subset of each ring",
+                     "asked for by --per-ring; the standard error has the error of the choice",
+                     question->share_not_drawn);
     }
     if (question->no_skip) {
         return needs;
     }
-    if (is_grid && question->dimension > 1 && !question->wants_full_array) {
+    if (is_grid && question->dimension > 1 && !question->wants_full_array &&
+        !(question->share_not_drawn > 0)) {
         needs.only_ball = true;
-        add(&needs, "corners of the box", "only ring means are asked for, and rings end at K",
-            share_of_corners(question->dimension, question->max_frequency));
+        ps_needs_add(&needs, PS_SKIP_CORNERS, "only ring means are asked for, and rings end at K",
+                     share_of_corners(question->dimension, question->max_frequency));
     }
+    needs.no_frequency_errors =
+        is_grid && question->dimension > 1 && !question->wants_frequency_errors;
     if (question->is_homogenized) {
         needs.no_shift = true;
         if (question->on_sphere) {
-            add(&needs, "random rotations", "a rotation of the sphere leaves the power unchanged",
-                0);
+            ps_needs_add(&needs, "random rotations",
+                         "a rotation of the sphere leaves the power unchanged", 0);
         } else {
-            add(&needs, "random shifts", "a shift of the torus leaves the power unchanged", 0);
+            ps_needs_add(&needs, "random shifts", "a shift of the torus leaves the power unchanged",
+                         0);
         }
     }
     if (question->has_constant_power && question->num_realizations > 1) {
         needs.one_realization = true;
-        add(&needs, "all realizations but the first",
-            "a deterministic set has the same power every time",
-            1 - 1 / (double)question->num_realizations);
+        ps_needs_add(&needs, "all realizations but the first",
+                     "a deterministic set has the same power every time",
+                     1 - 1 / (double)question->num_realizations);
     } else if (question->standard_error > 0) {
         needs.sequential = true;
-        add(&needs, "realizations beyond the standard error asked for",
+        ps_needs_add(
+            &needs, "realizations beyond the standard error asked for",
             "--standard-error; looked at after 16, 24, 32, 46, .. realizations (share: of white "
             "noise)",
             share_not_needed(question));
@@ -73,12 +86,23 @@ ps_needs ps_needs_find(const ps_needs_question *question) {
     return needs;
 }
 
-void ps_needs_describe(const ps_needs *needs, ps_text *text) {
+void ps_needs_rate(ps_needs *needs, const char *what, double share) {
     for (size_t i = 0; i < needs->num_skips; i++) {
-        ps_text_append(text, "%s%s (%s)", i > 0 ? "; " : "", needs->skips[i].what,
-                       needs->skips[i].why);
+        if (strcmp(needs->skips[i].what, what) == 0) {
+            needs->skips[i].share = share;
+        }
     }
-    if (needs->num_skips == 0) {
+}
+
+void ps_needs_describe(const ps_needs *needs, ps_text *text) {
+    size_t num = 0;
+    for (size_t i = 0; i < needs->num_skips; i++) {
+        if (!needs->skips[i].is_matter_of_course) {
+            ps_text_append(text, "%s%s (%s)", num++ > 0 ? "; " : "", needs->skips[i].what,
+                           needs->skips[i].why);
+        }
+    }
+    if (num == 0) {
         ps_text_append(text, "nothing");
     }
 }

@@ -3,6 +3,7 @@
 #define PS_PLAN_NEEDS_H
 
 #include "base/text.h"
+#include "plan/choose.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -19,28 +20,52 @@ typedef struct ps_needs_question {
     uint64_t num_realizations; /* 0: not known */
     double standard_error;     /* realizations are to stop at it; 0: all of them are wanted */
     double expected_realizations; /* that white noise takes to it */
+    bool wants_frequency_errors;  /* standard errors of single frequencies, of a grid */
     bool no_skip;                 /* the user wants everything done; symmetries stay */
 } ps_needs_question;
 
 typedef struct ps_skip {
-    const char *what, *why;
-    double share; /* of the work that would be done without this skip */
+    char what[80], why[160];
+    double share;             /* of the work that would be done without this skip */
+    bool is_matter_of_course; /* of any job: `plan` lists it, headers of results do not */
 } ps_skip;
 
-enum { PS_MAX_SKIPS = 8 };
+enum { PS_MAX_SKIPS = 16 };
 
 typedef struct ps_needs {
     bool only_ball;       /* leave the corners of the box out */
     bool one_realization; /* one stands for all */
     bool sequential;      /* no more realizations than the standard error takes */
     bool no_shift;
+    bool no_frequency_errors; /* only bins have standard errors */
+    bool no_skip;             /* of the question */
     size_t num_skips;
+    size_t num_of_question; /* of them, first, that do not depend on the plan */
     ps_skip skips[PS_MAX_SKIPS];
 } ps_needs;
 
 ps_needs ps_needs_find(const ps_needs_question *question);
+/* One more skip of the question, before a plan is made. */
+void ps_needs_add(ps_needs *needs, const char *what, const char *why, double share);
 
-/* "what (why)" of every skip, separated by "; ", or "nothing". */
+/* The share of a skip, once the plan tells more of it than the question does; nothing where there is no such skip. */
+void ps_needs_rate(ps_needs *needs, const char *what, double share);
+#define PS_SKIP_CORNERS "corners of the box"
+
+/* What a job would be without skips. */
+typedef struct ps_needs_strict {
+    double tolerance;     /* that holds without a statistical target */
+    double other_seconds; /* of the job beside its engine */
+} ps_needs_strict;
+
+/* Makes the plan, and finds what of its precision and of the machine nobody needs. With needs->no_skip it is a plan in
+ * double precision, where engines and device have it; that, at strict->tolerance, is what shares are of. May be called
+ * again for the same needs, when powers were measured: what it had found is found anew. */
+pspec_status ps_needs_plan(ps_needs *needs, ps_plan *plan, const ps_problem *problem,
+                           const ps_device_limits *limits, const ps_plan_constraints *constraints,
+                           const ps_needs_strict *strict, ps_error *error) PS_MUST_CHECK;
+
+/* "what (why)" of every skip that is no matter of course, separated by "; ", or "nothing". */
 void ps_needs_describe(const ps_needs *needs, ps_text *text);
 
 #endif

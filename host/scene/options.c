@@ -278,6 +278,10 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_QUICK] = {.name = "quick",
                          .help = "leave out the cases that take more than a second or so",
                          FLAG(quick)},
+    [PS_OPTION_SCENES] = {.name = "scenes",
+                          .help = "time the scenes that are named instead, with and without skips, "
+                                  "and compare the answers",
+                          FLAG(scenes)},
     [PS_OPTION_VERBOSE] = {.name = "verbose",
                            .help = "say on standard error what is being done",
                            FLAG(verbose)},

@@ -71,7 +71,8 @@ static ps_quadrature_question make_question(const ps_request *arguments, const p
     ps_quadrature_question out = {
         .brdf = brdf,
         .smoothness = arguments->smoothness,
-        .num_realizations = arguments->num_samplers > 0 ? arguments->num_realizations : 0,
+        .num_realizations = arguments->num_samplers > 0 ? ps_num_realizations_asked(arguments) : 0,
+        .standard_error = arguments->standard_error,
         .paths = arguments->files,
         .num_paths = arguments->num_files,
         .point_options = ps_point_options_make(arguments),

@@ -142,8 +142,8 @@ static ps_domain domain_of(ps_question_kind kind) {
     return kind == PS_QUESTION_POWER ? PS_DOMAIN_TORUS : PS_DOMAIN_SPHERE;
 }
 
-/* Of a sampler; a standard error needs a limit, for a sampler may never reach it. */
-static uint64_t count_realizations(const ps_request *arguments) {
+/* A standard error needs a limit, for a sampler may never reach it. */
+uint64_t ps_num_realizations_asked(const ps_request *arguments) {
     const uint64_t most = 1000000;
     return arguments->standard_error > 0 && !arguments->is_given[PS_OPTION_REALIZATIONS]
                ? most
@@ -157,7 +157,7 @@ static ps_power_question make_question(const ps_request *arguments, ps_question_
         .on_hemisphere = arguments->hemisphere,
         .harmonics = find_harmonics(arguments),
         .max_degree = (int64_t)arguments->max_degree,
-        .num_realizations = count_realizations(arguments),
+        .num_realizations = ps_num_realizations_asked(arguments),
         .max_frequency = arguments->max_frequency,
         .frequencies_path = arguments->frequencies,
         .per_ring = arguments->per_ring,

@@ -64,6 +64,7 @@ typedef enum ps_option_id {
     PS_OPTION_PROFILE,           /* --profile */
     PS_OPTION_QUIET,             /* --quiet */
     PS_OPTION_QUICK,             /* --quick */
+    PS_OPTION_SCENES,            /* --scenes */
     PS_OPTION_VERBOSE,           /* --verbose */
     PS_OPTION_HELP,              /* -h, --help */
     PS_NUM_OPTIONS
@@ -91,7 +92,7 @@ typedef struct ps_request {
     ps_domain domain;            /* PS_DOMAIN_ANY unless given */
     ps_point_range sets, points; /* {0} unless given */
     bool shells, homogenize, hemisphere, wrap, normalize_vectors, drop_below_horizon, merge,
-        no_skip, no_self_check, profile, calibrate, quick, quiet, verbose;
+        no_skip, no_self_check, profile, calibrate, quick, scenes, quiet, verbose;
     bool
         wants_picture; /* of the averaged periodogram on the whole square, which no option asks for */
     bool effective;    /* --normalize effective */

@@ -69,14 +69,28 @@ static const ps_option_id pairs[] = {PS_OPTION_SAMPLER,
 const ps_result_kind ps_result_pairs = {
     .name = "pairs", .options = pairs, .samples = PS_DOMAIN_SPHERE};
 
-static const ps_option_id quadrature[] = {
-    PS_OPTION_SAMPLER,    PS_OPTION_POINTS,      PS_OPTION_REALIZATIONS,
-    PS_OPTION_SEED,       PS_OPTION_HOMOGENIZE,  PS_OPTION_BRDF,
-    PS_OPTION_SMOOTHNESS, PS_OPTION_WEIGHTS,     PS_OPTION_INPUT_FORMAT,
-    PS_OPTION_COLUMNS,    PS_OPTION_SELECT_SETS, PS_OPTION_NORMALIZE_VECTORS,
-    PS_OPTION_MAX_DEGREE, PS_OPTION_TOLERANCE,   PS_OPTION_PRECISION,
-    PS_OPTION_ENGINE,     PS_OPTION_DEVICE,      PS_OPTION_NO_SKIP,
-    PS_OPTION_DROP_BELOW, PS_OPTION_MEMORY,      PS_NUM_OPTIONS};
+static const ps_option_id quadrature[] = {PS_OPTION_SAMPLER,
+                                          PS_OPTION_POINTS,
+                                          PS_OPTION_REALIZATIONS,
+                                          PS_OPTION_STANDARD_ERROR,
+                                          PS_OPTION_SEED,
+                                          PS_OPTION_HOMOGENIZE,
+                                          PS_OPTION_BRDF,
+                                          PS_OPTION_SMOOTHNESS,
+                                          PS_OPTION_WEIGHTS,
+                                          PS_OPTION_INPUT_FORMAT,
+                                          PS_OPTION_COLUMNS,
+                                          PS_OPTION_SELECT_SETS,
+                                          PS_OPTION_NORMALIZE_VECTORS,
+                                          PS_OPTION_MAX_DEGREE,
+                                          PS_OPTION_TOLERANCE,
+                                          PS_OPTION_PRECISION,
+                                          PS_OPTION_ENGINE,
+                                          PS_OPTION_DEVICE,
+                                          PS_OPTION_NO_SKIP,
+                                          PS_OPTION_DROP_BELOW,
+                                          PS_OPTION_MEMORY,
+                                          PS_NUM_OPTIONS};
 
 const ps_result_kind ps_result_quadrature = {.name = "quadrature",
                                              .options = quadrature,

@@ -1,0 +1,58 @@
+/* The plan of a scene: a block for each of its questions. */
+#include "cli/plan_table.h"
+#include "cli/run.h"
+
+#include <stdio.h>
+
+static pspec_status add_block(ps_run *run, const ps_run_result *result, size_t number,
+                              ps_table *table, ps_error *error) {
+    enum { JOB = 128 };
+    char job[JOB];
+    ps_answer answer = {0};
+    double seconds = 0;
+    bool is_cached = false;
+    const ps_run_question *const question = &result->questions[number];
+    snprintf(job, sizeof job, "%s:%zu", result->asked->name, number + 1);
+    PS_TRY(ps_table_add_meta(table, "job", PS_TEXT(job), error));
+    PS_TRY(
+        ps_table_add_meta(table, "question", PS_TEXT(question->asked.request.command_line), error));
+    PS_TRY(ps_run_fetch(run, question, &answer, &seconds, &is_cached, error));
+    ps_answer_free(&answer);
+    if (is_cached) {
+        return ps_plan_table_add_cached(&(ps_planner){table, job, NULL}, error);
+    }
+    PS_TRY(ps_run_open_device(run, result, error));
+    return ps_plan_table_add(&(ps_planner){table, job, run->device}, result->asked->kind,
+                             &question->asked.request, error);
+}
+
+static pspec_status add_blocks(ps_run *run, ps_table *table, ps_error *error) {
+    PS_TRY(ps_run_ask(run, error));
+    PS_TRY(ps_run_open_cache(run, error));
+    for (size_t i = 0; i < run->num_results; i++) {
+        const ps_run_result *const result = &run->results[i];
+        for (size_t q = 0; q < result->num; q++) {
+            if (add_block(run, result, q, table, error) != PSPEC_OK) {
+                return ps_scene_blame(run->scene, result->asked, error);
+            }
+        }
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_plan_scene(ps_table *table, const ps_request *arguments, ps_error *error) {
+    ps_scene scene = {0};
+    if (arguments->num_files != 1) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "one scene is planned at a time, but %zu files were named",
+                       arguments->num_files);
+    }
+    ps_run run = {.arguments = arguments, .scene = &scene};
+    pspec_status status = ps_scene_read(&scene, arguments->files[0], error);
+    if (status == PSPEC_OK) {
+        status = add_blocks(&run, table, error);
+    }
+    ps_run_free(&run);
+    ps_scene_free(&scene);
+    return status;
+}
