@@ -49,11 +49,14 @@ runs 0 --calibrate --case list --quick
 file=$(key file)
 [[ -f $file && $file == "$PWD"/cache/devices/*.txt && -n $(key date) ]] || complain "calibration: $(<out)"
 factor=$(sed -n 's/^torus_direct,single,//p' out)
-grep -q "^device $(key device)\$" "$file" && grep -q "^driver $(key driver)\$" "$file" || complain "file: $(<"$file")"
+[[ $(<"$file") == *$'\n'"device $(key device)"$'\n'*$'\n'"driver $(key driver)"$'\n'* ]] || complain "file: $(<"$file")"
 plan
 [[ $(figures) == "measured on $(key date)"* ]] || complain "measured: $(figures)"
 awk -v a="$builtin" -v b="$(seconds)" -v f="$factor" 'BEGIN { exit !(b / (a * f) - 1 < 1e-9 && b / (a * f) - 1 > -1e-9) }' ||
     complain "the planner does not take the factor: $builtin $factor $(seconds)"
+printf 'scene: 1\nresults:\n  - result: power\n    name: spectrum\n    samplers: white\n    points: 64\n' >scene.yaml
+"$program" plan run scene.yaml >scene.csv 2>err || complain "scene: $(<err)"
+grep -q "^# figures: measured on $(key date)" scene.csv || complain "scene: $(<scene.csv)"
 "$program" devices >devices.csv 2>err
 grep -q ",measured on $(key date)" devices.csv || complain "devices: $(<devices.csv)"
 

@@ -26,7 +26,8 @@ typedef struct ps_device_limits {
     unsigned native_float_lanes, native_double_lanes;
     size_t max_work_group_size;
     uint64_t global_bytes, max_allocation_bytes, local_bytes, cache_bytes;
-    const ps_figures *figures; /* what was measured of it, owned by the open device; NULL: nothing */
+    const ps_figures
+        *figures; /* what was measured of it, owned by the open device; NULL: nothing */
 } ps_device_limits;
 
 /* Limits of every device of every driver, in the order of their indices; *limits is freed by the

@@ -23,7 +23,7 @@ struct ps_device {
     cl_command_queue queue;
     ps_built_program *programs;
     size_t num_programs, programs_capacity;
-    size_t group_size;                        /* see ps_device_set_group_size; 0: default */
+    size_t group_size;   /* see ps_device_set_group_size; 0: default */
     ps_figures *figures; /* that limits.figures points to, or NULL */
     double launched_flops;
     uint64_t buffer_bytes, most_buffer_bytes; /* of all buffers, now and at most */

@@ -50,8 +50,8 @@ typedef struct ps_power_question {
                               0: all of them are done */
     bool no_skip, no_self_check;
     ps_plan_constraints constraints;
-    ps_device *open_device; /* borrowed; NULL: the one that `device` selects is opened */
-    const char *device;     /* selector, NULL: default */
+    ps_device *open_device;     /* borrowed; NULL: the one that `device` selects is opened */
+    const char *device;         /* selector, NULL: default */
     const char *figures_folder; /* plan/figures_file.h; NULL: the built-in figures */
     bool profile;
     ps_progress_callback progress; /* may be NULL */
