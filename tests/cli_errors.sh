@@ -171,8 +171,8 @@ refuses 2 '--frequencies does not go with --standard-error' power --frequencies 
 power 2 '--full does not go with --per-ring' --sampler white -n 16 -k 4 --per-ring 9 --full full.npy
 refuses 2 '--frequencies does not go with --per-ring' power --frequencies "$in/vectors.txt" --per-ring 9 "$in/good.txt"
 refuses 2 '--seed does not go with point files' power -k 4 --seed 2 "$in/good.txt"
-refuses 2 'power, angular, pairs, quadrature and check can be planned' plan
-refuses 2 'power, angular, pairs, quadrature and check can be planned' plan sample --sampler white
+refuses 2 'power, angular, pairs, quadrature, truncation, check and run can be planned' plan
+refuses 2 'power, angular, pairs, quadrature, truncation, check and run can be planned' plan sample --sampler white
 
 # ---- outputs
 white=(--sampler white -n 16)
