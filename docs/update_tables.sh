@@ -61,7 +61,7 @@ table_bench_fronts() {
     awk -F, '
         /^# device: / { sub(/^# device: /, ""); print "# " $0 }
         /^# peak_flops_single: / { split($0, word, ": "); single = word[2] / 1e9 }
-        /^# peak_flops_double: / { split($0, word, ": "); printf "# at its beginning %.0f GFLOP/s single, %.0f double\n", single, word[2] / 1e9 }
+        /^# peak_flops_double: / { split($0, word, ": "); printf "# measured peak at the beginning %.0f GFLOP/s single, %.0f double\n", single, word[2] / 1e9 }
         /^case,/ { printf "%-13s %-16s %-9s %9s %12s %9s %12s %8s\n", "case", "engine", "precision", "tolerance", "us/R", "error", "points/s", "of peak" }
         !/^#/ && $12 == 1 {
             printf "%-13s %-16s %-9s %9.0e %12.2f %9.1e %12.3g %8s\n", $1, $2, $8, $3, $4 * 1e6, $5, $6, $7 == "" ? "-" : sprintf("%.2f", $7)

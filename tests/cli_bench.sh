@@ -56,6 +56,9 @@ plan
 [[ $(figures) == "measured on $(key date)"* ]] || complain "measured: $(figures)"
 awk -v a="$builtin" -v b="$(seconds)" -v f="$factor" 'BEGIN { exit !(b / (a * f) - 1 < 1e-9 && b / (a * f) - 1 > -1e-9) }' ||
     complain "the planner does not take the factor: $builtin $factor $(seconds)"
+printf 'scene: 1\nresults:\n  - result: power\n    name: spectrum\n    samplers: white\n    points: 64\n' >scene.yaml
+"$program" plan run scene.yaml >scene.csv 2>err || complain "scene: $(<err)"
+grep -q "^# figures: measured on $(key date)" scene.csv || complain "scene: $(<scene.csv)"
 "$program" devices >devices.csv 2>err
 grep -q ",measured on $(key date)" devices.csv || complain "devices: $(<devices.csv)"
 

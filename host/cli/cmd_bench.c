@@ -104,14 +104,15 @@ static pspec_status add_explanation(const answer *of, ps_error *error) {
     const entry entries[] = {
         {"figures", PS_TEXT(ps_device_get_limits(of->device)->figures->note)},
         {"time", PS_TEXT("of a realization, from points in host memory to powers on the device: "
-                         "median of 7 runs, with --quick 3; setup is not counted")},
+                         "median of nine runs, three at a time in turn with other rows, with "
+                         "--quick of three; setup is not counted")},
         {"error", PS_TEXT("measured against long double sums, in units of --tol; 0: the engine is "
                           "that referee")},
         {"tolerance", PS_TEXT("the tightest of 1e-2 1e-4 ... 1e-12 that leads to this computation; "
                               "what takes longer than 2 s, on the host 0.5 s, is left out")},
         {"fraction_of_peak",
          PS_TEXT("arithmetic that the launches count, of the peak measured "
-                 "beside the case; fraction_of_bandwidth: points read and powers written "
+                 "beside it; fraction_of_bandwidth: points read and powers written "
                  "once, of a copy")},
     };
     return add_entries(of->table, entries, sizeof entries / sizeof entries[0], error);
@@ -146,7 +147,7 @@ static pspec_status run_cases(answer *of, const ps_bench_options *options, ps_ta
     PS_TRY(ps_device_peaks_measure(of->device, &of->peaks, error));
     PS_TRY(make_table(of, format, path, error));
     of->progress = ps_progress_begin(arguments, "cases");
-    const pspec_status status = ps_bench_run(options, of->device, &of->peaks, error);
+    const pspec_status status = ps_bench_run(options, of->device, of->peaks.copied_bytes, error);
     ps_progress_end(of->progress);
     PS_TRY(status);
     if (arguments->plot != NULL) {

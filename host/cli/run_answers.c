@@ -45,6 +45,7 @@ static pspec_status ask_one(ps_run *run, ps_run_result *result, size_t number, p
         asked->request.no_skip = true;
     }
     asked->request.device = run->arguments->device;
+    asked->request.cache_folder = run->arguments->cache_folder;
     if (status == PSPEC_OK) {
         status = check_question(result->asked->kind, &asked->request, error);
     }

@@ -19,15 +19,31 @@ static int page_height(const ps_panel_plot *plot) {
     return HEAD + PANEL_HEIGHT * (int)((plot->num_panels + columns) / columns);
 }
 
+static bool is_shown(const ps_plot_series *series, size_t place) {
+    return series->x[place] > 0 && series->y[place] > 0;
+}
+
+/* gnuplot makes no axes for nothing. */
+static bool has_places(const ps_plot_panel *panel) {
+    for (size_t j = 0; j < panel->num_series; j++) {
+        for (size_t place = 0; place < panel->series[j].num; place++) {
+            if (is_shown(&panel->series[j], place)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 static void print_data(const ps_panel_plot *plot, FILE *stream) {
     for (size_t i = 0; i < plot->num_panels; i++) {
         for (size_t j = 0; j < plot->panels[i].num_series; j++) {
             const ps_plot_series *const series = &plot->panels[i].series[j];
             fprintf(stream, "$data%zu_%zu << EOD\n", i, j);
             for (size_t place = 0; place < series->num; place++) {
-                const bool is_shown = series->x[place] > 0 && series->y[place] > 0;
-                ps_plot_print_value(is_shown ? series->x[place] : NAN, stream);
-                ps_plot_print_value(is_shown ? series->y[place] : NAN, stream);
+                const bool shows = is_shown(series, place);
+                ps_plot_print_value(shows ? series->x[place] : NAN, stream);
+                ps_plot_print_value(shows ? series->y[place] : NAN, stream);
                 putc('\n', stream);
             }
             fputs("EOD\n", stream);
@@ -72,24 +88,31 @@ static void print_label(const char *axis, const char *label, const char *offset,
 static void print_panel(const ps_panel_plot *plot, size_t i, FILE *stream) {
     const ps_plot_panel *const panel = &plot->panels[i];
     print_margins(plot, i, stream);
+    if (i > 0) {
+        fputs("unset label 1\n", stream); /* the page has its title */
+    }
     fputs("set title ", stream);
     ps_plot_print_text(panel->title, stream);
     fputs(" noenhanced offset 0,-0.6\n", stream);
+    if (!has_places(panel)) {
+        fputs("set xrange [1:10]\nset yrange [1:10]\nplot NaN notitle\nset autoscale\n", stream);
+        return;
+    }
     fputs("plot ", stream);
     for (size_t j = 0; j < panel->num_series; j++) {
         fprintf(stream, "%s$data%zu_%zu using 1:2 ", j > 0 ? ", " : "", i, j);
         print_look(&panel->series[j], stream);
         fputs(" notitle", stream);
     }
-    fputs(panel->num_series > 0 ? "\n" : "NaN notitle\n", stream);
-    fputs("unset label 1\n", stream); /* the page has its title */
+    putc('\n', stream);
 }
 
 /* One entry for every kind that there is. */
 static void print_key(const ps_panel_plot *plot, FILE *stream) {
     bool is_done[MOST_KINDS + 1] = {false};
     print_margins(plot, plot->num_panels, stream);
-    fputs("unset title\nunset border\nunset tics\nunset xlabel\nunset ylabel\nunset grid\n"
+    fputs("unset label 1\nunset title\nunset border\nunset tics\nunset xlabel\nunset ylabel\nunset "
+          "grid\n"
           "set key center center Left reverse noenhanced box linecolor '#c0c0c0' samplen 2\n"
           "set xrange [1:10]\nset yrange [1:10]\nplot ",
           stream);

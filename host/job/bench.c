@@ -111,16 +111,26 @@ ps_problem ps_bench_problem(const ps_bench_case *what, const ps_stress_sample *s
 
 /* ---- a case -------------------------------------------------------------------------------- */
 
+/* What a row was planned as, and what was measured of it. */
+typedef struct planned {
+    ps_problem problem;
+    ps_candidate candidate;
+    ps_bench_time time;
+    size_t num_shares;
+    double shares[PS_BENCH_ROUNDS]; /* of the peak */
+} planned;
+
 typedef struct bench {
     const ps_bench_options *options;
     ps_device *device;
-    ps_device_peaks peaks; /* of arithmetic: measured beside the case */
+    double copied_bytes;
+    ps_peak peaks[2]; /* measured anew beside every round of a row */
     const ps_bench_case *what;
     ps_stress_sample sample;
     ps_bench_sets sets;
     size_t num_rows;
     ps_bench_row rows[MOST_ROWS];
-    ps_candidate tried[MOST_ROWS]; /* what the rows were planned as */
+    planned planned[MOST_ROWS];
 } bench;
 
 /* Points read and powers written, once each. */
@@ -131,39 +141,48 @@ static double least_bytes(const ps_problem *problem, ps_precision precision) {
            (double)problem->frequencies->num * real_bytes;
 }
 
-static pspec_status measure_row(bench *self, const ps_problem *problem,
-                                const ps_candidate *candidate, ps_bench_row *row, ps_error *error) {
-    const ps_bench_options *options = self->options;
-    const ps_engine *engine = candidate->engine;
-    const double nan_rate = (double)NAN;
-    ps_bench_time time = {0};
-    double bound = 0;
-    PS_TRY(ps_stress_sample_judge(&self->sample, options->should_stop, options->payload, error));
-    PS_TRY(ps_bench_measure_time(&self->sets, problem, candidate, self->device, options, &time,
-                                 error));
-    *row =
-        (ps_bench_row){.what = self->what,
-                       .engine = engine,
-                       .precision = candidate->precision,
-                       .tolerance = problem->tolerance,
-                       .seconds = time.seconds,
-                       .predicted_seconds = candidate->seconds / (double)problem->num_realizations,
-                       .predicted_error = candidate->error,
-                       .fraction_of_peak = nan_rate,
-                       .fraction_of_bandwidth = nan_rate};
-    if (engine->needs_device) {
-        row->fraction_of_peak = time.flops / time.seconds / self->peaks.flops[row->precision];
-        row->fraction_of_bandwidth =
-            least_bytes(problem, row->precision) / time.seconds / self->peaks.copied_bytes;
+/* The share of the peak is that of a round: both change with what else the machine does. */
+static pspec_status measure_round(bench *self, planned *row, ps_error *error) {
+    const ps_candidate *candidate = &row->candidate;
+    const size_t before = row->time.num;
+    double peak = 0;
+    PS_TRY(ps_bench_go_on(self->options, error));
+    PS_TRY(ps_bench_measure_round(&self->sets, &row->problem, candidate, self->device,
+                                  self->options, &row->time, error));
+    if (candidate->engine->needs_device) {
+        PS_TRY(ps_peak_run(&self->peaks[candidate->precision], &peak, error));
+        const double seconds = ps_bench_median(row->time.seconds + before, row->time.num - before);
+        row->shares[row->num_shares++] = row->time.flops / seconds / peak;
     }
-    return ps_stress_measure(&self->sample, problem, engine, candidate->precision, self->device,
+    return PSPEC_OK;
+}
+
+static pspec_status finish_row(bench *self, planned *plan, ps_bench_row *row, ps_error *error) {
+    const ps_problem *problem = &plan->problem;
+    const ps_candidate *candidate = &plan->candidate;
+    const bool on_device = candidate->engine->needs_device;
+    double bound = 0;
+    *row = (ps_bench_row){
+        .what = self->what,
+        .engine = candidate->engine,
+        .precision = candidate->precision,
+        .tolerance = problem->tolerance,
+        .seconds = ps_bench_median(plan->time.seconds, plan->time.num),
+        .predicted_seconds = candidate->seconds / (double)problem->num_realizations,
+        .predicted_error = candidate->error,
+        .fraction_of_peak =
+            on_device ? ps_bench_median(plan->shares, plan->num_shares) : (double)NAN};
+    row->fraction_of_bandwidth =
+        on_device ? least_bytes(problem, row->precision) / row->seconds / self->copied_bytes
+                  : (double)NAN;
+    return ps_stress_measure(&self->sample, problem, row->engine, row->precision, self->device,
                              &row->error, &bound, error);
 }
 
 /* A tighter tolerance has led to the same. */
-static bool was_tried(const bench *self, const ps_candidate *candidate) {
+static bool is_planned(const bench *self, const ps_candidate *candidate) {
     for (size_t i = 0; i < self->num_rows; i++) {
-        const ps_candidate *other = &self->tried[i];
+        const ps_candidate *other = &self->planned[i].candidate;
         if (other->engine == candidate->engine && other->precision == candidate->precision &&
             other->seconds == candidate->seconds && other->error == candidate->error) {
             return true;
@@ -172,7 +191,7 @@ static bool was_tried(const bench *self, const ps_candidate *candidate) {
     return false;
 }
 
-static pspec_status try_tolerance(bench *self, double tolerance, ps_error *error) {
+static pspec_status plan_tolerance(bench *self, double tolerance, ps_error *error) {
     const ps_device_limits *limits = ps_device_get_limits(self->device);
     const ps_plan_constraints anything = {.precision = -1};
     ps_problem problem = ps_bench_problem(self->what, &self->sample, limits);
@@ -181,14 +200,26 @@ static pspec_status try_tolerance(bench *self, double tolerance, ps_error *error
     PS_TRY(ps_plan_make(&plan, &problem, limits, &anything, error));
     for (size_t i = 0; i < plan.num_candidates; i++) {
         const ps_candidate *candidate = &plan.candidates[i];
-        if (!candidate->is_feasible || !ps_bench_wants(self->options, candidate) ||
-            was_tried(self, candidate) ||
-            !ps_bench_is_affordable(self->options, candidate, &problem)) {
-            continue;
+        if (candidate->is_feasible && ps_bench_wants(self->options, candidate) &&
+            !is_planned(self, candidate) &&
+            ps_bench_is_affordable(self->options, candidate, &problem)) {
+            self->planned[self->num_rows++] =
+                (planned){.problem = problem, .candidate = *candidate};
         }
-        PS_TRY(ps_bench_go_on(self->options, error));
-        PS_TRY(measure_row(self, &problem, candidate, &self->rows[self->num_rows], error));
-        self->tried[self->num_rows++] = *candidate;
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status measure_rows(bench *self, ps_error *error) {
+    const ps_bench_options *options = self->options;
+    for (size_t round = 0; round < ps_bench_num_rounds(options); round++) {
+        for (size_t i = 0; i < self->num_rows; i++) {
+            PS_TRY(measure_round(self, &self->planned[i], error));
+        }
+    }
+    PS_TRY(ps_stress_sample_judge(&self->sample, options->should_stop, options->payload, error));
+    for (size_t i = 0; i < self->num_rows; i++) {
+        PS_TRY(finish_row(self, &self->planned[i], &self->rows[i], error));
     }
     return PSPEC_OK;
 }
@@ -201,7 +232,10 @@ static pspec_status run_case(bench *self, ps_error *error) {
         &self->sets, self->what,
         ps_bench_problem(self->what, &self->sample, limits).num_realizations, error);
     for (size_t i = 0; i < NUM_TOLERANCES && status == PSPEC_OK; i++) {
-        status = try_tolerance(self, tolerances[i], error);
+        status = plan_tolerance(self, tolerances[i], error);
+    }
+    if (status == PSPEC_OK) {
+        status = measure_rows(self, error);
     }
     ps_bench_sets_free(&self->sets);
     ps_stress_sample_free(&self->sample);
@@ -228,30 +262,38 @@ void ps_bench_mark_pareto(ps_bench_row *rows, size_t num) {
     }
 }
 
-pspec_status ps_bench_run(const ps_bench_options *options, ps_device *device,
-                          const ps_device_peaks *peaks, ps_error *error) {
-    void *memory = NULL;
+static pspec_status run_cases(bench *self, ps_error *error) {
+    const ps_bench_options *options = self->options;
     const size_t total = count_cases(options);
     size_t done = 0;
+    for (self->what = ps_bench_cases; self->what->what.name != NULL; self->what++) {
+        if (!is_chosen(options, self->what)) {
+            continue;
+        }
+        if (options->advance != NULL) {
+            options->advance(options->payload, done, total);
+        }
+        PS_TRY(run_case(self, error));
+        done++;
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_bench_run(const ps_bench_options *options, ps_device *device, double copied_bytes,
+                          ps_error *error) {
+    void *memory = NULL;
     PS_TRY(ps_allocate(&memory, 1, sizeof(bench), "a benchmark", error));
     bench *self = memory;
-    *self = (bench){.options = options, .device = device, .peaks = *peaks};
-    pspec_status status = PSPEC_OK;
-    for (self->what = ps_bench_cases; self->what->what.name != NULL && status == PSPEC_OK;
-         self->what++) {
-        if (is_chosen(options, self->what)) {
-            if (options->advance != NULL) {
-                options->advance(options->payload, done, total);
-            }
-            if (done > 0) { /* the first ones were measured just now */
-                status = ps_device_flops_measure(device, &self->peaks, error);
-            }
-            if (status == PSPEC_OK) {
-                status = run_case(self, error);
-            }
-            done++;
-        }
+    *self = (bench){.options = options, .device = device, .copied_bytes = copied_bytes};
+    pspec_status status = ps_peak_create(&self->peaks[PS_SINGLE], device, PS_SINGLE, error);
+    if (status == PSPEC_OK && ps_device_get_limits(device)->has_fp64) {
+        status = ps_peak_create(&self->peaks[PS_DOUBLE], device, PS_DOUBLE, error);
     }
+    if (status == PSPEC_OK) {
+        status = run_cases(self, error);
+    }
+    ps_peak_destroy(&self->peaks[PS_SINGLE]);
+    ps_peak_destroy(&self->peaks[PS_DOUBLE]);
     free(memory);
     return status;
 }

@@ -2,8 +2,8 @@
  * people ask. The error is measured against the long double referee, in the units of the tolerance contract (design.md 3.1),
  * on the first realization; where everything would take minutes on frequencies or degrees evenly spread over all.
  *
- * The time is that of a realization, from points in host memory to powers on the device: the median of some runs of many
- * realizations each, without what is done once per job.
+ * The time is that of a realization, from points in host memory to powers on the device: the median of nine runs of many
+ * realizations each, three at a time, in turn with the other rows of the case; without what is done once per job.
  */
 #ifndef PS_JOB_BENCH_H
 #define PS_JOB_BENCH_H
@@ -26,7 +26,8 @@ typedef struct ps_bench_row {
     double tolerance; /* the tightest of those tried that leads to this computation */
     double seconds, predicted_seconds; /* of a realization */
     double error, predicted_error;     /* as the tolerance counts */
-    double fraction_of_peak; /* of arithmetic, by what the launches count; nan: no device */
+    double
+        fraction_of_peak; /* measured beside it, of arithmetic that the launches count; nan: no device */
     double
         fraction_of_bandwidth; /* of a copy, by points read and powers written once; nan: no device */
     bool is_pareto;            /* no other row of the case is as fast and as exact */
@@ -46,9 +47,9 @@ typedef struct ps_bench_options {
 /* Names a case and an engine that tries one of those left, or PSPEC_ERROR_INVALID_ARGUMENT with the nearest. */
 pspec_status ps_bench_check(const ps_bench_options *options, ps_error *error) PS_MUST_CHECK;
 
-/* peaks were measured just now; those of arithmetic are measured anew beside every further case. */
-pspec_status ps_bench_run(const ps_bench_options *options, ps_device *device,
-                          const ps_device_peaks *peaks, ps_error *error) PS_MUST_CHECK;
+/* copied_bytes per second is what fractions of bandwidth are of. */
+pspec_status ps_bench_run(const ps_bench_options *options, ps_device *device, double copied_bytes,
+                          ps_error *error) PS_MUST_CHECK;
 
 /* Marks the rows that no other one of the same case is at once no slower and no less exact than, and better in one of both. */
 void ps_bench_mark_pareto(ps_bench_row *rows, size_t num);

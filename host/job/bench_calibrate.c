@@ -34,9 +34,10 @@ static pspec_status measure_candidate(calibration *self, ps_bench_sets *sets,
                        (int)PS_FIGURES_ENGINES);
     }
     const size_t at = (size_t)(row - self->figures->engines);
-    PS_TRY(
-        ps_bench_measure_time(sets, problem, candidate, self->device, self->options, &time, error));
-    self->sums.logarithms[at][candidate->precision] += log(time.seconds / predicted);
+    PS_TRY(ps_bench_measure_round(sets, problem, candidate, self->device, self->options, &time,
+                                  error));
+    self->sums.logarithms[at][candidate->precision] +=
+        log(ps_bench_median(time.seconds, time.num) / predicted);
     self->sums.nums[at][candidate->precision]++;
     return PSPEC_OK;
 }
@@ -93,28 +94,38 @@ static pspec_status measure_peaks(calibration *self, ps_error *error) {
     return PSPEC_OK;
 }
 
+/* All cases once. */
+static pspec_status measure_round(calibration *self, size_t *done, size_t total, ps_error *error) {
+    const ps_bench_options *options = self->options;
+    for (const ps_bench_case *what = ps_bench_cases; what->what.name != NULL; what++) {
+        if (ps_bench_wants_case(options, what)) {
+            if (options->advance != NULL) {
+                options->advance(options->payload, *done, total);
+            }
+            PS_TRY(measure_case(self, what, error));
+            (*done)++;
+        }
+    }
+    return PSPEC_OK;
+}
+
 pspec_status ps_bench_calibrate(const ps_bench_options *options, ps_device *device,
                                 ps_figures *figures, ps_error *error) {
     calibration self = {.options = options,
                         .device = device,
                         .limits = *ps_device_get_limits(device),
                         .figures = figures};
+    const size_t num_rounds = ps_bench_num_rounds(options);
     size_t total = 0;
     size_t done = 0;
     self.limits.figures = NULL;
     *figures = (ps_figures){.is_measured = true};
     PS_TRY(measure_peaks(&self, error));
     for (const ps_bench_case *what = ps_bench_cases; what->what.name != NULL; what++) {
-        total += ps_bench_wants_case(options, what) ? 1 : 0;
+        total += ps_bench_wants_case(options, what) ? num_rounds : 0;
     }
-    for (const ps_bench_case *what = ps_bench_cases; what->what.name != NULL; what++) {
-        if (ps_bench_wants_case(options, what)) {
-            if (options->advance != NULL) {
-                options->advance(options->payload, done, total);
-            }
-            PS_TRY(measure_case(&self, what, error));
-            done++;
-        }
+    for (size_t round = 0; round < num_rounds; round++) {
+        PS_TRY(measure_round(&self, &done, total, error));
     }
     take_means(&self);
     return PSPEC_OK;

@@ -10,11 +10,9 @@
 #include <stdlib.h>
 
 /* A run lasts so long, if one realization is not longer: enough for the clock and for batches to weigh little. */
-static const double run_seconds = 0.06, quick_run_seconds = 0.03;
+static const double run_seconds = 0.04, quick_run_seconds = 0.03;
 /* A realization that takes longer than this is not timed: of the device, and of the referee. */
 static const double most_device_seconds = 2, most_host_seconds = 0.5, quick_most_host_seconds = 0.1;
-
-enum { RUNS = 7, QUICK_RUNS = 3 };
 
 /* ---- realizations -------------------------------------------------------------------------- */
 
@@ -89,21 +87,24 @@ static int compare(const void *a, const void *b) {
     return x < y ? -1 : x > y;
 }
 
+double ps_bench_median(double *numbers, size_t num) {
+    qsort(numbers, num, sizeof *numbers, compare);
+    return numbers[num / 2];
+}
+
 /* The first run builds kernels and touches memory; on the host there is nothing of that. */
-static pspec_status run_all(const timing *self, size_t num, ps_bench_time *out, ps_error *error) {
-    double seconds[RUNS];
-    double ignored = 0;
+static pspec_status run_round(const timing *self, ps_bench_time *out, ps_error *error) {
+    const double realizations = (double)self->num;
+    double seconds = 0;
     if (self->engine->needs_device) {
-        PS_TRY(run_once(self, &ignored, error));
+        PS_TRY(run_once(self, &seconds, error));
     }
     const double flops = ps_device_launched_flops(self->device);
-    for (size_t i = 0; i < num; i++) {
-        PS_TRY(run_once(self, &seconds[i], error));
+    for (size_t i = 0; i < PS_BENCH_RUNS; i++) {
+        PS_TRY(run_once(self, &seconds, error));
+        out->seconds[out->num++] = seconds / realizations;
     }
-    const double realizations = (double)self->num;
-    out->flops = (ps_device_launched_flops(self->device) - flops) / (double)num / realizations;
-    qsort(seconds, num, sizeof seconds[0], compare);
-    out->seconds = seconds[num / 2] / realizations;
+    out->flops = (ps_device_launched_flops(self->device) - flops) / PS_BENCH_RUNS / realizations;
     return PSPEC_OK;
 }
 
@@ -133,10 +134,10 @@ static size_t choose_num(const ps_bench_options *options, const ps_candidate *ca
                                                    : (size_t)problem->num_realizations;
 }
 
-pspec_status ps_bench_measure_time(ps_bench_sets *sets, const ps_problem *problem,
-                                   const ps_candidate *candidate, ps_device *device,
-                                   const ps_bench_options *options, ps_bench_time *out,
-                                   ps_error *error) {
+pspec_status ps_bench_measure_round(ps_bench_sets *sets, const ps_problem *problem,
+                                    const ps_candidate *candidate, ps_device *device,
+                                    const ps_bench_options *options, ps_bench_time *out,
+                                    ps_error *error) {
     const ps_problem own = ps_engine_problem(candidate->engine, problem);
     timing self = {.sets = sets,
                    .engine = candidate->engine,
@@ -149,7 +150,7 @@ pspec_status ps_bench_measure_time(ps_bench_sets *sets, const ps_problem *proble
     pspec_status status =
         self.engine->create(&self.state, &own, candidate->precision, self.batch, device, error);
     if (status == PSPEC_OK) {
-        status = run_all(&self, options->quick ? QUICK_RUNS : RUNS, out, error);
+        status = run_round(&self, out, error);
     }
     self.engine->destroy(self.state);
     return status;

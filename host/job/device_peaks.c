@@ -156,15 +156,11 @@ static pspec_status measure_flops(ps_device *device, ps_precision precision, dou
     return status;
 }
 
-pspec_status ps_device_flops_measure(ps_device *device, ps_device_peaks *peaks, ps_error *error) {
-    PS_TRY(measure_flops(device, PS_SINGLE, &peaks->flops[PS_SINGLE], error));
-    return ps_device_get_limits(device)->has_fp64
-               ? measure_flops(device, PS_DOUBLE, &peaks->flops[PS_DOUBLE], error)
-               : PSPEC_OK;
-}
-
 pspec_status ps_device_peaks_measure(ps_device *device, ps_device_peaks *peaks, ps_error *error) {
     *peaks = (ps_device_peaks){{0, 0}, 0};
-    PS_TRY(ps_device_flops_measure(device, peaks, error));
+    PS_TRY(measure_flops(device, PS_SINGLE, &peaks->flops[PS_SINGLE], error));
+    if (ps_device_get_limits(device)->has_fp64) {
+        PS_TRY(measure_flops(device, PS_DOUBLE, &peaks->flops[PS_DOUBLE], error));
+    }
     return ps_bandwidth_measure(device, &peaks->copied_bytes, error);
 }

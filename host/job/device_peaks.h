@@ -32,9 +32,6 @@ typedef struct ps_device_peaks {
     double copied_bytes;
 } ps_device_peaks;
 
-/* Those of arithmetic alone. */
-pspec_status ps_device_flops_measure(ps_device *device, ps_device_peaks *peaks,
-                                     ps_error *error) PS_MUST_CHECK;
 pspec_status ps_device_peaks_measure(ps_device *device, ps_device_peaks *peaks,
                                      ps_error *error) PS_MUST_CHECK;
 
