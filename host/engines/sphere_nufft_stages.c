@@ -5,21 +5,24 @@
 #include "engines/reals.h"
 
 #include <stdio.h>
+#include <string.h>
 
 /* Bits of kernels/sphere/orders.cl. */
 enum { STEP_SPREAD = 1, STEP_AROUND = 2, STEP_RINGS = 4 };
 
 /* ---- create ------------------------------------------------------------------------------ */
 
-static void write_options(const ps_sphere_stages *self, unsigned lanes, char *options,
-                          size_t room) {
-    snprintf(options, room, "-DPRECISION=%u -DLANES=%u -DRUN_VECTORS=%u",
-             self->precision == PS_SINGLE ? 32u : 64u, lanes, self->shape->run_vectors);
+enum { OPTIONS_BYTES = 80 };
+
+static void write_options(const ps_sphere_stages *self, char *options, size_t room) {
+    snprintf(options, room, "-DPRECISION=%u -DLANES=%u -DRUN_VECTORS=%u -DALONE=%u",
+             self->precision == PS_SINGLE ? 32u : 64u, self->shape->lanes, self->shape->run_vectors,
+             self->is_alone ? 1u : 0u);
 }
 
 static pspec_status create_kernels(ps_sphere_stages *self, ps_error *error) {
-    char options[64];
-    write_options(self, self->shape->lanes, options, sizeof options);
+    char options[OPTIONS_BYTES];
+    write_options(self, options, sizeof options);
     PS_TRY(ps_kernel_create(self->device, &self->orders, "sphere/orders.cl", "sphere_orders",
                             options, error));
     if (self->shape->is_sorted) {
@@ -66,6 +69,7 @@ pspec_status ps_sphere_stages_create(ps_sphere_stages *out, const ps_sphere_shap
     *out = (ps_sphere_stages){.device = device,
                               .precision = precision,
                               .only_even = only_even,
+                              .is_alone = ps_range_is_alone(device),
                               .shape = shape,
                               .points = points,
                               .tables = tables};
@@ -95,7 +99,8 @@ void ps_sphere_stages_free(ps_sphere_stages *stages) {
 
 /* Work-groups of one item on CPUs, where lanes are vectors. */
 static ps_range group_range(const ps_sphere_stages *self, size_t groups, double flops) {
-    return ps_range_heavy(self->device, 1, groups, 1, flops, 0);
+    return self->is_alone ? ps_range_alone(groups, 1, flops, 0)
+                          : ps_range_heavy(self->device, 1, groups, 1, flops, 0);
 }
 
 /* Of those whose points are on the device. */
@@ -235,11 +240,11 @@ static pspec_status keep_with(ps_sphere_stages *self, cl_kernel kernel, size_t n
 pspec_status ps_sphere_stages_keep(ps_sphere_stages *stages, double *coefficients,
                                    ps_error *error) {
     const size_t num = ((size_t)stages->shape->max_degree + 1) * 4 * stages->shape->half_pitch;
-    char options[64];
+    static const char keep[] = " -DKEEP=1";
+    char options[OPTIONS_BYTES + sizeof keep];
     cl_kernel kernel = NULL;
-    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u -DRUN_VECTORS=%u -DKEEP=1",
-             stages->precision == PS_SINGLE ? 32u : 64u, stages->shape->lanes,
-             stages->shape->run_vectors);
+    write_options(stages, options, OPTIONS_BYTES);
+    strcat(options, keep);
     PS_TRY(ps_kernel_create(stages->device, &kernel, "sphere/orders_sum.cl", "sphere_orders_sum",
                             options, error));
     const pspec_status status = keep_with(stages, kernel, num, coefficients, error);

@@ -11,6 +11,7 @@ typedef struct ps_sphere_stages {
     ps_device *device;
     ps_precision precision;
     bool only_even;
+    bool is_alone; /* work-groups of one item: kernels/shared/group.h */
     const ps_sphere_shape *shape;
     const ps_sphere_places *points;
     const ps_sphere_tables *tables;

@@ -54,7 +54,7 @@ sphere_orders_sum(__global const real *restrict values, const uint value_sets,
     __global double *powers = all_powers + (KEEP ? 0 : group * num_realizations * powers_apart);
     const ring_states own = {states, states + ring_pitch, scales, distances};
     for (uint m = group; m <= L; m += groups) {
-        for (uint i = get_local_id(0); i < ring_pitch; i += get_local_size(0)) {
+        for (uint i = own_item(); i < ring_pitch; i += num_items()) {
             double value =
                 m == group ? starts[group * ring_pitch + i] : diagonal[i] * steps[i] * ratios[m];
             int scale = m == group ? start_scales[group * ring_pitch + i]
@@ -67,26 +67,24 @@ sphere_orders_sum(__global const real *restrict values, const uint value_sets,
         for (uint first = m; first <= L; first += RUN_DEGREES) {
             const uint degrees = min(L + 1 - first, (uint)RUN_DEGREES);
             const uint vectors = (degrees + 2 * LANES - 1) / (2 * LANES);
-            barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
+            barrier_everywhere();
             make_coefficients(coefficients, first, m);
-            barrier(CLK_LOCAL_MEM_FENCE);
+            GROUP_BARRIER(CLK_LOCAL_MEM_FENCE);
             for (uint ring = 0; ring < num_rings; ring += block) {
                 const uint here = min(num_rings - ring, block);
-                for (uint i = get_local_id(0) * RING_UNIT; i < here;
-                     i += get_local_size(0) * RING_UNIT) {
+                for (uint i = own_item() * RING_UNIT; i < here; i += num_items() * RING_UNIT) {
                     begins[i / RING_UNIT] =
                         make_run(own, ring + i, coefficients, table + i * TABLE_ROW,
                                  table + (block + i) * TABLE_ROW, vectors)
                             ? i
                             : block;
                 }
-                barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
+                barrier_everywhere();
                 uint begin = block;
                 for (uint i = 0; i < here; i += RING_UNIT) {
                     begin = min(begin, begins[i / RING_UNIT]);
                 }
-                for (uint job = get_local_id(0); job < num_realizations + 1;
-                     job += get_local_size(0)) {
+                for (uint job = own_item(); job < num_realizations + 1; job += num_items()) {
                     const uint r = job / 2 * 2, odd = job % 2;
                     if (only_even != 0 && (m + odd) % 2 != 0) {
                         continue;
@@ -113,7 +111,7 @@ sphere_orders_sum(__global const real *restrict values, const uint value_sets,
                         product_of_one(rows, from, apart, to, to_powers, ends_apart, own_vectors);
                     }
                 }
-                barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
+                barrier_everywhere();
             }
         }
     }

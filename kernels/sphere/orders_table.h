@@ -13,6 +13,7 @@
 #ifndef PS_SPHERE_ORDERS_TABLE_H
 #define PS_SPHERE_ORDERS_TABLE_H
 
+#include "shared/group.h"
 #include "shared/lanes.h"
 #include "shared/transpose.h"
 
@@ -65,7 +66,7 @@ typedef struct ring_states {
 
 /* Recurrence from degree `first` on: [a, b, g][RUN_DEGREES] of degrees first + 1, ... */
 static inline void make_coefficients(__local double *to, const uint first, const uint m) {
-    for (uint i = get_local_id(0); i < RUN_DEGREES; i += get_local_size(0)) {
+    for (uint i = own_item(); i < RUN_DEGREES; i += num_items()) {
         const double l = (double)(first + 1 + i), order = (double)m;
         const double g = sqrt((2 * l + 1) * (l + order) / ((2 * l - 1) * (l - order)));
         to[i] = g * (l - order - 1) / (l + order);
