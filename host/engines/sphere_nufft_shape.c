@@ -95,6 +95,20 @@ static void measure(ps_sphere_shape *shape, const ps_device_limits *limits, doub
     shape->row_bytes = 2 * (uint64_t)shape->pairs * shape->columns * unit * real_bytes;
 }
 
+/* Rings at the pole and at the equator whose Lambda_lm goes by differences. The rest is off by 4e-13 of the first ring
+ * and by 4e-14 of the 16th at L = 2000, and by 1e-13 of the 8th from the equator; the error formula allows 3e-13
+ * for all together. */
+enum { POLAR_RINGS = 16, EQUATORIAL_RINGS = 12 };
+
+static void choose_recurrences(ps_sphere_shape *shape, ps_precision precision) {
+    const uint32_t unit = (precision == PS_DOUBLE ? PS_SPHERE_RING_VECTORS : 1) * shape->lanes;
+    const uint32_t last =
+        shape->num_rings > EQUATORIAL_RINGS ? shape->num_rings - EQUATORIAL_RINGS : 0;
+    shape->polar = (uint32_t)ps_round_up(POLAR_RINGS, unit);
+    shape->crossing = shape->num_rings / 2 / unit * unit;
+    shape->equatorial = last / unit * unit;
+}
+
 static void measure_sums(ps_sphere_shape *shape, size_t real_bytes) {
     enum { LARGEST_LANES = 16 };
     const uint32_t ring_unit = PS_SPHERE_RING_VECTORS * LARGEST_LANES;
@@ -109,11 +123,12 @@ static void measure_sums(ps_sphere_shape *shape, size_t real_bytes) {
 ps_sphere_local ps_sphere_local_bytes(const ps_sphere_shape *shape, size_t real_bytes) {
     const size_t run = 2 * (size_t)shape->run_vectors * shape->lanes;
     const size_t bins = ps_nufft_bins(&shape->axis);
-    return (ps_sphere_local){.windows = PS_NUFFT_CHUNK * (2 * bins + 3) * real_bytes,
-                             .cells = 2 * PS_NUFFT_CHUNK * sizeof(uint32_t),
-                             .table = shape->block * run * real_bytes,
-                             .coefficients = 3 * run * sizeof(double),
-                             .begins = shape->block / shape->lanes * sizeof(uint32_t)};
+    return (ps_sphere_local){
+        .windows = PS_NUFFT_CHUNK * (2 * bins + 3) * real_bytes,
+        .cells = 2 * PS_NUFFT_CHUNK * sizeof(uint32_t),
+        .table = shape->block * run * real_bytes,
+        .coefficients = (PS_SPHERE_COEFFICIENTS * run + PS_SPHERE_CHAIN_AHEAD) * sizeof(double),
+        .begins = shape->block / shape->lanes * sizeof(uint32_t)};
 }
 
 static bool fits(const ps_sphere_shape *shape, const ps_device_limits *limits, size_t real_bytes) {
@@ -193,7 +208,7 @@ ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_byt
                              .values = shape->value_bytes,
                              .powers = groups * 2 * shape->half_pitch * sizeof(double),
                              .sums = groups * 4 * shape->run_vectors * shape->lanes * real_bytes,
-                             .states = groups * 2 * shape->ring_pitch * sizeof(double),
+                             .states = groups * 4 * shape->ring_pitch * sizeof(double),
                              .scales = groups * 2 * shape->ring_pitch * sizeof(int32_t),
                              .diagonals = groups * shape->ring_pitch * sizeof(double)};
 }
@@ -202,10 +217,12 @@ ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_byt
 static uint64_t table_bytes(const ps_sphere_shape *shape, size_t real_bytes) {
     const uint64_t cells = (shape->axis.n + (uint64_t)shape->rings) / 2;
     const uint64_t orders = (uint64_t)shape->max_degree + 1;
+    const uint64_t ring_tables = 3; /* cosines, distances, squares */
     const uint64_t starts = (PS_SPHERE_GROUPS + 1) * (uint64_t)shape->ring_pitch;
     return cells * (4 * real_bytes + sizeof(uint32_t)) +
            orders * (4 * real_bytes + sizeof(double)) +
-           starts * (sizeof(double) + sizeof(int32_t)) + shape->ring_pitch * sizeof(double);
+           starts * (sizeof(double) + sizeof(int32_t)) +
+           ring_tables * shape->ring_pitch * sizeof(double);
 }
 
 static void count_memory(ps_sphere_shape *shape, const ps_problem *problem,
@@ -223,7 +240,7 @@ static void count_memory(ps_sphere_shape *shape, const ps_problem *problem,
                          bytes.keys + bytes.starts + bytes.grids + bytes.rows + bytes.scratch +
                          bytes.strip_turns + bytes.strip_weights + bytes.strips +
                          bytes.strip_starts + table_bytes(shape, real_bytes) + bytes.sums +
-                         bytes.states + bytes.scales + bytes.diagonals +
+                         bytes.states + bytes.scales + bytes.diagonals + bytes.diagonals / 2 +
                          (is_fixed ? shape->at_once * each : 0);
     const uint64_t buffers[] = {bytes.grids, bytes.rows, shape->at_once * bytes.values,
                                 shape->at_once * bytes.powers, bytes.vectors};
@@ -261,6 +278,7 @@ ps_sphere_shape ps_sphere_shape_make(const ps_problem *problem, const ps_device_
     shape.num_rings = shape.rings / 4 + 1;
     shape.run_vectors = choose_run_vectors(&shape, limits, real_bytes);
     measure_sums(&shape, real_bytes);
+    choose_recurrences(&shape, precision);
     measure(&shape, limits, ps_nufft_points(problem), real_bytes);
     if (!fits(&shape, limits, real_bytes)) {
         shape.lanes = 0;

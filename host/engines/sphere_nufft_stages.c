@@ -53,6 +53,7 @@ static pspec_status create_buffers(ps_sphere_stages *self, ps_error *error) {
                   {&self->states, bytes.states, "states of rings"},
                   {&self->scales, bytes.scales, "scales of rings"},
                   {&self->diagonals, bytes.diagonals, "first degrees of rings"},
+                  {&self->diagonal_scales, bytes.diagonals / 2, "scales of first degrees"},
                   {&self->sums, (shape->at_once + 1) * bytes.sums, "sums over rings"},
                   {&self->powers, shape->at_once * bytes.powers, "powers of orders"}};
     for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
@@ -84,11 +85,11 @@ void ps_sphere_stages_free(ps_sphere_stages *stages) {
             clReleaseKernel(kernels[i]);
         }
     }
-    ps_buffer *const buffers[] = {&stages->strip_turns,  &stages->strip_weights, &stages->strips,
-                                  &stages->strip_starts, &stages->grids,         &stages->rows,
-                                  &stages->values,       &stages->states,        &stages->scales,
-                                  &stages->diagonals,    &stages->sums,          &stages->powers,
-                                  &stages->scratch};
+    ps_buffer *const buffers[] = {&stages->strip_turns,  &stages->strip_weights,   &stages->strips,
+                                  &stages->strip_starts, &stages->grids,           &stages->rows,
+                                  &stages->values,       &stages->states,          &stages->scales,
+                                  &stages->diagonals,    &stages->diagonal_scales, &stages->sums,
+                                  &stages->powers,       &stages->scratch};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
         ps_buffer_release(buffers[i]);
     }
@@ -203,11 +204,13 @@ static pspec_status sum_rings(ps_sphere_stages *self, cl_kernel kernel, const ps
         self->device, kernel, &range, error, PS_BUFFER(self->values), PS_U32(shape->at_once),
         PS_U32(num), PS_BUFFER(tables->starts), PS_BUFFER(tables->start_scales),
         PS_BUFFER(tables->steps), PS_BUFFER(tables->step_scales), PS_BUFFER(tables->ratios),
-        PS_BUFFER(tables->distances), PS_U32(shape->max_degree), PS_U32(shape->num_rings),
-        PS_U32(shape->ring_pitch), PS_U32(self->only_even), PS_U32(shape->block),
-        PS_U32(shape->half_pitch), PS_BUFFER(self->states), PS_BUFFER(self->scales),
-        PS_BUFFER(self->diagonals), PS_BUFFER(self->sums), PS_BUFFER(*to), PS_LOCAL(local.table),
-        PS_LOCAL(local.coefficients), PS_LOCAL(local.begins));
+        PS_BUFFER(tables->cosines), PS_BUFFER(tables->distances), PS_BUFFER(tables->squares),
+        PS_U32(shape->polar), PS_U32(shape->crossing), PS_U32(shape->equatorial),
+        PS_U32(shape->max_degree), PS_U32(shape->num_rings), PS_U32(shape->ring_pitch),
+        PS_U32(self->only_even), PS_U32(shape->block), PS_U32(shape->half_pitch),
+        PS_BUFFER(self->states), PS_BUFFER(self->scales), PS_BUFFER(self->diagonals),
+        PS_BUFFER(self->diagonal_scales), PS_BUFFER(self->sums), PS_BUFFER(*to),
+        PS_LOCAL(local.table), PS_LOCAL(local.coefficients), PS_LOCAL(local.begins));
 }
 
 pspec_status ps_sphere_stages_sum(ps_sphere_stages *stages, size_t num, double *powers,

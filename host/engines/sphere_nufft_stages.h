@@ -18,7 +18,7 @@ typedef struct ps_sphere_stages {
     cl_kernel orders, bands, sum, fold;     /* bands: of sorted points */
     ps_buffer grids, rows, scratch, values; /* of orders.cl */
     ps_buffer strip_turns, strip_weights, strips, strip_starts;
-    ps_buffer states, scales, diagonals, sums; /* of orders_sum.cl */
+    ps_buffer states, scales, diagonals, diagonal_scales, sums; /* of orders_sum.cl */
     ps_buffer powers;
 } ps_sphere_stages;
 
