@@ -140,7 +140,7 @@ static bool fits(const ps_sphere_shape *shape, const ps_device_limits *limits, s
 /* ---- memory ------------------------------------------------------------------------------ */
 
 /* Values on rings of so many realizations share one table of Lambda_lm: more of them cost no less. */
-enum { MOST_AT_ONCE = 64 };
+enum { MOST_AT_ONCE = 32 };
 
 /* Bytes for all points on the device, all grids, and all points of realizations at once on the host, unless one needs
  * more. */
