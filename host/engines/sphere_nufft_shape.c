@@ -290,11 +290,15 @@ ps_sphere_shape ps_sphere_shape_make(const ps_problem *problem, const ps_device_
 
 /* ---- cost -------------------------------------------------------------------------------- */
 
+/* Cycles as in sphere_nufft_axis.c, by CPU time of the kernels on a machine that others used (Zen 5, PoCL 3.1, 2026-11):
+ * 0.7 to 1.2 times what it says, of white sets from N = 256, L = 64 to N = 1e6, L = 1000 and 4096, 2000, alone and in
+ * batches, at 1e-3, 1e-5 and 1e-12. */
 double ps_sphere_nufft_flops(const ps_sphere_shape *shape, ps_precision precision,
                              double num_points, double num_realizations) {
-    const double flops_per_lane = 4;    /* two fused operations in a cycle */
-    const double cycles_of_table = 14;  /* of a vector of Lambda_lm */
-    const double cycles_of_product = 2; /* of it and one realization */
+    const double flops_per_lane = 4;     /* two fused operations in a cycle */
+    const double cycles_of_table = 0.33; /* of a number of Lambda_lm, made in double precision */
+    const double cycles_of_coefficients = 16; /* of a degree and an order */
+    const double cycles_of_product = 1.6;     /* of a vector of it and one realization */
     const double cycles_per_ring =
         12; /* of a value on a circle, on its way to rings of both hemispheres */
     const double cycles_per_order = 250; /* whatever the degrees */
@@ -305,9 +309,10 @@ double ps_sphere_nufft_flops(const ps_sphere_shape *shape, ps_precision precisio
     const double vectors = (L + 1) * (L / 2 + lanes) / lanes * shape->num_rings * share;
     const double sharing = fmax(1, fmin(num_realizations, (double)shape->at_once));
     const double rings = shape->pairs * (double)shape->lanes / lanes *
-                         (ps_fft_cycles(shape->rings) + cycles_per_ring * shape->rings);
+                         (2 * ps_fft_cycles(shape->rings / 2) + cycles_per_ring * shape->rings);
     const double cycles = ps_sphere_grid_cycles(&shape->axis, precision, num_points) + rings +
-                          vectors * (cycles_of_table / sharing + cycles_of_product) +
+                          vectors * (cycles_of_table * lanes / sharing + cycles_of_product) +
+                          cycles_of_coefficients * (L + 1) * L / 2 / sharing +
                           cycles_per_order * (L + 1) +
                           (shape->is_sorted ? cycles_per_sorted * num_points : 0);
     return cycles * lanes * flops_per_lane;
