@@ -100,17 +100,17 @@ table_sphere() {
 # Microseconds of a realization, and the share of every kernel: what is left to gain, and where.
 table_profile_sphere() {
     need pointspec || return 1
-    printf '%-12s %-6s %10s %7s %7s %7s %7s\n' "N, L" tol us/R turns orders sum fold
+    printf '%-16s %-6s %10s %7s %7s %7s %7s\n' "N, L, R" tol us/R turns orders sum fold
     local case n degree sets tolerance
-    for case in "256 64 4000" "1024 128 1000" "4096 256 200" "16384 512 48"; do
+    for case in "256 64 4000" "1024 128 1000" "4096 256 200" "16384 512 48" "4096 2000 10" "4096 2000 1"; do
         read -r n degree sets <<<"$case"
         for tolerance in 1e-5 1e-12; do
             "$build/pointspec" angular --sampler white-sphere -n "$n" -l "$degree" -m "$sets" --tol "$tolerance" \
                 --engine sphere_nufft --quiet --profile --no-self-check 2>&1 >"$scratch/profile.csv" |
-                awk -v name="$n, $degree" -v tolerance="$tolerance" -v sets="$sets" '
+                awk -v name="$n, $degree, $sets" -v tolerance="$tolerance" -v sets="$sets" '
                     /^sphere_/ { seconds[$1] = $3; sum += $3 }
                     function share(kernel) { return 100 * seconds["sphere_orders" kernel] / sum }
-                    END { printf "%-12s %-6s %10.1f %6.0f%% %6.0f%% %6.0f%% %6.0f%%\n", name, tolerance,
+                    END { printf "%-16s %-6s %10.1f %6.0f%% %6.0f%% %6.0f%% %6.0f%%\n", name, tolerance,
                         1e6 * sum / sets, share("_turns"), share(""), share("_sum"), share("_fold") }'
         done
     done

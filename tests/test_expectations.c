@@ -4,7 +4,7 @@
 #include "harness.h"
 
 #include "engines/torus_direct.h"
-#include "job/power_job.h"
+#include "job/power_job_private.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -152,6 +152,15 @@ static void skipping_changes_nothing(void **state) {
     }
 }
 
+/* Of the sets of a batch and the next one; what is announced has as many as a batch. */
+static size_t count_kept_sets(const ps_power_job *job) {
+    size_t num = job->sets.next.points != NULL ? 1 : 0;
+    for (size_t i = 0; i < job->sets.capacity; i++) {
+        num += job->sets.sets[i].points != NULL ? 1 : 0;
+    }
+    return num;
+}
+
 /* A set whose measured powers break single precision's promise is computed again in double; where
  * the input cannot be read twice, or double was excluded, the job fails with the tolerance. */
 static void coherent_sets_are_planned_twice(void **state) {
@@ -175,6 +184,7 @@ static void coherent_sets_are_planned_twice(void **state) {
     assert_int_equal(ps_power_job_plan(job)->chosen->precision, PS_SINGLE);
     assert_ok(ps_power_job_run(job, error));
     assert_true(ps_power_job_was_replanned(job));
+    assert_int_equal(count_kept_sets(job), 1);
     assert_int_equal(ps_power_job_plan(job)->chosen->precision, PS_DOUBLE);
     assert_true(ps_power_job_accuracy(job)->error <= 1e-6);
     assert_true(fabs(ps_power_job_spectrum(job)->powers[0].mean / 4096 - 1) < 1e-12);

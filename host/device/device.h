@@ -150,6 +150,10 @@ ps_range ps_range_heavy(const ps_device *device, size_t first, size_t second, si
                         double flops, double bytes);
 ps_range ps_range_light(const ps_device *device, size_t first, size_t second, size_t third,
                         double flops, double bytes);
+/* Whether heavy ranges with a first extent of 1 have work-groups of one item: their kernels may be compiled with
+ * -DALONE=1 (kernels/shared/group.h) then, and launched on ps_range_alone, whatever changes in between. */
+bool ps_range_is_alone(const ps_device *device);
+ps_range ps_range_alone(size_t second, size_t third, double flops, double bytes);
 /* Work-items in a light work-group, and in a heavy one on devices with local memory of their own; 0
  * restores the default. Results do not depend on it (that is what the tests use it for). */
 void ps_device_set_group_size(ps_device *device, size_t group_size);

@@ -38,9 +38,17 @@ static size_t cpu_group_size(const ps_device *device, double items, double flops
     return size < 1 ? 1 : size > DEFAULT_GROUP_SIZE ? DEFAULT_GROUP_SIZE : (size_t)size;
 }
 
+bool ps_range_is_alone(const ps_device *device) {
+    return !device->limits.has_dedicated_local_memory && device->group_size == 0;
+}
+
+ps_range ps_range_alone(size_t second, size_t third, double flops, double bytes) {
+    return make_range(1, 1, second, third, flops, bytes);
+}
+
 ps_range ps_range_heavy(const ps_device *device, size_t first, size_t second, size_t third,
                         double flops, double bytes) {
-    const bool is_cpu = !device->limits.has_dedicated_local_memory && device->group_size == 0;
+    const bool is_cpu = ps_range_is_alone(device);
     const double items = (double)first * (double)second * (double)third;
     size_t group =
         is_cpu && flops > 0 ? cpu_group_size(device, items, flops) : light_group_size(device);

@@ -97,9 +97,10 @@ pspec_status ps_nufft_whole_create(ps_nufft_whole *out, const ps_nufft_layout *l
                                    const ps_nufft_plan *plans, ps_precision precision,
                                    ps_device *device, ps_error *error) {
     char options[64];
-    *out = (ps_nufft_whole){.layout = layout, .plans = plans, .device = device};
-    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u",
-             precision == PS_SINGLE ? 32u : 64u, layout->lanes);
+    *out = (ps_nufft_whole){
+        .layout = layout, .plans = plans, .device = device, .is_alone = ps_range_is_alone(device)};
+    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u -DALONE=%u",
+             precision == PS_SINGLE ? 32u : 64u, layout->lanes, out->is_alone ? 1u : 0u);
     PS_TRY(ps_kernel_create(device, &out->kernel, "nufft/whole.cl", "nufft_whole", options, error));
     PS_TRY(ps_torus_points_create(&out->points, layout->choice.num_axes, layout->parts,
                                   layout->part_points, precision, false, device, error));
@@ -149,7 +150,9 @@ static ps_range range_of(const ps_nufft_whole *self, size_t num_realizations, si
                           (choice->num_axes == 2 ? choice->axes[1].window.width : 1);
     const size_t groups =
         num_realizations < self->layout->groups ? num_realizations : self->layout->groups;
-    return ps_nufft_group_range(self->device, groups, 1, flops + spread * (double)num_points);
+    const double all_flops = flops + spread * (double)num_points;
+    return self->is_alone ? ps_range_alone(groups, 1, all_flops, 0)
+                          : ps_nufft_group_range(self->device, groups, 1, all_flops);
 }
 
 pspec_status ps_nufft_whole_upload(ps_nufft_whole *whole, const ps_batch *batch, ps_error *error) {

@@ -12,6 +12,7 @@ typedef struct ps_nufft_whole {
     const ps_nufft_plan *plans; /* windows of the axes */
     ps_device *device;
     cl_kernel kernel;
+    bool is_alone; /* work-groups of one item: kernels/shared/group.h */
     ps_torus_points points;
     size_t num_points; /* that were uploaded */
     ps_fft_plan transforms[2];

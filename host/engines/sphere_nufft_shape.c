@@ -95,6 +95,20 @@ static void measure(ps_sphere_shape *shape, const ps_device_limits *limits, doub
     shape->row_bytes = 2 * (uint64_t)shape->pairs * shape->columns * unit * real_bytes;
 }
 
+/* Rings at the pole and at the equator whose Lambda_lm goes by differences. The rest is off by 4e-13 of the first ring
+ * and by 4e-14 of the 16th at L = 2000, and by 1e-13 of the 8th from the equator; the error formula allows 3e-13
+ * for all together. */
+enum { POLAR_RINGS = 16, EQUATORIAL_RINGS = 12 };
+
+static void choose_recurrences(ps_sphere_shape *shape, ps_precision precision) {
+    const uint32_t unit = (precision == PS_DOUBLE ? PS_SPHERE_RING_VECTORS : 1) * shape->lanes;
+    const uint32_t last =
+        shape->num_rings > EQUATORIAL_RINGS ? shape->num_rings - EQUATORIAL_RINGS : 0;
+    shape->polar = (uint32_t)ps_round_up(POLAR_RINGS, unit);
+    shape->crossing = shape->num_rings / 2 / unit * unit;
+    shape->equatorial = last / unit * unit;
+}
+
 static void measure_sums(ps_sphere_shape *shape, size_t real_bytes) {
     enum { LARGEST_LANES = 16 };
     const uint32_t ring_unit = PS_SPHERE_RING_VECTORS * LARGEST_LANES;
@@ -109,11 +123,12 @@ static void measure_sums(ps_sphere_shape *shape, size_t real_bytes) {
 ps_sphere_local ps_sphere_local_bytes(const ps_sphere_shape *shape, size_t real_bytes) {
     const size_t run = 2 * (size_t)shape->run_vectors * shape->lanes;
     const size_t bins = ps_nufft_bins(&shape->axis);
-    return (ps_sphere_local){.windows = PS_NUFFT_CHUNK * (2 * bins + 3) * real_bytes,
-                             .cells = 2 * PS_NUFFT_CHUNK * sizeof(uint32_t),
-                             .table = shape->block * run * real_bytes,
-                             .coefficients = 3 * run * sizeof(double),
-                             .begins = shape->block / shape->lanes * sizeof(uint32_t)};
+    return (ps_sphere_local){
+        .windows = PS_NUFFT_CHUNK * (2 * bins + 3) * real_bytes,
+        .cells = 2 * PS_NUFFT_CHUNK * sizeof(uint32_t),
+        .table = shape->block * run * real_bytes,
+        .coefficients = (PS_SPHERE_COEFFICIENTS * run + PS_SPHERE_CHAIN_AHEAD) * sizeof(double),
+        .begins = shape->block / shape->lanes * sizeof(uint32_t)};
 }
 
 static bool fits(const ps_sphere_shape *shape, const ps_device_limits *limits, size_t real_bytes) {
@@ -125,7 +140,7 @@ static bool fits(const ps_sphere_shape *shape, const ps_device_limits *limits, s
 /* ---- memory ------------------------------------------------------------------------------ */
 
 /* Values on rings of so many realizations share one table of Lambda_lm: more of them cost no less. */
-enum { MOST_AT_ONCE = 64 };
+enum { MOST_AT_ONCE = 32 };
 
 /* Bytes for all points on the device, all grids, and all points of realizations at once on the host, unless one needs
  * more. */
@@ -193,7 +208,7 @@ ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_byt
                              .values = shape->value_bytes,
                              .powers = groups * 2 * shape->half_pitch * sizeof(double),
                              .sums = groups * 4 * shape->run_vectors * shape->lanes * real_bytes,
-                             .states = groups * 2 * shape->ring_pitch * sizeof(double),
+                             .states = groups * 4 * shape->ring_pitch * sizeof(double),
                              .scales = groups * 2 * shape->ring_pitch * sizeof(int32_t),
                              .diagonals = groups * shape->ring_pitch * sizeof(double)};
 }
@@ -202,10 +217,12 @@ ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_byt
 static uint64_t table_bytes(const ps_sphere_shape *shape, size_t real_bytes) {
     const uint64_t cells = (shape->axis.n + (uint64_t)shape->rings) / 2;
     const uint64_t orders = (uint64_t)shape->max_degree + 1;
+    const uint64_t ring_tables = 3; /* cosines, distances, squares */
     const uint64_t starts = (PS_SPHERE_GROUPS + 1) * (uint64_t)shape->ring_pitch;
     return cells * (4 * real_bytes + sizeof(uint32_t)) +
            orders * (4 * real_bytes + sizeof(double)) +
-           starts * (sizeof(double) + sizeof(int32_t)) + shape->ring_pitch * sizeof(double);
+           starts * (sizeof(double) + sizeof(int32_t)) +
+           ring_tables * shape->ring_pitch * sizeof(double);
 }
 
 static void count_memory(ps_sphere_shape *shape, const ps_problem *problem,
@@ -223,7 +240,7 @@ static void count_memory(ps_sphere_shape *shape, const ps_problem *problem,
                          bytes.keys + bytes.starts + bytes.grids + bytes.rows + bytes.scratch +
                          bytes.strip_turns + bytes.strip_weights + bytes.strips +
                          bytes.strip_starts + table_bytes(shape, real_bytes) + bytes.sums +
-                         bytes.states + bytes.scales + bytes.diagonals +
+                         bytes.states + bytes.scales + bytes.diagonals + bytes.diagonals / 2 +
                          (is_fixed ? shape->at_once * each : 0);
     const uint64_t buffers[] = {bytes.grids, bytes.rows, shape->at_once * bytes.values,
                                 shape->at_once * bytes.powers, bytes.vectors};
@@ -261,6 +278,7 @@ ps_sphere_shape ps_sphere_shape_make(const ps_problem *problem, const ps_device_
     shape.num_rings = shape.rings / 4 + 1;
     shape.run_vectors = choose_run_vectors(&shape, limits, real_bytes);
     measure_sums(&shape, real_bytes);
+    choose_recurrences(&shape, precision);
     measure(&shape, limits, ps_nufft_points(problem), real_bytes);
     if (!fits(&shape, limits, real_bytes)) {
         shape.lanes = 0;
@@ -272,11 +290,15 @@ ps_sphere_shape ps_sphere_shape_make(const ps_problem *problem, const ps_device_
 
 /* ---- cost -------------------------------------------------------------------------------- */
 
+/* Cycles as in sphere_nufft_axis.c, by CPU time of the kernels on a machine that others used (Zen 5, PoCL 3.1, 2026-11):
+ * 0.7 to 1.2 times what it says, of white sets from N = 256, L = 64 to N = 1e6, L = 1000 and 4096, 2000, alone and in
+ * batches, at 1e-3, 1e-5 and 1e-12. */
 double ps_sphere_nufft_flops(const ps_sphere_shape *shape, ps_precision precision,
                              double num_points, double num_realizations) {
-    const double flops_per_lane = 4;    /* two fused operations in a cycle */
-    const double cycles_of_table = 14;  /* of a vector of Lambda_lm */
-    const double cycles_of_product = 2; /* of it and one realization */
+    const double flops_per_lane = 4;     /* two fused operations in a cycle */
+    const double cycles_of_table = 0.33; /* of a number of Lambda_lm, made in double precision */
+    const double cycles_of_coefficients = 16; /* of a degree and an order */
+    const double cycles_of_product = 1.6;     /* of a vector of it and one realization */
     const double cycles_per_ring =
         12; /* of a value on a circle, on its way to rings of both hemispheres */
     const double cycles_per_order = 250; /* whatever the degrees */
@@ -287,9 +309,10 @@ double ps_sphere_nufft_flops(const ps_sphere_shape *shape, ps_precision precisio
     const double vectors = (L + 1) * (L / 2 + lanes) / lanes * shape->num_rings * share;
     const double sharing = fmax(1, fmin(num_realizations, (double)shape->at_once));
     const double rings = shape->pairs * (double)shape->lanes / lanes *
-                         (ps_fft_cycles(shape->rings) + cycles_per_ring * shape->rings);
+                         (2 * ps_fft_cycles(shape->rings / 2) + cycles_per_ring * shape->rings);
     const double cycles = ps_sphere_grid_cycles(&shape->axis, precision, num_points) + rings +
-                          vectors * (cycles_of_table / sharing + cycles_of_product) +
+                          vectors * (cycles_of_table * lanes / sharing + cycles_of_product) +
+                          cycles_of_coefficients * (L + 1) * L / 2 / sharing +
                           cycles_per_order * (L + 1) +
                           (shape->is_sorted ? cycles_per_sorted * num_points : 0);
     return cycles * lanes * flops_per_lane;

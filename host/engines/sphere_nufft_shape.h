@@ -17,25 +17,26 @@ typedef struct ps_sphere_shape {
     uint32_t rings;     /* on a whole great circle through the poles, even and above 2 L */
     uint32_t num_rings; /* in the northern quarter of it */
 
-    unsigned lanes;            /* 0: L is too large */
-    uint32_t pole;             /* cells in front of the north pole */
-    uint32_t pitch, grid_rows; /* of a grid */
-    uint32_t columns;          /* with cells in them, whole groups */
-    uint32_t pairs;            /* of tiles of orders */
-    uint32_t ring_pitch;       /* rings up to whole vectors */
-    uint32_t run_vectors;      /* RUN_VECTORS of orders_table.h */
-    uint32_t block;            /* rings of a block of orders_sum.cl */
-    uint32_t half_pitch;       /* degrees of one parity, and room behind them */
-    uint32_t bands, band_rows; /* of a grid (kernels/sphere/bands.h) */
-    uint32_t tiles;            /* of angles from the pole, of sorted points */
-    uint32_t strip;            /* columns of a strip (kernels/sphere/orders_strips.h) */
-    bool is_sorted;            /* one realization at a time, in chunks of points */
-    size_t at_once;            /* realizations between values on rings and powers */
-    size_t together;           /* between points and values on rings */
-    size_t slots;              /* grids */
-    size_t shares;             /* work-groups for each grid */
-    uint64_t most_points;      /* on the device at a time */
-    uint64_t set_points;       /* of a realization that comes in strips, else 0 */
+    unsigned lanes;                       /* 0: L is too large */
+    uint32_t pole;                        /* cells in front of the north pole */
+    uint32_t pitch, grid_rows;            /* of a grid */
+    uint32_t columns;                     /* with cells in them, whole groups */
+    uint32_t pairs;                       /* of tiles of orders */
+    uint32_t ring_pitch;                  /* rings up to whole vectors */
+    uint32_t run_vectors;                 /* RUN_VECTORS of orders_table.h */
+    uint32_t polar, crossing, equatorial; /* ring_angles of orders_table.h */
+    uint32_t block;                       /* rings of a block of orders_sum.cl */
+    uint32_t half_pitch;                  /* degrees of one parity, and room behind them */
+    uint32_t bands, band_rows;            /* of a grid (kernels/sphere/bands.h) */
+    uint32_t tiles;                       /* of angles from the pole, of sorted points */
+    uint32_t strip;                       /* columns of a strip (kernels/sphere/orders_strips.h) */
+    bool is_sorted;                       /* one realization at a time, in chunks of points */
+    size_t at_once;                       /* realizations between values on rings and powers */
+    size_t together;                      /* between points and values on rings */
+    size_t slots;                         /* grids */
+    size_t shares;                        /* work-groups for each grid */
+    uint64_t most_points;                 /* on the device at a time */
+    uint64_t set_points;                  /* of a realization that comes in strips, else 0 */
 
     uint64_t grid_bytes;  /* of a grid, or of a strip */
     uint64_t row_bytes;   /* of the rows of a realization */
@@ -103,8 +104,10 @@ enum { PS_SPHERE_PART_POINTS = 1 << 16, PS_SPHERE_PARTS = 16 };
 /* Numbers that kernels/sphere/ agrees on, as it names them. */
 enum {
     PS_SPHERE_TILE_CELLS = 64,  /* bands.h */
-    PS_SPHERE_RING_VECTORS = 2, /* orders_table.h: the most, in double precision */
-    PS_SPHERE_SCALE = 100       /* orders_table.h: the exponent of SCALE_UP */
+    PS_SPHERE_RING_VECTORS = 2, /* orders_chains.h: the most, in double precision */
+    PS_SPHERE_SCALE = 100,      /* orders_chains.h: the exponent of SCALE_UP */
+    PS_SPHERE_COEFFICIENTS = 9, /* orders_chains.h: COEFFICIENTS for each degree of a run */
+    PS_SPHERE_CHAIN_AHEAD = 4   /* orders_chains.h: and these */
 };
 
 #endif

@@ -5,21 +5,24 @@
 #include "engines/reals.h"
 
 #include <stdio.h>
+#include <string.h>
 
 /* Bits of kernels/sphere/orders.cl. */
 enum { STEP_SPREAD = 1, STEP_AROUND = 2, STEP_RINGS = 4 };
 
 /* ---- create ------------------------------------------------------------------------------ */
 
-static void write_options(const ps_sphere_stages *self, unsigned lanes, char *options,
-                          size_t room) {
-    snprintf(options, room, "-DPRECISION=%u -DLANES=%u -DRUN_VECTORS=%u",
-             self->precision == PS_SINGLE ? 32u : 64u, lanes, self->shape->run_vectors);
+enum { OPTIONS_BYTES = 80 };
+
+static void write_options(const ps_sphere_stages *self, char *options, size_t room) {
+    snprintf(options, room, "-DPRECISION=%u -DLANES=%u -DRUN_VECTORS=%u -DALONE=%u",
+             self->precision == PS_SINGLE ? 32u : 64u, self->shape->lanes, self->shape->run_vectors,
+             self->is_alone ? 1u : 0u);
 }
 
 static pspec_status create_kernels(ps_sphere_stages *self, ps_error *error) {
-    char options[64];
-    write_options(self, self->shape->lanes, options, sizeof options);
+    char options[OPTIONS_BYTES];
+    write_options(self, options, sizeof options);
     PS_TRY(ps_kernel_create(self->device, &self->orders, "sphere/orders.cl", "sphere_orders",
                             options, error));
     if (self->shape->is_sorted) {
@@ -50,6 +53,7 @@ static pspec_status create_buffers(ps_sphere_stages *self, ps_error *error) {
                   {&self->states, bytes.states, "states of rings"},
                   {&self->scales, bytes.scales, "scales of rings"},
                   {&self->diagonals, bytes.diagonals, "first degrees of rings"},
+                  {&self->diagonal_scales, bytes.diagonals / 2, "scales of first degrees"},
                   {&self->sums, (shape->at_once + 1) * bytes.sums, "sums over rings"},
                   {&self->powers, shape->at_once * bytes.powers, "powers of orders"}};
     for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
@@ -66,6 +70,7 @@ pspec_status ps_sphere_stages_create(ps_sphere_stages *out, const ps_sphere_shap
     *out = (ps_sphere_stages){.device = device,
                               .precision = precision,
                               .only_even = only_even,
+                              .is_alone = ps_range_is_alone(device),
                               .shape = shape,
                               .points = points,
                               .tables = tables};
@@ -80,11 +85,11 @@ void ps_sphere_stages_free(ps_sphere_stages *stages) {
             clReleaseKernel(kernels[i]);
         }
     }
-    ps_buffer *const buffers[] = {&stages->strip_turns,  &stages->strip_weights, &stages->strips,
-                                  &stages->strip_starts, &stages->grids,         &stages->rows,
-                                  &stages->values,       &stages->states,        &stages->scales,
-                                  &stages->diagonals,    &stages->sums,          &stages->powers,
-                                  &stages->scratch};
+    ps_buffer *const buffers[] = {&stages->strip_turns,  &stages->strip_weights,   &stages->strips,
+                                  &stages->strip_starts, &stages->grids,           &stages->rows,
+                                  &stages->values,       &stages->states,          &stages->scales,
+                                  &stages->diagonals,    &stages->diagonal_scales, &stages->sums,
+                                  &stages->powers,       &stages->scratch};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
         ps_buffer_release(buffers[i]);
     }
@@ -95,7 +100,8 @@ void ps_sphere_stages_free(ps_sphere_stages *stages) {
 
 /* Work-groups of one item on CPUs, where lanes are vectors. */
 static ps_range group_range(const ps_sphere_stages *self, size_t groups, double flops) {
-    return ps_range_heavy(self->device, 1, groups, 1, flops, 0);
+    return self->is_alone ? ps_range_alone(groups, 1, flops, 0)
+                          : ps_range_heavy(self->device, 1, groups, 1, flops, 0);
 }
 
 /* Of those whose points are on the device. */
@@ -198,11 +204,13 @@ static pspec_status sum_rings(ps_sphere_stages *self, cl_kernel kernel, const ps
         self->device, kernel, &range, error, PS_BUFFER(self->values), PS_U32(shape->at_once),
         PS_U32(num), PS_BUFFER(tables->starts), PS_BUFFER(tables->start_scales),
         PS_BUFFER(tables->steps), PS_BUFFER(tables->step_scales), PS_BUFFER(tables->ratios),
-        PS_BUFFER(tables->distances), PS_U32(shape->max_degree), PS_U32(shape->num_rings),
-        PS_U32(shape->ring_pitch), PS_U32(self->only_even), PS_U32(shape->block),
-        PS_U32(shape->half_pitch), PS_BUFFER(self->states), PS_BUFFER(self->scales),
-        PS_BUFFER(self->diagonals), PS_BUFFER(self->sums), PS_BUFFER(*to), PS_LOCAL(local.table),
-        PS_LOCAL(local.coefficients), PS_LOCAL(local.begins));
+        PS_BUFFER(tables->cosines), PS_BUFFER(tables->distances), PS_BUFFER(tables->squares),
+        PS_U32(shape->polar), PS_U32(shape->crossing), PS_U32(shape->equatorial),
+        PS_U32(shape->max_degree), PS_U32(shape->num_rings), PS_U32(shape->ring_pitch),
+        PS_U32(self->only_even), PS_U32(shape->block), PS_U32(shape->half_pitch),
+        PS_BUFFER(self->states), PS_BUFFER(self->scales), PS_BUFFER(self->diagonals),
+        PS_BUFFER(self->diagonal_scales), PS_BUFFER(self->sums), PS_BUFFER(*to),
+        PS_LOCAL(local.table), PS_LOCAL(local.coefficients), PS_LOCAL(local.begins));
 }
 
 pspec_status ps_sphere_stages_sum(ps_sphere_stages *stages, size_t num, double *powers,
@@ -235,11 +243,11 @@ static pspec_status keep_with(ps_sphere_stages *self, cl_kernel kernel, size_t n
 pspec_status ps_sphere_stages_keep(ps_sphere_stages *stages, double *coefficients,
                                    ps_error *error) {
     const size_t num = ((size_t)stages->shape->max_degree + 1) * 4 * stages->shape->half_pitch;
-    char options[64];
+    static const char keep[] = " -DKEEP=1";
+    char options[OPTIONS_BYTES + sizeof keep];
     cl_kernel kernel = NULL;
-    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u -DRUN_VECTORS=%u -DKEEP=1",
-             stages->precision == PS_SINGLE ? 32u : 64u, stages->shape->lanes,
-             stages->shape->run_vectors);
+    write_options(stages, options, OPTIONS_BYTES);
+    strcat(options, keep);
     PS_TRY(ps_kernel_create(stages->device, &kernel, "sphere/orders_sum.cl", "sphere_orders_sum",
                             options, error));
     const pspec_status status = keep_with(stages, kernel, num, coefficients, error);

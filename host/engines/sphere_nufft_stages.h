@@ -11,13 +11,14 @@ typedef struct ps_sphere_stages {
     ps_device *device;
     ps_precision precision;
     bool only_even;
+    bool is_alone; /* work-groups of one item: kernels/shared/group.h */
     const ps_sphere_shape *shape;
     const ps_sphere_places *points;
     const ps_sphere_tables *tables;
     cl_kernel orders, bands, sum, fold;     /* bands: of sorted points */
     ps_buffer grids, rows, scratch, values; /* of orders.cl */
     ps_buffer strip_turns, strip_weights, strips, strip_starts;
-    ps_buffer states, scales, diagonals, sums; /* of orders_sum.cl */
+    ps_buffer states, scales, diagonals, diagonal_scales, sums; /* of orders_sum.cl */
     ps_buffer powers;
 } ps_sphere_stages;
 

@@ -87,7 +87,7 @@ static long double ratio(int32_t m) {
 
 /* Numbers of the host, on their way to the device. */
 typedef struct host_tables {
-    double *starts, *steps, *ratios, *distances;
+    double *starts, *steps, *ratios, *cosines, *distances, *squares;
     int32_t *start_scales, *step_scales;
     size_t num_starts, num_rings, num_orders;
 } host_tables;
@@ -95,6 +95,7 @@ typedef struct host_tables {
 static void fill_ring(host_tables *to, const ps_sphere_shape *shape, uint32_t ring) {
     const long double angle = 2 * pi * ring / shape->rings;
     const long double sine = sinl(angle);
+    const long double cosine = cosl(angle);
     const long double half = sinl(angle / 2);
     scaled start = {sqrtl(1 / (4 * pi)), 0};
     scaled step = {1, 0};
@@ -106,7 +107,9 @@ static void fill_ring(host_tables *to, const ps_sphere_shape *shape, uint32_t ri
     }
     to->steps[ring] = (double)step.value;
     to->step_scales[ring] = step.scale;
+    to->cosines[ring] = (double)cosine;
     to->distances[ring] = (double)(2 * half * half);
+    to->squares[ring] = (double)(ring < shape->crossing ? -sine * sine : cosine * cosine);
 }
 
 static void fill_ratios(host_tables *to) {
@@ -133,7 +136,9 @@ static pspec_status upload_all(ps_sphere_tables *self, const host_tables *from, 
     PS_TRY(upload(device, &self->start_scales, from->start_scales, starts / 2, error));
     PS_TRY(upload(device, &self->steps, from->steps, rings, error));
     PS_TRY(upload(device, &self->step_scales, from->step_scales, rings / 2, error));
+    PS_TRY(upload(device, &self->cosines, from->cosines, rings, error));
     PS_TRY(upload(device, &self->distances, from->distances, rings, error));
+    PS_TRY(upload(device, &self->squares, from->squares, rings, error));
     return upload(device, &self->ratios, from->ratios, from->num_orders * sizeof(double), error);
 }
 
@@ -142,14 +147,16 @@ static pspec_status create_starts(ps_sphere_tables *self, const ps_sphere_shape 
     host_tables host = {.num_starts = (size_t)PS_SPHERE_GROUPS * shape->ring_pitch,
                         .num_rings = shape->ring_pitch,
                         .num_orders = (size_t)shape->max_degree + 1};
-    const size_t reals = host.num_starts + 2 * host.num_rings + host.num_orders;
+    const size_t reals = host.num_starts + 4 * host.num_rings + host.num_orders;
     const size_t scales = host.num_starts + host.num_rings;
     void *memory = NULL;
     PS_TRY(ps_allocate(&memory, reals + scales, sizeof(double), "tables of the sphere", error));
     host.starts = memory;
     host.steps = host.starts + host.num_starts;
     host.distances = host.steps + host.num_rings;
-    host.ratios = host.distances + host.num_rings;
+    host.cosines = host.distances + host.num_rings;
+    host.squares = host.cosines + host.num_rings;
+    host.ratios = host.squares + host.num_rings;
     host.start_scales = (int32_t *)(host.ratios + host.num_orders);
     host.step_scales = host.start_scales + host.num_starts;
     for (uint32_t ring = 0; ring < shape->num_rings; ring++) {
@@ -178,7 +185,7 @@ void ps_sphere_tables_free(ps_sphere_tables *tables) {
     ps_buffer *const buffers[] = {&tables->turns,       &tables->ring_turns,  &tables->around_gains,
                                   &tables->along_gains, &tables->starts,      &tables->start_scales,
                                   &tables->steps,       &tables->step_scales, &tables->ratios,
-                                  &tables->distances};
+                                  &tables->cosines,     &tables->distances,   &tables->squares};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
         ps_buffer_release(buffers[i]);
     }

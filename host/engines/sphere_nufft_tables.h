@@ -12,7 +12,8 @@ typedef struct ps_sphere_tables {
     ps_fft_plan rings;  /* transforms to rings, of half their number */
     ps_buffer turns, ring_turns;
     ps_buffer around_gains, along_gains;
-    ps_buffer starts, start_scales, steps, step_scales, ratios, distances;
+    ps_buffer starts, start_scales, steps, step_scales, ratios;
+    ps_buffer cosines, distances, squares;
 } ps_sphere_tables;
 
 pspec_status ps_sphere_tables_create(ps_sphere_tables *out, const ps_sphere_shape *shape,

@@ -32,6 +32,9 @@ pspec_status ps_power_sets_read_weights(ps_power_sets *sets, const char *path, p
 pspec_status ps_power_sets_allocate(ps_power_sets *sets, size_t capacity, ps_error *error) {
     void *memory = NULL;
     free_batch(sets);
+    if (!sets->has_next) { /* of the run before: a job that plans again would have one set more than announced */
+        ps_point_set_free(&sets->next);
+    }
     PS_TRY(ps_allocate(&memory, capacity, sizeof(pspec_pattern), "patterns", error));
     sets->patterns = memory;
     PS_TRY(ps_allocate(&memory, capacity, sizeof(ps_point_set), "patterns", error));

@@ -6,6 +6,7 @@
 
 #include "nufft/cells.h"
 #include "nufft/window.h"
+#include "shared/group.h"
 
 /* Points of a chunk; LANES divides it. */
 #define CHUNK 16
@@ -122,12 +123,12 @@ static inline void make_windows(const chunk to, const uint count, const chunk_ax
     const window_axis across = axes.across, along = axes.along;
     const uint parts = CHUNK / LANES;
     const uint jobs = axes.dimension == 1 ? 0 : (across.width + 3) / 4 * parts; /* two pairs */
-    for (uint job = get_local_id(0); job < jobs; job += get_local_size(0)) {
+    for (uint job = own_item(); job < jobs; job += num_items()) {
         const uint part = job % parts;
         make_two_pairs(across, job / parts * 2, load_local(to.centres, part),
                        load_local(to.weights, part), to.across + part * LANES, CHUNK);
     }
-    for (uint i = 4 * get_local_id(0); i < count; i += 4 * get_local_size(0)) {
+    for (uint i = 4 * own_item(); i < count; i += 4 * num_items()) {
         __local const real *centres = to.centres + CHUNK + i;
         if (along.bins == 8) {
             make_8_bins(along, centres, to.along + i * 8);
@@ -144,7 +145,7 @@ static inline void make_windows(const chunk to, const uint count, const chunk_ax
 static inline void fill_chunk(const chunk to, __global const ulong *points,
                               __global const real *weights, const uint count, const uint made,
                               const uint pitch, const chunk_axes axes) {
-    for (uint part = get_local_id(0); part < CHUNK / LANES; part += get_local_size(0)) {
+    for (uint part = own_item(); part < CHUNK / LANES; part += num_items()) {
         const uint begin =
             min(part * LANES, count - 1); /* of those behind the end, the last point */
         const uint num = count - begin;
@@ -153,9 +154,9 @@ static inline void fill_chunk(const chunk to, __global const ulong *points,
                                            : load_few_weights(weights + begin, weighty);
         place_lanes(to, part, pitch, points + (size_t)begin * axes.dimension, num, few, axes);
     }
-    barrier(CLK_LOCAL_MEM_FENCE);
+    GROUP_BARRIER(CLK_LOCAL_MEM_FENCE);
     make_windows(to, made, axes);
-    barrier(CLK_LOCAL_MEM_FENCE);
+    GROUP_BARRIER(CLK_LOCAL_MEM_FENCE);
 }
 
 /* ---- adding --------------------------------------------------------------------------------- */

@@ -18,6 +18,7 @@
 #define PS_NUFFT_FFT_H
 
 #include "nufft/butterfly.h"
+#include "shared/group.h"
 
 #ifdef FFT_IN_GLOBAL
 #define FFT_SPACE __global
@@ -58,7 +59,7 @@ static inline void store_global_complex(__global real *to, const size_t cell, co
                                         const size_t length) {                                     \
         FFT_SPACE real *const end = data + length * apart;                                         \
         const size_t stride = m * apart;                                                           \
-        size_t t = get_local_id(0);                                                                \
+        size_t t = own_item();                                                                     \
         for (;;) {                                                                                 \
             while (t >= m && data < end) {                                                         \
                 t -= m;                                                                            \
@@ -82,7 +83,7 @@ static inline void store_global_complex(__global real *to, const size_t cell, co
             _Pragma("unroll") for (int j = 0; j < RADIX; j++) {                                    \
                 store_complex(at + j * stride, 0, x[j]);                                           \
             }                                                                                      \
-            t += get_local_size(0);                                                                \
+            t += num_items();                                                                      \
         }                                                                                          \
     }
 
@@ -114,7 +115,7 @@ static inline void fft_transform(FFT_SPACE real *data, const size_t apart, const
             FFT_CASE(8);
         }
         twiddles += 2 * m * (radix - 1);
-        barrier(FFT_FENCE);
+        GROUP_BARRIER(FFT_FENCE);
     }
 }
 

@@ -50,9 +50,9 @@ static inline void scatter(const whole_grid grid, const chunk from, const chunk_
 /* The same by all: each has the cells of a row that are its number modulo their number. */
 static inline void scatter_together(const whole_grid grid, const chunk from,
                                     const chunk_axes axes) {
-    const uint size = get_local_size(0);
+    const uint size = num_items();
     for (uint i = 0; i < CHUNK; i++) {
-        const uint own = (get_local_id(0) + size - from.columns[i] % size) % size;
+        const uint own = (own_item() + size - from.columns[i] % size) % size;
         for (uint bin = own; bin < axes.along.bins; bin += size) {
             for (uint row = 0; row < axes.across.width; row++) {
                 __global real *to = grid.cells + from.cells[i] + row * grid.pitch + bin;
@@ -62,14 +62,9 @@ static inline void scatter_together(const whole_grid grid, const chunk from,
     }
 }
 
-static inline void barrier_everywhere(void) {
-    barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
-}
-
 /* The mean is taken off every cell before anything is added. */
 static inline void clear_grid(const whole_grid grid, const real mean) {
-    for (size_t i = get_local_id(0); i < grid.rows * (size_t)grid.pitch / LANES;
-         i += get_local_size(0)) {
+    for (size_t i = own_item(); i < grid.rows * (size_t)grid.pitch / LANES; i += num_items()) {
         store_global(grid.cells, i, (realv)-mean);
     }
     barrier_everywhere();
@@ -81,11 +76,11 @@ static inline void fold_grid(const whole_grid grid, const real mean, const windo
                              const window_axis along, const uint n) {
     const uint behind = grid.is_line ? along.bins : across.width * grid.pitch;
     const uint num_rows = grid.is_line ? 0 : across.n;
-    for (uint i = get_local_id(0); i < behind; i += get_local_size(0)) {
+    for (uint i = own_item(); i < behind; i += num_items()) {
         grid.cells[i] += grid.cells[n + i] + mean;
     }
     barrier_everywhere();
-    for (uint row = get_local_id(0); row < num_rows; row += get_local_size(0)) {
+    for (uint row = own_item(); row < num_rows; row += num_items()) {
         __global real *at = grid.cells + row * grid.pitch;
         for (uint i = 0; i < along.bins; i++) {
             at[i] += at[along.n + i] + mean;
@@ -113,7 +108,7 @@ static inline column_place place_of_columns(const whole_grid grid, __global real
 
 static inline void copy_columns(__global real *spare, const whole_grid grid, const uint column,
                                 const uint n) {
-    for (uint m = get_local_id(0); m < n; m += get_local_size(0)) {
+    for (uint m = own_item(); m < n; m += num_items()) {
         store_complex(spare, m, load_global_complex(grid.cells + m * grid.pitch + column, 0));
     }
 }
@@ -121,7 +116,7 @@ static inline void copy_columns(__global real *spare, const whole_grid grid, con
 /* A row of a tile, from all columns. */
 static inline void turn_columns(__global real *row, const whole_grid grid, __global real *spare,
                                 const transform_axis first, const uint k, const uint columns) {
-    for (uint group = get_local_id(0); group < columns / (2 * LANES); group += get_local_size(0)) {
+    for (uint group = own_item(); group < columns / (2 * LANES); group += num_items()) {
         const uint column = group * 2 * LANES;
         const column_place from = place_of_columns(grid, spare, column);
         turn_halves(from.cells, from.apart, first, k, row + column * 2 * LANES);
@@ -131,7 +126,7 @@ static inline void turn_columns(__global real *row, const whole_grid grid, __glo
 /* In one dimension, between the transforms. */
 static inline void turn_line(__global real *row, const uint n, __global const real *lane_turns,
                              __global const real *tile_turns) {
-    for (uint i = get_local_id(0); i < n; i += get_local_size(0)) {
+    for (uint i = own_item(); i < n; i += num_items()) {
         const complexv turn = load_global_complex(lane_turns, i);
         const complexv z =
             complex_multiply(load_complex(row, i), tile_turns[2 * i], tile_turns[2 * i + 1]);
@@ -141,7 +136,7 @@ static inline void turn_line(__global real *row, const uint n, __global const re
 
 static inline void write_row(__global const real *row, const transform_axis second,
                              const real scale, __global const real *gains, __global real *power) {
-    for (uint i = get_local_id(0); i < 2 * second.K + 1; i += get_local_size(0)) {
+    for (uint i = own_item(); i < 2 * second.K + 1; i += num_items()) {
         const complexv z = kept_frequency(row, second, i);
         store_global(power, i,
                      fma(z.re, z.re, z.im * z.im) * (load_global(gains, i) * (realv)scale));
@@ -188,7 +183,7 @@ __kernel void nufft_whole(
             const uint count = (uint)min((ulong)CHUNK, offsets[r + 1] - place);
             fill_chunk(chunk, points + place * dimension, weights + place, count, CHUNK, pitch,
                        axes);
-            if (get_local_size(0) == 1) {
+            if (num_items() == 1) {
                 scatter(grid, chunk, axes);
             } else {
                 scatter_together(grid, chunk, axes);
@@ -225,7 +220,7 @@ __kernel void nufft_whole(
             }
             barrier_everywhere();
             fft_transform(place.cells, place.apart, axis.n, axis.radices, axis.twiddles);
-            if (is_first && shared_lanes > 0 && get_local_id(0) == 0) {
+            if (is_first && shared_lanes > 0 && own_item() == 0) {
                 collect_columns(shared, column, place.cells, place.apart, first);
             }
             const size_t at = tile * (2 * (size_t)second_K + 1) * LANES;

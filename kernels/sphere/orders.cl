@@ -32,6 +32,8 @@
 
 enum { STEP_SPREAD = 1, STEP_AROUND = 2, STEP_RINGS = 4 };
 
+/* ---- what a share does ---------------------------------------------------------------------- */
+
 /* Of `num` things in a row, where those of a share begin. */
 static inline uint start_of_share(const uint share, const uint num, const uint shares) {
     return (uint)((ulong)share * num / shares);
@@ -40,6 +42,99 @@ static inline uint start_of_share(const uint share, const uint num, const uint s
 /* Of `num` things, those with the numbers share, share + shares, ... */
 static inline uint share_of(const uint num, const uint share, const uint shares) {
     return num > share ? (num - share + shares - 1) / shares : 0;
+}
+
+/* Strips first_strip .. end_strip - 1, and those from `lead` on, whose windows reach there, are spread; a grid that is
+ * whole counts as one. */
+typedef struct share_work {
+    uint share, shares, strip;
+    bool is_whole, is_spread;
+    uint lead, first_strip, end_strip;
+    uint groups, pairs; /* groups of columns, pairs of tiles */
+} share_work;
+
+static inline void divide_strips(share_work *work, const uint columns, const uint bins) {
+    const uint num_strips = (columns + work->strip - 1) / work->strip;
+    const uint reach = (bins + work->strip - 2) / work->strip;
+    if (work->is_whole) {
+        work->lead = work->first_strip = 0;
+        work->end_strip = 1;
+        work->groups = share_of(columns / LANES, work->share, work->shares);
+    } else {
+        work->first_strip = start_of_share(work->share, num_strips, work->shares);
+        work->end_strip = start_of_share(work->share + 1, num_strips, work->shares);
+        work->lead = work->first_strip > reach ? work->first_strip - reach : 0;
+        work->groups =
+            (min(work->end_strip * work->strip, columns) - work->first_strip * work->strip) / LANES;
+    }
+}
+
+/* The first column of a group. */
+static inline uint column_of(const share_work work, const uint group) {
+    return work.is_whole ? (work.share + group * work.shares) * LANES
+                         : work.first_strip * work.strip + group * LANES;
+}
+
+/* In any order, begin .. end - 1, or strip by strip from starts on. */
+typedef struct some_points {
+    __global const ulong *turns;
+    __global const real *weights;
+    ulong begin, end;
+    __global const uint *starts;
+} some_points;
+
+/* Spreads what group `group` of columns needs, one after the other: a strip before its first group. */
+static inline void spread_for_group(const share_work work, const uint group, const orders_grid grid,
+                                    const chunk chunk, const some_points points,
+                                    const chunk_axes axes) {
+    const uint column = column_of(work, group);
+    const uint here = work.is_whole ? 0 : column / work.strip;
+    const bool is_next =
+        work.is_spread && (group == 0 || (group < work.groups && column % work.strip == 0));
+    const uint end = is_next ? min(here + 1, work.end_strip) : 0;
+    for (uint at = group == 0 ? work.lead : here; at < end; at++) {
+        const orders_grid to = {grid.cells, grid.pitch, grid.rows, at * work.strip};
+        carry_cells(grid, at == work.lead ? grid.pitch : work.strip);
+        const ulong begin = work.is_whole ? points.begin : points.starts[at];
+        const ulong behind = work.is_whole ? points.end : points.starts[at + 1];
+        spread_points(to, chunk, points.turns, points.weights, begin, behind, axes);
+    }
+}
+
+/* ---- transforms ----------------------------------------------------------------------------- */
+
+/* Of half a length: around the axis and along theta, or to rings. */
+typedef struct half_plan {
+    __global const uint *radices;
+    __global const real *twiddles;
+    __global const uint *position;
+    uint length;
+} half_plan;
+
+/* All tiles of a realization, columns * 2 * LANES numbers each. */
+typedef struct order_tiles {
+    __global real *rows;
+    size_t row_reals;
+    uint num;
+} order_tiles;
+
+static inline void write_orders(const order_tiles tiles, __global const real *data,
+                                const half_plan around, const uint L, __global const real *gains,
+                                const uint column) {
+    for (uint tile = own_item(); tile < tiles.num; tile += num_items()) {
+        turn_orders(data, around.position, around.length, L, gains, tile / 2 * 2 * LANES + tile % 2,
+                    tiles.rows + tile * tiles.row_reals + (size_t)column * 2 * LANES);
+    }
+}
+
+static inline void write_rings(const ring_target target, __global const real *spectrum,
+                               const half_plan to_rings, const uint num_rings,
+                               const uint ring_pitch, const uint parity,
+                               __global const real *ring_turns, const uint first_order) {
+    for (uint block = own_item(); block < ring_pitch / (LANES / 2); block += num_items()) {
+        write_some_rings(spectrum, to_rings.position, to_rings.length, num_rings,
+                         block * (LANES / 2), parity, ring_turns, target, first_order);
+    }
 }
 
 __kernel void sphere_orders(
@@ -60,111 +155,79 @@ __kernel void sphere_orders(
     __global real *restrict all_rows, __global real *restrict values, const uint first_value,
     const uint value_sets, __global real *restrict scratch, __local real *windows,
     __local uint *cells) {
-    const uint share = get_global_id(1) % shares;
     const uint slot = get_global_id(1) / shares, slots = get_global_size(1) / shares;
     const uint pairs = L / (2 * LANES) + 1;
-    const uint groups = columns / LANES, middle = n / 2, half_rings = rings / 2;
     const uint transforms = only_even != 0 ? 2 : 4; /* of a pair of tiles */
-    const size_t row_reals = (size_t)columns * 2 * LANES;
+    const uint num_strips = (columns + strip - 1) / strip;
+    const size_t group = get_global_id(1), row_reals = (size_t)columns * 2 * LANES;
+    const size_t room = (most_points + LANES - 1) / LANES * LANES;
     const window_axis across = {window, n, width, 0, degree, bins, 0, 1};
     const window_axis along = {window, n, width, 1, degree, bins, 0, 1};
     const chunk_axes axes = {across, across, along, 2, 0};
-    const size_t group = get_global_id(1);
-    const bool is_whole = strip >= columns;
-    const orders_grid grid = {grids + (is_whole ? slot : group) * (size_t)grid_rows * pitch, pitch,
-                              grid_rows, 0};
-    __global real *rows = all_rows + slot * 2 * pairs * row_reals;
-    __global real *data = scratch + group * (size_t)(n + half_rings) * 2 * LANES;
-    __global real *spectrum = data + (size_t)n * 2 * LANES;
     const chunk chunk = make_chunk(windows, cells, across, along);
-    const bool is_spread = (steps & STEP_SPREAD) != 0;
-    /* Strips of this share, and those before them whose windows reach here. */
-    const uint num_strips = (columns + strip - 1) / strip;
-    const uint first_strip = is_whole ? 0 : start_of_share(share, num_strips, shares);
-    const uint end_strip = is_whole ? 1 : start_of_share(share + 1, num_strips, shares);
-    const uint reach = is_whole ? 0 : (bins + strip - 2) / strip;
-    const uint lead = first_strip > reach ? first_strip - reach : 0;
-    const size_t room = (most_points + LANES - 1) / LANES * LANES;
-    const strip_points own_points = {sorted + group * room * 2, heights + group * room,
-                                     strips + group * room, starts + group * (num_strips + 1)};
-    const uint groups_here = is_whole
-                                 ? share_of(groups, share, shares)
-                                 : (min(end_strip * strip, columns) - first_strip * strip) / LANES;
-    const uint own_groups = (steps & STEP_AROUND) != 0 ? groups_here : 0;
-    const uint own_pairs = (steps & STEP_RINGS) != 0 ? share_of(pairs, share, shares) : 0;
-    const uint num_steps = own_groups + transforms * own_pairs;
-    const uint last_step = max(num_steps, is_spread ? 1u : 0u); /* one for spreading alone */
+    const half_plan around = {radices, twiddles, position, n / 2};
+    const half_plan to_rings = {ring_radices, ring_twiddles, ring_position, rings / 2};
+    share_work work = {.share = get_global_id(1) % shares,
+                       .shares = shares,
+                       .strip = strip,
+                       .is_whole = strip >= columns,
+                       .is_spread = (steps & STEP_SPREAD) != 0};
+    divide_strips(&work, columns, bins);
+    work.groups = (steps & STEP_AROUND) != 0 ? work.groups : 0;
+    work.pairs = (steps & STEP_RINGS) != 0 ? share_of(pairs, work.share, shares) : 0;
+    const orders_grid grid = {grids + (work.is_whole ? slot : group) * (size_t)grid_rows * pitch,
+                              pitch, grid_rows, 0};
+    const order_tiles tiles = {all_rows + slot * 2 * pairs * row_reals, row_reals, 2 * pairs};
+    __global real *data = scratch + group * (size_t)(n + rings / 2) * 2 * LANES;
+    __global real *spectrum = data + (size_t)n * 2 * LANES;
+    const strip_points sorting = {sorted + group * room * 2, heights + group * room,
+                                  strips + group * room, starts + group * (num_strips + 1)};
+    const uint num_steps = work.groups + transforms * work.pairs;
+    const uint last_step = max(num_steps, work.is_spread ? 1u : 0u); /* one for spreading alone */
     uint passes = 0;
     while (radices[passes] != 0) {
         passes++;
     }
-    __global const uint *no_radices = radices + passes;
+    const half_plan nothing = {radices + passes, twiddles, position, 0};
     for (uint r = first_realization + slot; r < end_realization; r += slots) {
-        if (is_spread && !is_whole && get_local_id(0) == 0) {
-            sort_by_strips(own_points, points + offsets[r] * 2, weights + offsets[r],
-                           offsets[r + 1] - offsets[r], along, strip, lead, end_strip);
+        const some_points whole = {points, weights, offsets[r], offsets[r + 1], starts};
+        const some_points by_strips = {sorting.turns, sorting.weights, 0, 0, sorting.starts};
+        const ring_target target = {values + (first_value + r) * 4 * (size_t)ring_pitch,
+                                    value_sets * 4 * (size_t)ring_pitch, 2 * (size_t)ring_pitch, L};
+        if (work.is_spread && !work.is_whole && own_item() == 0) {
+            sort_by_strips(sorting, points + offsets[r] * 2, weights + offsets[r],
+                           offsets[r + 1] - offsets[r], along, strip, work.lead, work.end_strip);
         }
         barrier_everywhere();
         /* Groups of columns, then to and fro for each pair of tiles, even frequencies and odd ones: one loop, since a
          * second copy of all transforms takes the compiler seconds. */
         for (uint step = 0; step < last_step; step++) {
-            const bool is_around = step < own_groups, is_idle = step >= num_steps;
-            const uint phase = is_around ? 0 : (step - own_groups) % transforms;
-            const bool is_last = phase % 2 != 0;
+            const bool is_around = step < work.groups, is_idle = step >= num_steps;
+            const uint phase = is_around ? 0 : (step - work.groups) % transforms;
             const uint parity = phase / 2;
-            const uint column =
-                is_whole ? (share + step * shares) * LANES : first_strip * strip + step * LANES;
-            const uint pair = share + (step - own_groups) / transforms * shares;
-            __global real *even = rows + 2 * pair * row_reals;
-            __global real *own = data + parity * (size_t)middle * 2 * LANES;
-            const uint here = is_whole ? 0 : column / strip;
-            const bool is_next = is_spread && (step == 0 || (is_around && column % strip == 0));
-            for (uint at = step == 0 ? lead : here; at < (is_next ? min(here + 1, end_strip) : 0);
-                 at++) {
-                carry_cells(grid, at == lead ? pitch : strip);
-                const ulong begin = is_whole ? offsets[r] : own_points.starts[at];
-                const ulong end = is_whole ? offsets[r + 1] : own_points.starts[at + 1];
-                __global const ulong *from = is_whole ? points : own_points.turns;
-                __global const real *masses = is_whole ? weights : own_points.weights;
-                const orders_grid to = {grid.cells, pitch, grid_rows, at * strip};
-                for (ulong place = begin; place < end; place += CHUNK) {
-                    const uint count = (uint)min((ulong)CHUNK, end - place);
-                    fill_chunk(chunk, from + place * 2, masses + place, count, CHUNK, pitch, axes);
-                    if (get_local_size(0) == 1) {
-                        scatter(to, chunk, axes);
-                    } else {
-                        scatter_together(to, chunk, axes);
-                    }
-                    barrier_everywhere();
-                }
-            }
+            const bool is_last = phase % 2 != 0;
+            const uint column = column_of(work, step);
+            const uint pair = work.share + (step - work.groups) / transforms * shares;
+            __global const real *even = tiles.rows + 2 * pair * row_reals;
+            __global real *own = data + parity * (size_t)around.length * 2 * LANES;
+            const half_plan plan = is_idle ? nothing : is_last ? to_rings : around;
+            spread_for_group(work, step, grid, chunk, work.is_whole ? whole : by_strips, axes);
             if (is_around) {
-                load_columns(data, grid, column - here * strip, n, width, bands);
+                load_columns(data, grid, work.is_whole ? column : column % strip, n, width, bands);
             } else if (phase == 0 && !is_idle) {
                 load_meridians(data, even, even + row_reals, pole, n, turns);
             }
             barrier_everywhere();
-            fft_transform(is_last ? spectrum : own, 2 * LANES, is_last ? half_rings : middle,
-                          is_idle   ? no_radices
-                          : is_last ? ring_radices
-                                    : radices,
-                          is_last ? ring_twiddles : twiddles);
-            for (uint tile = get_local_id(0); is_around && tile < 2 * pairs;
-                 tile += get_local_size(0)) {
-                turn_orders(data, position, middle, L, around_gains,
-                            tile / 2 * 2 * LANES + tile % 2,
-                            rows + tile * row_reals + (size_t)column * 2 * LANES);
-            }
-            if (!is_around && !is_last && !is_idle) {
-                copy_spectrum(spectrum, half_rings, own, position, middle, L, parity, along_gains);
-            }
-            const ring_target target = {values + (first_value + r) * 4 * (size_t)ring_pitch,
-                                        value_sets * 4 * (size_t)ring_pitch, 2 * (size_t)ring_pitch,
-                                        L};
-            const uint blocks = is_last ? ring_pitch / (LANES / 2) : 0;
-            for (uint block = get_local_id(0); block < blocks; block += get_local_size(0)) {
-                write_some_rings(spectrum, ring_position, half_rings, num_rings,
-                                 block * (LANES / 2), parity, ring_turns, target, pair * 2 * LANES);
+            fft_transform(is_last ? spectrum : own, 2 * LANES, plan.length, plan.radices,
+                          plan.twiddles);
+            if (is_around) {
+                write_orders(tiles, data, around, L, around_gains, column);
+            } else if (is_last) {
+                write_rings(target, spectrum, to_rings, num_rings, ring_pitch, parity, ring_turns,
+                            pair * 2 * LANES);
+            } else if (!is_idle) {
+                copy_spectrum(spectrum, to_rings.length, own, position, around.length, L, parity,
+                              along_gains);
             }
             barrier_everywhere();
         }

@@ -27,15 +27,6 @@ __kernel void sphere_orders_bands(
         __global const uint *start =
             starts + part * ((size_t)bands * tiles + 1) + (size_t)band * tiles;
         const size_t end = part * part_points + start[tiles];
-        for (size_t place = part * part_points + start[0]; place < end; place += CHUNK) {
-            const uint count = (uint)min((size_t)CHUNK, end - place);
-            fill_chunk(chunk, sorted + place * 2, heights + place, count, CHUNK, pitch, axes);
-            if (get_local_size(0) == 1) {
-                scatter(to, chunk, axes);
-            } else {
-                scatter_together(to, chunk, axes);
-            }
-            barrier_everywhere();
-        }
+        spread_points(to, chunk, sorted, heights, part * part_points + start[0], end, axes);
     }
 }

@@ -19,10 +19,6 @@ typedef struct orders_grid {
     uint origin;      /* the first cell here, as points count them */
 } orders_grid;
 
-static inline void barrier_everywhere(void) {
-    barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
-}
-
 /* ---- spreading ------------------------------------------------------------------------------ */
 
 /* A chunk by one work-item. (nufft/whole.cl says why not just as many points as there are.) */
@@ -36,9 +32,9 @@ static inline void scatter(const orders_grid grid, const chunk from, const chunk
 /* The same by all: each has the cells of a row that are its number modulo their number. */
 static inline void scatter_together(const orders_grid grid, const chunk from,
                                     const chunk_axes axes) {
-    const uint size = get_local_size(0);
+    const uint size = num_items();
     for (uint i = 0; i < CHUNK; i++) {
-        const uint own = (get_local_id(0) + size - from.columns[i] % size) % size;
+        const uint own = (own_item() + size - from.columns[i] % size) % size;
         for (uint bin = own; bin < axes.along.bins; bin += size) {
             for (uint row = 0; row < axes.across.width; row++) {
                 __global real *to =
@@ -49,9 +45,25 @@ static inline void scatter_together(const orders_grid grid, const chunk from,
     }
 }
 
+/* Points begin .. end - 1. */
+static inline void spread_points(const orders_grid to, const chunk chunk,
+                                 __global const ulong *points, __global const real *weights,
+                                 const ulong begin, const ulong end, const chunk_axes axes) {
+    for (ulong place = begin; place < end; place += CHUNK) {
+        const uint count = (uint)min((ulong)CHUNK, end - place);
+        fill_chunk(chunk, points + place * 2, weights + place, count, CHUNK, to.pitch, axes);
+        if (num_items() == 1) {
+            scatter(to, chunk, axes);
+        } else {
+            scatter_together(to, chunk, axes);
+        }
+        barrier_everywhere();
+    }
+}
+
 /* `num` cells; none: nothing is done. */
 static inline void clear_cells(__global real *cells, const size_t num) {
-    for (size_t i = get_local_id(0); i < num / LANES; i += get_local_size(0)) {
+    for (size_t i = own_item(); i < num / LANES; i += num_items()) {
         store_global(cells, i, (realv)0);
     }
     barrier_everywhere();
@@ -73,12 +85,12 @@ static inline void load_columns(__global real *data, const orders_grid grid,
         __global const real *own = grid.cells + band * band_reals + first_column;
         __global const real *other =
             grid.cells + before * band_reals + behind * (size_t)grid.pitch + first_column;
-        for (uint i = get_local_id(0); i < width; i += get_local_size(0)) {
+        for (uint i = own_item(); i < width; i += num_items()) {
             store_global(data, start + i,
                          load_global(own + i * (size_t)grid.pitch, 0) +
                              load_global(other + i * (size_t)grid.pitch, 0));
         }
-        for (uint i = width + get_local_id(0); i < num; i += get_local_size(0)) {
+        for (uint i = width + own_item(); i < num; i += num_items()) {
             store_global(data, start + i, load_global(own + i * (size_t)grid.pitch, 0));
         }
     }

@@ -12,8 +12,9 @@ typedef struct product_rows {
     __local const real *table;
     uint first, end;
     bool is_first, is_last;
-    bool is_lowest; /* of the orders that are added up */
-    double weight;  /* of |c|^2: orders m and -m */
+    bool is_lowest;               /* of the orders that are added up */
+    double weight;                /* of |c|^2: orders m and -m */
+    __local const double *alphas; /* of the degrees: what Lambda_lm is in terms of the table */
 } product_rows;
 
 /* 1: coefficients of one realization instead of powers. */
@@ -24,8 +25,9 @@ typedef struct product_rows {
 /* |c|^2 of both signs of the order, in double precision, to what lower orders left; or c, imaginary parts
  * powers_apart further. */
 static inline void finish_sums(__global double *powers, const size_t powers_apart,
-                               const product_rows rows, const realv re, const realv im) {
-    const doublev a = TO_DOUBLEV(re), b = TO_DOUBLEV(im);
+                               const product_rows rows, const doublev alpha, const realv re,
+                               const realv im) {
+    const doublev a = TO_DOUBLEV(re) * alpha, b = TO_DOUBLEV(im) * alpha;
     __global unaligned_doublev *at = (__global unaligned_doublev *)powers;
 #if KEEP
     (void)rows;
@@ -74,7 +76,7 @@ static inline void finish_sums(__global double *powers, const size_t powers_apar
                 __global real *to = sums + (r * RUN_VECTORS + v) * 2 * LANES;                      \
                 if (rows.is_last) {                                                                \
                     finish_sums(powers + r * powers_apart + v * LANES, powers_apart, rows,         \
-                                re[r][v], im[r][v]);                                               \
+                                load_doubles(rows.alphas + v * LANES), re[r][v], im[r][v]);        \
                 } else {                                                                           \
                     store_global(to, 0, re[r][v]);                                                 \
                     store_global(to, 1, im[r][v]);                                                 \

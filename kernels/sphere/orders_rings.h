@@ -38,7 +38,7 @@ static inline void load_meridians(__global real *data, __global const real *even
                                   __global const real *odd, const uint pole, const uint n,
                                   __global const real *turns) {
     const uint middle = n / 2;
-    for (uint i = get_local_id(0); i <= middle / 2; i += get_local_size(0)) {
+    for (uint i = own_item(); i <= middle / 2; i += num_items()) {
         const uint j = middle - i;
         const complexv a = continued(even, pole, n, i, 1), far_a = continued(even, pole, n, j, 1);
         const complexv b = continued(odd, pole, n, i, -1), far_b = continued(odd, pole, n, j, -1);
@@ -63,7 +63,7 @@ static inline void copy_spectrum(__global real *to, const uint half_rings,
                                  const uint middle, const uint L, const uint parity,
                                  __global const real *gains) {
     const uint num = (L - parity) / 2 + 1;
-    for (uint q = get_local_id(0); q < num; q += get_local_size(0)) {
+    for (uint q = own_item(); q < num; q += num_items()) {
         const uint back = q + parity; /* -k is number -back */
         const complexv north = load_complex(from, position[q]);
         const complexv south = load_complex(from, position[back == 0 ? 0 : middle - back]);
@@ -72,7 +72,7 @@ static inline void copy_spectrum(__global real *to, const uint half_rings,
         store_complex(to, back == 0 ? 0 : half_rings - back,
                       (complexv){south.re * gain, south.im * gain});
     }
-    for (uint q = num + get_local_id(0); q + num + parity <= half_rings; q += get_local_size(0)) {
+    for (uint q = num + own_item(); q + num + parity <= half_rings; q += num_items()) {
         store_complex(to, q, (complexv){(realv)0, (realv)0});
     }
 }

@@ -67,7 +67,7 @@ static inline void sort_by_strips(const strip_points to, __global const ulong *t
 /* The first columns of the next strip are those from `strip` on; the others are cleared. strip = pitch: all are. */
 static inline void carry_cells(const orders_grid grid, const uint strip) {
     const uint kept = grid.pitch - strip;
-    for (uint row = get_local_id(0); row < grid.rows; row += get_local_size(0)) {
+    for (uint row = own_item(); row < grid.rows; row += num_items()) {
         __global real *cells = grid.cells + row * (size_t)grid.pitch;
         uint i = 0;
         for (; i < kept; i += LANES) {

@@ -4,22 +4,23 @@
  *
  *   values     [order][value_sets, realizations][even, odd l - m][ring_pitch][re, im] of orders.cl: side by side, so
  *              that what an order needs comes in a row
- *   starts, start_scales  [group][ring_pitch]: Lambda_mm of the first order of a group (orders_table.h), 0 behind the
+ *   starts, start_scales  [group][ring_pitch]: Lambda_mm of the first order of a group (orders_chains.h), 0 behind the
  *              last ring
  *   steps, step_scales    [ring_pitch]: sin^groups(theta)
  *   ratios     [order]: norm of Lambda_mm over that of the order `groups` below, with the sign of both
- *   distances  [ring_pitch]: t = 1 - cos(theta)
+ *   cosines    [ring_pitch]: cos(theta)
+ *   distances, squares, polar, crossing, equatorial  ring_angles of orders_table.h
  *   only_even  even degrees only
  *   block      rings of a block, a multiple of RING_UNIT
- *   states, scales  [group][2][ring_pitch], [group][2][ring_pitch]: scratch
- *   diagonal   [group][ring_pitch]: scratch
+ *   states, scales  [group][2][even, odd l - m][ring_pitch], [group][2][ring_pitch]: scratch
+ *   diagonal, diagonal_scales  [group][ring_pitch]: scratch
  *   sums       [group][pair of realizations][even, odd l - m][2][RUN_VECTORS][re, im][LANES]: scratch, room for one
  *              realization more
  *   powers     [group][realization][even, odd degrees][half_pitch], of degrees from the group on; half_pitch has room
  *              for RUN_VECTORS vectors behind degree L / 2. With KEEP coefficients of one realization,
  *              [order][even, odd l - m][re, im][half_pitch]
  *   table      local, [even, odd l - m][block][TABLE_ROW]
- *   coefficients  local, [3][RUN_DEGREES]
+ *   coefficients  local, [COEFFICIENTS]
  *   begins     local, [block / RING_UNIT]
  */
 #include "sphere/orders_product.h"
@@ -32,70 +33,110 @@ static inline void normalize(double *value, int *scale) {
     }
 }
 
-__kernel void
-sphere_orders_sum(__global const real *restrict values, const uint value_sets,
-                  const uint num_realizations, __global const double *restrict starts,
-                  __global const int *restrict start_scales, __global const double *restrict steps,
-                  __global const int *restrict step_scales, __global const double *restrict ratios,
-                  __global const double *restrict distances, const uint L, const uint num_rings,
-                  const uint ring_pitch, const uint only_even, const uint block,
-                  const uint half_pitch, __global double *restrict all_states,
-                  __global int *restrict all_scales, __global double *restrict all_diagonals,
-                  __global real *restrict all_sums, __global double *restrict all_powers,
-                  __local real *table, __local double *coefficients, __local uint *begins) {
+/* What a work-group has of rings. Those below `alive` are nothing in all degrees, and stay so in higher orders. */
+typedef struct ring_work {
+    ring_states states;
+    ring_angles angles;
+    __global double *diagonal;
+    __global int *diagonal_scales;
+    uint num_rings, block, alive;
+} ring_work;
+
+/* Degrees m and m + 1 of a ring, from Lambda_mm. By differences they are Lambda_mm and nothing. */
+static inline void begin_ring(const ring_work work, const uint i, const double value,
+                              const int scale, const double second) {
+    const ring_states states = work.states;
+    const bool is_difference = i < work.angles.polar || i >= work.angles.equatorial;
+    work.diagonal[i] = states.value[i] = value;
+    states.value[states.parity_apart + i] = is_difference ? 0 : value * second;
+    states.before[i] = states.before[states.parity_apart + i] = 0;
+    work.diagonal_scales[i] = states.scale[i] = states.scale[states.parity_apart + i] = scale;
+}
+
+/* The table of a block of rings; the first ring of it that is more than zeros, `here` if there is none. */
+static inline uint make_block(const ring_work work, const uint ring, const uint here,
+                              __local const double *coefficients, __local real *table,
+                              __local uint *begins, const uint vectors) {
+    const uint from = work.alive > ring ? work.alive - ring : 0;
+    uint begin = here;
+    for (uint i = from + own_item() * RING_UNIT; i < here; i += num_items() * RING_UNIT) {
+        begins[i / RING_UNIT] =
+            make_run(work.states, work.angles, ring + i, coefficients, table + i * TABLE_ROW,
+                     table + (work.block + i) * TABLE_ROW, vectors)
+                ? i
+                : here;
+    }
+    barrier_everywhere();
+    for (uint i = from; i < here; i += RING_UNIT) {
+        begin = min(begin, begins[i / RING_UNIT]);
+    }
+    return begin;
+}
+
+__kernel void sphere_orders_sum(
+    __global const real *restrict values, const uint value_sets, const uint num_realizations,
+    __global const double *restrict starts, __global const int *restrict start_scales,
+    __global const double *restrict steps, __global const int *restrict step_scales,
+    __global const double *restrict ratios, __global const double *restrict cosines,
+    __global const double *restrict distances, __global const double *restrict squares,
+    const uint polar, const uint crossing, const uint equatorial, const uint L,
+    const uint num_rings, const uint ring_pitch, const uint only_even, const uint block,
+    const uint half_pitch, __global double *restrict all_states, __global int *restrict all_scales,
+    __global double *restrict all_diagonals, __global int *restrict all_diagonal_scales,
+    __global real *restrict all_sums, __global double *restrict all_powers, __local real *table,
+    __local double *coefficients, __local uint *begins) {
     const uint group = get_global_id(1), groups = get_global_size(1);
     const size_t apart = 4 * (size_t)ring_pitch;
     const size_t powers_apart = 2 * (size_t)half_pitch;
-    __global double *states = all_states + group * 2 * (size_t)ring_pitch;
-    __global int *scales = all_scales + group * 2 * (size_t)ring_pitch;
-    __global double *diagonal = all_diagonals + group * (size_t)ring_pitch;
+    __global double *states = all_states + group * 4 * (size_t)ring_pitch;
     __global real *sums =
         all_sums + group * (size_t)(num_realizations + 1) * (2 * RUN_VECTORS * 2 * LANES);
     __global double *powers = all_powers + (KEEP ? 0 : group * num_realizations * powers_apart);
-    const ring_states own = {states, states + ring_pitch, scales, distances};
+    ring_work work = {{states, states + 2 * (size_t)ring_pitch,
+                       all_scales + group * 2 * (size_t)ring_pitch, ring_pitch},
+                      {distances, squares, polar, crossing, equatorial},
+                      all_diagonals + group * (size_t)ring_pitch,
+                      all_diagonal_scales + group * (size_t)ring_pitch,
+                      num_rings,
+                      block,
+                      0};
     for (uint m = group; m <= L; m += groups) {
-        for (uint i = get_local_id(0); i < ring_pitch; i += get_local_size(0)) {
-            double value =
-                m == group ? starts[group * ring_pitch + i] : diagonal[i] * steps[i] * ratios[m];
+        const double second = sqrt(2 * (double)m + 3);
+        const uint start = work.alive / block * block; /* the first block that is not all zeros */
+        uint dead = work.alive;
+        for (uint i = work.alive + own_item(); i < ring_pitch; i += num_items()) {
+            double value = m == group ? starts[group * ring_pitch + i]
+                                      : work.diagonal[i] * steps[i] * ratios[m];
             int scale = m == group ? start_scales[group * ring_pitch + i]
-                                   : scales[ring_pitch + i] + step_scales[i];
+                                   : work.diagonal_scales[i] + step_scales[i];
             normalize(&value, &scale);
-            diagonal[i] = states[i] = value;
-            scales[ring_pitch + i] = scales[i] = scale;
-            states[ring_pitch + i] = 0;
+            begin_ring(work, i, value, scale, second * cosines[i]);
         }
         for (uint first = m; first <= L; first += RUN_DEGREES) {
             const uint degrees = min(L + 1 - first, (uint)RUN_DEGREES);
             const uint vectors = (degrees + 2 * LANES - 1) / (2 * LANES);
-            barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
-            make_coefficients(coefficients, first, m);
-            barrier(CLK_LOCAL_MEM_FENCE);
-            for (uint ring = 0; ring < num_rings; ring += block) {
+            barrier_everywhere();
+            make_coefficients(coefficients, first, m, 2 * LANES * vectors);
+            for (uint ring = start; ring < num_rings; ring += block) {
                 const uint here = min(num_rings - ring, block);
-                for (uint i = get_local_id(0) * RING_UNIT; i < here;
-                     i += get_local_size(0) * RING_UNIT) {
-                    begins[i / RING_UNIT] =
-                        make_run(own, ring + i, coefficients, table + i * TABLE_ROW,
-                                 table + (block + i) * TABLE_ROW, vectors)
-                            ? i
-                            : block;
-                }
-                barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
-                uint begin = block;
-                for (uint i = 0; i < here; i += RING_UNIT) {
-                    begin = min(begin, begins[i / RING_UNIT]);
-                }
-                for (uint job = get_local_id(0); job < num_realizations + 1;
-                     job += get_local_size(0)) {
+                const uint begin =
+                    make_block(work, ring, here, coefficients, table, begins, vectors);
+                dead = dead >= ring && first + degrees > L ? max(dead, ring + begin) : dead;
+                for (uint job = own_item(); job < num_realizations + 1; job += num_items()) {
                     const uint r = job / 2 * 2, odd = job % 2;
                     if (only_even != 0 && (m + odd) % 2 != 0) {
                         continue;
                     }
                     const uint in_parity = odd ? degrees / 2 : (degrees + 1) / 2;
                     const uint own_vectors = (in_parity + LANES - 1) / LANES;
-                    const product_rows rows = {
-                        table + odd * block * TABLE_ROW, begin,      here,          ring == 0,
-                        ring + block >= num_rings,       m == group, m == 0 ? 1 : 2};
+                    const product_rows rows = {table + odd * block * TABLE_ROW,
+                                               begin,
+                                               here,
+                                               ring == start,
+                                               ring + block >= num_rings,
+                                               m == group,
+                                               m == 0 ? 1 : 2,
+                                               coefficients + OF_ALPHA + odd * (RUN_DEGREES / 2)};
                     __global const real *from = values + (m * (size_t)value_sets + r) * apart +
                                                 odd * 2 * (size_t)ring_pitch + 2 * ring;
                     __global real *to = sums + (r * 2 + odd * 2) * (RUN_VECTORS * 2 * LANES);
@@ -113,9 +154,10 @@ sphere_orders_sum(__global const real *restrict values, const uint value_sets,
                         product_of_one(rows, from, apart, to, to_powers, ends_apart, own_vectors);
                     }
                 }
-                barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
+                barrier_everywhere();
             }
         }
+        work.alive = dead / RING_UNIT * RING_UNIT;
     }
 }
 
