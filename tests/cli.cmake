@@ -1,6 +1,8 @@
 # Tests of the program: the parser as a unit, and scripts that run what was built.
 target_sources(test_arguments PRIVATE
   ${PROJECT_SOURCE_DIR}/host/cli/arguments.c ${PROJECT_SOURCE_DIR}/host/cli/command.c)
+target_sources(test_scene PRIVATE
+  ${PROJECT_SOURCE_DIR}/host/cli/arguments.c ${PROJECT_SOURCE_DIR}/host/cli/command.c)
 
 function(add_program_test name)
   add_script_test(${name} unit ${CMAKE_CURRENT_SOURCE_DIR}/${name}.sh

@@ -10,7 +10,7 @@
 #include <string.h>
 
 void ps_text_append_bytes(ps_text *text, const char *bytes, size_t num_bytes) {
-    if (text->failed) {
+    if (text->failed || num_bytes == 0) { /* bytes may be NULL then */
         return;
     }
     void *data = text->data;

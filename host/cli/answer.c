@@ -23,7 +23,9 @@ static pspec_status take_results(ps_answer *out, const ps_request *request, make
                                  const ps_power_job *job, ps_error *error) {
     const ps_spectrum *const spectrum = ps_power_job_spectrum(job);
     enum { PLANE = 2 };
-    if (request->wants_picture && spectrum->frequencies.dimension == PLANE) {
+    /* lists, and subsets of rings, fill no array */
+    if (request->wants_picture && spectrum->frequencies.dimension == PLANE &&
+        spectrum->frequencies.kind == PS_FREQUENCIES_BOX) {
         PS_TRY(take_array(out, spectrum, error));
     }
     return make(&out->table, request, &job, 1, error);

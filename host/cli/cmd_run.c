@@ -17,7 +17,9 @@
 /* The name of the scene without its folder and ending. */
 static void name_folder(const char *scene, ps_text *out) {
     const char *const slash = strrchr(scene, '/');
-    const char *const name = slash != NULL ? slash + 1 : scene;
+    const char *const name = strcmp(scene, "-") == 0 ? "scene" /* from standard input */
+                             : slash != NULL         ? slash + 1
+                                                     : scene;
     const char *const dot = strrchr(name, '.');
     const size_t length = dot != NULL && dot > name ? (size_t)(dot - name) : strlen(name);
     ps_text_append_bytes(out, name, length);
@@ -33,12 +35,42 @@ static pspec_status is_empty_folder(const char *path, bool *is_empty, ps_error *
                        strerror(errno));
     }
     *is_empty = true;
+    errno = 0;
     for (const struct dirent *entry; (entry = readdir(folder)) != NULL;) {
         *is_empty =
             *is_empty && (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0);
     }
+    const int reason = errno; /* readdir leaves it alone at the end */
     closedir(folder);
-    return PSPEC_OK;
+    return reason == 0 ? PSPEC_OK
+                       : ps_fail(error, PSPEC_ERROR_IO, "cannot read the folder \"%s\": %s", path,
+                                 strerror(reason));
+}
+
+/* Whether files can be made there is found out before the work, which may be long. */
+static pspec_status check_writable(const char *path, ps_error *error) {
+    return access(path, W_OK | X_OK) == 0
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_IO, "cannot write to the folder \"%s\": %s", path,
+                         strerror(errno));
+}
+
+static pspec_status check_parent(const char *path, ps_error *error) {
+    ps_text parent = {0};
+    size_t length = strlen(path);
+    while (length > 1 && path[length - 1] == '/') {
+        length--;
+    }
+    while (length > 0 && path[length - 1] != '/') {
+        length--;
+    }
+    ps_text_append_bytes(&parent, length > 0 ? path : ".", length > 0 ? length : 1);
+    pspec_status status = ps_text_check(&parent, error);
+    if (status == PSPEC_OK) {
+        status = check_writable(ps_text_string(&parent), error);
+    }
+    ps_text_free(&parent);
+    return status;
 }
 
 /* A folder of an earlier run is written over; one with anything else in it is somebody's. */
@@ -47,7 +79,7 @@ static pspec_status check_folder(const char *path, ps_error *error) {
     bool is_empty = false;
     ps_text record = {0};
     if (stat(path, &facts) != 0) {
-        return errno == ENOENT ? PSPEC_OK
+        return errno == ENOENT ? check_parent(path, error)
                                : ps_fail(error, PSPEC_ERROR_IO, "cannot read \"%s\": %s", path,
                                          strerror(errno));
     }
@@ -62,7 +94,10 @@ static pspec_status check_folder(const char *path, ps_error *error) {
     if (status == PSPEC_OK && !has_record) {
         status = is_empty_folder(path, &is_empty, error);
     }
-    return status != PSPEC_OK || has_record || is_empty
+    if (status == PSPEC_OK && (has_record || is_empty)) {
+        return check_writable(path, error);
+    }
+    return status != PSPEC_OK
                ? status
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                          "the folder \"%s\" has files that are not of a run; -o FOLDER says where "

@@ -136,11 +136,20 @@ static pspec_status fill_table(const ps_run *run, ps_run_result *result, const c
     return PSPEC_OK;
 }
 
+static bool have_same_columns(const ps_table *a, const ps_table *b) {
+    const size_t num = ps_table_num_columns(a);
+    bool is_same = num == ps_table_num_columns(b);
+    for (size_t i = 0; is_same && i < num; i++) {
+        is_same = strcmp(ps_table_column_name(a, i), ps_table_column_name(b, i)) == 0;
+    }
+    return is_same;
+}
+
 /* Spectra on the torus and on the sphere have other columns, and so may files with other domains. */
 static pspec_status check_columns(const ps_run *run, const ps_run_result *result, ps_error *error) {
-    const size_t num = ps_table_num_columns(result->questions[0].answer.table);
+    const ps_table *const first = result->questions[0].answer.table;
     for (size_t q = 1; q < result->num; q++) {
-        if (ps_table_num_columns(result->questions[q].answer.table) != num) {
+        if (!have_same_columns(result->questions[q].answer.table, first)) {
             (void)ps_fail(error, PSPEC_ERROR_INPUT,
                           "its questions have tables with other columns; let them be results of "
                           "their own");

@@ -30,15 +30,20 @@ static bool is_absolute(const char *path) {
     return path[0] == '/';
 }
 
+static pspec_status complain_of_stream(const ps_scene_file *file, const ps_scene_value *value) {
+    return ps_scene_complain(file, value->line, NULL,
+                             "a scene can be run again, standard input (-) cannot");
+}
+
 /* From what the scene's folder is relative to. */
 static pspec_status resolve(ps_scene *scene, const ps_scene_file *file, const ps_scene_value *value,
                             const char **path) {
     if (strcmp(*path, "-") == 0) {
-        return ps_scene_complain(file, value->line, NULL,
-                                 "a scene can be run again, standard input (-) cannot");
+        return complain_of_stream(file, value);
     }
-    return is_absolute(*path) ? PSPEC_OK
-                              : ps_scene_copy(scene, scene->folder, *path, path, file->error);
+    /* "-odd.txt" alone would be an option in the command line of the question */
+    const char *const folder = scene->folder[0] == '\0' && (*path)[0] == '-' ? "./" : scene->folder;
+    return is_absolute(*path) ? PSPEC_OK : ps_scene_copy(scene, folder, *path, path, file->error);
 }
 
 static bool is_weight_word(const char *text) {
@@ -47,11 +52,16 @@ static bool is_weight_word(const char *text) {
 }
 
 /* The table of a lobe, "zonal:file=PATH". */
-static pspec_status resolve_lobe(ps_scene *scene, const ps_scene_file *file, const char **text) {
+static pspec_status resolve_lobe(ps_scene *scene, const ps_scene_file *file,
+                                 ps_scene_value *value) {
     static const char key[] = "file=";
+    const char **const text = &value->texts[0];
     const char *const found = strstr(*text, key);
     if (found == NULL || is_absolute(found + strlen(key))) {
         return PSPEC_OK;
+    }
+    if (strcmp(found + strlen(key), "-") == 0) {
+        return complain_of_stream(file, value);
     }
     ps_text joined = {0};
     const size_t before = (size_t)(found - *text) + strlen(key);
@@ -73,7 +83,7 @@ static pspec_status resolve_paths(ps_scene *scene, const ps_scene_file *file, in
     for (size_t i = 0; is_path && i < value->num_texts; i++) {
         PS_TRY(resolve(scene, file, value, &value->texts[i]));
     }
-    return option == PS_OPTION_BRDF ? resolve_lobe(scene, file, &value->texts[0]) : PSPEC_OK;
+    return option == PS_OPTION_BRDF ? resolve_lobe(scene, file, value) : PSPEC_OK;
 }
 
 /* ---- values ------------------------------------------------------------------------------ */

@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Larger than any scene that people write; libyaml takes the square of this for some texts. */
-enum { MOST_BYTES = 1 << 20 };
+/* Larger than the record of the most questions. */
+enum { MOST_BYTES = 1 << 23 };
 
 int ps_scene_line(const yaml_node_t *node) {
     return (int)node->start_mark.line + 1;
@@ -42,7 +42,7 @@ static pspec_status read_all(const char *path, unsigned char *bytes, size_t *num
     return status;
 }
 
-static pspec_status fail_parser(const ps_scene_file *file, const yaml_parser_t *parser) {
+pspec_status ps_scene_fail_parser(const ps_scene_file *file, const yaml_parser_t *parser) {
     if (parser->error == YAML_MEMORY_ERROR) {
         return ps_fail(file->error, PSPEC_ERROR_MEMORY, "no memory for the scene \"%s\"",
                        file->path);
@@ -60,14 +60,15 @@ static pspec_status fail_parser(const ps_scene_file *file, const yaml_parser_t *
 static pspec_status load(ps_scene_file *file, yaml_parser_t *parser) {
     yaml_document_t rest;
     if (!yaml_parser_load(parser, &file->document)) {
-        return fail_parser(file, parser);
+        return ps_scene_fail_parser(file, parser);
     }
     file->has_document = true;
     if (yaml_document_get_root_node(&file->document) == NULL) {
         return ps_scene_complain(file, 1, NULL, "nothing is asked for: the file has no content");
     }
+    PS_TRY(ps_scene_check_aliases(file, yaml_document_get_root_node(&file->document)));
     if (!yaml_parser_load(parser, &rest)) {
-        return fail_parser(file, parser);
+        return ps_scene_fail_parser(file, parser);
     }
     const yaml_node_t *const more = yaml_document_get_root_node(&rest);
     const pspec_status status =
@@ -78,14 +79,21 @@ static pspec_status load(ps_scene_file *file, yaml_parser_t *parser) {
     return status;
 }
 
-static pspec_status parse(ps_scene_file *file, const unsigned char *bytes, size_t num) {
+typedef pspec_status look_at(ps_scene_file *, yaml_parser_t *);
+
+static pspec_status look(ps_scene_file *file, yaml_parser_t *parser) {
+    return ps_scene_check_events(file, parser);
+}
+
+static pspec_status parse(ps_scene_file *file, const unsigned char *bytes, size_t num,
+                          look_at *how) {
     yaml_parser_t parser;
     if (!yaml_parser_initialize(&parser)) {
         return ps_fail(file->error, PSPEC_ERROR_MEMORY, "no memory for the scene \"%s\"",
                        file->path);
     }
     yaml_parser_set_input_string(&parser, bytes, num);
-    const pspec_status status = load(file, &parser);
+    const pspec_status status = how(file, &parser);
     yaml_parser_delete(&parser);
     return status;
 }
@@ -97,7 +105,10 @@ pspec_status ps_scene_file_open(ps_scene_file *out, const char *path, ps_error *
     PS_TRY(ps_allocate(&bytes, MOST_BYTES + 1, 1, "a scene", error));
     pspec_status status = read_all(path, bytes, &num, error);
     if (status == PSPEC_OK) {
-        status = parse(out, bytes, num);
+        status = parse(out, bytes, num, look);
+    }
+    if (status == PSPEC_OK) {
+        status = parse(out, bytes, num, load);
     }
     free(bytes);
     return status;

@@ -32,10 +32,20 @@ static void append_option(ps_text *command, const ps_scene_entry *entry, const c
     if (is_flag && strcmp(text, "true") != 0) {
         return;
     }
-    ps_text_append(command, " --%s", ps_scene_key(entry));
-    if (!is_flag) {
-        ps_text_append_word(command, text);
+    if (is_flag) {
+        ps_text_append(command, " --%s", ps_scene_key(entry));
+        return;
     }
+    if (text[0] != '-') {
+        ps_text_append(command, " --%s", ps_scene_key(entry));
+        ps_text_append_word(command, text);
+        return;
+    }
+    ps_text word = {0}; /* one word, since the value looks like an option */
+    ps_text_append(&word, "--%s=%s", ps_scene_key(entry), text);
+    ps_text_append_word(command, ps_text_string(&word));
+    command->failed = command->failed || word.failed;
+    ps_text_free(&word);
 }
 
 static pspec_status take_value(ps_scene_question *out, const ps_scene_entry *entry,

@@ -36,10 +36,17 @@ static pspec_status take_results(const ps_scene_reader *from, yaml_node_t *node)
     PS_TRY(ps_scene_allocate(from->scene, num, sizeof *from->scene->results, &results,
                              from->file->error));
     from->scene->results = results;
+    size_t num_questions = 0;
     for (size_t i = 0; i < num; i++) {
         PS_TRY(ps_scene_take_result(from, ps_scene_item(from->file, node, i),
                                     &from->scene->results[i]));
         from->scene->num_results++;
+        num_questions += ps_scene_num_questions(&from->scene->results[i]);
+        if (num_questions > PS_SCENE_MOST_QUESTIONS) {
+            return ps_scene_complain(from->file, from->scene->results[i].line, "results",
+                                     "here the scene asks %zu questions, more than %d",
+                                     num_questions, PS_SCENE_MOST_QUESTIONS);
+        }
         PS_TRY(name_result(from, i));
     }
     return PSPEC_OK;

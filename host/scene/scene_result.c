@@ -5,9 +5,6 @@
 #include <ctype.h>
 #include <string.h>
 
-/* Pages of more are of no use to anyone. */
-enum { MOST_QUESTIONS = 10000 };
-
 void ps_scene_consider(ps_scene_nearest *best, const char *typed, const char *known) {
     const size_t distance = ps_name_distance(typed, known);
     if (best->word == NULL || distance < best->distance) {
@@ -19,6 +16,11 @@ static const char *const own_keys[] = {"result",   "name",  "title",   "plot",
                                        "pictures", "files", "samplers"};
 enum { NUM_OWN_KEYS = sizeof own_keys / sizeof own_keys[0] };
 
+/* All questions of a run are on one device, that of the command line. */
+static bool is_key_of(const ps_result_kind *kind, ps_option_id id) {
+    return id != PS_OPTION_DEVICE && ps_options_have(kind->options, id);
+}
+
 /* The option that a key of a result means; -1: none. */
 static int find_option(const ps_result_kind *kind, const char *key) {
     const bool takes_points = ps_options_have(kind->options, PS_OPTION_SAMPLER);
@@ -28,7 +30,7 @@ static int find_option(const ps_result_kind *kind, const char *key) {
     const char *const name = strcmp(key, "samplers") == 0 ? "sampler" : key;
     for (int id = 0; id < PS_NUM_OPTIONS; id++) {
         if (strcmp(ps_options[id].name, name) == 0) {
-            return ps_options_have(kind->options, (ps_option_id)id) ? id : -1;
+            return is_key_of(kind, (ps_option_id)id) ? id : -1;
         }
     }
     return -1;
@@ -50,7 +52,7 @@ static pspec_status complain_of_key(const ps_scene_reader *from, const ps_result
         ps_scene_consider(&best, key, own_keys[i]);
     }
     for (int id = 0; id < PS_NUM_OPTIONS; id++) {
-        if (ps_options_have(kind->options, (ps_option_id)id)) {
+        if (is_key_of(kind, (ps_option_id)id)) {
             ps_scene_consider(&best, key, ps_options[id].name);
         }
     }
@@ -202,11 +204,11 @@ static pspec_status check_questions(const ps_scene_reader *from, const ps_scene_
     for (size_t i = 0; i < result->num_entries; i++) {
         num *= (double)result->entries[i].num_values;
     }
-    return num <= MOST_QUESTIONS
+    return num <= PS_SCENE_MOST_QUESTIONS
                ? PSPEC_OK
                : ps_scene_complain(from->file, result->line, NULL,
                                    "the lists of this result ask %.3g questions, more than %d", num,
-                                   MOST_QUESTIONS);
+                                   PS_SCENE_MOST_QUESTIONS);
 }
 
 pspec_status ps_scene_take_result(const ps_scene_reader *from, yaml_node_t *node,

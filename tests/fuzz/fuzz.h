@@ -67,6 +67,7 @@ void fuzz_spectrum(const char *argument, fuzz_bytes input);
 void fuzz_saved(const char *argument, fuzz_bytes input);
 void fuzz_cache(const char *argument, fuzz_bytes input);
 void fuzz_table(const char *argument, fuzz_bytes input);
+void fuzz_scene(const char *argument, fuzz_bytes input);
 void fuzz_figures(const char *argument, fuzz_bytes input);
 void fuzz_decimal(const char *argument, fuzz_bytes input);
 void fuzz_sampler(const char *argument, fuzz_bytes input);

@@ -265,3 +265,55 @@ saved power '"points": 8, "dimension": 3, "max_frequency": 1, "per_ring": 2' "$r
 saved angular '"points": "mean 7.5, from 7 to 8", "domain": "hemisphere, even degrees", "max_degree": 2' \
     '"degree", "power", "standard_error"' '[2, 1.5, 0.25]' | seed saved degrees ''
 saved power '"points": 8, "dimension": 2, "max_frequency": 2' "$ring_columns" '[1, 1.2, 8, 0.5, null]' | seed saved missing ''
+
+# ---- scenes ----------------------------------------------------------------------------------
+
+seed scene torus '' <<'EOF'
+# reduced from docs/scenes
+scene: 1
+title: Samplers of the torus
+description: >
+  Averaged periodograms,
+  and radial means.
+defaults: {points: 64, seed: 1, tol: 1e-5}
+results:
+  - result: power
+    name: stochastic
+    title: Random and stratified
+    samplers: [white, jittered, "sobol:scramble=owen"]
+    max-frequency: 96
+    pictures: true
+  - result: angular
+    samplers: "hammersley:lift=sphere"
+    homogenize: true
+    plot: false
+EOF
+seed scene rules '' <<'EOF'
+scene: 1
+results:
+  - {result: quadrature, brdf: "glossy:n=30", weights: [equal, optimal, w.txt], samplers: fibonacci-hemisphere, points: 64..512}
+  - {result: truncation, brdf: [diffuse, "zonal:file=a.lobe"], harmonics: [spherical, hemispherical], max-degree: 20}
+  - {result: pairs, files: [[a.txt, b.txt], /c.npy], select-sets: 1..2, weights: column}
+EOF
+seed scene gate '' <<'EOF'
+scene: 1
+results:
+  - result: check
+    against: saved.json
+    samplers: jittered
+    false-alarm-rate: 1e-3
+EOF
+seed scene aliases '' <<'EOF'
+scene: 1
+defaults: &d {points: &n [16, 32]}
+results: [&r {result: power, points: *n, title: "\u2028\x80\N"}, {result: power, files: &f [-a, "b 'c"], seed: *n}]
+EOF
+printf '{"scene": "1", "results": [{"result": "power", "name": "a", "plot": "true", "files": [["a", "b"]]}], "record": {"folder": "/x/",
+"device": "d", "pointspec_version": "0", "questions": [{"seed": "1"}], "digests": ["0a", "0b"]}}\n' | seed scene record ''
+printf 'scene: 1\nresults: &a\n  - *a\n' | seed scene itself ''
+printf '[[[[[[[[[[[[[[[[[[[[[' | seed scene nest ''
+printf 'scene: 1\nresults:\n  - {result: power, pionts: 3}\n' | seed scene typing ''
+printf 'scene: 1\nresults:\n  - {result: power, points: [1, [2]], points: 3}\n---\n' | seed scene twice ''
+printf 'a: &a [h,h,h]\nb: &b [*a,*a,*a]\nc: [*b,*b,*b]\n' | seed scene laughs ''
+printf 'scene: 1\nresults: [\n' | seed scene cut ''
+printf '\xef\xbb\xbfscene: "1\\0"\n' | seed scene nul ''

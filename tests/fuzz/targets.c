@@ -22,6 +22,7 @@ const fuzz_target fuzz_targets[] = {
     {"cache", fuzz_cache, NULL, "binary.dict"},
     {"table", fuzz_table, NULL, "binary.dict"},
     {"figures", fuzz_figures, NULL, "text.dict"},
+    {"scene", fuzz_scene, NULL, "scene.dict"},
     {"decimal", fuzz_decimal, NULL, "text.dict"},
     {"brdf", fuzz_brdf, NULL, "text.dict"},
     {"sampler", fuzz_sampler, NULL, "words.dict"},
