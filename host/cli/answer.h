@@ -23,7 +23,7 @@ typedef struct ps_answer {
 } ps_answer;
 
 /* Of one sampler, or of files. *out is freed by ps_answer_free, also after an error. A check that found differences is no
- * error: its table says so, see ps_check_verdict. */
+ * error: the header of its table has the verdict. */
 pspec_status ps_answer_make(ps_answer *out, const ps_result_kind *kind, const ps_request *request,
                             const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
 void ps_answer_free(ps_answer *answer);

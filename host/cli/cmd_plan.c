@@ -62,10 +62,8 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
     ps_table *table = NULL;
     ps_table_format format = PS_FORMAT_CSV;
     const ps_command *command = NULL;
-    /* where a scene would write is its own matter; the table goes to standard output */
+    const char *const path = arguments->output != NULL ? arguments->output : "-";
     PS_TRY(take_command(&inner, &command, arguments, error));
-    const char *const path =
-        arguments->output != NULL && command != &ps_command_run ? arguments->output : "-";
     PS_TRY(ps_table_choose_format(&format, arguments->format, path, error));
     PS_TRY(ps_plan_table_create(&table, command == &ps_command_run, error));
     pspec_status status = fill(table, command, &inner, error);
