@@ -48,10 +48,21 @@ static pspec_status add_candidates(const ps_planner *to, const ps_plan *plan, ps
     return PSPEC_OK;
 }
 
+/* A header line; of several jobs a row, too: JSON does not keep which header line is of which job. */
+static pspec_status add_skip(const ps_planner *to, const ps_skip *skip, ps_error *error) {
+    char text[sizeof(ps_skip) + 32]; /* with a number and separators */
+    snprintf(text, sizeof text, "%s; %s; %.3g", skip->what, skip->why, skip->share);
+    const ps_cell cells[NUM_COLUMNS] = {PS_TEXT(to->job), PS_MISSING, PS_TEXT("skip"), PS_MISSING,
+                                        PS_MISSING,       PS_MISSING, PS_TEXT(text)};
+    PS_TRY(ps_table_add_meta(to->table, "skip", PS_TEXT(text), error));
+    return to->job != NULL ? ps_table_add_row(to->table, cells, error) : PSPEC_OK;
+}
+
 /* What is asked of a job: number `index` of its command. */
-static pspec_status add_header(ps_table *table, const ps_request *arguments,
+static pspec_status add_header(const ps_planner *to, const ps_request *arguments,
                                const ps_problem *problem, const ps_needs *needs,
                                const ps_device_limits *limits, size_t index, ps_error *error) {
+    ps_table *const table = to->table;
     if (arguments->num_samplers > 0) {
         PS_TRY(ps_table_add_meta(table, "sampler", PS_TEXT(arguments->samplers[index]), error));
     }
@@ -74,10 +85,7 @@ static pspec_status add_header(ps_table *table, const ps_request *arguments,
                              PS_INTEGER(problem->frequencies->num), error));
     PS_TRY(ps_table_add_meta(table, "tolerance", PS_NUMBER(problem->tolerance), error));
     for (size_t i = 0; i < needs->num_skips; i++) {
-        char text[sizeof(ps_skip) + 32]; /* with a number and separators */
-        snprintf(text, sizeof text, "%s; %s; %.3g", needs->skips[i].what, needs->skips[i].why,
-                 needs->skips[i].share);
-        PS_TRY(ps_table_add_meta(table, "skip", PS_TEXT(text), error));
+        PS_TRY(add_skip(to, &needs->skips[i], error));
     }
     return PSPEC_OK;
 }
@@ -90,7 +98,7 @@ static pspec_status add_list(const ps_planner *to, const ps_request *arguments,
         PS_TRY(ps_power_job_create(&job, &list->questions[i], error));
         ps_power_job_rate_skips(job);
         pspec_status status =
-            add_header(to->table, arguments, ps_power_job_problem(job), ps_power_job_needs(job),
+            add_header(to, arguments, ps_power_job_problem(job), ps_power_job_needs(job),
                        ps_power_job_limits(job), i, error);
         if (status == PSPEC_OK) {
             status = add_candidates(to, ps_power_job_plan(job), error);
@@ -126,7 +134,7 @@ static pspec_status add_setup(const ps_planner *to, const ps_request *arguments,
                               const ps_quadrature_setup *setup, size_t index, ps_error *error) {
     const ps_device_limits *const limits =
         setup->device != NULL ? ps_device_get_limits(setup->device) : NULL;
-    PS_TRY(add_header(to->table, arguments, &setup->problem, &setup->needs, limits, index, error));
+    PS_TRY(add_header(to, arguments, &setup->problem, &setup->needs, limits, index, error));
     if (setup->degrees_note[0] != '\0') {
         PS_TRY(ps_table_add_meta(to->table, "degrees_note", PS_TEXT(setup->degrees_note), error));
     }
