@@ -48,7 +48,7 @@ done
 for name in plane plane-picture-{1..6} files angular-4 pairs-5-{sums,c2} quadrature-6-{d2,c2,e2,convergence} truncation-7-{error,points} check-8-scores; do
     [[ -s first/$name.svg ]] || complain "no picture $name"
 done
-[[ $(ls first | wc -l) == 36 ]] || complain "other files: $(ls first)"
+[[ $(find first -type f | wc -l) == 36 ]] || complain "other files: $(ls first)"
 # the header of a table is one line for each key
 ! grep -v '^# [a-z_0-9]*: \|^[a-z0-9./&-]*,' first/plane.csv >odd || complain "odd lines: $(<odd)"
 
@@ -60,7 +60,7 @@ check_rows() { # NAME FIRST-COLUMN-OF-THE-COMMAND
     while read -r line; do
         eval "\"\$program\" $line" | sed '/^#/d' | sed 1d
     done <commands >expected
-    [[ -s rows ]] && cmp -s rows expected || complain "$1: other rows than its commands have"
+    if [[ ! -s rows ]] || ! cmp -s rows expected; then complain "$1: other rows than its commands have"; fi
 }
 check_rows plane 3
 check_rows files 2
@@ -83,7 +83,7 @@ awk 'BEGIN { RS = "<"; void["meta"]; void["br"] }
     }
     END { if (depth) print "left open: " stack[depth] }' "$page" >odd
 [[ ! -s odd ]] || complain "page: $(head -n 3 odd)"
-[[ $(grep -o '<svg' "$page" | wc -l) == $(ls first/*.svg | wc -l) ]] || complain "pictures of the page"
+[[ $(grep -o '<svg' "$page" | wc -l) == $(find first -name "*.svg" | wc -l) ]] || complain "pictures of the page"
 ! grep -oE '(src|href)="(https?:|//)[^"]*"|url\(http[^)]*\)|@import|<(script|link|img|iframe)' "$page" || complain "the page fetches something"
 grep -q 'Less &lt; more &gt; &amp; &quot;quotes&quot;' "$page" || complain "title"
 grep -q '&lt;script&gt;alert(1)&lt;/script&gt; &amp; more' "$page" || complain "description"
@@ -228,7 +228,7 @@ set -m # else the shell has background processes ignore SIGINT
 "$program" run long.yaml >out 2>err & run=$!
 set +m
 for ((i = 0; i < 500; i++)); do
-    [[ $(ls cache/results 2>/dev/null | wc -l) -lt 2 ]] || break
+    [[ $(find cache/results -name "*" -type f 2>/dev/null | wc -l) -lt 2 ]] || break
     sleep 0.01
 done
 kill -INT $run
