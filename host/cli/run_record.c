@@ -63,7 +63,8 @@ static pspec_status print_folder(const ps_run *run, ps_text *out, ps_error *erro
     const char *const folder = run->scene->folder;
     char *const absolute = realpath(folder[0] != '\0' ? folder : ".", NULL);
     if (absolute == NULL) {
-        return ps_fail(error, PSPEC_ERROR_IO, "cannot find the folder \"%s\" of the scene", folder);
+        return ps_fail(error, PSPEC_ERROR_IO, "cannot find the folder of the scene \"%s\"",
+                       run->scene->path);
     }
     ps_text path = {0};
     ps_text_append(&path, "%s/", absolute);

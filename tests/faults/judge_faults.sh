@@ -5,7 +5,10 @@
 set -euo pipefail
 run=$FAULTS_SCRATCH/run.$$ initial=$FAULTS_SCRATCH/initial
 trap 'rm -rf "$run"' EXIT
-same=(-I '^# engine: ') # tells the realizations at a time, on which no result depends
+same=(-I '^# engine: ' # tells the realizations at a time, on which no result depends
+    # the time that questions of a scene took, in its table, record and page
+    -I '^# seconds: ' -I '^[a-z0-9-]*,[a-z]*,[0-9]*,[0-9]*,[0-9.e-]*$' -I '"seconds": "' -I '^    "folder": "' -I '^<p class="facts">pointspec '
+    -I '</td><td class="text">\(cache\|computed\)</td></tr>$')
 is_clean=no # the folder of the run is as it was before any
 
 reset() {
@@ -41,12 +44,12 @@ check_outputs() { # CASE
     remark=
     diff -rq "$run/folder" "$initial" >/dev/null && return
     is_clean=no
-    for file in "$run"/folder/* "$run"/folder/.pointspec-*; do
-        name=${file##*/}
-        [[ -e $file ]] || continue
-        cmp -s "$file" "$initial/$name" || cmp -s "$file" "$1/expected/folder/$name" ||
+    while read -r -d '' file; do # whole files in a folder of results are fine
+        name=${file#"$run/folder/"}
+        cmp -s "$file" "$initial/$name" ||
+            diff -q "${same[@]}" "$file" "$1/expected/folder/$name" >/dev/null 2>&1 ||
             remark="left behind or spoilt: $name"
-    done
+    done < <(find "$run/folder" -type f -print0)
     for file in "$initial"/*; do
         [[ -e $run/folder/${file##*/} ]] || remark="lost: ${file##*/}"
     done
@@ -66,7 +69,7 @@ check_sentence() { # CASE CLASS NUMBER[+]
     fi
     case $2 in
     memory) [[ ${last,,} == *memory* ]] || remark="does not speak of memory" ;;
-    file) [[ $last =~ (cannot (read|write|create|run)|could not draw).*($things) ]] ||
+    file) [[ $last =~ (cannot (read|write|create|run|make|find|open)|could not draw).*($things) ]] ||
         remark="does not name the file" ;;
     opencl)
         # Where everything fails from there on, the sentence may tell of a later call.

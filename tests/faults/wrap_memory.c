@@ -7,6 +7,8 @@
 #include <cJSON.h>
 #include <errno.h>
 #include <stddef.h>
+#include <xxhash.h>
+#include <yaml.h>
 
 static bool is_refused(const char *name) {
     const bool is_due = fault_is_due(FAULT_MEMORY, name);
@@ -67,3 +69,43 @@ WRAPPER(inflateEnd, int, (z_stream * stream)) {
     fault_lose(stream);
     return __real_inflateEnd(stream);
 }
+
+/* ---- libyaml and xxHash ------------------------------------------------------------------ */
+
+ALLOCATION(XXH3_createState, XXH3_state_t *, (void), ())
+
+WRAPPER(XXH3_freeState, XXH_errorcode, (XXH3_state_t * state)) {
+    fault_lose(state);
+    return __real_XXH3_freeState(state);
+}
+
+WRAPPER(yaml_parser_initialize, int, (yaml_parser_t * parser)) {
+    if (is_refused("yaml_parser_initialize")) {
+        parser->error = YAML_MEMORY_ERROR;
+        return 0;
+    }
+    fault_gain(parser, "yaml_parser_initialize");
+    return __real_yaml_parser_initialize(parser);
+}
+
+WRAPPER(yaml_parser_delete, void, (yaml_parser_t * parser)) {
+    fault_lose(parser);
+    __real_yaml_parser_delete(parser);
+}
+
+/* Each takes what the deletion of its document or event gives back, also an empty one. */
+#define YAML_STEP(name, type)                                                                      \
+    WRAPPER(name, int, (yaml_parser_t * parser, type *out)) {                                      \
+        if (is_refused(#name)) {                                                                   \
+            parser->error = YAML_MEMORY_ERROR;                                                     \
+            return 0;                                                                              \
+        }                                                                                          \
+        const int is_good = __real_##name(parser, out);                                            \
+        fault_gain(is_good ? out : NULL, #name);                                                   \
+        return is_good;                                                                            \
+    }
+
+YAML_STEP(yaml_parser_load, yaml_document_t)
+YAML_STEP(yaml_parser_parse, yaml_event_t)
+DEALLOCATION(yaml_document_delete, yaml_document_t *)
+DEALLOCATION(yaml_event_delete, yaml_event_t *)
