@@ -5,10 +5,8 @@
 set -euo pipefail
 run=$FAULTS_SCRATCH/run.$$ initial=$FAULTS_SCRATCH/initial
 trap 'rm -rf "$run"' EXIT
-same=(-I '^# engine: ' # tells the realizations at a time, on which no result depends
-    # the time that questions of a scene took, in its table, record and page
-    -I '^# seconds: ' -I '^[a-z0-9-]*,[a-z]*,[0-9]*,[0-9]*,[0-9.e-]*$' -I '"seconds": "' -I '^    "folder": "' -I '^<p class="facts">pointspec '
-    -I '</td><td class="text">\(cache\|computed\)</td></tr>$')
+# shellcheck source=tests/faults/same.sh
+. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/same.sh"
 is_clean=no # the folder of the run is as it was before any
 
 reset() {

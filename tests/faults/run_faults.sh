@@ -75,8 +75,8 @@ EOF
     cd - >/dev/null
 }
 
-# What judge_faults.sh leaves out of comparisons.
-source <(sed -n "/^same=/,/)$/p" "$here/judge_faults.sh")
+# shellcheck source=tests/faults/same.sh
+. "$here/same.sh"
 
 # The run without faults: its outputs, its calls, and again, for both must be the same every time.
 prepare_case() { # NAME STDIN [VARIABLE=VALUE...] WORD...

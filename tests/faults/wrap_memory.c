@@ -95,7 +95,7 @@ WRAPPER(yaml_parser_delete, void, (yaml_parser_t * parser)) {
 
 /* Each takes what the deletion of its document or event gives back, also an empty one. */
 #define YAML_STEP(name, type)                                                                      \
-    WRAPPER(name, int, (yaml_parser_t * parser, type *out)) {                                      \
+    WRAPPER(name, int, (yaml_parser_t * parser, type * out)) {                                     \
         if (is_refused(#name)) {                                                                   \
             parser->error = YAML_MEMORY_ERROR;                                                     \
             return 0;                                                                              \

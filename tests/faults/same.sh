@@ -1,0 +1,7 @@
+# shellcheck shell=bash
+# shellcheck disable=SC2034 # for those who source it
+# What comparisons of two runs leave out: times, and what no result depends on.
+same=(-I '^# engine: ' # tells the realizations at a time, on which no result depends
+    # the time that questions of a scene took, in its table, record and page
+    -I '^# seconds: ' -I '^[a-z0-9-]*,[a-z]*,[0-9]*,[0-9]*,[0-9.e-]*$' -I '"seconds": "' -I '^    "folder": "' -I '^<p class="facts">pointspec '
+    -I '</td><td class="text">\(cache\|computed\)</td></tr>$')
