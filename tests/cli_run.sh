@@ -159,12 +159,13 @@ refuses "sets/a&b.txt:11: not YAML" "sets/a&b.txt" -o none2
 refuses 'has files that are not of a run' small.yaml -o sets
 refuses '"saved.json" is no folder' small.yaml -o saved.json
 runs 1 small.yaml -o nowhere/at/all
-says 'cannot write to the folder "nowhere/at/"'
+says 'cannot write the results "nowhere/at/all" to "nowhere/at/"'
 mkfifo fifo
 printf 'scene: 1\nresults:\n  - {result: power, files: fifo, engine: host_direct}\n' >pipe.yaml
 refuses '"fifo" is a pipe' pipe.yaml -o none2
 printf 'scene: 1\nresults:\n  - {result: power, files: missing.txt}\n' >missing.yaml
-refuses 'missing.txt' missing.yaml
+runs 1 missing.yaml # as a command says
+says 'missing.yaml:3: power-1: cannot read "missing.txt"'
 printf 'scene: 1\nresults:\n  - {result: power, samplers: zphi}\n' >wrong.yaml
 refuses 'wrong.yaml:3: power-1: --sampler zphi makes points of the sphere' wrong.yaml
 "$program" angular --engine host_direct --sampler zphi -n 8 -m 5 -l 3 -o sphere.json

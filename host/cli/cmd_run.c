@@ -48,11 +48,11 @@ static pspec_status is_empty_folder(const char *path, bool *is_empty, ps_error *
 }
 
 /* Whether files can be made there is found out before the work, which may be long. */
-static pspec_status check_writable(const char *path, ps_error *error) {
+static pspec_status check_writable(const char *path, const char *results, ps_error *error) {
     return access(path, W_OK | X_OK) == 0
                ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_IO, "cannot write to the folder \"%s\": %s", path,
-                         strerror(errno));
+               : ps_fail(error, PSPEC_ERROR_IO, "cannot write the results \"%s\" to \"%s\": %s",
+                         results, path, strerror(errno));
 }
 
 static pspec_status check_parent(const char *path, ps_error *error) {
@@ -67,7 +67,7 @@ static pspec_status check_parent(const char *path, ps_error *error) {
     ps_text_append_bytes(&parent, length > 0 ? path : ".", length > 0 ? length : 1);
     pspec_status status = ps_text_check(&parent, error);
     if (status == PSPEC_OK) {
-        status = check_writable(ps_text_string(&parent), error);
+        status = check_writable(ps_text_string(&parent), path, error);
     }
     ps_text_free(&parent);
     return status;
@@ -95,7 +95,7 @@ static pspec_status check_folder(const char *path, ps_error *error) {
         status = is_empty_folder(path, &is_empty, error);
     }
     if (status == PSPEC_OK && (has_record || is_empty)) {
-        return check_writable(path, error);
+        return check_writable(path, path, error);
     }
     return status != PSPEC_OK
                ? status

@@ -81,7 +81,7 @@ static pspec_status add_file(ps_text *key, const char *path, ps_error *error) {
     char digest[PS_DIGEST_BYTES];
     struct stat facts;
     if (stat(path, &facts) != 0) {
-        return ps_fail(error, PSPEC_ERROR_INPUT, "cannot read \"%s\": %s", path, strerror(errno));
+        return ps_fail(error, PSPEC_ERROR_IO, "cannot read \"%s\": %s", path, strerror(errno));
     }
     if (S_ISFIFO(facts.st_mode)) {
         return ps_fail(error, PSPEC_ERROR_INPUT,

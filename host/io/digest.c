@@ -30,7 +30,7 @@ static pspec_status digest_stream(FILE *file, XXH3_state_t *state, const char *p
 pspec_status ps_digest_file(const char *path, char out[PS_DIGEST_BYTES], ps_error *error) {
     FILE *const file = fopen(path, "rb");
     if (file == NULL) {
-        return ps_fail(error, PSPEC_ERROR_INPUT, "cannot open \"%s\": %s", path, strerror(errno));
+        return ps_fail(error, PSPEC_ERROR_IO, "cannot open \"%s\": %s", path, strerror(errno));
     }
     XXH3_state_t *const state = XXH3_createState();
     pspec_status status = PSPEC_OK;
