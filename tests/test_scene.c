@@ -83,6 +83,15 @@ static void defaults(void **state) {
     assert_command(&scene, 0, 0, "pointspec power /a");
     assert_command(&scene, 1, 0, "pointspec power --sampler halton");
     ps_scene_free(&scene);
+    /* what is about the other kind of points is not taken */
+    must_read(state, &scene,
+              "scene: 1\ndefaults: {files: /a, realizations: 9, seed: 2, columns: xy, tol: 0.1}\n"
+              "results:\n  - {result: power}\n  - {result: power, sampler: white}\n",
+              path);
+    assert_command(&scene, 0, 0, "pointspec power --columns xy --tol 0.1 /a");
+    assert_command(&scene, 1, 0,
+                   "pointspec power --sampler white --realizations 9 --seed 2 --tol 0.1");
+    ps_scene_free(&scene);
 }
 
 static void names_and_switches(void **state) {

@@ -1,35 +1,46 @@
 #include "scene/question.h"
 
+#include "scene/options.h"
+
+#include <stdio.h>
 #include <string.h>
 
 static pspec_status fail_conflict(const char *a, const char *b, const char *why, ps_error *error) {
     return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s does not go with %s: %s", a, b, why);
 }
 
+ps_option_source ps_option_source_of(ps_option_id id) {
+    switch (id) {
+    case PS_OPTION_REALIZATIONS:
+    case PS_OPTION_SEED: /* but for --per-ring */
+    case PS_OPTION_HOMOGENIZE:
+        return PS_OF_SAMPLERS;
+    case PS_OPTION_INPUT_FORMAT:
+    case PS_OPTION_COLUMNS:
+    case PS_OPTION_WRAP:
+    case PS_OPTION_NORMALIZE_VECTORS:
+    case PS_OPTION_SELECT_SETS:
+        return PS_OF_FILES;
+    default:
+        return PS_OF_BOTH;
+    }
+}
+
 /* Options that are about the other kind of source. */
 static pspec_status check_other_source(const ps_request *arguments, ps_error *error) {
-    static const struct {
-        ps_option_id option;
-        const char *name;
-        bool is_for_files;
-    } options[] = {{PS_OPTION_REALIZATIONS, "--realizations", false},
-                   {PS_OPTION_SEED, "--seed", false}, /* but for --per-ring */
-                   {PS_OPTION_HOMOGENIZE, "--homogenize", false},
-                   {PS_OPTION_INPUT_FORMAT, "--input-format", true},
-                   {PS_OPTION_COLUMNS, "--columns", true},
-                   {PS_OPTION_WRAP, "--wrap", true},
-                   {PS_OPTION_NORMALIZE_VECTORS, "--normalize-vectors", true},
-                   {PS_OPTION_SELECT_SETS, "--select-sets", true}};
     const bool are_files = arguments->num_files > 0;
-    for (size_t i = 0; i < sizeof options / sizeof options[0]; i++) {
-        const bool is_of_subset = options[i].option == PS_OPTION_SEED && arguments->per_ring > 0;
-        if (arguments->is_given[options[i].option] && options[i].is_for_files != are_files &&
-            !is_of_subset) {
-            return are_files ? fail_conflict(options[i].name, "point files",
-                                             "it says what a --sampler makes", error)
-                             : fail_conflict(options[i].name, "--sampler",
-                                             "it says how point files are read", error);
+    const ps_option_source other = are_files ? PS_OF_SAMPLERS : PS_OF_FILES;
+    for (int id = 0; id < PS_NUM_OPTIONS; id++) {
+        const bool is_of_subset = id == PS_OPTION_SEED && arguments->per_ring > 0;
+        if (!arguments->is_given[id] || ps_option_source_of((ps_option_id)id) != other ||
+            is_of_subset) {
+            continue;
         }
+        char name[64];
+        snprintf(name, sizeof name, "--%s", ps_options[id].name);
+        return are_files
+                   ? fail_conflict(name, "point files", "it says what a --sampler makes", error)
+                   : fail_conflict(name, "--sampler", "it says how point files are read", error);
     }
     return PSPEC_OK;
 }

@@ -32,6 +32,10 @@ pspec_status ps_sampler_request_make(ps_sampler_request *out, const ps_request *
 /* Of a sampler: as many as were given, or with a standard error alone the most that it may take. */
 uint64_t ps_num_realizations_asked(const ps_request *arguments);
 
+/* What kind of points an option is about. */
+typedef enum ps_option_source { PS_OF_BOTH, PS_OF_SAMPLERS, PS_OF_FILES } ps_option_source;
+ps_option_source ps_option_source_of(ps_option_id id);
+
 /* How point files are read. */
 ps_point_options ps_point_options_make(const ps_request *arguments);
 

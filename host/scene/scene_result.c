@@ -1,5 +1,6 @@
 /* One result of a scene: its keys, and those of the defaults. */
 #include "scene/options.h"
+#include "scene/question.h"
 #include "scene/scene_file.h"
 
 #include <ctype.h>
@@ -152,6 +153,19 @@ static bool is_settled(const ps_scene_result *result, int option) {
            (option == PS_SCENE_FILES && has_entry(result, PS_OPTION_SAMPLER));
 }
 
+/* Defaults that are about samplers are not for files, nor the reverse. */
+static void drop_of_other_source(ps_scene_result *result, size_t num_own) {
+    const ps_option_source other = has_entry(result, PS_SCENE_FILES) ? PS_OF_SAMPLERS : PS_OF_FILES;
+    size_t num = num_own;
+    for (size_t i = num_own; i < result->num_entries; i++) {
+        const int option = result->entries[i].option;
+        if (option == PS_SCENE_FILES || ps_option_source_of((ps_option_id)option) != other) {
+            result->entries[num++] = result->entries[i];
+        }
+    }
+    result->num_entries = num;
+}
+
 static pspec_status take_defaults(const ps_scene_reader *from, ps_scene_result *out) {
     const size_t num_own = out->num_entries;
     ps_scene_result own = *out;
@@ -168,6 +182,7 @@ static pspec_status take_defaults(const ps_scene_reader *from, ps_scene_result *
             return complain_of_key(from, out->kind, ps_scene_line(value), key);
         }
     }
+    drop_of_other_source(out, num_own);
     return PSPEC_OK;
 }
 
