@@ -19,6 +19,11 @@ runs() { # EXIT ARGS...: standard output in out, standard error in err
     shift
     checked=$((checked + 1))
     "$program" "$command" "$@" </dev/null >out 2>err || code=$?
+    # The leak sanitizer's tracer may die of a signal 11 of its own while it stops the threads of PoCL: again without it.
+    if [[ $code != "$expected" && $(<err) == *'LeakSanitizer has encountered a fatal error'* ]]; then
+        code=0
+        ASAN_OPTIONS=${ASAN_OPTIONS-}:detect_leaks=0 "$program" "$command" "$@" </dev/null >out 2>err || code=$?
+    fi
     [[ $code == "$expected" ]] || complain "exit $code, not $expected: $*: $(<err)"
 }
 says() { # PART: of standard error, which is one line
