@@ -98,7 +98,10 @@ static double find_range(const ps_plot *plot) {
     return range > 0 ? range : 1;
 }
 
-/* The largest power with its bar; white noise stays in sight. */
+/* Of the height of the panel: a line of the key, which must not lie on the curves, and the most that it may have. */
+static const double KEY_LINE = 0.055, MOST_KEY = 0.35;
+
+/* The largest power with its bar; white noise stays in sight, and there is room for the key. */
 static double find_height(const ps_plot *plot) {
     double height = 1.2;
     for (size_t i = 0; i < plot->num_curves; i++) {
@@ -110,7 +113,9 @@ static double find_height(const ps_plot *plot) {
             height = isfinite(top) ? fmax(height, top) : height;
         }
     }
-    return 1.05 * height;
+    const double key =
+        plot->num_curves > 1 ? fmin(KEY_LINE * (double)plot->num_curves, MOST_KEY) : 0;
+    return 1.05 * height / (1 - key);
 }
 
 void ps_plot_print_page(const char *title, const char *terminal, int width, int height,
