@@ -99,7 +99,7 @@ static double find_range(const ps_plot *plot) {
 }
 
 /* Of the height of the panel: a line of the key, which must not lie on the curves, and the most that it may have. */
-static const double KEY_LINE = 0.055, MOST_KEY = 0.35;
+static const double KEY_LINE = 0.075, MOST_KEY = 0.4;
 
 /* The largest power with its bar; white noise stays in sight, and there is room for the key. */
 static double find_height(const ps_plot *plot) {
