@@ -13,20 +13,15 @@ static const double FAR = 7;
 /* Runs of each kind, in turn; the fastest counts, since a machine has other things to do. */
 enum { RUNS = 2 };
 
-static double number_of(ps_cell cell) {
-    return cell.kind == PS_CELL_NUMBER    ? cell.number
-           : cell.kind == PS_CELL_INTEGER ? (double)cell.integer
-                                          : NAN;
-}
-
 static double meta_number(const ps_table *table, const char *key) {
-    return number_of(ps_run_meta(table, key));
+    return ps_cell_number(ps_run_meta(table, key));
 }
 
 static double value_at(const ps_table *table, size_t row, const char *name) {
     size_t column = 0;
-    return ps_table_find_column(table, name, &column) ? number_of(ps_table_cell(table, row, column))
-                                                      : NAN;
+    return ps_table_find_column(table, name, &column)
+               ? ps_cell_number(ps_table_cell(table, row, column))
+               : NAN;
 }
 
 /* ---- how far answers are apart ------------------------------------------------------------- */

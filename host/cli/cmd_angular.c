@@ -7,9 +7,9 @@
 
 /* Beside those of the question. */
 static const ps_option_id options[] = {
-    PS_OPTION_COEFFICIENTS, PS_OPTION_HARMONICS, PS_OPTION_OUTPUT, PS_OPTION_FORMAT,
-    PS_OPTION_PLOT,         PS_OPTION_PROFILE,   PS_OPTION_QUIET,  PS_OPTION_VERBOSE,
-    PS_OPTION_HELP,         PS_NUM_OPTIONS};
+    PS_OPTION_DEVICE,  PS_OPTION_COEFFICIENTS, PS_OPTION_HARMONICS, PS_OPTION_OUTPUT,
+    PS_OPTION_FORMAT,  PS_OPTION_PLOT,         PS_OPTION_PROFILE,   PS_OPTION_QUIET,
+    PS_OPTION_VERBOSE, PS_OPTION_HELP,         PS_NUM_OPTIONS};
 
 static pspec_status write_coefficients(const char *path, const ps_power_job *job, ps_error *error) {
     const int32_t max_degree = ps_power_job_problem(job)->frequencies->max_frequency;

@@ -66,26 +66,13 @@ static bool should_stop(void *payload) {
 
 /* ---- headers ------------------------------------------------------------------------------- */
 
-typedef struct entry {
-    const char *key;
-    ps_cell value;
-} entry;
-
-static pspec_status add_entries(ps_table *table, const entry *entries, size_t num,
-                                ps_error *error) {
-    for (size_t i = 0; i < num; i++) {
-        PS_TRY(ps_table_add_meta(table, entries[i].key, entries[i].value, error));
-    }
-    return PSPEC_OK;
-}
-
 static ps_cell rate(double value) {
     return value > 0 ? PS_NUMBER(value) : PS_MISSING;
 }
 
 static pspec_status add_device(const answer *of, const ps_device_peaks *peaks, ps_error *error) {
     const ps_device_limits *const limits = ps_device_get_limits(of->device);
-    const entry entries[] = {
+    const ps_meta entries[] = {
         {"pointspec_version", PS_TEXT(pspec_version())},
         {"schema", PS_INTEGER(1)},
         {"command", PS_TEXT(of->arguments->command_line)},
@@ -97,11 +84,11 @@ static pspec_status add_device(const answer *of, const ps_device_peaks *peaks, p
         {"peak_flops_double", rate(peaks->flops[PS_DOUBLE])},
         {"copied_bytes_per_second", rate(peaks->copied_bytes)},
     };
-    return add_entries(of->table, entries, sizeof entries / sizeof entries[0], error);
+    return ps_table_add_metas(of->table, entries, sizeof entries / sizeof entries[0], error);
 }
 
 static pspec_status add_explanation(const answer *of, ps_error *error) {
-    const entry entries[] = {
+    const ps_meta entries[] = {
         {"figures", PS_TEXT(ps_device_get_limits(of->device)->figures->note)},
         {"time", PS_TEXT("of a realization, from points in host memory to powers on the device: "
                          "median of nine runs, three at a time in turn with other rows, with "
@@ -115,7 +102,7 @@ static pspec_status add_explanation(const answer *of, ps_error *error) {
                  "beside it; fraction_of_bandwidth: points read and powers written "
                  "once, of a copy")},
     };
-    return add_entries(of->table, entries, sizeof entries / sizeof entries[0], error);
+    return ps_table_add_metas(of->table, entries, sizeof entries / sizeof entries[0], error);
 }
 
 /* ---- the table ----------------------------------------------------------------------------- */

@@ -11,9 +11,9 @@
 #include <stdlib.h>
 
 /* Beside those of the question. */
-static const ps_option_id options[] = {PS_OPTION_OUTPUT, PS_OPTION_FORMAT,  PS_OPTION_PROFILE,
-                                       PS_OPTION_QUIET,  PS_OPTION_VERBOSE, PS_OPTION_HELP,
-                                       PS_NUM_OPTIONS};
+static const ps_option_id options[] = {PS_OPTION_DEVICE,  PS_OPTION_OUTPUT, PS_OPTION_FORMAT,
+                                       PS_OPTION_PROFILE, PS_OPTION_QUIET,  PS_OPTION_VERBOSE,
+                                       PS_OPTION_HELP,    PS_NUM_OPTIONS};
 
 pspec_status ps_check_check(const ps_request *arguments, ps_error *error) {
     if (arguments->against == NULL) {

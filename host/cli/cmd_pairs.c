@@ -4,9 +4,9 @@
 #include "cli/pairs_table.h"
 
 /* Beside those of the question. */
-static const ps_option_id options[] = {PS_OPTION_OUTPUT,  PS_OPTION_FORMAT, PS_OPTION_PLOT,
-                                       PS_OPTION_PROFILE, PS_OPTION_QUIET,  PS_OPTION_VERBOSE,
-                                       PS_OPTION_HELP,    PS_NUM_OPTIONS};
+static const ps_option_id options[] = {PS_OPTION_DEVICE,  PS_OPTION_OUTPUT,  PS_OPTION_FORMAT,
+                                       PS_OPTION_PLOT,    PS_OPTION_PROFILE, PS_OPTION_QUIET,
+                                       PS_OPTION_VERBOSE, PS_OPTION_HELP,    PS_NUM_OPTIONS};
 
 static pspec_status run(const ps_request *arguments, ps_error *error) {
     static const ps_jobs_output output = {ps_pairs_table, NULL};

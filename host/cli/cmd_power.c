@@ -5,9 +5,9 @@
 #include "cli/spectrum_plot.h"
 
 /* Beside those of the question. */
-static const ps_option_id options[] = {PS_OPTION_FULL,    PS_OPTION_OUTPUT,  PS_OPTION_FORMAT,
-                                       PS_OPTION_PLOT,    PS_OPTION_PROFILE, PS_OPTION_QUIET,
-                                       PS_OPTION_VERBOSE, PS_OPTION_HELP,    PS_NUM_OPTIONS};
+static const ps_option_id options[] = {
+    PS_OPTION_DEVICE,  PS_OPTION_FULL,  PS_OPTION_OUTPUT,  PS_OPTION_FORMAT, PS_OPTION_PLOT,
+    PS_OPTION_PROFILE, PS_OPTION_QUIET, PS_OPTION_VERBOSE, PS_OPTION_HELP,   PS_NUM_OPTIONS};
 
 static pspec_status write_others(const ps_request *arguments, const ps_power_job *const *jobs,
                                  ps_error *error) {

@@ -120,9 +120,9 @@ out:
 }
 
 /* Beside those of the question. */
-static const ps_option_id options[] = {PS_OPTION_OUTPUT,  PS_OPTION_FORMAT, PS_OPTION_PLOT,
-                                       PS_OPTION_PROFILE, PS_OPTION_QUIET,  PS_OPTION_VERBOSE,
-                                       PS_OPTION_HELP,    PS_NUM_OPTIONS};
+static const ps_option_id options[] = {PS_OPTION_DEVICE,  PS_OPTION_OUTPUT,  PS_OPTION_FORMAT,
+                                       PS_OPTION_PLOT,    PS_OPTION_PROFILE, PS_OPTION_QUIET,
+                                       PS_OPTION_VERBOSE, PS_OPTION_HELP,    PS_NUM_OPTIONS};
 
 const ps_command ps_command_quadrature = {
     .name = "quadrature",

@@ -112,11 +112,6 @@ static pspec_status find_answer(answer *of, const ps_answer_hooks *hooks, ps_err
 
 /* ---- the table ----------------------------------------------------------------------------- */
 
-typedef struct entry {
-    const char *key;
-    ps_cell value;
-} entry;
-
 static pspec_status add_header(ps_table *table, const answer *of, ps_error *error) {
     char check[128];
     double off = 0;
@@ -128,7 +123,7 @@ static pspec_status add_header(ps_table *table, const answer *of, ps_error *erro
     snprintf(check, sizeof check, "sum b_l^2 to degree %zu is 1 %+.2g of its closed form",
              of->representer.max_degree, off);
     const char *const note = ps_brdf_note(of->brdf);
-    const entry entries[] = {
+    const ps_meta entries[] = {
         {"pointspec_version", PS_TEXT(pspec_version())},
         {"schema", PS_INTEGER(1)},
         {"command", PS_TEXT(of->arguments->command_line)},
@@ -150,9 +145,7 @@ static pspec_status add_header(ps_table *table, const answer *of, ps_error *erro
                        "beyond 32768")},
         {"skipped", PS_TEXT("none")},
     };
-    for (size_t i = 0; i < sizeof entries / sizeof entries[0]; i++) {
-        PS_TRY(ps_table_add_meta(table, entries[i].key, entries[i].value, error));
-    }
+    PS_TRY(ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error));
     return note != NULL ? ps_table_add_meta(table, "note", PS_TEXT(note), error) : PSPEC_OK;
 }
 

@@ -6,19 +6,6 @@
 #include <math.h>
 #include <stdio.h>
 
-typedef struct entry {
-    const char *key;
-    ps_cell value;
-} entry;
-
-static pspec_status add_entries(ps_table *table, const entry *entries, size_t num,
-                                ps_error *error) {
-    for (size_t i = 0; i < num; i++) {
-        PS_TRY(ps_table_add_meta(table, entries[i].key, entries[i].value, error));
-    }
-    return PSPEC_OK;
-}
-
 /* A text that is only there where there is something to say. */
 static pspec_status add_remark(ps_table *table, const char *key, const char *text,
                                ps_error *error) {
@@ -44,7 +31,7 @@ static const char *name_weights(const ps_quadrature_question *question) {
 static pspec_status add_question(ps_table *table, const ps_request *arguments,
                                  const ps_quadrature_list *list, ps_error *error) {
     const ps_quadrature_question *const question = &list->questions[0];
-    const entry entries[] = {
+    const ps_meta entries[] = {
         {"pointspec_version", PS_TEXT(pspec_version())},
         {"schema", PS_INTEGER(1)},
         {"command", PS_TEXT(arguments->command_line)},
@@ -55,14 +42,14 @@ static pspec_status add_question(ps_table *table, const ps_request *arguments,
         {"brdf", PS_TEXT(arguments->brdf)},
         {"smoothness", PS_NUMBER(arguments->smoothness)},
     };
-    PS_TRY(add_entries(table, entries, sizeof entries / sizeof entries[0], error));
+    PS_TRY(ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error));
     return add_remark(table, "note", ps_brdf_note(list->brdf), error);
 }
 
 static pspec_status add_facts(ps_table *table, const char *sampler,
                               const ps_quadrature_result *result, ps_error *error) {
     PS_TRY(add_remark(table, "sampler", sampler, error));
-    const entry entries[] = {
+    const ps_meta entries[] = {
         {"device", PS_TEXT(result->device)},
         {"engine", PS_TEXT(result->engine)},
         {"precision", PS_TEXT(result->precision)},
@@ -71,7 +58,7 @@ static pspec_status add_facts(ps_table *table, const char *sampler,
         {"max_degree", PS_INTEGER(result->max_degree)},
         {"skipped", PS_TEXT(result->skipped)},
     };
-    PS_TRY(add_entries(table, entries, sizeof entries / sizeof entries[0], error));
+    PS_TRY(ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error));
     PS_TRY(add_remark(table, "degrees", result->degrees_note, error));
     return result->num_dropped > 0 ? ps_table_add_meta(table, "dropped_below_horizon",
                                                        PS_INTEGER(result->num_dropped), error)
@@ -105,7 +92,7 @@ static pspec_status add_answer(ps_table *table, const ps_quadrature_result *resu
     const double e = root(result->squared.mean);
     snprintf(check, sizeof check, "kernel form minus spectral form: %.6g; %.6g is expected of it",
              result->tail.mean, result->tail_model);
-    const entry entries[] = {
+    const ps_meta entries[] = {
         {"predicted_error", PS_NUMBER(result->numerical_bound)},
         {"self_check", PS_TEXT(check)},
         {"weight_sum", PS_NUMBER(result->weight_sum.mean)},
@@ -118,7 +105,7 @@ static pspec_status add_answer(ps_table *table, const ps_quadrature_result *resu
         {"tail_model", PS_NUMBER(result->tail_model)},
         {"tail_bound", PS_NUMBER(result->tail_bound)},
     };
-    return add_entries(table, entries, sizeof entries / sizeof entries[0], error);
+    return ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
 }
 
 /* Of optimal weights. */

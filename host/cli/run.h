@@ -79,6 +79,8 @@ pspec_status ps_run_compare(const ps_run *run, ps_error *error) PS_MUST_CHECK;
 void ps_run_label(const ps_run_result *result, size_t number, ps_text *out);
 /* Has this entry several values? */
 bool ps_run_varies(const ps_scene_entry *entry);
+/* A number, or nan. */
+double ps_cell_number(ps_cell cell);
 /* The first header entry of that key; kind missing: there is none. */
 ps_cell ps_run_meta(const ps_table *table, const char *key);
 

@@ -1,4 +1,5 @@
 /* Every question of a scene, from the cache or computed. */
+#include "base/clock.h"
 #include "base/memory.h"
 #include "cli/run.h"
 #include "plan/figures_file.h"
@@ -7,13 +8,6 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
-
-static double now(void) {
-    struct timespec time = {0};
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
 
 /* ---- questions --------------------------------------------------------------------------- */
 
@@ -103,7 +97,7 @@ pspec_status ps_run_open_device(ps_run *run, const ps_run_result *result, ps_err
 
 static pspec_status answer_one(ps_run *run, ps_run_result *result, ps_run_question *question,
                                ps_progress *progress, ps_error *error) {
-    const double start = now();
+    const double start = ps_clock_seconds();
     PS_TRY(ps_run_fetch(run, question, &question->answer, &question->seconds, &question->is_cached,
                         error));
     if (!question->is_cached) {
@@ -111,7 +105,7 @@ static pspec_status answer_one(ps_run *run, ps_run_result *result, ps_run_questi
         const ps_answer_hooks hooks = {ps_progress_tell, progress, run->device};
         PS_TRY(ps_answer_make(&question->answer, result->asked->kind, &question->asked.request,
                               &hooks, error));
-        question->seconds = now() - start;
+        question->seconds = ps_clock_seconds() - start;
         PS_TRY(ps_run_keep(run, question, question->seconds, error));
     }
     run->num_cached += question->is_cached;
@@ -138,13 +132,13 @@ static pspec_status answer_result(ps_run *run, ps_run_result *result, size_t *do
 pspec_status ps_run_answer(ps_run *run, ps_error *error) {
     size_t done = 0;
     pspec_status status = PSPEC_OK;
-    const double start = now();
+    const double start = ps_clock_seconds();
     ps_progress *const progress = ps_progress_begin(run->arguments, "realizations");
     for (size_t i = 0; status == PSPEC_OK && i < run->num_results; i++) {
         status = answer_result(run, &run->results[i], &done, progress, error);
     }
     ps_progress_end(progress);
-    run->seconds = now() - start;
+    run->seconds = ps_clock_seconds() - start;
     return status;
 }
 

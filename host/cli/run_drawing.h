@@ -25,8 +25,6 @@ typedef struct ps_plot_group {
 ps_plot_group ps_plot_group_at(const ps_run_result *result, size_t index);
 size_t ps_num_plot_groups(const ps_run_result *result);
 
-/* A number, or nan. */
-double ps_cell_number(ps_cell cell);
 /* A column as numbers, nan where there is none; of nan where the table has no such column. */
 void ps_read_column(const ps_table *table, const char *name, double *out);
 

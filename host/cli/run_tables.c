@@ -4,6 +4,7 @@
 #include "pointspec_version.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -29,6 +30,12 @@ void ps_run_label(const ps_run_result *result, size_t number, ps_text *out) {
         }
     }
     ps_text_append(out, "%s", is_first ? asked->kind->name : "");
+}
+
+double ps_cell_number(ps_cell cell) {
+    return cell.kind == PS_CELL_NUMBER    ? cell.number
+           : cell.kind == PS_CELL_INTEGER ? (double)cell.integer
+                                          : NAN;
 }
 
 ps_cell ps_run_meta(const ps_table *table, const char *key) {

@@ -84,6 +84,14 @@ pspec_status ps_table_add_meta(ps_table *table, const char *key, ps_cell value, 
     return PSPEC_OK;
 }
 
+pspec_status ps_table_add_metas(ps_table *table, const ps_meta *entries, size_t num,
+                                ps_error *error) {
+    for (size_t i = 0; i < num; i++) {
+        PS_TRY(ps_table_add_meta(table, entries[i].key, entries[i].value, error));
+    }
+    return PSPEC_OK;
+}
+
 pspec_status ps_table_add_row(ps_table *table, const ps_cell *cells, ps_error *error) {
     const size_t first = table->num_rows * table->num_columns;
     void *memory = table->cells;

@@ -45,6 +45,13 @@ pspec_status ps_table_create(ps_table **out, const char *command, const char *co
  * array). A value of kind missing is written as an empty value / null. */
 pspec_status ps_table_add_meta(ps_table *table, const char *key, ps_cell value,
                                ps_error *error) PS_MUST_CHECK;
+/* Several of them. */
+typedef struct ps_meta {
+    const char *key;
+    ps_cell value;
+} ps_meta;
+pspec_status ps_table_add_metas(ps_table *table, const ps_meta *entries, size_t num,
+                                ps_error *error) PS_MUST_CHECK;
 pspec_status ps_table_add_row(ps_table *table, const ps_cell *cells, ps_error *error) PS_MUST_CHECK;
 /* Format by its name (csv, json, npy) or, with name NULL, by the ending of path (default CSV). */
 pspec_status ps_table_choose_format(ps_table_format *out, const char *name, const char *path,

@@ -6,9 +6,10 @@
 
 typedef struct ps_result_kind {
     const char *name;
-    const ps_option_id *options; /* that belong to the question, ended by PS_NUM_OPTIONS */
-    const char *weights;         /* words of --weights; NULL: equal|column|FILE */
-    ps_domain samples;           /* which samplers it takes */
+    const ps_option_id *
+        options; /* that belong to the question, which is the same on every device; ended by PS_NUM_OPTIONS */
+    const char *weights; /* words of --weights; NULL: equal|column|FILE */
+    ps_domain samples;   /* which samplers it takes */
 } ps_result_kind;
 
 extern const ps_result_kind ps_result_power, ps_result_angular, ps_result_pairs,

@@ -17,11 +17,6 @@ static const char *const own_keys[] = {"result",   "name",  "title",   "plot",
                                        "pictures", "files", "samplers"};
 enum { NUM_OWN_KEYS = sizeof own_keys / sizeof own_keys[0] };
 
-/* All questions of a run are on one device, that of the command line. */
-static bool is_key_of(const ps_result_kind *kind, ps_option_id id) {
-    return id != PS_OPTION_DEVICE && ps_options_have(kind->options, id);
-}
-
 /* The option that a key of a result means; -1: none. */
 static int find_option(const ps_result_kind *kind, const char *key) {
     const bool takes_points = ps_options_have(kind->options, PS_OPTION_SAMPLER);
@@ -31,7 +26,7 @@ static int find_option(const ps_result_kind *kind, const char *key) {
     const char *const name = strcmp(key, "samplers") == 0 ? "sampler" : key;
     for (int id = 0; id < PS_NUM_OPTIONS; id++) {
         if (strcmp(ps_options[id].name, name) == 0) {
-            return is_key_of(kind, (ps_option_id)id) ? id : -1;
+            return ps_options_have(kind->options, (ps_option_id)id) ? id : -1;
         }
     }
     return -1;
@@ -53,7 +48,7 @@ static pspec_status complain_of_key(const ps_scene_reader *from, const ps_result
         ps_scene_consider(&best, key, own_keys[i]);
     }
     for (int id = 0; id < PS_NUM_OPTIONS; id++) {
-        if (is_key_of(kind, (ps_option_id)id)) {
+        if (ps_options_have(kind->options, (ps_option_id)id)) {
             ps_scene_consider(&best, key, ps_options[id].name);
         }
     }
