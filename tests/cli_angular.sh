@@ -100,7 +100,7 @@ grep -v -- '-1' plain.txt >upper.txt
 runs 0 --engine host_direct -l 3 upper.txt --harmonics hemispherical --coefficients h.npy
 
 # The table has the same bits with and without, by every engine.
-for engine in host_direct sphere_direct sphere_nufft; do
+for engine in host_direct sphere_direct sphere_nufft sphere_grid; do
     for harmonics in spherical hemispherical; do
         runs 0 --engine $engine -l 9 upper.txt
         without=$(grep -v '^#' out)

@@ -10,7 +10,7 @@ column() { # NUMBER: of the table in out, with 9 decimals; -0 is 0
 has_device=yes
 "$program" devices >out 2>err && grep -q '^[0-9]' out || has_device=no
 routes=(host_direct)
-[[ $has_device == no ]] || routes+=(pairs_direct pairs_histogram sphere_direct sphere_nufft)
+[[ $has_device == no ]] || routes+=(pairs_direct pairs_histogram sphere_direct sphere_nufft sphere_grid)
 
 # The octahedron with one vertex heavier: 1/49 for weights that sum to 1 at l = 1, 2, 3, 17 + 32 * 3/8 over 49 at l = 4. The
 # zonal sums are 0, -1/2 * 5 + 2, 0 and 2 + 5 * 3/8.

@@ -47,7 +47,7 @@ grep -q '"e2_error"' out || complain "json: $(head -c 300 out)"
 runs 0 "${fibonacci[@]}" -m 5 --brdf diffuse -l 4
 [[ $(key realizations) == 1 && $(key skipped) == *"all realizations but the first"* ]] || complain "repeated: $(key skipped)"
 # the result does not depend on the engine
-for engine in host_direct sphere_direct sphere_nufft pairs_direct; do
+for engine in host_direct sphere_direct sphere_nufft sphere_grid pairs_direct; do
     runs 0 --sampler white-hemisphere -n 32 -l 16 --brdf glossy:n=5 --engine $engine
     awk -F, '/^[0-9]/ { printf "%.7e ", $5 }' out >"$engine.c2"
     cmp -s host_direct.c2 "$engine.c2" || complain "$engine: other c2"

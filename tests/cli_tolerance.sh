@@ -85,6 +85,8 @@ for domain in '' --hemisphere; do
     sphere 1e-12 1e-16 "${options[@]}" --engine sphere_direct --precision double
     sphere 1e-5 1e-8 "${options[@]}" --engine sphere_nufft --precision single
     sphere 1e-12 1e-16 "${options[@]}" --engine sphere_nufft --precision double
+    sphere 1e-5 1e-8 "${options[@]}" --engine sphere_grid --precision single
+    sphere 1e-12 1e-16 "${options[@]}" --engine sphere_grid --precision double
     sphere 1e-12 1e-16 "${options[@]}"
 done
 
@@ -101,7 +103,7 @@ awk -v e="$(key predicted_error)" 'BEGIN { exit !(e <= 1e-5) }' || complain "one
 runs 3 power -k 12 --engine torus_nufft --precision single --tol 1e-6 one_place.txt
 
 for _ in {1..64}; do echo "0.48 -0.6 0.64"; done >one_direction.txt
-for engine in sphere_direct sphere_nufft; do
+for engine in sphere_direct sphere_nufft sphere_grid; do
     runs 0 angular -l 12 --engine $engine --tol 1e-5 one_direction.txt
     awk -v e="$(key predicted_error)" 'BEGIN { exit !(e <= 1e-5) }' ||
         complain "one direction, $engine: $(key predicted_error)"
@@ -144,7 +146,7 @@ for options in "--sampler healpix-jittered:nside=4 -m 9 -l 33" \
     "--sampler white-hemisphere -n 300 -m 3 -l 40 --hemisphere" \
     "-l 21 --normalize effective --columns xyzw directions.txt"; do
     read -ra words <<<"$options"
-    for engine in sphere_direct sphere_nufft; do
+    for engine in sphere_direct sphere_nufft sphere_grid; do
         for precision in single double; do
             threads_agree angular "${words[@]}" --engine $engine --precision $precision --tol 1e-3
         done

@@ -28,6 +28,8 @@ static const job_case cases[] = {
     {&ps_sphere_direct, PS_DOUBLE, true, PS_SPHERICAL_HARMONICS},
     {&ps_sphere_direct, PS_DOUBLE, false, PS_HEMISPHERICAL_HARMONICS},
     {&ps_sphere_nufft, PS_SINGLE, false, PS_SPHERICAL_HARMONICS},
+    {&ps_sphere_grid, PS_DOUBLE, false, PS_SPHERICAL_HARMONICS},
+    {&ps_sphere_grid, PS_SINGLE, true, PS_SPHERICAL_HARMONICS},
     {&ps_sphere_nufft, PS_DOUBLE, true, PS_SPHERICAL_HARMONICS},
     {&ps_sphere_nufft, PS_DOUBLE, false, PS_HEMISPHERICAL_HARMONICS},
 };

@@ -1,4 +1,4 @@
-/* The kernels of sphere_nufft, one after the other as the engine runs them, on problems that are small enough for
+/* The kernels of sphere_nufft and of sphere_grid, one after the other as the engines run them, on problems that are small enough for
  * Oclgrind: a few realizations side by side, weights, poles, both precisions, all degrees and even ones.
  */
 #include "harness_sphere.h"
@@ -61,7 +61,7 @@ static double row_error(const pspec_pattern *pattern, const ps_frequencies *degr
     return sqrt(sum);
 }
 
-static void check_case(const sphere_case *what) {
+static void check_case(const ps_engine *engine, const sphere_case *what) {
     if (!ps_device_get_limits(device)->has_fp64) {
         return; /* needed in single precision, too */
     }
@@ -76,7 +76,7 @@ static void check_case(const sphere_case *what) {
     pspec_pattern patterns[REALIZATIONS];
     double scales[REALIZATIONS];
     int exponents[REALIZATIONS];
-    void *engine = NULL;
+    void *state = NULL;
     ps_rows rows = {0};
     assert_non_null(zeros);
     for (size_t r = 0; r < REALIZATIONS; r++) {
@@ -88,9 +88,8 @@ static void check_case(const sphere_case *what) {
                             .patterns = patterns,
                             .scales = scales,
                             .exponents = exponents};
-    assert_ok(
-        ps_sphere_nufft.create(&engine, &problem, what->precision, REALIZATIONS, device, error));
-    assert_ok(ps_sphere_nufft.run(engine, &batch, &rows, error));
+    assert_ok(engine->create(&state, &problem, what->precision, REALIZATIONS, device, error));
+    assert_ok(engine->run(state, &batch, &rows, error));
     for (size_t r = 0; r < REALIZATIONS; r++) {
         const double limit = what->tolerance * white_noise(&patterns[r], &degrees);
         const double off =
@@ -102,26 +101,28 @@ static void check_case(const sphere_case *what) {
         free((double *)patterns[r].points);
         free((double *)patterns[r].weights);
     }
-    ps_sphere_nufft.destroy(engine);
+    engine->destroy(state);
     ps_frequencies_free(&degrees);
     free(zeros);
 }
 
 static void single(void **state) {
-    (void)state;
-    check_case(&(sphere_case){5, PS_SINGLE, 1e-3, false});
-    check_case(&(sphere_case){6, PS_SINGLE, 1e-5, true});
+    check_case(*state, &(sphere_case){5, PS_SINGLE, 1e-3, false});
+    check_case(*state, &(sphere_case){6, PS_SINGLE, 1e-5, true});
 }
 
 static void double_precision(void **state) {
-    (void)state;
-    check_case(&(sphere_case){4, PS_DOUBLE, 1e-9, false});
-    check_case(&(sphere_case){6, PS_DOUBLE, 1e-6, true});
+    check_case(*state, &(sphere_case){4, PS_DOUBLE, 1e-9, false});
+    check_case(*state, &(sphere_case){6, PS_DOUBLE, 1e-6, true});
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(single),
-                                       cmocka_unit_test(double_precision)};
+    void *const nufft = (void *)(uintptr_t)&ps_sphere_nufft; /* cmocka's states are not constant */
+    void *const grid = (void *)(uintptr_t)&ps_sphere_grid;
+    const struct CMUnitTest tests[] = {cmocka_unit_test_prestate(single, nufft),
+                                       cmocka_unit_test_prestate(double_precision, nufft),
+                                       cmocka_unit_test_prestate(single, grid),
+                                       cmocka_unit_test_prestate(double_precision, grid)};
     device = test_open_device();
     const int failures = cmocka_run_group_tests_name("kernels_sphere_nufft", tests, NULL, NULL);
     ps_device_close(device);

@@ -77,7 +77,8 @@ static const struct {
               {&ps_pairs_histogram, {1e-4, 1e-11}},
               {&ps_pairs_histogram, {1e-8, 1e-17}},
               {&ps_sphere_direct, {1e-4, 1e-11}},
-              {&ps_sphere_nufft, {1e-4, 1e-11}}};
+              {&ps_sphere_nufft, {1e-4, 1e-11}},
+              {&ps_sphere_grid, {1e-4, 1e-11}}};
 
 static double formula_of(const ps_engine *engine, ps_precision precision, double tolerance,
                          const pspec_pattern *pattern, int32_t max_degree, double power,

@@ -70,6 +70,7 @@ static void in_double_precision(void **state) {
     }
     compare(&ps_sphere_direct, PS_DOUBLE, 2e-12);
     compare(&ps_sphere_nufft, PS_DOUBLE, 2e-11);
+    compare(&ps_sphere_grid, PS_DOUBLE, 2e-11);
 }
 
 static void in_single_precision(void **state) {

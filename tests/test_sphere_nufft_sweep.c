@@ -1,4 +1,4 @@
-/* The error of sphere_nufft over all tolerances, eight to a decade, against what it announces: sets of every kind, and
+/* The error of sphere_nufft and of sphere_grid over all tolerances, eight to a decade, against what it announces: sets of every kind, and
  * circles of points made for the grid that is chosen. Prints the smallest slack of each.
  */
 #include "harness_sphere_shapes.h"
@@ -10,6 +10,7 @@
 #include <stdlib.h>
 
 static ps_device *device;
+static const ps_engine *engine; /* of the test */
 
 typedef struct sweep {
     ps_precision precision;
@@ -38,16 +39,16 @@ static void measure(const ps_problem *problem, ps_precision precision, size_t nu
     const size_t L = (size_t)problem->frequencies->max_frequency;
     double *found = calloc((L + 1) * (L + 2), sizeof(double));
     void *state = NULL;
-    assert_ok(ps_sphere_nufft.create(&state, problem, precision, 1, device, error));
+    assert_ok(engine->create(&state, problem, precision, 1, device, error));
     for (size_t i = 0; i < num; i++) {
         double power = 0;
-        assert_ok(ps_sphere_nufft.coefficients(
+        assert_ok(engine->coefficients(
             state, &(ps_batch){.num_patterns = 1, .patterns = &patterns[i]}, NULL, found, error));
         const double error =
             test_sphere_error(found, expected[i], (int32_t)L, 1, &patterns[i], &power);
-        slack[i] = fmin(slack[i], ps_sphere_nufft.error_of_state(state, power) / error);
+        slack[i] = fmin(slack[i], engine->error_of_state(state, power) / error);
     }
-    ps_sphere_nufft.destroy(state);
+    engine->destroy(state);
     free(found);
 }
 
@@ -75,14 +76,14 @@ static void sweep_shapes(const sweep *what, double *slack) {
 }
 
 static void every_tolerance(void **state) {
-    (void)state;
+    engine = *state;
     for (size_t i = 0; i < NUM_SWEEPS; i++) {
         double slack[TEST_SPHERE_SHAPES];
         for (size_t s = 0; s < TEST_SPHERE_SHAPES; s++) {
             slack[s] = HUGE_VAL;
         }
         sweep_shapes(&sweeps[i], slack);
-        print_message("%s L=%d N=%zu:\n", ps_precision_name(sweeps[i].precision),
+        print_message("%s %s L=%d N=%zu:\n", engine->name, ps_precision_name(sweeps[i].precision),
                       (int)sweeps[i].max_degree, sweeps[i].num_points);
         for (size_t s = 0; s < TEST_SPHERE_SHAPES; s++) {
             print_message("  %-15s %.3g\n", test_sphere_shapes[s].name, slack[s]);
@@ -113,7 +114,9 @@ static pspec_pattern make_circles(size_t circles, size_t around, bool at_random)
 
 /* D = n - m points on a circle: all that they have at order 0 comes back at order m. */
 static void circles_made_for_the_grid(void **state) {
-    (void)state;
+    engine = *state;
+    const ps_sphere_route route =
+        engine == &ps_sphere_nufft ? PS_SPHERE_BY_RINGS : PS_SPHERE_BY_CELLS;
     enum { MAX_DEGREE = 24, CIRCLES = 5 };
     static const double tolerances[] = {1e-2, 1e-3, 1e-5};
     ps_frequencies set = degrees_of(MAX_DEGREE);
@@ -124,7 +127,7 @@ static void circles_made_for_the_grid(void **state) {
                               .num_realizations = 1,
                               .tolerance = tolerances[i % 3]};
         const ps_sphere_shape shape =
-            ps_sphere_shape_make(&problem, ps_device_get_limits(device), PS_SINGLE);
+            ps_sphere_shape_make(&problem, ps_device_get_limits(device), PS_SINGLE, route);
         const size_t around = shape.axis.n - MAX_DEGREE + i / 3;
         const bool at_random = i / 3 % 2 == 0;
         pspec_pattern pattern = make_circles(at_random ? CIRCLES : around / 2, around, at_random);
@@ -134,14 +137,19 @@ static void circles_made_for_the_grid(void **state) {
         free(expected);
         test_free_sphere_pattern(&pattern);
     }
-    print_message("circles: smallest slack %.3g\n", least);
+    print_message("%s circles: smallest slack %.3g\n", engine->name, least);
     assert_true(least >= 1);
     ps_frequencies_free(&set);
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_tolerance),
-                                       cmocka_unit_test(circles_made_for_the_grid)};
+    void *const nufft = (void *)(uintptr_t)&ps_sphere_nufft; /* cmocka's states are not constant */
+    void *const grid = (void *)(uintptr_t)&ps_sphere_grid;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_prestate(every_tolerance, nufft),
+        cmocka_unit_test_prestate(circles_made_for_the_grid, nufft),
+        cmocka_unit_test_prestate(every_tolerance, grid),
+        cmocka_unit_test_prestate(circles_made_for_the_grid, grid)};
     device = test_open_device();
     if (!ps_device_get_limits(device)->has_fp64) {
         return TEST_SKIPPED;

@@ -1,7 +1,10 @@
+/* Two engines that differ in what they make of the grid: sphere_nufft and sphere_grid. */
 #include "engines/sphere_nufft.h"
 
 #include "base/memory.h"
 #include "base/round.h"
+#include "engines/reals.h"
+#include "engines/sphere_grid_stages.h"
 #include "engines/sphere_nufft_stages.h"
 
 #include <math.h>
@@ -16,7 +19,8 @@ typedef struct sphere_nufft {
     ps_sphere_shape shape;
     ps_sphere_places points;
     ps_sphere_tables tables;
-    ps_sphere_stages stages;
+    ps_sphere_stages stages;           /* by rings, */
+    ps_sphere_grid_stages grid_stages; /* or by cells */
     double *host_powers; /* [at_once][2][half_pitch] */
     double *host_rows;   /* [batch][degrees] */
 } sphere_nufft;
@@ -36,12 +40,27 @@ static const char *refuse(const ps_problem *problem, const ps_device_limits *lim
     return problem->num_points > UINT32_MAX ? "too many points for 32-bit places" : NULL;
 }
 
-static const char *refuse_shape(const ps_sphere_shape *shape, const ps_device_limits *limits) {
+static const char *refuse_shape(const ps_sphere_shape *shape, const ps_device_limits *limits,
+                                ps_precision precision) {
     if (shape->lanes == 0) {
         return "the degree is too large, or local memory too small";
     }
+    if (shape->table_reals * ps_real_bytes(precision) > PS_SPHERE_MOST_TABLE_BYTES) {
+        return "the table of cells would take more than 64 MiB";
+    }
     return shape->largest_buffer > limits->max_allocation_bytes
                ? "needs a larger buffer than the device allows"
+               : NULL;
+}
+
+/* Before axes are tried, which takes long where tables would be far too large anyway. */
+static const char *refuse_cells(const ps_problem *problem) {
+    const int32_t most_degree = 1024;
+    if (problem->frequencies->max_frequency > most_degree) {
+        return "the table of cells would take more than 64 MiB";
+    }
+    return problem->num_points >= PS_SPHERE_LEAST_SORTED
+               ? "sphere_nufft sorts so many points, this engine does not"
                : NULL;
 }
 
@@ -56,9 +75,11 @@ static ps_work work_of(const ps_sphere_shape *shape, const ps_problem *problem,
                             ? 0
                             : (double)(((size_t)shape->max_degree + 1) * 4 * shape->half_pitch) *
                                   (double)sizeof(double);
+    const bool by_cells = shape->route == PS_SPHERE_BY_CELLS;
     const double flops =
         ps_sphere_nufft_flops(shape, precision, (double)problem->num_points, realizations);
-    return (ps_work){.transform_flops = realizations * flops,
+    return (ps_work){.transform_flops =
+                         realizations * flops + (by_cells ? ps_sphere_grid_table_flops(shape) : 0),
                      .launches = launches_of_some * ceil(realizations / (double)shape->at_once),
                      .fixed_bytes = (double)shape->fixed_bytes + 2 * kept,
                      .host_bytes = (double)shape->host_bytes + kept,
@@ -68,43 +89,37 @@ static ps_work work_of(const ps_sphere_shape *shape, const ps_problem *problem,
                      .largest_buffer_per_realization = row};
 }
 
-static ps_survey survey(const ps_problem *problem, const ps_device_limits *limits,
-                        ps_precision precision) {
+static ps_survey survey_route(const ps_problem *problem, const ps_device_limits *limits,
+                              ps_precision precision, ps_sphere_route route) {
     ps_survey result = {.why_not = refuse(problem, limits, precision)};
+    if (result.why_not == NULL && route == PS_SPHERE_BY_CELLS) {
+        result.why_not = refuse_cells(problem);
+    }
     if (result.why_not != NULL) {
         return result;
     }
-    const ps_sphere_shape shape = ps_sphere_shape_make(problem, limits, precision);
-    result.why_not = refuse_shape(&shape, limits);
+    const ps_sphere_shape shape = ps_sphere_shape_make(problem, limits, precision, route);
+    result.why_not = refuse_shape(&shape, limits, precision);
     if (result.why_not == NULL) {
         result.work = work_of(&shape, problem, precision);
         result.error =
-            ps_sphere_nufft_error(&shape.axis, problem, precision, ps_expected_power(problem));
+            ps_sphere_nufft_error(&shape.axis, problem, precision,
+                                             ps_expected_power(problem), route);
     }
     return result;
 }
 
-static bool applicable(const ps_problem *problem, const ps_device_limits *limits,
-                       ps_precision precision, const char **why_not) {
-    *why_not = survey(problem, limits, precision).why_not;
-    return *why_not == NULL;
-}
-
-static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
-                    ps_precision precision) {
-    return survey(problem, limits, precision).work;
-}
-
-static double error_of(const ps_problem *problem, const ps_device_limits *limits,
-                       ps_precision precision, double mean_power) {
-    const ps_sphere_shape shape = ps_sphere_shape_make(problem, limits, precision);
+static double error_of_route(const ps_problem *problem, const ps_device_limits *limits,
+                             ps_precision precision, double mean_power, ps_sphere_route route) {
+    const ps_sphere_shape shape = ps_sphere_shape_make(problem, limits, precision, route);
     return shape.lanes == 0 ? HUGE_VAL
-                            : ps_sphere_nufft_error(&shape.axis, problem, precision, mean_power);
+                            : ps_sphere_nufft_error(&shape.axis, problem, precision, mean_power, route);
 }
 
 static double error_of_state(const void *state, double mean_power) {
     const sphere_nufft *self = state;
-    return ps_sphere_nufft_error(&self->shape.axis, &self->problem, self->precision, mean_power);
+    return ps_sphere_nufft_error(&self->shape.axis, &self->problem, self->precision, mean_power,
+                                 self->shape.route);
 }
 
 /* ---- create and destroy ------------------------------------------------------------------ */
@@ -115,6 +130,7 @@ static void destroy(void *state) {
         return;
     }
     ps_sphere_stages_free(&self->stages);
+    ps_sphere_grid_stages_free(&self->grid_stages);
     ps_sphere_places_free(&self->points);
     ps_sphere_tables_free(&self->tables);
     free(self->host_powers);
@@ -124,6 +140,7 @@ static void destroy(void *state) {
 
 static pspec_status create_parts(sphere_nufft *self, size_t batch, ps_error *error) {
     const ps_sphere_shape *shape = &self->shape;
+    const bool only_even = self->problem.frequencies->degree_step == 2;
     void *memory = NULL;
     PS_TRY(ps_allocate(&memory, shape->at_once * 2 * shape->half_pitch, sizeof(double),
                        "powers of degrees", error));
@@ -134,13 +151,17 @@ static pspec_status create_parts(sphere_nufft *self, size_t batch, ps_error *err
     PS_TRY(ps_sphere_places_create(&self->points, shape, self->precision, self->device, error));
     PS_TRY(ps_sphere_tables_create(&self->tables, shape, self->problem.tolerance, self->precision,
                                    self->device, error));
-    return ps_sphere_stages_create(&self->stages, shape, &self->points, &self->tables,
-                                   self->problem.frequencies->degree_step == 2, self->precision,
-                                   self->device, error);
+    return shape->route == PS_SPHERE_BY_CELLS
+               ? ps_sphere_grid_stages_create(&self->grid_stages, shape, &self->points,
+                                              &self->tables, only_even, self->precision,
+                                              self->device, error)
+               : ps_sphere_stages_create(&self->stages, shape, &self->points, &self->tables,
+                                         only_even, self->precision, self->device, error);
 }
 
-static pspec_status create(void **state, const ps_problem *problem, ps_precision precision,
-                           size_t batch, ps_device *device, ps_error *error) {
+static pspec_status create_route(void **state, const ps_problem *problem, ps_precision precision,
+                                 size_t batch, ps_device *device, ps_sphere_route route,
+                                 ps_error *error) {
     void *memory = NULL;
     *state = NULL;
     PS_TRY(ps_allocate(&memory, 1, sizeof(sphere_nufft), "an engine", error));
@@ -148,7 +169,7 @@ static pspec_status create(void **state, const ps_problem *problem, ps_precision
     self->device = device;
     self->problem = *problem;
     self->precision = precision;
-    self->shape = ps_sphere_shape_make(problem, ps_device_get_limits(device), precision);
+    self->shape = ps_sphere_shape_make(problem, ps_device_get_limits(device), precision, route);
     ps_sphere_shape_shrink(&self->shape, batch);
     const pspec_status status = create_parts(self, batch, error);
     if (status != PSPEC_OK) {
@@ -219,7 +240,11 @@ static pspec_status make_values(sphere_nufft *self, const ps_batch *batch, ps_er
             PS_TRY(ps_sphere_stages_finish_sorted(&self->stages, first, error));
         } else {
             PS_TRY(ps_sphere_places_make(&self->points, &some, error));
-            PS_TRY(ps_sphere_stages_make_values(&self->stages, first, some.num_patterns, error));
+            PS_TRY(self->shape.route == PS_SPHERE_BY_CELLS
+                       ? ps_sphere_grid_make_values(&self->grid_stages, first, some.num_patterns,
+                                                    error)
+                       : ps_sphere_stages_make_values(&self->stages, first, some.num_patterns,
+                                                      error));
         }
     }
     return PSPEC_OK;
@@ -231,7 +256,11 @@ static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_er
     for (size_t first = 0; first < batch->num_patterns; first += at_once) {
         const ps_batch some = part_of(batch, first, at_once);
         PS_TRY(make_values(self, &some, error));
-        PS_TRY(ps_sphere_stages_sum(&self->stages, some.num_patterns, self->host_powers, error));
+        PS_TRY(self->shape.route == PS_SPHERE_BY_CELLS
+                   ? ps_sphere_grid_sum(&self->grid_stages, some.num_patterns, self->host_powers,
+                                        error)
+                   : ps_sphere_stages_sum(&self->stages, some.num_patterns, self->host_powers,
+                                          error));
         write_rows(self, first, &some);
     }
     *rows = (ps_rows){.num_rows = batch->num_patterns,
@@ -283,7 +312,9 @@ static pspec_status coefficients(void *state, const ps_batch *one, ps_rows *rows
     PS_TRY(ps_batch_go_on(one, error));
     PS_TRY(ps_allocate(&host, ((size_t)self->shape.max_degree + 1) * 4 * self->shape.half_pitch,
                        sizeof(double), "coefficients", error));
-    const pspec_status status = ps_sphere_stages_keep(&self->stages, host, error);
+    const pspec_status status = self->shape.route == PS_SPHERE_BY_CELLS
+                                    ? ps_sphere_grid_keep(&self->grid_stages, host, error)
+                                    : ps_sphere_stages_keep(&self->stages, host, error);
     if (status == PSPEC_OK) {
         write_coefficients(self, host, exponent, out);
     }
@@ -294,31 +325,63 @@ static pspec_status coefficients(void *state, const ps_batch *one, ps_rows *rows
 static void describe(const void *state, ps_text *text) {
     const sphere_nufft *self = state;
     const ps_sphere_shape *shape = &self->shape;
-    ps_text_append(text,
-                   "(sphere_nufft precision=%s lanes=%u grid=%lu sigma=%.3g width=%u degree=%u "
-                   "rings=%lu at_once=%zu bands=%lu strip=%lu)",
-                   ps_precision_name(self->precision), shape->lanes, (unsigned long)shape->axis.n,
+    const bool by_cells = shape->route == PS_SPHERE_BY_CELLS;
+    ps_text_append(text, "(%s precision=%s lanes=%u grid=%lu sigma=%.3g width=%u degree=%u ",
+                   by_cells ? "sphere_grid" : "sphere_nufft", ps_precision_name(self->precision),
+                   shape->lanes, (unsigned long)shape->axis.n,
                    shape->axis.n / (2.0 * shape->max_degree), shape->axis.window.width,
-                   self->tables.plan.degree, (unsigned long)shape->num_rings, shape->at_once,
-                   (unsigned long)shape->bands, (unsigned long)shape->strip);
+                   self->tables.plan.degree);
+    if (by_cells) {
+        ps_text_append(text, "angles=%lu at_once=%zu table=%.3gMB)",
+                       (unsigned long)shape->num_angles, shape->at_once,
+                       (double)(shape->table_reals * ps_real_bytes(self->precision)) * 1e-6);
+    } else {
+        ps_text_append(text, "rings=%lu at_once=%zu bands=%lu strip=%lu)",
+                       (unsigned long)shape->num_rings, shape->at_once,
+                       (unsigned long)shape->bands, (unsigned long)shape->strip);
+    }
 }
 
-const ps_engine ps_sphere_nufft = {
-    .name = "sphere_nufft",
-    .summary = "fast spherical-harmonic sums: points spread on a grid, rings, Legendre products",
-    .domains = PS_ON_SPHERE,
-    .needs_device = true,
-    .rows_on_host = true,
-    .has_precision = {true, true, false},
-    .applicable = applicable,
-    .work = work,
-    .error = error_of,
-    .survey = survey,
-    .error_of_state = error_of_state,
-    .create = create,
-    .get_stride = get_stride,
-    .run = run,
-    .coefficients = coefficients,
-    .describe = describe,
-    .destroy = destroy,
-};
+/* ---- the engines ------------------------------------------------------------------------- */
+
+#define FUNCTIONS_OF(name, route)                                                                  \
+    static ps_survey survey_##name(const ps_problem *problem, const ps_device_limits *limits,      \
+                                   ps_precision precision) {                                       \
+        return survey_route(problem, limits, precision, route);                                    \
+    }                                                                                              \
+    static bool applicable_##name(const ps_problem *problem, const ps_device_limits *limits,       \
+                                  ps_precision precision, const char **why_not) {                  \
+        *why_not = survey_route(problem, limits, precision, route).why_not;                        \
+        return *why_not == NULL;                                                                   \
+    }                                                                                              \
+    static ps_work work_##name(const ps_problem *problem, const ps_device_limits *limits,          \
+                               ps_precision precision) {                                           \
+        return survey_route(problem, limits, precision, route).work;                               \
+    }                                                                                              \
+    static double error_##name(const ps_problem *problem, const ps_device_limits *limits,          \
+                               ps_precision precision, double mean_power) {                        \
+        return error_of_route(problem, limits, precision, mean_power, route);                      \
+    }                                                                                              \
+    static pspec_status create_##name(void **state, const ps_problem *problem,                     \
+                                      ps_precision precision, size_t batch, ps_device *device,     \
+                                      ps_error *error) {                                           \
+        return create_route(state, problem, precision, batch, device, route, error);               \
+    }
+
+#define ENGINE(the_name, the_summary)                                                              \
+    {                                                                                              \
+        .name = "sphere_" #the_name, .summary = (the_summary), .domains = PS_ON_SPHERE,            \
+        .needs_device = true, .rows_on_host = true, .has_precision = {true, true, false},          \
+        .applicable = applicable_##the_name, .work = work_##the_name, .error = error_##the_name,   \
+        .survey = survey_##the_name, .error_of_state = error_of_state,                             \
+        .create = create_##the_name, .get_stride = get_stride, .run = run,                         \
+        .coefficients = coefficients, .describe = describe, .destroy = destroy,                    \
+    }
+
+FUNCTIONS_OF(nufft, PS_SPHERE_BY_RINGS)
+FUNCTIONS_OF(grid, PS_SPHERE_BY_CELLS)
+
+const ps_engine ps_sphere_nufft =
+    ENGINE(nufft, "fast spherical-harmonic sums: points spread on a grid, rings, Legendre products");
+const ps_engine ps_sphere_grid =
+    ENGINE(grid, "fast spherical-harmonic sums: points spread on a grid, a table of its cells");

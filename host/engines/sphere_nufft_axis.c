@@ -19,9 +19,11 @@ enum { MOST_CELLS = 1 << 16 };
 /* Of candidates, each longer than the one before by this part at least. */
 enum { NEXT_LENGTH = 32 };
 
-/* The cheapest even length from `least` on; 0: beyond 32 bits. */
-static uint32_t even_length(uint64_t least) {
-    return 2 * ps_fft_good_length((least + 1) / 2);
+/* An even length from `least` on; 0: beyond 32 bits. By rings the cheapest to transform; by cells any, since transforms
+ * are the smaller part. */
+static uint32_t even_length(uint64_t least, ps_sphere_route route) {
+    const uint64_t half = (least + 1) / 2;
+    return 2 * (route == PS_SPHERE_BY_RINGS ? ps_fft_good_length(half) : ps_fft_length(half));
 }
 
 /* A few more than the least where the two transforms of half the length are cheaper by more than products take. */
@@ -70,11 +72,12 @@ static unsigned hopeful_width(const ps_problem *problem, uint32_t n) {
 /* Of widths first .. last of a length, into best if it is more exact: the narrowest window that keeps the tolerance,
  * else the most exact one. */
 static void try_widths(ps_nufft_axis *best, const ps_problem *problem, uint32_t n,
-                       ps_precision precision, unsigned first, unsigned last, double *least_error) {
+                       ps_precision precision, ps_sphere_route route, unsigned first, unsigned last,
+                       double *least_error) {
     for (unsigned width = first; width <= last && *least_error > problem->tolerance; width++) {
         const ps_nufft_axis axis = make_axis(problem->frequencies->max_frequency, n, width);
         const double error =
-            ps_sphere_nufft_error(&axis, problem, precision, ps_expected_power(problem));
+            ps_sphere_nufft_error(&axis, problem, precision, ps_expected_power(problem), route);
         if (error < *least_error) {
             *best = axis;
             *least_error = error;
@@ -83,60 +86,85 @@ static void try_widths(ps_nufft_axis *best, const ps_problem *problem, uint32_t 
 }
 
 static ps_nufft_axis choose_width(const ps_problem *problem, uint32_t n, ps_precision precision,
-                                  double *least_error) {
+                                  ps_sphere_route route, double *least_error) {
     const unsigned first = hopeful_width(problem, n);
     ps_nufft_axis best = {0};
     *least_error = HUGE_VAL;
-    try_widths(&best, problem, n, precision, first, PS_NUFFT_MAX_WIDTH, least_error);
-    try_widths(&best, problem, n, precision, PS_NUFFT_MIN_WIDTH, first - 1, least_error);
+    try_widths(&best, problem, n, precision, route, first, PS_NUFFT_MAX_WIDTH, least_error);
+    try_widths(&best, problem, n, precision, route, PS_NUFFT_MIN_WIDTH, first - 1, least_error);
     return best;
 }
 
-/* Cycles on a core, of what depends on the grid (Zen 5, PoCL 3.1, 2026-11, steps of kernels/sphere/orders.cl left
- * out in turn, N = 1024 L = 128 and N = 4096 L = 256); spreading as in nufft_whole_shape.c, and two arc tangents. */
-double ps_sphere_grid_cycles(const ps_nufft_axis *axis, ps_precision precision, double num_points) {
+/* Cycles on a core (Zen 5, PoCL 3.1, 2026-11, steps of the kernels left out in turn, N = 1024 L = 128 and N = 4096
+ * L = 256; by cells 0.9 to 1.3 times that of batches of L = 64, 128 and 256 at 1e-5 and 1e-12); spreading as in
+ * nufft_whole_shape.c, and two arc tangents. */
+static const double cycles_per_cell = 3; /* of a vector: cleared, fetched */
+
+static double spreading_cycles(const ps_nufft_axis *axis, double lanes, double num_points) {
     const double cycles_per_point = 16;
     const double cycles_per_row = 2.4;
     const double cycles_per_polynomial = 0.6;
-    const double cycles_per_turned = 14; /* of a vector of cells, into tiles of two parities */
-    const double cycles_per_cell = 3;    /* of a vector: cleared, fetched */
-    const double cycles_per_meridian_cell =
-        20; /* fetched from two tiles, taken to the other transform */
-    const double lanes = ps_nufft_nominal_lanes(precision);
     const double width = axis->window.width;
     const double bins = ps_nufft_bins(axis);
-    const double n = axis->n;
-    const double halves = ps_fft_cycles(axis->n / 2);
-    const double groups = ceil((n / 2 + width + 1) / lanes);
-    const double pairs = floor(axis->max_frequency / (2 * lanes)) + 1;
-    const double spread =
-        num_points * (cycles_per_point + cycles_per_polynomial * 2 * (width + 2) * bins / lanes +
-                      cycles_per_row * width * ceil(bins / lanes));
-    const double around =
-        groups * (halves + cycles_per_cell * n + pairs * 2 * lanes * cycles_per_turned);
-    return spread + around + pairs * (2 * halves + cycles_per_meridian_cell * n);
+    return num_points * (cycles_per_point + cycles_per_polynomial * 2 * (width + 2) * bins / lanes +
+                         cycles_per_row * width * ceil(bins / lanes));
 }
 
-ps_nufft_axis ps_sphere_choose_axis(const ps_problem *problem, ps_precision precision) {
+/* Transforms around the axis and along theta. */
+static double ring_cycles(const ps_nufft_axis *axis, double lanes) {
+    const double cycles_per_turned = 14; /* of a vector of cells, into tiles of two parities */
+    const double cycles_per_meridian_cell =
+        20; /* fetched from two tiles, taken to the other transform */
+    const double n = axis->n;
+    const double halves = ps_fft_cycles(axis->n / 2);
+    const double groups = ceil((n / 2 + axis->window.width + 1) / lanes);
+    const double pairs = floor(axis->max_frequency / (2 * lanes)) + 1;
+    return groups * (halves + cycles_per_cell * n + pairs * 2 * lanes * cycles_per_turned) +
+           pairs * (2 * halves + cycles_per_meridian_cell * n);
+}
+
+/* Transforms around the axis and products with the table, towards the poles only for low orders. */
+static double cell_cycles(const ps_nufft_axis *axis, double lanes) {
+    const double cycles_per_value = 10;    /* of a vector of angles, from the transform to memory */
+    const double cycles_per_product = 1.4; /* of a vector of degrees and an angle: two */
+    const double cycles_per_order = 150;   /* whatever the degrees */
+    const double share = 0.7;              /* of angles where an order counts */
+    const double n = axis->n;
+    const double L = axis->max_frequency;
+    const double groups = 2 * ceil(n / 4 / lanes);
+    const double products = (L + 1) * (L / 2 + lanes) / lanes * n / 4 * share;
+    return groups * (ps_fft_cycles(axis->n / 2) + cycles_per_cell * n + cycles_per_value * L) +
+           products * cycles_per_product + cycles_per_order * (L + 1);
+}
+
+double ps_sphere_grid_cycles(const ps_nufft_axis *axis, ps_precision precision, double num_points,
+                             ps_sphere_route route) {
+    const double lanes = ps_nufft_nominal_lanes(precision);
+    return spreading_cycles(axis, lanes, num_points) +
+           (route == PS_SPHERE_BY_RINGS ? ring_cycles(axis, lanes) : cell_cycles(axis, lanes));
+}
+
+ps_nufft_axis ps_sphere_choose_axis(const ps_problem *problem, ps_precision precision,
+                                    ps_sphere_route route) {
     const double twice = 2.0 * problem->frequencies->max_frequency;
     const double points = ps_nufft_points(problem);
     const uint64_t last = (uint64_t)fmax(LEAST_CELLS, largest_sigma * twice);
     ps_nufft_axis best = {0};
     double best_error = HUGE_VAL;
     double best_cycles = HUGE_VAL;
-    for (uint32_t n = even_length((uint64_t)fmax(LEAST_CELLS, ceil(least_sigma * twice + 1)));
+    for (uint32_t n = even_length((uint64_t)fmax(LEAST_CELLS, ceil(least_sigma * twice + 1)), route);
          n != 0 && n <= MOST_CELLS && (best.n == 0 || n <= last);
-         n = even_length((uint64_t)n + 1 + n / NEXT_LENGTH)) {
+         n = even_length((uint64_t)n + 1 + n / NEXT_LENGTH, route)) {
         double error = 0;
         const ps_nufft_axis least = {.max_frequency = problem->frequencies->max_frequency,
                                      .n = n,
                                      .window = {.width = hopeful_width(problem, n)}};
         if (best_error <= problem->tolerance &&
-            ps_sphere_grid_cycles(&least, precision, points) >= best_cycles) {
+            ps_sphere_grid_cycles(&least, precision, points, route) >= best_cycles) {
             continue;
         }
-        const ps_nufft_axis axis = choose_width(problem, n, precision, &error);
-        const double cycles = ps_sphere_grid_cycles(&axis, precision, points);
+        const ps_nufft_axis axis = choose_width(problem, n, precision, route, &error);
+        const double cycles = ps_sphere_grid_cycles(&axis, precision, points, route);
         const bool is_enough = error <= problem->tolerance;
         const bool was_enough = best_error <= problem->tolerance;
         if (best.n == 0 ||

@@ -20,6 +20,7 @@ static const double peaks = 4;
  * rings, for the root of their number. */
 static const double point_roundings = 2;
 static const double window_roundings = 4;
+static const double cell_roundings = 3.5; /* the same by cells, and of the table */
 static const double roundings_per_pass = 0.4;
 static const double dense_roundings =
     2; /* 1.4 with a million points: pointspec stress --case sphere-sum-1e6 */
@@ -88,7 +89,10 @@ static double aliasing_of(const ps_nufft_axis *axis, const ps_problem *problem, 
 /* ---- all --------------------------------------------------------------------------------- */
 
 double ps_sphere_nufft_error(const ps_nufft_axis *axis, const ps_problem *problem,
-                             ps_precision precision, double mean_power) {
+                             ps_precision precision, double mean_power, ps_sphere_route route) {
+    const double grid_roundings = route == PS_SPHERE_BY_RINGS
+                                      ? window_roundings + 3 * axis->passes * roundings_per_pass
+                                      : cell_roundings + axis->passes * roundings_per_pass;
     const double power = mean_power > 1 ? mean_power : 1;
     const double unit = unit_roundoff[precision];
     const double L = axis->max_frequency;
@@ -98,8 +102,7 @@ double ps_sphere_nufft_error(const ps_nufft_axis *axis, const ps_problem *proble
     const double cells = (double)axis->n * axis->n / 2;
     const double touching = points * pow(axis->window.width, 2) / cells;
     const double polynomials = PS_NUFFT_POLYNOMIAL_SHARE * problem->tolerance * sqrt(2 * power);
-    const double each = hypot(window_roundings + 3 * axis->passes * roundings_per_pass,
-                              dense_roundings * sqrt(touching));
+    const double each = hypot(grid_roundings, dense_roundings * sqrt(touching));
     const double amplification = axis->loss.amplification * axis->loss.amplification;
     const double rounding = unit * amplification * each * sqrt(with_mean);
     const double rings = unit * ring_roundings * sqrt(L * with_mean);

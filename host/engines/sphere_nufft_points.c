@@ -58,6 +58,13 @@ static pspec_status upload_unit_weights(ps_sphere_places *self, ps_error *error)
                            self->most_points * ps_real_bytes(self->precision), error);
 }
 
+/* The north pole is cell `pole` of a row, or, by cells, half a cell in front of it: no angle is its own mirror image
+ * then, but for one at the equator. */
+static uint64_t shift_of(const ps_sphere_shape *shape) {
+    const bool by_cells = shape->route == PS_SPHERE_BY_CELLS;
+    return (uint64_t)(((wide)(2 * (uint64_t)shape->pole - by_cells) << 63) / shape->axis.n);
+}
+
 pspec_status ps_sphere_places_create(ps_sphere_places *out, const ps_sphere_shape *shape,
                                      ps_precision precision, ps_device *device, ps_error *error) {
     char options[64];
@@ -67,7 +74,7 @@ pspec_status ps_sphere_places_create(ps_sphere_places *out, const ps_sphere_shap
                               .shape = shape,
                               .most_points = shape->most_points,
                               .lanes = shape->lanes,
-                              .shift = (uint64_t)(((wide)shape->pole << 64) / shape->axis.n)};
+                              .shift = shift_of(shape)};
     PS_TRY(ps_allocate(&memory, out->most_points, ps_real_bytes(precision), "weights", error));
     out->host_weights = memory;
     PS_TRY(ps_allocate(&memory, shape->together + 1, sizeof(uint64_t), "offsets", error));

@@ -40,7 +40,6 @@ enum { LEAST_BAND = PS_NUFFT_MAX_WIDTH };
 /* Where windows of points cover every cell a few times. Not measured near the limit: 1e7 points on 4096 x 2100 cells,
  * which cover each 170 times, took a third of the time of one core and cells in any order (Zen 3, PoCL 3.1). */
 static const double least_covers = 2;
-enum { LEAST_SORTED = 1 << 16 };
 
 static void choose_bands(ps_sphere_shape *shape, double points, size_t real_bytes) {
     const double width = shape->axis.window.width;
@@ -49,7 +48,8 @@ static void choose_bands(ps_sphere_shape *shape, double points, size_t real_byte
     const uint32_t least = fitting > LEAST_BAND + shape->axis.window.width
                                ? (uint32_t)fitting - shape->axis.window.width
                                : LEAST_BAND;
-    shape->is_sorted = points >= LEAST_SORTED && points * width * width > least_covers * n * n / 2;
+    shape->is_sorted = shape->route == PS_SPHERE_BY_RINGS && points >= PS_SPHERE_LEAST_SORTED &&
+                       points * width * width > least_covers * n * n / 2;
     shape->bands = shape->is_sorted && least < shape->axis.n ? shape->axis.n / least : 1;
     shape->band_rows =
         (uint32_t)ps_divide_up(shape->axis.n, shape->bands) + shape->axis.window.width;
@@ -71,7 +71,7 @@ static void choose_strip(ps_sphere_shape *shape, const ps_device_limits *limits,
         fitting > behind + 2 * lanes ? (fitting - behind) / lanes * lanes : 2 * (uint64_t)lanes;
     const bool is_small = rows * shape->pitch * real_bytes <= strip_bytes;
     shape->strip = shape->columns;
-    if (!shape->is_sorted && !is_small && !limits->has_dedicated_local_memory &&
+    if (shape->route == PS_SPHERE_BY_RINGS && !shape->is_sorted && !is_small && !limits->has_dedicated_local_memory &&
         strip < shape->columns) {
         shape->strip = (uint32_t)strip;
         shape->pitch = (uint32_t)(strip + behind);
@@ -81,7 +81,8 @@ static void choose_strip(ps_sphere_shape *shape, const ps_device_limits *limits,
 static void measure(ps_sphere_shape *shape, const ps_device_limits *limits, double points,
                     size_t real_bytes) {
     const ps_nufft_axis *axis = &shape->axis;
-    const uint32_t unit = 2 * shape->lanes;
+    const bool by_rings = shape->route == PS_SPHERE_BY_RINGS;
+    const uint32_t unit = by_rings ? 2 * shape->lanes : shape->lanes;
     const uint32_t bins = ps_nufft_bins(axis);
     shape->pole = (axis->window.width + 1) / 2;
     const uint32_t with_cells = axis->n / 2 + 2 * shape->pole + 1;
@@ -91,8 +92,12 @@ static void measure(ps_sphere_shape *shape, const ps_device_limits *limits, doub
     choose_bands(shape, points, real_bytes);
     shape->pairs = (uint32_t)shape->max_degree / unit + 1;
     choose_strip(shape, limits, real_bytes);
-    shape->grid_bytes = (uint64_t)shape->grid_rows * shape->pitch * real_bytes;
-    shape->row_bytes = 2 * (uint64_t)shape->pairs * shape->columns * unit * real_bytes;
+    shape->grid_bytes =
+        ((uint64_t)shape->grid_rows * shape->pitch + (by_rings ? 0 : 2 * shape->lanes)) *
+        real_bytes;
+    shape->row_bytes = by_rings
+                           ? 2 * (uint64_t)shape->pairs * shape->columns * unit * real_bytes
+                           : 0;
 }
 
 /* Rings at the pole and at the equator whose Lambda_lm goes by differences. The rest is off by 6e-13 of the first ring
@@ -120,6 +125,23 @@ static void measure_sums(ps_sphere_shape *shape, size_t real_bytes) {
         4 * (uint64_t)shape->ring_pitch * ((size_t)shape->max_degree + 1) * real_bytes;
 }
 
+/* As kernels/sphere/grid_table.h lays it out. */
+static void measure_table(ps_sphere_shape *shape, size_t real_bytes) {
+    const uint64_t num_orders = (uint64_t)shape->max_degree + 1;
+    uint64_t vectors = 0;
+    for (uint64_t m = 0; m < num_orders; m++) {
+        for (uint64_t odd = 0; odd < 2 && m + odd < num_orders; odd++) {
+            vectors += ps_divide_up((num_orders - m - odd + 1) / 2, shape->lanes);
+        }
+    }
+    shape->num_angles = (shape->axis.n / 2 + 1) / 2;
+    shape->table_reals = vectors * shape->num_angles * shape->lanes;
+    shape->most_runs = (uint32_t)ps_divide_up(ps_divide_up((num_orders + 1) / 2, shape->lanes),
+                                              shape->run_vectors);
+    shape->value_bytes =
+        4 * ps_round_up(shape->num_angles, shape->lanes) * num_orders * real_bytes;
+}
+
 ps_sphere_local ps_sphere_local_bytes(const ps_sphere_shape *shape, size_t real_bytes) {
     const size_t run = 2 * (size_t)shape->run_vectors * shape->lanes;
     const size_t bins = ps_nufft_bins(&shape->axis);
@@ -139,8 +161,10 @@ static bool fits(const ps_sphere_shape *shape, const ps_device_limits *limits, s
 
 /* ---- memory ------------------------------------------------------------------------------ */
 
-/* Values on rings of so many realizations share one table of Lambda_lm: more of them cost no less. */
-enum { MOST_AT_ONCE = 32 };
+/* Values on rings of so many realizations share one table of Lambda_lm: more of them cost no less, unless they are so
+ * small that launches count (L = 64: 0.86 of the time; L = 128, where 64 leave the last cache: 1.2). */
+enum { MOST_AT_ONCE = 32, MOST_SMALL_AT_ONCE = 64 };
+static const double small_values = 4 << 20;
 
 /* Bytes for all points on the device, all grids, and all points of realizations at once on the host, unless one needs
  * more. */
@@ -165,7 +189,9 @@ static size_t fitting(double budget, uint64_t bytes, size_t most) {
 static void choose_at_once(ps_sphere_shape *shape, const ps_problem *problem, size_t cores,
                            size_t real_bytes) {
     const uint64_t known = problem->num_realizations;
-    const size_t most = known > 0 && known < MOST_AT_ONCE ? (size_t)known : MOST_AT_ONCE;
+    const bool is_small = (double)shape->value_bytes * MOST_SMALL_AT_ONCE <= small_values;
+    const size_t wanted = is_small ? MOST_SMALL_AT_ONCE : MOST_AT_ONCE;
+    const size_t most = known > 0 && known < wanted ? (size_t)known : wanted;
     const uint64_t vectors = problem->num_points * 3 * sizeof(double);
     const uint64_t set_bytes = vectors + problem->num_points * (2 * sizeof(uint64_t) + real_bytes);
     shape->at_once = fitting(value_budget, shape->value_bytes, fitting(set_budget, vectors, most));
@@ -178,7 +204,14 @@ static void choose_at_once(ps_sphere_shape *shape, const ps_problem *problem, si
     shape->set_points = ps_sphere_has_strips(shape) ? problem->num_points : 0;
     shape->slots = fitting(grid_budget, shape->grid_bytes + shape->row_bytes,
                            shape->together < groups ? shape->together : groups);
-    shape->shares = shape->slots < groups ? ps_divide_up(groups, shape->slots) : 1;
+    shape->shares = shape->route == PS_SPHERE_BY_RINGS && shape->slots < groups
+                        ? ps_divide_up(groups, shape->slots)
+                        : 1;
+}
+
+uint64_t ps_sphere_value_bytes(const ps_sphere_shape *shape, size_t real_bytes) {
+    const uint64_t num_orders = (uint64_t)shape->max_degree + 1;
+    return shape->at_once * shape->value_bytes + num_orders * 2 * shape->lanes * real_bytes;
 }
 
 ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_bytes) {
@@ -192,6 +225,8 @@ ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_byt
     /* Without strips just not empty, which no buffer may be. */
     const uint64_t strip_points =
         has_strips ? work_groups * ps_round_up(shape->set_points, shape->lanes) : 1;
+    const bool by_rings = shape->route == PS_SPHERE_BY_RINGS;
+    const uint64_t run = (uint64_t)shape->run_vectors * shape->lanes;
     return (ps_sphere_bytes){.vectors = points * 3 * sizeof(double),
                              .turns = points * 2 * sizeof(uint64_t),
                              .weights = points * real_bytes,
@@ -207,10 +242,16 @@ ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_byt
                                         ((uint64_t)shape->axis.n + shape->rings / 2) * real_bytes,
                              .values = shape->value_bytes,
                              .powers = groups * 2 * shape->half_pitch * sizeof(double),
-                             .sums = groups * 4 * shape->run_vectors * shape->lanes * real_bytes,
+                             .sums = by_rings ? groups * 4 * run * real_bytes : 0,
                              .states = groups * 4 * shape->ring_pitch * sizeof(double),
                              .scales = groups * 2 * shape->ring_pitch * sizeof(int32_t),
-                             .diagonals = groups * shape->ring_pitch * sizeof(double)};
+                             .diagonals = groups * shape->ring_pitch * sizeof(double),
+                             .table = shape->table_reals * real_bytes,
+                             .filters = by_rings ? 0
+                                                 : 4 * shape->num_rings *
+                                                       ps_round_up(shape->num_angles,
+                                                                   PS_SPHERE_TABLE_ANGLES) *
+                                                       sizeof(double)};
 }
 
 /* Of sphere_nufft_tables.c: for a cell of the transforms twiddles, turns and a place; gains; what Lambda_mm begins with. */
@@ -240,9 +281,9 @@ static void count_memory(ps_sphere_shape *shape, const ps_problem *problem,
                          bytes.keys + bytes.starts + bytes.grids + bytes.rows + bytes.scratch +
                          bytes.strip_turns + bytes.strip_weights + bytes.strips +
                          bytes.strip_starts + table_bytes(shape, real_bytes) + bytes.sums +
-                         bytes.states + bytes.scales + bytes.diagonals + bytes.diagonals / 2 +
+                         bytes.states + bytes.scales + bytes.diagonals + bytes.diagonals / 2 + bytes.table + bytes.filters +
                          (is_fixed ? shape->at_once * each : 0);
-    const uint64_t buffers[] = {bytes.grids, bytes.rows, shape->at_once * bytes.values,
+    const uint64_t buffers[] = {bytes.table, bytes.grids, bytes.rows, ps_sphere_value_bytes(shape, real_bytes),
                                 shape->at_once * bytes.powers, bytes.vectors};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
         shape->largest_buffer =
@@ -258,28 +299,40 @@ void ps_sphere_shape_shrink(ps_sphere_shape *shape, size_t batch) {
         shape->together = shape->at_once;
     }
     if (shape->slots > shape->together) {
-        shape->shares = ps_divide_up(groups, shape->together);
+        shape->shares =
+            shape->route == PS_SPHERE_BY_RINGS ? ps_divide_up(groups, shape->together) : 1;
         shape->slots = shape->together;
     }
 }
 
-ps_sphere_shape ps_sphere_shape_make(const ps_problem *problem, const ps_device_limits *limits,
-                                     ps_precision precision) {
+ps_sphere_shape ps_sphere_rings_shape(int32_t max_degree, const ps_device_limits *limits,
+                                      ps_precision precision) {
     const size_t real_bytes = ps_real_bytes(precision);
     const unsigned lanes = ps_engine_lanes(limits, precision);
-    ps_sphere_shape shape = {.max_degree = problem->frequencies->max_frequency,
-                             .axis = ps_sphere_choose_axis(problem, precision),
-                             .lanes = lanes > 1 ? lanes : 2};
-    if (shape.axis.n == 0) {
-        shape.lanes = 0;
-        return shape;
-    }
+    ps_sphere_shape shape = {.max_degree = max_degree, .lanes = lanes > 1 ? lanes : 2};
     shape.rings = ps_sphere_ring_length(shape.max_degree);
     shape.num_rings = shape.rings / 4 + 1;
     shape.run_vectors = choose_run_vectors(&shape, limits, real_bytes);
     measure_sums(&shape, real_bytes);
     choose_recurrences(&shape, precision);
+    return shape;
+}
+
+ps_sphere_shape ps_sphere_shape_make(const ps_problem *problem, const ps_device_limits *limits,
+                                     ps_precision precision, ps_sphere_route route) {
+    const size_t real_bytes = ps_real_bytes(precision);
+    const ps_nufft_axis axis = ps_sphere_choose_axis(problem, precision, route);
+    if (axis.n == 0) {
+        return (ps_sphere_shape){0};
+    }
+    ps_sphere_shape shape =
+        ps_sphere_rings_shape(problem->frequencies->max_frequency, limits, precision);
+    shape.axis = axis;
+    shape.route = route;
     measure(&shape, limits, ps_nufft_points(problem), real_bytes);
+    if (route == PS_SPHERE_BY_CELLS) {
+        measure_table(&shape, real_bytes);
+    }
     if (!fits(&shape, limits, real_bytes)) {
         shape.lanes = 0;
         return shape;
@@ -305,12 +358,16 @@ double ps_sphere_nufft_flops(const ps_sphere_shape *shape, ps_precision precisio
     const double cycles_per_sorted = 20; /* point */
     const double share = 0.7;            /* of rings where Lambda_lm is more than zero */
     const double lanes = ps_nufft_nominal_lanes(precision);
+    if (shape->route == PS_SPHERE_BY_CELLS) {
+        return ps_sphere_grid_cycles(&shape->axis, precision, num_points, shape->route) * lanes *
+               flops_per_lane;
+    }
     const double L = shape->max_degree;
     const double vectors = (L + 1) * (L / 2 + lanes) / lanes * shape->num_rings * share;
     const double sharing = fmax(1, fmin(num_realizations, (double)shape->at_once));
     const double rings = shape->pairs * (double)shape->lanes / lanes *
                          (2 * ps_fft_cycles(shape->rings / 2) + cycles_per_ring * shape->rings);
-    const double cycles = ps_sphere_grid_cycles(&shape->axis, precision, num_points) + rings +
+    const double cycles = ps_sphere_grid_cycles(&shape->axis, precision, num_points, shape->route) + rings +
                           vectors * (cycles_of_table * lanes / sharing + cycles_of_product) +
                           cycles_of_coefficients * (L + 1) * L / 2 / sharing +
                           cycles_per_order * (L + 1) +

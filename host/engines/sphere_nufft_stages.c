@@ -31,7 +31,7 @@ static pspec_status create_kernels(ps_sphere_stages *self, ps_error *error) {
     }
     PS_TRY(ps_kernel_create(self->device, &self->sum, "sphere/orders_sum.cl", "sphere_orders_sum",
                             options, error));
-    return ps_kernel_create(self->device, &self->fold, "sphere/orders_sum.cl", "sphere_orders_fold",
+    return ps_kernel_create(self->device, &self->fold, "sphere/orders_fold.cl", "sphere_orders_fold",
                             options, error);
 }
 
@@ -49,7 +49,7 @@ static pspec_status create_buffers(ps_sphere_stages *self, ps_error *error) {
                   {&self->strip_weights, bytes.strip_weights, "weights of strips"},
                   {&self->strips, bytes.strips, "strips of points"},
                   {&self->strip_starts, bytes.strip_starts, "starts of strips"},
-                  {&self->values, shape->at_once * bytes.values, "values on rings"},
+                  {&self->values, ps_sphere_value_bytes(shape, ps_real_bytes(self->precision)), "values on rings"},
                   {&self->states, bytes.states, "states of rings"},
                   {&self->scales, bytes.scales, "scales of rings"},
                   {&self->diagonals, bytes.diagonals, "first degrees of rings"},
@@ -195,16 +195,16 @@ pspec_status ps_sphere_stages_finish_sorted(ps_sphere_stages *stages, size_t val
 static pspec_status sum_rings(ps_sphere_stages *self, cl_kernel kernel, const ps_buffer *to,
                               size_t num, ps_error *error) {
     const ps_sphere_shape *shape = self->shape;
-    const ps_sphere_tables *tables = self->tables;
+    const ps_sphere_starts *rings = &self->tables->of_rings;
     const ps_sphere_local local = ps_sphere_local_bytes(shape, ps_real_bytes(self->precision));
     const double degrees = shape->max_degree;
     const double flops = 4 * degrees * degrees / 2 * shape->num_rings * (double)num;
     const ps_range range = group_range(self, PS_SPHERE_GROUPS, flops);
     return PS_LAUNCH(
         self->device, kernel, &range, error, PS_BUFFER(self->values), PS_U32(shape->at_once),
-        PS_U32(num), PS_BUFFER(tables->starts), PS_BUFFER(tables->start_scales),
-        PS_BUFFER(tables->steps), PS_BUFFER(tables->step_scales), PS_BUFFER(tables->ratios),
-        PS_BUFFER(tables->cosines), PS_BUFFER(tables->distances), PS_BUFFER(tables->squares),
+        PS_U32(num), PS_BUFFER(rings->starts), PS_BUFFER(rings->start_scales),
+        PS_BUFFER(rings->steps), PS_BUFFER(rings->step_scales), PS_BUFFER(rings->ratios),
+        PS_BUFFER(rings->cosines), PS_BUFFER(rings->distances), PS_BUFFER(rings->squares),
         PS_U32(shape->polar), PS_U32(shape->crossing), PS_U32(shape->equatorial),
         PS_U32(shape->max_degree), PS_U32(shape->num_rings), PS_U32(shape->ring_pitch),
         PS_U32(self->only_even), PS_U32(shape->block), PS_U32(shape->half_pitch),

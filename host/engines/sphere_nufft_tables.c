@@ -29,7 +29,7 @@ static pspec_status create_gains(ps_sphere_tables *self, const ps_sphere_shape *
     }
     pspec_status status =
         ps_reals_upload(device, &self->around_gains, precision, around, 3 * num, "gains", error);
-    if (status == PSPEC_OK) {
+    if (status == PSPEC_OK && shape->route == PS_SPHERE_BY_RINGS) {
         status = ps_reals_upload(device, &self->along_gains, precision, along, num, "gains", error);
     }
     free(memory);
@@ -57,6 +57,9 @@ static pspec_status create_transforms(ps_sphere_tables *self, const ps_sphere_sh
                                       ps_precision precision, ps_device *device, ps_error *error) {
     const uint32_t n = shape->axis.n;
     PS_TRY(ps_fft_plan_create(&self->halves, n / 2, precision, device, error));
+    if (shape->route == PS_SPHERE_BY_CELLS) {
+        return PSPEC_OK;
+    }
     PS_TRY(ps_fft_plan_create(&self->rings, shape->rings / 2, precision, device, error));
     PS_TRY(create_turns(&self->turns, n, n / 2, precision, device, error));
     return create_turns(&self->ring_turns, shape->rings, shape->num_rings, precision, device,
@@ -128,7 +131,7 @@ static pspec_status upload(ps_device *device, ps_buffer *out, const void *data, 
     return ps_buffer_write(device, out, 0, data, bytes, error);
 }
 
-static pspec_status upload_all(ps_sphere_tables *self, const host_tables *from, ps_device *device,
+static pspec_status upload_all(ps_sphere_starts *self, const host_tables *from, ps_device *device,
                                ps_error *error) {
     const size_t starts = from->num_starts * sizeof(double);
     const size_t rings = from->num_rings * sizeof(double);
@@ -142,8 +145,8 @@ static pspec_status upload_all(ps_sphere_tables *self, const host_tables *from, 
     return upload(device, &self->ratios, from->ratios, from->num_orders * sizeof(double), error);
 }
 
-static pspec_status create_starts(ps_sphere_tables *self, const ps_sphere_shape *shape,
-                                  ps_device *device, ps_error *error) {
+pspec_status ps_sphere_starts_create(ps_sphere_starts *out, const ps_sphere_shape *shape,
+                                     ps_device *device, ps_error *error) {
     host_tables host = {.num_starts = (size_t)PS_SPHERE_GROUPS * shape->ring_pitch,
                         .num_rings = shape->ring_pitch,
                         .num_orders = (size_t)shape->max_degree + 1};
@@ -163,9 +166,19 @@ static pspec_status create_starts(ps_sphere_tables *self, const ps_sphere_shape 
         fill_ring(&host, shape, ring);
     }
     fill_ratios(&host);
-    const pspec_status status = upload_all(self, &host, device, error);
+    const pspec_status status = upload_all(out, &host, device, error);
     free(memory);
     return status;
+}
+
+void ps_sphere_starts_free(ps_sphere_starts *starts) {
+    ps_buffer *const buffers[] = {&starts->starts,      &starts->start_scales, &starts->steps,
+                                  &starts->step_scales, &starts->ratios,       &starts->cosines,
+                                  &starts->distances,   &starts->squares};
+    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
+        ps_buffer_release(buffers[i]);
+    }
+    *starts = (ps_sphere_starts){0};
 }
 
 /* ---- all --------------------------------------------------------------------------------- */
@@ -178,19 +191,19 @@ pspec_status ps_sphere_tables_create(ps_sphere_tables *out, const ps_sphere_shap
         ps_nufft_plan_create(&out->plan, &shape->axis, false, tolerance, precision, device, error));
     PS_TRY(create_transforms(out, shape, precision, device, error));
     PS_TRY(create_gains(out, shape, precision, device, error));
-    return create_starts(out, shape, device, error);
+    return shape->route == PS_SPHERE_BY_RINGS
+               ? ps_sphere_starts_create(&out->of_rings, shape, device, error)
+               : PSPEC_OK;
 }
 
 void ps_sphere_tables_free(ps_sphere_tables *tables) {
-    ps_buffer *const buffers[] = {&tables->turns,       &tables->ring_turns,  &tables->around_gains,
-                                  &tables->along_gains, &tables->starts,      &tables->start_scales,
-                                  &tables->steps,       &tables->step_scales, &tables->ratios,
-                                  &tables->cosines,     &tables->distances,   &tables->squares};
-    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
-        ps_buffer_release(buffers[i]);
-    }
+    ps_buffer_release(&tables->turns);
+    ps_buffer_release(&tables->ring_turns);
+    ps_buffer_release(&tables->around_gains);
+    ps_buffer_release(&tables->along_gains);
     ps_nufft_plan_free(&tables->plan);
     ps_fft_plan_free(&tables->halves);
     ps_fft_plan_free(&tables->rings);
+    ps_sphere_starts_free(&tables->of_rings);
     *tables = (ps_sphere_tables){0};
 }

@@ -21,7 +21,7 @@
  *   sorted, heights, strips, starts  scratch for strips: [group][most_points, rounded up to LANES][2], and without [2],
  *              twice; [group][strips + 1]
  *   all_rows   [slot][tile][columns][re, im][LANES], columns a multiple of LANES; tiles: pairs of an even and an odd one
- *   values     [order][value_sets][sum, difference][ring_pitch][re, im], realizations from first_value on
+ *   values     [order][value_sets][sum, difference][ring_pitch][re, im] (values.h), realizations from first_value on
  *   num_rings  rings / 4 + 1
  *   only_even  even degrees only: the values of others are left alone
  *   scratch    [group][n + rings / 2][re, im][LANES]
@@ -29,6 +29,7 @@
  */
 #include "sphere/orders_rings.h"
 #include "sphere/orders_strips.h"
+#include "sphere/values.h"
 
 enum { STEP_SPREAD = 1, STEP_AROUND = 2, STEP_RINGS = 4 };
 
@@ -193,7 +194,8 @@ __kernel void sphere_orders(
         const some_points whole = {points, weights, offsets[r], offsets[r + 1], starts};
         const some_points by_strips = {sorting.turns, sorting.weights, 0, 0, sorting.starts};
         const ring_target target = {values + (first_value + r) * 4 * (size_t)ring_pitch,
-                                    value_sets * 4 * (size_t)ring_pitch, 2 * (size_t)ring_pitch, L};
+                                    order_pitch(value_sets, 2 * (size_t)ring_pitch),
+                                    2 * (size_t)ring_pitch, L};
         if (work.is_spread && !work.is_whole && own_item() == 0) {
             sort_by_strips(sorting, points + offsets[r] * 2, weights + offsets[r],
                            offsets[r + 1] - offsets[r], along, strip, work.lead, work.end_strip);

@@ -24,17 +24,7 @@
 #include "shared/group.h"
 #include "shared/lanes.h"
 #include "shared/transpose.h"
-
-#pragma OPENCL EXTENSION cl_khr_fp64 : enable
-
-typedef PS_VECTOR(double) doublev;
-typedef PS_VECTOR(int) intv;
-typedef PS_VECTOR(long) longv;
-typedef doublev unaligned_doublev __attribute__((aligned(sizeof(double))));
-typedef intv unaligned_intv __attribute__((aligned(sizeof(int))));
-#define TO_DOUBLEV(x) PS_JOIN(convert_, PS_VECTOR(double))(x)
-#define TO_LONGV(x) PS_JOIN(convert_, PS_VECTOR(long))(x)
-#define TO_INTV(x) PS_JOIN(convert_, PS_VECTOR(int))(x)
+#include "sphere/doubles.h"
 
 /* 2^-100 is far below what counts in either precision, and a normal number in both. Numbers grow by a factor of
  * 2^8 at most from degree to degree (g_l at l = m + 1 = 2^15), so it is enough to look every few degrees. */

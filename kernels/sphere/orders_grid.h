@@ -96,10 +96,24 @@ static inline void load_columns(__global real *data, const orders_grid grid,
     }
 }
 
+/* Order m of LANES columns. The transform Z of half the length n gives that of all rows, X(m) = S / 2 +
+ * exp(-2 pi i m / n) D / 2i with S, D = Z(m) +- conj Z(n/2 - m). gains [L + 1][3] have the factors of S and D (re, im),
+ * and undo the window. */
+static inline __attribute__((always_inline)) complexv
+order_of_columns(__global const real *data, __global const uint *position, const uint middle,
+                 __global const real *gains, const uint m) {
+    const complexv z = load_complex(data, position[m]);
+    const complexv other = load_complex(data, position[m == 0 ? 0 : middle - m]);
+    const complexv sum = {z.re + other.re, z.im - other.im};
+    const complexv difference = {z.re - other.re, z.im + other.im};
+    const complexv turned =
+        complex_multiply(difference, gains[3 * m + 1], gains[3 * m + 2]);
+    return (complexv){fma(sum.re, (realv)gains[3 * m], turned.re),
+                      fma(sum.im, (realv)gains[3 * m], turned.im)};
+}
+
 /* Orders first_order, first_order + 2, ... of LANES columns, turned so that lanes are orders: [column][re, im][LANES].
- * The transform Z of half the length n gives that of all rows, X(m) = S / 2 + exp(-2 pi i m / n) D / 2i with
- * S, D = Z(m) +- conj Z(n/2 - m). gains [L + 1][3] have the factors of S and D (re, im), and undo the window; orders
- * above L are zeros. */
+ * Orders above L are zeros. */
 static inline __attribute__((always_inline)) void
 turn_orders(__global const real *data, __global const uint *position, const uint middle,
             const uint L, __global const real *gains, const uint first_order, __global real *to) {
@@ -107,18 +121,9 @@ turn_orders(__global const real *data, __global const uint *position, const uint
 #pragma unroll
     for (int i = 0; i < LANES; i++) {
         const uint order = first_order + 2 * i;
-        const uint at = min(order, L);
-        const complexv z = load_complex(data, position[at]);
-        const complexv other = load_complex(data, position[at == 0 ? 0 : middle - at]);
-        const real is_there = order <= L ? 1 : 0;
-        const realv own = (realv)(gains[3 * at] * is_there);
-        const realv turn_re = (realv)(gains[3 * at + 1] * is_there);
-        const realv turn_im = (realv)(gains[3 * at + 2] * is_there);
-        const complexv sum = {z.re + other.re, z.im - other.im};
-        const complexv difference = {z.re - other.re, z.im + other.im};
-        const complexv turned = complex_multiply_lanes(difference, turn_re, turn_im);
-        re[i] = fma(sum.re, own, turned.re);
-        im[i] = fma(sum.im, own, turned.im);
+        const complexv x = order_of_columns(data, position, middle, gains, min(order, L));
+        re[i] = order <= L ? x.re : (realv)0;
+        im[i] = order <= L ? x.im : (realv)0;
     }
     transpose(re);
     transpose(im);

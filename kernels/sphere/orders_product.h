@@ -4,6 +4,7 @@
 #ifndef PS_SPHERE_ORDERS_PRODUCT_H
 #define PS_SPHERE_ORDERS_PRODUCT_H
 
+#include "sphere/orders_finish.h"
 #include "sphere/orders_table.h"
 
 /* A table [ring][TABLE_ROW], rings first .. end - 1 of it; the sums so far are 0 where these are the first rings, and
@@ -16,28 +17,6 @@ typedef struct product_rows {
     double weight;                /* of |c|^2: orders m and -m */
     __local const double *alphas; /* of the degrees: what Lambda_lm is in terms of the table */
 } product_rows;
-
-/* 1: coefficients of one realization instead of powers. */
-#ifndef KEEP
-#define KEEP 0
-#endif
-
-/* |c|^2 of both signs of the order, in double precision, to what lower orders left; or c, imaginary parts
- * powers_apart further. */
-static inline void finish_sums(__global double *powers, const size_t powers_apart,
-                               const product_rows rows, const doublev alpha, const realv re,
-                               const realv im) {
-    const doublev a = TO_DOUBLEV(re) * alpha, b = TO_DOUBLEV(im) * alpha;
-    __global unaligned_doublev *at = (__global unaligned_doublev *)powers;
-#if KEEP
-    (void)rows;
-    *at = a;
-    *(__global unaligned_doublev *)(powers + powers_apart) = b;
-#else
-    (void)powers_apart;
-    *at = fma(fma(a, a, b * b), (doublev)rows.weight, rows.is_lowest ? (doublev)0 : *at);
-#endif
-}
 
 /* NUM realizations, VECTORS vectors of degrees. values: of the first ring of the table, realizations `apart` numbers
  * apart. sums [realization][RUN_VECTORS][re, im][LANES], powers [realization], `powers_apart` from each other. */
@@ -75,8 +54,10 @@ static inline void finish_sums(__global double *powers, const size_t powers_apar
             _Pragma("unroll") for (int v = 0; v < VECTORS; v++) {                                  \
                 __global real *to = sums + (r * RUN_VECTORS + v) * 2 * LANES;                      \
                 if (rows.is_last) {                                                                \
-                    finish_sums(powers + r * powers_apart + v * LANES, powers_apart, rows,         \
-                                load_doubles(rows.alphas + v * LANES), re[r][v], im[r][v]);        \
+                    const doublev alpha = load_doubles(rows.alphas + v * LANES);                   \
+                    finish_sums(powers + r * powers_apart + v * LANES, powers_apart, rows.weight,  \
+                                rows.is_lowest, TO_DOUBLEV(re[r][v]) * alpha,                      \
+                                TO_DOUBLEV(im[r][v]) * alpha);                                     \
                 } else {                                                                           \
                     store_global(to, 0, re[r][v]);                                                 \
                     store_global(to, 1, im[r][v]);                                                 \

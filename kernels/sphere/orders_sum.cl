@@ -24,54 +24,8 @@
  *   begins     local, [block / RING_UNIT]
  */
 #include "sphere/orders_product.h"
-
-/* value 2^(-100 s) with value in [2^-100, 1], from a product of two of them. */
-static inline void normalize(double *value, int *scale) {
-    if (*value != 0 && fabs(*value) < SCALE_DOWN) {
-        *value *= SCALE_UP;
-        *scale += 1;
-    }
-}
-
-/* What a work-group has of rings. Those below `alive` are nothing in all degrees, and stay so in higher orders. */
-typedef struct ring_work {
-    ring_states states;
-    ring_angles angles;
-    __global double *diagonal;
-    __global int *diagonal_scales;
-    uint num_rings, block, alive;
-} ring_work;
-
-/* Degrees m and m + 1 of a ring, from Lambda_mm. By differences they are Lambda_mm and nothing. */
-static inline void begin_ring(const ring_work work, const uint i, const double value,
-                              const int scale, const double second) {
-    const ring_states states = work.states;
-    const bool is_difference = i < work.angles.polar || i >= work.angles.equatorial;
-    work.diagonal[i] = states.value[i] = value;
-    states.value[states.parity_apart + i] = is_difference ? 0 : value * second;
-    states.before[i] = states.before[states.parity_apart + i] = 0;
-    work.diagonal_scales[i] = states.scale[i] = states.scale[states.parity_apart + i] = scale;
-}
-
-/* The table of a block of rings; the first ring of it that is more than zeros, `here` if there is none. */
-static inline uint make_block(const ring_work work, const uint ring, const uint here,
-                              __local const double *coefficients, __local real *table,
-                              __local uint *begins, const uint vectors) {
-    const uint from = work.alive > ring ? work.alive - ring : 0;
-    uint begin = here;
-    for (uint i = from + own_item() * RING_UNIT; i < here; i += num_items() * RING_UNIT) {
-        begins[i / RING_UNIT] =
-            make_run(work.states, work.angles, ring + i, coefficients, table + i * TABLE_ROW,
-                     table + (work.block + i) * TABLE_ROW, vectors)
-                ? i
-                : here;
-    }
-    barrier_everywhere();
-    for (uint i = from; i < here; i += RING_UNIT) {
-        begin = min(begin, begins[i / RING_UNIT]);
-    }
-    return begin;
-}
+#include "sphere/orders_work.h"
+#include "sphere/values.h"
 
 __kernel void sphere_orders_sum(
     __global const real *restrict values, const uint value_sets, const uint num_realizations,
@@ -100,18 +54,11 @@ __kernel void sphere_orders_sum(
                       num_rings,
                       block,
                       0};
+    const order_starts from_order = {starts, start_scales, steps, step_scales, ratios, cosines};
     for (uint m = group; m <= L; m += groups) {
-        const double second = sqrt(2 * (double)m + 3);
         const uint start = work.alive / block * block; /* the first block that is not all zeros */
         uint dead = work.alive;
-        for (uint i = work.alive + own_item(); i < ring_pitch; i += num_items()) {
-            double value = m == group ? starts[group * ring_pitch + i]
-                                      : work.diagonal[i] * steps[i] * ratios[m];
-            int scale = m == group ? start_scales[group * ring_pitch + i]
-                                   : work.diagonal_scales[i] + step_scales[i];
-            normalize(&value, &scale);
-            begin_ring(work, i, value, scale, second * cosines[i]);
-        }
+        begin_order(work, from_order, m, group, ring_pitch);
         for (uint first = m; first <= L; first += RUN_DEGREES) {
             const uint degrees = min(L + 1 - first, (uint)RUN_DEGREES);
             const uint vectors = (degrees + 2 * LANES - 1) / (2 * LANES);
@@ -137,7 +84,7 @@ __kernel void sphere_orders_sum(
                                                m == group,
                                                m == 0 ? 1 : 2,
                                                coefficients + OF_ALPHA + odd * (RUN_DEGREES / 2)};
-                    __global const real *from = values + (m * (size_t)value_sets + r) * apart +
+                    __global const real *from = values + m * order_pitch(value_sets, apart / 2) + r * apart +
                                                 odd * 2 * (size_t)ring_pitch + 2 * ring;
                     __global real *to = sums + (r * 2 + odd * 2) * (RUN_VECTORS * 2 * LANES);
 #if KEEP
@@ -159,31 +106,4 @@ __kernel void sphere_orders_sum(
         }
         work.alive = dead / RING_UNIT * RING_UNIT;
     }
-}
-
-/* powers [group][..] of all groups into those of the first: num of each, LANES degrees of one parity at a time. Degree
- * l has orders, and powers, of groups up to l. Launch: (num / LANES), rounded up at will; half_pitch is a multiple of
- * LANES. */
-__kernel void sphere_orders_fold(__global double *restrict powers, const uint groups,
-                                 const ulong num, const uint half_pitch) {
-    const size_t i = get_global_id(0) * LANES;
-    if (i >= num) {
-        return;
-    }
-    const size_t degree = i % half_pitch * 2 + i / half_pitch % 2;
-    __global unaligned_doublev *to = (__global unaligned_doublev *)(powers + i);
-    if (degree + 1 < groups) { /* the first LANES degrees have more groups from one to the next */
-        for (uint lane = 0; lane < LANES; lane++) {
-            const uint end = (uint)min((size_t)groups, degree + 2 * lane + 1);
-            for (uint group = 1; group < end; group++) {
-                powers[i + lane] += powers[group * num + i + lane];
-            }
-        }
-        return;
-    }
-    doublev sum = *to;
-    for (uint group = 1; group < groups; group++) {
-        sum += *(__global const unaligned_doublev *)(powers + group * num + i);
-    }
-    *to = sum;
 }
