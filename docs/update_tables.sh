@@ -23,6 +23,7 @@ bench() { # NAME
 table_bench_torus() { bench torus; }
 table_bench_nufft() { bench nufft; }
 table_bench_sphere() { bench sphere; }
+table_bench_sphere_batches() { bench sphere_batches; }
 # The problems of the bench one by one would be a page of their own: those that went wrong, and the sum.
 table_bench_choice() { bench choice | awk 'NR == 1 || /^#/ || $NF > 1.3'; }
 # On the clock, so a busy machine matters.
@@ -204,12 +205,14 @@ table_sphere_direct() {
     need tests/test_sphere_error && "$build/tests/test_sphere_error" 2>&1 | grep ' slack '
 }
 
-# The smallest bound / error of sphere_nufft, by kind of set: a column for every block of the test's lines.
-table_sphere_nufft() {
+# The smallest bound / error of an engine, by kind of set: a column for every block of the test's lines.
+table_sphere_nufft() { sphere_sweep sphere_nufft; }
+table_sphere_grid() { sphere_sweep sphere_grid; }
+sphere_sweep() {
     need tests/test_sphere_nufft_sweep || return 1
-    "$build/tests/test_sphere_nufft_sweep" 2>&1 | awk '
-        /^(single|double) L=/ { sub(/:$/, ""); block[++num_blocks] = $1 " " $2 " " $3; next }
-        /^  [a-z]/ && num_blocks > 0 {
+    "$build/tests/test_sphere_nufft_sweep" 2>&1 | awk -v engine="$1" '
+        / L=/ { is_own = $1 == engine; sub(/:$/, ""); if (is_own) block[++num_blocks] = $2 " " $3 " " $4; next }
+        /^  [a-z]/ && is_own {
             kind = substr($0, 3, 15)
             if (!(kind in seen)) kinds[++num] = kind
             seen[kind] = 1

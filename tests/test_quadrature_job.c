@@ -50,7 +50,7 @@ static void same_bits(const ps_quadrature_result *a, const ps_quadrature_result 
 }
 
 static void batches(void **state) {
-    static const char *const engines[] = {"host_direct",  "sphere_direct", "sphere_nufft",
+    static const char *const engines[] = {"host_direct", "sphere_direct", "sphere_nufft",
                                           "sphere_grid", "pairs_direct",  "pairs_histogram"};
     static const size_t sizes[] = {1, 3, 7};
     (void)state;

@@ -61,8 +61,8 @@ static double *run_coefficients(const ps_problem *problem, ps_precision precisio
     double *found = calloc((L + 1) * (L + 2), sizeof(double));
     void *state = NULL;
     assert_ok(engine->create(&state, problem, precision, 1, device, error));
-    assert_ok(engine->coefficients(
-        state, &(ps_batch){.num_patterns = 1, .patterns = pattern}, NULL, found, error));
+    assert_ok(engine->coefficients(state, &(ps_batch){.num_patterns = 1, .patterns = pattern}, NULL,
+                                   found, error));
     engine->destroy(state);
     return found;
 }
@@ -121,8 +121,7 @@ static void lengths_do_not_count(void **state) {
     ps_frequencies set = degrees_of(&what);
     pspec_pattern pattern = test_make_sphere_pattern(&test_sphere_shapes[0], 50, 5);
     const ps_problem problem = problem_of(&what, &set, 50);
-    double *expected =
-        test_run_problem(engine, &problem, PS_DOUBLE, device, &pattern, 1, 1);
+    double *expected = test_run_problem(engine, &problem, PS_DOUBLE, device, &pattern, 1, 1);
     double *longer = calloc(3 * pattern.num_points, sizeof(double));
     for (size_t i = 0; i < 3 * pattern.num_points; i++) {
         longer[i] = pattern.points[i] * (1 + 1e-6);
@@ -162,8 +161,7 @@ static void powers_are_those_of_coefficients(void **state) {
         pspec_pattern pattern = test_make_sphere_pattern(&test_sphere_shapes[8], 77, 5);
         const ps_problem problem = problem_of(what, &set, 77);
         double *c = run_coefficients(&problem, what->precision, &pattern);
-        double *q =
-            test_run_problem(engine, &problem, what->precision, device, &pattern, 1, 1);
+        double *q = test_run_problem(engine, &problem, what->precision, device, &pattern, 1, 1);
         for (size_t j = 0; j < set.num; j++) {
             const double expected = power_of(c, (size_t)set.max_frequency, (size_t)set.vectors[j]);
             assert_true(fabs(q[j] - expected) <= 1e-6 * expected);
@@ -191,10 +189,8 @@ static void hemisphere_is_half_of_the_sphere(void **state) {
         ps_frequencies even = degrees_of(&what);
         const ps_problem whole = problem_of(&what, &all, 60);
         const ps_problem half = problem_of(&what, &even, 60);
-        double *expected =
-            test_run_problem(engine, &whole, what.precision, device, &pattern, 1, 1);
-        double *found =
-            test_run_problem(engine, &half, what.precision, device, &pattern, 1, 1);
+        double *expected = test_run_problem(engine, &whole, what.precision, device, &pattern, 1, 1);
+        double *found = test_run_problem(engine, &half, what.precision, device, &pattern, 1, 1);
         for (size_t j = 0; j < even.num; j++) {
             assert_memory_equal(&found[j], &expected[2 * j + 1], sizeof(double));
         }
@@ -219,11 +215,10 @@ static void check_exact(const test_set *set, const sphere_case *what) {
         ps_frequencies_free(&degrees);
         return; /* the table of L = 2000 is too large */
     }
-    double *found =
-        test_run_problem(engine, &problem, what->precision, device, &pattern, 1, 1);
+    double *found = test_run_problem(engine, &problem, what->precision, device, &pattern, 1, 1);
     const double bound = of_one_degree * sqrt(set->weight_square_sum) *
-                         engine->error(&problem, ps_device_get_limits(device),
-                                               what->precision, (double)set->num_points);
+                         engine->error(&problem, ps_device_get_limits(device), what->precision,
+                                       (double)set->num_points);
     const cJSON *row;
     cJSON_ArrayForEach(row, cJSON_GetObjectItem(set->json, "pl")) {
         const int l = cJSON_GetArrayItem(row, 0)->valueint;
@@ -267,8 +262,8 @@ static double *run_with(const sphere_case *what, const ps_frequencies *set,
                         const pspec_pattern *patterns, size_t batch, size_t group_size) {
     const ps_problem problem = problem_of(what, set, 80);
     ps_device_set_group_size(device, group_size);
-    double *found = test_run_problem(engine, &problem, what->precision, device, patterns,
-                                     REALIZATIONS, batch);
+    double *found =
+        test_run_problem(engine, &problem, what->precision, device, patterns, REALIZATIONS, batch);
     ps_device_set_group_size(device, 0);
     return found;
 }

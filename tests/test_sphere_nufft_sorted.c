@@ -57,7 +57,8 @@ static void check(const test_sphere_shape *shape, ps_precision precision, double
     pspec_pattern large = make_copies(&small, has_weights || small.weights != NULL);
     const ps_problem of_small = problem_of(set, DISTINCT, 1e-13);
     const ps_problem of_large = problem_of(set, NUM_POINTS, tolerance);
-    const ps_sphere_shape sizes = ps_sphere_shape_make(&of_large, limits, precision, PS_SPHERE_BY_RINGS);
+    const ps_sphere_shape sizes =
+        ps_sphere_shape_make(&of_large, limits, precision, PS_SPHERE_BY_RINGS);
     assert_true(sizes.is_sorted);
     assert_true(sizes.bands > 1);
     assert_true(sizes.most_points < NUM_POINTS);

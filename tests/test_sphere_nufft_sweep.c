@@ -145,11 +145,10 @@ static void circles_made_for_the_grid(void **state) {
 int main(void) {
     void *const nufft = (void *)(uintptr_t)&ps_sphere_nufft; /* cmocka's states are not constant */
     void *const grid = (void *)(uintptr_t)&ps_sphere_grid;
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_prestate(every_tolerance, nufft),
-        cmocka_unit_test_prestate(circles_made_for_the_grid, nufft),
-        cmocka_unit_test_prestate(every_tolerance, grid),
-        cmocka_unit_test_prestate(circles_made_for_the_grid, grid)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test_prestate(every_tolerance, nufft),
+                                       cmocka_unit_test_prestate(circles_made_for_the_grid, nufft),
+                                       cmocka_unit_test_prestate(every_tolerance, grid),
+                                       cmocka_unit_test_prestate(circles_made_for_the_grid, grid)};
     device = test_open_device();
     if (!ps_device_get_limits(device)->has_fp64) {
         return TEST_SKIPPED;

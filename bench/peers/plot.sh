@@ -13,7 +13,7 @@ mapfile -t cases < <(tail -n +2 "$1" | cut -d, -f1-4 | awk '!seen[$0]++')
 styles=("plain:1:#aaaaaa:1" "NFSFT:11:#cc79a7:1" "finufft:5:#0072b2:1" "finufft fp32:4:#56b4e9:1" "ducc0:9:#009e73:1" "NFFT:11:#cc79a7:1"
     "host_direct:2:#777777:1" "torus_direct:6:#e69f00:1.5" "torus_nufft:6:#8c510a:1.5"
     "numpy:5:#0072b2:1" "pairs_direct:6:#0072b2:1.5" "pairs_histogram:6:#cc79a7:1.5"
-    "sphere_direct:6:#e69f00:1.5" "sphere_nufft:6:#8c510a:1.5" "pointspec:7:#d55e00:2")
+    "sphere_direct:6:#e69f00:1.5" "sphere_nufft:6:#8c510a:1.5" "sphere_grid:4:#0072b2:1.5" "pointspec:7:#d55e00:2")
 width=3
 ((${#cases[@]} < width)) && width=${#cases[@]}
 rows=$(((${#cases[@]} + width - 1) / width))

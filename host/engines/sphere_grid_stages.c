@@ -8,12 +8,12 @@
 
 /* ---- create ------------------------------------------------------------------------------ */
 
-enum { OPTIONS_BYTES = 112 };
+enum { OPTIONS_BYTES = 80 };
 
 static void write_options(const ps_sphere_grid_stages *self, char *options, size_t room) {
-    snprintf(options, room, "-DPRECISION=%u -DLANES=%u -DRUN_VECTORS=%u -DALONE=%u -DMOST_RUNS=%u",
+    snprintf(options, room, "-DPRECISION=%u -DLANES=%u -DRUN_VECTORS=%u -DALONE=%u",
              self->precision == PS_SINGLE ? 32u : 64u, self->shape->lanes, self->shape->run_vectors,
-             self->is_alone ? 1u : 0u, self->shape->most_runs);
+             self->is_alone ? 1u : 0u);
 }
 
 static pspec_status create_kernels(ps_sphere_grid_stages *self, ps_error *error) {
@@ -36,7 +36,8 @@ static pspec_status create_buffers(ps_sphere_grid_stages *self, ps_error *error)
         const char *what;
     } wanted[] = {{&self->grids, bytes.grids, "grids of the sphere"},
                   {&self->scratch, bytes.scratch, "rows of transforms"},
-                  {&self->values, ps_sphere_value_bytes(shape, ps_real_bytes(self->precision)), "values on angles"},
+                  {&self->values, ps_sphere_value_bytes(shape, ps_real_bytes(self->precision)),
+                   "values on angles"},
                   {&self->powers, shape->at_once * bytes.powers, "powers of orders"}};
     for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
         PS_TRY(ps_buffer_create(self->device, wanted[i].buffer, wanted[i].bytes, wanted[i].what,
@@ -94,16 +95,17 @@ pspec_status ps_sphere_grid_make_values(ps_sphere_grid_stages *self, size_t firs
     const size_t slots = num < shape->slots ? num : shape->slots;
     const double transforms = (double)num * shape->num_angles * 2;
     const ps_range range = group_range(self, slots, transforms * ps_fft_flops(plan->axis.n / 2));
-    return PS_LAUNCH(
-        self->device, self->make, &range, error, PS_BUFFER(self->points->turns),
-        PS_BUFFER(self->points->weights), PS_BUFFER(self->points->offsets), PS_U32(0), PS_U32(num),
-        PS_BUFFER(plan->coefficients), PS_U32(plan->axis.n), PS_U32(plan->axis.window.width),
-        PS_U32(plan->degree), PS_U32(plan->bins), PS_BUFFER(tables->halves.radices),
-        PS_BUFFER(tables->halves.twiddles), PS_BUFFER(tables->halves.position),
-        PS_BUFFER(tables->around_gains), PS_BUFFER(self->table.begins), PS_U32(shape->max_degree), PS_U32(self->only_even),
-        PS_U32(shape->pitch), PS_U32(shape->pole), PS_U32(shape->num_angles),
-        PS_BUFFER(self->grids), PS_BUFFER(self->values), PS_U32(first_value), PS_U32(shape->at_once),
-        PS_BUFFER(self->scratch), PS_LOCAL(local.windows), PS_LOCAL(local.cells));
+    return PS_LAUNCH(self->device, self->make, &range, error, PS_BUFFER(self->points->turns),
+                     PS_BUFFER(self->points->weights), PS_BUFFER(self->points->offsets), PS_U32(0),
+                     PS_U32(num), PS_BUFFER(plan->coefficients), PS_U32(plan->axis.n),
+                     PS_U32(plan->axis.window.width), PS_U32(plan->degree), PS_U32(plan->bins),
+                     PS_BUFFER(tables->halves.radices), PS_BUFFER(tables->halves.twiddles),
+                     PS_BUFFER(tables->halves.position), PS_BUFFER(tables->around_gains),
+                     PS_BUFFER(self->table.begins), PS_U32(shape->most_runs),
+                     PS_U32(shape->max_degree), PS_U32(self->only_even), PS_U32(shape->pitch),
+                     PS_U32(shape->pole), PS_U32(shape->num_angles), PS_BUFFER(self->grids),
+                     PS_BUFFER(self->values), PS_U32(first_value), PS_U32(shape->at_once),
+                     PS_BUFFER(self->scratch), PS_LOCAL(local.windows), PS_LOCAL(local.cells));
 }
 
 /* To powers, or with the kernel that keeps them to coefficients. */
@@ -113,8 +115,9 @@ static pspec_status sum_cells(ps_sphere_grid_stages *self, cl_kernel kernel, con
     const ps_sphere_grid_table *table = &self->table;
     const ps_range range =
         group_range(self, PS_SPHERE_GROUPS, 4 * (double)shape->table_reals * (double)num);
-    return PS_LAUNCH(self->device, kernel, &range, error, PS_BUFFER(self->values), PS_U32(shape->at_once), PS_U32(num),
-                     PS_BUFFER(table->numbers), PS_BUFFER(table->offsets), PS_BUFFER(table->begins),
+    return PS_LAUNCH(self->device, kernel, &range, error, PS_BUFFER(self->values),
+                     PS_U32(shape->at_once), PS_U32(num), PS_BUFFER(table->numbers),
+                     PS_BUFFER(table->offsets), PS_BUFFER(table->begins), PS_U32(shape->most_runs),
                      PS_U32(shape->max_degree), PS_U32(shape->num_angles), PS_U32(self->only_even),
                      PS_U32(shape->half_pitch), PS_BUFFER(*to));
 }

@@ -47,7 +47,8 @@ static void fill_waves(double *out, size_t pitch, uint32_t length, bool odd, siz
     for (size_t k = 0; k < num_frequencies; k++) {
         for (size_t i = 0; i < num; i++) {
             const size_t place = 2 * i + odd;
-            const long double angle = two_pi * (long double)(k * place % (2 * length)) / (2 * length);
+            const long double angle =
+                two_pi * (long double)(k * place % (2 * length)) / (2 * length);
             const double half = 2 * place == length ? 0.5 : 1;
             out[k * pitch + i] = (double)cosl(angle) * factors[k] * half;
             out[(num_frequencies + k) * pitch + i] = (double)sinl(angle) * factors[k] * half;
@@ -203,8 +204,8 @@ static pspec_status create_kernels(making *self, ps_error *error) {
              self->shape->lanes, self->shape->run_vectors);
     PS_TRY(ps_kernel_create(self->device, &self->make, "sphere/grid_table.cl", "sphere_grid_table",
                             options, error));
-    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u -DRUN_VECTORS=%u -DMOST_RUNS=%u", bits,
-             self->shape->lanes, self->shape->run_vectors, self->shape->most_runs);
+    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u -DRUN_VECTORS=%u", bits,
+             self->shape->lanes, self->shape->run_vectors);
     return ps_kernel_create(self->device, &self->begin, "sphere/grid_begins.cl",
                             "sphere_grid_begins", options, error);
 }
@@ -237,8 +238,8 @@ static pspec_status find_begins(const ps_sphere_grid_table *table, const making 
     const ps_range range = ps_range_light(self->device, (size_t)shape->max_degree + 1, 2, 1,
                                           (double)shape->table_reals, 0);
     return PS_LAUNCH(self->device, self->begin, &range, error, PS_BUFFER(table->numbers),
-                     PS_BUFFER(table->offsets), PS_BUFFER(table->begins), PS_U32(shape->max_degree),
-                     PS_U32(shape->num_angles), PS_U32(self->only_even));
+                     PS_BUFFER(table->offsets), PS_BUFFER(table->begins), PS_U32(shape->most_runs),
+                     PS_U32(shape->max_degree), PS_U32(shape->num_angles), PS_U32(self->only_even));
 }
 
 /* ---- all ---------------------------------------------------------------------------------- */
@@ -279,14 +280,14 @@ static pspec_status make(ps_sphere_grid_table *table, making *self, ps_error *er
 pspec_status ps_sphere_grid_table_create(ps_sphere_grid_table *out, const ps_sphere_shape *shape,
                                          bool only_even, ps_precision precision, ps_device *device,
                                          ps_error *error) {
-    making self = {.shape = shape,
-                   .rings = ps_sphere_rings_shape(shape->max_degree, ps_device_get_limits(device),
-                                                  PS_DOUBLE),
-                   .only_even = only_even,
-                   .is_alone = ps_range_is_alone(device),
-                   .precision = precision,
-                   .device = device,
-                   .angle_pitch = (uint32_t)ps_round_up(shape->num_angles, PS_SPHERE_TABLE_ANGLES)};
+    making self = {
+        .shape = shape,
+        .rings = ps_sphere_rings_shape(shape->max_degree, ps_device_get_limits(device), PS_DOUBLE),
+        .only_even = only_even,
+        .is_alone = ps_range_is_alone(device),
+        .precision = precision,
+        .device = device,
+        .angle_pitch = (uint32_t)ps_round_up(shape->num_angles, PS_SPHERE_TABLE_ANGLES)};
     *out = (ps_sphere_grid_table){0};
     const pspec_status status = make(out, &self, error);
     free_making(&self);

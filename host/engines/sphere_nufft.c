@@ -21,8 +21,8 @@ typedef struct sphere_nufft {
     ps_sphere_tables tables;
     ps_sphere_stages stages;           /* by rings, */
     ps_sphere_grid_stages grid_stages; /* or by cells */
-    double *host_powers; /* [at_once][2][half_pitch] */
-    double *host_rows;   /* [batch][degrees] */
+    double *host_powers;               /* [at_once][2][half_pitch] */
+    double *host_rows;                 /* [batch][degrees] */
 } sphere_nufft;
 
 /* ---- what the planner asks --------------------------------------------------------------- */
@@ -102,8 +102,7 @@ static ps_survey survey_route(const ps_problem *problem, const ps_device_limits 
     result.why_not = refuse_shape(&shape, limits, precision);
     if (result.why_not == NULL) {
         result.work = work_of(&shape, problem, precision);
-        result.error =
-            ps_sphere_nufft_error(&shape.axis, problem, precision,
+        result.error = ps_sphere_nufft_error(&shape.axis, problem, precision,
                                              ps_expected_power(problem), route);
     }
     return result;
@@ -112,8 +111,9 @@ static ps_survey survey_route(const ps_problem *problem, const ps_device_limits 
 static double error_of_route(const ps_problem *problem, const ps_device_limits *limits,
                              ps_precision precision, double mean_power, ps_sphere_route route) {
     const ps_sphere_shape shape = ps_sphere_shape_make(problem, limits, precision, route);
-    return shape.lanes == 0 ? HUGE_VAL
-                            : ps_sphere_nufft_error(&shape.axis, problem, precision, mean_power, route);
+    return shape.lanes == 0
+               ? HUGE_VAL
+               : ps_sphere_nufft_error(&shape.axis, problem, precision, mean_power, route);
 }
 
 static double error_of_state(const void *state, double mean_power) {
@@ -240,11 +240,11 @@ static pspec_status make_values(sphere_nufft *self, const ps_batch *batch, ps_er
             PS_TRY(ps_sphere_stages_finish_sorted(&self->stages, first, error));
         } else {
             PS_TRY(ps_sphere_places_make(&self->points, &some, error));
-            PS_TRY(self->shape.route == PS_SPHERE_BY_CELLS
-                       ? ps_sphere_grid_make_values(&self->grid_stages, first, some.num_patterns,
-                                                    error)
-                       : ps_sphere_stages_make_values(&self->stages, first, some.num_patterns,
-                                                      error));
+            PS_TRY(
+                self->shape.route == PS_SPHERE_BY_CELLS
+                    ? ps_sphere_grid_make_values(&self->grid_stages, first, some.num_patterns,
+                                                 error)
+                    : ps_sphere_stages_make_values(&self->stages, first, some.num_patterns, error));
         }
     }
     return PSPEC_OK;
@@ -256,11 +256,11 @@ static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_er
     for (size_t first = 0; first < batch->num_patterns; first += at_once) {
         const ps_batch some = part_of(batch, first, at_once);
         PS_TRY(make_values(self, &some, error));
-        PS_TRY(self->shape.route == PS_SPHERE_BY_CELLS
-                   ? ps_sphere_grid_sum(&self->grid_stages, some.num_patterns, self->host_powers,
-                                        error)
-                   : ps_sphere_stages_sum(&self->stages, some.num_patterns, self->host_powers,
-                                          error));
+        PS_TRY(
+            self->shape.route == PS_SPHERE_BY_CELLS
+                ? ps_sphere_grid_sum(&self->grid_stages, some.num_patterns, self->host_powers,
+                                     error)
+                : ps_sphere_stages_sum(&self->stages, some.num_patterns, self->host_powers, error));
         write_rows(self, first, &some);
     }
     *rows = (ps_rows){.num_rows = batch->num_patterns,
@@ -337,8 +337,8 @@ static void describe(const void *state, ps_text *text) {
                        (double)(shape->table_reals * ps_real_bytes(self->precision)) * 1e-6);
     } else {
         ps_text_append(text, "rings=%lu at_once=%zu bands=%lu strip=%lu)",
-                       (unsigned long)shape->num_rings, shape->at_once,
-                       (unsigned long)shape->bands, (unsigned long)shape->strip);
+                       (unsigned long)shape->num_rings, shape->at_once, (unsigned long)shape->bands,
+                       (unsigned long)shape->strip);
     }
 }
 
@@ -381,7 +381,7 @@ static void describe(const void *state, ps_text *text) {
 FUNCTIONS_OF(nufft, PS_SPHERE_BY_RINGS)
 FUNCTIONS_OF(grid, PS_SPHERE_BY_CELLS)
 
-const ps_engine ps_sphere_nufft =
-    ENGINE(nufft, "fast spherical-harmonic sums: points spread on a grid, rings, Legendre products");
+const ps_engine ps_sphere_nufft = ENGINE(
+    nufft, "fast spherical-harmonic sums: points spread on a grid, rings, Legendre products");
 const ps_engine ps_sphere_grid =
     ENGINE(grid, "fast spherical-harmonic sums: points spread on a grid, a table of its cells");

@@ -152,7 +152,8 @@ ps_nufft_axis ps_sphere_choose_axis(const ps_problem *problem, ps_precision prec
     ps_nufft_axis best = {0};
     double best_error = HUGE_VAL;
     double best_cycles = HUGE_VAL;
-    for (uint32_t n = even_length((uint64_t)fmax(LEAST_CELLS, ceil(least_sigma * twice + 1)), route);
+    for (uint32_t n =
+             even_length((uint64_t)fmax(LEAST_CELLS, ceil(least_sigma * twice + 1)), route);
          n != 0 && n <= MOST_CELLS && (best.n == 0 || n <= last);
          n = even_length((uint64_t)n + 1 + n / NEXT_LENGTH, route)) {
         double error = 0;

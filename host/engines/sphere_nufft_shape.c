@@ -71,8 +71,8 @@ static void choose_strip(ps_sphere_shape *shape, const ps_device_limits *limits,
         fitting > behind + 2 * lanes ? (fitting - behind) / lanes * lanes : 2 * (uint64_t)lanes;
     const bool is_small = rows * shape->pitch * real_bytes <= strip_bytes;
     shape->strip = shape->columns;
-    if (shape->route == PS_SPHERE_BY_RINGS && !shape->is_sorted && !is_small && !limits->has_dedicated_local_memory &&
-        strip < shape->columns) {
+    if (shape->route == PS_SPHERE_BY_RINGS && !shape->is_sorted && !is_small &&
+        !limits->has_dedicated_local_memory && strip < shape->columns) {
         shape->strip = (uint32_t)strip;
         shape->pitch = (uint32_t)(strip + behind);
     }
@@ -95,9 +95,8 @@ static void measure(ps_sphere_shape *shape, const ps_device_limits *limits, doub
     shape->grid_bytes =
         ((uint64_t)shape->grid_rows * shape->pitch + (by_rings ? 0 : 2 * shape->lanes)) *
         real_bytes;
-    shape->row_bytes = by_rings
-                           ? 2 * (uint64_t)shape->pairs * shape->columns * unit * real_bytes
-                           : 0;
+    shape->row_bytes =
+        by_rings ? 2 * (uint64_t)shape->pairs * shape->columns * unit * real_bytes : 0;
 }
 
 /* Rings at the pole and at the equator whose Lambda_lm goes by differences. The rest is off by 6e-13 of the first ring
@@ -138,8 +137,7 @@ static void measure_table(ps_sphere_shape *shape, size_t real_bytes) {
     shape->table_reals = vectors * shape->num_angles * shape->lanes;
     shape->most_runs = (uint32_t)ps_divide_up(ps_divide_up((num_orders + 1) / 2, shape->lanes),
                                               shape->run_vectors);
-    shape->value_bytes =
-        4 * ps_round_up(shape->num_angles, shape->lanes) * num_orders * real_bytes;
+    shape->value_bytes = 4 * ps_round_up(shape->num_angles, shape->lanes) * num_orders * real_bytes;
 }
 
 ps_sphere_local ps_sphere_local_bytes(const ps_sphere_shape *shape, size_t real_bytes) {
@@ -225,7 +223,9 @@ ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_byt
     /* Without strips just not empty, which no buffer may be. */
     const uint64_t strip_points =
         has_strips ? work_groups * ps_round_up(shape->set_points, shape->lanes) : 1;
-    const bool by_rings = shape->route == PS_SPHERE_BY_RINGS;
+    /* By cells rings are there only while the table is made, before most of the rest. */
+    const uint64_t rings = shape->route == PS_SPHERE_BY_RINGS ? shape->rings : 0;
+    const uint64_t pitch = rings > 0 ? shape->ring_pitch : 0;
     const uint64_t run = (uint64_t)shape->run_vectors * shape->lanes;
     return (ps_sphere_bytes){.vectors = points * 3 * sizeof(double),
                              .turns = points * 2 * sizeof(uint64_t),
@@ -239,31 +239,28 @@ ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_byt
                              .strips = strip_points * sizeof(uint32_t),
                              .strip_starts = work_groups * (strips + 1) * sizeof(uint32_t),
                              .scratch = work_groups * 2 * shape->lanes *
-                                        ((uint64_t)shape->axis.n + shape->rings / 2) * real_bytes,
+                                        (shape->axis.n + rings / 2) * real_bytes,
                              .values = shape->value_bytes,
                              .powers = groups * 2 * shape->half_pitch * sizeof(double),
-                             .sums = by_rings ? groups * 4 * run * real_bytes : 0,
-                             .states = groups * 4 * shape->ring_pitch * sizeof(double),
-                             .scales = groups * 2 * shape->ring_pitch * sizeof(int32_t),
-                             .diagonals = groups * shape->ring_pitch * sizeof(double),
-                             .table = shape->table_reals * real_bytes,
-                             .filters = by_rings ? 0
-                                                 : 4 * shape->num_rings *
-                                                       ps_round_up(shape->num_angles,
-                                                                   PS_SPHERE_TABLE_ANGLES) *
-                                                       sizeof(double)};
+                             .sums = pitch > 0 ? groups * 4 * run * real_bytes : 0,
+                             .states = groups * 4 * pitch * sizeof(double),
+                             .scales = groups * 2 * pitch * sizeof(int32_t),
+                             .diagonals = groups * pitch * sizeof(double),
+                             .table = shape->table_reals * real_bytes};
 }
 
 /* Of sphere_nufft_tables.c: for a cell of the transforms twiddles, turns and a place; gains; what Lambda_mm begins with. */
 static uint64_t table_bytes(const ps_sphere_shape *shape, size_t real_bytes) {
-    const uint64_t cells = (shape->axis.n + (uint64_t)shape->rings) / 2;
+    const bool by_rings = shape->route == PS_SPHERE_BY_RINGS;
+    const uint64_t cells = (shape->axis.n + (uint64_t)(by_rings ? shape->rings : 0)) / 2;
     const uint64_t orders = (uint64_t)shape->max_degree + 1;
     const uint64_t ring_tables = 3; /* cosines, distances, squares */
-    const uint64_t starts = (PS_SPHERE_GROUPS + 1) * (uint64_t)shape->ring_pitch;
+    const uint64_t starts = by_rings ? (PS_SPHERE_GROUPS + 1) * (uint64_t)shape->ring_pitch : 0;
+    const uint64_t places = by_rings ? 0 : orders * 2 * (sizeof(uint64_t) + sizeof(uint32_t));
     return cells * (4 * real_bytes + sizeof(uint32_t)) +
-           orders * (4 * real_bytes + sizeof(double)) +
+           orders * (4 * real_bytes + sizeof(double)) + places +
            starts * (sizeof(double) + sizeof(int32_t)) +
-           ring_tables * shape->ring_pitch * sizeof(double);
+           (by_rings ? ring_tables * shape->ring_pitch * sizeof(double) : 0);
 }
 
 static void count_memory(ps_sphere_shape *shape, const ps_problem *problem,
@@ -281,10 +278,14 @@ static void count_memory(ps_sphere_shape *shape, const ps_problem *problem,
                          bytes.keys + bytes.starts + bytes.grids + bytes.rows + bytes.scratch +
                          bytes.strip_turns + bytes.strip_weights + bytes.strips +
                          bytes.strip_starts + table_bytes(shape, real_bytes) + bytes.sums +
-                         bytes.states + bytes.scales + bytes.diagonals + bytes.diagonals / 2 + bytes.table + bytes.filters +
-                         (is_fixed ? shape->at_once * each : 0);
-    const uint64_t buffers[] = {bytes.table, bytes.grids, bytes.rows, ps_sphere_value_bytes(shape, real_bytes),
-                                shape->at_once * bytes.powers, bytes.vectors};
+                         bytes.states + bytes.scales + bytes.diagonals + bytes.diagonals / 2 +
+                         bytes.table + (is_fixed ? shape->at_once * each : 0);
+    const uint64_t buffers[] = {bytes.table,
+                                bytes.grids,
+                                bytes.rows,
+                                ps_sphere_value_bytes(shape, real_bytes),
+                                shape->at_once * bytes.powers,
+                                bytes.vectors};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
         shape->largest_buffer =
             buffers[i] > shape->largest_buffer ? buffers[i] : shape->largest_buffer;
@@ -367,10 +368,10 @@ double ps_sphere_nufft_flops(const ps_sphere_shape *shape, ps_precision precisio
     const double sharing = fmax(1, fmin(num_realizations, (double)shape->at_once));
     const double rings = shape->pairs * (double)shape->lanes / lanes *
                          (2 * ps_fft_cycles(shape->rings / 2) + cycles_per_ring * shape->rings);
-    const double cycles = ps_sphere_grid_cycles(&shape->axis, precision, num_points, shape->route) + rings +
-                          vectors * (cycles_of_table * lanes / sharing + cycles_of_product) +
-                          cycles_of_coefficients * (L + 1) * L / 2 / sharing +
-                          cycles_per_order * (L + 1) +
-                          (shape->is_sorted ? cycles_per_sorted * num_points : 0);
+    const double cycles =
+        ps_sphere_grid_cycles(&shape->axis, precision, num_points, shape->route) + rings +
+        vectors * (cycles_of_table * lanes / sharing + cycles_of_product) +
+        cycles_of_coefficients * (L + 1) * L / 2 / sharing + cycles_per_order * (L + 1) +
+        (shape->is_sorted ? cycles_per_sorted * num_points : 0);
     return cycles * lanes * flops_per_lane;
 }

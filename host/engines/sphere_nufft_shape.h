@@ -20,11 +20,11 @@ typedef enum ps_sphere_route {
 
 typedef struct ps_sphere_shape {
     ps_sphere_route route;
-    int32_t max_degree; /* L */
-    ps_nufft_axis axis; /* longitude and angle from the pole: n is even */
-    uint32_t rings;     /* on a whole great circle through the poles, even and above 2 L */
-    uint32_t num_rings; /* in the northern quarter of it */
-    uint32_t num_angles; /* of the grid, in the northern quarter of a great circle; by cells */
+    int32_t max_degree;   /* L */
+    ps_nufft_axis axis;   /* longitude and angle from the pole: n is even */
+    uint32_t rings;       /* on a whole great circle through the poles, even and above 2 L */
+    uint32_t num_rings;   /* in the northern quarter of it */
+    uint32_t num_angles;  /* of the grid, in the northern quarter of a great circle; by cells */
     uint32_t most_runs;   /* of vectors of degrees of an order and parity; by cells */
     uint64_t table_reals; /* of the table, by cells */
 
@@ -100,7 +100,7 @@ typedef struct ps_sphere_bytes {
     uint64_t strip_turns, strip_weights, strips, strip_starts;
     uint64_t values, powers, sums;
     uint64_t states, scales, diagonals;
-    uint64_t table, filters; /* filters while the table is made */
+    uint64_t table;
 } ps_sphere_bytes;
 ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_bytes);
 

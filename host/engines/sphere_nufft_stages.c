@@ -31,8 +31,8 @@ static pspec_status create_kernels(ps_sphere_stages *self, ps_error *error) {
     }
     PS_TRY(ps_kernel_create(self->device, &self->sum, "sphere/orders_sum.cl", "sphere_orders_sum",
                             options, error));
-    return ps_kernel_create(self->device, &self->fold, "sphere/orders_fold.cl", "sphere_orders_fold",
-                            options, error);
+    return ps_kernel_create(self->device, &self->fold, "sphere/orders_fold.cl",
+                            "sphere_orders_fold", options, error);
 }
 
 static pspec_status create_buffers(ps_sphere_stages *self, ps_error *error) {
@@ -49,7 +49,8 @@ static pspec_status create_buffers(ps_sphere_stages *self, ps_error *error) {
                   {&self->strip_weights, bytes.strip_weights, "weights of strips"},
                   {&self->strips, bytes.strips, "strips of points"},
                   {&self->strip_starts, bytes.strip_starts, "starts of strips"},
-                  {&self->values, ps_sphere_value_bytes(shape, ps_real_bytes(self->precision)), "values on rings"},
+                  {&self->values, ps_sphere_value_bytes(shape, ps_real_bytes(self->precision)),
+                   "values on rings"},
                   {&self->states, bytes.states, "states of rings"},
                   {&self->scales, bytes.scales, "scales of rings"},
                   {&self->diagonals, bytes.diagonals, "first degrees of rings"},

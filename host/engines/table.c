@@ -10,9 +10,9 @@
 
 #include <math.h>
 
-const ps_engine *const ps_engines[] = {
-    &ps_torus_nufft,  &ps_torus_direct,    &ps_sphere_grid, &ps_sphere_nufft, &ps_sphere_direct,
-    &ps_pairs_direct, &ps_pairs_histogram, &ps_host_direct,  NULL};
+const ps_engine *const ps_engines[] = {&ps_torus_nufft,     &ps_torus_direct,  &ps_sphere_grid,
+                                       &ps_sphere_nufft,    &ps_sphere_direct, &ps_pairs_direct,
+                                       &ps_pairs_histogram, &ps_host_direct,   NULL};
 
 /* Four right frequencies per work-item give 64 accumulators and 6.4 fused operations per number
  * loaded in torus/product.cl; not yet measured on a GPU. */

@@ -21,12 +21,12 @@ static inline bool is_nothing(__global const real *angle, const uint vectors) {
     return !is_more;
 }
 
-/* Where angles begin that are more than nothing, run by run; [order][even, odd l - m][MOST_RUNS]. LANES is that of
+/* Where angles begin that are more than nothing, run by run; [order][even, odd l - m][most_runs]. LANES is that of
  * the table. Launch: (orders, 2). */
 __kernel void sphere_grid_begins(__global const real *restrict table,
-                                  __global const ulong *restrict offsets,
-                                  __global uint *restrict begins, const uint L,
-                                  const uint num_angles, const uint only_even) {
+                                 __global const ulong *restrict offsets,
+                                 __global uint *restrict begins, const uint most_runs, const uint L,
+                                 const uint num_angles, const uint only_even) {
     const uint m = get_global_id(0), odd = get_global_id(1);
     if (m + odd > L || (only_even != 0 && (m + odd) % 2 != 0)) {
         return;
@@ -40,6 +40,6 @@ __kernel void sphere_grid_begins(__global const real *restrict table,
         while (begin < num_angles && is_nothing(run + begin * (size_t)here * LANES, here)) {
             begin++;
         }
-        begins[(2 * m + odd) * MOST_RUNS + first / whole] = begin;
+        begins[(2 * m + odd) * most_runs + first / whole] = begin;
     }
 }

@@ -5,7 +5,7 @@
  *   values   [order][value_sets][even, odd l - m][vector of angles][re, im][LANES] of grid_values.cl
  *   table    [order][even, odd l - m][run][angle][vector of degrees][LANES] (grid_table.h)
  *   offsets  [order][even, odd l - m]
- *   begins   [order][even, odd l - m][MOST_RUNS]: angles below are nothing in all degrees of the run
+ *   begins   [order][even, odd l - m][most_runs]: angles below are nothing in all degrees of the run
  *   only_even  even degrees only
  *   powers   [group][realization][even, odd degrees][half_pitch], of degrees from the group on; half_pitch has room for
  *            RUN_VECTORS vectors behind degree L / 2. With KEEP coefficients of one realization,
@@ -133,19 +133,18 @@ static inline void sum_runs(const table_rows of_order, __global const uint *begi
 }
 
 __kernel void sphere_grid_sums(__global const real *restrict values, const uint value_sets,
-                               const uint num_realizations,
-                               __global const real *restrict table,
+                               const uint num_realizations, __global const real *restrict table,
                                __global const ulong *restrict offsets,
-                               __global const uint *restrict begins, const uint L,
-                               const uint num_angles, const uint only_even, const uint half_pitch,
-                               __global double *restrict all_powers) {
+                               __global const uint *restrict begins, const uint most_runs,
+                               const uint L, const uint num_angles, const uint only_even,
+                               const uint half_pitch, __global double *restrict all_powers) {
     const uint group = get_global_id(1), groups = get_global_size(1);
     const size_t parity_apart = (size_t)((num_angles + LANES - 1) / LANES) * 2 * LANES;
     const size_t powers_apart = 2 * (size_t)half_pitch;
     for (uint m = group; m <= L; m += groups) {
         for (uint odd = 0; odd < 2 && m + odd <= L; odd++) {
-            const table_rows rows = {table + table_place(offsets, m, odd, 0, num_angles) * LANES,
-                                     0, num_angles, m == group, m == 0 ? 1 : 2};
+            const table_rows rows = {table + table_place(offsets, m, odd, 0, num_angles) * LANES, 0,
+                                     num_angles, m == group, m == 0 ? 1 : 2};
 #if KEEP
             __global double *powers = all_powers + (m * 2 + odd) * powers_apart;
             const size_t ends_apart = half_pitch;
@@ -155,10 +154,9 @@ __kernel void sphere_grid_sums(__global const real *restrict values, const uint 
             const size_t ends_apart = powers_apart;
 #endif
             if (only_even == 0 || (m + odd) % 2 == 0) {
-                sum_runs(rows, begins + (2 * m + odd) * MOST_RUNS, table_vectors(m, odd, L, LANES),
+                sum_runs(rows, begins + (2 * m + odd) * most_runs, table_vectors(m, odd, L, LANES),
                          values + m * order_pitch(value_sets, parity_apart) + odd * parity_apart,
-                         2 * parity_apart, num_realizations, powers,
-                         ends_apart);
+                         2 * parity_apart, num_realizations, powers, ends_apart);
             }
         }
         barrier_everywhere();

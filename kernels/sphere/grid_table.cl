@@ -149,9 +149,9 @@ __kernel void sphere_grid_table(
                                             (first - m) / 2 / TARGET_LANES,
                                             table_vectors(m, odd, L, TARGET_LANES)};
                     if (to.first < to.vectors && (only_even == 0 || (m + odd) % 2 == 0)) {
-                        make_run_of_table(from, to,
-                                          min(vectors, (to.vectors - to.first) *
-                                                           (TARGET_LANES / LANES)));
+                        make_run_of_table(
+                            from, to,
+                            min(vectors, (to.vectors - to.first) * (TARGET_LANES / LANES)));
                     }
                 }
                 barrier_everywhere();

@@ -22,9 +22,4 @@ static inline size_t table_place(__global const ulong *offsets, const uint m, co
     return offsets[2 * m + odd] + (size_t)first * num_angles;
 }
 
-/* Runs that the first order has, for `begins` of all. */
-#ifndef MOST_RUNS
-#define MOST_RUNS 1
-#endif
-
 #endif

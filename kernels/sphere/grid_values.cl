@@ -9,7 +9,7 @@
  *   window, n, width, degree, bins  of nufft/window.h, the same on both axes; n is even
  *   radices, twiddles, position  of nufft/fft.h, of length n / 2
  *   gains      [L + 1][3]: around_gains of orders.cl
- *   begins     [order][even, odd l - m][MOST_RUNS] of grid_begins.cl: values that do not count are left alone
+ *   begins     [order][even, odd l - m][most_runs] of grid_begins.cl: values that do not count are left alone
  *   grids      [slot][n + width][pitch], and LANES numbers in front and behind; angle (i + 1/2) 2 pi / n is cell
  *              pole + i of a row, and windows of points at the pole reach `pole` cells behind it
  *   values     [order][value_sets][even, odd l - m][vector of angles][re, im][LANES] (values.h), realizations from
@@ -64,8 +64,9 @@ static inline void load_ends(both_ends *to, const orders_grid grid, const uint p
     to->south = REVERSED(cells_of(grid, row, n, width, south - first - LANES));
     if (first < pole) {
         const uint opposite = row < n / 2 ? row + n / 2 : row - n / 2;
-        to->north += first_lanes(
-            REVERSED(cells_of(grid, opposite, n, width, (int)(pole - first) - LANES)), pole - first);
+        to->north +=
+            first_lanes(REVERSED(cells_of(grid, opposite, n, width, (int)(pole - first) - LANES)),
+                        pole - first);
         to->south += first_lanes(cells_of(grid, opposite, n, width, south + first), pole - first);
     }
 }
@@ -89,13 +90,12 @@ static inline void load_angles(__global real *data, const orders_grid grid, cons
     }
 }
 
-/* Whether cells of an order count in some degree, of one parity of l - m, at angles below `end`: towards the poles only
- * those of low orders do. */
-static inline bool is_wanted(__global const uint *begins, const uint m, const uint odd,
-                             const uint end) {
+/* Whether cells of an order count in some degree at angles below `end`: towards the poles only those of low orders do.
+ * begins: of its `num` runs. */
+static inline bool is_wanted(__global const uint *begins, const uint num, const uint end) {
     bool is_there = false;
-    for (uint run = 0; run < MOST_RUNS; run++) {
-        is_there = is_there || begins[(2 * m + odd) * MOST_RUNS + run] < end;
+    for (uint run = 0; run < num; run++) {
+        is_there = is_there || begins[run] < end;
     }
     return is_there;
 }
@@ -105,10 +105,11 @@ static inline void write_orders(__global real *to, const size_t order_apart,
                                 __global const real *data, __global const uint *position,
                                 const uint middle, const uint L, __global const real *gains,
                                 const uint first_order, const uint step,
-                                __global const uint *begins, const uint odd, const uint end) {
+                                __global const uint *begins, const uint most_runs, const uint odd,
+                                const uint end) {
     const uint ahead = 4; /* orders; 12 are as good */
     for (uint m = first_order + step * own_item(); m <= L; m += step * num_items()) {
-        if (is_wanted(begins, m, odd, end)) {
+        if (is_wanted(begins + (2 * m + odd) * most_runs, most_runs, end)) {
             will_write(to + (m + ahead * step) * order_apart);
             will_write(to + (m + ahead * step) * order_apart + LANES);
             const complexv x = order_of_columns(data, position, middle, gains, m);
@@ -117,18 +118,18 @@ static inline void write_orders(__global real *to, const size_t order_apart,
     }
 }
 
-__kernel void sphere_grid_values(
-    __global const ulong *restrict points, __global const real *restrict weights,
-    __global const ulong *restrict offsets, const uint first_realization,
-    const uint end_realization, __global const real *restrict window, const uint n,
-    const uint width, const uint degree, const uint bins, __global const uint *restrict radices,
-    __global const real *restrict twiddles, __global const uint *restrict position,
-    __global const real *restrict gains, __global const uint *restrict begins, const uint L,
-    const uint only_even, const uint pitch,
-    const uint pole, const uint num_angles, __global real *restrict grids,
-    __global real *restrict values, const uint first_value, const uint value_sets,
-    __global real *restrict scratch,
-    __local real *windows, __local uint *cells) {
+__kernel void
+sphere_grid_values(__global const ulong *restrict points, __global const real *restrict weights,
+                   __global const ulong *restrict offsets, const uint first_realization,
+                   const uint end_realization, __global const real *restrict window, const uint n,
+                   const uint width, const uint degree, const uint bins,
+                   __global const uint *restrict radices, __global const real *restrict twiddles,
+                   __global const uint *restrict position, __global const real *restrict gains,
+                   __global const uint *restrict begins, const uint most_runs, const uint L,
+                   const uint only_even, const uint pitch, const uint pole, const uint num_angles,
+                   __global real *restrict grids, __global real *restrict values,
+                   const uint first_value, const uint value_sets, __global real *restrict scratch,
+                   __local real *windows, __local uint *cells) {
     const uint slot = get_global_id(1), slots = get_global_size(1);
     const uint groups = (num_angles + LANES - 1) / LANES;
     const uint transforms = only_even != 0 ? 1 : 2;
@@ -139,7 +140,8 @@ __kernel void sphere_grid_values(
     const size_t grid_reals = (size_t)(n + width) * pitch + 2 * LANES;
     __global real *all_cells = grids + slot * grid_reals;
     const orders_grid grid = {all_cells + LANES, pitch, n + width, 0};
-    const size_t parity_apart = (size_t)groups * 2 * LANES, order_apart = order_pitch(value_sets, parity_apart);
+    const size_t parity_apart = (size_t)groups * 2 * LANES,
+                 order_apart = order_pitch(value_sets, parity_apart);
     __global real *data = scratch + slot * (size_t)n * 2 * LANES;
     for (uint r = first_realization + slot; r < end_realization; r += slots) {
         __global real *of_set = values + (first_value + r) * 2 * parity_apart;
@@ -156,11 +158,13 @@ __kernel void sphere_grid_values(
             }
             fft_transform(own, 2 * LANES, n / 2, radices, twiddles);
             if (only_even != 0) {
-                write_orders(to, order_apart, own, position, n / 2, L, gains, 0, 2, begins, 0, end);
+                write_orders(to, order_apart, own, position, n / 2, L, gains, 0, 2, begins,
+                             most_runs, 0, end);
                 write_orders(to + parity_apart, order_apart, own, position, n / 2, L, gains, 1, 2,
-                             begins, 1, end);
+                             begins, most_runs, 1, end);
             } else {
-                write_orders(to, order_apart, own, position, n / 2, L, gains, 0, 1, begins, odd, end);
+                write_orders(to, order_apart, own, position, n / 2, L, gains, 0, 1, begins,
+                             most_runs, odd, end);
             }
             barrier_everywhere();
         }

@@ -106,8 +106,7 @@ order_of_columns(__global const real *data, __global const uint *position, const
     const complexv other = load_complex(data, position[m == 0 ? 0 : middle - m]);
     const complexv sum = {z.re + other.re, z.im - other.im};
     const complexv difference = {z.re - other.re, z.im + other.im};
-    const complexv turned =
-        complex_multiply(difference, gains[3 * m + 1], gains[3 * m + 2]);
+    const complexv turned = complex_multiply(difference, gains[3 * m + 1], gains[3 * m + 2]);
     return (complexv){fma(sum.re, (realv)gains[3 * m], turned.re),
                       fma(sum.im, (realv)gains[3 * m], turned.im)};
 }

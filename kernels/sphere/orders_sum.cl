@@ -84,8 +84,8 @@ __kernel void sphere_orders_sum(
                                                m == group,
                                                m == 0 ? 1 : 2,
                                                coefficients + OF_ALPHA + odd * (RUN_DEGREES / 2)};
-                    __global const real *from = values + m * order_pitch(value_sets, apart / 2) + r * apart +
-                                                odd * 2 * (size_t)ring_pitch + 2 * ring;
+                    __global const real *from = values + m * order_pitch(value_sets, apart / 2) +
+                                                r * apart + odd * 2 * (size_t)ring_pitch + 2 * ring;
                     __global real *to = sums + (r * 2 + odd * 2) * (RUN_VECTORS * 2 * LANES);
 #if KEEP
                     __global double *to_powers =

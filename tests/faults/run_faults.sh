@@ -20,6 +20,8 @@ done
 # All calls after the first that fails, too, for every 5th of them: what tidies up fails as well.
 every_lasting=5
 scratch=$(mktemp -d)
+# Nobody's figures of the device.
+export POINTSPEC_CACHE_DIR=$scratch/no-cache
 trap 'rm -rf "$scratch"' EXIT
 export FAULTS_PROGRAM=$program FAULTS_SCRATCH=$scratch
 # The program's own table of what is outstanding tells leaks; the sanitizer's tracer trips over PoCL.

@@ -5,5 +5,7 @@ same=(-I '^# engine: ' # tells the realizations at a time, on which no result de
     # the time that questions of a scene took, in its table, record and page
     -I '^# seconds: ' -I '^[a-z0-9-]*,[a-z]*,[0-9]*,[0-9]*,[0-9.e-]*$' -I '"seconds": "' -I '^    "folder": "' -I '^<p class="facts">pointspec '
     -I '</td><td class="text">\(cache\|computed\)</td></tr>$'
+    # which figures of the device there are, and why not
+    -I 'built-in: '
     # what a record says it was computed with: less where the program or the figures could not be read
     -I '^    "identity": "')

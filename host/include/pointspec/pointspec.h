@@ -190,7 +190,8 @@ typedef struct pspec_angular_request {
     double
         tolerance; /**< numerical error of the coefficients relative to white noise; default 1e-6 */
     double floor;  /**< smallest power that must be right to 10 %; default 0: none */
-    const char *engine;    /**< "sphere_nufft", "sphere_direct", "host_direct", or NULL: the best */
+    const char *
+        engine; /**< "sphere_grid", "sphere_nufft", "sphere_direct", "host_direct", NULL: the best */
     const char *precision; /**< "single", "double", "extended", or NULL: likewise */
     int no_self_check;     /**< do not recompute a few degrees of the first pattern */
     int want_c2;           /**< for pspec_plan_c2() */
