@@ -96,7 +96,7 @@ pspec_status ps_sphere_grid_make_values(ps_sphere_grid_stages *self, size_t firs
     const double transforms = (double)num * shape->num_angles * 2;
     const ps_range range = group_range(self, slots, transforms * ps_fft_flops(plan->axis.n / 2));
     return PS_LAUNCH(self->device, self->make, &range, error, PS_BUFFER(self->points->turns),
-                     PS_BUFFER(self->points->weights), PS_BUFFER(self->points->offsets), PS_U32(0),
+                     PS_BUFFER(self->points->weights), PS_BUFFER(self->points->offsets),
                      PS_U32(num), PS_BUFFER(plan->coefficients), PS_U32(plan->axis.n),
                      PS_U32(plan->axis.window.width), PS_U32(plan->degree), PS_U32(plan->bins),
                      PS_BUFFER(tables->halves.radices), PS_BUFFER(tables->halves.twiddles),

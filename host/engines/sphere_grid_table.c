@@ -41,19 +41,36 @@ typedef struct waves {
     size_t num_frequencies, num_angles, num_rings;
 } waves;
 
-/* At angles of (2 i + odd) / 2 parts of the circle. */
-static void fill_waves(double *out, size_t pitch, uint32_t length, bool odd, size_t num,
-                       const double *factors, size_t num_frequencies) {
+/* cos and sin of i half cells of a circle of `length`, i < 2 length: [i][cosine, sine] */
+static pspec_status create_turns(double **out, uint32_t length, ps_error *error) {
+    const size_t num = 2 * (size_t)length;
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, 2 * num, sizeof(double), "turns", error));
+    *out = memory;
+    for (size_t i = 0; i < num; i++) {
+        const long double angle = two_pi * (long double)i / (long double)num;
+        (*out)[2 * i] = (double)cosl(angle);
+        (*out)[2 * i + 1] = (double)sinl(angle);
+    }
+    return PSPEC_OK;
+}
+
+/* At angles of 2 i + odd half cells. */
+static pspec_status fill_waves(double *out, size_t pitch, uint32_t length, bool odd, size_t num,
+                               const double *factors, size_t num_frequencies, ps_error *error) {
+    double *turns = NULL;
+    PS_TRY(create_turns(&turns, length, error));
     for (size_t k = 0; k < num_frequencies; k++) {
         for (size_t i = 0; i < num; i++) {
             const size_t place = 2 * i + odd;
-            const long double angle =
-                two_pi * (long double)(k * place % (2 * length)) / (2 * length);
-            const double half = 2 * place == length ? 0.5 : 1;
-            out[k * pitch + i] = (double)cosl(angle) * factors[k] * half;
-            out[(num_frequencies + k) * pitch + i] = (double)sinl(angle) * factors[k] * half;
+            const double *turn = turns + k * place % (2 * (size_t)length) * 2;
+            const double factor = factors[k] * (2 * place == length ? 0.5 : 1);
+            out[k * pitch + i] = turn[0] * factor;
+            out[(num_frequencies + k) * pitch + i] = turn[1] * factor;
         }
     }
+    free(turns);
+    return PSPEC_OK;
 }
 
 static pspec_status create_waves(waves *out, const making *self, ps_error *error) {
@@ -74,11 +91,13 @@ static pspec_status create_waves(waves *out, const making *self, ps_error *error
             1 / ps_nufft_window_transform(&shape->axis.window, (long double)k / shape->axis.n);
         factors[k] = (k == 0 ? 1 : 2) * gain / self->rings.rings;
     }
-    fill_waves(out->angles, out->num_angles, shape->axis.n, true, shape->num_angles, factors, num);
+    PS_TRY(fill_waves(out->angles, out->num_angles, shape->axis.n, true, shape->num_angles, factors,
+                      num, error));
     for (size_t k = 0; k < num; k++) {
         factors[k] = 4;
     }
-    fill_waves(out->rings, out->num_rings, self->rings.rings, false, out->num_rings, factors, num);
+    PS_TRY(fill_waves(out->rings, out->num_rings, self->rings.rings, false, out->num_rings, factors,
+                      num, error));
     for (size_t k = 0; k < 2 * num; k++) {
         out->rings[k * out->num_rings] /= 2; /* the poles are their own mirror images */
     }
@@ -111,8 +130,10 @@ static size_t num_filters(const making *self) {
 static pspec_status create_filters(making *self, ps_error *error) {
     waves of = {0};
     void *memory = NULL;
-    PS_TRY(create_waves(&of, self, error));
-    pspec_status status = ps_allocate(&memory, num_filters(self), sizeof(double), "filters", error);
+    pspec_status status = create_waves(&of, self, error);
+    if (status == PSPEC_OK) {
+        status = ps_allocate(&memory, num_filters(self), sizeof(double), "filters", error);
+    }
     if (status == PSPEC_OK) {
         fill_filters(memory, &of);
         status = ps_reals_upload(self->device, &self->filters, PS_DOUBLE, memory, num_filters(self),

@@ -2,8 +2,7 @@
  * w exp(-i m phi), spread over theta. What a cell counts in c_lm is in a table (docs/sphere_grid.md). Points are spread
  * on a grid of real numbers, longitude across rows, theta along them.
  *
- * Launch: (work-items of one group, slots). LANES is 2 at least. A slot does the realizations first_realization + slot,
- * + slots more, ... before end_realization.
+ * Launch: (work-items of one group, slots). LANES is 2 at least. A slot does the realizations slot, slot + slots, ...
  *
  *   points     [..][2] of orders_turns.cl, weights [..], offsets  realization r at offsets[r] .. offsets[r + 1]
  *   window, n, width, degree, bins  of nufft/window.h, the same on both axes; n is even
@@ -120,16 +119,15 @@ static inline void write_orders(__global real *to, const size_t order_apart,
 
 __kernel void
 sphere_grid_values(__global const ulong *restrict points, __global const real *restrict weights,
-                   __global const ulong *restrict offsets, const uint first_realization,
-                   const uint end_realization, __global const real *restrict window, const uint n,
-                   const uint width, const uint degree, const uint bins,
-                   __global const uint *restrict radices, __global const real *restrict twiddles,
-                   __global const uint *restrict position, __global const real *restrict gains,
-                   __global const uint *restrict begins, const uint most_runs, const uint L,
-                   const uint only_even, const uint pitch, const uint pole, const uint num_angles,
-                   __global real *restrict grids, __global real *restrict values,
-                   const uint first_value, const uint value_sets, __global real *restrict scratch,
-                   __local real *windows, __local uint *cells) {
+                   __global const ulong *restrict offsets, const uint num_realizations,
+                   __global const real *restrict window, const uint n, const uint width,
+                   const uint degree, const uint bins, __global const uint *restrict radices,
+                   __global const real *restrict twiddles, __global const uint *restrict position,
+                   __global const real *restrict gains, __global const uint *restrict begins,
+                   const uint most_runs, const uint L, const uint only_even, const uint pitch,
+                   const uint pole, const uint num_angles, __global real *restrict grids,
+                   __global real *restrict values, const uint first_value, const uint value_sets,
+                   __global real *restrict scratch, __local real *windows, __local uint *cells) {
     const uint slot = get_global_id(1), slots = get_global_size(1);
     const uint groups = (num_angles + LANES - 1) / LANES;
     const uint transforms = only_even != 0 ? 1 : 2;
@@ -143,7 +141,7 @@ sphere_grid_values(__global const ulong *restrict points, __global const real *r
     const size_t parity_apart = (size_t)groups * 2 * LANES,
                  order_apart = order_pitch(value_sets, parity_apart);
     __global real *data = scratch + slot * (size_t)n * 2 * LANES;
-    for (uint r = first_realization + slot; r < end_realization; r += slots) {
+    for (uint r = slot; r < num_realizations; r += slots) {
         __global real *of_set = values + (first_value + r) * 2 * parity_apart;
         clear_cells(all_cells, grid_reals);
         spread_points(grid, chunk, points, weights, offsets[r], offsets[r + 1], axes);
