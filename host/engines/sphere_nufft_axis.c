@@ -128,13 +128,14 @@ static double cell_cycles(const ps_nufft_axis *axis, double lanes) {
     const double cycles_per_value = 10;    /* of a vector of angles, from the transform to memory */
     const double cycles_per_product = 1.4; /* of a vector of degrees and an angle: two */
     const double cycles_per_order = 150;   /* whatever the degrees */
+    const double cycles_per_set = 8000;    /* whatever its size: to the device and back */
     const double share = 0.7;              /* of angles where an order counts */
     const double n = axis->n;
     const double L = axis->max_frequency;
     const double groups = 2 * ceil(n / 4 / lanes);
     const double products = (L + 1) * (L / 2 + lanes) / lanes * n / 4 * share;
     return groups * (ps_fft_cycles(axis->n / 2) + cycles_per_cell * n + cycles_per_value * L) +
-           products * cycles_per_product + cycles_per_order * (L + 1);
+           products * cycles_per_product + cycles_per_order * (L + 1) + cycles_per_set;
 }
 
 double ps_sphere_grid_cycles(const ps_nufft_axis *axis, ps_precision precision, double num_points,
