@@ -161,6 +161,8 @@ runs 2 -l 100000 plain.txt
 says '32768'
 runs 2 -l 32768 --engine sphere_nufft plain.txt
 says 'the largest degree that fits is'
+runs 2 -l 800 --engine sphere_grid plain.txt
+says 'the table of cells would take more than 64 MiB; the largest degree that fits is'
 runs 2 -l 1 --hemisphere plain.txt
 says 'odd degrees vanish'
 runs 2 -k 5 plain.txt

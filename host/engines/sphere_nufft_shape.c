@@ -151,10 +151,16 @@ ps_sphere_local ps_sphere_local_bytes(const ps_sphere_shape *shape, size_t real_
         .begins = shape->block / shape->lanes * sizeof(uint32_t)};
 }
 
-static bool fits(const ps_sphere_shape *shape, const ps_device_limits *limits, size_t real_bytes) {
+static bool spreading_fits(const ps_sphere_shape *shape, const ps_device_limits *limits,
+                           size_t real_bytes) {
     const ps_sphere_local local = ps_sphere_local_bytes(shape, real_bytes);
-    return local.windows + local.cells <= limits->local_bytes &&
-           local.table + local.coefficients + local.begins <= limits->local_bytes;
+    return local.windows + local.cells <= limits->local_bytes;
+}
+
+static bool rings_fit(const ps_sphere_shape *shape, const ps_device_limits *limits,
+                      size_t real_bytes) {
+    const ps_sphere_local local = ps_sphere_local_bytes(shape, real_bytes);
+    return local.table + local.coefficients + local.begins <= limits->local_bytes;
 }
 
 /* ---- memory ------------------------------------------------------------------------------ */
@@ -331,10 +337,15 @@ ps_sphere_shape ps_sphere_shape_make(const ps_problem *problem, const ps_device_
     shape.axis = axis;
     shape.route = route;
     measure(&shape, limits, ps_nufft_points(problem), real_bytes);
-    if (route == PS_SPHERE_BY_CELLS) {
+    bool fits = spreading_fits(&shape, limits, real_bytes);
+    if (route == PS_SPHERE_BY_CELLS) { /* the table is made of rings in double precision */
+        const ps_sphere_shape rings = ps_sphere_rings_shape(shape.max_degree, limits, PS_DOUBLE);
+        fits = fits && rings_fit(&rings, limits, sizeof(double));
         measure_table(&shape, real_bytes);
+    } else {
+        fits = fits && rings_fit(&shape, limits, real_bytes);
     }
-    if (!fits(&shape, limits, real_bytes)) {
+    if (!fits) {
         shape.lanes = 0;
         return shape;
     }
