@@ -7,18 +7,19 @@
 #include "engines/sphere_grid_table.h"
 #include "engines/sphere_nufft_points.h"
 #include "engines/sphere_nufft_tables.h"
+#include "engines/sphere_powers.h"
 
 typedef struct ps_sphere_grid_stages {
     ps_device *device;
     ps_precision precision;
     bool only_even;
-    bool is_alone; /* work-groups of one item: kernels/shared/group.h */
     const ps_sphere_shape *shape;
     const ps_sphere_places *points;
     const ps_sphere_tables *tables;
     ps_sphere_grid_table table;
-    cl_kernel make, sum, fold;
-    ps_buffer grids, scratch, values, powers;
+    cl_kernel make, sum;
+    ps_buffer grids, scratch, values;
+    ps_sphere_powers powers;
 } ps_sphere_grid_stages;
 
 /* shape, points and tables are borrowed. */

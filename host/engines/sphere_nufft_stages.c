@@ -4,35 +4,23 @@
 #include "engines/nufft_fft.h"
 #include "engines/reals.h"
 
-#include <stdio.h>
-#include <string.h>
-
 /* Bits of kernels/sphere/orders.cl. */
 enum { STEP_SPREAD = 1, STEP_AROUND = 2, STEP_RINGS = 4 };
 
+/* Of powers, and of coefficients. */
+static const char sums_file[] = "sphere/orders_sum.cl";
+static const char sums_name[] = "sphere_orders_sum";
+
 /* ---- create ------------------------------------------------------------------------------ */
 
-enum { OPTIONS_BYTES = 80 };
-
-static void write_options(const ps_sphere_stages *self, char *options, size_t room) {
-    snprintf(options, room, "-DPRECISION=%u -DLANES=%u -DRUN_VECTORS=%u -DALONE=%u",
-             self->precision == PS_SINGLE ? 32u : 64u, self->shape->lanes, self->shape->run_vectors,
-             self->is_alone ? 1u : 0u);
-}
-
 static pspec_status create_kernels(ps_sphere_stages *self, ps_error *error) {
-    char options[OPTIONS_BYTES];
-    write_options(self, options, sizeof options);
-    PS_TRY(ps_kernel_create(self->device, &self->orders, "sphere/orders.cl", "sphere_orders",
-                            options, error));
+    PS_TRY(ps_sphere_kernel_create(&self->powers, &self->orders, "sphere/orders.cl",
+                                   "sphere_orders", false, error));
     if (self->shape->is_sorted) {
-        PS_TRY(ps_kernel_create(self->device, &self->bands, "sphere/orders_bands.cl",
-                                "sphere_orders_bands", options, error));
+        PS_TRY(ps_sphere_kernel_create(&self->powers, &self->bands, "sphere/orders_bands.cl",
+                                       "sphere_orders_bands", false, error));
     }
-    PS_TRY(ps_kernel_create(self->device, &self->sum, "sphere/orders_sum.cl", "sphere_orders_sum",
-                            options, error));
-    return ps_kernel_create(self->device, &self->fold, "sphere/orders_fold.cl",
-                            "sphere_orders_fold", options, error);
+    return ps_sphere_kernel_create(&self->powers, &self->sum, sums_file, sums_name, false, error);
 }
 
 static pspec_status create_buffers(ps_sphere_stages *self, ps_error *error) {
@@ -55,8 +43,7 @@ static pspec_status create_buffers(ps_sphere_stages *self, ps_error *error) {
                   {&self->scales, bytes.scales, "scales of rings"},
                   {&self->diagonals, bytes.diagonals, "first degrees of rings"},
                   {&self->diagonal_scales, bytes.diagonals / 2, "scales of first degrees"},
-                  {&self->sums, (shape->at_once + 1) * bytes.sums, "sums over rings"},
-                  {&self->powers, shape->at_once * bytes.powers, "powers of orders"}};
+                  {&self->sums, (shape->at_once + 1) * bytes.sums, "sums over rings"}};
     for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
         PS_TRY(ps_buffer_create(self->device, wanted[i].buffer, wanted[i].bytes, wanted[i].what,
                                 error));
@@ -71,16 +58,16 @@ pspec_status ps_sphere_stages_create(ps_sphere_stages *out, const ps_sphere_shap
     *out = (ps_sphere_stages){.device = device,
                               .precision = precision,
                               .only_even = only_even,
-                              .is_alone = ps_range_is_alone(device),
                               .shape = shape,
                               .points = points,
                               .tables = tables};
+    PS_TRY(ps_sphere_powers_create(&out->powers, shape, precision, device, error));
     PS_TRY(create_kernels(out, error));
     return create_buffers(out, error);
 }
 
 void ps_sphere_stages_free(ps_sphere_stages *stages) {
-    const cl_kernel kernels[] = {stages->orders, stages->bands, stages->sum, stages->fold};
+    const cl_kernel kernels[] = {stages->orders, stages->bands, stages->sum};
     for (size_t i = 0; i < sizeof kernels / sizeof kernels[0]; i++) {
         if (kernels[i] != NULL) {
             clReleaseKernel(kernels[i]);
@@ -90,20 +77,15 @@ void ps_sphere_stages_free(ps_sphere_stages *stages) {
                                   &stages->strip_starts, &stages->grids,           &stages->rows,
                                   &stages->values,       &stages->states,          &stages->scales,
                                   &stages->diagonals,    &stages->diagonal_scales, &stages->sums,
-                                  &stages->powers,       &stages->scratch};
+                                  &stages->scratch};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
         ps_buffer_release(buffers[i]);
     }
+    ps_sphere_powers_free(&stages->powers);
     *stages = (ps_sphere_stages){0};
 }
 
 /* ---- run --------------------------------------------------------------------------------- */
-
-/* Work-groups of one item on CPUs, where lanes are vectors. */
-static ps_range group_range(const ps_sphere_stages *self, size_t groups, double flops) {
-    return self->is_alone ? ps_range_alone(groups, 1, flops, 0)
-                          : ps_range_heavy(self->device, 1, groups, 1, flops, 0);
-}
 
 /* Of those whose points are on the device. */
 typedef struct some_realizations {
@@ -121,8 +103,8 @@ static pspec_status run_steps(ps_sphere_stages *self, some_realizations some, un
     const size_t num = some.end - some.first;
     const size_t slots = num < shape->slots ? num : shape->slots;
     const double transforms = (double)num * shape->pairs * 4.0 * shape->lanes;
-    const ps_range range =
-        group_range(self, slots * shares, transforms * ps_fft_flops(shape->axis.n));
+    const ps_range range = ps_sphere_group_range(&self->powers, slots * shares,
+                                                 transforms * ps_fft_flops(shape->axis.n));
     return PS_LAUNCH(
         self->device, self->orders, &range, error, PS_BUFFER(self->points->turns),
         PS_BUFFER(self->points->weights), PS_BUFFER(self->points->offsets), PS_U32(some.first),
@@ -172,8 +154,8 @@ pspec_status ps_sphere_stages_add_sorted(ps_sphere_stages *stages, bool is_first
     const ps_buffer *heights = points->has_unit_weights ? &points->weights : &points->heights;
     const ps_sphere_local local = ps_sphere_local_bytes(shape, ps_real_bytes(stages->precision));
     const double flops_per_point = 2000;
-    const ps_range range =
-        group_range(stages, shape->bands, flops_per_point * (double)points->num_points);
+    const ps_range range = ps_sphere_group_range(&stages->powers, shape->bands,
+                                                 flops_per_point * (double)points->num_points);
     return PS_LAUNCH(stages->device, stages->bands, &range, error, PS_BUFFER(points->sorted),
                      PS_BUFFER(*heights), PS_BUFFER(points->starts),
                      PS_U32(ps_divide_up(points->num_points, PS_SPHERE_PART_POINTS)),
@@ -192,15 +174,16 @@ pspec_status ps_sphere_stages_finish_sorted(ps_sphere_stages *stages, size_t val
     return run_steps(stages, one, STEP_RINGS, shares, error);
 }
 
-/* To powers, or with the kernel that keeps them to coefficients. */
-static pspec_status sum_rings(ps_sphere_stages *self, cl_kernel kernel, const ps_buffer *to,
-                              size_t num, ps_error *error) {
+/* ps_sphere_launch_sums */
+static pspec_status sum_rings(void *stages, cl_kernel kernel, const ps_buffer *to, size_t num,
+                              ps_error *error) {
+    const ps_sphere_stages *self = stages;
     const ps_sphere_shape *shape = self->shape;
     const ps_sphere_starts *rings = &self->tables->of_rings;
     const ps_sphere_local local = ps_sphere_local_bytes(shape, ps_real_bytes(self->precision));
     const double degrees = shape->max_degree;
     const double flops = 4 * degrees * degrees / 2 * shape->num_rings * (double)num;
-    const ps_range range = group_range(self, PS_SPHERE_GROUPS, flops);
+    const ps_range range = ps_sphere_group_range(&self->powers, PS_SPHERE_GROUPS, flops);
     return PS_LAUNCH(
         self->device, kernel, &range, error, PS_BUFFER(self->values), PS_U32(shape->at_once),
         PS_U32(num), PS_BUFFER(rings->starts), PS_BUFFER(rings->start_scales),
@@ -216,42 +199,12 @@ static pspec_status sum_rings(ps_sphere_stages *self, cl_kernel kernel, const ps
 
 pspec_status ps_sphere_stages_sum(ps_sphere_stages *stages, size_t num, double *powers,
                                   ps_error *error) {
-    const size_t entries = num * 2 * stages->shape->half_pitch;
-    const ps_range range = ps_range_light(stages->device, entries / stages->shape->lanes, 1, 1,
-                                          (double)(PS_SPHERE_GROUPS * entries), 0);
-    PS_TRY(sum_rings(stages, stages->sum, &stages->powers, num, error));
-    PS_TRY(PS_LAUNCH(stages->device, stages->fold, &range, error, PS_BUFFER(stages->powers),
-                     PS_U32(PS_SPHERE_GROUPS), PS_U64(entries), PS_U32(stages->shape->half_pitch)));
-    return ps_buffer_read(stages->device, &stages->powers, 0, powers, entries * sizeof(double),
-                          error);
+    PS_TRY(sum_rings(stages, stages->sum, &stages->powers.sums, num, error));
+    return ps_sphere_powers_read(&stages->powers, num, powers, error);
 }
 
-/* ---- coefficients ------------------------------------------------------------------------ */
-
-static pspec_status keep_with(ps_sphere_stages *self, cl_kernel kernel, size_t num, double *to,
-                              ps_error *error) {
-    ps_buffer kept = {0};
-    PS_TRY(ps_buffer_create(self->device, &kept, num * sizeof(double), "coefficients", error));
-    pspec_status status = sum_rings(self, kernel, &kept, 1, error);
-    if (status == PSPEC_OK) {
-        status = ps_buffer_read(self->device, &kept, 0, to, num * sizeof(double), error);
-    }
-    ps_buffer_release(&kept);
-    return status;
-}
-
-/* Kernel and room only where they are asked for. */
 pspec_status ps_sphere_stages_keep(ps_sphere_stages *stages, double *coefficients,
                                    ps_error *error) {
-    const size_t num = ((size_t)stages->shape->max_degree + 1) * 4 * stages->shape->half_pitch;
-    static const char keep[] = " -DKEEP=1";
-    char options[OPTIONS_BYTES + sizeof keep];
-    cl_kernel kernel = NULL;
-    write_options(stages, options, OPTIONS_BYTES);
-    strcat(options, keep);
-    PS_TRY(ps_kernel_create(stages->device, &kernel, "sphere/orders_sum.cl", "sphere_orders_sum",
-                            options, error));
-    const pspec_status status = keep_with(stages, kernel, num, coefficients, error);
-    clReleaseKernel(kernel);
-    return status;
+    return ps_sphere_keep(&stages->powers, sums_file, sums_name, sum_rings, stages, coefficients,
+                          error);
 }

@@ -6,20 +6,20 @@
 
 #include "engines/sphere_nufft_points.h"
 #include "engines/sphere_nufft_tables.h"
+#include "engines/sphere_powers.h"
 
 typedef struct ps_sphere_stages {
     ps_device *device;
     ps_precision precision;
     bool only_even;
-    bool is_alone; /* work-groups of one item: kernels/shared/group.h */
     const ps_sphere_shape *shape;
     const ps_sphere_places *points;
     const ps_sphere_tables *tables;
-    cl_kernel orders, bands, sum, fold;     /* bands: of sorted points */
+    cl_kernel orders, bands, sum;           /* bands: of sorted points */
     ps_buffer grids, rows, scratch, values; /* of orders.cl */
     ps_buffer strip_turns, strip_weights, strips, strip_starts;
     ps_buffer states, scales, diagonals, diagonal_scales, sums; /* of orders_sum.cl */
-    ps_buffer powers;
+    ps_sphere_powers powers;
 } ps_sphere_stages;
 
 /* shape, points and tables are borrowed. */
