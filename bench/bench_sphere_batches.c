@@ -1,5 +1,5 @@
-/* Time per realization of sphere_grid and sphere_nufft on batches of white sets, in turn: the least of several runs,
- * and what the device's profile has for their kernels. Arguments: N L R TOLERANCE, else those of docs/peers.md.
+/* Time per realization of sphere_grid and sphere_nufft on batches of white sets, in turn: the least of several
+ * runs. Arguments: N L R TOLERANCE, else those of docs/peers.md.
  */
 #include "bench.h"
 
@@ -13,8 +13,8 @@ enum { REPEATS = 7 };
 
 static const double single_suffices = 1e-6;
 
-static double run_both(ps_device *device, size_t num_points, int32_t max_degree, size_t sets,
-                       double tolerance) {
+static void run_both(ps_device *device, size_t num_points, int32_t max_degree, size_t sets,
+                     double tolerance) {
     static const ps_engine *const engines[] = {&ps_sphere_grid, &ps_sphere_nufft};
     enum { NUM = sizeof engines / sizeof engines[0] };
     const ps_precision precision = tolerance >= single_suffices ? PS_SINGLE : PS_DOUBLE;
@@ -39,7 +39,6 @@ static double run_both(ps_device *device, size_t num_points, int32_t max_degree,
         bench_job_destroy(&jobs[i]);
     }
     printf(" %7.2f\n", best[1] / best[0]);
-    return best[0];
 }
 
 int main(int num_words, char **words) {

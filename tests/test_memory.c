@@ -65,6 +65,7 @@ static void buffers_are_announced(void **state) {
         {0, 64, 256, 1000, "sphere_nufft"},
         {0, 64, 256, 1000, "sphere_grid"},
         {0, 256, 4096, 100, "sphere_grid"},
+        {0, 20, 100, 1, "sphere_grid"},
         {0, 256, 4096, 1, "sphere_nufft"},
         {0, 512, 16384, 100, "sphere_nufft"},
         {0, 1000, 1000000, 4, "sphere_nufft"},

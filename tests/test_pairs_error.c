@@ -107,15 +107,25 @@ static double mean_power(const pspec_pattern *pattern, int32_t max_degree, doubl
 }
 
 /* sphere_grid has no room for a table of many degrees. */
-static bool is_possible(const ps_engine *engine, int32_t max_degree) {
-    const int32_t most_degree = 300;
-    return engine != &ps_sphere_grid || max_degree <= most_degree;
+static bool is_possible(const ps_engine *engine, ps_precision precision, double tolerance,
+                        size_t num, int32_t max_degree) {
+    ps_frequencies degrees = test_degrees(max_degree, false);
+    const ps_problem asked = {.frequencies = &degrees,
+                              .num_points = num,
+                              .num_realizations = 1,
+                              .measure = PS_OF_PAIR_SUMS,
+                              .tolerance = tolerance};
+    const ps_problem own = ps_engine_problem(engine, &asked);
+    const char *why_not = NULL;
+    const bool result = engine->applicable(&own, ps_device_get_limits(device), precision, &why_not);
+    ps_frequencies_free(&degrees);
+    return result || engine != &ps_sphere_grid;
 }
 
 static void check(const ps_engine *engine, ps_precision precision, double tolerance,
                   const test_point_shape *shape, size_t num, int32_t max_degree) {
     double squares = 0;
-    if (!is_possible(engine, max_degree)) {
+    if (!is_possible(engine, precision, tolerance, num, max_degree)) {
         return;
     }
     pspec_pattern pattern = test_draw_sphere_pattern(shape, num, 7 + num, &squares);

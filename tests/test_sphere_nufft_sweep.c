@@ -20,8 +20,8 @@ typedef struct sweep {
 } sweep;
 
 static const sweep sweeps[] = {
-    {PS_SINGLE, 5, 100, 1e-6},   {PS_SINGLE, 24, 150, 1e-7},   {PS_SINGLE, 16, 5000, 1e-6},
-    {PS_DOUBLE, 20, 150, 1e-14}, {PS_DOUBLE, 33, 2000, 1e-13},
+    {PS_SINGLE, 5, 100, 1e-6},   {PS_SINGLE, 24, 150, 1e-7},  {PS_SINGLE, 16, 5000, 1e-6},
+    {PS_SINGLE, 250, 300, 1e-6}, {PS_DOUBLE, 20, 150, 1e-14}, {PS_DOUBLE, 33, 2000, 1e-13},
 };
 
 enum { NUM_SWEEPS = sizeof sweeps / sizeof sweeps[0], STEPS_PER_DECADE = 8 };

@@ -24,8 +24,7 @@ static pspec_status create_buffers(ps_sphere_grid_stages *self, ps_error *error)
         const char *what;
     } wanted[] = {{&self->grids, bytes.grids, "grids of the sphere"},
                   {&self->scratch, bytes.scratch, "rows of transforms"},
-                  {&self->values, ps_sphere_value_bytes(shape, ps_real_bytes(self->precision)),
-                   "values on angles"}};
+                  {&self->values, shape->at_once * bytes.values + bytes.gaps, "values on angles"}};
     for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
         PS_TRY(ps_buffer_create(self->device, wanted[i].buffer, wanted[i].bytes, wanted[i].what,
                                 error));
@@ -75,8 +74,8 @@ pspec_status ps_sphere_grid_make_values(ps_sphere_grid_stages *self, size_t firs
     const ps_sphere_local local = ps_sphere_local_bytes(shape, ps_real_bytes(self->precision));
     const size_t slots = num < shape->slots ? num : shape->slots;
     const double transforms = (double)num * shape->num_angles * 2;
-    const ps_range range =
-        ps_sphere_group_range(&self->powers, slots, transforms * ps_fft_flops(plan->axis.n / 2));
+    const ps_range range = ps_sphere_group_range(self->device, self->powers.is_alone, slots,
+                                                 transforms * ps_fft_flops(plan->axis.n / 2));
     return PS_LAUNCH(self->device, self->make, &range, error, PS_BUFFER(self->points->turns),
                      PS_BUFFER(self->points->weights), PS_BUFFER(self->points->offsets),
                      PS_U32(num), PS_BUFFER(plan->coefficients), PS_U32(plan->axis.n),
@@ -96,8 +95,9 @@ static pspec_status sum_cells(void *stages, cl_kernel kernel, const ps_buffer *t
     const ps_sphere_grid_stages *self = stages;
     const ps_sphere_shape *shape = self->shape;
     const ps_sphere_grid_table *table = &self->table;
-    const ps_range range = ps_sphere_group_range(&self->powers, PS_SPHERE_GROUPS,
-                                                 4 * (double)shape->table_reals * (double)num);
+    const ps_range range =
+        ps_sphere_group_range(self->device, self->powers.is_alone, PS_SPHERE_GROUPS,
+                              4 * (double)shape->table_reals * (double)num);
     return PS_LAUNCH(self->device, kernel, &range, error, PS_BUFFER(self->values),
                      PS_U32(shape->at_once), PS_U32(num), PS_BUFFER(table->numbers),
                      PS_BUFFER(table->offsets), PS_BUFFER(table->begins), PS_U32(shape->most_runs),

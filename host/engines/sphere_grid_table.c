@@ -5,6 +5,7 @@
 #include "engines/nufft_window.h"
 #include "engines/reals.h"
 #include "engines/sphere_nufft_tables.h"
+#include "engines/sphere_powers.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -237,9 +238,8 @@ static pspec_status make_numbers(const ps_sphere_grid_table *table, const making
     const ps_sphere_starts *starts = &self->starts;
     const ps_sphere_local local = ps_sphere_local_bytes(rings, sizeof(double));
     const double flops = ps_sphere_grid_table_flops(self->shape);
-    const ps_range range = self->is_alone
-                               ? ps_range_alone(PS_SPHERE_GROUPS, 1, flops, 0)
-                               : ps_range_heavy(self->device, 1, PS_SPHERE_GROUPS, 1, flops, 0);
+    const ps_range range =
+        ps_sphere_group_range(self->device, self->is_alone, PS_SPHERE_GROUPS, flops);
     return PS_LAUNCH(
         self->device, self->make, &range, error, PS_BUFFER(starts->starts),
         PS_BUFFER(starts->start_scales), PS_BUFFER(starts->steps), PS_BUFFER(starts->step_scales),
@@ -298,17 +298,25 @@ static pspec_status make(ps_sphere_grid_table *table, making *self, ps_error *er
     return find_begins(table, self, error);
 }
 
+/* Where Lambda_lm is made: all rings in one block if local memory has room for them, as on CPUs, since numbers of the
+ * table are rounded once for each block. */
+static ps_sphere_shape choose_rings(int32_t max_degree, const ps_device_limits *limits) {
+    const ps_sphere_shape rings = ps_sphere_rings_shape(max_degree, limits, PS_DOUBLE);
+    ps_sphere_shape whole = rings;
+    whole.block = (uint32_t)ps_round_up(rings.num_rings, PS_SPHERE_RING_VECTORS * rings.lanes);
+    return ps_sphere_rings_fit(&whole, limits, sizeof(double)) ? whole : rings;
+}
+
 pspec_status ps_sphere_grid_table_create(ps_sphere_grid_table *out, const ps_sphere_shape *shape,
                                          bool only_even, ps_precision precision, ps_device *device,
                                          ps_error *error) {
-    making self = {
-        .shape = shape,
-        .rings = ps_sphere_rings_shape(shape->max_degree, ps_device_get_limits(device), PS_DOUBLE),
-        .only_even = only_even,
-        .is_alone = ps_range_is_alone(device),
-        .precision = precision,
-        .device = device,
-        .angle_pitch = (uint32_t)ps_round_up(shape->num_angles, PS_SPHERE_TABLE_ANGLES)};
+    making self = {.shape = shape,
+                   .rings = choose_rings(shape->max_degree, ps_device_get_limits(device)),
+                   .only_even = only_even,
+                   .is_alone = ps_range_is_alone(device),
+                   .precision = precision,
+                   .device = device,
+                   .angle_pitch = (uint32_t)ps_round_up(shape->num_angles, PS_SPHERE_TABLE_ANGLES)};
     *out = (ps_sphere_grid_table){0};
     const pspec_status status = make(out, &self, error);
     free_making(&self);

@@ -1,4 +1,4 @@
-/* Which fine grid, window and rings sphere_nufft takes: the cheapest that keep the tolerance. */
+/* Which fine grid, window and rings sphere_nufft and sphere_grid take: the cheapest that keep the tolerance. */
 #include "engines/nufft_fft.h"
 #include "engines/nufft_kernels.h"
 #include "engines/nufft_plan.h"
@@ -93,56 +93,6 @@ static ps_nufft_axis choose_width(const ps_problem *problem, uint32_t n, ps_prec
     try_widths(&best, problem, n, precision, route, first, PS_NUFFT_MAX_WIDTH, least_error);
     try_widths(&best, problem, n, precision, route, PS_NUFFT_MIN_WIDTH, first - 1, least_error);
     return best;
-}
-
-/* Cycles on a core (Zen 5, PoCL 3.1, 2026-11, steps of the kernels left out in turn, N = 1024 L = 128 and N = 4096
- * L = 256; by cells 0.9 to 1.3 times that of batches of L = 64, 128 and 256 at 1e-5 and 1e-12); spreading as in
- * nufft_whole_shape.c, and two arc tangents. */
-static const double cycles_per_cell = 3; /* of a vector: cleared, fetched */
-
-static double spreading_cycles(const ps_nufft_axis *axis, double lanes, double num_points) {
-    const double cycles_per_point = 16;
-    const double cycles_per_row = 2.4;
-    const double cycles_per_polynomial = 0.6;
-    const double width = axis->window.width;
-    const double bins = ps_nufft_bins(axis);
-    return num_points * (cycles_per_point + cycles_per_polynomial * 2 * (width + 2) * bins / lanes +
-                         cycles_per_row * width * ceil(bins / lanes));
-}
-
-/* Transforms around the axis and along theta. */
-static double ring_cycles(const ps_nufft_axis *axis, double lanes) {
-    const double cycles_per_turned = 14; /* of a vector of cells, into tiles of two parities */
-    const double cycles_per_meridian_cell =
-        20; /* fetched from two tiles, taken to the other transform */
-    const double n = axis->n;
-    const double halves = ps_fft_cycles(axis->n / 2);
-    const double groups = ceil((n / 2 + axis->window.width + 1) / lanes);
-    const double pairs = floor(axis->max_frequency / (2 * lanes)) + 1;
-    return groups * (halves + cycles_per_cell * n + pairs * 2 * lanes * cycles_per_turned) +
-           pairs * (2 * halves + cycles_per_meridian_cell * n);
-}
-
-/* Transforms around the axis and products with the table, towards the poles only for low orders. */
-static double cell_cycles(const ps_nufft_axis *axis, double lanes) {
-    const double cycles_per_value = 10;    /* of a vector of angles, from the transform to memory */
-    const double cycles_per_product = 1.4; /* of a vector of degrees and an angle: two */
-    const double cycles_per_order = 150;   /* whatever the degrees */
-    const double cycles_per_set = 8000;    /* whatever its size: to the device and back */
-    const double share = 0.7;              /* of angles where an order counts */
-    const double n = axis->n;
-    const double L = axis->max_frequency;
-    const double groups = 2 * ceil(n / 4 / lanes);
-    const double products = (L + 1) * (L / 2 + lanes) / lanes * n / 4 * share;
-    return groups * (ps_fft_cycles(axis->n / 2) + cycles_per_cell * n + cycles_per_value * L) +
-           products * cycles_per_product + cycles_per_order * (L + 1) + cycles_per_set;
-}
-
-double ps_sphere_grid_cycles(const ps_nufft_axis *axis, ps_precision precision, double num_points,
-                             ps_sphere_route route) {
-    const double lanes = ps_nufft_nominal_lanes(precision);
-    return spreading_cycles(axis, lanes, num_points) +
-           (route == PS_SPHERE_BY_RINGS ? ring_cycles(axis, lanes) : cell_cycles(axis, lanes));
 }
 
 ps_nufft_axis ps_sphere_choose_axis(const ps_problem *problem, ps_precision precision,

@@ -1,4 +1,4 @@
-/* The error formula of sphere_nufft: docs/sphere_nufft.md has the reasons. All errors are in units of the root of
+/* The error formula of sphere_nufft and sphere_grid: docs/sphere_nufft.md has the reasons. All errors are in units of the root of
  * sum w^2; constants were measured, and are held, by tests/test_sphere_nufft_sweep.c. */
 #include "engines/nufft_plan.h"
 #include "engines/sphere_nufft_shape.h"
@@ -16,7 +16,7 @@ static const double in_step = 1;
 static const double peaks = 4;
 
 /* Of rounding, in units of roundoff: of points and coefficients, whatever the grid; of windows; of each pass of
- * the three transforms; of sums in dense cells; of coincident points; of the recurrence of Lambda_lm and of sums over
+ * the transforms, three by rings and one by cells; of sums in dense cells; of coincident points; of the recurrence of Lambda_lm and of sums over
  * rings, for the root of their number. */
 static const double point_roundings = 2;
 static const double window_roundings = 4;

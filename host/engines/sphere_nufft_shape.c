@@ -10,7 +10,7 @@
 
 /* ---- sizes ------------------------------------------------------------------------------- */
 
-/* Rings of a block of the table: 32 KiB for each parity of l - m, what the nearest cache holds. */
+/* Rings of a block of the table: 24 KiB for each parity of l - m, what the nearest cache holds. */
 static const size_t block_bytes = 24 << 10;
 
 static uint32_t choose_block(const ps_sphere_shape *shape, size_t real_bytes) {
@@ -157,8 +157,8 @@ static bool spreading_fits(const ps_sphere_shape *shape, const ps_device_limits 
     return local.windows + local.cells <= limits->local_bytes;
 }
 
-static bool rings_fit(const ps_sphere_shape *shape, const ps_device_limits *limits,
-                      size_t real_bytes) {
+bool ps_sphere_rings_fit(const ps_sphere_shape *shape, const ps_device_limits *limits,
+                         size_t real_bytes) {
     const ps_sphere_local local = ps_sphere_local_bytes(shape, real_bytes);
     return local.table + local.coefficients + local.begins <= limits->local_bytes;
 }
@@ -213,11 +213,6 @@ static void choose_at_once(ps_sphere_shape *shape, const ps_problem *problem, si
                         : 1;
 }
 
-uint64_t ps_sphere_value_bytes(const ps_sphere_shape *shape, size_t real_bytes) {
-    const uint64_t num_orders = (uint64_t)shape->max_degree + 1;
-    return shape->at_once * shape->value_bytes + num_orders * 2 * shape->lanes * real_bytes;
-}
-
 ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_bytes) {
     const uint64_t groups = PS_SPHERE_GROUPS;
     const uint64_t points = ps_round_up(shape->most_points, shape->lanes);
@@ -233,26 +228,27 @@ ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_byt
     const uint64_t rings = shape->route == PS_SPHERE_BY_RINGS ? shape->rings : 0;
     const uint64_t pitch = rings > 0 ? shape->ring_pitch : 0;
     const uint64_t run = (uint64_t)shape->run_vectors * shape->lanes;
-    return (ps_sphere_bytes){.vectors = points * 3 * sizeof(double),
-                             .turns = points * 2 * sizeof(uint64_t),
-                             .weights = points * real_bytes,
-                             .keys = shape->is_sorted ? points * sizeof(uint32_t) : 0,
-                             .starts = shape->is_sorted ? parts * (keys + 1) * sizeof(uint32_t) : 0,
-                             .grids = (has_strips ? work_groups : shape->slots) * shape->grid_bytes,
-                             .rows = shape->slots * shape->row_bytes,
-                             .strip_turns = strip_points * 2 * sizeof(uint64_t),
-                             .strip_weights = strip_points * real_bytes,
-                             .strips = strip_points * sizeof(uint32_t),
-                             .strip_starts = work_groups * (strips + 1) * sizeof(uint32_t),
-                             .scratch = work_groups * 2 * shape->lanes *
-                                        (shape->axis.n + rings / 2) * real_bytes,
-                             .values = shape->value_bytes,
-                             .powers = groups * 2 * shape->half_pitch * sizeof(double),
-                             .sums = pitch > 0 ? groups * 4 * run * real_bytes : 0,
-                             .states = groups * 4 * pitch * sizeof(double),
-                             .scales = groups * 2 * pitch * sizeof(int32_t),
-                             .diagonals = groups * pitch * sizeof(double),
-                             .table = shape->table_reals * real_bytes};
+    return (ps_sphere_bytes){
+        .vectors = points * 3 * sizeof(double),
+        .turns = points * 2 * sizeof(uint64_t),
+        .weights = points * real_bytes,
+        .keys = shape->is_sorted ? points * sizeof(uint32_t) : 0,
+        .starts = shape->is_sorted ? parts * (keys + 1) * sizeof(uint32_t) : 0,
+        .grids = (has_strips ? work_groups : shape->slots) * shape->grid_bytes,
+        .rows = shape->slots * shape->row_bytes,
+        .strip_turns = strip_points * 2 * sizeof(uint64_t),
+        .strip_weights = strip_points * real_bytes,
+        .strips = strip_points * sizeof(uint32_t),
+        .strip_starts = work_groups * (strips + 1) * sizeof(uint32_t),
+        .scratch = work_groups * 2 * shape->lanes * (shape->axis.n + rings / 2) * real_bytes,
+        .values = shape->value_bytes,
+        .gaps = ((uint64_t)shape->max_degree + 1) * 2 * shape->lanes * real_bytes,
+        .powers = groups * 2 * shape->half_pitch * sizeof(double),
+        .sums = pitch > 0 ? groups * 4 * run * real_bytes : 0,
+        .states = groups * 4 * pitch * sizeof(double),
+        .scales = groups * 2 * pitch * sizeof(int32_t),
+        .diagonals = groups * pitch * sizeof(double),
+        .table = shape->table_reals * real_bytes};
 }
 
 /* Of sphere_nufft_tables.c: for a cell of the transforms twiddles, turns and a place; gains; what Lambda_mm begins with. */
@@ -262,11 +258,24 @@ static uint64_t table_bytes(const ps_sphere_shape *shape, size_t real_bytes) {
     const uint64_t orders = (uint64_t)shape->max_degree + 1;
     const uint64_t ring_tables = 3; /* cosines, distances, squares */
     const uint64_t starts = by_rings ? (PS_SPHERE_GROUPS + 1) * (uint64_t)shape->ring_pitch : 0;
-    const uint64_t places = by_rings ? 0 : orders * 2 * (sizeof(uint64_t) + sizeof(uint32_t));
+    const uint64_t places =
+        by_rings ? 0 : orders * 2 * (sizeof(uint64_t) + shape->most_runs * sizeof(uint32_t));
     return cells * (4 * real_bytes + sizeof(uint32_t)) +
            orders * (4 * real_bytes + sizeof(double)) + places +
            starts * (sizeof(double) + sizeof(int32_t)) +
            (by_rings ? ring_tables * shape->ring_pitch * sizeof(double) : 0);
+}
+
+/* What is there while sphere_grid makes its table, and given back before the rest is taken. */
+static uint64_t making_bytes(const ps_sphere_shape *shape) {
+    const uint64_t of_ring =
+        7 * sizeof(double) + 4 * sizeof(int32_t); /* states, diagonals, starts */
+    const uint64_t filters = 4 * shape->num_rings *
+                             ps_round_up(shape->num_angles, PS_SPHERE_TABLE_ANGLES) *
+                             sizeof(double);
+    return shape->route == PS_SPHERE_BY_CELLS
+               ? PS_SPHERE_GROUPS * shape->ring_pitch * of_ring + filters
+               : 0;
 }
 
 static void count_memory(ps_sphere_shape *shape, const ps_problem *problem,
@@ -277,6 +286,8 @@ static void count_memory(ps_sphere_shape *shape, const ps_problem *problem,
     const uint64_t sorted = shape->is_sorted ? bytes.turns + bytes.weights : 0;
     const uint64_t host_each = 2 * shape->half_pitch * sizeof(double);
     const uint64_t each = bytes.values + bytes.powers + bytes.sums + host_each;
+    const uint64_t rest = bytes.grids + bytes.scratch + bytes.gaps + shape->at_once * each;
+    const uint64_t making = making_bytes(shape);
     const bool is_fixed = (double)(each * shape->at_once) <= fixed_budget;
     shape->each_bytes = is_fixed ? 0 : each;
     shape->host_bytes = bytes.weights + (is_fixed ? shape->at_once * host_each : 0);
@@ -285,11 +296,12 @@ static void count_memory(ps_sphere_shape *shape, const ps_problem *problem,
                          bytes.strip_turns + bytes.strip_weights + bytes.strips +
                          bytes.strip_starts + table_bytes(shape, real_bytes) + bytes.sums +
                          bytes.states + bytes.scales + bytes.diagonals + bytes.diagonals / 2 +
-                         bytes.table + (is_fixed ? shape->at_once * each : 0);
+                         bytes.table + bytes.gaps + (making > rest ? making - rest : 0) +
+                         (is_fixed ? shape->at_once * each : 0);
     const uint64_t buffers[] = {bytes.table,
                                 bytes.grids,
                                 bytes.rows,
-                                ps_sphere_value_bytes(shape, real_bytes),
+                                shape->at_once * bytes.values + bytes.gaps,
                                 shape->at_once * bytes.powers,
                                 bytes.vectors};
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
@@ -340,10 +352,12 @@ ps_sphere_shape ps_sphere_shape_make(const ps_problem *problem, const ps_device_
     bool fits = spreading_fits(&shape, limits, real_bytes);
     if (route == PS_SPHERE_BY_CELLS) { /* the table is made of rings in double precision */
         const ps_sphere_shape rings = ps_sphere_rings_shape(shape.max_degree, limits, PS_DOUBLE);
-        fits = fits && rings_fit(&rings, limits, sizeof(double));
+        const bool is_whole =
+            shape.lanes % rings.lanes == 0 && rings.run_vectors * rings.lanes % shape.lanes == 0;
+        fits = fits && is_whole && ps_sphere_rings_fit(&rings, limits, sizeof(double));
         measure_table(&shape, real_bytes);
     } else {
-        fits = fits && rings_fit(&shape, limits, real_bytes);
+        fits = fits && ps_sphere_rings_fit(&shape, limits, real_bytes);
     }
     if (!fits) {
         shape.lanes = 0;
@@ -351,38 +365,4 @@ ps_sphere_shape ps_sphere_shape_make(const ps_problem *problem, const ps_device_
     }
     count_memory(&shape, problem, limits, real_bytes);
     return shape;
-}
-
-/* ---- cost -------------------------------------------------------------------------------- */
-
-/* Cycles as in sphere_nufft_axis.c, by CPU time of the kernels on a machine that others used (Zen 5, PoCL 3.1, 2026-11):
- * 0.7 to 1.2 times what it says, of white sets from N = 256, L = 64 to N = 1e6, L = 1000 and 4096, 2000, alone and in
- * batches, at 1e-3, 1e-5 and 1e-12. */
-double ps_sphere_nufft_flops(const ps_sphere_shape *shape, ps_precision precision,
-                             double num_points, double num_realizations) {
-    const double flops_per_lane = 4;     /* two fused operations in a cycle */
-    const double cycles_of_table = 0.33; /* of a number of Lambda_lm, made in double precision */
-    const double cycles_of_coefficients = 16; /* of a degree and an order */
-    const double cycles_of_product = 1.6;     /* of a vector of it and one realization */
-    const double cycles_per_ring =
-        12; /* of a value on a circle, on its way to rings of both hemispheres */
-    const double cycles_per_order = 250; /* whatever the degrees */
-    const double cycles_per_sorted = 20; /* point */
-    const double share = 0.7;            /* of rings where Lambda_lm is more than zero */
-    const double lanes = ps_nufft_nominal_lanes(precision);
-    if (shape->route == PS_SPHERE_BY_CELLS) {
-        return ps_sphere_grid_cycles(&shape->axis, precision, num_points, shape->route) * lanes *
-               flops_per_lane;
-    }
-    const double L = shape->max_degree;
-    const double vectors = (L + 1) * (L / 2 + lanes) / lanes * shape->num_rings * share;
-    const double sharing = fmax(1, fmin(num_realizations, (double)shape->at_once));
-    const double rings = shape->pairs * (double)shape->lanes / lanes *
-                         (2 * ps_fft_cycles(shape->rings / 2) + cycles_per_ring * shape->rings);
-    const double cycles =
-        ps_sphere_grid_cycles(&shape->axis, precision, num_points, shape->route) + rings +
-        vectors * (cycles_of_table * lanes / sharing + cycles_of_product) +
-        cycles_of_coefficients * (L + 1) * L / 2 / sharing + cycles_per_order * (L + 1) +
-        (shape->is_sorted ? cycles_per_sorted * num_points : 0);
-    return cycles * lanes * flops_per_lane;
 }

@@ -8,7 +8,7 @@
 #include "engines/engine.h"
 #include "engines/nufft_choice.h"
 
-/* Of orders, in kernels/sphere/orders_sum.cl: each adds up those of its own. A number of its own, whatever the
+/* Of orders, in kernels/sphere/orders_sum.cl, grid_sums.cl and grid_table.cl: each adds up those of its own. A number of its own, whatever the
  * device, since sums depend on it; enough that all cores have work to the end. */
 enum { PS_SPHERE_GROUPS = 32 };
 
@@ -64,6 +64,9 @@ ps_sphere_shape ps_sphere_shape_make(const ps_problem *problem, const ps_device_
 /* Only what the kernels need to make Lambda_lm on rings: of the rest nothing is there. */
 ps_sphere_shape ps_sphere_rings_shape(int32_t max_degree, const ps_device_limits *limits,
                                       ps_precision precision);
+/* Whether local memory has room for a block of them. */
+bool ps_sphere_rings_fit(const ps_sphere_shape *shape, const ps_device_limits *limits,
+                         size_t real_bytes);
 
 /* Bytes of the largest table of sphere_grid. */
 enum { PS_SPHERE_MOST_TABLE_BYTES = 64 << 20 };
@@ -79,7 +82,7 @@ static inline bool ps_sphere_has_strips(const ps_sphere_shape *shape) {
 /* For batches of no more than `batch` realizations. */
 void ps_sphere_shape_shrink(ps_sphere_shape *shape, size_t batch);
 
-/* Its parts, of sphere_nufft_axis.c. The grid, the same on both axes; the most exact one when none keeps the tolerance,
+/* Its parts, of sphere_nufft_axis.c and sphere_nufft_cost.c. The grid, the same on both axes; the most exact one when none keeps the tolerance,
  * n == 0: L is too large. */
 ps_nufft_axis ps_sphere_choose_axis(const ps_problem *problem, ps_precision precision,
                                     ps_sphere_route route);
@@ -99,6 +102,7 @@ typedef struct ps_sphere_bytes {
     uint64_t grids, rows, scratch;
     uint64_t strip_turns, strip_weights, strips, strip_starts;
     uint64_t values, powers, sums;
+    uint64_t gaps; /* between the values of orders: kernels/sphere/values.h */
     uint64_t states, scales, diagonals;
     uint64_t table;
 } ps_sphere_bytes;
@@ -115,7 +119,7 @@ double ps_sphere_nufft_error(const ps_nufft_axis *axis, const ps_problem *proble
 double ps_sphere_nufft_flops(const ps_sphere_shape *shape, ps_precision precision,
                              double num_points, double num_realizations);
 
-/* Local memory in bytes: of orders.cl and orders_bands.cl, and of orders_sum.cl. */
+/* Local memory in bytes: of orders.cl, orders_bands.cl and grid_values.cl, and of orders_sum.cl and grid_table.cl. */
 typedef struct ps_sphere_local {
     size_t windows, cells;
     size_t table, coefficients, begins;
@@ -124,9 +128,6 @@ ps_sphere_local ps_sphere_local_bytes(const ps_sphere_shape *shape, size_t real_
 
 /* Points that are sorted together, and parts of a chunk of a large set. Sums depend on them: the same on all devices. */
 enum { PS_SPHERE_PART_POINTS = 1 << 16, PS_SPHERE_PARTS = 16 };
-
-/* Bytes of the values of all orders of at_once realizations (kernels/sphere/values.h). */
-uint64_t ps_sphere_value_bytes(const ps_sphere_shape *shape, size_t real_bytes);
 
 /* Numbers that kernels/sphere/ agrees on, as it names them. */
 enum {

@@ -37,8 +37,7 @@ static pspec_status create_buffers(ps_sphere_stages *self, ps_error *error) {
                   {&self->strip_weights, bytes.strip_weights, "weights of strips"},
                   {&self->strips, bytes.strips, "strips of points"},
                   {&self->strip_starts, bytes.strip_starts, "starts of strips"},
-                  {&self->values, ps_sphere_value_bytes(shape, ps_real_bytes(self->precision)),
-                   "values on rings"},
+                  {&self->values, shape->at_once * bytes.values + bytes.gaps, "values on rings"},
                   {&self->states, bytes.states, "states of rings"},
                   {&self->scales, bytes.scales, "scales of rings"},
                   {&self->diagonals, bytes.diagonals, "first degrees of rings"},
@@ -103,8 +102,9 @@ static pspec_status run_steps(ps_sphere_stages *self, some_realizations some, un
     const size_t num = some.end - some.first;
     const size_t slots = num < shape->slots ? num : shape->slots;
     const double transforms = (double)num * shape->pairs * 4.0 * shape->lanes;
-    const ps_range range = ps_sphere_group_range(&self->powers, slots * shares,
-                                                 transforms * ps_fft_flops(shape->axis.n));
+    const ps_range range =
+        ps_sphere_group_range(self->device, self->powers.is_alone, slots * shares,
+                              transforms * ps_fft_flops(shape->axis.n));
     return PS_LAUNCH(
         self->device, self->orders, &range, error, PS_BUFFER(self->points->turns),
         PS_BUFFER(self->points->weights), PS_BUFFER(self->points->offsets), PS_U32(some.first),
@@ -154,8 +154,9 @@ pspec_status ps_sphere_stages_add_sorted(ps_sphere_stages *stages, bool is_first
     const ps_buffer *heights = points->has_unit_weights ? &points->weights : &points->heights;
     const ps_sphere_local local = ps_sphere_local_bytes(shape, ps_real_bytes(stages->precision));
     const double flops_per_point = 2000;
-    const ps_range range = ps_sphere_group_range(&stages->powers, shape->bands,
-                                                 flops_per_point * (double)points->num_points);
+    const ps_range range =
+        ps_sphere_group_range(stages->device, stages->powers.is_alone, shape->bands,
+                              flops_per_point * (double)points->num_points);
     return PS_LAUNCH(stages->device, stages->bands, &range, error, PS_BUFFER(points->sorted),
                      PS_BUFFER(*heights), PS_BUFFER(points->starts),
                      PS_U32(ps_divide_up(points->num_points, PS_SPHERE_PART_POINTS)),
@@ -183,7 +184,8 @@ static pspec_status sum_rings(void *stages, cl_kernel kernel, const ps_buffer *t
     const ps_sphere_local local = ps_sphere_local_bytes(shape, ps_real_bytes(self->precision));
     const double degrees = shape->max_degree;
     const double flops = 4 * degrees * degrees / 2 * shape->num_rings * (double)num;
-    const ps_range range = ps_sphere_group_range(&self->powers, PS_SPHERE_GROUPS, flops);
+    const ps_range range =
+        ps_sphere_group_range(self->device, self->powers.is_alone, PS_SPHERE_GROUPS, flops);
     return PS_LAUNCH(
         self->device, kernel, &range, error, PS_BUFFER(self->values), PS_U32(shape->at_once),
         PS_U32(num), PS_BUFFER(rings->starts), PS_BUFFER(rings->start_scales),

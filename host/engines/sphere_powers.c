@@ -31,9 +31,10 @@ void ps_sphere_powers_free(ps_sphere_powers *powers) {
     *powers = (ps_sphere_powers){0};
 }
 
-ps_range ps_sphere_group_range(const ps_sphere_powers *self, size_t groups, double flops) {
-    return self->is_alone ? ps_range_alone(groups, 1, flops, 0)
-                          : ps_range_heavy(self->device, 1, groups, 1, flops, 0);
+ps_range ps_sphere_group_range(const ps_device *device, bool is_alone, size_t groups,
+                               double flops) {
+    return is_alone ? ps_range_alone(groups, 1, flops, 0)
+                    : ps_range_heavy(device, 1, groups, 1, flops, 0);
 }
 
 pspec_status ps_sphere_powers_read(const ps_sphere_powers *self, size_t num, double *powers,

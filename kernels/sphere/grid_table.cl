@@ -1,15 +1,16 @@
 /* The table of sphere_grid: what a cell of the grid counts in c_lm (docs/sphere_grid.md). Lambda_lm on rings, as
  * orders_sum.cl makes it, times filters from rings to angles of the grid, which undo the window. In double precision
- * whatever the precision of the table, so that it is as exact as its numbers.
+ * whatever the precision of the table, so that its
+ * numbers are rounded once, or once for each block of rings.
  *
  * Launch: (work-items of one group, groups). A work-group has the orders that are its number modulo the number of groups.
  *
- *   starts ... equatorial, block, states ... diagonal_scales, rows, coefficients, begins  of orders_sum.cl
+ *   starts ... equatorial, block, states ... diagonal_scales, coefficients, begins  of orders_sum.cl, rows its table
  *   filters  [order modulo 2][even, odd l - m][num_rings][angle_pitch], angle_pitch a multiple of ANGLES
  *   offsets  [order][even, odd l - m]: grid_table.h
  *   table    float or double, as TARGET_PRECISION says
  *
- * TARGET_LANES divides RUN_VECTORS LANES: vectors of the table are whole in a run.
+ * LANES divides TARGET_LANES, and that RUN_VECTORS LANES: vectors of the table are whole in a run.
  */
 #include "sphere/orders_work.h"
 #include "sphere/grid_table.h"

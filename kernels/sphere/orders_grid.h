@@ -1,6 +1,6 @@
 /* The grid of a realization on the sphere, and what its transform around the axis leaves. Device only.
  *
- * A row of the grid has the cells of one longitude: angles from the pole from MARGIN cells in front of the north
+ * A row of the grid has the cells of one longitude: angles from the pole from `pole` cells in front of the north
  * pole to as many behind the south pole, where windows of points near the poles still reach. Rows go all around.
  */
 #ifndef PS_SPHERE_ORDERS_GRID_H
