@@ -111,7 +111,8 @@ static inline void write_orders(__global real *to, const size_t order_apart,
         if (is_wanted(begins + (2 * m + odd) * most_runs, most_runs, end)) {
             will_write(to + (m + ahead * step) * order_apart);
             will_write(to + (m + ahead * step) * order_apart + LANES);
-            const complexv x = order_of_columns(data, position, middle, gains, m);
+            complexv x;
+            order_of_columns(&x, data, position, middle, gains, m);
             store_global_complex(to + m * order_apart, 0, x);
         }
     }

@@ -99,16 +99,16 @@ static inline void load_columns(__global real *data, const orders_grid grid,
 /* Order m of LANES columns. The transform Z of half the length n gives that of all rows, X(m) = S / 2 +
  * exp(-2 pi i m / n) D / 2i with S, D = Z(m) +- conj Z(n/2 - m). gains [L + 1][3] have the factors of S and D (re, im),
  * and undo the window. */
-static inline __attribute__((always_inline)) complexv
-order_of_columns(__global const real *data, __global const uint *position, const uint middle,
-                 __global const real *gains, const uint m) {
+static inline __attribute__((always_inline)) void
+order_of_columns(complexv *to, __global const real *data, __global const uint *position,
+                 const uint middle, __global const real *gains, const uint m) {
     const complexv z = load_complex(data, position[m]);
     const complexv other = load_complex(data, position[m == 0 ? 0 : middle - m]);
     const complexv sum = {z.re + other.re, z.im - other.im};
     const complexv difference = {z.re - other.re, z.im + other.im};
     const complexv turned = complex_multiply(difference, gains[3 * m + 1], gains[3 * m + 2]);
-    return (complexv){fma(sum.re, (realv)gains[3 * m], turned.re),
-                      fma(sum.im, (realv)gains[3 * m], turned.im)};
+    to->re = fma(sum.re, (realv)gains[3 * m], turned.re);
+    to->im = fma(sum.im, (realv)gains[3 * m], turned.im);
 }
 
 /* Orders first_order, first_order + 2, ... of LANES columns, turned so that lanes are orders: [column][re, im][LANES].
@@ -120,7 +120,8 @@ turn_orders(__global const real *data, __global const uint *position, const uint
 #pragma unroll
     for (int i = 0; i < LANES; i++) {
         const uint order = first_order + 2 * i;
-        const complexv x = order_of_columns(data, position, middle, gains, min(order, L));
+        complexv x;
+        order_of_columns(&x, data, position, middle, gains, min(order, L));
         re[i] = order <= L ? x.re : (realv)0;
         im[i] = order <= L ? x.im : (realv)0;
     }
