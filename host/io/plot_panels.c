@@ -113,7 +113,8 @@ static void print_key(const ps_panel_plot *plot, FILE *stream) {
     print_margins(plot, plot->num_panels, stream);
     fputs("unset label 1\nunset title\nunset border\nunset tics\nunset xlabel\nunset ylabel\nunset "
           "grid\n"
-          "set key center center Left reverse noenhanced box linecolor '#c0c0c0' samplen 2\n"
+          "set key center center Left reverse noenhanced box linecolor '#c0c0c0' samplen 2 "
+          "maxcols 1 font ',9'\n"
           "set xrange [1:10]\nset yrange [1:10]\nplot ",
           stream);
     for (size_t i = 0; i < plot->num_panels; i++) {
