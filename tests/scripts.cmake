@@ -9,13 +9,16 @@ add_script_test(headers unit ${CMAKE_CURRENT_SOURCE_DIR}/test_headers.sh
   ${PROJECT_SOURCE_DIR} ${CMAKE_C_COMPILER})
 add_script_test(layers unit ${PROJECT_SOURCE_DIR}/scripts/check_layers.sh)
 add_script_test(library_calls unit ${PROJECT_SOURCE_DIR}/scripts/check_library_calls.sh)
+add_script_test(copied_checkout unit ${CMAKE_CURRENT_SOURCE_DIR}/copied_checkout.sh ${PROJECT_SOURCE_DIR})
+add_script_test(gpu_kernel_tests unit ${CMAKE_CURRENT_SOURCE_DIR}/gpu_kernel_tests.sh
+  ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR})
 # The reference of the header is made without a warning; skipped where there is no doxygen.
 add_script_test(reference unit ${PROJECT_SOURCE_DIR}/scripts/reference.sh
   ${PROJECT_BINARY_DIR}/reference)
 set_tests_properties(reference PROPERTIES SKIP_RETURN_CODE 77)
 if(NOT POINTSPEC_SANITIZE)
   add_script_test(symbols unit ${CMAKE_CURRENT_SOURCE_DIR}/test_symbols.sh
-    $<TARGET_FILE:pointspec> $<TARGET_FILE:pointspec_static>)
+    $<TARGET_FILE:pointspec> $<TARGET_FILE:pointspec_static> ${PROJECT_BINARY_DIR}/pointspec_joined.o)
   add_script_test(install install ${CMAKE_CURRENT_SOURCE_DIR}/test_install.sh
     ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR} ${CMAKE_C_COMPILER})
 endif()

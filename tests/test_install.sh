@@ -50,11 +50,16 @@ cmake -S "$source_dir/tests/consume" -B "$scratch/cmake" -DCMAKE_C_COMPILER="$co
     -DCMAKE_PREFIX_PATH="$prefix" -DEXTRA="$list" >/dev/null
 cmake --build "$scratch/cmake" --parallel 2 >"$scratch/log" || { cat "$scratch/log" >&2; exit 1; }
 for kind in shared static; do
-    for source in "${examples[@]}" "${pages[@]}"; do
+    for source in "${examples[@]}" "${pages[@]}" own_names; do
         check_program $kind "$scratch/cmake/$(basename "$source" .c)_$kind"
     done
     echo "installed: CMake, $kind"
 done
+
+# Where no other library has its development files, pointspec still has what programs need to be compiled.
+alone=$(PKG_CONFIG_PATH='' PKG_CONFIG_LIBDIR=$libdir/pkgconfig pkg-config --cflags --libs pointspec)
+[[ $alone == *-lpointspec* && $alone != *-lyaml* ]] ||
+    { echo "pkg-config alone says \"$alone\"" >&2; exit 1; }
 
 export PKG_CONFIG_PATH=$libdir/pkgconfig
 words() { # pkg-config's answer as words, one per line

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# test_symbols.sh SHARED STATIC: what the library's files define. The shared one exports pspec_
-# alone, the archive has pspec_ and ps_, and neither holds data that can change: no global state.
+# test_symbols.sh SHARED STATIC JOINED: what the library's files define. Shared and static one show pspec_
+# alone, their object files have pspec_ and ps_, and none holds data that can change: no global state.
 set -euo pipefail
-shared=$1 static=$2
+shared=$1 static=$2 joined=$3
 bad=0
 complain() { # TITLE LINES
     [[ -z $2 ]] || {
@@ -15,7 +15,12 @@ exported=$(nm -D --defined-only "$shared" | awk '{ print $NF }')
 [[ -n $exported ]] || complain "exports" "nothing at all"
 complain "exported without the prefix pspec_" "$(grep -v '^pspec_' <<<"$exported" || true)"
 
-defined=$(nm -g --defined-only "$static" | awk 'NF == 3 { print $NF }')
+shown=$(nm -g --defined-only "$static" | awk 'NF == 3 { print $NF }')
+complain "global in the static library, but not exported by the shared one, or the other way round" \
+    "$(comm -3 <(sort <<<"$shown") <(sort <<<"$exported"))"
+
+defined=$(nm -g --defined-only "$joined" | awk 'NF == 3 { print $NF }')
+[[ $defined == *ps_fail* ]] || complain "object files" "no name of the library's own"
 complain "global without the prefix pspec_ or ps_" \
     "$(grep -vE '^(pspec|ps)_' <<<"$defined" || true)"
 
