@@ -186,17 +186,41 @@ static void text_takes_any_bytes(void **state) {
     ps_text_free(&text);
 }
 
+static void characters_of_utf8(void **state) {
+    static const struct {
+        const char *text;
+        size_t length;
+    } cases[] = {{"", 0},
+                 {"a", 1},
+                 {"~", 1},
+                 {"\n", 0},
+                 {"\x7f", 0},
+                 {"\xc2\x80", 0}, /* a control character */
+                 {"\xc2\xa0", 2},
+                 {"\xc3", 0},
+                 {"\xc3(", 0},
+                 {"\xc0\x80", 0},
+                 {"\xe0\x80\xaf", 0}, /* not the shortest form */
+                 {"\xe2\x88\x9e", 3},
+                 {"\xed\xa0\x80", 0}, /* a half of a pair */
+                 {"\xef\xbf\xbd", 3},
+                 {"\xef\xbf\xbf", 0},
+                 {"\xf0\x9f\x8e\xb2", 4},
+                 {"\xf4\x90\x80\x80", 0}, /* beyond the last */
+                 {"\xff", 0}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        assert_int_equal(ps_text_character(cases[i].text), cases[i].length);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(counts_that_are_read),
-        cmocka_unit_test(counts_that_are_refused),
-        cmocka_unit_test(limits_of_counts),
-        cmocka_unit_test(numbers_that_are_read),
-        cmocka_unit_test(numbers_that_are_refused),
-        cmocka_unit_test(known_distances),
-        cmocka_unit_test(distance_is_a_metric),
-        cmocka_unit_test(distance_of_long_texts),
-        cmocka_unit_test(text_grows),
+        cmocka_unit_test(characters_of_utf8),      cmocka_unit_test(counts_that_are_read),
+        cmocka_unit_test(counts_that_are_refused), cmocka_unit_test(limits_of_counts),
+        cmocka_unit_test(numbers_that_are_read),   cmocka_unit_test(numbers_that_are_refused),
+        cmocka_unit_test(known_distances),         cmocka_unit_test(distance_is_a_metric),
+        cmocka_unit_test(distance_of_long_texts),  cmocka_unit_test(text_grows),
         cmocka_unit_test(text_takes_any_bytes),
     };
     return cmocka_run_group_tests_name("text", tests, NULL, NULL);

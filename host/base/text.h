@@ -25,6 +25,11 @@ void ps_text_free(ps_text *text);
 /* PSPEC_ERROR_MEMORY when an append ran out of memory. */
 pspec_status ps_text_check(const ps_text *text, ps_error *error) PS_MUST_CHECK;
 
+/* Bytes of the character of UTF-8 that text begins with; 0: it begins with none that texts for people, XML among them, may
+ * have. The end of a text is no character. */
+size_t ps_text_character(const char *text);
+#define PS_TEXT_UNKNOWN "\xef\xbf\xbd" /* U+FFFD, which stands for what is none */
+
 /* "1024", "1e6", "4096.0" -> a whole number in [minimum, maximum]; anything else is
  * PSPEC_ERROR_INVALID_ARGUMENT with a sentence that names the thing, the text and the limits. */
 pspec_status ps_parse_count(const char *text, const char *what, uint64_t minimum, uint64_t maximum,

@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "io/temporary_file.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -207,10 +208,8 @@ pspec_status ps_output_make_seekable(ps_output_file *file, ps_error *error) {
         ftello(file->stream) == 0) { /* standard output may be a file with something in it */
         return PSPEC_OK;
     }
-    FILE *const temporary = tmpfile();
-    if (temporary == NULL) {
-        return fail_write("a temporary file", errno, error);
-    }
+    FILE *temporary = NULL;
+    PS_TRY(ps_temporary_open(&temporary, error));
     file->waiting = file->stream;
     file->stream = temporary;
     return PSPEC_OK;

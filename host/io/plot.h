@@ -37,6 +37,9 @@ typedef struct ps_plot {
     bool on_sphere; /* normalized frequency is l / sqrt(N); anisotropy is not looked at */
 } ps_plot;
 
+/* Looks for the program that draws, as it is looked for to draw: an executable file gnuplot in a folder of PATH. *path is
+ * its path; it is to be freed in either case. PSPEC_ERROR_IO with a sentence: there is none. */
+pspec_status ps_plot_find_gnuplot(ps_text *path, ps_error *error) PS_MUST_CHECK;
 /* Is the ending of path one that can be drawn (.png .svg .pdf)? */
 bool ps_plot_is_supported(const char *path);
 /* Draws into path, which appears when the picture is complete and on the disk. Fails with one

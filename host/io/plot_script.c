@@ -1,5 +1,8 @@
 #include "io/plot_script.h"
 
+#include "base/text.h"
+
+#include <ctype.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -19,18 +22,26 @@ static double tone(double power) {
     return log2(1 + 0.25 * sqrt(fmax(power, 0)));
 }
 
-/* A gnuplot text constant; in single quotes only the quote itself is special. Control characters
- * would end the line. */
+/* A text constant of gnuplot. Only letters, digits, blanks and whole characters beyond ASCII stand as they are: everything
+ * else is an octal number, so that no quote, backslash or backtick is left to be understood. What no text has (control
+ * characters, bytes that are not UTF-8) would spoil lines and XML. */
 void ps_plot_print_text(const char *text, FILE *stream) {
-    putc('\'', stream);
-    for (; *text != '\0'; text++) {
+    putc('"', stream);
+    while (*text != '\0') {
         const unsigned char byte = (unsigned char)*text;
-        if (byte == '\'') {
-            putc('\'', stream);
+        const size_t length = ps_text_character(text);
+        if (length > 1) {
+            fwrite(text, 1, length, stream);
+        } else if (length == 0) {
+            fputs(byte < 0x80 ? " " : PS_TEXT_UNKNOWN, stream);
+        } else if (isalnum(byte) || byte == ' ') {
+            putc(byte, stream);
+        } else {
+            fprintf(stream, "\\%03o", byte);
         }
-        putc(byte >= ' ' && byte != 0x7f ? byte : ' ', stream);
+        text += length > 0 ? length : 1;
     }
-    putc('\'', stream);
+    putc('"', stream);
 }
 
 void ps_plot_print_value(double value, FILE *stream) {

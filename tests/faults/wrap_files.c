@@ -186,12 +186,12 @@ WRAPPER(posix_spawn_file_actions_adddup2, int,
                : __real_posix_spawn_file_actions_adddup2(actions, from, to);
 }
 
-WRAPPER(posix_spawnp, int,
+WRAPPER(posix_spawn, int,
         (pid_t * child, const char *file, const posix_spawn_file_actions_t *actions,
          const posix_spawnattr_t *attributes, char *const *arguments, char *const *environment)) {
-    return fails("posix_spawnp", EAGAIN)
+    return fails("posix_spawn", EAGAIN)
                ? EAGAIN
-               : __real_posix_spawnp(child, file, actions, attributes, arguments, environment);
+               : __real_posix_spawn(child, file, actions, attributes, arguments, environment);
 }
 
 WRAPPER(waitpid, pid_t, (pid_t child, int *state, int options)) {

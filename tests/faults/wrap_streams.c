@@ -56,12 +56,6 @@ WRAPPER(fdopen, FILE *, (int descriptor, const char *mode)) {
     return stream;
 }
 
-WRAPPER(tmpfile64, FILE *, (void)) {
-    FILE *const stream = fails(NULL, "tmpfile", EACCES) ? NULL : __real_tmpfile64();
-    fault_gain(stream, "tmpfile");
-    return stream;
-}
-
 WRAPPER(fclose, int, (FILE * stream)) {
     const bool is_due = fails(NULL, name_of_close(stream), EIO);
     fault_lose(stream);
