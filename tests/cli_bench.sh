@@ -78,7 +78,7 @@ head -c 70000 /dev/zero >"$file"
 broken "too long"
 rm "$file"
 mkdir "$file"
-broken "directory"
+broken "is no file"
 rmdir "$file"
 cp whole "$file"
 plan

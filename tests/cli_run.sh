@@ -201,11 +201,32 @@ if [[ $EUID != 0 ]]; then # root may write anywhere
     grep -q 'the cache of results: ' err || complain "read-only cache: $(<err)"
     chmod u+w cache/results
 fi
+# a folder that others can write: the whole cache, or the results alone; one warning, and the results are there
+for folder in cache cache/results; do
+    rm -rf cache
+    runs 0 small.yaml -o uncached --quiet
+    chmod 777 "$folder"
+    runs 0 small.yaml -o uncached
+    [[ $(cached) == 0 && $(grep -c "$folder can be written by other users" err) == 1 ]] || complain "$folder, mode 777: $(<err)"
+    same_results first uncached
+done
+rm -rf cache && runs 0 small.yaml -o uncached --quiet
+# pipes in place of all entries: nobody waits for a writer
+for entry in cache/results/*.result; do rm "$entry" && mkfifo "$entry"; done
+timeout 60 "$program" run small.yaml -o uncached --quiet >out 2>err || complain "pipes for entries: $(<err)"
+[[ $(cached) == 0 ]] || complain "pipes for entries: $(<out)"
+runs 0 small.yaml -o uncached
+[[ $(cached) == "$questions" ]] || complain "pipes for entries stayed: $(<out)"
+# a cache where nothing can be written: one warning, not one per answer
+rm -rf cache && runs 0 small.yaml -o uncached --quiet
+for entry in cache/results/*.result; do rm "$entry" && mkdir "$entry"; done
+runs 0 small.yaml -o uncached
+[[ $(grep -c 'the cache of results: ' err) == 1 ]] || complain "folders for entries: $(<err)"
 # a full disk: no file may have a byte
 if (trap "" XFSZ; ulimit -f 0; POINTSPEC_CACHE_DIR=$scratch/full-cache exec "$program" run small.yaml -o full 2>&1 >/dev/null) | cat >said; then
     complain "full disk"
 fi
-[[ $(<said) == *"the cache of results: cannot write"* && $(tail -n 1 said) == "pointspec run: cannot write"*full/* ]] || complain "full disk: $(<said)"
+[[ $(grep -c 'the cache of results: cannot write' said) == 1 && $(tail -n 1 said) == "pointspec run: cannot write"*full/* ]] || complain "full disk: $(<said)"
 [[ -z $(ls -A full) ]] || complain "full disk: $(ls -A full)"
 
 # ---- two at once, with one cache ----

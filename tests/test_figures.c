@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static ps_device_limits some_device(void) {
@@ -226,6 +227,19 @@ static void files(void **state) {
     read_note(folder.data, "checksum");
     write_some(path.data, "");
     read_note(folder.data, "empty");
+    assert_int_equal(remove(path.data), 0);
+    alarm(60); /* instead of for ever */
+    assert_int_equal(mkfifo(path.data, 0600), 0);
+    read_note(folder.data, "is no file");
+    assert_ok(ps_figures_write(folder.data, &figures, &limits, error));
+    alarm(0);
+    assert_ok(ps_figures_read(&back, folder.data, &limits, error));
+    assert_same(&figures, &back);
+    assert_int_equal(chmod(folder.data, 0777), 0); /* others could have written it */
+    read_note(folder.data, "can be written by other users");
+    ps_error refused = {0};
+    assert_int_equal(ps_figures_write(folder.data, &figures, &limits, &refused), PSPEC_ERROR_IO);
+    assert_int_equal(chmod(folder.data, 0700), 0);
     assert_int_equal(remove(path.data), 0);
     read_note(folder.data, "was not measured");
     ps_error said = {0};

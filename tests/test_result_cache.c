@@ -8,7 +8,9 @@
 #include <fcntl.h>
 #include <setjmp.h>
 #include <stdarg.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/un.h>
 #include <time.h>
 #include <xxhash.h>
 
@@ -215,6 +217,73 @@ static void what_is_no_file_is_a_miss(void **state) {
     ps_cache_close(cache);
 }
 
+/* Every kind of thing that can have a name, in place of an entry; none is read, waited for or written into. */
+static void put_in_place(const char *path, const char *kind, const char *target) {
+    struct sockaddr_un address = {.sun_family = AF_UNIX};
+    if (strcmp(kind, "pipe") == 0) {
+        assert_int_equal(mkfifo(path, 0600), 0);
+    } else if (strcmp(kind, "link") == 0) {
+        assert_int_equal(symlink(target, path), 0);
+    } else if (strcmp(kind, "socket") == 0) {
+        const int number = socket(AF_UNIX, SOCK_STREAM, 0);
+        assert_true(strlen(path) < sizeof address.sun_path);
+        memcpy(address.sun_path, path, strlen(path) + 1);
+        assert_int_equal(bind(number, (const struct sockaddr *)&address, sizeof address), 0);
+        close(number);
+    }
+}
+
+static void what_is_no_file_is_replaced(void **state) {
+    static const char *const kinds[] = {"pipe", "link", "socket"};
+    const test_folder *const folder = *state;
+    ps_cache *const cache = open_cache(state, ROOMY);
+    char path[CACHE_PATH_BYTES];
+    char other[CACHE_PATH_BYTES];
+    put(cache, 2, SMALL);
+    harness_cache_path(folder->path, 1, path);
+    harness_cache_path(folder->path, 2, other);
+    alarm(60); /* instead of for ever */
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
+        put_in_place(path, kinds[i], other);
+        assert_int_equal(get(cache, 1, SMALL), 0);
+        (void)unlink(path);
+        put_in_place(path, kinds[i], other);
+        put(cache, 1, SMALL); /* that nobody looked for before */
+        assert_int_equal(get(cache, 1, SMALL), 1);
+        assert_int_equal(get(cache, 2, SMALL), 1);
+        assert_int_equal(unlink(path), 0);
+    }
+    alarm(0);
+    ps_cache_close(cache);
+}
+
+static void folders_that_others_can_write_are_refused(void **state) {
+    static const mode_t refused[] = {0777, 0770, 0720, 0702, 01777};
+    static const mode_t taken[] = {0700, 0755, 0750};
+    const test_folder *const folder = *state;
+    ps_cache *cache = NULL;
+    ps_error error = {0};
+    for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
+        assert_int_equal(chmod(folder->path, refused[i]), 0);
+        assert_int_equal(ps_cache_open(&cache, folder->path, ROOMY, &error), PSPEC_ERROR_IO);
+        assert_null(cache);
+        assert_non_null(strstr(error.message, "can be written by other users"));
+        assert_non_null(strstr(error.message, folder->path));
+    }
+    for (size_t i = 0; i < sizeof taken / sizeof taken[0]; i++) {
+        assert_int_equal(chmod(folder->path, taken[i]), 0);
+        ps_cache_close(open_cache(state, ROOMY));
+    }
+}
+
+static void only_the_first_failure_is_told(void **state) {
+    ps_cache *const cache = open_cache(state, ROOMY);
+    assert_true(ps_cache_first_failure(cache));
+    assert_false(ps_cache_first_failure(cache));
+    assert_false(ps_cache_first_failure(cache));
+    ps_cache_close(cache);
+}
+
 /* ---- what goes ---- */
 
 static void the_longest_unused_goes_first(void **state) {
@@ -386,6 +455,9 @@ int main(void) {
         IN_FOLDER(every_length_is_noticed),
         IN_FOLDER(false_heads_are_noticed),
         IN_FOLDER(what_is_no_file_is_a_miss),
+        IN_FOLDER(what_is_no_file_is_replaced),
+        IN_FOLDER(folders_that_others_can_write_are_refused),
+        IN_FOLDER(only_the_first_failure_is_told),
         IN_FOLDER(the_longest_unused_goes_first),
         IN_FOLDER(the_bound_holds_for_entries_of_any_size),
         IN_FOLDER(what_is_larger_than_the_limit_is_not_stored),

@@ -2,6 +2,7 @@
  * its message into one line on standard error. */
 #include "base/text.h"
 #include "cli/command.h"
+#include "io/cache_trust.h"
 #include "io/result_cache.h"
 #include "scene/options.h"
 
@@ -88,6 +89,16 @@ static int finish_output(void) {
 
 /* ---- commands ------------------------------------------------------------------------------ */
 
+/* A folder that others can write is as good as none, for whatever the command would take from it. */
+static void trust_cache(const ps_command *command, ps_request *arguments, const char *folder) {
+    ps_error reason = {0};
+    if (ps_cache_check_folder(folder, &reason) == PSPEC_OK) {
+        arguments->cache_folder = folder;
+    } else if (ps_command_takes(command, PS_OPTION_DEVICE) && !arguments->quiet) {
+        fprintf(stderr, "pointspec: no cache: %s\n", reason.message);
+    }
+}
+
 static pspec_status run_parsed(const ps_command *command, ps_request *arguments, ps_error *error) {
     if (!arguments->is_given[PS_OPTION_DEVICE]) {
         arguments->device = getenv("POINTSPEC_DEVICE");
@@ -95,7 +106,7 @@ static pspec_status run_parsed(const ps_command *command, ps_request *arguments,
     ps_text folder = {0};
     pspec_status status = ps_cache_default_directory(&folder, error);
     if (status == PSPEC_OK) {
-        arguments->cache_folder = ps_text_string(&folder);
+        trust_cache(command, arguments, ps_text_string(&folder));
     }
     if (status != PSPEC_ERROR_MEMORY) { /* there need not be one */
         status = command->run(arguments, error);

@@ -63,6 +63,8 @@ pspec_status ps_run_keep(ps_run *run, const ps_run_question *question, double se
 /* Is the answer in the cache? *out is to be freed in either case; *seconds is what computing it took. */
 pspec_status ps_run_fetch(ps_run *run, const ps_run_question *question, ps_answer *out,
                           double *seconds, bool *is_found, ps_error *error) PS_MUST_CHECK;
+/* What is wrong with the cache keeps nobody from computing: it is told once, and forgotten. */
+void ps_run_warn_of_cache(const ps_run *run, ps_error *reason);
 void ps_run_free(ps_run *run);
 
 pspec_status ps_run_make_tables(const ps_run *run, ps_run_result *result,

@@ -171,9 +171,8 @@ static pspec_status unpack(ps_answer *out, double *seconds, const char *bytes, s
 
 /* ---- to and fro ------------------------------------------------------------------------------ */
 
-/* What is wrong with the cache does not keep anyone from computing. */
-static void warn(const ps_run *run, ps_error *reason) {
-    if (!run->arguments->quiet) {
+void ps_run_warn_of_cache(const ps_run *run, ps_error *reason) {
+    if (ps_cache_first_failure(run->cache) && !run->arguments->quiet) {
         fprintf(stderr, "pointspec: the cache of results: %s\n", reason->message);
     }
     *reason = (ps_error){0};
@@ -193,10 +192,10 @@ pspec_status ps_run_fetch(ps_run *run, const ps_run_question *question, ps_answe
     pspec_status status = make_key(run, question, &key, error);
     if (status == PSPEC_OK && ps_cache_get(run->cache, key.data, key.length, &bytes, &num, is_found,
                                            &reason) != PSPEC_OK) {
-        warn(run, &reason);
+        ps_run_warn_of_cache(run, &reason);
     }
     if (*is_found && unpack(out, seconds, bytes, num, &reason) != PSPEC_OK) {
-        warn(run, &reason);
+        ps_run_warn_of_cache(run, &reason);
         ps_answer_free(out);
         *is_found = false;
     }
@@ -218,7 +217,7 @@ pspec_status ps_run_keep(ps_run *run, const ps_run_question *question, double se
     PS_TRY_OUT(status, pack(&question->answer, seconds, &bytes, error));
     if (ps_cache_put(run->cache, key.data, key.length, bytes.data, bytes.length, &reason) !=
         PSPEC_OK) {
-        warn(run, &reason);
+        ps_run_warn_of_cache(run, &reason);
     }
 out:
     ps_text_free(&key);

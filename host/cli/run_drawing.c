@@ -60,10 +60,11 @@ static pspec_status find_svg(const ps_artist *of, const ps_text *key, ps_text *s
     size_t num = 0;
     ps_error reason = {0};
     *is_found = false;
-    if (of->run->cache != NULL &&
-        ps_cache_get(of->run->cache, key->data, key->length, &bytes, &num, is_found, &reason) ==
-            PSPEC_OK &&
-        *is_found) {
+    if (of->run->cache != NULL && ps_cache_get(of->run->cache, key->data, key->length, &bytes, &num,
+                                               is_found, &reason) != PSPEC_OK) {
+        ps_run_warn_of_cache(of->run, &reason);
+    }
+    if (*is_found) {
         ps_text_append_bytes(svg, bytes, num);
     }
     free(bytes);
@@ -72,11 +73,9 @@ static pspec_status find_svg(const ps_artist *of, const ps_text *key, ps_text *s
 
 static pspec_status keep_svg(const ps_artist *of, const ps_text *key, const ps_text *svg) {
     ps_error reason = {0};
-    if (of->run->cache != NULL &&
-        ps_cache_put(of->run->cache, key->data, key->length, svg->data, svg->length, &reason) !=
-            PSPEC_OK &&
-        !of->run->arguments->quiet) {
-        fprintf(stderr, "pointspec: the cache of results: %s\n", reason.message);
+    if (of->run->cache != NULL && ps_cache_put(of->run->cache, key->data, key->length, svg->data,
+                                               svg->length, &reason) != PSPEC_OK) {
+        ps_run_warn_of_cache(of->run, &reason);
     }
     return PSPEC_OK;
 }

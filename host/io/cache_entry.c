@@ -1,11 +1,10 @@
 #include "io/cache_entry.h"
 
 #include "base/memory.h"
+#include "io/cache_trust.h"
 #include "io/input_file.h"
 #include "io/output_file.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -35,6 +34,7 @@ pspec_status ps_cache_entry_write(const char *path, const void *key, size_t key_
                                   const void *data, size_t data_bytes, ps_error *error) {
     const ps_cache_head head = ps_cache_head_make(key, key_bytes, data, data_bytes);
     ps_output_file *file = NULL;
+    PS_TRY(ps_cache_clear_way(path, error));
     PS_TRY(ps_output_open(&file, path, error));
     const struct {
         const void *bytes;
@@ -53,6 +53,7 @@ pspec_status ps_cache_entry_write(const char *path, const void *key, size_t key_
 typedef struct entry_file {
     const char *path;
     int descriptor;
+    uint64_t num_bytes;
 } entry_file;
 
 /* Fewer bytes than asked for: the file ends there. */
@@ -105,22 +106,18 @@ static pspec_status read_into(const entry_file *file, const ps_cache_head *head,
 static pspec_status read_file(const entry_file *file, const void *key, size_t key_bytes,
                               void **data, size_t *data_bytes, ps_cache_finding *finding,
                               ps_error *error) {
-    struct stat facts;
     ps_cache_head head;
     size_t count = 0;
-    if (fstat(file->descriptor, &facts) != 0) {
-        return ps_input_fail(file->path, error);
-    }
     *finding = PS_CACHE_BROKEN;
-    if (!S_ISREG(facts.st_mode) || facts.st_size < (off_t)sizeof head) {
+    if (file->num_bytes < sizeof head) {
         return PSPEC_OK;
     }
     PS_TRY(read_bytes(file, &head, sizeof head, &count, error));
-    if (count != sizeof head || !is_sound(&head, (uint64_t)facts.st_size)) {
+    if (count != sizeof head || !is_sound(&head, file->num_bytes)) {
         return PSPEC_OK;
     }
     void *room = NULL;
-    PS_TRY(ps_allocate(&room, (size_t)facts.st_size - sizeof head, 1, "a saved result", error));
+    PS_TRY(ps_allocate(&room, (size_t)file->num_bytes - sizeof head, 1, "a saved result", error));
     const pspec_status status = read_into(file, &head, key, key_bytes, room, finding, error);
     if (status != PSPEC_OK || *finding != PS_CACHE_FOUND) {
         free(room);
@@ -135,13 +132,15 @@ static pspec_status read_file(const entry_file *file, const void *key, size_t ke
 
 pspec_status ps_cache_entry_read(const char *path, const void *key, size_t key_bytes, void **data,
                                  size_t *data_bytes, ps_cache_finding *finding, ps_error *error) {
+    entry_file file = {.path = path};
+    ps_cache_file_kind kind = PS_CACHE_FILE_ABSENT;
     *data = NULL;
     *data_bytes = 0;
     *finding = PS_CACHE_ABSENT;
-    /* O_NONBLOCK: a pipe of that name would wait for a writer */
-    const entry_file file = {path, open(path, O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK)};
-    if (file.descriptor < 0) {
-        return errno == ENOENT || errno == ENOTDIR ? PSPEC_OK : ps_input_fail(path, error);
+    PS_TRY(ps_cache_file_open(path, &file.descriptor, &file.num_bytes, &kind, error));
+    if (kind != PS_CACHE_FILE_OWN) {
+        *finding = kind == PS_CACHE_FILE_NONE ? PS_CACHE_BROKEN : PS_CACHE_ABSENT;
+        return PSPEC_OK;
     }
     const pspec_status status = read_file(&file, key, key_bytes, data, data_bytes, finding, error);
     close(file.descriptor);

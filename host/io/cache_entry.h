@@ -38,7 +38,7 @@ pspec_status ps_cache_entry_write(const char *path, const void *key, size_t key_
                                   const void *data, size_t data_bytes,
                                   ps_error *error) PS_MUST_CHECK;
 
-/* With PS_CACHE_FOUND, *data is to be freed by the caller, and the file's time of modification is now, where the file
+/* An entry of another user is PSPEC_ERROR_IO. With PS_CACHE_FOUND, *data is to be freed by the caller, and the file's time of modification is now, where the file
  * system allows it. Nothing is allocated before the sizes in the head were compared with that of the file. */
 pspec_status ps_cache_entry_read(const char *path, const void *key, size_t key_bytes, void **data,
                                  size_t *data_bytes, ps_cache_finding *finding,

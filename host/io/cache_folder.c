@@ -227,9 +227,10 @@ pspec_status ps_cache_folder_shrink(const char *path, uint64_t max_bytes, ps_err
 static int take_lock(const char *path, bool *is_busy) {
     enum { MOST_TRIES = 50 };
     const struct timespec pause = {0, 2000000}; /* all tries: a tenth of a second */
+    const int lock_flags = O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
     ps_text name = {0};
     ps_text_append(&name, "%s/lock", path);
-    const int lock = name.failed ? -1 : open(name.data, O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    const int lock = name.failed ? -1 : open(name.data, lock_flags, 0600);
     ps_text_free(&name);
     *is_busy = false;
     for (int i = 0; lock >= 0 && i < MOST_TRIES; i++) {

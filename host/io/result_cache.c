@@ -3,8 +3,10 @@
 #include "base/memory.h"
 #include "io/cache_entry.h"
 #include "io/cache_folder.h"
+#include "io/cache_trust.h"
 
 #include <inttypes.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -13,6 +15,7 @@
 struct ps_cache {
     char *directory;
     uint64_t max_bytes;
+    atomic_flag has_failed;
 };
 
 /* ---- where ---- */
@@ -49,10 +52,12 @@ pspec_status ps_cache_open(ps_cache **out, const char *directory, uint64_t max_b
                        "the name of the folder of the cache is empty");
     }
     PS_TRY(ps_cache_folder_make(directory, error));
+    PS_TRY(ps_cache_check_folder(directory, error));
     void *memory = NULL;
     PS_TRY(ps_allocate(&memory, 1, sizeof(ps_cache), "cache", error));
     ps_cache *const cache = memory;
     cache->max_bytes = max_bytes;
+    atomic_flag_clear(&cache->has_failed);
     cache->directory = strdup(directory);
     if (cache->directory == NULL) {
         free(cache);
@@ -67,6 +72,10 @@ void ps_cache_close(ps_cache *cache) {
         free(cache->directory);
         free(cache);
     }
+}
+
+bool ps_cache_first_failure(ps_cache *cache) {
+    return !atomic_flag_test_and_set(&cache->has_failed);
 }
 
 /* cache_folder.c knows entries by this form of name. */

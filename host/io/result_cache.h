@@ -6,8 +6,8 @@
  * later. Entries are as old as their last use; the oldest go when all together take more than max_bytes on the disk, counted
  * in blocks of 4096 bytes.
  *
- * A cache is a convenience: whoever gets an error from it can compute the result instead, and say so. Several threads may use
- * one handle, which does not change. It is not made for folders that somebody hostile can write to.
+ * A cache is a convenience: whoever gets an error from it can compute the result instead, and say so once. Several threads
+ * may use one handle. Folders that others can write, and entries of other users, are errors (io/cache_trust.h).
  */
 #ifndef PS_IO_RESULT_CACHE_H
 #define PS_IO_RESULT_CACHE_H
@@ -25,14 +25,16 @@ typedef struct ps_cache ps_cache;
  * set, and so does an XDG_CACHE_HOME that is no absolute path. */
 pspec_status ps_cache_default_directory(ps_text *out, ps_error *error) PS_MUST_CHECK;
 
-/* Makes the folder, and those above it, unless it is there. With max_bytes 0 nothing will be stored. */
+/* Makes the folder, and those above it, unless it is there; one that others can write is refused. With max_bytes 0 nothing will be stored. */
 pspec_status ps_cache_open(ps_cache **out, const char *directory, uint64_t max_bytes,
                            ps_error *error) PS_MUST_CHECK;
+/* True for the first call: what is wrong with a cache, a full disk say, is worth one sentence and not one per entry. */
+bool ps_cache_first_failure(ps_cache *cache);
 /* NULL is allowed. */
 void ps_cache_close(ps_cache *cache);
 
 /* *is_found: *data, never NULL, is to be freed by the caller. Otherwise, and after an error (a file that is there and cannot
- * be read, memory, an interruption), *data is NULL. */
+ * be read or is not ours, memory, an interruption), *data is NULL. */
 pspec_status ps_cache_get(const ps_cache *cache, const void *key, size_t key_bytes, void **data,
                           size_t *data_bytes, bool *is_found, ps_error *error) PS_MUST_CHECK;
 
