@@ -24,6 +24,7 @@ add_program_test(cli_pairs)     # pair sums: closed forms, every route, what is 
 add_program_test(cli_check)     # verdicts against saved spectra, exit codes, what is refused
 add_program_test(cli_bench)      # run time against error, figures per device: rows, files, what is refused
 add_program_test(cli_run)       # scenes: the folder, the cache, records, what is refused
+add_program_test(cli_run_pictures) # pictures of scenes: panels, failures, titles
 add_program_test(cli_stress)    # the stability suite: rows, formats, what is refused
 add_program_test(cli_stress_broken ${PROJECT_SOURCE_DIR}/kernels) # broken kernels fail by name
 add_program_test(cli_tolerance) # --tol and --floor, torus and sphere: kept or refused; threads change no bit

@@ -45,7 +45,8 @@ static const char *const hostile[] = {"'lead",
                                       "\xc3\xa9 \xe2\x88\x9e \xf0\x9f\x8e\xb2 whole",
                                       "\xff\xc3 \xed\xa0\x80 \xef\xbf\xbf broken",
                                       "\"; system \"touch hostile\" #",
-                                      "EOD"};
+                                      "EOD",
+                                      "glossy:n=30, 7=8=9"};
 
 /* One that a parser of XML takes, where there is a parser. */
 static void assert_is_xml(const char *path) {

@@ -265,7 +265,8 @@ static void draws_panels(void **state) {
     static const char *const names[] = {"panels.svg", "panels.png", "panels.pdf"};
     ps_error said = {0};
     char path[TEST_PATH_BYTES];
-    ps_panel_plot plot = {"it's \"a_b\"", "x", "y", 5, panels};
+    ps_panel_plot plot = {
+        .title = "it's \"a_b\"", .x_label = "x", .y_label = "y", .num_panels = 5, .panels = panels};
     for (size_t i = 0; i < sizeof names / sizeof names[0] && has_gnuplot(); i++) {
         plot.num_panels = i == 0 ? 1 : 5;
         if (ps_panel_plot_write(test_path(*state, names[i], path), &plot, &said) != PSPEC_OK) {

@@ -3,6 +3,7 @@
 #include "cli/command.h"
 #include "cli/run.h"
 #include "io/output_file.h"
+#include "io/plot.h"
 #include "pointspec_version.h"
 
 #include <dirent.h>
@@ -157,25 +158,39 @@ static pspec_status write_text(const ps_run *run, const char *name, make_text *m
     return status;
 }
 
-static pspec_status write_result(const ps_run *run, ps_run_result *result, ps_error *error) {
+static pspec_status write_picture(const ps_run *run, const char *name, const ps_run_plot *plot,
+                                  ps_error *error) {
+    char ending[PS_SUFFIX_BYTES + sizeof ".svg"];
+    snprintf(ending, sizeof ending, "%s.svg", plot->what->suffix);
+    return write_file(run, name, ending, plot->svg, strlen(plot->svg), error);
+}
+
+static pspec_status write_tables(const ps_run *run, ps_run_result *result, ps_error *error) {
     const char *const name = result->asked->name;
     PS_TRY(ps_run_make_tables(run, result, error));
     PS_TRY(write_table(run, result->table, name, ".csv", error));
-    PS_TRY(write_table(run, result->summary, name, ".summary.csv", error));
+    return write_table(run, result->summary, name, ".summary.csv", error);
+}
+
+static pspec_status write_pictures(ps_run *run, ps_run_result *result, ps_error *error) {
     PS_TRY(ps_run_make_plots(run, result, error));
     for (size_t p = 0; p < result->num_plots; p++) {
-        const ps_run_plot *const plot = &result->plots[p];
-        PS_TRY(write_file(run, plot->name, ".svg", plot->svg, strlen(plot->svg), error));
+        if (result->plots[p].svg != NULL) {
+            PS_TRY(write_picture(run, result->asked->name, &result->plots[p], error));
+        }
     }
     return PSPEC_OK;
 }
 
-/* The record comes first: with it the folder is one of a run, whatever happens next. */
+/* The record comes first: with it the folder is one of a run, whatever happens next. Numbers come before pictures. */
 static pspec_status write_all(ps_run *run, ps_error *error) {
     PS_TRY(make_folder(run->folder, error));
     PS_TRY(write_text(run, "record.json", ps_run_record, error));
     for (size_t i = 0; i < run->num_results; i++) {
-        PS_TRY(write_result(run, &run->results[i], error));
+        PS_TRY(write_tables(run, &run->results[i], error));
+    }
+    for (size_t i = 0; i < run->num_results; i++) {
+        PS_TRY(write_pictures(run, &run->results[i], error));
     }
     return write_text(run, "index.html", ps_run_page, error);
 }
@@ -214,6 +229,30 @@ out:
     return status;
 }
 
+/* Before the work, while there is time to install it. */
+static void warn_of_gnuplot(const ps_run *run) {
+    ps_text path = {0};
+    ps_error reason = {0};
+    size_t num = 0;
+    for (size_t i = 0; i < run->num_results; i++) {
+        num += run->results[i].pictures.num;
+    }
+    if (num > 0 && !run->arguments->quiet && ps_plot_find_gnuplot(&path, &reason) != PSPEC_OK) {
+        fprintf(stderr, "pointspec: %s; pictures are left out where the cache has none\n",
+                reason.message);
+    }
+    ps_text_free(&path);
+}
+
+/* Also with --quiet: files are missing that were asked for. */
+static void warn_of_pictures(const ps_run *run) {
+    if (run->num_undrawn > 0) {
+        fprintf(stderr, "pointspec: %zu picture%s of \"%s\" %s not drawn: %s\n", run->num_undrawn,
+                run->num_undrawn == 1 ? "" : "s", run->folder,
+                run->num_undrawn == 1 ? "was" : "were", run->undrawn.message);
+    }
+}
+
 /* Of results of the kind check. */
 static pspec_status judge(const ps_run *run, ps_error *error) {
     size_t num = 0;
@@ -246,8 +285,10 @@ static pspec_status run_scene(ps_run *run, ps_error *error) {
     PS_TRY(ps_run_ask(run, error));
     PS_TRY(check_folder(run->folder, error));
     PS_TRY(ps_run_open_cache(run, error));
+    warn_of_gnuplot(run);
     PS_TRY(ps_run_answer(run, error));
     PS_TRY(write_all(run, error));
+    warn_of_pictures(run);
     PS_TRY(print_results(run, error));
     PS_TRY(ps_run_compare(run, error));
     return judge(run, error);

@@ -3,7 +3,8 @@
  *     run_answers.c   every question from the cache or computed
  *     run_cache.c     keys and bytes of answers in the cache
  *     run_tables.c    tables of the results, and summaries
- *     run_plots.c     their pictures
+ *     run_pictures.c  which pictures there are
+ *     run_plots.c     those pictures, drawn
  *     run_page.c      the page that shows them
  *     run_record.c    the record that repeats them
  */
@@ -11,6 +12,7 @@
 #define PS_CLI_RUN_H
 
 #include "cli/answer.h"
+#include "cli/run_pictures.h"
 #include "io/digest.h"
 #include "io/result_cache.h"
 #include "scene/scene.h"
@@ -24,8 +26,9 @@ typedef struct ps_run_question {
 } ps_run_question;
 
 typedef struct ps_run_plot {
-    char *name; /* of the file, without .svg */
-    char *svg;
+    const ps_picture *what;
+    char *svg;    /* NULL: it could not be drawn */
+    char *reason; /* why not; else NULL */
 } ps_run_plot;
 
 typedef struct ps_run_result {
@@ -33,6 +36,7 @@ typedef struct ps_run_result {
     size_t num;
     ps_run_question *questions;
     ps_table *table, *summary; /* the summary has a row for each question */
+    ps_pictures pictures;      /* that may come of it */
     size_t num_plots, plot_capacity;
     ps_run_plot *plots;
 } ps_run_result;
@@ -46,6 +50,8 @@ typedef struct ps_run {
     ps_device *device;  /* NULL: not opened yet */
     size_t num_results, num_questions, num_cached;
     double seconds; /* of this run */
+    size_t num_undrawn;
+    ps_error undrawn; /* why the first picture that was not drawn was not */
     ps_run_result *results;
 } ps_run;
 
@@ -69,8 +75,8 @@ void ps_run_free(ps_run *run);
 
 pspec_status ps_run_make_tables(const ps_run *run, ps_run_result *result,
                                 ps_error *error) PS_MUST_CHECK;
-pspec_status ps_run_make_plots(const ps_run *run, ps_run_result *result,
-                               ps_error *error) PS_MUST_CHECK;
+/* A picture that fails is counted and said, and is no error. */
+pspec_status ps_run_make_plots(ps_run *run, ps_run_result *result, ps_error *error) PS_MUST_CHECK;
 /* Whole texts: HTML and JSON. */
 pspec_status ps_run_page(const ps_run *run, ps_text *out, ps_error *error) PS_MUST_CHECK;
 pspec_status ps_run_record(const ps_run *run, ps_text *out, ps_error *error) PS_MUST_CHECK;
@@ -79,8 +85,6 @@ pspec_status ps_run_compare(const ps_run *run, ps_error *error) PS_MUST_CHECK;
 
 /* What tells a question from the others of its result, "jittered, 1024"; the kind where nothing does. */
 void ps_run_label(const ps_run_result *result, size_t number, ps_text *out);
-/* Has this entry several values? */
-bool ps_run_varies(const ps_scene_entry *entry);
 /* A number, or nan. */
 double ps_cell_number(ps_cell cell);
 /* The first header entry of that key; kind missing: there is none. */

@@ -54,6 +54,7 @@ pspec_status ps_run_ask(ps_run *run, ps_error *error) {
     for (size_t i = 0; i < run->num_results; i++) {
         ps_run_result *const result = &run->results[i];
         result->asked = &run->scene->results[i];
+        PS_TRY(ps_pictures_list(&result->pictures, result->asked, error));
         const size_t num = ps_scene_num_questions(result->asked);
         PS_TRY(ps_allocate(&memory, num, sizeof *result->questions, "questions", error));
         result->questions = memory;
@@ -150,11 +151,12 @@ static void free_result(ps_run_result *result) {
         ps_answer_free(&result->questions[q].answer);
     }
     for (size_t p = 0; p < result->num_plots; p++) {
-        free(result->plots[p].name);
         free(result->plots[p].svg);
+        free(result->plots[p].reason);
     }
     free(result->questions);
     free(result->plots);
+    ps_pictures_free(&result->pictures);
     ps_table_destroy(result->table);
     ps_table_destroy(result->summary);
 }

@@ -17,36 +17,13 @@ void ps_read_column(const ps_table *table, const char *name, double *out) {
     }
 }
 
-/* ---- what is drawn together -------------------------------------------------------------- */
-
-ps_plot_group ps_plot_group_at(const ps_run_result *result, size_t index) {
-    const ps_scene_result *const asked = result->asked;
-    size_t num = result->num;
-    for (size_t i = 0; i < asked->num_entries; i++) {
-        const ps_scene_entry *const entry = &asked->entries[i];
-        if (ps_run_varies(entry)) {
-            if (result->num <= PS_MOST_CURVES) {
-                break;
-            }
-            num /= entry->num_values;
-            return (ps_plot_group){index * num, num, &entry->values[index]};
-        }
-    }
-    return (ps_plot_group){0, result->num, NULL};
-}
-
-size_t ps_num_plot_groups(const ps_run_result *result) {
-    const ps_plot_group first = ps_plot_group_at(result, 0);
-    return first.num > 0 ? result->num / first.num : 0;
-}
-
 /* ---- a new picture ----------------------------------------------------------------------- */
 
-void ps_plot_title(const ps_artist *of, const ps_plot_group *part, const char *what, ps_text *out) {
+void ps_plot_title(const ps_artist *of, const ps_picture *picture, const char *what, ps_text *out) {
     const ps_scene_result *const asked = of->result->asked;
     ps_text_append(out, "%s", asked->title != NULL ? asked->title : asked->name);
-    if (part->value != NULL) {
-        ps_text_append(out, ", %s", part->value->originals[0]);
+    if (picture->value != NULL) {
+        ps_text_append(out, ", %s", picture->value->originals[0]);
     }
     if (what[0] != '\0') {
         ps_text_append(out, ": %s", what);
@@ -80,20 +57,22 @@ static pspec_status keep_svg(const ps_artist *of, const ps_text *key, const ps_t
     return PSPEC_OK;
 }
 
-static pspec_status add_plot(const ps_artist *of, const char *suffix, ps_text *svg) {
+pspec_status ps_run_add_plot(const ps_artist *of, const ps_picture *picture, ps_text *svg,
+                             ps_text *reason) {
     ps_run_result *const result = of->result;
     void *plots = result->plots;
     PS_TRY(ps_grow(&plots, &result->plot_capacity, result->num_plots + 1, sizeof *result->plots,
                    "pictures", of->error));
     result->plots = plots;
-    ps_text name = {0};
-    ps_text_append(&name, "%s%s", result->asked->name, suffix);
-    if (ps_text_check(&name, of->error) != PSPEC_OK) {
-        ps_text_free(&name);
-        return of->error->status;
+    ps_run_plot *const plot = &result->plots[result->num_plots++];
+    *plot = (ps_run_plot){.what = picture};
+    if (svg != NULL) {
+        plot->svg = svg->data;
+        *svg = (ps_text){0};
+    } else {
+        plot->reason = reason->data;
+        *reason = (ps_text){0};
     }
-    result->plots[result->num_plots++] = (ps_run_plot){name.data, svg->data};
-    *svg = (ps_text){0};
     return PSPEC_OK;
 }
 
@@ -126,25 +105,51 @@ static void add_spectra_key(ps_text *key, const ps_plot *plot) {
     }
 }
 
-pspec_status ps_draw(const ps_artist *of, const ps_drawing *what, const char *suffix) {
+static void add_panel_key(ps_text *key, const ps_panel_plot *plot) {
+    ps_text_append(key, "%s\n%s\n%s\n%d %d %d\n", plot->title, plot->x_label, plot->y_label,
+                   plot->has_lines, plot->is_linear_x, plot->is_linear_y);
+    for (size_t i = 0; i < plot->num_panels; i++) {
+        const ps_plot_panel *const panel = &plot->panels[i];
+        ps_text_append(key, "%s %zu\n", panel->title, panel->num_series);
+        for (size_t k = 0; k < panel->num_series; k++) {
+            const ps_plot_series *const one = &panel->series[k];
+            ps_text_append(key, "%s %zu %d %zu\n", one->label, one->kind, one->is_front, one->num);
+            ps_text_append_bytes(key, (const char *)one->x, one->num * sizeof(double));
+            ps_text_append_bytes(key, (const char *)one->y, one->num * sizeof(double));
+        }
+    }
+}
+
+static void add_key(ps_text *key, const ps_drawing *what) {
+    if (what->lines != NULL) {
+        add_line_key(key, what->lines);
+    } else if (what->panels != NULL) {
+        add_panel_key(key, what->panels);
+    } else {
+        add_spectra_key(key, what->spectra);
+    }
+}
+
+static pspec_status draw_new(const ps_drawing *what, ps_text *svg, ps_error *error) {
+    return what->lines != NULL    ? ps_line_plot_draw_svg(svg, what->lines, error)
+           : what->panels != NULL ? ps_panel_plot_draw_svg(svg, what->panels, error)
+                                  : ps_plot_draw_svg(svg, what->spectra, error);
+}
+
+pspec_status ps_draw(const ps_artist *of, const ps_drawing *what, const ps_picture *picture) {
     ps_text key = {0};
     ps_text svg = {0};
     bool is_found = false;
     pspec_status status = PSPEC_OK;
     ps_text_append(&key, "plot\n%s", ps_text_string(&of->run->identity));
-    if (what->lines != NULL) {
-        add_line_key(&key, what->lines);
-    } else {
-        add_spectra_key(&key, what->spectra);
-    }
+    add_key(&key, what);
     PS_TRY_OUT(status, ps_text_check(&key, of->error));
     PS_TRY_OUT(status, find_svg(of, &key, &svg, &is_found));
     if (!is_found) {
-        PS_TRY_OUT(status, what->lines != NULL ? ps_line_plot_draw_svg(&svg, what->lines, of->error)
-                                               : ps_plot_draw_svg(&svg, what->spectra, of->error));
+        PS_TRY_OUT(status, draw_new(what, &svg, of->error));
         PS_TRY_OUT(status, keep_svg(of, &key, &svg));
     }
-    status = add_plot(of, suffix, &svg);
+    status = ps_run_add_plot(of, picture, &svg, NULL);
 out:
     ps_text_free(&key);
     ps_text_free(&svg);

@@ -24,8 +24,10 @@ static const char style[] =
 
 /* ---- texts ------------------------------------------------------------------------------- */
 
+/* Bytes that are no character would end what a parser takes. */
 static void print_text(const char *text, ps_text *out) {
-    for (; *text != '\0'; text++) {
+    while (*text != '\0') {
+        const size_t length = ps_text_character(text);
         switch (*text) {
         case '<':
             ps_text_append(out, "&lt;");
@@ -39,9 +41,18 @@ static void print_text(const char *text, ps_text *out) {
         case '"':
             ps_text_append(out, "&quot;");
             break;
-        default:
+        case '\n':
+        case '\t':
             ps_text_append_bytes(out, text, 1);
+            break;
+        default:
+            if (length > 0) {
+                ps_text_append_bytes(out, text, length);
+            } else {
+                ps_text_append(out, "%s", PS_TEXT_UNKNOWN);
+            }
         }
+        text += length > 0 ? length : 1;
     }
 }
 
@@ -81,17 +92,42 @@ static void print_seconds(double seconds, ps_text *out) {
 
 /* ---- a result ---------------------------------------------------------------------------- */
 
+/* An XML declaration and a document type belong at the beginning of a file only. */
+static void print_plot(const ps_run_plot *plot, ps_text *out) {
+    const char *const svg = plot->svg != NULL ? strstr(plot->svg, "<svg") : NULL;
+    ps_text_append(out, "%s\n", svg != NULL ? svg : "");
+}
+
+/* What is to be known of pictures: why they have panels, or why they are not there. */
+static void print_remarks(const ps_run_result *result, ps_text *out) {
+    for (size_t p = 0; p < result->num_plots; p++) {
+        const ps_run_plot *const plot = &result->plots[p];
+        if (plot->svg != NULL && plot->what->num_panels == 1) {
+            continue;
+        }
+        ps_text_append(out, "<p class=\"facts\">%s%s.svg: ", result->asked->name,
+                       plot->what->suffix);
+        if (plot->svg == NULL) {
+            ps_text_append(out, "<span class=\"bad\">not drawn</span>: ");
+            print_text(plot->reason, out);
+        } else {
+            ps_picture_say_panels(plot->what, result->asked, out);
+        }
+        ps_text_append(out, "</p>\n");
+    }
+}
+
 static void print_plots(const ps_run_result *result, ps_text *out) {
     if (result->num_plots == 0) {
         return;
     }
-    ps_text_append(out, "<div class=\"plots%s\">\n", result->num_plots == 1 ? " one" : "");
+    const bool is_wide = result->num_plots == 1 || result->plots[0].what->num_panels > 1;
+    ps_text_append(out, "<div class=\"plots%s\">\n", is_wide ? " one" : "");
     for (size_t p = 0; p < result->num_plots; p++) {
-        /* an XML declaration and a document type belong at the beginning of a file only */
-        const char *const svg = strstr(result->plots[p].svg, "<svg");
-        ps_text_append(out, "%s\n", svg != NULL ? svg : "");
+        print_plot(&result->plots[p], out);
     }
     ps_text_append(out, "</div>\n");
+    print_remarks(result, out);
 }
 
 static void print_row(const ps_run_result *result, size_t number, ps_text *out) {

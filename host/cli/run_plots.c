@@ -1,8 +1,10 @@
-/* Pictures of the results of a scene, made from their tables: spectra here, lines in run_lines.c. */
+/* Pictures of the results of a scene, made from their tables by the list of run_pictures.c: spectra here, lines in run_lines.c. */
 #include "base/memory.h"
+#include "cli/command.h"
 #include "cli/run_drawing.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 /* ---- spectra ----------------------------------------------------------------------------- */
@@ -32,26 +34,26 @@ static double noise_level(const ps_artist *of, size_t number) {
     return ps_cell_number(ps_run_meta(table, "noise_level_db"));
 }
 
-/* Curves of a group; with an array, the picture of one spectrum. */
-static pspec_status draw_spectra(const ps_artist *of, const ps_plot_group *part,
-                                 const ps_plot_image *image, const char *suffix) {
+/* Curves of a picture; with an array, the picture of one spectrum. */
+static pspec_status draw_spectra(const ps_artist *of, const ps_picture *what,
+                                 const ps_plot_image *image) {
     ps_plot_curve curves[PS_MOST_CURVES];
     ps_text labels[PS_MOST_CURVES] = {{0}};
     double *numbers[PS_MOST_CURVES] = {NULL};
     ps_text title = {0};
     pspec_status status = PSPEC_OK;
-    for (size_t i = 0; i < part->num; i++) {
-        PS_TRY_OUT(status, take_curve(of, part->first + i, &curves[i], &labels[i], &numbers[i]));
+    for (size_t i = 0; i < what->num_curves; i++) {
+        PS_TRY_OUT(status, take_curve(of, what->curves[i], &curves[i], &labels[i], &numbers[i]));
     }
-    ps_plot_title(of, part, image != NULL ? curves[0].label : "", &title);
+    ps_plot_title(of, what, image != NULL ? curves[0].label : "", &title);
     PS_TRY_OUT(status, ps_text_check(&title, of->error));
     const ps_plot plot = {ps_text_string(&title),
-                          part->num,
+                          what->num_curves,
                           curves,
                           image,
-                          noise_level(of, part->first),
+                          noise_level(of, what->curves[0]),
                           of->result->asked->kind != &ps_result_power};
-    status = ps_draw(of, &(ps_drawing){.spectra = &plot}, suffix);
+    status = ps_draw(of, &(ps_drawing){.spectra = &plot}, what);
 out:
     for (size_t i = 0; i < PS_MOST_CURVES; i++) {
         ps_text_free(&labels[i]);
@@ -61,32 +63,12 @@ out:
     return status;
 }
 
-static pspec_status draw_groups(const ps_artist *of) {
-    char suffix[64];
-    for (size_t g = 0; g < ps_num_plot_groups(of->result); g++) {
-        const ps_plot_group part = ps_plot_group_at(of->result, g);
-        snprintf(suffix, sizeof suffix, "-%zu", g + 1);
-        if (part.num <= PS_MOST_CURVES) {
-            PS_TRY(draw_spectra(of, &part, NULL, part.value != NULL ? suffix : ""));
-        }
-    }
-    return PSPEC_OK;
-}
-
-/* Of every question whose array was wanted and is there. */
-static pspec_status draw_pictures(const ps_artist *of) {
-    char suffix[64];
-    for (size_t q = 0; q < of->result->num; q++) {
-        const ps_answer *const answer = &of->result->questions[q].answer;
-        const double points = ps_cell_number(ps_run_meta(answer->table, "points"));
-        if (answer->array == NULL || !(points > 0)) {
-            continue;
-        }
-        const ps_plot_image image = {answer->side, answer->array, sqrt(points)};
-        snprintf(suffix, sizeof suffix, "-picture-%zu", q + 1);
-        PS_TRY(draw_spectra(of, &(ps_plot_group){q, 1, NULL}, &image, suffix));
-    }
-    return PSPEC_OK;
+/* Where the array was wanted and is there. */
+static pspec_status draw_image(const ps_artist *of, const ps_picture *what) {
+    const ps_answer *const answer = &of->result->questions[what->curves[0]].answer;
+    const double points = ps_cell_number(ps_run_meta(answer->table, "points"));
+    const ps_plot_image image = {answer->side, answer->array, sqrt(points)};
+    return answer->array != NULL && points > 0 ? draw_spectra(of, what, &image) : PSPEC_OK;
 }
 
 /* Lists of frequencies have no normalized ones, and no picture. */
@@ -97,18 +79,64 @@ static bool has_bins(const ps_run_result *result) {
            ps_table_find_column(table, "normalized_degree", &column);
 }
 
-pspec_status ps_run_make_plots(const ps_run *run, ps_run_result *result, ps_error *error) {
+static pspec_status draw(const ps_artist *of, const ps_picture *what) {
+    const bool is_image = what->form == PS_PICTURE_IMAGE;
+    const bool is_spectrum = is_image || what->form == PS_PICTURE_SPECTRA;
+    if (is_spectrum && !has_bins(of->result)) {
+        return PSPEC_OK;
+    }
+    return is_image                               ? draw_image(of, what)
+           : is_spectrum && what->num_panels == 1 ? draw_spectra(of, what, NULL)
+                                                  : ps_draw_lines(of, what);
+}
+
+/* What a picture costs is a picture: the numbers are there. */
+static pspec_status note_failure(const ps_artist *of, const ps_picture *what) {
+    ps_run *const run = of->run;
+    ps_text reason = {0};
+    ps_text_append(&reason, "%s", of->error->message);
+    if (run->num_undrawn++ == 0) {
+        run->undrawn = *of->error;
+    }
+    *of->error = (ps_error){0};
+    pspec_status status = ps_text_check(&reason, of->error);
+    if (status == PSPEC_OK) {
+        status = ps_run_add_plot(of, what, NULL, &reason);
+    }
+    ps_text_free(&reason);
+    return status;
+}
+
+/* Once for a result: its pictures have the same panels. */
+static void say_panels(const ps_artist *of) {
+    const ps_scene_result *const asked = of->result->asked;
+    const ps_pictures *const pictures = &of->result->pictures;
+    size_t i = 0;
+    while (i < pictures->num && pictures->all[i].num_panels == 1) {
+        i++;
+    }
+    if (i == pictures->num || of->run->arguments->quiet) {
+        return;
+    }
+    ps_text text = {0};
+    ps_picture_say_panels(&pictures->all[i], asked, &text);
+    fprintf(stderr, "pointspec: %s%s.svg: %s\n", asked->name, pictures->all[i].suffix,
+            ps_text_string(&text));
+    ps_text_free(&text);
+}
+
+pspec_status ps_run_make_plots(ps_run *run, ps_run_result *result, ps_error *error) {
     const ps_artist of = {run, result, error};
-    const ps_result_kind *const kind = result->asked->kind;
-    if (!result->asked->wants_plot) {
-        return PSPEC_OK;
+    say_panels(&of);
+    for (size_t i = 0; i < result->pictures.num; i++) {
+        const ps_picture *const what = &result->pictures.all[i];
+        const pspec_status status = draw(&of, what);
+        if (status == PSPEC_ERROR_CANCELLED || (status != PSPEC_OK && ps_interrupted)) {
+            return ps_fail(error, PSPEC_ERROR_CANCELLED, "interrupted while pictures were drawn");
+        }
+        if (status != PSPEC_OK) {
+            PS_TRY(note_failure(&of, what));
+        }
     }
-    if (kind != &ps_result_power && kind != &ps_result_angular) {
-        return ps_draw_lines(&of);
-    }
-    if (!has_bins(result)) {
-        return PSPEC_OK;
-    }
-    PS_TRY(draw_groups(&of));
-    return draw_pictures(&of);
+    return PSPEC_OK;
 }

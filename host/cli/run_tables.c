@@ -8,10 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool ps_run_varies(const ps_scene_entry *entry) {
-    return entry->num_values > 1;
-}
-
 void ps_run_label(const ps_run_result *result, size_t number, ps_text *out) {
     const ps_scene_result *const asked = result->asked;
     bool is_first = true;

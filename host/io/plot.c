@@ -156,13 +156,22 @@ pspec_status ps_line_plot_draw_svg(ps_text *svg, const ps_line_plot *plot, ps_er
     return draw(svg, find_terminal(".svg"), &(drawing){.lines = plot}, error);
 }
 
-pspec_status ps_panel_plot_write(const char *path, const ps_panel_plot *plot, ps_error *error) {
+static size_t count_panels(const ps_panel_plot *plot) {
     size_t num = 0;
     for (size_t i = 0; i < plot->num_panels; i++) {
         for (size_t j = 0; j < plot->panels[i].num_series; j++) {
             num += plot->panels[i].series[j].num;
         }
     }
-    PS_TRY(check_plot(path, num, error));
+    return num;
+}
+
+pspec_status ps_panel_plot_write(const char *path, const ps_panel_plot *plot, ps_error *error) {
+    PS_TRY(check_plot(path, count_panels(plot), error));
     return draw_file(path, &(drawing){.panels = plot}, error);
+}
+
+pspec_status ps_panel_plot_draw_svg(ps_text *svg, const ps_panel_plot *plot, ps_error *error) {
+    PS_TRY(check_plot(plot->title, count_panels(plot), error));
+    return draw(svg, find_terminal(".svg"), &(drawing){.panels = plot}, error);
 }

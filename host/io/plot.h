@@ -87,14 +87,18 @@ typedef struct ps_plot_panel {
     const ps_plot_series *series;
 } ps_plot_panel;
 
-/* Panels side by side, three in a row, all axes logarithmic, with one key for all of them. */
+/* Panels side by side, three in a row, with one key for all of them. */
 typedef struct ps_panel_plot {
     const char *title, *x_label, *y_label;
+    bool has_lines;                /* places are joined, and all panels have the same axes */
+    bool is_linear_x, is_linear_y; /* not logarithmic */
     size_t num_panels;
     const ps_plot_panel *panels;
 } ps_panel_plot;
 
 pspec_status ps_panel_plot_write(const char *path, const ps_panel_plot *plot,
                                  ps_error *error) PS_MUST_CHECK;
+pspec_status ps_panel_plot_draw_svg(ps_text *svg, const ps_panel_plot *plot,
+                                    ps_error *error) PS_MUST_CHECK;
 
 #endif

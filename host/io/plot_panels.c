@@ -19,15 +19,19 @@ static int page_height(const ps_panel_plot *plot) {
     return HEAD + PANEL_HEIGHT * (int)((plot->num_panels + columns) / columns);
 }
 
-static bool is_shown(const ps_plot_series *series, size_t place) {
-    return series->x[place] > 0 && series->y[place] > 0;
+/* On a logarithmic axis is only what is above 0. */
+static bool is_shown(const ps_panel_plot *plot, const ps_plot_series *series, size_t place) {
+    const double x = series->x[place];
+    const double y = series->y[place];
+    return isfinite(x) && isfinite(y) && (plot->is_linear_x || x > 0) &&
+           (plot->is_linear_y || y > 0);
 }
 
 /* gnuplot makes no axes for nothing. */
-static bool has_places(const ps_plot_panel *panel) {
+static bool has_places(const ps_panel_plot *plot, const ps_plot_panel *panel) {
     for (size_t j = 0; j < panel->num_series; j++) {
         for (size_t place = 0; place < panel->series[j].num; place++) {
-            if (is_shown(&panel->series[j], place)) {
+            if (is_shown(plot, &panel->series[j], place)) {
                 return true;
             }
         }
@@ -41,7 +45,7 @@ static void print_data(const ps_panel_plot *plot, FILE *stream) {
             const ps_plot_series *const series = &plot->panels[i].series[j];
             fprintf(stream, "$data%zu_%zu << EOD\n", i, j);
             for (size_t place = 0; place < series->num; place++) {
-                const bool shows = is_shown(series, place);
+                const bool shows = is_shown(plot, series, place);
                 ps_plot_print_value(shows ? series->x[place] : NAN, stream);
                 ps_plot_print_value(shows ? series->y[place] : NAN, stream);
                 putc('\n', stream);
@@ -51,7 +55,12 @@ static void print_data(const ps_panel_plot *plot, FILE *stream) {
     }
 }
 
-static void print_look(const ps_plot_series *series, FILE *stream) {
+static void print_look(const ps_panel_plot *plot, const ps_plot_series *series, FILE *stream) {
+    if (plot->has_lines) {
+        fputs("with linespoints pointtype 7 pointsize 0.3 linewidth 1.6 ", stream);
+        ps_plot_print_style(series->kind, stream);
+        return;
+    }
     if (series->is_front) {
         fputs("with lines linewidth 2 linecolor rgb '#b0b0b0'", stream);
         return;
@@ -94,14 +103,17 @@ static void print_panel(const ps_panel_plot *plot, size_t i, FILE *stream) {
     fputs("set title ", stream);
     ps_plot_print_text(panel->title, stream);
     fputs(" noenhanced offset 0,-0.6\n", stream);
-    if (!has_places(panel)) {
-        fputs("set xrange [1:10]\nset yrange [1:10]\nplot NaN notitle\nset autoscale\n", stream);
+    if (!has_places(plot, panel)) {
+        fputs(plot->has_lines
+                  ? "plot NaN notitle\n"
+                  : "set xrange [1:10]\nset yrange [1:10]\nplot NaN notitle\nset autoscale\n",
+              stream);
         return;
     }
     fputs("plot ", stream);
     for (size_t j = 0; j < panel->num_series; j++) {
         fprintf(stream, "%s$data%zu_%zu using 1:2 ", j > 0 ? ", " : "", i, j);
-        print_look(&panel->series[j], stream);
+        print_look(plot, &panel->series[j], stream);
         fputs(" notitle", stream);
     }
     putc('\n', stream);
@@ -126,7 +138,7 @@ static void print_key(const ps_panel_plot *plot, FILE *stream) {
             }
             is_done[kind] = true;
             fputs("NaN ", stream);
-            print_look(series, stream);
+            print_look(plot, series, stream);
             fputs(" title ", stream);
             ps_plot_print_text(series->label, stream);
             fputs(", ", stream);
@@ -135,15 +147,65 @@ static void print_key(const ps_panel_plot *plot, FILE *stream) {
     fputs("NaN notitle\n", stream);
 }
 
+static void print_scale(const char *axis, bool is_linear, FILE *stream) {
+    if (!is_linear) {
+        fprintf(stream, "set logscale %s\nset format %s '10^{%%T}'\n", axis, axis);
+    }
+}
+
+/* What all places of one axis lie in. */
+typedef struct range {
+    double least, most;
+} range;
+
+static void widen(range *to, double value) {
+    to->least = fmin(to->least, value);
+    to->most = fmax(to->most, value);
+}
+
+/* A linear axis begins at 0, unless something is below it; a logarithmic one leaves out what rounding left. */
+static void print_range(const char *axis, range of, bool is_linear, FILE *stream) {
+    const double digits = 1e-16;
+    const double margin = 1.05;
+    const double low = is_linear ? fmin(of.least, 0) : fmax(of.least, of.most * digits);
+    if (of.most > low) {
+        fprintf(stream, "set %srange [%.9g:%.9g]\n", axis, is_linear ? low * margin : low / margin,
+                of.most * margin);
+    }
+}
+
+static void print_ranges(const ps_panel_plot *plot, FILE *stream) {
+    range x = {INFINITY, -INFINITY};
+    range y = {INFINITY, -INFINITY};
+    for (size_t i = 0; i < plot->num_panels; i++) {
+        for (size_t j = 0; j < plot->panels[i].num_series; j++) {
+            const ps_plot_series *const series = &plot->panels[i].series[j];
+            for (size_t place = 0; place < series->num; place++) {
+                if (is_shown(plot, series, place)) {
+                    widen(&x, series->x[place]);
+                    widen(&y, series->y[place]);
+                }
+            }
+        }
+    }
+    print_range("x", x, plot->is_linear_x, stream);
+    print_range("y", y, plot->is_linear_y, stream);
+}
+
 void ps_panel_plot_write_script(const ps_panel_plot *plot, const char *terminal, FILE *stream) {
     ps_plot_print_page(plot->title, terminal, (int)num_columns(plot) * PANEL_WIDTH,
                        page_height(plot), stream);
     print_data(plot, stream);
-    fputs("set logscale xy\nset format xy '10^{%T}'\nset xtics in mirror\nset ytics in mirror\n"
+    print_scale("x", plot->is_linear_x, stream);
+    print_scale("y", plot->is_linear_y, stream);
+    fputs("set xtics in mirror\nset ytics in mirror\n"
           "set grid linecolor '#d8d8d8' linewidth 0.8 dashtype solid\nunset key\n",
           stream);
     print_label("x", plot->x_label, "0,0.3", stream);
     print_label("y", plot->y_label, "0.4,0", stream);
+    if (plot->has_lines) {
+        print_ranges(plot, stream);
+    }
     for (size_t i = 0; i < plot->num_panels; i++) {
         print_panel(plot, i, stream);
     }

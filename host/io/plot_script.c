@@ -22,9 +22,9 @@ static double tone(double power) {
     return log2(1 + 0.25 * sqrt(fmax(power, 0)));
 }
 
-/* A text constant of gnuplot. Only letters, digits, blanks and whole characters beyond ASCII stand as they are: everything
- * else is an octal number, so that no quote, backslash or backtick is left to be understood. What no text has (control
- * characters, bytes that are not UTF-8) would spoil lines and XML. */
+/* A text constant of gnuplot. Only letters, blanks and whole characters beyond ASCII stand as they are: everything else is
+ * an octal number, so that no quote, backslash or backtick is left to be understood; digits, too, which would go on with
+ * the number before them. What no text has (control characters, bytes that are not UTF-8) would spoil lines and XML. */
 void ps_plot_print_text(const char *text, FILE *stream) {
     putc('"', stream);
     while (*text != '\0') {
@@ -34,7 +34,7 @@ void ps_plot_print_text(const char *text, FILE *stream) {
             fwrite(text, 1, length, stream);
         } else if (length == 0) {
             fputs(byte < 0x80 ? " " : PS_TEXT_UNKNOWN, stream);
-        } else if (isalnum(byte) || byte == ' ') {
+        } else if (isalpha(byte) || byte == ' ') {
             putc(byte, stream);
         } else {
             fprintf(stream, "\\%03o", byte);
