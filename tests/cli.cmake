@@ -18,6 +18,7 @@ add_program_test(cli_formats)   # files as other tools write them
 add_program_test(cli_angular)   # the sphere: formats, header, what is refused
 add_program_test(cli_healpy ${PROJECT_SOURCE_DIR}/build/peers) # against healpy and ducc0, where installed
 set_tests_properties(cli_healpy PROPERTIES SKIP_RETURN_CODE 77)
+add_program_test(cli_memory)     # limits of memory, streams without an end, records
 add_program_test(cli_truncation) # lobes, formats, what is refused
 add_program_test(cli_quadrature) # golden values, engines, files, what is refused
 add_program_test(cli_pairs)     # pair sums: closed forms, every route, what is refused

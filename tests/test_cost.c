@@ -14,6 +14,7 @@ static void plan_on_small_device(ps_plan *plan, uint64_t global_bytes, uint64_t 
     const ps_frequencies set = test_lattice(2, 500);
     const ps_problem problem = test_problem(&set, 10000, 1e-3);
     ps_device_limits limits = test_cpu();
+    limits.is_cpu = false; /* memory of its own */
     limits.global_bytes = global_bytes > 0 ? global_bytes : limits.global_bytes;
     limits.max_allocation_bytes =
         allocation_bytes > 0 ? allocation_bytes : limits.max_allocation_bytes;

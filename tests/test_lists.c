@@ -32,8 +32,8 @@ static void reads_frequencies(void **state) {
         int *vectors = NULL;
         size_t num_vectors = 0;
         unsigned dimension = 0;
-        if (ps_read_frequencies(put(state, cases[i].text, path), &vectors, &num_vectors, &dimension,
-                                &error) != PSPEC_OK) {
+        if (ps_read_frequencies(put(state, cases[i].text, path), 0, &vectors, &num_vectors,
+                                &dimension, &error) != PSPEC_OK) {
             fail_msg("%s: %s", cases[i].text, error.message);
         }
         assert_int_equal(num_vectors, cases[i].num_vectors);
@@ -63,7 +63,7 @@ static void refuses_bad_frequencies(void **state) {
         int *vectors = NULL;
         size_t num_vectors = 0;
         unsigned dimension = 0;
-        const pspec_status status = ps_read_frequencies(put(state, cases[i][0], path), &vectors,
+        const pspec_status status = ps_read_frequencies(put(state, cases[i][0], path), 0, &vectors,
                                                         &num_vectors, &dimension, &error);
         if (status != PSPEC_ERROR_INPUT || strstr(error.message, cases[i][1]) == NULL) {
             fail_msg("%s: status %d, \"%s\", expected \"%s\"", cases[i][0], (int)status,
@@ -79,14 +79,14 @@ static void reads_weights(void **state) {
     double *weights = NULL;
     size_t num_weights = 0;
     put(state, "# w\n1 -2.5\t3e-3\r\n\n4\n", path);
-    assert_int_equal(ps_read_weights(path, &weights, &num_weights, &error), PSPEC_OK);
+    assert_int_equal(ps_read_weights(path, UINT32_MAX, &weights, &num_weights, &error), PSPEC_OK);
     assert_int_equal(num_weights, 4);
     assert_true(weights[0] == 1 && weights[1] == -2.5 && weights[2] == 3e-3 && weights[3] == 4);
     free(weights);
     const double values[] = {1, -1e300, 0.5};
     const size_t num_values = 3;
     assert_int_equal(ps_npy_write(path, 1, &num_values, values, &error), PSPEC_OK);
-    assert_int_equal(ps_read_weights(path, &weights, &num_weights, &error), PSPEC_OK);
+    assert_int_equal(ps_read_weights(path, UINT32_MAX, &weights, &num_weights, &error), PSPEC_OK);
     assert_int_equal(num_weights, num_values);
     assert_memory_equal(weights, values, sizeof values);
     free(weights);
@@ -104,18 +104,21 @@ static void refuses_bad_weights(void **state) {
     size_t num_weights = 0;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         put(state, cases[i][0], path);
-        assert_int_equal(ps_read_weights(path, &weights, &num_weights, &error), PSPEC_ERROR_INPUT);
+        assert_int_equal(ps_read_weights(path, UINT32_MAX, &weights, &num_weights, &error),
+                         PSPEC_ERROR_INPUT);
         assert_non_null(strstr(error.message, cases[i][1]));
     }
     const double values[] = {1, (double)NAN};
     const size_t shape[] = {1, 2};
     assert_int_equal(ps_npy_write(path, 2, shape, values, &error), PSPEC_OK);
-    assert_int_equal(ps_read_weights(path, &weights, &num_weights, &error), PSPEC_ERROR_INPUT);
+    assert_int_equal(ps_read_weights(path, UINT32_MAX, &weights, &num_weights, &error),
+                     PSPEC_ERROR_INPUT);
     assert_non_null(strstr(error.message, "an array with 2 axes; weights have one"));
     assert_int_equal(ps_npy_write(path, 1, shape + 1, values, &error), PSPEC_OK);
-    assert_int_equal(ps_read_weights(path, &weights, &num_weights, &error), PSPEC_ERROR_INPUT);
+    assert_int_equal(ps_read_weights(path, UINT32_MAX, &weights, &num_weights, &error),
+                     PSPEC_ERROR_INPUT);
     assert_non_null(strstr(error.message, "weight 2 is nan, not a finite number"));
-    assert_int_equal(ps_read_weights("/nowhere/at all", &weights, &num_weights, &error),
+    assert_int_equal(ps_read_weights("/nowhere/at all", UINT32_MAX, &weights, &num_weights, &error),
                      PSPEC_ERROR_IO);
     assert_null(weights);
 }

@@ -2,6 +2,8 @@
 
 #include "base/memory.h"
 
+#include "base/memory_limit.h"
+
 #include <stdint.h>
 #include <stdlib.h>
 #include <sys/mman.h>
@@ -27,9 +29,33 @@ static pspec_status fail_memory(size_t count, size_t element_bytes, const char *
                    what, count, element_bytes);
 }
 
+/* Smaller arrays are not worth the 0.1 ms that it takes to look. */
+enum { LEAST_CHECKED = 16 << 20 };
+
+/* The system gives out more than there is, and kills the program when it is used: so somebody has to look before. */
+static pspec_status check_room(uint64_t bytes, const char *what, ps_error *error) {
+    ps_memory_room room;
+    char needed[PS_SIZE_TEXT];
+    char there[PS_SIZE_TEXT];
+    if (bytes < LEAST_CHECKED) {
+        return PSPEC_OK;
+    }
+    ps_memory_room_find(&room, 0);
+    return bytes <= room.bytes ? PSPEC_OK
+                               : ps_fail(error, PSPEC_ERROR_MEMORY,
+                                         "not enough memory for %s: they take %s, but %s leaves %s",
+                                         what, ps_size_show(needed, (double)bytes), room.by,
+                                         ps_size_show(there, (double)room.bytes));
+}
+
 pspec_status ps_allocate(void **out, size_t count, size_t element_bytes, const char *what,
                          ps_error *error) {
-    *out = calloc(count > 0 ? count : 1, element_bytes); /* calloc checks the product */
+    size_t bytes = 0;
+    *out = NULL;
+    if (ps_size_multiply(count, element_bytes, &bytes)) {
+        PS_TRY(check_room(bytes, what, error));
+        *out = calloc(count > 0 ? count : 1, element_bytes);
+    }
     return *out != NULL ? PSPEC_OK : fail_memory(count, element_bytes, what, error);
 }
 
@@ -56,7 +82,11 @@ pspec_status ps_grow(void **array, size_t *capacity, size_t needed, size_t eleme
     const size_t half_more = *capacity + *capacity / 2;
     const size_t count = half_more > needed ? half_more : needed;
     size_t bytes = 0;
-    void *grown = ps_size_multiply(count, element_bytes, &bytes) ? realloc(*array, bytes) : NULL;
+    void *grown = NULL;
+    if (ps_size_multiply(count, element_bytes, &bytes)) {
+        PS_TRY(check_room(bytes - *capacity * element_bytes, what, error));
+        grown = realloc(*array, bytes);
+    }
     if (grown == NULL) {
         return fail_memory(needed, element_bytes, what, error);
     }

@@ -310,7 +310,7 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
     ps_run all = {.arguments = arguments, .scene = &scene, .folder = ps_text_string(&folder)};
     pspec_status status = ps_text_check(&folder, error);
     if (status == PSPEC_OK) {
-        status = ps_scene_read(&scene, arguments->files[0], error);
+        status = ps_run_read_scene(&scene, arguments, error);
     }
     if (status == PSPEC_OK) {
         status = run_scene(&all, error);
@@ -321,9 +321,9 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
     return status;
 }
 
-static const ps_option_id options[] = {PS_OPTION_DEVICE, PS_OPTION_CACHE, PS_OPTION_NO_SKIP,
-                                       PS_OPTION_OUTPUT, PS_OPTION_QUIET, PS_OPTION_HELP,
-                                       PS_NUM_OPTIONS};
+static const ps_option_id options[] = {PS_OPTION_MEMORY,  PS_OPTION_DEVICE, PS_OPTION_CACHE,
+                                       PS_OPTION_NO_SKIP, PS_OPTION_OUTPUT, PS_OPTION_QUIET,
+                                       PS_OPTION_HELP,    PS_NUM_OPTIONS};
 
 const ps_command ps_command_run = {
     .name = "run",

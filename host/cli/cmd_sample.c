@@ -1,7 +1,8 @@
 /* pointspec sample: point sets to a file or standard output, one realization in memory at a time.
  */
-#include "cli/command.h"
 #include "base/memory.h"
+#include "base/memory_limit.h"
+#include "cli/command.h"
 #include "base/text.h"
 #include "scene/question.h"
 #include "io/points.h"
@@ -70,6 +71,20 @@ static void print_loss(const ps_request *arguments, const ps_point_writer *write
     }
 }
 
+/* One realization is in memory at a time. */
+static pspec_status check_memory(const ps_sampler_request *request, uint64_t limit,
+                                 ps_error *error) {
+    const double bytes = (double)request->num_points * request->dimension * (double)sizeof(double);
+    char needed[PS_SIZE_TEXT];
+    char allowed[PS_SIZE_TEXT];
+    return limit == 0 || bytes <= (double)limit
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_MEMORY,
+                         "%zu points in %u dimensions take %s of memory, above the limit of %s",
+                         request->num_points, request->dimension, ps_size_show(needed, bytes),
+                         ps_size_show(allowed, (double)limit));
+}
+
 static pspec_status run(const ps_request *arguments, ps_error *error) {
     const char *const path = arguments->output != NULL ? arguments->output : "-";
     ps_sampler_request request = {0};
@@ -79,6 +94,7 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
     pspec_status status = PSPEC_OK;
     PS_TRY(check_words(arguments, error));
     PS_TRY(ps_sampler_request_make(&request, arguments, 0, error));
+    PS_TRY(check_memory(&request, arguments->memory, error));
     PS_TRY(ps_allocate(&points, request.num_points, request.dimension * sizeof(double), "points",
                        error));
     const ps_coordinates coordinates =
@@ -106,8 +122,8 @@ out:
 
 static const ps_option_id options[] = {
     PS_OPTION_POINTS,  PS_OPTION_REALIZATIONS, PS_OPTION_DIMENSION, PS_OPTION_SEED,
-    PS_OPTION_SAMPLER, PS_OPTION_HOMOGENIZE,   PS_OPTION_OUTPUT,    PS_OPTION_FORMAT,
-    PS_OPTION_QUIET,   PS_OPTION_HELP,         PS_NUM_OPTIONS,
+    PS_OPTION_SAMPLER, PS_OPTION_HOMOGENIZE,   PS_OPTION_MEMORY,    PS_OPTION_OUTPUT,
+    PS_OPTION_FORMAT,  PS_OPTION_QUIET,        PS_OPTION_HELP,      PS_NUM_OPTIONS,
 };
 
 const ps_command ps_command_sample = {

@@ -1,5 +1,6 @@
 /* The program: finds the command, parses its words, runs it, turns its status into an exit code and
  * its message into one line on standard error. */
+#include "base/memory_limit.h"
 #include "base/text.h"
 #include "cli/command.h"
 #include "io/cache_trust.h"
@@ -99,6 +100,21 @@ static void trust_cache(const ps_command *command, ps_request *arguments, const 
     }
 }
 
+/* POINTSPEC_MEMORY counts as if it had been typed, and so it is part of the command that results keep. */
+static pspec_status take_memory(const ps_command *command, ps_request *arguments, ps_text *line,
+                                ps_error *error) {
+    const char *const limit = getenv("POINTSPEC_MEMORY");
+    if (limit == NULL || limit[0] == '\0' || arguments->is_given[PS_OPTION_MEMORY] ||
+        !ps_command_takes(command, PS_OPTION_MEMORY)) {
+        return PSPEC_OK;
+    }
+    PS_TRY(ps_parse_size(limit, "POINTSPEC_MEMORY", &arguments->memory, error));
+    arguments->is_memory_of_environment = true;
+    ps_text_append(line, " --memory");
+    ps_text_append_word(line, limit);
+    return ps_text_check(line, error);
+}
+
 static pspec_status run_parsed(const ps_command *command, ps_request *arguments, ps_error *error) {
     if (!arguments->is_given[PS_OPTION_DEVICE]) {
         arguments->device = getenv("POINTSPEC_DEVICE");
@@ -124,16 +140,23 @@ static int run_command(int num_words, char **words) {
     ps_error error = {0};
     ps_request arguments;
     ps_text line = {0};
+    ps_text rest = {0};
     const ps_command *const command = ps_command_find(words[0], &error);
     if (command == NULL) {
         return report("", error.status, &error);
     }
     ps_text_append(&line, "pointspec");
-    for (int i = 0; i < num_words; i++) {
-        ps_text_append_word(&line, words[i]); /* before the parser, which cuts words */
+    ps_text_append_word(&line, words[0]);
+    for (int i = 1; i < num_words; i++) {
+        ps_text_append_word(&rest, words[i]); /* before the parser, which cuts words */
     }
     pspec_status status = ps_arguments_parse(&arguments, command, num_words - 1, words + 1, &error);
     const bool wants_help = status == PSPEC_OK && arguments.is_given[PS_OPTION_HELP];
+    if (status == PSPEC_OK && !wants_help) {
+        status = take_memory(command, &arguments, &line, &error);
+    }
+    ps_text_append_bytes(&line, ps_text_string(&rest), rest.length);
+    line.failed = line.failed || rest.failed;
     if (wants_help) {
         ps_help_command(stdout, command);
     } else if (status == PSPEC_OK && (status = ps_text_check(&line, &error)) == PSPEC_OK) {
@@ -142,6 +165,7 @@ static int run_command(int num_words, char **words) {
     }
     ps_arguments_free(&arguments);
     ps_text_free(&line);
+    ps_text_free(&rest);
     return wants_help           ? finish_output()
            : status == PSPEC_OK ? PS_EXIT_DONE
                                 : report(command->name, status, &error);

@@ -48,7 +48,7 @@ pspec_status ps_plan_scene(ps_table *table, const ps_request *arguments, ps_erro
                        arguments->num_files);
     }
     ps_run run = {.arguments = arguments, .scene = &scene};
-    pspec_status status = ps_scene_read(&scene, arguments->files[0], error);
+    pspec_status status = ps_run_read_scene(&scene, arguments, error);
     if (status == PSPEC_OK) {
         status = add_blocks(&run, table, error);
     }

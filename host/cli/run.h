@@ -55,6 +55,10 @@ typedef struct ps_run {
     ps_run_result *results;
 } ps_run;
 
+/* Reads the scene and gives it the limit of memory of the command, if there is one. A record repeats what was typed then:
+ * POINTSPEC_MEMORY of today is not for it. */
+pspec_status ps_run_read_scene(ps_scene *out, const ps_request *arguments,
+                               ps_error *error) PS_MUST_CHECK;
 /* Makes all questions and looks whether they can be asked, without work. */
 pspec_status ps_run_ask(ps_run *run, ps_error *error) PS_MUST_CHECK;
 pspec_status ps_run_answer(ps_run *run, ps_error *error) PS_MUST_CHECK;

@@ -46,6 +46,14 @@ static pspec_status ask_one(ps_run *run, ps_run_result *result, size_t number, p
     return status == PSPEC_OK ? PSPEC_OK : ps_scene_blame(run->scene, result->asked, error);
 }
 
+pspec_status ps_run_read_scene(ps_scene *out, const ps_request *arguments, ps_error *error) {
+    PS_TRY(ps_scene_read(out, arguments->files[0], error));
+    const bool is_repeated = out->num_digests > 0 && arguments->is_memory_of_environment;
+    return arguments->memory > 0 && !is_repeated
+               ? ps_scene_limit_memory(out, arguments->memory, error)
+               : PSPEC_OK;
+}
+
 pspec_status ps_run_ask(ps_run *run, ps_error *error) {
     void *memory = NULL;
     PS_TRY(ps_allocate(&memory, run->scene->num_results, sizeof *run->results, "results", error));

@@ -1,15 +1,23 @@
 /* Lists that come beside points: frequency vectors, weights, tables of two columns. */
 #include "base/memory.h"
+#include "base/memory_limit.h"
 #include "io/decimal.h"
 #include "io/npy.h"
 #include "io/points_format.h"
 #include "io/text_lines.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_FREQUENCY = 1 << 30, FIRST_VALUES = 1024 };
+enum {
+    MAX_FREQUENCY = 1 << 30,
+    FIRST_VALUES = 1024,
+    FEW_MORE =
+        1
+        << 16 /* a list that is only somewhat too long is read on: the refusal then says how long it is */
+};
 
 /* Numbers as they are read, row by row. */
 typedef struct number_list {
@@ -17,18 +25,64 @@ typedef struct number_list {
     double *values;
     size_t num_values, capacity;
     unsigned columns; /* of every row; 0: any number */
+    /* it is not read beyond these, since a file may have no end */
+    uint64_t most_values;   /* 0: any number */
+    uint64_t memory_limit;  /* of bytes, that somebody typed; 0: half of what is free */
+    const char *why_values; /* what most_values means, as in "weights, and a set has 5 points" */
 } number_list;
 
 typedef pspec_status line_parser(number_list *list, const char *line, size_t line_number,
                                  ps_error *error);
 
-static pspec_status append(number_list *list, double value, ps_error *error) {
-    if (list->num_values == list->capacity) {
-        void *memory = list->values;
-        const size_t needed = list->num_values > 0 ? list->num_values + 1 : FIRST_VALUES;
-        PS_TRY(ps_grow(&memory, &list->capacity, needed, sizeof(double), "numbers", error));
-        list->values = memory;
+static pspec_status fail_large(const number_list *list, double limit, const char *by,
+                               ps_error *error) {
+    char size[PS_SIZE_TEXT];
+    return ps_fail(error, PSPEC_ERROR_MEMORY,
+                   "%s takes more than %s, %s, after %zu numbers and goes on", list->input->name,
+                   ps_size_show(size, limit), by, list->num_values);
+}
+
+/* Looked at when the list grows. */
+static pspec_status check_memory(const number_list *list, size_t needed, ps_error *error) {
+    const double least_checked = 16 << 20; /* looking takes 0.1 ms */
+    const double bytes = (double)needed * (double)sizeof(double);
+    char by[PS_MEMORY_PLACE + 32];
+    ps_memory_room room;
+    if (list->memory_limit > 0) {
+        return bytes <= (double)list->memory_limit
+                   ? PSPEC_OK
+                   : fail_large(list, (double)list->memory_limit, "the limit of --memory", error);
     }
+    if (bytes < least_checked) {
+        return PSPEC_OK;
+    }
+    ps_memory_room_find(&room, list->capacity * sizeof(double));
+    snprintf(by, sizeof by, "half of what %s leaves", room.by);
+    return bytes <= (double)room.bytes / 2 ? PSPEC_OK
+                                           : fail_large(list, (double)room.bytes / 2, by, error);
+}
+
+/* Room for num more values. */
+static pspec_status reserve(number_list *list, size_t num, const char *what, ps_error *error) {
+    const size_t needed = list->num_values + num;
+    void *memory = list->values;
+    if (list->most_values > 0 && list->num_values > list->most_values + FEW_MORE) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s holds more than %zu %s", list->input->name,
+                       list->num_values, list->why_values);
+    }
+    if (needed <= list->capacity) {
+        return PSPEC_OK;
+    }
+    const size_t half_more = list->capacity + list->capacity / 2;
+    PS_TRY(check_memory(list, needed > half_more ? needed : half_more, error));
+    PS_TRY(ps_grow(&memory, &list->capacity, needed > FIRST_VALUES ? needed : FIRST_VALUES,
+                   sizeof(double), what, error));
+    list->values = memory;
+    return PSPEC_OK;
+}
+
+static pspec_status append(number_list *list, double value, ps_error *error) {
+    PS_TRY(reserve(list, 1, "numbers", error));
     list->values[list->num_values++] = value;
     return PSPEC_OK;
 }
@@ -140,11 +194,11 @@ static pspec_status convert_frequencies(const number_list *list, int **vectors, 
     return PSPEC_OK;
 }
 
-pspec_status ps_read_frequencies(const char *path, int **vectors, size_t *num_vectors,
-                                 unsigned *dimension, ps_error *error) {
+pspec_status ps_read_frequencies(const char *path, uint64_t memory_limit, int **vectors,
+                                 size_t *num_vectors, unsigned *dimension, ps_error *error) {
     *vectors = NULL;
     ps_input input = {0};
-    number_list list = {.input = &input};
+    number_list list = {.input = &input, .memory_limit = memory_limit};
     pspec_status status = PSPEC_OK;
     PS_TRY_OUT(status, ps_input_open(&input, path, error));
     PS_TRY_OUT(status, read_lines(&list, parse_frequency, error));
@@ -187,10 +241,7 @@ static pspec_status read_npy_elements(number_list *list, const ps_npy_header *he
     while (list->num_values < header->num_elements) {
         const size_t left = header->num_elements - list->num_values;
         const size_t num = left < BLOCK_ELEMENTS ? left : BLOCK_ELEMENTS;
-        void *memory = list->values;
-        PS_TRY(ps_grow(&memory, &list->capacity, list->num_values + num, sizeof(double), "weights",
-                       error));
-        list->values = memory;
+        PS_TRY(reserve(list, num, "weights", error));
         double *const block = list->values + list->num_values;
         PS_TRY(ps_npy_read_elements(list->input, header, block, num, error));
         for (size_t i = 0; i < num; i++) {
@@ -218,11 +269,13 @@ static pspec_status read_npy(number_list *list, ps_error *error) {
     return read_npy_elements(list, &header, error);
 }
 
-pspec_status ps_read_weights(const char *path, double **weights, size_t *num_weights,
-                             ps_error *error) {
+pspec_status ps_read_weights(const char *path, uint64_t num_wanted, double **weights,
+                             size_t *num_weights, ps_error *error) {
     *weights = NULL;
     ps_input input = {0};
-    number_list list = {.input = &input};
+    char why[64];
+    snprintf(why, sizeof why, "weights, and a set has %llu points", (unsigned long long)num_wanted);
+    number_list list = {.input = &input, .most_values = num_wanted, .why_values = why};
     pspec_status status = PSPEC_OK;
     PS_TRY_OUT(status, ps_input_open(&input, path, error));
     PS_TRY_OUT(status,
@@ -274,9 +327,12 @@ static pspec_status convert_pairs(const number_list *list, ps_pair **pairs, size
 }
 
 pspec_status ps_read_pairs(const char *path, ps_pair **pairs, size_t *num_pairs, ps_error *error) {
+    const uint64_t most_rows = 1 << 22; /* a table of a lobe has hundreds */
     *pairs = NULL;
     ps_input input = {0};
-    number_list list = {.input = &input};
+    number_list list = {.input = &input,
+                        .most_values = PAIR_VALUES * most_rows,
+                        .why_values = "numbers, more than a table of two columns may have"};
     pspec_status status = PSPEC_OK;
     PS_TRY_OUT(status, ps_input_open(&input, path, error));
     PS_TRY_OUT(status, read_lines(&list, parse_pair, error));

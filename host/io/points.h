@@ -70,6 +70,7 @@ typedef struct ps_point_options {
     bool normalize_vectors; /* vectors are divided by their length instead of refused when that
                                 differs from 1 by more than 1e-6 */
     bool above_horizon;     /* points of the sphere with z < 0 are refused */
+    uint64_t memory_limit;  /* bytes that a set may take; 0: half of the memory that is free */
     bool keep_angles;       /* angles stay angles (theta, phi) instead of becoming vectors */
 } ps_point_options;
 
@@ -131,13 +132,15 @@ void ps_points_discard(ps_point_writer *writer);
 
 /* Reads a list of integer frequency vectors, one per line, columns separated by blanks or commas,
  * '#' lines skipped; *vectors is [num_vectors][*dimension], freed by the caller. The dimension is
- * that of the first line (1 to 6). |k| <= 2^30. */
-pspec_status ps_read_frequencies(const char *path, int **vectors, size_t *num_vectors,
-                                 unsigned *dimension, ps_error *error) PS_MUST_CHECK;
+ * that of the first line (1 to 6). |k| <= 2^30. memory_limit: bytes that the list may take; 0: half of those free. */
+pspec_status ps_read_frequencies(const char *path, uint64_t memory_limit, int **vectors,
+                                 size_t *num_vectors, unsigned *dimension,
+                                 ps_error *error) PS_MUST_CHECK;
 
-/* Reads weights: one number per line or token, or a one-dimensional NPY array. */
-pspec_status ps_read_weights(const char *path, double **weights, size_t *num_weights,
-                             ps_error *error) PS_MUST_CHECK;
+/* Reads weights: one number per line or token, or a one-dimensional NPY array. num_wanted: how many the caller can use;
+ * a file that goes on long after them is refused, since it may have no end. */
+pspec_status ps_read_weights(const char *path, uint64_t num_wanted, double **weights,
+                             size_t *num_weights, ps_error *error) PS_MUST_CHECK;
 
 /* Two numbers of a line, and which line it was. */
 typedef struct ps_pair {

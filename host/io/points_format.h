@@ -3,6 +3,7 @@
 #define PS_IO_POINTS_FORMAT_H
 
 #include "base/text.h"
+#include "base/memory_limit.h"
 #include "io/columns.h"
 #include "io/input_file.h"
 #include "io/output_file.h"
@@ -76,6 +77,7 @@ struct ps_point_reader {
     uint64_t num_sets;       /* complete ones */
     size_t rows_in_set;      /* of the set that is being read */
     bool has_any_points;
+    ps_memory_room room; /* of the last time that a set of a stream grew */
 };
 
 struct ps_point_writer {

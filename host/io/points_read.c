@@ -1,5 +1,6 @@
 /* Reading, as far as it is the same for all formats: blocks of rows become checked points. */
 #include "base/memory.h"
+#include "base/memory_limit.h"
 #include "io/points_format.h"
 
 #include <stdlib.h>
@@ -122,9 +123,65 @@ static void shape_set(const ps_point_reader *reader, ps_point_set *set) {
     set->has_weights = layout->has_weight_column && !layout->drops_weight;
 }
 
+/* ---- how large a set may become ----------------------------------------------------------- */
+
+/* Bytes of so many points as the set keeps them. */
+static double bytes_of(const ps_point_set *set, size_t num_points) {
+    const unsigned columns = set->dimension + (set->has_weights ? 1 : 0);
+    return (double)num_points * columns * (double)sizeof(double);
+}
+
+static pspec_status fail_large(const ps_point_reader *reader, const ps_point_set *set, double limit,
+                               const char *by, const char *advice, ps_error *error) {
+    char size[PS_SIZE_TEXT];
+    return ps_fail(error, PSPEC_ERROR_MEMORY,
+                   "%.440s: set %llu takes more than %s, %s, after %zu points and goes on%s",
+                   reader->input.name, (unsigned long long)reader->num_sets + 1,
+                   ps_size_show(size, limit), by, set->num_points, advice);
+}
+
+/* A stream may have no end, and its points are followed by the work: it gets half of what is free, where nobody said how
+ * much it may take. Looked at when the set grows. */
+static pspec_status check_stream(ps_point_reader *reader, const ps_point_set *set, double bytes,
+                                 bool grows, ps_error *error) {
+    const double least_checked = 16 << 20; /* looking takes 0.1 ms */
+    char by[PS_MEMORY_PLACE + 32];
+    if (reader->input.can_reopen || bytes < least_checked) {
+        return PSPEC_OK;
+    }
+    if (grows || reader->room.by[0] == '\0') {
+        const size_t held = (set->points_capacity + set->weights_capacity) * sizeof(double);
+        ps_memory_room_find(&reader->room, held);
+    }
+    const double limit = (double)reader->room.bytes / 2;
+    snprintf(by, sizeof by, "half of what %s leaves", reader->room.by);
+    return bytes <= limit
+               ? PSPEC_OK
+               : fail_large(reader, set, limit, by, "; --memory SIZE would allow more", error);
+}
+
+/* Room for so many points in all, if the set may have them. */
+static pspec_status reserve(ps_point_reader *reader, ps_point_set *set, size_t num_points,
+                            ps_error *error) {
+    const uint64_t limit = reader->options.memory_limit;
+    const double bytes = bytes_of(set, num_points);
+    const bool grows = (double)num_points * set->dimension > (double)set->points_capacity;
+    if (limit > 0 && bytes > (double)limit) {
+        return fail_large(reader, set, (double)limit, "the limit of --memory", "", error);
+    }
+    PS_TRY(limit > 0 ? PSPEC_OK : check_stream(reader, set, bytes, grows, error));
+    const pspec_status status = ps_points_reserve(set, num_points, error);
+    if (status == PSPEC_ERROR_MEMORY && error != NULL) {
+        const ps_error reason = *error;
+        return ps_fail(error, status, "%.440s: set %llu: %s", reader->input.name,
+                       (unsigned long long)reader->num_sets + 1, reason.message);
+    }
+    return status;
+}
+
 /* Room for the points of the next block: all of the set when its size is known and really there. */
-static pspec_status reserve_block(const ps_point_reader *reader, ps_point_set *set,
-                                  size_t max_points, size_t *num, ps_error *error) {
+static pspec_status reserve_block(ps_point_reader *reader, ps_point_set *set, size_t max_points,
+                                  size_t *num, ps_error *error) {
     const size_t fitting = block_rows(reader);
     const size_t left =
         reader->rows_per_set -
@@ -133,7 +190,7 @@ static pspec_status reserve_block(const ps_point_reader *reader, ps_point_set *s
     if (left > 0) {
         const size_t wanted = left < max_points ? left : max_points;
         *num = wanted < *num ? wanted : *num;
-        return ps_points_reserve(set, set->num_points + wanted, error);
+        return reserve(reader, set, set->num_points + wanted, error);
     }
     /* Text: what is free already is filled before there is more. */
     const size_t free_points = set->points_capacity / set->dimension > set->num_points
@@ -142,7 +199,7 @@ static pspec_status reserve_block(const ps_point_reader *reader, ps_point_set *s
     const size_t least = set->num_points == 0 ? FIRST_POINTS : 1;
     const size_t room = free_points > least ? free_points : least;
     *num = *num < room ? *num : room;
-    return ps_points_reserve(set, set->num_points + *num, error);
+    return reserve(reader, set, set->num_points + *num, error);
 }
 
 /* Appends at most max_points points; out tells how many came and what ended. */

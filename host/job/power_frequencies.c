@@ -32,12 +32,12 @@ static pspec_status choose_degrees(ps_frequencies *out, const ps_power_question 
     return ps_frequencies_degrees(out, max_degree, question->on_hemisphere, error);
 }
 
-static pspec_status read_list(ps_frequencies *out, const char *path, unsigned dimension,
-                              ps_error *error) {
+static pspec_status read_list(ps_frequencies *out, const char *path, uint64_t memory_limit,
+                              unsigned dimension, ps_error *error) {
     int *vectors = NULL;
     size_t num = 0;
     unsigned found = 0;
-    PS_TRY(ps_read_frequencies(path, &vectors, &num, &found, error));
+    PS_TRY(ps_read_frequencies(path, memory_limit, &vectors, &num, &found, error));
     ps_error inner = {0};
     const pspec_status status = ps_frequencies_list(out, found, num, vectors, &inner);
     if (status != PSPEC_OK) {
@@ -58,7 +58,8 @@ pspec_status ps_power_frequencies(ps_frequencies *out, const ps_power_question *
         return choose_degrees(out, question, num_points, error);
     }
     if (question->frequencies_path != NULL) {
-        return read_list(out, question->frequencies_path, dimension, error);
+        return read_list(out, question->frequencies_path, question->constraints.memory_limit,
+                         dimension, error);
     }
     if (max_frequency == 0) {
         PS_TRY(default_max_frequency(&max_frequency, dimension, num_points, error));

@@ -29,10 +29,18 @@ static bool should_stop(void *payload) {
            question->progress(job->num_done, job->num_realizations, question->payload) != 0;
 }
 
+/* A quarter of a limit that was typed leaves room for what computes with the points. */
+static uint64_t choose_whole_bytes(const ps_power_question *question) {
+    const uint64_t limit = question->constraints.memory_limit / 4;
+    const uint64_t asked =
+        question->whole_bytes > 0 ? question->whole_bytes : PS_SOURCE_WHOLE_BYTES;
+    return limit > 0 && limit < asked ? limit : asked;
+}
+
 static pspec_status open_files(ps_power_job *job, ps_error *error) {
     const ps_power_question *question = job->question;
     const ps_source_options options = {.points = question->point_options,
-                                       .whole_bytes = question->whole_bytes,
+                                       .whole_bytes = choose_whole_bytes(question),
                                        .should_stop = should_stop,
                                        .payload = job};
     return ps_source_files(&job->sets.source, question->paths, question->num_paths, &options,
@@ -84,7 +92,8 @@ static pspec_status prepare(ps_power_job *job, ps_error *error) {
         PS_TRY(open_sampler(job, error));
     }
     if (question->weights_path != NULL) {
-        PS_TRY(ps_power_sets_read_weights(&job->sets, question->weights_path, error));
+        PS_TRY(
+            ps_power_sets_read_weights(&job->sets, question->weights_path, job->num_points, error));
     }
     job->problem = (ps_problem){
         .frequencies = &job->frequencies,

@@ -71,12 +71,23 @@ void ps_power_job_rate_skips(ps_power_job *job) {
     }
 }
 
+/* What the job holds already of what a plan counts: the set that was read, and the engine of a plan before. */
+static uint64_t find_held(const ps_power_job *job) {
+    const ps_point_set *const set = &job->sets.next;
+    const double engine = job->estimator != NULL ? job->plan.chosen->host_bytes : 0;
+    return (set->points_capacity + set->weights_capacity) * sizeof(double) + (uint64_t)engine;
+}
+
 pspec_status ps_power_needs_plan(ps_power_job *job, ps_error *error) {
     const ps_power_question *question = job->question;
+    ps_plan_constraints constraints = question->constraints;
+    ps_memory_room room;
+    ps_memory_room_find(&room, find_held(job));
+    constraints.room = &room;
     const ps_needs_strict strict = {
         question->may_loosen ? strict_tolerance(question) : job->problem.tolerance, 0};
     return ps_needs_plan(&job->needs, &job->plan, &job->problem, ps_power_job_limits(job),
-                         &question->constraints, &strict, error);
+                         &constraints, &strict, error);
 }
 
 uint64_t ps_power_needs_realizations(const ps_power_job *job) {

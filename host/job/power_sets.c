@@ -24,9 +24,10 @@ void ps_power_sets_free(ps_power_sets *sets) {
     *sets = (ps_power_sets){0};
 }
 
-pspec_status ps_power_sets_read_weights(ps_power_sets *sets, const char *path, ps_error *error) {
+pspec_status ps_power_sets_read_weights(ps_power_sets *sets, const char *path, uint64_t num_points,
+                                        ps_error *error) {
     sets->weights_path = path;
-    return ps_read_weights(path, &sets->weights, &sets->num_weights, error);
+    return ps_read_weights(path, num_points, &sets->weights, &sets->num_weights, error);
 }
 
 pspec_status ps_power_sets_allocate(ps_power_sets *sets, size_t capacity, ps_error *error) {

@@ -23,7 +23,7 @@ typedef struct ps_power_sets {
 } ps_power_sets;
 
 void ps_power_sets_free(ps_power_sets *sets);
-pspec_status ps_power_sets_read_weights(ps_power_sets *sets, const char *path,
+pspec_status ps_power_sets_read_weights(ps_power_sets *sets, const char *path, uint64_t num_points,
                                         ps_error *error) PS_MUST_CHECK;
 /* Room for batches of so many. */
 pspec_status ps_power_sets_allocate(ps_power_sets *sets, size_t capacity,

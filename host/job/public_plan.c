@@ -66,9 +66,12 @@ static void log_choice(const pspec_plan *plan) {
 static pspec_status choose_engine(pspec_plan *plan, const ps_public_request *request,
                                   ps_error *error) {
     pspec_context *context = plan->context;
+    ps_memory_room room;
     const ps_plan_constraints constraints = {.engine = request->engine,
                                              .precision = request->precision,
-                                             .memory_limit = context->memory_limit};
+                                             .memory_limit = context->memory_limit,
+                                             .room = &room};
+    ps_memory_room_find(&room, 0);
     if (ps_plan_may_need_device(&constraints)) {
         PS_TRY(ps_context_open_device(context));
     }

@@ -137,9 +137,13 @@ pspec_status ps_quadrature_needs_rate(ps_quadrature_setup *setup,
 pspec_status ps_quadrature_needs_plan(ps_quadrature_setup *setup,
                                       const ps_quadrature_question *question, ps_error *error) {
     const ps_needs_strict strict = {setup->problem.tolerance, other_seconds(setup)};
+    ps_plan_constraints constraints = question->constraints;
+    ps_memory_room room;
+    ps_memory_room_find(&room, 0);
+    constraints.room = &room;
     PS_TRY(ps_needs_plan(&setup->needs, &setup->plan, &setup->problem,
                          setup->device != NULL ? ps_device_get_limits(setup->device) : NULL,
-                         &question->constraints, &strict, error));
+                         &constraints, &strict, error));
     if (setup->plan.chosen == NULL || setup->needs.no_skip) {
         return PSPEC_OK;
     }

@@ -45,21 +45,22 @@ static pspec_status read_ahead(ps_rules *rules, ps_error *error) {
 pspec_status ps_rules_open(ps_rules *rules, ps_rule_shape *shape, ps_error *error) {
     const ps_quadrature_question *const question = rules->question;
     *shape = (ps_rule_shape){0};
-    if (question->weights_path != NULL) {
-        PS_TRY(ps_read_weights(question->weights_path, &rules->file_weights,
-                               &rules->num_file_weights, error));
-    }
     PS_TRY(open_source(rules, error));
     if (question->sampler != NULL) {
         shape->num_points = question->sampler->num_points;
         shape->has_several = question->num_realizations > 1;
-        return PSPEC_OK;
+    } else {
+        PS_TRY(read_ahead(rules, error));
+        shape->num_points = rules->waiting[0].num_points;
+        shape->has_several = rules->num_waiting > 1;
     }
-    PS_TRY(read_ahead(rules, error));
-    shape->num_points = rules->waiting[0].num_points;
-    shape->has_several = rules->num_waiting > 1;
-    return shape->num_points > 0 ? PSPEC_OK
-                                 : ps_fail(error, PSPEC_ERROR_INPUT, "set 1 has no points");
+    if (shape->num_points == 0) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "set 1 has no points");
+    }
+    return question->weights_path == NULL
+               ? PSPEC_OK
+               : ps_read_weights(question->weights_path, shape->num_points, &rules->file_weights,
+                                 &rules->num_file_weights, error);
 }
 
 void ps_rules_free(ps_rules *rules) {

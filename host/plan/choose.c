@@ -1,8 +1,8 @@
 #include "plan/choose.h"
 
-#include "base/memory.h"
 #include "base/text.h"
 #include "engines/error_units.h"
+#include "plan/choose_private.h"
 #include "plan/cost_model.h"
 #include "plan/memory_model.h"
 
@@ -29,33 +29,54 @@ static pspec_status check_engine_name(const char *name, unsigned domain, ps_erro
                                   "there is no engine \"%s\"; the nearest is %s", name, nearest);
 }
 
+/* Is the device's memory that of the machine? Its size then says nothing of the kind of device. */
+static bool shares_memory(const ps_device_limits *limits) {
+    return limits->is_cpu || limits->has_unified_memory;
+}
+
+static double room_of(const ps_candidate *candidate, const ps_memory_room *room) {
+    const double kept =
+        candidate->engine->needs_device ? PS_MEMORY_OF_DRIVER : PS_MEMORY_OF_PROGRAM;
+    return room == NULL || room->bytes == UINT64_MAX ? INFINITY
+                                                     : fmax((double)room->bytes - kept, 0);
+}
+
+/* limits: NULL for an engine of the host. */
+static void set_bytes(ps_candidate *candidate, const ps_memory *sum, const ps_device_limits *limits,
+                      const ps_memory_room *room) {
+    const bool is_shared = limits != NULL && shares_memory(limits);
+    candidate->device_bytes = sum->device;
+    candidate->bytes = sum->device + sum->host;
+    candidate->host_bytes = is_shared ? candidate->bytes : sum->host;
+    candidate->host_room = room_of(candidate, room);
+    candidate->is_crowded = candidate->host_bytes > candidate->host_room;
+}
+
 /* Seconds, bytes and error of a candidate that applies. A realization of a batch is kept on the host,
- * too, as coordinates and weights. A limit that somebody set makes batches smaller. */
+ * too, as coordinates and weights. Limits make batches smaller. */
 static void estimate(ps_candidate *candidate, const ps_problem *asked, const ps_survey *survey,
-                     const ps_device_limits *limits, uint64_t memory_limit) {
+                     const ps_device_limits *limits, const ps_plan_constraints *constraints) {
     const ps_problem own = ps_engine_problem(candidate->engine, asked);
     const ps_problem *problem = &own;
     const ps_device_limits *used = candidate->engine->needs_device ? limits : NULL;
+    const double limit = (double)constraints->memory_limit;
     const ps_work work = survey->work;
-    const ps_memory one =
+    ps_memory sum =
         ps_memory_count(candidate->engine, candidate->precision, problem, &work, used, 1);
     ps_work whole = work; /* with host memory */
     whole.bytes_per_realization += ps_memory_of_set(problem, &work);
-    whole.fixed_bytes = one.device + one.host - whole.bytes_per_realization - work.point_bytes;
-    candidate->batch = ps_cost_batch(&whole, used, problem->num_realizations);
-    ps_memory sum = ps_memory_count(candidate->engine, candidate->precision, problem, &work, used,
-                                    candidate->batch);
-    while (memory_limit > 0 && candidate->batch > 1 &&
-           sum.device + sum.host > (double)memory_limit) {
+    whole.fixed_bytes = sum.device + sum.host - whole.bytes_per_realization - work.point_bytes;
+    candidate->batch = 2 * ps_cost_batch(&whole, used, problem->num_realizations);
+    do {
         candidate->batch /= 2;
         sum = ps_memory_count(candidate->engine, candidate->precision, problem, &work, used,
                               candidate->batch);
-    }
+        set_bytes(candidate, &sum, used, constraints->room);
+    } while (candidate->batch > 1 &&
+             (candidate->is_crowded || (limit > 0 && candidate->bytes > limit)));
     candidate->seconds = ps_cost_seconds(&work, used, candidate->precision) *
                          ps_figures_scale(limits != NULL ? limits->figures : NULL,
                                           candidate->engine->name, candidate->precision);
-    candidate->device_bytes = sum.device;
-    candidate->bytes = sum.device + sum.host;
     candidate->error = ps_engine_error_in(candidate->engine, asked, survey->error);
     candidate->floor_error = ps_engine_floor_error(candidate->engine, asked, survey->error);
 }
@@ -93,15 +114,14 @@ static bool exclude(ps_candidate *candidate, const ps_plan_constraints *constrai
     return false;
 }
 
-/* The user's limit is for all of it; else buffers must fit into the device, and all of it into the machine. Writes the
- * reason where it does not fit. */
+/* The user's limit is for all of it; buffers must fit into a device that has memory of its own. Writes the reason where it
+ * does not fit. */
 static bool fits_memory(ps_candidate *candidate, const ps_device_limits *limits,
                         const ps_plan_constraints *constraints) {
-    const double limit = constraints->memory_limit > 0 ? (double)constraints->memory_limit
-                                                       : (double)ps_memory_installed();
-    const bool is_on_device =
-        constraints->memory_limit == 0 && limits != NULL && candidate->engine->needs_device;
-    if (is_on_device && candidate->device_bytes > (double)limits->global_bytes) {
+    const double limit = (double)constraints->memory_limit;
+    const bool has_own_memory =
+        limits != NULL && candidate->engine->needs_device && !shares_memory(limits);
+    if (has_own_memory && candidate->device_bytes > (double)limits->global_bytes) {
         snprintf(candidate->reason, sizeof candidate->reason,
                  "needs %.3g bytes of memory on the device, above its limit of %.3g",
                  candidate->device_bytes, (double)limits->global_bytes);
@@ -115,10 +135,6 @@ static bool fits_memory(ps_candidate *candidate, const ps_device_limits *limits,
     return true;
 }
 
-static bool misses_floor(const ps_candidate *candidate) {
-    return candidate->floor_error > PS_FLOOR_ERROR;
-}
-
 static void judge(ps_candidate *candidate, const ps_problem *problem,
                   const ps_device_limits *limits, const ps_plan_constraints *constraints) {
     const ps_problem own = ps_engine_problem(candidate->engine, problem);
@@ -126,7 +142,7 @@ static void judge(ps_candidate *candidate, const ps_problem *problem,
     candidate->is_excluded = exclude(candidate, constraints);
     candidate->is_applicable = survey.why_not == NULL;
     if (candidate->is_applicable) {
-        estimate(candidate, problem, &survey, limits, constraints->memory_limit);
+        estimate(candidate, problem, &survey, limits, constraints);
     }
     if (candidate->is_excluded) {
         return;
@@ -136,7 +152,7 @@ static void judge(ps_candidate *candidate, const ps_problem *problem,
     } else if (candidate->error > problem->tolerance) {
         snprintf(candidate->reason, sizeof candidate->reason, "error above the tolerance %g",
                  problem->tolerance);
-    } else if (misses_floor(candidate)) {
+    } else if (ps_plan_misses_floor(candidate)) {
         snprintf(candidate->reason, sizeof candidate->reason,
                  "%s has a floor: powers of %g would be off by %.2g of themselves",
                  candidate->engine->sums_pairs ? "a sum over pairs" : "a sum of squares",
@@ -175,12 +191,13 @@ static void choose_cheapest(ps_plan *plan, bool prefers_double) {
     if (best != NULL) {
         ps_candidate *const chosen = &plan->candidates[best - plan->candidates];
         chosen->is_chosen = true;
-        snprintf(chosen->reason, sizeof chosen->reason, "cheapest within the tolerance");
+        snprintf(chosen->reason, sizeof chosen->reason, "cheapest within the tolerance%s",
+                 chosen->is_crowded ? ", but there is no room for it now" : "");
     }
     plan->chosen = best;
 }
 
-/* Nothing is feasible, and it is not the tolerance that stands in the way. */
+/* Nothing is feasible, or there is room for nothing, and it is not the tolerance that stands in the way. */
 static bool is_too_large(const ps_plan *plan, const ps_problem *problem) {
     bool has_exact = false;
     bool has_any = false;
@@ -190,7 +207,7 @@ static bool is_too_large(const ps_plan *plan, const ps_problem *problem) {
         has_any = has_any || is_asked;
         has_exact = has_exact || (is_asked && candidate->error <= problem->tolerance);
     }
-    return plan->chosen == NULL && (has_exact || !has_any);
+    return ps_plan_fitting(plan) == NULL && (has_exact || !has_any);
 }
 
 /* With this largest degree instead of the problem's. */
@@ -209,7 +226,7 @@ static bool would_do(const ps_problem *problem, int32_t max_degree, const ps_dev
             if ((*engine)->domains & PS_ON_SPHERE && (*engine)->has_precision[precision]) {
                 judge(&candidate, &smaller, limits, constraints);
             }
-            if (candidate.is_feasible) {
+            if (candidate.is_feasible && !candidate.is_crowded) {
                 return true;
             }
         }
@@ -259,7 +276,10 @@ double ps_plan_statistical_tolerance(double standard_error, double floor) {
 
 pspec_status ps_plan_make(ps_plan *plan, const ps_problem *problem, const ps_device_limits *limits,
                           const ps_plan_constraints *constraints, ps_error *error) {
-    *plan = (ps_plan){0};
+    *plan = (ps_plan){.room = {.bytes = UINT64_MAX}};
+    if (constraints->room != NULL) {
+        plan->room = *constraints->room;
+    }
     PS_TRY(check_engine_name(constraints->engine, ps_problem_domain(problem), error));
     for (const ps_engine *const *engine = ps_engines; *engine != NULL; engine++) {
         for (int precision = PS_SINGLE; precision <= PS_EXTENDED; precision++) {
@@ -278,77 +298,4 @@ pspec_status ps_plan_make(ps_plan *plan, const ps_problem *problem, const ps_dev
         plan->largest_degree = find_largest_degree(problem, limits, constraints);
     }
     return PSPEC_OK;
-}
-
-/* The candidate that is exact enough and needs the least memory; there is one. */
-static const ps_candidate *find_smallest(const ps_plan *plan, double tolerance) {
-    const ps_candidate *smallest = NULL;
-    for (size_t i = 0; i < plan->num_candidates; i++) {
-        const ps_candidate *candidate = &plan->candidates[i];
-        if (!candidate->is_excluded && candidate->is_applicable && candidate->error <= tolerance &&
-            !misses_floor(candidate) && (smallest == NULL || candidate->bytes < smallest->bytes)) {
-            smallest = candidate;
-        }
-    }
-    return smallest;
-}
-
-/* What would need less than there is, as the end of a sentence. */
-static void say_what_fits(char *out, size_t out_bytes, const ps_plan *plan,
-                          const ps_problem *problem) {
-    const ps_frequency_kind kind = problem->frequencies->kind;
-    out[0] = '\0';
-    if (kind == PS_FREQUENCIES_BOX || kind == PS_FREQUENCIES_BALL) {
-        snprintf(out, out_bytes,
-                 "; a random subset of the frequencies of every ring (--per-ring) needs less");
-    } else if (kind == PS_FREQUENCIES_DEGREES && plan->largest_degree > 0) {
-        snprintf(out, out_bytes, "; the largest degree that fits%s is %d",
-                 problem->harmonics != PS_NO_HARMONICS ? ", with coefficients," : "",
-                 (int)plan->largest_degree);
-    }
-}
-
-pspec_status ps_plan_require(const ps_plan *plan, const ps_problem *problem, ps_error *error) {
-    const ps_candidate *best = NULL;  /* the most exact one that the user's choice leaves */
-    const ps_candidate *other = NULL; /* any that it leaves */
-    const bool is_on_sphere = ps_problem_domain(problem) == PS_ON_SPHERE;
-    if (plan->chosen != NULL) {
-        return PSPEC_OK;
-    }
-    for (size_t i = 0; i < plan->num_candidates; i++) {
-        const ps_candidate *candidate = &plan->candidates[i];
-        if (candidate->is_excluded) {
-            continue;
-        }
-        other = candidate;
-        if (candidate->is_applicable && (best == NULL || candidate->error < best->error)) {
-            best = candidate;
-        }
-    }
-    if (other == NULL) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "no engine is left: the engine asked for does not have that precision");
-    }
-    char fitting[128];
-    say_what_fits(fitting, sizeof fitting, plan, problem);
-    if (best == NULL) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "no engine can do this; %s (%s): %s%s",
-                       other->engine->name, ps_precision_name(other->precision), other->reason,
-                       is_on_sphere ? fitting : "");
-    }
-    if (best->error > problem->tolerance) {
-        return ps_fail(error, PSPEC_ERROR_TOLERANCE,
-                       "tolerance %g cannot be reached: the smallest error is %.2g (%s, %s)",
-                       problem->tolerance, best->error, best->engine->name,
-                       ps_precision_name(best->precision));
-    }
-    const ps_candidate *smallest = find_smallest(plan, problem->tolerance);
-    if (smallest == NULL) {
-        return ps_fail(error, PSPEC_ERROR_TOLERANCE,
-                       "powers of %g cannot be right to 10 %% with the engines left; %s (%s): %s",
-                       problem->floor, best->engine->name, ps_precision_name(best->precision),
-                       best->reason);
-    }
-    return ps_fail(error, PSPEC_ERROR_MEMORY, "%s (%s) %s%s", smallest->engine->name,
-                   ps_precision_name(smallest->precision), smallest->reason, fitting);
 }

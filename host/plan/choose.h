@@ -1,9 +1,13 @@
 /* The planner: a loop over engines and precisions. Feasible first (it can do the problem, its error
  * is within the tolerance, its memory within the limit), then the cheapest; losers keep their reason.
+ *
+ * What is chosen depends on the problem, the kind of device and the limit that somebody typed. What memory is free at
+ * the moment makes batches smaller, or the job is refused: the same question has the same bits on a busy machine.
  */
 #ifndef PS_PLAN_CHOOSE_H
 #define PS_PLAN_CHOOSE_H
 
+#include "base/memory_limit.h"
 #include "engines/engine.h"
 
 typedef struct ps_candidate {
@@ -14,6 +18,11 @@ typedef struct ps_candidate {
     double seconds, bytes, error; /* of the whole job; meaningful when applicable */
     double floor_error;           /* relative, of powers at the floor; 0 without one */
     double device_bytes;          /* part of bytes in buffers of the device */
+    double
+        host_bytes; /* part of bytes in the memory of the machine, where devices may have theirs, too */
+    double host_room; /* what there is of that; infinite when nobody looked */
+    bool
+        is_crowded; /* it may be chosen, but there is no room for it now, not even for one realization at a time */
     size_t batch;
     char reason[160]; /* one phrase: why chosen, why not */
 } ps_candidate;
@@ -21,6 +30,7 @@ typedef struct ps_candidate {
 enum { PS_MAX_CANDIDATES = 16 };
 
 typedef struct ps_plan {
+    ps_memory_room room; /* that it was made for */
     size_t num_candidates;
     ps_candidate candidates[PS_MAX_CANDIDATES];
     const ps_candidate *chosen; /* NULL: nothing is feasible; points into candidates */
@@ -31,8 +41,10 @@ typedef struct ps_plan {
 typedef struct ps_plan_constraints {
     const char *engine;    /* NULL: any */
     int precision;         /* a ps_precision, or -1: any */
-    uint64_t memory_limit; /* bytes; 0: what the device reports, or no limit on the host */
-    bool prefers_double;   /* before any other precision, even where less is within the tolerance */
+    uint64_t memory_limit; /* bytes that somebody typed, which may change the engine; 0: none */
+    /* What is free may shrink batches, or refuse what was chosen, but changes no choice. NULL: nobody looked. */
+    const ps_memory_room *room;
+    bool prefers_double; /* before any other precision, even where less is within the tolerance */
 } ps_plan_constraints;
 
 /* May an engine that these constraints leave need a device? */
@@ -56,7 +68,8 @@ pspec_status ps_plan_make(ps_plan *plan, const ps_problem *problem, const ps_dev
 const ps_candidate *ps_plan_cheapest(const ps_plan *plan, int precision);
 
 /* Fails when nothing is feasible: PSPEC_ERROR_TOLERANCE when only the tolerance stood in the way
- * (with the best error that can be reached), else PSPEC_ERROR_MEMORY or _INVALID_ARGUMENT. */
+ * (with the best error that can be reached), else PSPEC_ERROR_MEMORY or _INVALID_ARGUMENT; PSPEC_ERROR_MEMORY, too, when
+ * there is no room for what was chosen. */
 pspec_status ps_plan_require(const ps_plan *plan, const ps_problem *problem,
                              ps_error *error) PS_MUST_CHECK;
 

@@ -1,6 +1,7 @@
 /* From the text of a value to a field of ps_request. */
 #include "scene/option_setters.h"
 
+#include "base/memory_limit.h"
 #include "base/text.h"
 #include "math/sobolev.h"
 
@@ -41,6 +42,12 @@ pspec_status ps_set_count(const ps_option *option, const char *words, const char
     (void)words;
     return ps_parse_count(value, option->what, option->minimum, option->maximum,
                           find_field(option, arguments), error);
+}
+
+pspec_status ps_set_size(const ps_option *option, const char *words, const char *value,
+                         ps_request *arguments, ps_error *error) {
+    (void)words;
+    return ps_parse_size(value, option->what, find_field(option, arguments), error);
 }
 
 /* One end of a range; an empty text leaves *out as it is. */

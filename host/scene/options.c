@@ -106,14 +106,13 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                   "most; truncation: 20)",
                               .set = ps_set_max_degree},
     [PS_OPTION_MEMORY] = {.name = "memory",
-                          .metavar = "BYTES",
-                          .help = "what an engine may take, and the matrix of optimal weights: "
-                                  "beyond it they come from conjugate gradients (default for "
-                                  "the matrix: half of what the machine has)",
-                          COUNT(memory),
-                          .what = "memory",
-                          .minimum = 1,
-                          .maximum = INT64_MAX},
+                          .metavar = "SIZE",
+                          .help = "what points and the engine may take, as in 400M or 2G; it "
+                                  "chooses among engines and is kept with the results (default: "
+                                  "POINTSPEC_MEMORY, else what is free, which chooses nothing)",
+                          .set = ps_set_size,
+                          .offset = offsetof(ps_request, memory),
+                          .what = "memory"},
     [PS_OPTION_HEMISPHERE] = {.name = "hemisphere",
                               .help = "points of the hemisphere, that is of the projective plane: "
                                       "even degrees, odd ones vanish",

@@ -117,6 +117,7 @@ ps_point_options ps_point_options_make(const ps_request *arguments) {
         .ignore_weights = weights != NULL && !is_column,
         .wrap = arguments->wrap,
         .normalize_vectors = arguments->normalize_vectors,
+        .memory_limit = arguments->memory,
     };
 }
 
@@ -186,7 +187,9 @@ static ps_power_question make_question(const ps_request *arguments, ps_question_
                       !arguments->is_given[PS_OPTION_TOLERANCE],
         .no_skip = arguments->no_skip,
         .no_self_check = arguments->no_self_check,
-        .constraints = {.engine = arguments->engine, .precision = arguments->precision},
+        .constraints = {.engine = arguments->engine,
+                        .precision = arguments->precision,
+                        .memory_limit = arguments->memory},
         .device = arguments->device,
         .figures_folder = arguments->cache_folder,
         .profile = arguments->profile,

@@ -54,7 +54,7 @@ typedef enum ps_option_id {
     PS_OPTION_CASE,              /* --case NAME */
     PS_OPTION_CALIBRATE,         /* --calibrate */
     PS_OPTION_DEVICE,            /* --device SELECTOR */
-    PS_OPTION_MEMORY,            /* --memory BYTES */
+    PS_OPTION_MEMORY,            /* --memory SIZE */
     PS_OPTION_CACHE,             /* --cache BYTES */
     PS_OPTION_NO_SKIP,           /* --no-skip */
     PS_OPTION_NO_SELF_CHECK,     /* --no-self-check */
@@ -78,13 +78,14 @@ typedef struct ps_request {
     uint64_t seed;                 /* 1 unless given */
     size_t num_samplers;
     const char *samplers[PS_MAX_SAMPLERS];
-    int32_t max_frequency;   /* 0 unless given: the default of design.md 3.1 */
-    uint64_t max_degree;     /* 0 unless given: the default of design.md 3.1 */
-    uint64_t per_ring;       /* 0 unless given: all frequencies */
-    uint64_t memory;         /* 0 unless given: what there is */
-    uint64_t cache_bytes;    /* 1e9 unless given */
-    const char *against;     /* NULL unless given */
-    double false_alarm_rate; /* 1e-3 unless given */
+    int32_t max_frequency;         /* 0 unless given: the default of design.md 3.1 */
+    uint64_t max_degree;           /* 0 unless given: the default of design.md 3.1 */
+    uint64_t per_ring;             /* 0 unless given: all frequencies */
+    uint64_t memory;               /* that was typed, here or in POINTSPEC_MEMORY; 0: nothing was */
+    bool is_memory_of_environment; /* it stands in POINTSPEC_MEMORY */
+    uint64_t cache_bytes;          /* 1e9 unless given */
+    const char *against;           /* NULL unless given */
+    double false_alarm_rate;       /* 1e-3 unless given */
     const char *brdf, *coefficients, *harmonics, *frequencies, *full, *weights, *input_format,
         *columns, *to_columns, *engine, *case_name, *device, *output, *format,
         *plot;                   /* NULL unless given */

@@ -64,6 +64,9 @@ typedef struct ps_scene {
 pspec_status ps_scene_read(ps_scene *out, const char *path, ps_error *error) PS_MUST_CHECK;
 void ps_scene_free(ps_scene *scene);
 
+/* A limit of memory becomes a key of every result that could have it and does not, so that records keep it. */
+pspec_status ps_scene_limit_memory(ps_scene *scene, uint64_t bytes, ps_error *error) PS_MUST_CHECK;
+
 /* One question of a result. */
 typedef struct ps_scene_question {
     const ps_scene_result *result;

@@ -31,7 +31,7 @@ void fuzz_frequencies(const char *argument, fuzz_bytes input) {
     unsigned dimension = 0;
     ps_error error = {0};
     const pspec_status status =
-        ps_read_frequencies(file.path, &vectors, &num_vectors, &dimension, &error);
+        ps_read_frequencies(file.path, 0, &vectors, &num_vectors, &dimension, &error);
     fuzz_check_error(status, &error, FUZZ_PRINTABLE);
     if (status == PSPEC_OK) {
         check_frequencies(vectors, num_vectors, dimension);
@@ -46,7 +46,8 @@ void fuzz_weights(const char *argument, fuzz_bytes input) {
     double *weights = NULL;
     size_t num_weights = 0;
     ps_error error = {0};
-    const pspec_status status = ps_read_weights(file.path, &weights, &num_weights, &error);
+    const pspec_status status =
+        ps_read_weights(file.path, UINT32_MAX, &weights, &num_weights, &error);
     fuzz_check_error(status, &error, FUZZ_PRINTABLE);
     if (status == PSPEC_OK && num_weights == 0) {
         fuzz_fail("no weights, and no error");

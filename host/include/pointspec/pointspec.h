@@ -115,9 +115,9 @@ PSPEC_EXPORT const char *pspec_context_message(const pspec_context *context);
 PSPEC_EXPORT pspec_status pspec_context_set_device(pspec_context *context, const char *selector);
 
 /** The most memory in bytes that a plan may take, on host and device together, as the planner counts it;
- * 0, the default: what the machine and the device have. Plans made later obey it: with smaller
- * batches, then another engine, else they fail with #PSPEC_ERROR_MEMORY. Results are those without it unless
- * the engine is another one. */
+ * 0, the default: no limit of yours. Plans made later obey it: with smaller batches, then another engine, else
+ * they fail with #PSPEC_ERROR_MEMORY. What memory is free (also by limits of cgroups and of the process) makes batches
+ * smaller, or a plan fails; the engine, and with it the bits of results, depends on this limit alone. */
 PSPEC_EXPORT void pspec_context_set_memory_limit(pspec_context *context, uint64_t bytes);
 
 /** How far a plan is: realizations that are in its averages, of those that the request expects (0: not
