@@ -25,6 +25,8 @@ add_program_test(cli_pairs)     # pair sums: closed forms, every route, what is 
 add_program_test(cli_check)     # verdicts against saved spectra, exit codes, what is refused
 add_program_test(cli_bench)      # run time against error, figures per device: rows, files, what is refused
 add_program_test(cli_run)       # scenes: the folder, the cache, records, what is refused
+add_program_test(cli_picture)   # --plot fails: numbers stay
+add_program_test(cli_run_files) # what scenes read and write
 add_program_test(cli_run_pictures) # pictures of scenes: panels, failures, titles
 add_program_test(cli_stress)    # the stability suite: rows, formats, what is refused
 add_program_test(cli_stress_broken ${PROJECT_SOURCE_DIR}/kernels) # broken kernels fail by name

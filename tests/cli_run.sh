@@ -165,7 +165,7 @@ printf 'scene: 1\nresults:\n  - {result: power, files: fifo, engine: host_direct
 refuses '"fifo" is a pipe' pipe.yaml -o none2
 printf 'scene: 1\nresults:\n  - {result: power, files: missing.txt}\n' >missing.yaml
 runs 1 missing.yaml # as a command says
-says 'missing.yaml:3: power-1: cannot read "missing.txt"'
+says 'missing.yaml:3: files: cannot read "missing.txt"'
 printf 'scene: 1\nresults:\n  - {result: power, samplers: zphi}\n' >wrong.yaml
 refuses 'wrong.yaml:3: power-1: --sampler zphi makes points of the sphere' wrong.yaml
 "$program" angular --engine host_direct --sampler zphi -n 8 -m 5 -l 3 -o sphere.json

@@ -3,7 +3,7 @@
 #include "cli/bench_scenes.h"
 #include "cli/command.h"
 #include "cli/output_check.h"
-#include "io/plot.h"
+#include "cli/picture.h"
 #include "io/table_stream.h"
 #include "plan/figures_file.h"
 #include "scene/options.h"
@@ -137,11 +137,13 @@ static pspec_status run_cases(answer *of, const ps_bench_options *options, ps_ta
     const pspec_status status = ps_bench_run(options, of->device, of->peaks.copied_bytes, error);
     ps_progress_end(of->progress);
     PS_TRY(status);
-    if (arguments->plot != NULL) {
-        PS_TRY(ps_bench_plot(arguments->plot, &of->rows, ps_device_get_limits(of->device)->name,
-                             error));
-    }
-    return ps_table_stream_close(&of->stream, error);
+    PS_TRY(ps_table_stream_close(&of->stream, error));
+    return arguments->plot == NULL
+               ? PSPEC_OK
+               : ps_picture_settle(arguments,
+                                   ps_bench_plot(arguments->plot, &of->rows,
+                                                 ps_device_get_limits(of->device)->name, error),
+                                   error);
 }
 
 /* ---- calibration --------------------------------------------------------------------------- */
@@ -233,10 +235,7 @@ static pspec_status check_words(const ps_request *arguments, const ps_bench_opti
                        "no file is read, but %s was given; --scenes is for scenes",
                        arguments->files[0]);
     }
-    if (arguments->plot != NULL && !ps_plot_is_supported(arguments->plot)) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "--plot draws .png, .svg and .pdf, not \"%s\"", arguments->plot);
-    }
+    PS_TRY(ps_picture_check(arguments, error));
     if (arguments->calibrate) {
         PS_TRY(check_calibration(arguments, error));
     }

@@ -2,8 +2,8 @@
 #include "cli/command.h"
 #include "cli/jobs.h"
 #include "cli/output_check.h"
+#include "cli/picture.h"
 #include "cli/quadrature_table.h"
-#include "io/plot.h"
 #include "job/quadrature_looks.h"
 
 #include <stdio.h>
@@ -75,22 +75,20 @@ static pspec_status write_results(const ps_request *arguments, const ps_quadratu
                                   const ps_quadrature_result *results, ps_table_format format,
                                   ps_error *error) {
     ps_table *table = NULL;
-    if (arguments->plot != NULL) {
-        PS_TRY(ps_quadrature_plot(arguments, list, results, error));
-    }
     PS_TRY(ps_quadrature_table(&table, arguments, list, results, error));
-    const pspec_status status =
+    pspec_status status =
         ps_table_write(table, arguments->output != NULL ? arguments->output : "-", format, error);
     ps_table_destroy(table);
+    if (status == PSPEC_OK && arguments->plot != NULL) {
+        status = ps_picture_settle(arguments, ps_quadrature_plot(arguments, list, results, error),
+                                   error);
+    }
     return status;
 }
 
 static pspec_status check_outputs(const ps_request *arguments, ps_table_format *format,
                                   ps_error *error) {
-    if (arguments->plot != NULL && !ps_plot_is_supported(arguments->plot)) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "--plot draws .png, .svg and .pdf, not \"%s\"", arguments->plot);
-    }
+    PS_TRY(ps_picture_check(arguments, error));
     PS_TRY(ps_table_choose_format(format, arguments->format,
                                   arguments->output != NULL ? arguments->output : "-", error));
     return ps_outputs_check(arguments, true, error);

@@ -2,6 +2,7 @@
 #include "base/text.h"
 #include "cli/command.h"
 #include "cli/run.h"
+#include "cli/run_files.h"
 #include "io/output_file.h"
 #include "io/plot.h"
 #include "pointspec_version.h"
@@ -160,16 +161,16 @@ static pspec_status write_text(const ps_run *run, const char *name, make_text *m
 
 static pspec_status write_picture(const ps_run *run, const char *name, const ps_run_plot *plot,
                                   ps_error *error) {
-    char ending[PS_SUFFIX_BYTES + sizeof ".svg"];
-    snprintf(ending, sizeof ending, "%s.svg", plot->what->suffix);
+    char ending[PS_SUFFIX_BYTES + 8];
+    snprintf(ending, sizeof ending, "%s%s", plot->what->suffix, ps_run_picture_ending);
     return write_file(run, name, ending, plot->svg, strlen(plot->svg), error);
 }
 
 static pspec_status write_tables(const ps_run *run, ps_run_result *result, ps_error *error) {
     const char *const name = result->asked->name;
     PS_TRY(ps_run_make_tables(run, result, error));
-    PS_TRY(write_table(run, result->table, name, ".csv", error));
-    return write_table(run, result->summary, name, ".summary.csv", error);
+    PS_TRY(write_table(run, result->table, name, ps_run_table_ending, error));
+    return write_table(run, result->summary, name, ps_run_summary_ending, error);
 }
 
 static pspec_status write_pictures(ps_run *run, ps_run_result *result, ps_error *error) {
@@ -185,14 +186,14 @@ static pspec_status write_pictures(ps_run *run, ps_run_result *result, ps_error 
 /* The record comes first: with it the folder is one of a run, whatever happens next. Numbers come before pictures. */
 static pspec_status write_all(ps_run *run, ps_error *error) {
     PS_TRY(make_folder(run->folder, error));
-    PS_TRY(write_text(run, "record.json", ps_run_record, error));
+    PS_TRY(write_text(run, ps_run_record_name, ps_run_record, error));
     for (size_t i = 0; i < run->num_results; i++) {
         PS_TRY(write_tables(run, &run->results[i], error));
     }
     for (size_t i = 0; i < run->num_results; i++) {
         PS_TRY(write_pictures(run, &run->results[i], error));
     }
-    return write_text(run, "index.html", ps_run_page, error);
+    return write_text(run, ps_run_page_name, ps_run_page, error);
 }
 
 /* ---- what is said at the end ------------------------------------------------------------- */

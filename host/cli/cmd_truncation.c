@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "cli/answer.h"
 #include "cli/output_check.h"
+#include "cli/picture.h"
 #include "cli/spectrum_header.h"
 #include "io/plot.h"
 #include "job/equal_error.h"
@@ -41,10 +42,6 @@ pspec_status ps_truncation_check(const ps_request *arguments, ps_error *error) {
     if (arguments->brdf == NULL) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "--brdf NAME is needed, as in --brdf diffuse or --brdf glossy:n=30");
-    }
-    if (arguments->plot != NULL && !ps_plot_is_supported(arguments->plot)) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "--plot draws .png, .svg and .pdf, not \"%s\"", arguments->plot);
     }
     if (arguments->max_degree > MOST_DEGREE) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "max degree %llu is more than %d",
@@ -223,13 +220,14 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
     pspec_status status = PSPEC_OK;
     PS_TRY(ps_truncation_check(arguments, error));
     PS_TRY(ps_table_choose_format(&format, arguments->format, path, error));
+    PS_TRY(ps_picture_check(arguments, error));
     PS_TRY(ps_outputs_check(arguments, true, error));
     PS_TRY_OUT(status, find_shown(&of, error));
-    if (arguments->plot != NULL) {
-        PS_TRY_OUT(status, write_plot(&of, error));
-    }
     PS_TRY_OUT(status, make_table(&table, &of, error));
-    status = ps_table_write(table, path, format, error);
+    PS_TRY_OUT(status, ps_table_write(table, path, format, error));
+    if (arguments->plot != NULL) {
+        status = ps_picture_settle(arguments, write_plot(&of, error), error);
+    }
 out:
     ps_table_destroy(table);
     end(&of);

@@ -2,8 +2,8 @@
 
 #include "cli/command.h"
 #include "cli/output_check.h"
+#include "cli/picture.h"
 #include "cli/spectrum_plot.h"
-#include "io/plot.h"
 #include "plan/figures_file.h"
 
 #include <stdio.h>
@@ -113,10 +113,7 @@ static pspec_status run_shown(const ps_request *arguments, ps_power_question *qu
 
 static pspec_status check_outputs(const ps_request *arguments, ps_table_format *format,
                                   ps_error *error) {
-    if (arguments->plot != NULL && !ps_plot_is_supported(arguments->plot)) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "--plot draws .png, .svg and .pdf, not \"%s\"", arguments->plot);
-    }
+    PS_TRY(ps_picture_check(arguments, error));
     PS_TRY(ps_table_choose_format(format, arguments->format, arguments->output, error));
     return ps_outputs_check(arguments, true, error);
 }
@@ -128,13 +125,13 @@ static pspec_status write_results(const ps_request *arguments, const ps_power_jo
     if (output->write_others != NULL) {
         PS_TRY(output->write_others(arguments, jobs, error));
     }
-    if (arguments->plot != NULL) {
-        PS_TRY(ps_spectrum_plot(arguments, jobs, num, error));
-    }
     PS_TRY(output->make_table(&table, arguments, jobs, num, error));
-    const pspec_status status =
+    pspec_status status =
         ps_table_write(table, arguments->output != NULL ? arguments->output : "-", format, error);
     ps_table_destroy(table);
+    if (status == PSPEC_OK && arguments->plot != NULL) {
+        status = ps_picture_settle(arguments, ps_spectrum_plot(arguments, jobs, num, error), error);
+    }
     return status;
 }
 

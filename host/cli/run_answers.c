@@ -2,6 +2,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "cli/run.h"
+#include "cli/run_files.h"
 #include "plan/figures_file.h"
 #include "scene/quadrature_question.h"
 #include "scene/question.h"
@@ -56,6 +57,8 @@ pspec_status ps_run_read_scene(ps_scene *out, const ps_request *arguments, ps_er
 
 pspec_status ps_run_ask(ps_run *run, ps_error *error) {
     void *memory = NULL;
+    ps_run_files files = {0};
+    PS_TRY(ps_scene_check_inputs(run->scene, error));
     PS_TRY(ps_allocate(&memory, run->scene->num_results, sizeof *run->results, "results", error));
     run->results = memory;
     run->num_results = run->scene->num_results;
@@ -71,7 +74,9 @@ pspec_status ps_run_ask(ps_run *run, ps_error *error) {
         }
         run->num_questions += num;
     }
-    return PSPEC_OK;
+    const pspec_status status = ps_run_files_list(&files, run, error);
+    ps_run_files_free(&files);
+    return status;
 }
 
 /* ---- one question ------------------------------------------------------------------------ */

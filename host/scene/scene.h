@@ -67,6 +67,15 @@ void ps_scene_free(ps_scene *scene);
 /* A limit of memory becomes a key of every result that could have it and does not, so that records keep it. */
 pspec_status ps_scene_limit_memory(ps_scene *scene, uint64_t bytes, ps_error *error) PS_MUST_CHECK;
 
+/* Every file that the scene reads: points, weights, frequencies, lobes, saved spectra. */
+typedef pspec_status ps_scene_visit_input(void *payload, const ps_scene *scene,
+                                          const ps_scene_entry *entry, const ps_scene_value *value,
+                                          const char *path, ps_error *error);
+pspec_status ps_scene_visit_inputs(const ps_scene *scene, ps_scene_visit_input *visit,
+                                   void *payload, ps_error *error) PS_MUST_CHECK;
+/* Refuses what is no regular file, or has no end, with its line and key, before anything is opened. */
+pspec_status ps_scene_check_inputs(const ps_scene *scene, ps_error *error) PS_MUST_CHECK;
+
 /* One question of a result. */
 typedef struct ps_scene_question {
     const ps_scene_result *result;

@@ -75,11 +75,14 @@ static pspec_status resolve_lobe(ps_scene *scene, const ps_scene_file *file,
     return status;
 }
 
+bool ps_scene_is_path(int option, const char *text) {
+    return option == PS_SCENE_FILES || option == PS_OPTION_FREQUENCIES ||
+           option == PS_OPTION_AGAINST || (option == PS_OPTION_WEIGHTS && !is_weight_word(text));
+}
+
 static pspec_status resolve_paths(ps_scene *scene, const ps_scene_file *file, int option,
                                   ps_scene_value *value) {
-    const bool is_path = option == PS_SCENE_FILES || option == PS_OPTION_FREQUENCIES ||
-                         option == PS_OPTION_AGAINST ||
-                         (option == PS_OPTION_WEIGHTS && !is_weight_word(value->texts[0]));
+    const bool is_path = ps_scene_is_path(option, value->texts[0]);
     for (size_t i = 0; is_path && i < value->num_texts; i++) {
         PS_TRY(resolve(scene, file, value, &value->texts[i]));
     }

@@ -1,0 +1,93 @@
+/* The files that a scene reads: what cannot be read twice, or to its end, is refused before it is opened. */
+#include "scene/scene_file.h"
+
+#include <errno.h>
+#include <string.h>
+#include <sys/stat.h>
+
+/* A regular file of more is one of those that the system makes up, or all holes: reading it would not end. */
+#define MOST_BYTES (UINT64_C(1) << 40)
+
+typedef struct input {
+    const ps_scene_file *file;
+    const char *key;
+    int line;
+} input;
+
+static const char *name_kind(mode_t mode) {
+    return S_ISDIR(mode)                    ? "a folder"
+           : S_ISFIFO(mode)                 ? "a pipe"
+           : S_ISSOCK(mode)                 ? "a socket"
+           : S_ISCHR(mode) || S_ISBLK(mode) ? "a device"
+                                            : "no regular file";
+}
+
+/* Names of what this process has open, or of what the system makes up as it is read. */
+static bool is_passing(const char *path) {
+    static const char *const folders[] = {"/dev/", "/proc/", "/sys/"};
+    for (size_t i = 0; i < sizeof folders / sizeof folders[0]; i++) {
+        if (strncmp(path, folders[i], strlen(folders[i])) == 0 &&
+            strncmp(path, "/dev/shm/", strlen("/dev/shm/")) != 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static pspec_status check_path(const input *of, const char *path) {
+    struct stat facts;
+    if (stat(path, &facts) != 0) {
+        (void)ps_scene_complain(of->file, of->line, of->key, "cannot read \"%s\": %s", path,
+                                strerror(errno));
+        return of->file->error->status = PSPEC_ERROR_IO; /* the scene may be right */
+    }
+    if (!S_ISREG(facts.st_mode) || is_passing(path)) {
+        return ps_scene_complain(
+            of->file, of->line, of->key,
+            "\"%s\" is %s: a scene can be run again, and reads regular files only", path,
+            S_ISREG(facts.st_mode) ? "made up by the system" : name_kind(facts.st_mode));
+    }
+    if (facts.st_size == 0) {
+        return ps_scene_complain(of->file, of->line, of->key, "\"%s\" is empty", path);
+    }
+    return (uint64_t)facts.st_size <= MOST_BYTES
+               ? PSPEC_OK
+               : ps_scene_complain(of->file, of->line, of->key,
+                                   "\"%s\" has %lld bytes, more than %llu", path,
+                                   (long long)facts.st_size, (unsigned long long)MOST_BYTES);
+}
+
+pspec_status ps_scene_visit_inputs(const ps_scene *scene, ps_scene_visit_input *visit,
+                                   void *payload, ps_error *error) {
+    static const char lobe[] = "file=";
+    for (size_t r = 0; r < scene->num_results; r++) {
+        for (size_t e = 0; e < scene->results[r].num_entries; e++) {
+            const ps_scene_entry *const entry = &scene->results[r].entries[e];
+            for (size_t v = 0; v < entry->num_values; v++) {
+                const ps_scene_value *const value = &entry->values[v];
+                const char *const found =
+                    entry->option == PS_OPTION_BRDF ? strstr(value->texts[0], lobe) : NULL;
+                for (size_t i = 0;
+                     ps_scene_is_path(entry->option, value->texts[0]) && i < value->num_texts;
+                     i++) {
+                    PS_TRY(visit(payload, scene, entry, value, value->texts[i], error));
+                }
+                if (found != NULL) {
+                    PS_TRY(visit(payload, scene, entry, value, found + strlen(lobe), error));
+                }
+            }
+        }
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status visit_check(void *payload, const ps_scene *scene, const ps_scene_entry *entry,
+                                const ps_scene_value *value, const char *path, ps_error *error) {
+    (void)payload;
+    const ps_scene_file file = {.path = scene->path, .error = error};
+    return check_path(&(input){&file, ps_scene_key(entry), value->line}, path);
+}
+
+pspec_status ps_scene_check_inputs(const ps_scene *scene, ps_error *error) {
+    return ps_scene_visit_inputs(scene, visit_check, NULL, error);
+}
