@@ -2,7 +2,8 @@
  * them. No device is opened: planning is a function of problem, limits and figures. */
 #include "harness_plan.h"
 
-#include "plan/figures_file.h"
+#include "plan/host_cost.h"
+#include "plan/host_figures.h"
 
 #include "pointspec_version.h"
 
@@ -147,6 +148,10 @@ static void wrong_lines(void **state) {
         "bytes copied 0x1p40\n",
         "date a day of so many words that they do not fit\n",
         "speed 3\n",
+        "host pair 0\n",
+        "host pair\n",
+        "host  1\n",
+        "host pair 1 2\n",
         "\n",
         "flops single 1e9", /* goes on with the checksum */
     };
@@ -291,27 +296,75 @@ static void planner_scales_seconds(void **state) {
     assert_true(seconds_of(&limits, "torus_direct", PS_SINGLE, &now) == direct);
 }
 
-/* The cheapest by the measured figures is chosen, the same at every time. */
-static void planner_chooses_by_them(void **state) {
+/* What decides is the built-in model, so that results have the same bits on every machine of a kind, measured or not. */
+static void planner_does_not_choose_by_them(void **state) {
     (void)state;
     ps_device_limits limits = some_device();
+    const char *builtin = NULL;
     const char *chosen = NULL;
     ps_figures figures = {.is_measured = true};
+    seconds_of(&limits, "torus_direct", PS_SINGLE, &builtin);
     limits.figures = &figures;
-    for (int i = 0; i < 3; i++) {
-        for (int p = PS_SINGLE; p <= PS_DOUBLE; p++) {
-            ps_figures_row(&figures, "torus_nufft")->scales[p] = 1e3;
-            ps_figures_row(&figures, "torus_direct")->scales[p] = 1e-3;
-        }
-        seconds_of(&limits, "torus_direct", PS_SINGLE, &chosen);
-        assert_string_equal(chosen, "torus_direct");
-        for (int p = PS_SINGLE; p <= PS_DOUBLE; p++) {
-            ps_figures_row(&figures, "torus_nufft")->scales[p] = 1e-3;
-            ps_figures_row(&figures, "torus_direct")->scales[p] = 1e3;
-        }
-        seconds_of(&limits, "torus_direct", PS_SINGLE, &chosen);
-        assert_string_equal(chosen, "torus_nufft");
+    for (int p = PS_SINGLE; p <= PS_DOUBLE; p++) {
+        ps_figures_row(&figures, "torus_nufft")->scales[p] = 1e3;
+        ps_figures_row(&figures, "torus_direct")->scales[p] = 1e-3;
     }
+    seconds_of(&limits, "torus_direct", PS_SINGLE, &chosen);
+    assert_string_equal(chosen, builtin);
+    for (int p = PS_SINGLE; p <= PS_DOUBLE; p++) {
+        ps_figures_row(&figures, "torus_nufft")->scales[p] = 1e-3;
+        ps_figures_row(&figures, "torus_direct")->scales[p] = 1e3;
+    }
+    seconds_of(&limits, "torus_direct", PS_SINGLE, &chosen);
+    assert_string_equal(chosen, builtin);
+}
+
+/* ---- the host ------------------------------------------------------------------------------ */
+
+static void host_figures_scale_its_work(void **state) {
+    (void)state;
+    ps_figures figures = {.is_measured = true};
+    const double built_in = ps_host_seconds(NULL, PS_HOST_PAIR, 1e6);
+    assert_true(built_in > 0);
+    assert_true(ps_host_seconds(&figures, PS_HOST_PAIR, 1e6) == built_in); /* nothing measured */
+    ps_figures_host_row(&figures, "pair")->scale = 4;
+    assert_true(ps_host_seconds(&figures, PS_HOST_PAIR, 1e6) == 4 * built_in);
+    ps_figures_host_row(&figures, "kappa")->scale = 1; /* others: the geometric mean */
+    const double doubled = ps_host_seconds(&figures, PS_HOST_OWEN, 1);
+    assert_true(fabs(doubled / ps_host_seconds(NULL, PS_HOST_OWEN, 1) - 2) < 1e-12);
+}
+
+static void host_figures_come_back(void **state) {
+    (void)state;
+    char root[] = "/tmp/test_figures.XXXXXX";
+    ps_figures figures = {.is_measured = true, .date = "2026-11-23T10:00:00Z"};
+    ps_figures back;
+    ps_device_limits host;
+    ps_text path = {0};
+    assert_non_null(mkdtemp(root));
+    for (int kind = 0; kind < PS_NUM_HOST_KINDS; kind++) { /* all of them find room */
+        ps_host_figure *const row =
+            ps_figures_host_row(&figures, ps_host_kind_name((ps_host_kind)kind));
+        assert_non_null(row);
+        row->scale = 1 + kind / 64.0;
+    }
+    assert_ok(ps_host_figures_write(root, &figures, error));
+    assert_ok(ps_host_figures_read(&back, root, error));
+    assert_int_equal(back.num_host, PS_NUM_HOST_KINDS);
+    for (int kind = 0; kind < PS_NUM_HOST_KINDS; kind++) {
+        assert_true(ps_figures_host_scale(&back, ps_host_kind_name((ps_host_kind)kind)) ==
+                    1 + kind / 64.0);
+    }
+    ps_host_describe(&host);
+    assert_ok(ps_figures_path(&path, root, &host, error));
+    assert_int_equal(remove(path.data), 0);
+    assert_ok(ps_host_figures_read(&back, root, error));
+    assert_false(back.is_measured);
+    ps_text_free(&path);
+    ps_text_append(&path, "%s/devices", root);
+    assert_int_equal(rmdir(path.data), 0);
+    assert_int_equal(rmdir(root), 0);
+    ps_text_free(&path);
 }
 
 int main(void) {
@@ -323,7 +376,9 @@ int main(void) {
         cmocka_unit_test(too_many_engines),
         cmocka_unit_test(files),
         cmocka_unit_test(planner_scales_seconds),
-        cmocka_unit_test(planner_chooses_by_them),
+        cmocka_unit_test(planner_does_not_choose_by_them),
+        cmocka_unit_test(host_figures_scale_its_work),
+        cmocka_unit_test(host_figures_come_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

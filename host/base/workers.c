@@ -65,11 +65,14 @@ static void start_threads(ps_workers *workers, unsigned wanted) {
     pthread_sigmask(SIG_SETMASK, &kept, NULL);
 }
 
-ps_workers *ps_workers_create(unsigned most_threads) {
+static unsigned count_processors(unsigned most_threads) {
     const long processors = sysconf(_SC_NPROCESSORS_ONLN);
-    const unsigned most = processors > 0 && (unsigned long)processors < most_threads
-                              ? (unsigned)processors
-                              : most_threads;
+    return processors > 0 && (unsigned long)processors < most_threads ? (unsigned)processors
+                                                                      : most_threads;
+}
+
+ps_workers *ps_workers_create(unsigned most_threads) {
+    const unsigned most = count_processors(most_threads);
     ps_workers *const workers =
         most > 1 ? calloc(1, sizeof *workers + (most - 1) * sizeof(worker)) : NULL;
     if (workers == NULL) {
@@ -141,10 +144,17 @@ static void do_share(void *payload, unsigned index) {
     self->task(self->payload, index, self->count);
 }
 
+/* Threads of one sharing. */
+enum { MOST_THREADS = 16 };
+
+unsigned ps_workers_most(void) {
+    return count_processors(MOST_THREADS);
+}
+
 void ps_workers_share(size_t num, void (*task)(void *payload, unsigned index, unsigned count),
                       void *payload) {
     /* Of things that take some nanoseconds each, so many pay for a thread that comes and goes, 0.1 ms. */
-    enum { LEAST = 1 << 17, MOST_THREADS = 16 };
+    enum { LEAST = 1 << 17 };
     ps_workers *const workers = num >= LEAST ? ps_workers_create(MOST_THREADS) : NULL;
     sharing all = {task, payload, ps_workers_count(workers)};
     ps_workers_run(workers, do_share, &all);

@@ -22,6 +22,9 @@ void ps_workers_run(ps_workers *workers, void (*task)(void *payload, unsigned in
 void ps_workers_share(size_t num, void (*task)(void *payload, unsigned index, unsigned count),
                       void *payload);
 
+/* So many threads that has at most on this machine. */
+unsigned ps_workers_most(void);
+
 /* The first of num things that are part `index` of `count`; of part `count`: num. */
 static inline size_t ps_share_begin(size_t num, unsigned index, unsigned count) {
     return num / count * index + (num % count < index ? num % count : index);

@@ -5,6 +5,7 @@
 #include "cli/command.h"
 #include "io/table.h"
 #include "job/power_job.h"
+#include "plan/phases.h"
 
 /* Who is told how far it is, and what there is already. */
 typedef struct ps_answer_hooks {
@@ -37,6 +38,9 @@ pspec_status ps_quadrature_answer(ps_table **out, const ps_request *request,
                                   const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
 pspec_status ps_truncation_answer(ps_table **out, const ps_request *request,
                                   const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
+/* How long its phases take. */
+pspec_status ps_truncation_phases(const ps_request *arguments, ps_phases *phases,
+                                  ps_error *error) PS_MUST_CHECK;
 pspec_status ps_truncation_check(const ps_request *request, ps_error *error) PS_MUST_CHECK;
 pspec_status ps_check_check(const ps_request *request, ps_error *error) PS_MUST_CHECK;
 pspec_status ps_check_answer(ps_table **out, const ps_request *request,

@@ -5,7 +5,7 @@
 #include "cli/output_check.h"
 #include "cli/picture.h"
 #include "io/table_stream.h"
-#include "plan/figures_file.h"
+#include "plan/host_figures.h"
 #include "scene/options.h"
 
 #include <math.h>
@@ -171,6 +171,16 @@ static pspec_status add_figures(answer *of, const ps_figures *figures, const cha
     return PSPEC_OK;
 }
 
+static pspec_status add_host_figures(answer *of, const ps_figures *host, ps_error *error) {
+    for (size_t i = 0; i < host->num_host; i++) {
+        char name[64];
+        snprintf(name, sizeof name, "host %s", host->host[i].kind);
+        const ps_cell cells[] = {PS_TEXT(name), PS_MISSING, PS_NUMBER(host->host[i].scale)};
+        PS_TRY(ps_table_add_row(of->table, cells, error));
+    }
+    return PSPEC_OK;
+}
+
 static void say_date(ps_figures *figures) {
     const time_t now = time(NULL);
     struct tm parts;
@@ -186,16 +196,23 @@ static pspec_status calibrate(answer *of, const ps_bench_options *options, ps_ta
     const char *const folder = of->arguments->cache_folder;
     const ps_device_limits *const limits = ps_device_get_limits(of->device);
     ps_figures figures;
+    ps_figures host;
     ps_text file = {0};
     PS_TRY(ps_figures_make_folder(folder, error)); /* before the work */
     of->progress = ps_progress_begin(of->arguments, "cases");
-    pspec_status status = ps_bench_calibrate(options, of->device, &figures, error);
+    pspec_status status = ps_bench_calibrate_host(options, folder, &host, error);
+    if (status == PSPEC_OK) {
+        status = ps_bench_calibrate(options, of->device, &figures, error);
+    }
     ps_progress_end(of->progress);
     PS_TRY(status);
     say_date(&figures);
+    say_date(&host);
     PS_TRY(ps_figures_write(folder, &figures, limits, error));
+    PS_TRY(ps_host_figures_write(folder, &host, error));
     PS_TRY_OUT(status, ps_figures_path(&file, folder, limits, error));
     PS_TRY_OUT(status, add_figures(of, &figures, ps_text_string(&file), error));
+    PS_TRY_OUT(status, add_host_figures(of, &host, error));
     status = ps_table_write(of->table, path, format, error);
 out:
     ps_text_free(&file);
@@ -314,7 +331,8 @@ const ps_command ps_command_bench = {
         "beside the error that long double sums find. pareto is 1 where nothing else of the case "
         "is as fast and as exact. --calibrate measures instead how far this device is from the "
         "planner's cost model and keeps that below POINTSPEC_CACHE_DIR (else "
-        "XDG_CACHE_HOME/pointspec, else ~/.cache/pointspec): the commands plan with it from then "
+        "XDG_CACHE_HOME/pointspec, else ~/.cache/pointspec): plan says its seconds with it from "
+        "then "
         "on. --scenes runs scenes with and without skips instead, without the cache of results, "
         "and "
         "compares time and answers; exit status 3 when they differ. Wants a quiet machine; a plain "

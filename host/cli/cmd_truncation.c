@@ -9,6 +9,8 @@
 #include "cli/spectrum_header.h"
 #include "io/plot.h"
 #include "job/equal_error.h"
+#include "job/power_phases.h"
+#include "job/quadrature_phases.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -31,6 +33,9 @@ typedef struct answer {
     size_t max_degree, sh_degree;
     double *degrees, *errors, *bounds, *points; /* [max_degree + 1] */
 } answer;
+
+static answer begin(const ps_request *arguments);
+static void end(answer *of);
 
 /* ---- the numbers --------------------------------------------------------------------------- */
 
@@ -79,7 +84,8 @@ static pspec_status find_points(const answer *of, const ps_answer_hooks *hooks, 
     return PSPEC_OK;
 }
 
-static pspec_status find_answer(answer *of, const ps_answer_hooks *hooks, ps_error *error) {
+/* The errors of all degrees. */
+static pspec_status find_errors(answer *of, ps_error *error) {
     enum { COLUMNS = 4 };
     const ps_request *const arguments = of->arguments;
     const size_t num = of->max_degree + 1;
@@ -99,12 +105,66 @@ static pspec_status find_answer(answer *of, const ps_answer_hooks *hooks, ps_err
     if (of->is_hemispherical) {
         PS_TRY(ps_truncation_hemispherical(of->brdf, arguments->smoothness, of->max_degree, BRACKET,
                                            of->errors, of->bounds, &of->sh_degree, error));
-    } else {
-        of->sh_degree = of->representer.max_degree;
-        PS_TRY(ps_truncation_spherical(&of->representer, of->max_degree, of->errors, of->bounds,
-                                       error));
+        return PSPEC_OK;
     }
+    of->sh_degree = of->representer.max_degree;
+    return ps_truncation_spherical(&of->representer, of->max_degree, of->errors, of->bounds, error);
+}
+
+static pspec_status find_answer(answer *of, const ps_answer_hooks *hooks, ps_error *error) {
+    PS_TRY(find_errors(of, error));
     return find_points(of, hooks, error);
+}
+
+/* Pairs, and points, of a rule. */
+static void add_rule(const answer *of, ps_phases *phases, double num) {
+    static const char name[] = "points of equal error";
+    ps_phases_add(phases, name, PS_HOST_FIBONACCI, num);
+    ps_phases_add(phases, name, PS_HOST_KAPPA, num * (double)of->representer.num_terms);
+    ps_phases_add(phases, name,
+                  of->arguments->smoothness == 1.5 ? PS_HOST_PAIR : PS_HOST_PAIR_POWER,
+                  num * num / 2);
+}
+
+/* Of every degree how many points will have its error: E falls like N^(-s/2) from a rule that is cheap. Each takes two
+ * rules of about so many, and all together the rungs of the ladder up to the highest. */
+static pspec_status add_equal_points(answer *of, ps_phases *phases, ps_error *error) {
+    enum { FEW = 256, STEPS = 2 };
+    const double s = of->arguments->smoothness;
+    const ps_morph morph = ps_brdf_morph(of->brdf);
+    double of_few = 0;
+    double most = 1;
+    PS_TRY(ps_fibonacci_error(&of->representer, &morph, FEW, &of_few, error));
+    for (size_t l = 0; l <= of->max_degree; l++) {
+        const double num = FEW * pow(of_few / of->errors[l], 2 / s);
+        const bool is_there = of->errors[l] > 0 && num <= PS_EQUAL_ERROR_MOST;
+        most = of->errors[l] > 0 ? fmax(most, fmin(num, PS_EQUAL_ERROR_MOST)) : most;
+        for (int step = 0; is_there && step < STEPS; step++) {
+            add_rule(of, phases, num);
+        }
+    }
+    for (double num = 1; num < 2 * most; num *= 2) {
+        add_rule(of, phases, num);
+    }
+    ps_phases_say(phases, "points of equal error", "rules of up to %.3g points", most);
+    return PSPEC_OK;
+}
+
+pspec_status ps_truncation_phases(const ps_request *arguments, ps_phases *phases, ps_error *error) {
+    answer of = begin(arguments);
+    PS_TRY(ps_truncation_check(arguments, error));
+    of.is_hemispherical = false; /* errors of those take their time; they are about the same */
+    pspec_status status = find_errors(&of, error);
+    if (status == PSPEC_OK) {
+        ps_phases_start(phases, NULL);
+        ps_phases_lobe(phases, &of.representer);
+        if (ps_brdf_morph(of.brdf).kind != PS_MORPH_NONE) {
+            status = add_equal_points(&of, phases, error);
+        }
+        ps_phases_add(phases, "results", PS_HOST_ROW, (double)of.max_degree);
+    }
+    end(&of);
+    return status;
 }
 
 /* ---- the table ----------------------------------------------------------------------------- */

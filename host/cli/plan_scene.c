@@ -5,8 +5,9 @@
 #include <stdio.h>
 
 static pspec_status add_block(ps_run *run, const ps_run_result *result, size_t number,
-                              ps_table *table, ps_error *error) {
+                              ps_planner *to, ps_error *error) {
     enum { JOB = 128 };
+    ps_table *const table = to->table;
     char job[JOB];
     ps_answer answer = {0};
     double seconds = 0;
@@ -19,20 +20,22 @@ static pspec_status add_block(ps_run *run, const ps_run_result *result, size_t n
     PS_TRY(ps_run_fetch(run, question, &answer, &seconds, &is_cached, error));
     ps_answer_free(&answer);
     if (is_cached) {
-        return ps_plan_table_add_cached(&(ps_planner){table, job, NULL}, error);
+        to->job = job;
+        return ps_plan_table_add_cached(to, error);
     }
     PS_TRY(ps_run_open_device(run, result, error));
-    return ps_plan_table_add(&(ps_planner){table, job, run->device}, result->asked->kind,
-                             &question->asked.request, error);
+    to->job = job;
+    to->device = run->device;
+    return ps_plan_table_add(to, result->asked->kind, &question->asked.request, error);
 }
 
-static pspec_status add_blocks(ps_run *run, ps_table *table, ps_error *error) {
+static pspec_status add_blocks(ps_run *run, ps_planner *to, ps_error *error) {
     PS_TRY(ps_run_ask(run, error));
     PS_TRY(ps_run_open_cache(run, error));
     for (size_t i = 0; i < run->num_results; i++) {
         const ps_run_result *const result = &run->results[i];
         for (size_t q = 0; q < result->num; q++) {
-            if (add_block(run, result, q, table, error) != PSPEC_OK) {
+            if (add_block(run, result, q, to, error) != PSPEC_OK) {
                 return ps_scene_blame(run->scene, result->asked, error);
             }
         }
@@ -40,7 +43,7 @@ static pspec_status add_blocks(ps_run *run, ps_table *table, ps_error *error) {
     return PSPEC_OK;
 }
 
-pspec_status ps_plan_scene(ps_table *table, const ps_request *arguments, ps_error *error) {
+pspec_status ps_plan_scene(ps_planner *to, const ps_request *arguments, ps_error *error) {
     ps_scene scene = {0};
     if (arguments->num_files != 1) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
@@ -50,7 +53,7 @@ pspec_status ps_plan_scene(ps_table *table, const ps_request *arguments, ps_erro
     ps_run run = {.arguments = arguments, .scene = &scene};
     pspec_status status = ps_run_read_scene(&scene, arguments, error);
     if (status == PSPEC_OK) {
-        status = add_blocks(&run, table, error);
+        status = add_blocks(&run, to, error);
     }
     ps_run_free(&run);
     ps_scene_free(&scene);

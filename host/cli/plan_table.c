@@ -2,6 +2,9 @@
 #include "cli/plan_table.h"
 
 #include "cli/answer.h"
+#include "job/point_phases.h"
+#include "job/power_phases.h"
+#include "job/quadrature_phases.h"
 #include "scene/check_question.h"
 #include "scene/quadrature_question.h"
 #include "scene/question.h"
@@ -27,7 +30,11 @@ static const char *verdict_of(const ps_candidate *candidate) {
     return candidate->is_feasible ? "slower" : candidate->is_excluded ? "excluded" : "infeasible";
 }
 
-static pspec_status add_candidates(const ps_planner *to, const ps_plan *plan, ps_error *error) {
+/* Each with its own seconds, `repeats` times, and those of all other phases. */
+static pspec_status add_candidates(const ps_planner *to, const ps_plan *plan,
+                                   const ps_phases *phases, double repeats, ps_error *error) {
+    const double own = plan->chosen != NULL ? plan->chosen->seconds * repeats : 0;
+    const double others = ps_phases_seconds(phases) - own;
     for (size_t i = 0; i < plan->num_candidates; i++) {
         const ps_candidate *candidate = &plan->candidates[i];
         char name[64];
@@ -38,7 +45,7 @@ static pspec_status add_candidates(const ps_planner *to, const ps_plan *plan, ps
             PS_TEXT(to->job),
             PS_TEXT(name),
             PS_TEXT(verdict_of(candidate)),
-            has_numbers ? PS_NUMBER(candidate->seconds) : PS_MISSING,
+            has_numbers ? PS_NUMBER(candidate->seconds * repeats + others) : PS_MISSING,
             has_numbers ? PS_INTEGER(candidate->bytes) : PS_MISSING,
             has_numbers ? PS_NUMBER(candidate->error) : PS_MISSING,
             PS_TEXT(candidate->reason),
@@ -57,6 +64,47 @@ static pspec_status add_skip(const ps_planner *to, const ps_skip *skip, ps_error
     PS_TRY(ps_table_add_meta(to->table, "skip", PS_TEXT(text), error));
     return to->job != NULL ? ps_table_add_row(to->table, cells, error) : PSPEC_OK;
 }
+
+/* ---- phases -------------------------------------------------------------------------------- */
+
+static pspec_status add_phase(const ps_planner *to, const ps_phase_cost *phase, ps_error *error) {
+    char text[sizeof(ps_phase_cost) + 64]; /* with a number and separators */
+    const char *const most = phase->is_at_most ? "at most " : "";
+    snprintf(text, sizeof text, "%s; %s%.3g s; %s", phase->name, most, phase->seconds, phase->what);
+    PS_TRY(ps_table_add_meta(to->table, "phase", PS_TEXT(text), error));
+    snprintf(text, sizeof text, "%s%s; %s", most, phase->name, phase->what);
+    const ps_cell cells[NUM_COLUMNS] = {
+        PS_TEXT(to->job), PS_MISSING, PS_TEXT("phase"), PS_NUMBER(phase->seconds),
+        PS_MISSING,       PS_MISSING, PS_TEXT(text)};
+    return to->job != NULL ? ps_table_add_row(to->table, cells, error) : PSPEC_OK;
+}
+
+pspec_status ps_plan_table_add_phases(ps_planner *to, const ps_phases *phases, ps_error *error) {
+    for (size_t i = 0; i < phases->num; i++) {
+        PS_TRY(add_phase(to, &phases->list[i], error));
+    }
+    to->seconds += ps_phases_seconds(phases);
+    to->is_at_most = to->is_at_most || ps_phases_are_at_most(phases);
+    return PSPEC_OK;
+}
+
+pspec_status ps_plan_table_end(const ps_planner *to, ps_error *error) {
+    char text[64];
+    snprintf(text, sizeof text, "%s%.3g", to->is_at_most ? "at most " : "", to->seconds);
+    return ps_table_add_meta(to->table, "seconds", PS_TEXT(text), error);
+}
+
+static pspec_status add_host(ps_planner *to, const ps_phases *phases, const char *reason,
+                             ps_error *error) {
+    const ps_cell cells[NUM_COLUMNS] = {
+        PS_TEXT(to->job), PS_TEXT("host"), PS_TEXT("chosen"), PS_NUMBER(ps_phases_seconds(phases)),
+        PS_MISSING,       PS_MISSING,      PS_TEXT(reason)};
+    PS_TRY(ps_table_add_meta(to->table, "device", PS_TEXT("none"), error));
+    PS_TRY(ps_plan_table_add_phases(to, phases, error));
+    return ps_table_add_row(to->table, to->job != NULL ? cells : cells + 1, error);
+}
+
+/* ---- jobs ---------------------------------------------------------------------------------- */
 
 /* What is asked of a job: number `index` of its command. */
 static pspec_status add_header(const ps_planner *to, const ps_request *arguments,
@@ -90,33 +138,49 @@ static pspec_status add_header(const ps_planner *to, const ps_request *arguments
     return PSPEC_OK;
 }
 
-static pspec_status add_list(const ps_planner *to, const ps_request *arguments,
-                             ps_question_list *list, ps_error *error) {
+static ps_phases begin_phases(const ps_planner *to) {
+    return (ps_phases){.host = to->host};
+}
+
+/* A picture needs gnuplot, which takes its time whatever is in it. */
+static void add_picture(ps_phases *phases, const ps_request *arguments) {
+    ps_phases_add(phases, "picture", PS_HOST_PICTURE, arguments->plot != NULL ? 1 : 0);
+    ps_phases_say(phases, "picture", "by gnuplot");
+}
+
+static pspec_status add_power(ps_planner *to, const ps_request *arguments, const ps_power_job *job,
+                              size_t index, ps_error *error) {
+    ps_phases phases = begin_phases(to);
+    const double repeats = ps_power_job_phases(job, &phases);
+    add_picture(&phases, arguments);
+    PS_TRY(add_header(to, arguments, ps_power_job_problem(job), ps_power_job_needs(job),
+                      ps_power_job_limits(job), index, error));
+    PS_TRY(ps_plan_table_add_phases(to, &phases, error));
+    return add_candidates(to, ps_power_job_plan(job), &phases, repeats, error);
+}
+
+static pspec_status add_list(ps_planner *to, const ps_request *arguments, ps_question_list *list,
+                             ps_error *error) {
     for (size_t i = 0; i < list->num; i++) {
         ps_power_job *job = NULL;
         list->questions[i].open_device = to->device;
         PS_TRY(ps_power_job_create(&job, &list->questions[i], error));
         ps_power_job_rate_skips(job);
-        pspec_status status =
-            add_header(to, arguments, ps_power_job_problem(job), ps_power_job_needs(job),
-                       ps_power_job_limits(job), i, error);
-        if (status == PSPEC_OK) {
-            status = add_candidates(to, ps_power_job_plan(job), error);
-        }
+        const pspec_status status = add_power(to, arguments, job, i, error);
         ps_power_job_destroy(job);
         PS_TRY(status);
     }
     return PSPEC_OK;
 }
 
-static pspec_status add_jobs(const ps_planner *to, const ps_request *arguments,
-                             ps_question_kind kind, ps_error *error) {
+static pspec_status add_jobs(ps_planner *to, const ps_request *arguments, ps_question_kind kind,
+                             ps_error *error) {
     ps_question_list list;
     PS_TRY(ps_questions_make(&list, arguments, kind, error));
     return add_list(to, arguments, &list, error);
 }
 
-static pspec_status add_check(const ps_planner *to, const ps_request *arguments, ps_error *error) {
+static pspec_status add_check(ps_planner *to, const ps_request *arguments, ps_error *error) {
     ps_saved_spectrum saved;
     ps_question_list list;
     PS_TRY(ps_check_check(arguments, error));
@@ -130,8 +194,12 @@ static pspec_status add_check(const ps_planner *to, const ps_request *arguments,
     return status;
 }
 
-static pspec_status add_setup(const ps_planner *to, const ps_request *arguments,
+static pspec_status add_setup(ps_planner *to, const ps_request *arguments,
+                              const ps_quadrature_question *question,
                               const ps_quadrature_setup *setup, size_t index, ps_error *error) {
+    ps_phases phases = begin_phases(to);
+    const double repeats = ps_quadrature_phases(setup, question, &phases);
+    add_picture(&phases, arguments);
     const ps_device_limits *const limits =
         setup->device != NULL ? ps_device_get_limits(setup->device) : NULL;
     PS_TRY(add_header(to, arguments, &setup->problem, &setup->needs, limits, index, error));
@@ -141,11 +209,11 @@ static pspec_status add_setup(const ps_planner *to, const ps_request *arguments,
     if (setup->weights_note[0] != '\0') {
         PS_TRY(ps_table_add_meta(to->table, "weights", PS_TEXT(setup->weights_note), error));
     }
-    return add_candidates(to, &setup->plan, error);
+    PS_TRY(ps_plan_table_add_phases(to, &phases, error));
+    return add_candidates(to, &setup->plan, &phases, repeats, error);
 }
 
-static pspec_status add_quadrature(const ps_planner *to, const ps_request *arguments,
-                                   ps_error *error) {
+static pspec_status add_quadrature(ps_planner *to, const ps_request *arguments, ps_error *error) {
     ps_quadrature_list list;
     pspec_status status = ps_quadrature_list_make(&list, arguments, error);
     for (size_t i = 0; status == PSPEC_OK && i < list.num; i++) {
@@ -153,7 +221,7 @@ static pspec_status add_quadrature(const ps_planner *to, const ps_request *argum
         list.questions[i].open_device = to->device;
         status = ps_quadrature_setup_ask(&setup, &list.questions[i], error);
         if (status == PSPEC_OK) {
-            status = add_setup(to, arguments, &setup, i, error);
+            status = add_setup(to, arguments, &list.questions[i], &setup, i, error);
         }
         ps_quadrature_setup_free(&setup);
     }
@@ -162,21 +230,14 @@ static pspec_status add_quadrature(const ps_planner *to, const ps_request *argum
 }
 
 /* Products in harmonics are the host's: there is nothing to choose. */
-static pspec_status add_truncation(const ps_planner *to, const ps_request *request,
-                                   ps_error *error) {
-    const ps_cell cells[NUM_COLUMNS] = {PS_TEXT(to->job),
-                                        PS_TEXT("host"),
-                                        PS_TEXT("chosen"),
-                                        PS_MISSING,
-                                        PS_MISSING,
-                                        PS_MISSING,
-                                        PS_TEXT("series of the lobe, in double precision")};
-    PS_TRY(ps_truncation_check(request, error));
-    PS_TRY(ps_table_add_meta(to->table, "device", PS_TEXT("none"), error));
-    return ps_table_add_row(to->table, to->job != NULL ? cells : cells + 1, error);
+static pspec_status add_truncation(ps_planner *to, const ps_request *request, ps_error *error) {
+    ps_phases phases = begin_phases(to);
+    PS_TRY(ps_truncation_phases(request, &phases, error));
+    add_picture(&phases, request);
+    return add_host(to, &phases, "series of the lobe, in double precision", error);
 }
 
-pspec_status ps_plan_table_add(const ps_planner *to, const ps_result_kind *kind,
+pspec_status ps_plan_table_add(ps_planner *to, const ps_result_kind *kind,
                                const ps_request *request, ps_error *error) {
     if (kind == &ps_result_quadrature) {
         return add_quadrature(to, request, error);
@@ -194,7 +255,7 @@ pspec_status ps_plan_table_add(const ps_planner *to, const ps_result_kind *kind,
                     error);
 }
 
-pspec_status ps_plan_table_add_cached(const ps_planner *to, ps_error *error) {
+pspec_status ps_plan_table_add_cached(ps_planner *to, ps_error *error) {
     const ps_cell cells[NUM_COLUMNS] = {PS_TEXT(to->job),
                                         PS_TEXT("cache"),
                                         PS_TEXT("chosen"),
@@ -205,4 +266,50 @@ pspec_status ps_plan_table_add_cached(const ps_planner *to, ps_error *error) {
     PS_TRY(ps_table_add_meta(to->table, "skip",
                              PS_TEXT("the whole question; its answer is in the cache; 1"), error));
     return ps_table_add_row(to->table, to->job != NULL ? cells : cells + 1, error);
+}
+
+/* ---- points -------------------------------------------------------------------------------- */
+
+pspec_status ps_plan_table_add_sample(ps_planner *to, const ps_request *request, ps_error *error) {
+    ps_sampler_request sampler;
+    ps_phases phases = begin_phases(to);
+    if (request->num_samplers != 1) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "one --sampler NAME is needed");
+    }
+    PS_TRY(ps_sampler_request_make(&sampler, request, 0, error));
+    const double sets = (double)request->num_realizations;
+    ps_phases_start(&phases, NULL);
+    ps_phases_sample(&phases, &sampler, sets);
+    ps_phases_write(&phases, request->output != NULL ? request->output : "-", request->format,
+                    sets * (double)sampler.num_points * sampler.dimension);
+    return add_host(to, &phases, "points of one sampler, one realization at a time", error);
+}
+
+pspec_status ps_plan_table_add_convert(ps_planner *to, const ps_request *request, ps_error *error) {
+    ps_phases phases = begin_phases(to);
+    ps_point_set set = {0};
+    ps_point_reader *reader = NULL;
+    const ps_point_options options = ps_point_options_make(request);
+    bool has_block = false;
+    bool ends_set = false;
+    if (request->num_files == 0) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "nothing to convert: name point files (- for standard input)");
+    }
+    pspec_status status = ps_points_open(&reader, request->files[0], &options, error);
+    if (status == PSPEC_OK) { /* one point tells how many numbers each has */
+        status = ps_points_next_block(reader, &set, 1, &has_block, &ends_set, error);
+    }
+    if (status == PSPEC_OK) {
+        const unsigned numbers = set.dimension + (set.has_weights ? 1 : 0);
+        ps_phases_start(&phases, NULL);
+        const double points = ps_phases_read(&phases, request->files, request->num_files,
+                                             request->input_format, numbers);
+        ps_phases_write(&phases, request->output != NULL ? request->output : "-", request->format,
+                        points * numbers);
+        status = add_host(to, &phases, "a block of points at a time", error);
+    }
+    ps_points_close(reader);
+    ps_point_set_free(&set);
+    return status;
 }

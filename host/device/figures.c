@@ -1,5 +1,6 @@
 #include "device/figures.h"
 
+#include <math.h>
 #include <string.h>
 
 double ps_figures_scale(const ps_figures *figures, const char *engine, unsigned precision) {
@@ -28,5 +29,34 @@ ps_engine_figure *ps_figures_row(ps_figures *figures, const char *engine) {
     ps_engine_figure *row = &figures->engines[figures->num_engines++];
     *row = (ps_engine_figure){{0}, {0}};
     memcpy(row->engine, engine, strlen(engine) + 1);
+    return row;
+}
+
+double ps_figures_host_scale(const ps_figures *figures, const char *kind) {
+    double logarithms = 0;
+    if (figures == NULL || !figures->is_measured || figures->num_host == 0) {
+        return 1;
+    }
+    for (size_t i = 0; i < figures->num_host; i++) {
+        if (strcmp(figures->host[i].kind, kind) == 0) {
+            return figures->host[i].scale;
+        }
+        logarithms += log(figures->host[i].scale);
+    }
+    return exp(logarithms / (double)figures->num_host);
+}
+
+ps_host_figure *ps_figures_host_row(ps_figures *figures, const char *kind) {
+    for (size_t i = 0; i < figures->num_host; i++) {
+        if (strcmp(figures->host[i].kind, kind) == 0) {
+            return &figures->host[i];
+        }
+    }
+    if (figures->num_host == PS_FIGURES_HOST || strlen(kind) >= sizeof figures->host[0].kind) {
+        return NULL;
+    }
+    ps_host_figure *const row = &figures->host[figures->num_host++];
+    *row = (ps_host_figure){.scale = 1};
+    memcpy(row->kind, kind, strlen(kind) + 1);
     return row;
 }

@@ -1,5 +1,6 @@
-/* What was measured of a device: its peaks, and how long engines take there against the built-in cost model. Plain data:
- * written and read by plan/figures_file.h, measured by job/calibrate.h, looked at by the planner and by nobody else.
+/* What was measured of a device: its peaks, and how long engines take there against the built-in cost model; of the host,
+ * how long its own work takes. Plain data: written and read by plan/figures_file.h, measured by job/bench.h, looked at by
+ * the planner and by nobody else.
  */
 #ifndef PS_DEVICE_FIGURES_H
 #define PS_DEVICE_FIGURES_H
@@ -7,13 +8,19 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { PS_FIGURES_ENGINES = 16, PS_FIGURES_PRECISIONS = 3 };
+enum { PS_FIGURES_ENGINES = 16, PS_FIGURES_PRECISIONS = 3, PS_FIGURES_HOST = 64 };
 
 /* Seconds taken over seconds of the cost model, by precision; 0: not measured. */
 typedef struct ps_engine_figure {
     char engine[32];
     double scales[PS_FIGURES_PRECISIONS];
 } ps_engine_figure;
+
+/* Seconds taken over seconds of plan/host_cost.c, of one kind of work. */
+typedef struct ps_host_figure {
+    char kind[32];
+    double scale;
+} ps_host_figure;
 
 typedef struct ps_figures {
     bool is_measured;    /* false: the built-in figures, and nothing below but the note */
@@ -23,12 +30,19 @@ typedef struct ps_figures {
     double copied_bytes; /* per second, read and written by a copy; 0: not known */
     size_t num_engines;
     ps_engine_figure engines[PS_FIGURES_ENGINES];
+    size_t num_host; /* of the host; none in the file of a device */
+    ps_host_figure host[PS_FIGURES_HOST];
 } ps_figures;
 
 /* The factor of an engine's seconds: 1 unless it was measured here. figures may be NULL. */
 double ps_figures_scale(const ps_figures *figures, const char *engine, unsigned precision);
 
+/* That of a kind of the host's work; where it was not measured, the geometric mean of those that were. figures may be NULL. */
+double ps_figures_host_scale(const ps_figures *figures, const char *kind);
+
 /* Its row, made if there is none yet; NULL when the table is full or the name too long. */
 ps_engine_figure *ps_figures_row(ps_figures *figures, const char *engine);
+/* The same of a kind of work. */
+ps_host_figure *ps_figures_host_row(ps_figures *figures, const char *kind);
 
 #endif

@@ -59,4 +59,8 @@ void ps_bench_mark_pareto(ps_bench_row *rows, size_t num);
 pspec_status ps_bench_calibrate(const ps_bench_options *options, ps_device *device,
                                 ps_figures *figures, ps_error *error) PS_MUST_CHECK;
 
+/* The same of the host's own work (plan/host_cost.h), with a file below `folder` that is written, read and removed. */
+pspec_status ps_bench_calibrate_host(const ps_bench_options *options, const char *folder,
+                                     ps_figures *figures, ps_error *error) PS_MUST_CHECK;
+
 #endif

@@ -82,9 +82,7 @@ static pspec_status check_entry(const ps_self_check_input *input, size_t entry, 
 }
 
 /* Entries that may be chosen, and how many of them: of degrees the low ones, whose sums are short. */
-static size_t choose_entries(const ps_self_check_input *input, size_t *num_candidates) {
-    const ps_frequencies *set = input->frequencies;
-    const size_t num_points = input->pattern->num_points;
+static size_t choose_entries(const ps_frequencies *set, size_t num_points, size_t *num_candidates) {
     size_t affordable = MOST_TERMS / num_points;
     *num_candidates = set->num;
     if (set->kind == PS_FREQUENCIES_DEGREES) {
@@ -97,11 +95,24 @@ static size_t choose_entries(const ps_self_check_input *input, size_t *num_candi
     return affordable < MOST_ENTRIES ? affordable : MOST_ENTRIES;
 }
 
+double ps_self_check_count(const ps_frequencies *frequencies, uint64_t num_points,
+                           bool *is_of_degrees) {
+    const size_t points =
+        num_points < PS_SELF_CHECK_POINTS ? (size_t)num_points : PS_SELF_CHECK_POINTS;
+    size_t num_candidates = 0;
+    const size_t entries = choose_entries(frequencies, points > 0 ? points : 1, &num_candidates);
+    const double terms = (double)entries * (double)points;
+    *is_of_degrees = frequencies->kind == PS_FREQUENCIES_DEGREES;
+    /* the mean of degrees chosen at random */
+    return *is_of_degrees ? terms * (double)num_candidates * frequencies->degree_step / 2 : terms;
+}
+
 pspec_status ps_self_check(const ps_self_check_input *input, ps_device *device, double *deviation,
                            ps_error *error) {
     ps_random random = ps_random_init(check_seed, PS_STREAM_COORDINATES, 0);
     size_t num_candidates = 0;
-    const size_t num_entries = choose_entries(input, &num_candidates);
+    const size_t num_entries =
+        choose_entries(input->frequencies, input->pattern->num_points, &num_candidates);
     *deviation = 0;
     for (size_t i = 0; i < num_entries; i++) {
         double off = 0;

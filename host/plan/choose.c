@@ -74,9 +74,10 @@ static void estimate(ps_candidate *candidate, const ps_problem *asked, const ps_
         set_bytes(candidate, &sum, used, constraints->room);
     } while (candidate->batch > 1 &&
              (candidate->is_crowded || (limit > 0 && candidate->bytes > limit)));
-    candidate->seconds = ps_cost_seconds(&work, used, candidate->precision) *
-                         ps_figures_scale(limits != NULL ? limits->figures : NULL,
-                                          candidate->engine->name, candidate->precision);
+    candidate->cost = ps_cost_seconds(&work, used, candidate->precision);
+    candidate->seconds =
+        candidate->cost * ps_figures_scale(limits != NULL ? limits->figures : NULL,
+                                           candidate->engine->name, candidate->precision);
     candidate->error = ps_engine_error_in(candidate->engine, asked, survey->error);
     candidate->floor_error = ps_engine_floor_error(candidate->engine, asked, survey->error);
 }
@@ -167,8 +168,7 @@ const ps_candidate *ps_plan_cheapest(const ps_plan *plan, int precision) {
     for (size_t i = 0; i < plan->num_candidates; i++) {
         const ps_candidate *candidate = &plan->candidates[i];
         const bool is_asked = precision < 0 || precision == (int)candidate->precision;
-        if (candidate->is_feasible && is_asked &&
-            (best == NULL || candidate->seconds < best->seconds)) {
+        if (candidate->is_feasible && is_asked && (best == NULL || candidate->cost < best->cost)) {
             best = candidate;
         }
     }
@@ -181,10 +181,9 @@ static void choose_cheapest(ps_plan *plan, bool prefers_double) {
     for (size_t i = 0; best != NULL && i < plan->num_candidates; i++) {
         ps_candidate *candidate = &plan->candidates[i];
         if (candidate->is_feasible && candidate != best) {
-            const bool is_faster = candidate->seconds < best->seconds;
+            const bool is_faster = candidate->cost < best->cost;
             snprintf(candidate->reason, sizeof candidate->reason, "%.3g times %s",
-                     is_faster ? best->seconds / candidate->seconds
-                               : candidate->seconds / best->seconds,
+                     is_faster ? best->cost / candidate->cost : candidate->cost / best->cost,
                      is_faster ? "faster, but --no-skip takes double precision" : "slower");
         }
     }

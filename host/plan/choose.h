@@ -16,6 +16,8 @@ typedef struct ps_candidate {
     bool is_excluded; /* by the constraints: --engine, --precision */
     bool is_applicable, is_feasible, is_chosen;
     double seconds, bytes, error; /* of the whole job; meaningful when applicable */
+    double
+        cost; /* the seconds of the built-in model, which decide: figures that were measured only change what is said */
     double floor_error;           /* relative, of powers at the floor; 0 without one */
     double device_bytes;          /* part of bytes in buffers of the device */
     double

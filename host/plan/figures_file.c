@@ -90,6 +90,9 @@ pspec_status ps_figures_format(ps_text *text, const ps_figures *figures,
                           row->scales[precision]);
         }
     }
+    for (size_t i = 0; i < figures->num_host; i++) {
+        append_number(text, "host", figures->host[i].kind, figures->host[i].scale);
+    }
     PS_TRY(ps_text_check(text, error));
     ps_figures_add_checksum(text);
     return ps_text_check(text, error);
@@ -183,6 +186,16 @@ static bool take_scale(ps_figures *figures, char *text) {
     return row != NULL && take_number(number, least_scale, most_scale, &row->scales[precision]);
 }
 
+static bool take_host(ps_figures *figures, char *text) {
+    char *const blank = strchr(text, ' ');
+    if (blank == NULL || blank == text) {
+        return false;
+    }
+    *blank = '\0';
+    ps_host_figure *const row = ps_figures_host_row(figures, text);
+    return row != NULL && take_number(blank + 1, least_scale, most_scale, &row->scale);
+}
+
 /* A line of figures. */
 static bool take_line(ps_figures *figures, char *line) {
     char *text = after(line, "date");
@@ -199,6 +212,9 @@ static bool take_line(ps_figures *figures, char *line) {
     }
     if ((text = after(line, "bytes copied")) != NULL) {
         return take_number(text, least_rate, most_rate, &figures->copied_bytes);
+    }
+    if ((text = after(line, "host")) != NULL) {
+        return take_host(figures, text);
     }
     text = after(line, "scale");
     return text != NULL && take_scale(figures, text);

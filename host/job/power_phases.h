@@ -1,0 +1,15 @@
+/* How long a spectrum job takes beside its engine, phase by phase. */
+#ifndef PS_JOB_POWER_PHASES_H
+#define PS_JOB_POWER_PHASES_H
+
+#include "job/power_job.h"
+#include "plan/phases.h"
+
+/* Adds those of a job that is made and not yet run. Returns by what the seconds of its engines are to be multiplied: files do
+ * not say beforehand how many sets they have. */
+double ps_power_job_phases(const ps_power_job *job, ps_phases *phases);
+
+/* Of a program that begins: a device, and the kernels of the engine, from the cache of its driver; NULL: none is needed. */
+void ps_phases_start(ps_phases *phases, const char *engine);
+
+#endif

@@ -1,0 +1,80 @@
+#include "plan/host_cost.h"
+
+#include "base/workers.h"
+
+#include <stdbool.h>
+
+/* Seconds of a unit on one core. Machine: 2 cores of a Zen 5 EPYC (AVX-512) at a nominal 2.6 GHz, Debian 12, 2026-11; the
+ * machine is shared. `pointspec bench --calibrate` measures them on the machine at hand as multiples of these. */
+static const struct {
+    const char *name;
+    double seconds;
+    bool is_shared; /* among threads */
+} kinds[PS_NUM_HOST_KINDS] = {
+    [PS_HOST_START] = {"start", 4e-3, false},    /* process and libraries, once */
+    [PS_HOST_DRIVER] = {"driver", 50e-3, false}, /* OpenCL's and its compiler's libraries, once */
+    [PS_HOST_KERNEL] = {"kernel", 24e-3, false}, /* a kernel that the driver's cache has */
+
+    [PS_HOST_WHITE] = {"white", 4.5e-9,
+                       false}, /* of samplers: a coordinate, on the sphere a point */
+    [PS_HOST_REGULAR] = {"regular", 2.2e-9, false},
+    [PS_HOST_JITTERED] = {"jittered", 7e-9, false},
+    [PS_HOST_LATIN] = {"latin-hypercube", 15e-9, false},
+    [PS_HOST_SOBOL] = {"sobol", 1.7e-9, false},
+    [PS_HOST_NET] = {"net", 1.7e-9, false},   /* nets with their digits exchanged */
+    [PS_HOST_OWEN] = {"owen", 160e-9, false}, /* and scrambled by Owen's way */
+    [PS_HOST_HALTON] = {"halton", 9.5e-9, false},
+    [PS_HOST_WHITE_SPHERE] = {"white-sphere", 37e-9, false},
+    [PS_HOST_ZPHI] = {"zphi", 34e-9, false},
+    [PS_HOST_HEALPIX] = {"healpix", 28e-9, false},
+    [PS_HOST_FIBONACCI] = {"fibonacci", 21e-9, false},
+    [PS_HOST_SPIRAL] = {"spiral", 105e-9, false},
+    [PS_HOST_LIFT] = {"lift", 40e-9, false},   /* a point, to the sphere */
+    [PS_HOST_MOVE] = {"move", 3e-9, false},    /* a point, shifted or rotated */
+    [PS_HOST_MORPH] = {"morph", 30e-9, false}, /* a point, to a lobe's density */
+
+    [PS_HOST_READ_TEXT] = {"read-text", 1.2e-9, false},     /* a byte */
+    [PS_HOST_READ_BINARY] = {"read-binary", 0.1e-9, false}, /* a byte */
+    [PS_HOST_INFLATE] = {"inflate", 3e-9, false},           /* a byte of what comes out */
+    [PS_HOST_WRITE_TEXT] = {"write-text", 60e-9, false},    /* a number */
+    [PS_HOST_WRITE_BINARY] = {"write-binary", 9e-9, false}, /* a number */
+    [PS_HOST_CHECK_POINTS] = {"check-points", 2e-9, false}, /* a point */
+
+    [PS_HOST_FREQUENCY] = {"frequency", 70e-9, false}, /* of a grid: its bin and its mean */
+    [PS_HOST_LISTED] = {"listed", 300e-9, false},      /* of a random subset */
+    [PS_HOST_COUNT] = {"count", 0.3e-9, false},        /* a step of counting the points of rings */
+    [PS_HOST_ACCUMULATE] = {"accumulate", 0.5e-9, true}, /* a power of a realization */
+    [PS_HOST_REFEREE] = {"referee", 190e-9, false},      /* a point and a frequency */
+    [PS_HOST_REFEREE_DEGREE] = {"referee-degree", 20e-9,
+                                false},      /* a point, a degree and an order */
+    [PS_HOST_ZONAL] = {"zonal", 1e-9, true}, /* a point and a degree */
+
+    [PS_HOST_LOBE] = {"lobe", 3.5e-8, false},           /* a coefficient of a lobe */
+    [PS_HOST_KAPPA] = {"kappa", 0.4e-9, true},          /* a point and a degree */
+    [PS_HOST_PAIR] = {"pair", 1.1e-9, true},            /* of points: their distance */
+    [PS_HOST_PAIR_POWER] = {"pair-power", 4e-9, true},  /* and a power of it */
+    [PS_HOST_HEMISPHERE] = {"hemisphere", 2e-9, false}, /* a degree of each kind of harmonics */
+    [PS_HOST_CHOLESKY] = {"cholesky", 2.5e-11, true},   /* an operation */
+    [PS_HOST_MATRIX] = {"matrix", 10e-9, true},         /* an entry, made and summed */
+    [PS_HOST_MATRIX_POWER] = {"matrix-power", 15e-9, true},
+    [PS_HOST_SOLVE] = {"solve", 5e-9, false},            /* an entry, of condition and solutions */
+    [PS_HOST_NEIGHBOURS] = {"neighbours", 0.6e-9, true}, /* a pair of points, in the search */
+    [PS_HOST_INVERSE] = {"inverse", 14e-6, true},        /* a point: its row of an inverse */
+
+    [PS_HOST_PRODUCT] = {"product", 0.6e-9, true}, /* a pair, in a product by the device */
+    [PS_HOST_PRODUCT_POWER] = {"product-power", 3e-9, true},
+
+    [PS_HOST_ROW] = {"row", 3e-6, false},         /* of a table */
+    [PS_HOST_ARRAY] = {"array", 20e-9, false},    /* a number of an array in a file */
+    [PS_HOST_CURVE] = {"curve", 2e-6, false},     /* a point of a curve */
+    [PS_HOST_PICTURE] = {"picture", 0.15, false}, /* by gnuplot */
+};
+
+const char *ps_host_kind_name(ps_host_kind kind) {
+    return kinds[kind].name;
+}
+
+double ps_host_seconds(const ps_figures *figures, ps_host_kind kind, double units) {
+    const double threads = kinds[kind].is_shared ? ps_workers_most() : 1;
+    return units * kinds[kind].seconds / threads * ps_figures_host_scale(figures, kinds[kind].name);
+}

@@ -1,0 +1,75 @@
+/* Seconds of what the host does beside the engines, from counts of work: the host's part of the cost model. Nothing is chosen
+ * by it: it is for the seconds that plan prints. */
+#ifndef PS_PLAN_HOST_COST_H
+#define PS_PLAN_HOST_COST_H
+
+#include "device/figures.h"
+
+/* Kinds of work; what one unit of each is stands in host_cost.c. */
+typedef enum ps_host_kind {
+    /* beginning */
+    PS_HOST_START,
+    PS_HOST_DRIVER,
+    PS_HOST_KERNEL,
+    /* points of samplers */
+    PS_HOST_WHITE,
+    PS_HOST_REGULAR,
+    PS_HOST_JITTERED,
+    PS_HOST_LATIN,
+    PS_HOST_SOBOL,
+    PS_HOST_NET,
+    PS_HOST_OWEN,
+    PS_HOST_HALTON,
+    PS_HOST_WHITE_SPHERE,
+    PS_HOST_ZPHI,
+    PS_HOST_HEALPIX,
+    PS_HOST_FIBONACCI,
+    PS_HOST_SPIRAL,
+    PS_HOST_LIFT,
+    PS_HOST_MOVE,
+    PS_HOST_MORPH,
+    /* files of points */
+    PS_HOST_READ_TEXT,
+    PS_HOST_READ_BINARY,
+    PS_HOST_INFLATE,
+    PS_HOST_WRITE_TEXT,
+    PS_HOST_WRITE_BINARY,
+    PS_HOST_CHECK_POINTS,
+    /* spectra */
+    PS_HOST_FREQUENCY,
+    PS_HOST_LISTED,
+    PS_HOST_COUNT,
+    PS_HOST_ACCUMULATE,
+    PS_HOST_REFEREE,
+    PS_HOST_REFEREE_DEGREE,
+    PS_HOST_ZONAL,
+    /* quadrature */
+    PS_HOST_LOBE,
+    PS_HOST_KAPPA,
+    PS_HOST_PAIR,
+    PS_HOST_PAIR_POWER,
+    PS_HOST_HEMISPHERE,
+    PS_HOST_CHOLESKY,
+    PS_HOST_MATRIX,
+    PS_HOST_MATRIX_POWER,
+    PS_HOST_SOLVE,
+    PS_HOST_NEIGHBOURS,
+    PS_HOST_INVERSE,
+    PS_HOST_PRODUCT,
+    PS_HOST_PRODUCT_POWER,
+    /* results */
+    PS_HOST_ROW,
+    PS_HOST_ARRAY,
+    PS_HOST_CURVE,
+    PS_HOST_PICTURE,
+    PS_NUM_HOST_KINDS
+} ps_host_kind;
+
+/* "white", for files of figures and tables. */
+const char *ps_host_kind_name(ps_host_kind kind);
+
+/* Of so many units; figures: what was measured of this host, NULL: nothing. Work that is shared out among threads is divided
+ * by the processors of this machine. */
+double ps_host_seconds(const ps_figures *figures, ps_host_kind kind, double units);
+
+#endif

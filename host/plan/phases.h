@@ -1,0 +1,35 @@
+/* What a job is made of besides the sums of its engine, and how long each part of it takes: what plan prints. */
+#ifndef PS_PLAN_PHASES_H
+#define PS_PLAN_PHASES_H
+
+#include "base/status.h"
+#include "plan/host_cost.h"
+
+typedef struct ps_phase_cost {
+    const char *name; /* "points"; static storage */
+    char what[96];    /* "200000 points of white-sphere" */
+    double seconds;
+    bool is_at_most; /* what iterates until it is good enough */
+} ps_phase_cost;
+
+enum { PS_MAX_PHASES = 16 };
+
+typedef struct ps_phases {
+    const ps_figures *host; /* what was measured of this host; NULL: nothing */
+    size_t num;
+    ps_phase_cost list[PS_MAX_PHASES];
+} ps_phases;
+
+/* Units of the kind become a phase, or more of the phase of that name, whose `what` stays; nothing for no units. */
+void ps_phases_add(ps_phases *phases, const char *name, ps_host_kind kind, double units);
+/* The same of seconds that are known already. */
+void ps_phases_add_seconds(ps_phases *phases, const char *name, double seconds);
+/* Describes the phase of that name, if there is one; longer texts are cut. */
+void ps_phases_say(ps_phases *phases, const char *name, const char *format, ...) PS_PRINTF(3, 4);
+/* The phase of that name may end sooner. */
+void ps_phases_limit(ps_phases *phases, const char *name);
+
+double ps_phases_seconds(const ps_phases *phases);
+bool ps_phases_are_at_most(const ps_phases *phases);
+
+#endif
