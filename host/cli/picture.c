@@ -35,7 +35,7 @@ pspec_status ps_picture_check(const ps_request *arguments, ps_error *error) {
                        "--plot draws .png, .svg and .pdf, not \"%s\"", arguments->plot);
     }
     pspec_status status = ps_plot_find_gnuplot(&path, &reason);
-    if (status != PSPEC_OK && is_all(arguments)) {
+    if (status == PSPEC_ERROR_MEMORY || (status != PSPEC_OK && is_all(arguments))) {
         *error = reason;
     } else if (status != PSPEC_OK) {
         status = PSPEC_OK;

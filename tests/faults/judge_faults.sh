@@ -77,6 +77,23 @@ check_sentence() { # CASE CLASS NUMBER[+]
     esac
 }
 
+# A picture that fails costs a warning: everything else is as without the fault. A page says which picture is missing.
+lacks_only_pictures() { # CASE
+    local file
+    ((${#said[@]} > 0)) && [[ ${said[-1]} == pointspec*' not drawn: '* ]] || return 1
+    rm -rf "$run/expected"
+    cp -r "$1/expected/folder" "$run/expected"
+    for file in old.png new.folder/index.html; do
+        [[ ! -e $initial/$file ]] || cp "$initial/$file" "$run/expected/$file"
+        [[ ! -e $run/folder/$file ]] || cp "$run/folder/$file" "$run/expected/$file"
+    done
+    for file in "$run"/expected/new.folder/*.svg; do
+        [[ -e $run/folder/new.folder/${file##*/} ]] || rm -f "$file"
+    done
+    diff -rq "${same[@]}" "$run/folder" "$run/expected" >/dev/null &&
+        diff -q "${same[@]}" "$run/stdout" "$1/expected/stdout" >/dev/null
+}
+
 judge() { # NAME CLASS NUMBER[+]
     local case=$FAULTS_SCRATCH/cases/$1
     [[ $is_clean == yes ]] || reset
@@ -88,6 +105,8 @@ judge() { # NAME CLASS NUMBER[+]
         remark="the call did not come"
     elif [[ -n $leaks ]]; then
         remark="leaks:$leaks"
+    elif [[ $code == 0 ]] && lacks_only_pictures "$case"; then
+        is_clean=no remark= # refused: the picture alone
     elif [[ $code == 0 ]]; then
         verdict=tolerated is_clean=no remark=
         # A temporary file that cannot be removed stays; the sentence of a failure would have said so.
