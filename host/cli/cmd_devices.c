@@ -58,11 +58,27 @@ static pspec_status add_device(ps_table *table, const ps_device_limits *limits, 
     return ps_table_add_row(table, cells, error);
 }
 
-static pspec_status add_header(ps_table *table, const ps_request *arguments,
-                               const ps_device_limits *chosen, ps_error *error) {
+/* None is a list, too: why is said, and the table is empty. */
+static pspec_status list_devices(ps_device_limits **limits, size_t *num_devices, ps_error *error) {
+    const pspec_status status = ps_device_list(limits, num_devices, error);
+    if (status != PSPEC_ERROR_NO_DEVICE) {
+        return status;
+    }
+    fprintf(stderr, "pointspec devices: %s\n", error->message);
+    *error = (ps_error){0};
+    *num_devices = 0;
+    return PSPEC_OK;
+}
+
+static pspec_status add_facts(ps_table *table, const ps_request *arguments, ps_error *error) {
     PS_TRY(ps_table_add_meta(table, "pointspec_version", PS_TEXT(pspec_version()), error));
     PS_TRY(ps_table_add_meta(table, "schema", PS_INTEGER(1), error));
-    PS_TRY(ps_table_add_meta(table, "command", PS_TEXT(arguments->command_line), error));
+    return ps_table_add_meta(table, "command", PS_TEXT(arguments->command_line), error);
+}
+
+static pspec_status add_header(ps_table *table, const ps_request *arguments,
+                               const ps_device_limits *chosen, ps_error *error) {
+    PS_TRY(add_facts(table, arguments, error));
     return ps_table_add_meta(table, "device", PS_TEXT(chosen->name), error);
 }
 
@@ -71,7 +87,10 @@ static pspec_status fill_table(ps_table *table, const ps_request *arguments, ps_
     size_t num_devices = 0;
     size_t chosen = 0;
     pspec_status status = PSPEC_OK;
-    PS_TRY(ps_device_list(&limits, &num_devices, error));
+    PS_TRY(list_devices(&limits, &num_devices, error));
+    if (num_devices == 0) {
+        return add_facts(table, arguments, error);
+    }
     PS_TRY_OUT(status, ps_device_choose(limits, num_devices, arguments->device, &chosen, error));
     PS_TRY_OUT(status, add_header(table, arguments, &limits[chosen], error));
     for (size_t i = 0; i < num_devices; i++) {
@@ -111,7 +130,8 @@ const ps_command ps_command_devices = {
     .description =
         "Lists every device of every OpenCL driver. The column default is 1 for the device that "
         "the other commands would use with the same --device and POINTSPEC_DEVICE. Lanes are the "
-        "native vector widths. The last columns say whether the planner has figures measured on "
+        "native vector widths. Without a device the table is empty, and standard error says why. "
+        "The last columns say whether the planner has figures measured on "
         "the "
         "device, and its peaks per second: see pointspec bench --calibrate.",
     .options = options,

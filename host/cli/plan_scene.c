@@ -23,7 +23,13 @@ static pspec_status add_block(ps_run *run, const ps_run_result *result, size_t n
         to->job = job;
         return ps_plan_table_add_cached(to, error);
     }
-    PS_TRY(ps_run_open_device(run, result, error));
+    if (!run->lacks_device) {
+        const pspec_status status = ps_run_open_device(run, result, error);
+        run->lacks_device = status == PSPEC_ERROR_NO_DEVICE;
+        if (status != PSPEC_OK && !run->lacks_device) {
+            return status;
+        }
+    }
     to->job = job;
     to->device = run->device;
     return ps_plan_table_add(to, result->asked->kind, &question->asked.request, error);

@@ -10,6 +10,7 @@
 #include "scene/question.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 
 static const char *const columns[] = {"job",   "engine", "verdict", "seconds",
                                       "bytes", "error",  "reason"};
@@ -159,11 +160,27 @@ static pspec_status add_power(ps_planner *to, const ps_request *arguments, const
     return add_candidates(to, ps_power_job_plan(job), &phases, repeats, error);
 }
 
+/* Without any device the host's engines are planned, and the header says why there is none. A device that was named and
+ * is not there is an error, as for the command itself. */
+static pspec_status find_lack(const ps_planner *to, const ps_plan_constraints *constraints,
+                              bool *lacks_device, ps_error *error) {
+    ps_device_limits *limits = NULL;
+    size_t num = 0;
+    ps_error reason = {0};
+    *lacks_device = to->device == NULL && ps_plan_may_need_device(constraints) &&
+                    ps_device_list(&limits, &num, &reason) == PSPEC_ERROR_NO_DEVICE;
+    free(limits);
+    return *lacks_device ? ps_table_add_meta(to->table, "no_device", PS_TEXT(reason.message), error)
+                         : PSPEC_OK;
+}
+
 static pspec_status add_list(ps_planner *to, const ps_request *arguments, ps_question_list *list,
                              ps_error *error) {
     for (size_t i = 0; i < list->num; i++) {
         ps_power_job *job = NULL;
         list->questions[i].open_device = to->device;
+        PS_TRY(find_lack(to, &list->questions[i].constraints, &list->questions[i].may_lack_device,
+                         error));
         PS_TRY(ps_power_job_create(&job, &list->questions[i], error));
         ps_power_job_rate_skips(job);
         const pspec_status status = add_power(to, arguments, job, i, error);
@@ -219,7 +236,12 @@ static pspec_status add_quadrature(ps_planner *to, const ps_request *arguments, 
     for (size_t i = 0; status == PSPEC_OK && i < list.num; i++) {
         ps_quadrature_setup setup;
         list.questions[i].open_device = to->device;
-        status = ps_quadrature_setup_ask(&setup, &list.questions[i], error);
+        setup = (ps_quadrature_setup){0};
+        status = find_lack(to, &list.questions[i].constraints, &list.questions[i].may_lack_device,
+                           error);
+        if (status == PSPEC_OK) {
+            status = ps_quadrature_setup_ask(&setup, &list.questions[i], error);
+        }
         if (status == PSPEC_OK) {
             status = add_setup(to, arguments, &list.questions[i], &setup, i, error);
         }

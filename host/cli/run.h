@@ -48,6 +48,7 @@ typedef struct ps_run {
     ps_cache *cache;    /* NULL: none */
     ps_text identity;   /* of program and device, for the keys of the cache */
     ps_device *device;  /* NULL: not opened yet */
+    bool lacks_device;  /* a plan that goes on without */
     size_t num_results, num_questions, num_cached;
     double seconds; /* of this run */
     size_t num_undrawn;

@@ -1,5 +1,6 @@
 /* Finding, describing, choosing and opening devices. */
 #include "device/device_private.h"
+#include "device/drivers.h"
 
 #include "base/memory.h"
 #include "base/text.h"
@@ -14,17 +15,11 @@ enum { MAX_PLATFORMS = 16, MAX_DEVICES = 64 };
 
 /* ---- listing ----------------------------------------------------------------------------- */
 
-static pspec_status fail_no_driver(ps_error *error) {
-    return ps_fail(error, PSPEC_ERROR_NO_DEVICE,
-                   "no OpenCL driver found: install the package pocl-opencl-icd (runs on any CPU) "
-                   "or the driver package of your GPU");
-}
-
 /* A driver that fails is not the same as none. */
 static pspec_status fail_listing(cl_int code, const char *call, ps_error *error) {
     const bool is_absent =
         code == CL_SUCCESS || code == PS_CL_PLATFORM_NOT_FOUND || code == CL_DEVICE_NOT_FOUND;
-    return is_absent ? fail_no_driver(error) : ps_device_fail(code, call, error);
+    return is_absent ? ps_drivers_fail(error) : ps_device_fail(code, call, error);
 }
 
 /* Every device of every platform; *num_devices is 0 at most when it fails. A platform that cannot
@@ -33,6 +28,7 @@ static pspec_status find_devices(cl_device_id *devices, size_t *num_devices, ps_
     cl_platform_id platforms[MAX_PLATFORMS];
     cl_uint num_platforms = 0;
     *num_devices = 0;
+    PS_TRY(ps_drivers_check_room(error));
     cl_int code = clGetPlatformIDs(MAX_PLATFORMS, platforms, &num_platforms);
     if (code != CL_SUCCESS) {
         return fail_listing(code, "clGetPlatformIDs", error);
@@ -164,6 +160,9 @@ pspec_status ps_device_list(ps_device_limits **limits, size_t *num_devices, ps_e
 /* ---- choosing ---------------------------------------------------------------------------- */
 
 static bool contains_ignoring_case(const char *text, const char *part) {
+    if (part[0] == '\0') {
+        return true;
+    }
     for (; *text != '\0'; text++) {
         size_t i = 0;
         while (part[i] != '\0' &&
@@ -190,19 +189,37 @@ static bool device_matches(const ps_device_limits *limits, const char *selector)
     return contains_ignoring_case(limits->name, selector);
 }
 
-/* First device that matches selector; num_devices when none does. */
-static size_t find_match(const ps_device_limits *limits, size_t num_devices, const char *selector) {
-    size_t i = 0;
-    while (i < num_devices && !device_matches(&limits[i], selector)) {
-        i++;
-    }
-    return i;
+bool ps_device_is_simulator(const ps_device_limits *limits) {
+    return contains_ignoring_case(limits->platform, "oclgrind") ||
+           contains_ignoring_case(limits->name, "oclgrind");
 }
 
+/* First device that matches selector, rather no simulator; num_devices when none does. */
+static size_t find_match(const ps_device_limits *limits, size_t num_devices, const char *selector) {
+    size_t simulator = num_devices;
+    for (size_t i = 0; i < num_devices; i++) {
+        if (!device_matches(&limits[i], selector)) {
+            continue;
+        }
+        if (!ps_device_is_simulator(&limits[i])) {
+            return i;
+        }
+        simulator = simulator < num_devices ? simulator : i;
+    }
+    return simulator;
+}
+
+/* A simulator calls itself GPU and CPU at once, and is slower than either by a factor of thousands: the last choice. */
 static size_t choose_default(const ps_device_limits *limits, size_t num_devices) {
-    const size_t gpu = find_match(limits, num_devices, "gpu");
-    const size_t cpu = find_match(limits, num_devices, "cpu");
-    return gpu < num_devices ? gpu : cpu < num_devices ? cpu : 0;
+    static const char *const kinds[] = {"gpu", "cpu", ""}; /* any name contains the last */
+    size_t index = 0;
+    for (size_t kind = 0; kind < sizeof kinds / sizeof kinds[0]; kind++) {
+        index = find_match(limits, num_devices, kinds[kind]);
+        if (index < num_devices && !ps_device_is_simulator(&limits[index])) {
+            return index;
+        }
+    }
+    return index; /* there are only simulators */
 }
 
 pspec_status ps_device_choose(const ps_device_limits *limits, size_t num_devices,
@@ -240,6 +257,9 @@ static pspec_status choose_among(const cl_device_id *devices, size_t num_devices
         PS_TRY(read_limits(devices[i], &limits[i], error));
     }
     PS_TRY(ps_device_choose(limits, num_devices, selector, &index, error));
+    if (strcmp(limits[index].platform, "Portable Computing Language") == 0) {
+        PS_TRY(ps_drivers_check_pocl(error));
+    }
     device->id = devices[index];
     device->limits = limits[index];
     device->own_max_allocation = limits[index].max_allocation_bytes;

@@ -31,12 +31,16 @@ typedef struct ps_device_limits {
 } ps_device_limits;
 
 /* Limits of every device of every driver, in the order of their indices; *limits is freed by the
- * caller. No driver at all is PSPEC_ERROR_NO_DEVICE. */
+ * caller. No device at all is PSPEC_ERROR_NO_DEVICE, with the reason (device/drivers.h). */
 pspec_status ps_device_list(ps_device_limits **limits, size_t *num_devices,
                             ps_error *error) PS_MUST_CHECK;
 
+/* Whether it is a simulator such as Oclgrind, which calls itself a GPU and is for looking at kernels. */
+bool ps_device_is_simulator(const ps_device_limits *limits);
+
 /* Index of the device that selector means: an index, "cpu", "gpu", "accelerator" or a part of a
- * name (case does not matter); NULL or "" is the first GPU, else the first CPU, else the first. */
+ * name (case does not matter); NULL or "" is the first GPU, else the first CPU, else the first. Simulators
+ * come after all others of their kind, and are the default only where there is nothing else. */
 pspec_status ps_device_choose(const ps_device_limits *limits, size_t num_devices,
                               const char *selector, size_t *index, ps_error *error) PS_MUST_CHECK;
 

@@ -19,8 +19,7 @@ static pspec_status fail_foreign(const char *path, uid_t owner, ps_error *error)
 pspec_status ps_cache_check_folder(const char *path, ps_error *error) {
     struct stat facts;
     if (fstatat(AT_FDCWD, path, &facts, 0) != 0) {
-        const bool is_unseen = errno == ENOENT || errno == ENOTDIR || errno == EACCES;
-        return is_unseen ? PSPEC_OK : ps_input_fail(path, error);
+        return PSPEC_OK;
     }
     if (!S_ISDIR(facts.st_mode)) {
         return PSPEC_OK;

@@ -76,10 +76,12 @@ static pspec_status open_device(ps_power_job *job, ps_error *error) {
     }
     job->owns_device = question->open_device == NULL;
     job->device = question->open_device;
-    return job->owns_device
-               ? ps_figures_open_device(&job->device, question->device, question->profile,
-                                        question->figures_folder, error)
-               : PSPEC_OK;
+    if (!job->owns_device) {
+        return PSPEC_OK;
+    }
+    const pspec_status status = ps_figures_open_device(
+        &job->device, question->device, question->profile, question->figures_folder, error);
+    return status == PSPEC_ERROR_NO_DEVICE && question->may_lack_device ? PSPEC_OK : status;
 }
 
 static pspec_status prepare(ps_power_job *job, ps_error *error) {

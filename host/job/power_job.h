@@ -50,6 +50,7 @@ typedef struct ps_power_question {
                               0: all of them are done */
     bool no_skip, no_self_check;
     ps_plan_constraints constraints;
+    bool may_lack_device;       /* to be planned only: without a device, with the host's engines */
     ps_device *open_device;     /* borrowed; NULL: the one that `device` selects is opened */
     const char *device;         /* selector, NULL: default */
     const char *figures_folder; /* plan/figures_file.h; NULL: the built-in figures */

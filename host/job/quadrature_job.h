@@ -39,6 +39,7 @@ typedef struct ps_quadrature_question {
     ps_plan_constraints constraints;
     size_t batch; /* rules at a time, the results the same; 0: what the plan and memory say */
     bool no_skip; /* all realizations, all degrees to ceil(4 sqrt N), in double precision */
+    bool may_lack_device;   /* to be planned only: without a device, with the host's engines */
     ps_device *open_device; /* borrowed; NULL: the one that `device` selects is opened */
     const char *device;
     const char *figures_folder; /* plan/figures_file.h; NULL: the built-in figures */

@@ -109,10 +109,10 @@ static pspec_status get_device(ps_quadrature_setup *out, const ps_quadrature_que
     if (out->device != NULL) {
         return PSPEC_OK;
     }
-    PS_TRY(ps_figures_open_device(&out->device, question->device, question->profile,
-                                  question->figures_folder, error));
-    out->owns_device = true;
-    return PSPEC_OK;
+    const pspec_status status = ps_figures_open_device(
+        &out->device, question->device, question->profile, question->figures_folder, error);
+    out->owns_device = status == PSPEC_OK;
+    return status == PSPEC_ERROR_NO_DEVICE && question->may_lack_device ? PSPEC_OK : status;
 }
 
 static pspec_status plan_engine(ps_quadrature_setup *out, const ps_quadrature_question *question,
