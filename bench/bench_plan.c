@@ -1,10 +1,12 @@
 /* Are the seconds that `pointspec plan` prints the seconds that the command takes?
  *
  *     bench_plan [PROGRAM [PART]]     all questions, or those whose command line has PART
+ *     bench_plan --quick PROGRAM      a few, for the tests: with the built-in figures, twice each, within a factor of 4
  *
  * Calibrates first, in a cache of its own, then asks every question of plan_questions.h and runs it six times, the first to
  * build kernels. Beside every run a yardstick is run; times are divided by it and are those of a machine where the
- * yardstick takes what it took beside the calibration. Ends with how many are within a factor of 1.5, and of 3.
+ * yardstick takes what it took beside the calibration. Ends with how many are within a factor of 1.5, and of 3; a plan that
+ * says "at most" has to be at most 1.5 times too low.
  */
 #include "bench.h"
 #include "plan_questions.h"
@@ -12,6 +14,7 @@
 #include "base/workers.h"
 
 #include <fcntl.h>
+#include <ftw.h>
 #include <limits.h>
 #include <math.h>
 #include <spawn.h>
@@ -25,10 +28,7 @@
 
 extern char **environ;
 
-#ifndef R
-#define R 5
-#endif
-enum { REPEATS = R, MOST_WORDS = 40, LINE = 1024 };
+enum { REPEATS = 5, QUICK_REPEATS = 2, MOST_WORDS = 40, LINE = 1024 };
 
 /* ---- the yardstick ------------------------------------------------------------------------- */
 
@@ -48,6 +48,9 @@ static void measure_yard(void *payload, unsigned index, unsigned count) {
     }
     ((yard_sums *)payload)->sums[index % 64] = x[0] + x[3];
 }
+
+/* Of the machine that the built-in figures are of: see host/plan/host_cost.c. */
+static const double usual_single = 14e-3, usual_all = 16e-3;
 
 /* Seconds of one thread, and of as many as there are processors. */
 typedef struct yardstick {
@@ -153,7 +156,9 @@ static void read_plan(answer *out) {
     fclose(file);
 }
 
-static answer ask(const char *program, const char *line, const yardstick *usual) {
+/* The middle of so many runs; of two the better. */
+static answer ask(const char *program, const char *line, const yardstick *usual, int repeats) {
+    const double many = 1.4; /* processors at work: threads were */
     answer out = {0};
     double seconds[REPEATS];
     double yards[REPEATS];
@@ -162,20 +167,20 @@ static answer ask(const char *program, const char *line, const yardstick *usual)
     read_plan(&out);
     run_command(program, "", line, "ignored");
     yardstick before = run_yardstick();
-    for (int i = 0; i < REPEATS; i++) {
-        const double many = 1.4; /* processors at work: threads were */
+    for (int i = 0; i < repeats; i++) {
         const used time = run_command(program, "", line, "ignored");
         const yardstick after = run_yardstick();
         const double single = (before.single + after.single) / 2 / usual->single;
         const double all = (before.all + after.all) / 2 / usual->all;
         yards[i] = time.cpu_seconds > many * time.seconds ? all : single;
         seconds[i] = time.seconds / yards[i];
-        cpus[i] = time.cpu_seconds;
+        cpus[i] = time.cpu_seconds / time.seconds;
         before = after;
     }
-    out.measured = bench_median(seconds, REPEATS);
-    out.yard = bench_median(yards, REPEATS);
-    out.cpu = bench_median(cpus, REPEATS);
+    out.measured = bench_median(seconds, (size_t)repeats);
+    out.measured = repeats < REPEATS ? seconds[0] : out.measured;
+    out.yard = bench_median(yards, (size_t)repeats);
+    out.cpu = bench_median(cpus, (size_t)repeats);
     return out;
 }
 
@@ -187,13 +192,23 @@ static void enter_folder(char *folder) {
     }
 }
 
+static int remove_one(const char *path, const struct stat *what, int kind, struct FTW *at) {
+    (void)what, (void)kind, (void)at;
+    return remove(path);
+}
+
+static void remove_folder(const char *folder) {
+    enum { DESCRIPTORS = 16 };
+    nftw(folder, remove_one, DESCRIPTORS, FTW_DEPTH | FTW_PHYS);
+}
+
+/* What the yardstick takes beside the calibration. */
 static yardstick calibrate(const char *program) {
     enum { YARDS = 2 * REPEATS };
     double single[YARDS];
     double all[YARDS];
     for (int i = 0; i < YARDS; i++) {
-        if (i == YARDS / 2 && getenv("BENCH_PLAN_CALIBRATED") == NULL) {
-            setenv("POINTSPEC_CACHE_DIR", "cache", 1);
+        if (i == YARDS / 2) {
             run_command(program, "", "bench --calibrate", "calibration.csv");
         }
         const yardstick yard = run_yardstick();
@@ -201,6 +216,18 @@ static yardstick calibrate(const char *program) {
         all[i] = yard.all;
     }
     return (yardstick){bench_median(single, YARDS), bench_median(all, YARDS)};
+}
+
+static void make_files(const char *program) {
+    for (size_t i = 0; i < sizeof plan_scenes / sizeof plan_scenes[0]; i++) {
+        FILE *const file = fopen(plan_scenes[i].name, "w");
+        if (file == NULL || fputs(plan_scenes[i].text, file) == EOF || fclose(file) != 0) {
+            bench_die("a scene cannot be written");
+        }
+    }
+    for (size_t i = 0; plan_files[i] != NULL; i++) {
+        run_command(program, "", plan_files[i], "ignored");
+    }
 }
 
 static void find_program(char *path, const char *self) {
@@ -213,47 +240,74 @@ static void find_program(char *path, const char *self) {
     }
 }
 
-int main(int argc, char **argv) {
-    const double good = 1.5;
-    const double bad = 3;
-    char program[PATH_MAX];
-    char folder[] = "/tmp/bench_plan.XXXXXX";
-    size_t num = 0;
-    size_t num_good = 0;
-    size_t num_bad = 0;
-    if (argc > 1) {
-        if (realpath(argv[1], program) == NULL) {
-            bench_die("no such program");
-        }
-    } else {
-        find_program(program, argv[0]);
-    }
-    enter_folder(folder);
-    const yardstick usual = calibrate(program);
-    for (size_t i = 0; plan_files[i] != NULL; i++) {
-        run_command(program, "", plan_files[i], "ignored");
-    }
-    printf("| question | planned, s | measured, s | ratio | yardstick | processors "
-           "|\n|---|---|---|---|---|---|\n");
-    for (size_t i = 0; plan_questions[i] != NULL; i++) {
-        if (argc > 2 && strstr(plan_questions[i], argv[2]) == NULL) {
+/* ---- all ----------------------------------------------------------------------------------- */
+
+typedef struct battery {
+    const char *program, *part; /* part: of the command lines that are asked; "" for all */
+    const char *const *questions;
+    yardstick usual;
+    int repeats;
+    double good, bad; /* factors */
+    size_t num, num_good, num_bad;
+} battery;
+
+static double factor_of(const answer *found) {
+    const double ratio = found->planned / found->measured;
+    return found->is_at_most ? 1 / ratio : fmax(ratio, 1 / ratio);
+}
+
+static void ask_all(battery *of) {
+    printf("| question | planned, s | measured, s | planned / measured | yardstick | processors |\n"
+           "|---|---|---|---|---|---|\n");
+    for (size_t i = 0; of->questions[i] != NULL; i++) {
+        const char *const line = of->questions[i];
+        if (strstr(line, of->part) == NULL) {
             continue;
         }
-        const answer found = ask(program, plan_questions[i], &usual);
-        const double ratio = found.planned / found.measured;
-        const double off = found.is_at_most ? 1 / ratio : fmax(ratio, 1 / ratio);
-        printf("| `%s` | %s%.3f | %.3f | %.2f | %.2f | %.1f |%s\n", plan_questions[i],
-               found.is_at_most ? "at most " : "", found.planned, found.measured, ratio, found.yard,
-               found.cpu / (found.measured * found.yard),
-               off > bad    ? " !!"
-               : off > good ? " !"
-                            : "");
+        const answer found = ask(of->program, line, &of->usual, of->repeats);
+        const double off = factor_of(&found);
+        printf("| `%s` | %s%.3g | %.3g | %.2f%s | %.2f | %.1f |\n", line,
+               found.is_at_most ? "at most " : "", found.planned, found.measured,
+               found.planned / found.measured,
+               off > of->bad    ? " !!"
+               : off > of->good ? " !"
+                                : "",
+               found.yard, found.cpu);
         fflush(stdout);
-        num++;
-        num_good += off <= good;
-        num_bad += off > bad;
+        of->num++;
+        of->num_good += off <= of->good;
+        of->num_bad += !(off <= of->bad);
     }
-    printf("\n%zu of %zu within a factor of %.1f, %zu beyond %.0f\n", num_good, num, good, num_bad,
-           bad);
-    return 0;
+    printf("\n%zu of %zu within a factor of %g, %zu beyond %g\n", of->num_good, of->num, of->good,
+           of->num_bad, of->bad);
+}
+
+int main(int argc, char **argv) {
+    const bool is_quick = argc > 1 && strcmp(argv[1], "--quick") == 0;
+    const int first = is_quick ? 2 : 1;
+    char program[PATH_MAX];
+    char folder[] = "/tmp/bench_plan.XXXXXX";
+    battery all = {.program = program,
+                   .part = argc > first + 1 ? argv[first + 1] : "",
+                   .questions = is_quick ? plan_quick : plan_questions,
+                   .repeats = is_quick ? QUICK_REPEATS : REPEATS,
+                   .usual = {usual_single, usual_all},
+                   .good = is_quick ? 4 : 1.5,
+                   .bad = is_quick ? 4 : 3};
+    if (argc <= first) {
+        find_program(program, argv[0]);
+    } else if (realpath(argv[first], program) == NULL) {
+        bench_die("no such program");
+    }
+    enter_folder(folder);
+    setenv("POINTSPEC_CACHE_DIR", "cache", 1);
+    if (!is_quick) {
+        all.usual = calibrate(program);
+        printf("yardstick beside the calibration: %.3g s of one thread, %.3g s of all\n\n",
+               all.usual.single, all.usual.all);
+    }
+    make_files(program);
+    ask_all(&all);
+    remove_folder(folder);
+    return is_quick && all.num_bad > 0 ? EXIT_FAILURE : EXIT_SUCCESS;
 }

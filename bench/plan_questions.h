@@ -4,6 +4,19 @@
 #define BENCH_PLAN_QUESTIONS_H
 
 /* clang-format off */
+static const struct {
+    const char *name, *text;
+} plan_scenes[] = {
+    {"torus.yaml", "scene: 1\nresults:\n  - {result: power, name: spectra, samplers: [white, jittered, sobol], points: "
+                   "[256, 1024], realizations: 200, max-frequency: 64}\n"},
+    {"sphere.yaml", "scene: 1\nresults:\n  - {result: angular, name: degrees, samplers: [white-sphere, healpix-jittered], "
+                    "points: [768, 3072], realizations: 50, max-degree: 64}\n  - {result: pairs, name: sums, samplers: "
+                    "white-sphere, points: 512, realizations: 50, max-degree: 32}\n"},
+    {"rules.yaml", "scene: 1\nresults:\n  - {result: quadrature, name: rules, brdf: [diffuse, 'glossy:n=30'], samplers: "
+                   "[white-hemisphere, fibonacci-hemisphere], points: [256, 1024], realizations: 50}\n  - {result: "
+                   "truncation, name: series, brdf: diffuse, max-degree: 10}\n"},
+};
+
 static const char *const plan_files[] = {
     "sample --sampler white -n 300000 -o white.txt",
     "sample --sampler white -n 300000 -o white.csv",
@@ -17,6 +30,25 @@ static const char *const plan_files[] = {
     "convert white.txt -o white.utkb --format utk-binary",
     "power --sampler jittered -n 1024 -m 400 -k 64 -o jittered.json --format json",
     "angular --sampler white-sphere -n 1024 -m 100 -l 64 -o angular.json --format json",
+    NULL
+};
+
+/* What was off by 100 and more when only the engine's sums were counted, and one of each command: for the tests. */
+static const char *const plan_quick[] = {
+    "power --sampler white -n 1e6 -k 64",
+    "power --sampler sobol:scramble=owen -n 4096 -m 500 -k 64",
+    "power --sampler white -n 1e5 -k 1000 --per-ring 4",
+    "power white.txt -k 32",
+    "angular --sampler white-sphere -n 1e6 -l 64",
+    "pairs --sampler white-sphere -n 1024 -m 200 -l 128",
+    "quadrature --brdf diffuse --sampler fibonacci-hemisphere -n 70000",
+    "quadrature --brdf diffuse --sampler fibonacci-hemisphere -n 30000 --smoothness 1.7",
+    "quadrature --brdf diffuse --sampler fibonacci-hemisphere -n 4000 --weights optimal",
+    "quadrature --brdf diffuse --sampler fibonacci-hemisphere -n 8000 --weights optimal --memory 1e8",
+    "truncation --brdf diffuse -l 12",
+    "sample --sampler white -n 1e7 -o out.npy",
+    "sample --sampler white -n 1e6 -o out.txt",
+    "convert white.txt -o out.npy",
     NULL
 };
 
@@ -117,7 +149,8 @@ static const char *const plan_questions[] = {
     "quadrature --brdf diffuse --sampler fibonacci-hemisphere -n 4000 --weights optimal",
     "quadrature --brdf diffuse --sampler white-hemisphere -n 2000 -m 3 --weights optimal",
     "quadrature --brdf diffuse --sampler fibonacci-hemisphere -n 4000 --weights optimal --smoothness 1.9",
-    "quadrature --brdf diffuse --sampler fibonacci-hemisphere -n 20001 --weights optimal",
+    "quadrature --brdf diffuse --sampler fibonacci-hemisphere -n 8000 --weights optimal --memory 1e8",
+    "quadrature --brdf diffuse --sampler fibonacci-hemisphere -n 20001 --weights optimal --memory 1e9",
     "quadrature --brdf glossy:n=30 --sampler white-hemisphere -n 1024 -m 2000 --standard-error 0.05",
     "quadrature --brdf diffuse rules.npy --drop-below-horizon",
     /* truncation */
@@ -150,6 +183,10 @@ static const char *const plan_questions[] = {
     "convert white.npy -o out.csv",
     "convert sphere.txt -o out.npy",
     "convert sphere.npy -o out.csv",
+    /* scenes */
+    "run torus.yaml --cache 0 -o torus",
+    "run sphere.yaml --cache 0 -o sphere",
+    "run rules.yaml --cache 0 -o rules",
     /* against what was saved */
     "check --against jittered.json --sampler jittered -n 1024 -m 400 -k 64",
     "check --against jittered.json --sampler jittered -n 1024 -m 2000 -k 64",

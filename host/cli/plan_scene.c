@@ -1,6 +1,7 @@
 /* The plan of a scene: a block for each of its questions. */
 #include "cli/plan_table.h"
 #include "cli/run.h"
+#include "cli/run_pictures.h"
 
 #include <stdio.h>
 
@@ -35,6 +36,21 @@ static pspec_status add_block(ps_run *run, const ps_run_result *result, size_t n
     return ps_plan_table_add(to, result->asked->kind, &question->asked.request, error);
 }
 
+/* Of all results; those that are in the cache take no time. */
+static pspec_status add_pictures(const ps_run *run, ps_planner *to, ps_error *error) {
+    ps_phases phases = {.host = to->host};
+    ps_pictures pictures = {0};
+    pspec_status status = PSPEC_OK;
+    for (size_t i = 0; i < run->num_results && status == PSPEC_OK; i++) {
+        status = ps_pictures_list(&pictures, run->results[i].asked, error);
+    }
+    ps_phases_add(&phases, "pictures", PS_HOST_PICTURE, (double)pictures.num);
+    ps_phases_say(&phases, "pictures", "%zu by gnuplot", pictures.num);
+    ps_pictures_free(&pictures);
+    to->job = "pictures";
+    return status == PSPEC_OK ? ps_plan_table_add_phases(to, &phases, error) : status;
+}
+
 static pspec_status add_blocks(ps_run *run, ps_planner *to, ps_error *error) {
     PS_TRY(ps_run_ask(run, error));
     PS_TRY(ps_run_open_cache(run, error));
@@ -46,7 +62,7 @@ static pspec_status add_blocks(ps_run *run, ps_planner *to, ps_error *error) {
             }
         }
     }
-    return PSPEC_OK;
+    return add_pictures(run, to, error);
 }
 
 pspec_status ps_plan_scene(ps_planner *to, const ps_request *arguments, ps_error *error) {

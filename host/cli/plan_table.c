@@ -139,8 +139,8 @@ static pspec_status add_header(const ps_planner *to, const ps_request *arguments
     return PSPEC_OK;
 }
 
-static ps_phases begin_phases(const ps_planner *to) {
-    return (ps_phases){.host = to->host};
+static ps_phases begin_phases(ps_planner *to) {
+    return (ps_phases){.host = to->host, .begun = &to->begun};
 }
 
 /* A picture needs gnuplot, which takes its time whatever is in it. */

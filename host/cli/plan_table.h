@@ -13,7 +13,8 @@ typedef struct ps_planner {
     ps_device
         *device; /* borrowed; NULL: the one that a request names is opened where it is needed */
     const ps_figures *host; /* what was measured of the host; NULL: nothing */
-    double seconds;         /* of all jobs so far */
+    ps_begun begun;
+    double seconds; /* of all jobs so far */
     bool is_at_most;
 } ps_planner;
 

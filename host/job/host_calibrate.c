@@ -18,9 +18,9 @@
 #include "samplers/sampler.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 /* Probes are tried again and again, so that one that was disturbed does not count: the median of these. */
@@ -99,12 +99,9 @@ static pspec_status read_points(bench_host *of, const probe *what, double *predi
     const pspec_status status = ps_points_next(reader, &set, &has_set, error);
     ps_points_close(reader);
     ps_point_set_free(&set);
-    FILE *const file = fopen(of->file, "rb");
-    if (file != NULL && fseek(file, 0, SEEK_END) == 0) {
-        *predicted = predict(what, (double)ftell(file));
-    }
-    if (file != NULL) {
-        fclose(file);
+    struct stat found;
+    if (stat(of->file, &found) == 0) {
+        *predicted = predict(what, (double)found.st_size);
     }
     return status;
 }

@@ -16,13 +16,20 @@ static const struct {
 } builds[] = {{"torus_direct", 4}, {"torus_nufft", 4},  {"sphere_direct", 3},  {"sphere_nufft", 4},
               {"sphere_grid", 6},  {"pairs_direct", 2}, {"pairs_histogram", 4}};
 
+/* Each once in a process. */
 void ps_phases_start(ps_phases *phases, const char *engine) {
     static const char name[] = "start";
-    ps_phases_add(phases, name, PS_HOST_START, 1);
+    ps_begun first = {false, false, 0};
+    ps_begun *const begun = phases->begun != NULL ? phases->begun : &first;
+    ps_phases_add(phases, name, PS_HOST_START, begun->program ? 0 : 1);
+    begun->program = true;
     for (size_t i = 0; engine != NULL && i < sizeof builds / sizeof builds[0]; i++) {
         if (strcmp(builds[i].engine, engine) == 0) {
-            ps_phases_add(phases, name, PS_HOST_DRIVER, 1);
-            ps_phases_add(phases, name, PS_HOST_KERNEL, builds[i].kernels);
+            const bool is_there = (begun->engines >> i & 1) != 0;
+            ps_phases_add(phases, name, PS_HOST_DRIVER, begun->driver ? 0 : 1);
+            ps_phases_add(phases, name, PS_HOST_KERNEL, is_there ? 0 : builds[i].kernels);
+            begun->driver = true;
+            begun->engines |= 1U << i;
         }
     }
     ps_phases_say(phases, name, "%s",

@@ -14,8 +14,15 @@ typedef struct ps_phase_cost {
 
 enum { PS_MAX_PHASES = 16 };
 
+/* What is there already from jobs before in the same process. */
+typedef struct ps_begun {
+    bool program, driver;
+    unsigned engines; /* bits of those whose kernels are loaded */
+} ps_begun;
+
 typedef struct ps_phases {
     const ps_figures *host; /* what was measured of this host; NULL: nothing */
+    ps_begun *begun;        /* NULL: this job is the first and the last */
     size_t num;
     ps_phase_cost list[PS_MAX_PHASES];
 } ps_phases;

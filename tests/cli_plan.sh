@@ -1,0 +1,68 @@
+#!/usr/bin/env bash
+# cli_plan.sh PROGRAM BENCH_PLAN: the seconds that plan prints are those that commands take, within a factor of 4 of this
+# machine's yardstick; what they are made of stands in the header; planning writes nothing.
+set -euo pipefail
+program=$1 bench=$2
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch"
+export POINTSPEC_CACHE_DIR=$PWD/cache
+
+bad=0
+complain() {
+    printf 'cli_plan: %s\n' "$*" >&2
+    bad=1
+}
+plan() { # WORDS
+    "$program" plan "$@" >plan.csv 2>err || complain "plan $*: $(<err)"
+}
+total() { sed -n 's/^# seconds: //p' plan.csv; }
+phase() { sed -n "s/^# phase: $1; \(at most \)\?\([^ ]*\) s; .*/\2/p" plan.csv; }
+is_about() { awk -v a="$1" -v b="$2" -v f="$3" 'BEGIN { exit !(a > 0 && a < b * f && b < a * f) }'; }
+
+# the sum is that of the phases, and the row's that of the whole command
+plan quadrature --brdf diffuse --sampler fibonacci-hemisphere -n 4000 --weights optimal
+for name in start lobe points kappa weights "worst-case error" powers results; do
+    [[ -n $(phase "$name") ]] || complain "no phase $name: $(<plan.csv)"
+done
+sum=$(sed -n 's/^# phase: [^;]*; \(at most \)\?\([^ ]*\) s; .*/\2/p' plan.csv | awk '{ s += $1 } END { print s }')
+is_about "$sum" "$(total)" 1.02 || complain "phases: $sum, seconds: $(total)"
+row=$(awk -F, '$2 == "chosen" { print $3 }' plan.csv)
+is_about "$row" "$(total)" 1.01 || complain "row: $row, seconds: $(total)"
+
+# what iterates says so
+plan quadrature --brdf diffuse --sampler fibonacci-hemisphere -n 5000 --memory 5e7 --weights optimal
+[[ $(total) == "at most "* ]] || complain "gradients: $(<plan.csv)"
+grep -q '^# phase: weights; at most .*conjugate gradients' plan.csv || complain "gradients: $(<plan.csv)"
+
+# N^2 pairs: four times as many for twice the points
+plan quadrature --brdf diffuse --sampler fibonacci-hemisphere -n 100000
+few=$(phase "worst-case error")
+plan quadrature --brdf diffuse --sampler fibonacci-hemisphere -n 200000
+is_about "$(awk -v a="$few" 'BEGIN { print 4 * a }')" "$(phase "worst-case error")" 1.02 || complain "pairs: $few $(<plan.csv)"
+
+# no self-check, no seconds for it; sets of files are counted before they are read
+plan power --sampler white -n 1e5 -k 16
+[[ -n $(phase self-check) ]] || complain "self-check: $(<plan.csv)"
+plan power --sampler white -n 1e5 -k 16 --no-self-check
+[[ -z $(phase self-check) ]] || complain "without self-check: $(<plan.csv)"
+"$program" sample --sampler white -n 512 -m 40 -o sets.txt
+plan power -k 16 sets.txt
+grep -q '^# phase: averages; .* powers of \(39\|40\|41\) realizations' plan.csv || complain "sets: $(<plan.csv)"
+
+# points are planned and not written; -o is theirs
+plan sample --sampler white -n 1e5 -m 10 -o points.npy
+[[ ! -e points.npy ]] || complain "sample was not only planned"
+grep -q '^# phase: writing; .* 2e+06 numbers as npy' plan.csv || complain "sample: $(<plan.csv)"
+plan convert sets.txt -o sets.npy
+[[ ! -e sets.npy && -n $(phase reading) && -n $(phase writing) ]] || complain "convert: $(<plan.csv)"
+
+# a scene begins once, and its pictures are counted
+printf 'scene: 1\nresults:\n  - {result: power, name: a, samplers: [white, jittered], points: 256}\n' >scene.yaml
+plan run scene.yaml
+[[ $(grep -c '^# phase: start' plan.csv) == 1 ]] || complain "scene: $(<plan.csv)"
+grep -q '^# phase: pictures; .*; 1 by gnuplot' plan.csv || complain "scene: $(<plan.csv)"
+grep -q '^a:2,,phase,' plan.csv || complain "rows of phases: $(<plan.csv)"
+
+"$bench" --quick "$program" >table.md 2>&1 || complain "seconds: $(<table.md)"
+exit $bad
