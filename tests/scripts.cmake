@@ -16,6 +16,8 @@ add_script_test(gpu_kernel_tests unit ${CMAKE_CURRENT_SOURCE_DIR}/gpu_kernel_tes
 add_script_test(reference unit ${PROJECT_SOURCE_DIR}/scripts/reference.sh
   ${PROJECT_BINARY_DIR}/reference)
 set_tests_properties(reference PROPERTIES SKIP_RETURN_CODE 77)
+add_script_test(no_blas unit ${CMAKE_CURRENT_SOURCE_DIR}/no_blas.sh
+  $<TARGET_FILE:pointspec_program> $<TARGET_FILE:pointspec>)
 if(NOT POINTSPEC_SANITIZE)
   add_script_test(symbols unit ${CMAKE_CURRENT_SOURCE_DIR}/test_symbols.sh
     $<TARGET_FILE:pointspec> $<TARGET_FILE:pointspec_static> ${PROJECT_BINARY_DIR}/pointspec_joined.o)

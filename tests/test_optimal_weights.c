@@ -259,6 +259,18 @@ static void ill_conditioned(void **state) {
     ps_representer_destroy(&r);
 }
 
+/* What the machine has chooses nothing; a limit that was asked for does. */
+static void dense_on_every_machine(void **state) {
+    const size_t most = PS_KERNEL_MOST_DENSE;
+    (void)state;
+    assert_int_equal(most, 20000);
+    assert_true(ps_kernel_system_is_dense(most, 0));
+    assert_true(ps_kernel_system_is_dense(most, ps_kernel_system_bytes(most, true)));
+    assert_false(ps_kernel_system_is_dense(most, ps_kernel_system_bytes(most, true) - 1));
+    assert_false(ps_kernel_system_is_dense(most + 1, 0));
+    assert_false(ps_kernel_system_is_dense(most + 1, UINT64_MAX));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(optimal_golden_values),
                                        cmocka_unit_test(slopes),
@@ -267,6 +279,7 @@ int main(void) {
                                        cmocka_unit_test(one_point),
                                        cmocka_unit_test(gradients),
                                        cmocka_unit_test(gradients_that_end),
-                                       cmocka_unit_test(ill_conditioned)};
+                                       cmocka_unit_test(ill_conditioned),
+                                       cmocka_unit_test(dense_on_every_machine)};
     return cmocka_run_group_tests_name("optimal_weights", tests, NULL, NULL);
 }

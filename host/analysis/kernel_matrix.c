@@ -1,8 +1,8 @@
 /* The kernel matrix in memory: filling it, its norm, and residuals. */
 #include "analysis/kernel_private.h"
 
+#include "base/pieces.h"
 #include "base/wide.h"
-#include "base/workers.h"
 #include "math/sobolev.h"
 
 #include <math.h>
@@ -41,27 +41,26 @@ static void fill_tile(const ps_kernel_system *system, const ps_sobolev_chunk *ch
 }
 
 /* Chunks of rows dealt out from the last one on, which has the most columns; tiles of several rows never meet. */
-static void fill_rows(void *payload, unsigned index, unsigned count) {
+static void fill_rows(void *payload, size_t i) {
     const ps_kernel_system *const system = payload;
     const size_t num_chunks = (system->num + ROWS - 1) / ROWS;
-    for (size_t i = index; i < num_chunks; i += count) {
-        const size_t row = (num_chunks - 1 - i) * ROWS;
-        ps_sobolev_chunk chunk;
-        ps_sobolev_chunk_fill(&chunk, count_of(system->num, row, ROWS), system->points + 3 * row,
-                              NULL);
-        for (size_t column = 0; column < row + chunk.num; column += COLUMNS) {
-            fill_tile(system, &chunk, row, column);
-        }
+    const size_t row = (num_chunks - 1 - i) * ROWS;
+    ps_sobolev_chunk chunk;
+    ps_sobolev_chunk_fill(&chunk, count_of(system->num, row, ROWS), system->points + 3 * row, NULL);
+    for (size_t column = 0; column < row + chunk.num; column += COLUMNS) {
+        fill_tile(system, &chunk, row, column);
     }
 }
 
-void ps_kernel_matrix_fill(ps_kernel_system *system) {
-    ps_workers_share(system->num * system->num, fill_rows, system);
+pspec_status ps_kernel_matrix_fill(ps_kernel_system *system, ps_error *error) {
+    return ps_pieces_share(system->options.watch, "blocks of rows of the kernel matrix",
+                           system->num * system->num, (system->num + ROWS - 1) / ROWS, fill_rows,
+                           system, error);
 }
 
 /* ---- norm ---------------------------------------------------------------------------------- */
 
-enum { LANES = 8 };
+enum { LANES = 8, BLOCK = 64 };
 
 /* No entry is below 0: c = 2^(2s-2) (2/s) is more than the largest distance. */
 static double sum_column(size_t num, const double *column) {
@@ -83,22 +82,28 @@ static double sum_column(size_t num, const double *column) {
 }
 
 /* rows: of sums of columns. */
-static void sum_columns(void *payload, unsigned index, unsigned count) {
+static void sum_columns(void *payload, size_t block) {
     const ps_kernel_system *const system = payload;
     const size_t n = system->num;
-    const size_t end = ps_share_begin(n, index + 1, count);
-    for (size_t j = ps_share_begin(n, index, count); j < end; j++) {
+    const size_t end = block * BLOCK + count_of(n, block * BLOCK, BLOCK);
+    for (size_t j = block * BLOCK; j < end; j++) {
         system->rows[j] = sum_column(n, system->matrix + j * n);
     }
 }
 
-double ps_kernel_matrix_norm(ps_kernel_system *system) {
-    double norm = 0;
-    ps_workers_share(system->num * system->num, sum_columns, system);
+static size_t count_blocks(const ps_kernel_system *system) {
+    return (system->num + BLOCK - 1) / BLOCK;
+}
+
+pspec_status ps_kernel_matrix_norm(ps_kernel_system *system, ps_error *error) {
+    PS_TRY(ps_pieces_share(system->options.watch, "blocks of columns of the kernel matrix's norm",
+                           system->num * system->num, count_blocks(system), sum_columns, system,
+                           error));
+    system->norm = 0;
     for (size_t j = 0; j < system->num; j++) {
-        norm = fmax(norm, system->rows[j]);
+        system->norm = fmax(system->norm, system->rows[j]);
     }
-    return norm;
+    return PSPEC_OK;
 }
 
 /* ---- residuals ----------------------------------------------------------------------------- */
@@ -107,7 +112,7 @@ double ps_kernel_matrix_norm(ps_kernel_system *system) {
  * multiple of 2^-20 of a power of two above max |x|. Products k h are whole numbers of 40 bits: MOST_EXACT of them add up
  * without any rounding, and what is left, k l + K' x, is a millionth of it. All of it in vectors, which long double is not.
  */
-enum { BLOCK = 64, MOST_EXACT = 4096 };
+enum { MOST_EXACT = 4096 };
 static const double ROUND_ENTRY = 0x1.8p34;  /* 1.5 2^52 2^-18 */
 static const double ROUND_NUMBER = 0x1.8p32; /* 1.5 2^52 2^-20 */
 
@@ -219,9 +224,11 @@ static void take_columns(const residual_work *work, size_t begin, long double *s
 
 /* K is in the strict upper triangle only: its column i is the part of row i before the diagonal, and what is behind it
  * comes from later columns. */
-static void residual_of_block(const residual_work *work, size_t begin) {
+static void residual_of_block(void *payload, size_t block) {
+    const residual_work *const work = payload;
     const ps_kernel_system *const system = work->system;
     const size_t n = system->num;
+    const size_t begin = block * BLOCK;
     const size_t num = count_of(n, begin, BLOCK);
     const double *const matrix = system->matrix;
     long double sums[BLOCK] = {0};
@@ -239,19 +246,13 @@ static void residual_of_block(const residual_work *work, size_t begin) {
     }
 }
 
-static void residual_of_share(void *payload, unsigned index, unsigned count) {
-    const residual_work *const work = payload;
-    for (size_t i = (size_t)index * BLOCK; i < work->system->num; i += (size_t)count * BLOCK) {
-        residual_of_block(work, i);
-    }
-}
-
-void ps_kernel_matrix_residual(ps_kernel_system *system, const double *right, const double *x,
-                               double *residual) {
+pspec_status ps_kernel_matrix_residual(ps_kernel_system *system, const double *right,
+                                       const double *x, double *residual, ps_error *error) {
     const size_t n = system->num;
     double *const high = system->rows + 2 * n;
     double *const low = system->rows + 3 * n;
     residual_work work = {system, right, x, high, low, residual};
     split_numbers(n, x, high, low);
-    ps_workers_share(n * n, residual_of_share, &work);
+    return ps_pieces_share(system->options.watch, "blocks of rows of a residual", n * n,
+                           count_blocks(system), residual_of_block, &work, error);
 }

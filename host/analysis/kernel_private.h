@@ -33,13 +33,14 @@ pspec_status ps_kernel_system_refuse(const ps_kernel_system *system, size_t i, s
 /* ---- the matrix in memory ------------------------------------------------------------------ */
 
 /* Both triangles, with the diagonal. */
-void ps_kernel_matrix_fill(ps_kernel_system *system);
-/* The 1-norm of a matrix that was just filled; uses the rows. */
-double ps_kernel_matrix_norm(ps_kernel_system *system);
+pspec_status ps_kernel_matrix_fill(ps_kernel_system *system, ps_error *error) PS_MUST_CHECK;
+/* Sets the norm to the 1-norm of a matrix that was just filled; uses the rows. */
+pspec_status ps_kernel_matrix_norm(ps_kernel_system *system, ps_error *error) PS_MUST_CHECK;
 /* residual = right - K x with sums of 64 bits; K is in the strict upper triangle, and c on the diagonal. x and residual are
  * the first two rows, or anything else but the next two. */
-void ps_kernel_matrix_residual(ps_kernel_system *system, const double *right, const double *x,
-                               double *residual);
+pspec_status ps_kernel_matrix_residual(ps_kernel_system *system, const double *right,
+                                       const double *x, double *residual,
+                                       ps_error *error) PS_MUST_CHECK;
 
 /* ---- the matrix on the fly ----------------------------------------------------------------- */
 

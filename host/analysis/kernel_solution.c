@@ -11,17 +11,18 @@
 
 /* ---- solutions --------------------------------------------------------------------------- */
 
-static void solve_dense(ps_kernel_system *system, const double *right, double *x,
-                        double *residual) {
+static pspec_status solve_dense(ps_kernel_system *system, const double *right, double *x,
+                                double *residual, ps_error *error) {
     const size_t n = system->num;
+    const ps_watch *const watch = system->options.watch;
     memcpy(x, right, n * sizeof *x);
-    ps_cholesky_solve(n, system->matrix, x);
-    ps_kernel_matrix_residual(system, right, x, residual);
-    ps_cholesky_solve(n, system->matrix, residual);
+    PS_TRY(ps_cholesky_solve(n, system->matrix, x, watch, error));
+    PS_TRY(ps_kernel_matrix_residual(system, right, x, residual, error));
+    PS_TRY(ps_cholesky_solve(n, system->matrix, residual, watch, error));
     for (size_t i = 0; i < n; i++) {
         x[i] += residual[i];
     }
-    ps_kernel_matrix_residual(system, right, x, residual);
+    return ps_kernel_matrix_residual(system, right, x, residual, error);
 }
 
 pspec_status ps_kernel_system_solve(ps_kernel_system *system, const double *right, double *x,
@@ -37,7 +38,7 @@ pspec_status ps_kernel_system_solve(ps_kernel_system *system, const double *righ
         distinct[system->group[j]] = right[j];
     }
     if (system->matrix != NULL) {
-        solve_dense(system, distinct, solution, residual);
+        PS_TRY_OUT(status, solve_dense(system, distinct, solution, residual, error));
     } else {
         PS_TRY_OUT(status, ps_kernel_gradients_solve(system, distinct, solution, residual, error));
     }

@@ -111,15 +111,16 @@ pspec_status ps_kernel_system_refuse(const ps_kernel_system *system, size_t i, s
 static pspec_status factorize(ps_kernel_system *system, ps_error *error) {
     bool is_definite = false;
     size_t bad = 0;
-    ps_kernel_matrix_fill(system);
-    system->norm = ps_kernel_matrix_norm(system);
-    ps_cholesky(system->num, system->matrix, &is_definite, &bad);
+    const ps_watch *const watch = system->options.watch;
+    PS_TRY(ps_kernel_matrix_fill(system, error));
+    PS_TRY(ps_kernel_matrix_norm(system, error));
+    PS_TRY(ps_cholesky(system->num, system->matrix, 0, watch, &is_definite, &bad, error));
     if (!is_definite) {
         double distance = 0;
         const size_t nearest = find_nearest(system, bad, &distance);
         return ps_kernel_system_refuse(system, bad, nearest, distance, error);
     }
-    return ps_cholesky_condition(system->num, system->matrix, system->norm,
+    return ps_cholesky_condition(system->num, system->matrix, system->norm, watch,
                                  &system->facts.condition, error);
 }
 
@@ -129,13 +130,13 @@ uint64_t ps_kernel_system_bytes(size_t num_points, bool is_dense) {
     const uint64_t num = num_points;
     const uint64_t rows = is_dense ? PS_KERNEL_DENSE_ROWS : PS_KERNEL_GRADIENT_ROWS;
     const uint64_t lists = num * ((3 + 1 + rows) * sizeof(double) + sizeof(size_t));
-    return lists + (is_dense ? num * num * sizeof(double)
+    return lists + (is_dense ? num * num * sizeof(double) + ps_cholesky_bytes(num_points)
                              : ps_kernel_factor_bytes(num_points) + ps_pairs_product_bytes(num));
 }
 
 bool ps_kernel_system_is_dense(size_t num_points, uint64_t memory_limit) {
-    const uint64_t limit = memory_limit > 0 ? memory_limit : ps_memory_installed() / 2;
-    return num_points <= PS_MOST_CHOLESKY && ps_kernel_system_bytes(num_points, true) <= limit;
+    return num_points <= PS_KERNEL_MOST_DENSE &&
+           (memory_limit == 0 || ps_kernel_system_bytes(num_points, true) <= memory_limit);
 }
 
 static pspec_status allocate(ps_kernel_system *system, bool is_dense, ps_error *error) {
@@ -158,10 +159,21 @@ out:
     return status;
 }
 
+/* What the machine has free does not choose the way, for weights would depend on it; it may refuse. */
+static pspec_status allocate_matrix(void **matrix, size_t num, ps_error *error) {
+    ps_error refusal = {0};
+    if (ps_allocate(matrix, num, num * sizeof(double), "a kernel matrix", &refusal) == PSPEC_OK) {
+        return PSPEC_OK;
+    }
+    return ps_fail(error, PSPEC_ERROR_MEMORY,
+                   "%s; with a memory limit (--memory) below %llu bytes the weights of %zu points "
+                   "are found without a matrix",
+                   refusal.message, (unsigned long long)ps_kernel_system_bytes(num, true), num);
+}
+
 static pspec_status prepare_dense(ps_kernel_system *system, ps_error *error) {
     void *matrix = NULL;
-    PS_TRY(
-        ps_allocate(&matrix, system->num, system->num * sizeof(double), "a kernel matrix", error));
+    PS_TRY(allocate_matrix(&matrix, system->num, error));
     system->matrix = matrix;
     ps_memory_use_large_pages(matrix, system->num * system->num * sizeof(double));
     return factorize(system, error);

@@ -1,13 +1,14 @@
 /* Linear systems with the kernel matrix K_ij = c - |u_i-u_j|^(2s-2) of points, for optimal weights and interpolation
  * (mathematics.md 4.6, 4.8).
  *
- * By Cholesky in double precision with one step of iterative refinement where N^2 doubles fit the memory limit, else by
- * conjugate gradients, which make K on the fly, on the device where there is one with double precision. Exact duplicates
- * are one point: K is singular with them.
+ * By Cholesky in double precision with one step of iterative refinement up to PS_KERNEL_MOST_DENSE points, if no limit of
+ * memory forbids N^2 doubles; else by conjugate gradients, which make K on the fly, on the device where there is one with
+ * double precision. Exact duplicates are one point: K is singular with them.
  */
 #ifndef PS_ANALYSIS_KERNEL_SYSTEM_H
 #define PS_ANALYSIS_KERNEL_SYSTEM_H
 
+#include "base/watch.h"
 #include "device/device.h"
 
 #include <stdbool.h>
@@ -17,10 +18,11 @@
 typedef struct ps_kernel_system ps_kernel_system;
 
 typedef struct ps_kernel_options {
-    uint64_t memory_limit; /* bytes; 0: half of what the machine has */
+    uint64_t memory_limit; /* bytes, as somebody asked for; 0: none */
     double residual;       /* conjugate gradients end at this |r|/|right side|; 0: 1e-12 */
     size_t most_steps;     /* and fail at so many; 0: 2000 */
     ps_device *device;     /* of conjugate gradients; borrowed. NULL: threads of the host */
+    const ps_watch *watch; /* told of the matrix and its factor; NULL: nobody asks */
     /* Told after every step; false ends the work as PSPEC_ERROR_CANCELLED. NULL: nobody asks. */
     bool (*goes_on)(void *payload, size_t step, double residual);
     void *payload;
@@ -39,7 +41,11 @@ typedef struct ps_kernel_facts {
 
 /* Bytes that a system of so many points takes, by Cholesky or by conjugate gradients on a device: for announcing them. */
 uint64_t ps_kernel_system_bytes(size_t num_points, bool is_dense);
-/* Does Cholesky fit the limit? */
+/* The most points whose matrix is stored, 3.2 GB, on every machine: the weights must not depend on how much memory it has.
+ * Conjugate gradients are quicker from some 10000 points on (docs/quadrature.md), a factor is exact in more cases. */
+enum { PS_KERNEL_MOST_DENSE = 20000 };
+
+/* Is it Cholesky? memory_limit as in the options. */
 bool ps_kernel_system_is_dense(size_t num_points, uint64_t memory_limit);
 
 /* points: unit vectors [num_points][3], copied. options NULL: the defaults. Points so near each other that K is not

@@ -192,11 +192,19 @@ static bool goes_on(void *payload, size_t step, double residual) {
                               question->payload) == 0;
 }
 
+/* The same for the phases of a matrix. */
+static int tell(const ps_watch_report *report, void *payload) {
+    (void)report;
+    return goes_on(payload, 0, 0) ? 0 : 1;
+}
+
 static pspec_status find_optimal(ps_rules *rules, const ps_representer *representer,
                                  ps_weighted_rule *rule, ps_error *error) {
     ps_optimal_weights found;
     const size_t num = rule->set.num_points;
-    const ps_kernel_options options = {.memory_limit = rules->question->constraints.memory_limit,
+    const ps_watch watch = {tell, rules};
+    const ps_kernel_options options = {.watch = &watch,
+                                       .memory_limit = rules->question->constraints.memory_limit,
                                        .device = rules->device,
                                        .goes_on = goes_on,
                                        .payload = rules};
@@ -230,9 +238,8 @@ void ps_rules_plan_weights(const ps_quadrature_question *question, size_t num_po
              "optimal, by conjugate gradients with products %s, %.4g bytes; a matrix would take "
              "%.4g bytes, and %s",
              ps_pairs_product_is_possible(device) ? "on the device" : "in threads", sparse, dense,
-             num_points > PS_MOST_CHOLESKY ? "it has more rows than LAPACK counts"
-             : limit > 0                   ? "--memory is less"
-                                           : "half of the memory of this machine is less");
+             num_points > PS_KERNEL_MOST_DENSE ? "matrices are made for 20000 points and fewer"
+                                               : "--memory is less");
 }
 
 void ps_rules_name_weights(const ps_rules *rules, char *text, size_t size) {

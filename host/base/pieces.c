@@ -1,0 +1,47 @@
+#include "base/pieces.h"
+
+typedef struct piece {
+    void (*task)(void *payload, size_t i);
+    void *payload;
+    size_t begin, end;
+    unsigned count;
+} piece;
+
+static void do_share(void *payload, unsigned index) {
+    const piece *const self = payload;
+    for (size_t i = self->begin + index; i < self->end; i += self->count) {
+        self->task(self->payload, i);
+    }
+}
+
+pspec_status ps_pieces_do(ps_pieces *of, size_t num, void (*task)(void *payload, size_t i),
+                          void *payload, ps_error *error) {
+    const unsigned count = ps_workers_count(of->workers);
+    const size_t most = of->each * count;
+    for (size_t begin = 0; begin < num; begin += most) {
+        const size_t end = num - begin < most ? num : begin + most;
+        piece now = {task, payload, begin, end, count};
+        PS_TRY(ps_watch_tell(of->watch, of->phase, of->done, of->total, NULL, error));
+        ps_workers_run(of->workers, do_share, &now);
+        of->done += end - begin;
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_pieces_share(const ps_watch *watch, const char *phase, size_t work, size_t num,
+                             void (*task)(void *payload, size_t i), void *payload,
+                             ps_error *error) {
+    /* So many pay for a thread that comes and goes, 0.1 ms; so many take some hundredths of a second. */
+    enum { LEAST_WORK = 1 << 17, WORK_AT_A_TIME = 1 << 22, MOST_THREADS = 16 };
+    ps_workers *const workers =
+        num > 1 && work >= LEAST_WORK ? ps_workers_create(MOST_THREADS) : NULL;
+    const size_t work_of_one = work / (num > 0 ? num : 1) + 1;
+    ps_pieces of = {.workers = workers,
+                    .each = work_of_one < WORK_AT_A_TIME ? WORK_AT_A_TIME / work_of_one : 1,
+                    .watch = watch,
+                    .phase = phase,
+                    .total = num};
+    const pspec_status status = ps_pieces_do(&of, num, task, payload, error);
+    ps_workers_destroy(workers);
+    return status;
+}
