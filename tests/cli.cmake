@@ -24,8 +24,10 @@ add_program_test(cli_quadrature) # golden values, engines, files, what is refuse
 add_program_test(cli_pairs)     # pair sums: closed forms, every route, what is refused
 add_program_test(cli_check)     # verdicts against saved spectra, exit codes, what is refused
 add_program_test(cli_bench)      # run time against error, figures per device: rows, files, what is refused
-add_program_test(cli_plan $<TARGET_FILE:bench_plan>) # seconds against those that commands take, phases
-set_tests_properties(cli_plan PROPERTIES LABELS "unit;sweep" RUN_SERIAL TRUE)
+if(POINTSPEC_BUILD_BENCH)
+  add_program_test(cli_plan $<TARGET_FILE:bench_plan>) # seconds against those that commands take, phases
+  set_tests_properties(cli_plan PROPERTIES LABELS "unit;sweep" RUN_SERIAL TRUE)
+endif()
 add_program_test(cli_run)       # scenes: the folder, the cache, records, what is refused
 add_program_test(cli_picture)   # --plot fails: numbers stay
 add_program_test(cli_run_files) # what scenes read and write

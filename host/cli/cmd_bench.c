@@ -200,9 +200,9 @@ static pspec_status calibrate(answer *of, const ps_bench_options *options, ps_ta
     ps_text file = {0};
     PS_TRY(ps_figures_make_folder(folder, error)); /* before the work */
     of->progress = ps_progress_begin(of->arguments, "cases");
-    pspec_status status = ps_bench_calibrate_host(options, folder, &host, error);
+    pspec_status status = ps_bench_calibrate(options, of->device, &figures, error);
     if (status == PSPEC_OK) {
-        status = ps_bench_calibrate(options, of->device, &figures, error);
+        status = ps_bench_calibrate_host(options, of->device, folder, &host, error);
     }
     ps_progress_end(of->progress);
     PS_TRY(status);

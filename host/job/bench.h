@@ -54,13 +54,15 @@ pspec_status ps_bench_run(const ps_bench_options *options, ps_device *device, do
 /* Marks the rows that no other one of the same case is at once no slower and no less exact than, and better in one of both. */
 void ps_bench_mark_pareto(ps_bench_row *rows, size_t num);
 
-/* Peaks of the device, and how long every engine takes against the built-in cost model: the geometric mean over the
- * cases; options.engine and .precision are not looked at. figures->date is left to the caller. */
+/* Peaks of the device, and how long every engine takes against the built-in cost model: the best run of each case, as
+ * nothing but disturbance makes runs slower, and the geometric mean over the cases; options.engine and .precision are not looked at. figures->date is left to the caller. */
 pspec_status ps_bench_calibrate(const ps_bench_options *options, ps_device *device,
                                 ps_figures *figures, ps_error *error) PS_MUST_CHECK;
 
-/* The same of the host's own work (plan/host_cost.h), with a file below `folder` that is written, read and removed. */
-pspec_status ps_bench_calibrate_host(const ps_bench_options *options, const char *folder,
-                                     ps_figures *figures, ps_error *error) PS_MUST_CHECK;
+/* The same of the host's own work (plan/host_cost.h), with a file below `folder` that is written, read and removed.
+ * After ps_bench_calibrate, whose kernels the driver has kept. */
+pspec_status ps_bench_calibrate_host(const ps_bench_options *options, const ps_device *device,
+                                     const char *folder, ps_figures *figures,
+                                     ps_error *error) PS_MUST_CHECK;
 
 #endif

@@ -9,18 +9,17 @@ static const double tolerances[] = {1e-4, 1e-10, 1};
 /* What a factor may be: host/plan/figures_file.c does not take others. */
 static const double least_scale = 1e-3, most_scale = 1e3;
 
-/* Sums of logarithms, one for every engine and precision. */
-typedef struct sums {
-    double logarithms[PS_FIGURES_ENGINES][PS_FIGURES_PRECISIONS];
-    unsigned nums[PS_FIGURES_ENGINES][PS_FIGURES_PRECISIONS];
-} sums;
+enum { MOST_CASES = 32 };
+
+/* Seconds over predicted ones, the best of all rounds; 0: not measured. */
+typedef double ratios[MOST_CASES][PS_FIGURES_ENGINES][PS_FIGURES_PRECISIONS];
 
 typedef struct calibration {
     const ps_bench_options *options;
     ps_device *device;
     ps_device_limits limits; /* without figures: those of the built-in model */
     ps_figures *figures;
-    sums sums;
+    ratios best;
 } calibration;
 
 static pspec_status measure_candidate(calibration *self, ps_bench_sets *sets,
@@ -36,9 +35,9 @@ static pspec_status measure_candidate(calibration *self, ps_bench_sets *sets,
     const size_t at = (size_t)(row - self->figures->engines);
     PS_TRY(ps_bench_measure_round(sets, problem, candidate, self->device, self->options, &time,
                                   error));
-    self->sums.logarithms[at][candidate->precision] +=
-        log(ps_bench_median(time.seconds, time.num) / predicted);
-    self->sums.nums[at][candidate->precision]++;
+    double *const best = &self->best[sets->what - ps_bench_cases][at][candidate->precision];
+    ps_bench_median(time.seconds, time.num); /* in order */
+    *best = *best > 0 ? fmin(*best, time.seconds[0] / predicted) : time.seconds[0] / predicted;
     return PSPEC_OK;
 }
 
@@ -74,13 +73,24 @@ static pspec_status measure_case(calibration *self, const ps_bench_case *what, p
     return status;
 }
 
+/* The geometric mean over the cases; 0 without any. */
+static double mean_of(const calibration *self, size_t engine, size_t precision) {
+    double sum = 0;
+    unsigned num = 0;
+    for (size_t i = 0; i < MOST_CASES; i++) {
+        const double ratio = self->best[i][engine][precision];
+        sum += ratio > 0 ? log(ratio) : 0;
+        num += ratio > 0;
+    }
+    return num > 0 ? exp(sum / num) : 0;
+}
+
 static void take_means(calibration *self) {
     for (size_t i = 0; i < self->figures->num_engines; i++) {
         for (size_t p = 0; p < PS_FIGURES_PRECISIONS; p++) {
-            const unsigned num = self->sums.nums[i][p];
-            const double mean = num > 0 ? exp(self->sums.logarithms[i][p] / num) : 0;
+            const double mean = mean_of(self, i, p);
             self->figures->engines[i].scales[p] =
-                num > 0 ? fmin(fmax(mean, least_scale), most_scale) : 0;
+                mean > 0 ? fmin(fmax(mean, least_scale), most_scale) : 0;
         }
     }
 }

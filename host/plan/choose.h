@@ -18,8 +18,8 @@ typedef struct ps_candidate {
     double seconds, bytes, error; /* of the whole job; meaningful when applicable */
     double
         cost; /* the seconds of the built-in model, which decide: figures that were measured only change what is said */
-    double floor_error;           /* relative, of powers at the floor; 0 without one */
-    double device_bytes;          /* part of bytes in buffers of the device */
+    double floor_error;  /* relative, of powers at the floor; 0 without one */
+    double device_bytes; /* part of bytes in buffers of the device */
     double
         host_bytes; /* part of bytes in the memory of the machine, where devices may have theirs, too */
     double host_room; /* what there is of that; infinite when nobody looked */

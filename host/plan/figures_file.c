@@ -174,26 +174,28 @@ static char *take_precision(char *text, int *precision) {
     return NULL;
 }
 
-static bool take_scale(ps_figures *figures, char *text) {
+/* Ends the word at the beginning; what follows its blank, NULL when there is no word or no blank. */
+static char *cut_word(char *text) {
     char *const blank = strchr(text, ' ');
-    int precision = 0;
     if (blank == NULL || blank == text) {
-        return false;
+        return NULL;
     }
     *blank = '\0';
-    char *const number = take_precision(blank + 1, &precision);
+    return blank + 1;
+}
+
+static bool take_scale(ps_figures *figures, char *text) {
+    char *const rest = cut_word(text);
+    int precision = 0;
+    char *const number = rest != NULL ? take_precision(rest, &precision) : NULL;
     ps_engine_figure *const row = number != NULL ? ps_figures_row(figures, text) : NULL;
     return row != NULL && take_number(number, least_scale, most_scale, &row->scales[precision]);
 }
 
 static bool take_host(ps_figures *figures, char *text) {
-    char *const blank = strchr(text, ' ');
-    if (blank == NULL || blank == text) {
-        return false;
-    }
-    *blank = '\0';
-    ps_host_figure *const row = ps_figures_host_row(figures, text);
-    return row != NULL && take_number(blank + 1, least_scale, most_scale, &row->scale);
+    char *const number = cut_word(text);
+    ps_host_figure *const row = number != NULL ? ps_figures_host_row(figures, text) : NULL;
+    return row != NULL && take_number(number, least_scale, most_scale, &row->scale);
 }
 
 /* A line of figures. */
