@@ -13,6 +13,7 @@ endfunction()
 
 add_program_test(cli_errors)    # bad input: exit code, one sentence, nothing left behind
 add_program_test(cli_program)   # streams, signals, formats, same bits
+add_program_test(cli_signals)   # every long command ends within a second of a signal, and leaves nothing
 add_program_test(cli_convert)   # every format to every other, pipes, gzip, memory
 add_program_test(cli_formats)   # files as other tools write them
 add_program_test(cli_angular)   # the sphere: formats, header, what is refused

@@ -2,9 +2,9 @@
 #ifndef PS_CLI_COMMAND_H
 #define PS_CLI_COMMAND_H
 
+#include "cli/signals.h"
 #include "scene/results.h"
 
-#include <signal.h>
 #include <stdio.h>
 
 /* Exit codes of the program (design.md 3). */
@@ -13,7 +13,8 @@ enum {
     PS_EXIT_FAILED = 1,
     PS_EXIT_USAGE = 2,
     PS_EXIT_CHECK = 3,
-    PS_EXIT_INTERRUPTED = 130
+    PS_EXIT_INTERRUPTED = 130, /* by SIGINT, SIGTERM or SIGHUP */
+    PS_EXIT_PIPE = 141         /* nobody reads what is written: what shells say of SIGPIPE */
 };
 
 typedef struct ps_command {
@@ -51,10 +52,6 @@ const char *ps_command_words(const ps_command *command, ps_option_id id);
 /* What stands after the option in usage and help: these values, or NAME when they are too many for
  * a line; NULL for a flag. */
 const char *ps_command_metavar(const ps_command *command, ps_option_id id);
-
-/* Set by the handler of SIGINT and SIGTERM; commands look at it between batches. The program's only
- * global variable. */
-extern volatile sig_atomic_t ps_interrupted;
 
 /* Parses the words after the command's name. Options and files may be mixed; "--" ends the options,
  * "-" is a file. --name value, --name=value, -n value, -nvalue; an option given again replaces what

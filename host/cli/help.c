@@ -165,7 +165,7 @@ void ps_help_program(FILE *stream) {
           "counts, but --sampler adds; -- ends the options. Numbers may be written 1e6.\n"
           "\n"
           "Exit status: 0 done, 1 failed, 2 usage or bad input, 3 tolerance unreachable or\n"
-          "check failed, 130 interrupted.\n"
+          "check failed, 130 interrupted, 141 nobody reads the output.\n"
           "\nExamples:\n",
           stream);
     fprintf(stream, "  %s\n  %s\n", ps_commands[0]->examples[0], ps_commands[1]->examples[0]);

@@ -12,39 +12,9 @@
 #include <gsl/gsl_errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
-volatile sig_atomic_t ps_interrupted = 0;
-
 /* ---- the process --------------------------------------------------------------------------- */
-
-/* The first signal asks the command to stop and clean up; a later one ends the process. Not one of the
- * same moment: timeout(1) signals a program and then its process group. */
-static void interrupt(int signal_number) {
-    enum { MOMENT = 1 }; /* seconds, of a clock that ticks once a second: up to 2 s */
-    static volatile sig_atomic_t first = 0;
-    const sig_atomic_t now = (sig_atomic_t)time(NULL);
-    if (!ps_interrupted) {
-        first = now;
-    } else if (now - first > MOMENT) {
-        signal(signal_number, SIG_DFL);
-        raise(signal_number);
-    }
-    ps_interrupted = 1;
-}
-
-/* No SA_RESTART, so that a read or write that waits returns. A signal that our parent had ignored, as
- * nohup and shells do for background jobs, stays ignored. */
-static void handle_signal(int signal_number) {
-    struct sigaction action;
-    if (sigaction(signal_number, NULL, &action) == 0 && action.sa_handler != SIG_IGN) {
-        memset(&action, 0, sizeof action);
-        action.sa_handler = interrupt;
-        sigemptyset(&action.sa_mask);
-        sigaction(signal_number, &action, NULL);
-    }
-}
 
 /* A process may be started with its standard streams closed. Files opened later must not get their
  * numbers, or messages would go into them. The stand-ins refuse what the stream is for: results
@@ -59,9 +29,7 @@ static void occupy_standard_streams(void) {
 
 static void prepare_process(void) {
     occupy_standard_streams();
-    handle_signal(SIGINT);
-    handle_signal(SIGTERM);
-    signal(SIGPIPE, SIG_IGN);    /* a closed pipe is a write that fails: unfinished files go away */
+    ps_signals_prepare();
     gsl_set_error_handler_off(); /* GSL would abort */
 }
 
@@ -70,13 +38,19 @@ static void prepare_process(void) {
 /* One line, whatever control characters came in with a name or value; build logs keep their lines.
  */
 static int report(const char *command, pspec_status status, ps_error *error) {
+    const bool nobody_reads = status == PSPEC_ERROR_IO && ps_signals_pipe_closed();
+    const int code = nobody_reads ? PS_EXIT_PIPE : ps_exit_code(status);
+    ps_signals_end(code);
+    if (nobody_reads) {
+        return code; /* head(1) has seen enough: no reason for a sentence */
+    }
     for (char *c = error->message; *c != '\0' && status != PSPEC_ERROR_BUILD; c++) {
         if ((unsigned char)*c < ' ' || *c == 0x7f) {
             *c = '?';
         }
     }
     fprintf(stderr, "pointspec%s%s: %s\n", command[0] != '\0' ? " " : "", command, error->message);
-    return ps_exit_code(status);
+    return code;
 }
 
 /* For texts on standard output: a full disk is an error there too. */
@@ -130,7 +104,9 @@ static pspec_status run_parsed(const ps_command *command, ps_request *arguments,
     ps_text_free(&folder);
     /* A signal may make anything fail that was going on (a compiler in the driver, a read): what the
      * user did is the reason, not what it led to. */
-    return status != PSPEC_OK && ps_interrupted
+    static const char reason[] = "interrupted";
+    return status != PSPEC_OK && ps_interrupted &&
+                   strncmp(error->message, reason, sizeof reason - 1) != 0
                ? ps_fail(error, PSPEC_ERROR_CANCELLED, "interrupted")
                : status;
 }
@@ -166,6 +142,9 @@ static int run_command(int num_words, char **words) {
     ps_arguments_free(&arguments);
     ps_text_free(&line);
     ps_text_free(&rest);
+    if (status == PSPEC_OK) {
+        ps_signals_end(PS_EXIT_DONE);
+    }
     return wants_help           ? finish_output()
            : status == PSPEC_OK ? PS_EXIT_DONE
                                 : report(command->name, status, &error);

@@ -27,7 +27,10 @@ struct ps_output_file {
 
 static pspec_status fail_write(const char *name, int reason, ps_error *error) {
     return ps_fail(error, reason == EINTR ? PSPEC_ERROR_CANCELLED : PSPEC_ERROR_IO,
-                   "cannot write %s: %s", name, reason != 0 ? strerror(reason) : "a write failed");
+                   "cannot write %s: %s", name,
+                   reason == EFBIG ? "File too large for the file size limit, see ulimit -f"
+                   : reason != 0   ? strerror(reason)
+                                   : "a write failed");
 }
 
 /* After this, stream is the output itself. */
@@ -72,32 +75,11 @@ static pspec_status open_directly(ps_output_file *file, const char *path, ps_err
     return PSPEC_OK;
 }
 
-/* Creates DIRECTORY/.pointspec-PID-NUMBER.tmp; numbers taken by other outputs are passed over. The
- * name does not hold the target's, which may have the greatest length already. */
+/* In the folder of the target, whose name may have the greatest length already. */
 static int create_temporary(ps_output_file *file) {
-    enum { MOST_TRIES = 10000 };
     const char *const slash = strrchr(file->target, '/');
-    const int folder_length = slash != NULL ? (int)(slash - file->target) + 1 : 0;
-    for (int number = 0; number < MOST_TRIES; number++) {
-        ps_text text = {0};
-        ps_text_append(&text, "%.*s.pointspec-%ld-%d.tmp", folder_length, file->target,
-                       (long)getpid(), number);
-        if (text.failed) {
-            ps_text_free(&text);
-            errno = ENOMEM;
-            return -1;
-        }
-        const int descriptor = open(text.data, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (descriptor >= 0) {
-            file->temporary = text.data;
-            return descriptor;
-        }
-        ps_text_free(&text);
-        if (errno != EEXIST) {
-            return -1;
-        }
-    }
-    return -1;
+    const size_t folder_length = slash != NULL ? (size_t)(slash - file->target) + 1 : 0;
+    return ps_temporary_create(file->target, folder_length, 0666, &file->temporary);
 }
 
 static pspec_status open_temporary(ps_output_file *file, ps_error *error) {
@@ -257,6 +239,31 @@ static void sync_folder(const char *target) {
     ps_text_free(&folder);
 }
 
+static pspec_status close_stream(ps_output_file *file, ps_error *error) {
+    const int close_status = fclose(file->stream);
+    file->stream = NULL;
+    return close_status == 0 ? PSPEC_OK : fail_write(file->name, errno, error);
+}
+
+/* A second descriptor keeps the lock until the file has its final name: without it another process could take it
+ * for one that was left behind. */
+static pspec_status take_name(ps_output_file *file, ps_error *error) {
+    const int lock = fcntl(fileno(file->stream), F_DUPFD_CLOEXEC, 0);
+    if (lock < 0) {
+        return fail_write(file->name, errno, error);
+    }
+    pspec_status status = close_stream(file, error);
+    if (status == PSPEC_OK && rename(file->temporary, file->target) != 0) {
+        status = fail_write(file->name, errno, error);
+    }
+    close(lock);
+    PS_TRY(status);
+    free(file->temporary);
+    file->temporary = NULL;
+    sync_folder(file->target);
+    return PSPEC_OK;
+}
+
 static pspec_status finish(ps_output_file *file, ps_error *error) {
     PS_TRY(ps_output_check(file, error));
     if (file->waiting != NULL) {
@@ -268,21 +275,7 @@ static pspec_status finish(ps_output_file *file, ps_error *error) {
     if (!is_durable(fileno(file->stream))) {
         return fail_write(file->name, errno, error);
     }
-    const int close_status = fclose(file->stream);
-    file->stream = NULL;
-    if (close_status != 0) {
-        return fail_write(file->name, errno, error);
-    }
-    if (file->temporary == NULL) {
-        return PSPEC_OK;
-    }
-    if (rename(file->temporary, file->target) != 0) {
-        return fail_write(file->name, errno, error);
-    }
-    free(file->temporary);
-    file->temporary = NULL;
-    sync_folder(file->target);
-    return PSPEC_OK;
+    return file->temporary != NULL ? take_name(file, error) : close_stream(file, error);
 }
 
 pspec_status ps_output_commit(ps_output_file **file, ps_error *error) {

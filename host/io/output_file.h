@@ -2,8 +2,8 @@
  *
  * Data go to a temporary file in the same folder, which commit flushes to disk and renames; discard
  * removes it. "-" is standard output, where nothing can be taken back; devices, pipes and
- * /dev/stdout are written directly for the same reason. Temporary files that an interruption leaves
- * behind are impossible for callers that always reach discard.
+ * /dev/stdout are written directly for the same reason. What a process that was killed left behind
+ * goes with the next output in its folder (io/temporary_file.h).
  *
  * As with fopen, the permissions of a new file follow the umask, those of an existing file stay, a
  * file that may not be written is refused, and a symbolic link keeps pointing to the file.

@@ -12,8 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-volatile sig_atomic_t ps_interrupted = 0; /* main.c, which has it, is not part of this */
-
 /* ---- samplers ---------------------------------------------------------------------------- */
 
 static bool is_coordinate(const ps_sampler_request *request, double number) {
