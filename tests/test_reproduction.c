@@ -147,12 +147,12 @@ static void compare_forms(const ps_representer *representers, const extent *of,
     double c_l0[MOST_DEGREES + 1];
     double c2[MOST_DEGREES + 1];
     const ps_rule rule = {of->num, points, NULL};
-    const double square = ps_rule_weight_square(&rule);
+    const ps_weight_sums weights = ps_rule_weight_sums(&rule);
     coefficients_of(of->num, points, of->last, c_l0, c2);
     for (int k = 0; k < NUM_SMOOTHNESS; k++) {
         const ps_representer *const r = &representers[k];
         ps_spectral_error e;
-        assert_ok(ps_spectral_error_of(r, (size_t)of->last, c_l0, c2, 1, square, NULL, &e, error));
+        assert_ok(ps_spectral_error_of(r, (size_t)of->last, c_l0, c2, &weights, NULL, &e, error));
         const double rest = test_squared_error(r, of->num, points, NULL) - e.zonal - e.anisotropic;
         if (!(rest >= -1e-13 && rest <= e.tail_bound)) {
             fail_msg("N %zu, s %.1f: rest %.4g, not in [0, %.4g]", of->num, r->smoothness, rest,

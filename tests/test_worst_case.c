@@ -162,13 +162,13 @@ static void check_kernel_form(const test_set *set, const cJSON *one, const ps_re
         assert_true(off <= KAPPA);
     }
     assert_ok(ps_kernel_error_of(r, &rule, NULL, &e, error));
-    const double size = ps_rule_weight_size(&rule);
+    const double size = ps_rule_weight_sums(&rule).size;
     const double off = fabs(e.squared - test_field(one, "E2"));
     seen->squared = fmax(seen->squared, off);
     assert_true(off <= SQUARED + 2 * size * KAPPA);
     assert_true(off <= e.bound);
     const double c = r->constant;
-    const double sum = ps_rule_weight_sum(&rule);
+    const double sum = ps_rule_weight_sums(&rule).sum;
     assert_true(fabs(c * sum * sum - e.distance - test_field(one, "T1")) <= 1e-14);
     assert_true(fabs(2 * e.kappa - test_field(one, "T2")) <= 2 * KAPPA);
     free(kappa);
@@ -188,8 +188,8 @@ static void check_spectral_form(const test_set *set, const cJSON *one, const ps_
         c_l0[l] = item(row, 1);
         c2[l] = item(row, 2);
     }
-    assert_ok(ps_spectral_error_of(r, LAST, c_l0, c2, ps_rule_weight_size(&rule),
-                                   ps_rule_weight_square(&rule), degrees, &e, error));
+    const ps_weight_sums weights = ps_rule_weight_sums(&rule);
+    assert_ok(ps_spectral_error_of(r, LAST, c_l0, c2, &weights, degrees, &e, error));
     const double partial = e.zonal + e.anisotropic;
     const double off = fabs(partial - test_field(one, "E2_partial_l<=32"));
     double sum = 0;

@@ -27,16 +27,12 @@ static double square(double weight) {
     return weight * weight;
 }
 
-double ps_rule_weight_sum(const ps_rule *rule) {
-    return rule->weights != NULL ? sum_weights(rule, itself) : 1;
-}
-
-double ps_rule_weight_size(const ps_rule *rule) {
-    return rule->weights != NULL ? sum_weights(rule, fabs) : 1;
-}
-
-double ps_rule_weight_square(const ps_rule *rule) {
-    return rule->weights != NULL ? sum_weights(rule, square) : 1 / (double)rule->num_points;
+ps_weight_sums ps_rule_weight_sums(const ps_rule *rule) {
+    if (rule->weights == NULL) {
+        return (ps_weight_sums){1, 1, 1 / (double)rule->num_points};
+    }
+    return (ps_weight_sums){sum_weights(rule, itself), sum_weights(rule, fabs),
+                            sum_weights(rule, square)};
 }
 
 /* ---- pairs --------------------------------------------------------------------------------- */
@@ -114,14 +110,15 @@ pspec_status ps_rule_distance(const ps_rule *rule, double smoothness, double *su
 
 /* ---- kernel form --------------------------------------------------------------------------- */
 
-ps_kernel_error ps_kernel_error_from_sums(const ps_representer *representer, double weight_sum,
-                                          double weight_size, double distance, double kappa) {
+ps_kernel_error ps_kernel_error_from_sums(const ps_representer *representer,
+                                          const ps_weight_sums *weights, double distance,
+                                          double kappa) {
     enum {
         ROUNDINGS = 8
     }; /* measured: 2.4e-15 of c (sum|w|)^2 against tests/reference, with room */
     const double c = representer->constant;
-    const double gap = weight_sum - 1;
-    const double d = c * weight_sum - kappa; /* sum w D */
+    const double gap = weights->sum - 1;
+    const double d = c * weights->sum - kappa; /* sum w D */
     ps_neumaier sum = {0, 0};
     ps_neumaier_add(&sum, c * gap * gap);
     ps_neumaier_add(&sum, -distance);
@@ -129,8 +126,8 @@ ps_kernel_error ps_kernel_error_from_sums(const ps_representer *representer, dou
     ps_neumaier_add(&sum, -representer->d_0);
     return (ps_kernel_error){
         .squared = ps_neumaier_value(&sum),
-        .bound = ROUNDINGS * DBL_EPSILON * c * (1 + weight_size * weight_size) +
-                 2 * weight_size * representer->kappa_estimate + representer->kappa_0_error,
+        .bound = ROUNDINGS * DBL_EPSILON * c * (1 + weights->size * weights->size) +
+                 2 * weights->size * representer->kappa_estimate + representer->kappa_0_error,
         .distance = distance,
         .kappa = kappa};
 }
@@ -154,8 +151,8 @@ pspec_status ps_kernel_error_of(const ps_representer *representer, const ps_rule
         ps_representer_kappa(representer, rule->num_points, rule->points, own);
         kappa = own;
     }
-    *out = ps_kernel_error_from_sums(representer, ps_rule_weight_sum(rule),
-                                     ps_rule_weight_size(rule), distance, sum_kappa(rule, kappa));
+    const ps_weight_sums weights = ps_rule_weight_sums(rule);
+    *out = ps_kernel_error_from_sums(representer, &weights, distance, sum_kappa(rule, kappa));
     free(own);
     return PSPEC_OK;
 }
@@ -163,8 +160,8 @@ pspec_status ps_kernel_error_of(const ps_representer *representer, const ps_rule
 /* ---- spectral form ------------------------------------------------------------------------- */
 
 pspec_status ps_spectral_error_of(const ps_representer *representer, size_t max_degree,
-                                  const double *c_l0, const double *c2, double weight_size,
-                                  double weight_square, ps_degree_error *degrees,
+                                  const double *c_l0, const double *c2,
+                                  const ps_weight_sums *weights, ps_degree_error *degrees,
                                   ps_spectral_error *out, ps_error *error) {
     PS_TRY(ps_representer_check(representer, max_degree, error));
     ps_neumaier zonal = {0, 0};
@@ -184,10 +181,12 @@ pspec_status ps_spectral_error_of(const ps_representer *representer, size_t max_
     const double rest = ps_representer_rest(representer, max_degree, &half_width);
     const double tau =
         ps_sobolev_tail(representer->smoothness, max_degree, representer->a[max_degree + 1]);
-    const double root = weight_size * sqrt(tau) + sqrt(rest + half_width);
-    *out = (ps_spectral_error){.zonal = ps_neumaier_value(&zonal),
-                               .anisotropic = ps_neumaier_value(&anisotropic),
-                               .tail_model = tau * weight_square + rest,
-                               .tail_bound = root * root};
+    const double root = weights->size * sqrt(tau) + sqrt(rest + half_width);
+    const double gap = 1 - weights->sum;
+    *out =
+        (ps_spectral_error){.zonal = ps_neumaier_value(&zonal),
+                            .anisotropic = ps_neumaier_value(&anisotropic),
+                            .tail_model = weights->square * fmax(tau - rest, 0) + gap * gap * rest,
+                            .tail_bound = root * root};
     return PSPEC_OK;
 }

@@ -15,10 +15,12 @@ typedef struct ps_rule {
     const double *points, *weights;
 } ps_rule;
 
-/* sum w and sum |w| of the rule, 1 and 1 for equal weights. */
-double ps_rule_weight_sum(const ps_rule *rule);
-double ps_rule_weight_size(const ps_rule *rule);
-double ps_rule_weight_square(const ps_rule *rule);
+/* W = sum w, sum |w| and V = sum w^2; 1, 1 and 1/N for equal weights. */
+typedef struct ps_weight_sums {
+    double sum, size, square;
+} ps_weight_sums;
+
+ps_weight_sums ps_rule_weight_sums(const ps_rule *rule);
 
 typedef struct ps_kernel_error {
     double squared;  /* E^2; where it is below its bound, rounding may make it negative */
@@ -38,8 +40,9 @@ pspec_status ps_kernel_error_of(const ps_representer *representer, const ps_rule
                                 ps_error *error) PS_MUST_CHECK;
 
 /* E^2 from a sum of distances that something else made, a device, say. */
-ps_kernel_error ps_kernel_error_from_sums(const ps_representer *representer, double weight_sum,
-                                          double weight_size, double distance, double kappa);
+ps_kernel_error ps_kernel_error_from_sums(const ps_representer *representer,
+                                          const ps_weight_sums *weights, double distance,
+                                          double kappa);
 
 /* One degree of the spectral form. */
 typedef struct ps_degree_error {
@@ -49,15 +52,18 @@ typedef struct ps_degree_error {
 /* E^2 in its parts up to degree L, and what is beyond. */
 typedef struct ps_spectral_error {
     double zonal, anisotropic; /* E_Z^2 and E_A^2: sums over l <= L */
-    double tail_model;         /* tau_L sum w^2 + rest of sum a_l b_l^2: phases at random */
-    double tail_bound;         /* rigorous: ((sum|w|) sqrt(tau_L) + sqrt(rest))^2 */
+    /* What independent points of the lobe's density have beyond L in the mean: V (tau_L - r_L) + (1-W)^2 r_L, where
+     * r_L is the rest of sum a_l b_l^2; for their c_lm have the mean W b_l and the variance V ((2l+1)/(4 pi) - b_l^2),
+     * summed over m. */
+    double tail_model;
+    double tail_bound; /* rigorous: ((sum|w|) sqrt(tau_L) + sqrt(r_L))^2 */
 } ps_spectral_error;
 
 /* c_l0 and C_l^2 for l = 0 .. max_degree (c2[0] is ignored: C_0 = 0); degrees [max_degree + 1] or NULL.
- * weight_size = sum |w|, weight_square = sum w^2. More degrees than the representer has are an error. */
+ * More degrees than the representer has are an error. */
 pspec_status ps_spectral_error_of(const ps_representer *representer, size_t max_degree,
-                                  const double *c_l0, const double *c2, double weight_size,
-                                  double weight_square, ps_degree_error *degrees,
+                                  const double *c_l0, const double *c2,
+                                  const ps_weight_sums *weights, ps_degree_error *degrees,
                                   ps_spectral_error *out, ps_error *error) PS_MUST_CHECK;
 
 #endif

@@ -88,9 +88,11 @@ static double root(double square) {
 
 static pspec_status add_answer(ps_table *table, const ps_quadrature_result *result,
                                ps_error *error) {
-    char check[160];
+    char check[200];
     const double e = root(result->squared.mean);
-    snprintf(check, sizeof check, "kernel form minus spectral form: %.6g; %.6g is expected of it",
+    snprintf(check, sizeof check,
+             "kernel form minus spectral form: %.6g; independent points of the lobe's density have "
+             "%.6g in the mean",
              result->tail.mean, result->tail_model);
     const ps_meta entries[] = {
         {"predicted_error", PS_NUMBER(result->numerical_bound)},

@@ -50,19 +50,18 @@ static pspec_status take_rule(job *of, const double *c_l0, const double *c2, ps_
     const ps_weighted_rule *const rule = &of->rules.batch[of->num_told++];
     ps_spectral_error spectral;
     PS_TRY(ps_spectral_error_of(&of->setup.representer, of->setup.max_degree, c_l0, c2,
-                                rule->weight_size, rule->weight_square, of->degrees, &spectral,
-                                error));
+                                &rule->weight, of->degrees, &spectral, error));
     const uint64_t num = ++out->num_realizations;
     add_degrees(of);
     ps_sums_add(&of->squared, rule->kernel.squared);
     ps_sums_add(&of->zonal, spectral.zonal);
     ps_sums_add(&of->anisotropic, spectral.anisotropic);
     ps_sums_add(&of->tail, rule->kernel.squared - spectral.zonal - spectral.anisotropic);
-    ps_sums_add(&of->weight_sum, rule->weight_sum);
+    ps_sums_add(&of->weight_sum, rule->weight.sum);
     out->tail_model += (spectral.tail_model - out->tail_model) / (double)num;
     out->tail_bound += (spectral.tail_bound - out->tail_bound) / (double)num;
     out->numerical_bound = fmax(out->numerical_bound, rule->kernel.bound);
-    out->weight_size = fmax(out->weight_size, rule->weight_size);
+    out->weight_size = fmax(out->weight_size, rule->weight.size);
     return PSPEC_OK;
 }
 

@@ -267,9 +267,7 @@ static pspec_status begin_rule(ps_rules *rules, ps_weighted_rule *rule, ps_error
 static pspec_status find_kernel_form(const ps_representer *representer, ps_weighted_rule *rule,
                                      ps_error *error) {
     const ps_rule view = {rule->set.num_points, rule->set.points, rule->weights};
-    rule->weight_sum = ps_rule_weight_sum(&view);
-    rule->weight_size = ps_rule_weight_size(&view);
-    rule->weight_square = ps_rule_weight_square(&view);
+    rule->weight = ps_rule_weight_sums(&view);
     return ps_kernel_error_of(representer, &view, rule->kappa, &rule->kernel, error);
 }
 

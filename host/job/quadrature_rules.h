@@ -9,7 +9,7 @@ typedef struct ps_weighted_rule {
     ps_point_set set;
     double *weights, *kappa; /* [capacity] in one block */
     size_t capacity;
-    double weight_sum, weight_size, weight_square;
+    ps_weight_sums weight;
     ps_kernel_error kernel;
     bool is_complete; /* with its kernel form */
 } ps_weighted_rule;

@@ -466,7 +466,7 @@ typedef struct pspec_worst_case_error {
     pspec_mean zonal;          /**< sum_{l <= L} a_l d_l^2 */
     pspec_mean anisotropic;    /**< sum_{l <= L} a_l C_l^2 */
     pspec_mean tail;           /**< E^2 minus both */
-    double tail_model;         /**< what white noise would have there */
+    double tail_model; /**< what independent points of the lobe's density have there in the mean */
     double
         tail_bound; /**< ((sum |w|) sqrt(tau_L) + sqrt(rest of kappa_0))^2, which it cannot exceed */
     double numerical_bound; /**< on the numerical error of E^2 */
