@@ -37,5 +37,6 @@ add_program_test(cli_stress)    # the stability suite: rows, formats, what is re
 add_program_test(cli_stress_broken ${PROJECT_SOURCE_DIR}/kernels) # broken kernels fail by name
 add_program_test(cli_tolerance) # --tol and --floor, torus and sphere: kept or refused; threads change no bit
 add_program_test(cli_no_device) # why there is no device; plan and devices without one
+add_program_test(cli_doctor)    # what works here, and what is said where something does not
 add_program_test(cli_examples)  # the examples of every --help
 add_program_test(cli_man ${PROJECT_SOURCE_DIR}/docs/man)   # man pages agree with the option table

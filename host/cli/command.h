@@ -41,7 +41,7 @@ const ps_command *ps_command_find(const char *name, ps_error *error);
 extern const ps_command ps_command_power, ps_command_angular, ps_command_pairs,
     ps_command_quadrature, ps_command_truncation, ps_command_sample, ps_command_convert,
     ps_command_check, ps_command_run, ps_command_plan, ps_command_bench, ps_command_stress,
-    ps_command_devices;
+    ps_command_devices, ps_command_doctor;
 
 /* Every command takes --help, also when its list does not say so. */
 bool ps_command_takes(const ps_command *command, ps_option_id id);

@@ -21,6 +21,7 @@ const ps_command *const ps_commands[] = {
     &ps_command_bench,
     &ps_command_stress,
     &ps_command_devices,
+    &ps_command_doctor,
     NULL,
 };
 /* clang-format on */

@@ -94,6 +94,17 @@ lacks_only_pictures() { # CASE
         diff -q "${same[@]}" "$run/stdout" "$1/expected/stdout" >/dev/null
 }
 
+# What a diagnosis says of a failure is its answer: whole lines, a code that goes with them, and one sentence at most.
+is_diagnosis() { # NAME
+    [[ $1 == doctor && ${#said[@]} -le 1 ]] || return 1
+    ! grep -qvE '^(ok|note|WRONG) +[a-z]+ ' "$run/stdout" || return 1
+    case $code in
+    0) [[ -s $run/stdout ]] && ! grep -q '^WRONG' "$run/stdout" ;;
+    3) grep -q '^WRONG' "$run/stdout" ;;
+    *) [[ $code == 1 && ${#said[@]} == 1 ]] ;;
+    esac
+}
+
 judge() { # NAME CLASS NUMBER[+]
     local case=$FAULTS_SCRATCH/cases/$1
     [[ $is_clean == yes ]] || reset
@@ -105,6 +116,8 @@ judge() { # NAME CLASS NUMBER[+]
         remark="the call did not come"
     elif [[ -n $leaks ]]; then
         remark="leaks:$leaks"
+    elif is_diagnosis "$1"; then
+        remark=
     elif [[ $code == 0 ]] && lacks_only_pictures "$case"; then
         is_clean=no remark= # refused: the picture alone
     elif [[ $code == 0 ]]; then

@@ -8,4 +8,6 @@ same=(-I '^# engine: ' # tells the realizations at a time, on which no result de
     # which figures of the device there are, and why not
     -I 'built-in: '
     # what a record says it was computed with: less where the program or the figures could not be read
-    -I '^    "identity": "')
+    -I '^    "identity": "'
+    # what the doctor finds free at the moment, and of the machine
+    -I '^[a-zA-Z]* *\(memory\|cache\|kernels\|threads\) ')
