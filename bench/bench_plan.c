@@ -256,8 +256,7 @@ static double factor_of(const answer *found) {
 }
 
 static void ask_all(battery *of) {
-    printf("| question | planned, s | measured, s | planned / measured | yardstick | processors |\n"
-           "|---|---|---|---|---|---|\n");
+    printf("        planned measured  ratio    yardstick processors  question\n");
     for (size_t i = 0; of->questions[i] != NULL; i++) {
         const char *const line = of->questions[i];
         if (strstr(line, of->part) == NULL) {
@@ -265,19 +264,16 @@ static void ask_all(battery *of) {
         }
         const answer found = ask(of->program, line, &of->usual, of->repeats);
         const double off = factor_of(&found);
-        printf("| `%s` | %s%.3g | %.3g | %.2f%s | %.2f | %.1f |\n", line,
-               found.is_at_most ? "at most " : "", found.planned, found.measured,
-               found.planned / found.measured,
-               off > of->bad    ? " !!"
-               : off > of->good ? " !"
-                                : "",
-               found.yard, found.cpu);
+        const char *const mark = off > of->bad ? "!!" : off > of->good ? "!" : "";
+        printf("%7s %7.3g %8.3g %6.2f %-2s %9.2f %10.1f  %s\n", found.is_at_most ? "at most" : "",
+               found.planned, found.measured, found.planned / found.measured, mark, found.yard,
+               found.cpu, line);
         fflush(stdout);
         of->num++;
         of->num_good += off <= of->good;
         of->num_bad += !(off <= of->bad);
     }
-    printf("\n%zu of %zu within a factor of %g, %zu beyond %g\n", of->num_good, of->num, of->good,
+    printf("# %zu of %zu within a factor of %g, %zu beyond %g\n", of->num_good, of->num, of->good,
            of->num_bad, of->bad);
 }
 
@@ -302,7 +298,7 @@ int main(int argc, char **argv) {
     setenv("POINTSPEC_CACHE_DIR", "cache", 1);
     if (!is_quick) {
         all.usual = calibrate(program);
-        printf("yardstick beside the calibration: %.3g s of one thread, %.3g s of all\n\n",
+        printf("# yardstick beside the calibration: %.3g s of one thread, %.3g s of all\n",
                all.usual.single, all.usual.all);
     }
     make_files(program);

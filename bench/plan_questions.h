@@ -150,7 +150,7 @@ static const char *const plan_questions[] = {
     "quadrature --brdf diffuse --sampler white-hemisphere -n 2000 -m 3 --weights optimal",
     "quadrature --brdf diffuse --sampler fibonacci-hemisphere -n 4000 --weights optimal --smoothness 1.9",
     "quadrature --brdf diffuse --sampler fibonacci-hemisphere -n 8000 --weights optimal --memory 1e8",
-    "quadrature --brdf diffuse --sampler fibonacci-hemisphere -n 20001 --weights optimal --memory 1e9",
+    "quadrature --brdf diffuse --sampler fibonacci-hemisphere -n 20001 --weights optimal",
     "quadrature --brdf glossy:n=30 --sampler white-hemisphere -n 1024 -m 2000 --standard-error 0.05",
     "quadrature --brdf diffuse rules.npy --drop-below-horizon",
     /* truncation */

@@ -54,10 +54,10 @@ static const struct {
     [PS_HOST_PAIR] = {"pair", 1.1e-9, true},            /* of points: their distance */
     [PS_HOST_PAIR_POWER] = {"pair-power", 4e-9, true},  /* and a power of it */
     [PS_HOST_HEMISPHERE] = {"hemisphere", 2e-9, false}, /* a degree of each kind of harmonics */
-    [PS_HOST_CHOLESKY] = {"cholesky", 2.5e-11, true},   /* an operation */
-    [PS_HOST_MATRIX] = {"matrix", 10e-9, true},         /* an entry, made and summed */
-    [PS_HOST_MATRIX_POWER] = {"matrix-power", 15e-9, true},
-    [PS_HOST_SOLVE] = {"solve", 5e-9, false},            /* an entry, of condition and solutions */
+    [PS_HOST_CHOLESKY] = {"cholesky", 1.25e-11, true},  /* an operation */
+    [PS_HOST_MATRIX] = {"matrix", 18e-9, true},         /* an entry, made and summed */
+    [PS_HOST_MATRIX_POWER] = {"matrix-power", 23e-9, true},
+    [PS_HOST_SOLVE] = {"solve", 8e-9, false},            /* an entry, of condition and solutions */
     [PS_HOST_NEIGHBOURS] = {"neighbours", 0.6e-9, true}, /* a pair of points, in the search */
     [PS_HOST_INVERSE] = {"inverse", 14e-6, true},        /* a point: its row of an inverse */
 
@@ -65,7 +65,7 @@ static const struct {
     [PS_HOST_PRODUCT_POWER] = {"product-power", 3e-9, true},
 
     [PS_HOST_ROW] = {"row", 3e-6, false},         /* of a table */
-    [PS_HOST_ARRAY] = {"array", 20e-9, false},    /* a number of an array in a file */
+    [PS_HOST_ARRAY] = {"array", 60e-9, false},    /* a number of an array in a file */
     [PS_HOST_CURVE] = {"curve", 2e-6, false},     /* a point of a curve */
     [PS_HOST_PICTURE] = {"picture", 0.15, false}, /* by gnuplot */
 };
