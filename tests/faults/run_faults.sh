@@ -38,45 +38,8 @@ check_symbols() {
     return 1
 }
 
-# Two points and their weights, zeros, column by column: magic, length of the header, header, numbers.
-make_fortran_array() {
-    local header="{'descr': '<f4', 'fortran_order': True, 'shape': (2, 3), }"
-    printf '\x93NUMPY\x01\x00\x76\x00%-117s\n' "$header"
-    head -c 24 /dev/zero
-}
-
-make_inputs() {
-    mkdir "$scratch/initial"
-    cd "$scratch/initial"
-    "$program" sample --sampler white -n 8 -o points.txt
-    "$program" sample --sampler white -n 6 -m 2 -s 2 -o more.txt
-    "$program" sample --sampler white -n 8 -m 2 -o points.npy
-    "$program" sample --sampler white -n 1500 -o many.txt
-    printf '1 2 -1 0.5 1 2 1 0.5\n' | tr ' ' '\n' >weights.txt
-    printf '0 0\n0.5 2\n1 1\n' >weighted.lobe
-    paste -d ' ' points.txt weights.txt | grep -v '#' >weighted.txt
-    printf '1 0\n0 1\n1000 -3\n' >vectors.txt
-    gzip -n <points.txt >packed.gz
-    printf '0,90\n45,0\n-30,-60\n' >angles.csv
-    make_fortran_array >columns.npy
-    "$program" power --engine host_direct --sampler white -n 8 -m 3 -k 2 -o saved.json
-    "$program" angular --engine host_direct --sampler zphi -n 6 -m 3 -l 2 -o sphere.json
-    POINTSPEC_CACHE_DIR=$scratch/cache "$program" bench --calibrate --case list --quick -o /dev/null
-    for ending in csv json npy png txt; do echo "an earlier result" >old.$ending; done
-    cat >points.yaml <<'EOF'
-scene: 1
-defaults: {engine: host_direct, no-self-check: true}
-results:
-  - {result: power, files: points.txt, max-frequency: 2, plot: false}
-  - {result: truncation, brdf: diffuse, max-degree: 1, plot: false}
-EOF
-    printf 'scene: 1\nresults:\n  - {result: pairs, engine: host_direct, samplers: zphi, points: 8, max-degree: 4}\n' >drawn.yaml
-    POINTSPEC_CACHE_DIR=$scratch/cache "$program" run points.yaml -o "$scratch/warm" >/dev/null
-    POINTSPEC_CACHE_DIR=$scratch/cache "$program" run drawn.yaml -o "$scratch/warm" >/dev/null
-    sed 's/"folder": ".*"/"folder": "."/' "$scratch/warm/record.json" >points.json
-    cd - >/dev/null
-}
-
+# shellcheck source=tests/faults/inputs.sh
+. "$here/inputs.sh"
 # shellcheck source=tests/faults/same.sh
 . "$here/same.sh"
 
