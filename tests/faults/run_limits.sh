@@ -55,6 +55,13 @@ make_group() { # MIB
     fi
 }
 
+# The program alone is limited, and has no more files open than the standard three.
+# shellcheck disable=SC2016 # another shell's
+limit_itself='for fd in /proc/self/fd/*; do fd=${fd##*/}; ((fd < 3)) || eval "exec $fd>&-"; done
+    [[ $1 != -* ]] || ulimit "$1" "$2"
+    shift 2
+    exec "$@"'
+
 # Runs words under a limit in a new copy of the folder; sets code, said and seconds.
 run_limited() { # KIND NUMBER
     local begin=$SECONDS
@@ -63,12 +70,9 @@ run_limited() { # KIND NUMBER
     code=0
     # Standard error through a pipe: what the harness keeps is under no limit.
     said=$( (cd "$scratch/folder"
-        exec <"$stdin" 2>&1 >/dev/null # before the limit, which is not for this shell
-        case $1 in
-        cgroup) echo $BASHPID >"$group/cgroup.procs" ;;
-        -*) ulimit "$1" "$2" ;;
-        esac
-        exec timeout -k $deaf $patience env "${words[@]}") 2>&1) || code=$?
+        exec <"$stdin" 2>&1 >/dev/null
+        [[ $1 != cgroup ]] || echo $BASHPID >"$group/cgroup.procs"
+        exec timeout -k $deaf $patience bash -c "$limit_itself" limited "$1" "$2" env "${words[@]}") 2>&1) || code=$?
     seconds=$((SECONDS - begin))
 }
 
