@@ -181,10 +181,10 @@ for engine in pairs_direct host_direct; do
     near 'E by conjugate gradients' "$(key worst_case_error)" "$dense" 1e-10
 done
 "$program" plan quadrature "${optimal[@]}" >out 2>err || complain "plan: $(<err)"
-grep -q '^# weights: optimal, by Cholesky; a matrix of 400 x 400, 1.309e+06 bytes' out ||
+grep -q '^# weights: optimal, by Cholesky; a matrix of 400 x 400, 2.23e+06 bytes' out ||
     complain "plan: $(grep weights out)"
 "$program" plan quadrature "${optimal[@]}" --memory 5e5 >out 2>err || complain "plan: $(<err)"
-grep -q '^# weights: optimal, by conjugate gradients.*1.309e+06 bytes, and --memory is less' out ||
+grep -q '^# weights: optimal, by conjugate gradients.*2.23e+06 bytes, and --memory is less' out ||
     complain "plan: $(grep weights out)"
 head -3 weights.txt >few.txt
 refuses '3 weights for 256 points' --brdf diffuse --weights few.txt morphed.txt
