@@ -117,7 +117,7 @@ static const char *const plan_questions[] = {
     "angular --sampler fibonacci-hemisphere:morph=diffuse -n 65536 -l 512 --hemisphere",
     "angular --sampler white-sphere -n 1024 -m 100 -l 128 --engine sphere_direct",
     "angular --sampler white-sphere -n 4096 -m 10 -l 256 --engine sphere_direct --precision double",
-    "angular --sampler white-sphere -n 256 -l 32 --engine host_direct",
+    "angular --sampler white-sphere -n 1000 -l 64 --engine host_direct",
     "angular --sampler white-sphere -n 65536 -l 1024 --coefficients c.npy",
     "angular --sampler jittered:lift=sphere -n 4096 -m 300 -l 128",
     "angular sphere.txt -l 256",
@@ -156,9 +156,9 @@ static const char *const plan_questions[] = {
     /* truncation */
     "truncation --brdf diffuse",
     "truncation --brdf glossy:n=30 -l 40",
-    "truncation --brdf glossy:n=1000 -l 30",
+    "truncation --brdf glossy:n=100 -l 40",
     "truncation --brdf phong:n=30 -l 30",
-    "truncation --brdf diffuse --harmonics hemispherical -l 12",
+    "truncation --brdf phong:n=5 --harmonics hemispherical -l 12",
     "truncation --brdf glossy:n=30 --harmonics hemispherical -l 20",
     "truncation --brdf diffuse -l 5000 --smoothness 1.9",
     /* points */

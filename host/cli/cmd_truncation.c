@@ -84,8 +84,8 @@ static pspec_status find_points(const answer *of, const ps_answer_hooks *hooks, 
     return PSPEC_OK;
 }
 
-/* The errors of all degrees. */
-static pspec_status find_errors(answer *of, ps_error *error) {
+/* The errors of all degrees; those of hemispherical harmonics are in brackets, relative to them. */
+static pspec_status find_errors(answer *of, double bracket, ps_error *error) {
     enum { COLUMNS = 4 };
     const ps_request *const arguments = of->arguments;
     const size_t num = of->max_degree + 1;
@@ -103,7 +103,7 @@ static pspec_status find_errors(answer *of, ps_error *error) {
         of->degrees[l] = (double)l;
     }
     if (of->is_hemispherical) {
-        PS_TRY(ps_truncation_hemispherical(of->brdf, arguments->smoothness, of->max_degree, BRACKET,
+        PS_TRY(ps_truncation_hemispherical(of->brdf, arguments->smoothness, of->max_degree, bracket,
                                            of->errors, of->bounds, &of->sh_degree, error));
         return PSPEC_OK;
     }
@@ -112,7 +112,7 @@ static pspec_status find_errors(answer *of, ps_error *error) {
 }
 
 static pspec_status find_answer(answer *of, const ps_answer_hooks *hooks, ps_error *error) {
-    PS_TRY(find_errors(of, error));
+    PS_TRY(find_errors(of, BRACKET, error));
     return find_points(of, hooks, error);
 }
 
@@ -150,18 +150,35 @@ static pspec_status add_equal_points(answer *of, ps_phases *phases, ps_error *er
     return PSPEC_OK;
 }
 
+/* Steps of the conversion go as L X^2, X growing until the brackets are narrow enough: to where they usually are. */
+static void add_conversion(const answer *of, ps_phases *phases) {
+    const double usual = 1000;
+    const double x = fmax(usual, 4 * (double)of->max_degree);
+    ps_phases_add(phases, "conversion", PS_HOST_HEMISPHERE, (double)of->max_degree * x * x);
+    ps_phases_say(phases, "conversion", "of hemispherical harmonics to spherical ones");
+    ps_phases_limit(phases, "conversion");
+}
+
 pspec_status ps_truncation_phases(const ps_request *arguments, ps_phases *phases, ps_error *error) {
+    enum { FEW_DEGREES = 60 };
+    const double loose = 0.5;
     answer of = begin(arguments);
     PS_TRY(ps_truncation_check(arguments, error));
-    of.is_hemispherical = false; /* errors of those take their time; they are about the same */
-    pspec_status status = find_errors(&of, error);
+    /* Errors of many degrees in hemispherical harmonics take their time: those in spherical ones are about as large. */
+    const bool is_hemispherical = of.is_hemispherical;
+    of.is_hemispherical = is_hemispherical && of.max_degree <= FEW_DEGREES;
+    pspec_status status = find_errors(&of, loose, error);
     if (status == PSPEC_OK) {
         ps_phases_start(phases, NULL);
         ps_phases_lobe(phases, &of.representer);
+        if (is_hemispherical && of.errors[0] > 0) {
+            add_conversion(&of, phases);
+        }
         if (ps_brdf_morph(of.brdf).kind != PS_MORPH_NONE) {
             status = add_equal_points(&of, phases, error);
         }
         ps_phases_add(phases, "results", PS_HOST_ROW, (double)of.max_degree);
+        ps_phases_say(phases, "results", "a table");
     }
     end(&of);
     return status;

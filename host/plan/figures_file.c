@@ -192,12 +192,6 @@ static bool take_scale(ps_figures *figures, char *text) {
     return row != NULL && take_number(number, least_scale, most_scale, &row->scales[precision]);
 }
 
-static bool take_host(ps_figures *figures, char *text) {
-    char *const number = cut_word(text);
-    ps_host_figure *const row = number != NULL ? ps_figures_host_row(figures, text) : NULL;
-    return row != NULL && take_number(number, least_scale, most_scale, &row->scale);
-}
-
 /* A line of figures. */
 static bool take_line(ps_figures *figures, char *line) {
     char *text = after(line, "date");
@@ -216,7 +210,9 @@ static bool take_line(ps_figures *figures, char *line) {
         return take_number(text, least_rate, most_rate, &figures->copied_bytes);
     }
     if ((text = after(line, "host")) != NULL) {
-        return take_host(figures, text);
+        char *const number = cut_word(text);
+        ps_host_figure *const row = number != NULL ? ps_figures_host_row(figures, text) : NULL;
+        return row != NULL && take_number(number, least_scale, most_scale, &row->scale);
     }
     text = after(line, "scale");
     return text != NULL && take_scale(figures, text);
