@@ -118,45 +118,69 @@ set linetype 5 linecolor "#cc79a7" linewidth 1.5 pointtype 13 pointsize 0.7
 $3
 GNUPLOT
 }
-spectra() { # the rules of 256 points whose degrees Figures 1 to 3 show: BRDF-NAME.csv
-    local i short=(sf '' '' random) brdf weights
+spectra() { # the rules of 256 points whose degrees Figures 1 to 3 show: BRDF-WEIGHTS-SAMPLER.csv, the sampler by its index
+    local i brdf weights
     for brdf in "${brdfs[@]}"; do
         for weights in equal optimal; do
-            for i in 0 3; do
+            for i in "${!samplers[@]}"; do
                 "$program" quadrature --quiet --brdf "$brdf" --weights $weights --sampler "${samplers[i]}" -n 256 \
-                    -m $sets -l 100 --format csv | grep '^[0-9]' >"${brdf%:*}-$weights-${short[i]}.csv"
+                    -m $sets -l 100 --format csv | grep '^[0-9]' >"${brdf%:*}-$weights-$i.csv"
             done
         done
     done
 }
-degree_curves() { # BRDF COLUMN: of spherical Fibonacci and random points, by both weightings
-    echo "plot '$1-equal-random.csv' using 1:$2 with lines linetype 4 title 'random, equal', \\
-        '$1-optimal-random.csv' using 1:$2 with lines linetype 3 title 'random, optimal', \\
-        '$1-equal-sf.csv' using 1:$2 with linespoints linetype 1 title 'Fibonacci, equal', \\
-        '$1-optimal-sf.csv' using 1:$2 with linespoints linetype 2 title 'Fibonacci, optimal'"
+degree_curves() { # BRDF WEIGHTS COLUMN [STYLE]: of all sets; random points, the highest curve, lie under the others
+    local i plots=
+    for i in 3 4 2 1 0; do
+        plots+=" '$1-$2-$i.csv' using 1:$3 with ${4:-lines} linetype $((i + 1)) title \"${titles[i]}\","
+    done
+    echo "plot ${plots%,}"
+}
+degree_panels() { # COLUMN WEIGHTS...: for each lobe a row, with a panel for each of the weights
+    local column=$1 k weights
+    shift
+    for k in 0 1; do
+        for weights in "$@"; do
+            printf '%s\n' "set title '${lobes[k]}, $weights weights'" "$(degree_curves "${brdfs[k]%:*}" "$weights" "$column")"
+        done
+    done
 }
 draw_spectra() {
-    local k
+    local k row=
     for k in 0 1; do
-        draw m18_figure$((k + 1)) 420 "set multiplot layout 1,2 title 'N = 256, ${lobes[k]}'
-set xlabel 'degree l'
-set key right top
-set ylabel 'd_l^2'
-set yrange [1e-12:1]
-$(degree_curves "${brdfs[k]%:*}" 3)
+        row+="set ylabel 'd_l^2'
+set yrange [1e-12:1e-1]
+set title '${lobes[k]}, equal weights'
+$(degree_curves "${brdfs[k]%:*}" equal 3)
 set ylabel 'C_l^2'
-set yrange [1e-9:1]
-set key right bottom
-$(degree_curves "${brdfs[k]%:*}" 5)"
+set yrange [1e-9:1e-1]
+set title '${lobes[k]}, equal weights'
+$(degree_curves "${brdfs[k]%:*}" equal 5)
+set title '${lobes[k]}, optimal weights'
+$(degree_curves "${brdfs[k]%:*}" optimal 5)
+"
     done
-    draw m18_figure3 420 "set multiplot layout 1,2 title 'share of a degree in E^2, N = 256, s = 1.5'
+    draw m18_figure1 700 "set multiplot layout 2,3 title 'spectra of rules, N = 256'
+set xlabel 'degree l'
+set key right bottom font ',8'
+$row"
+    draw m18_figure2 420 "set multiplot layout 1,2 title 'low degrees, N = 256, diffuse'
+set xlabel 'degree l'
+set xrange [0:10]
+set xtics 1
+set ylabel 'C_l^2'
+set yrange [1e-12:1e-1]
+set key right bottom
+set title 'equal weights'
+$(degree_curves diffuse equal 5 linespoints)
+set title 'optimal weights'
+$(degree_curves diffuse optimal 5 linespoints)"
+    draw m18_figure3 700 "set multiplot layout 2,2 title 'share of a degree in E^2, N = 256, s = 1.5'
 set xlabel 'degree l'
 set ylabel 'e_l^2 = a_l (d_l^2 + C_l^2)'
 set yrange [1e-9:1e-2]
-set title 'diffuse'
-$(degree_curves diffuse 8)
-set title 'glossy, n = 30'
-$(degree_curves glossy 8)"
+set key right top
+$(degree_panels 8 equal optimal)"
 }
 draw_errors() {
     local brdf weights i plots=

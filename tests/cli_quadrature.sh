@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # cli_quadrature.sh PROGRAM: pointspec quadrature of samplers and files; what it refuses, and how it says it.
+source_dir=$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")
 # shellcheck source=tests/harness.sh
-. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/harness.sh" quadrature "$1"
+. "$source_dir/tests/harness.sh" quadrature "$1"
 
 near() { # WHAT VALUE EXACT RELATIVE
     awk -v a="$2" -v b="$3" -v r="$4" 'BEGIN { exit !(a - b <= r * b && b - a <= r * b) }' ||
@@ -188,4 +189,42 @@ grep -q '^# weights: optimal, by conjugate gradients.*2.23e+06 bytes, and --memo
     complain "plan: $(grep weights out)"
 head -3 weights.txt >few.txt
 refuses '3 weights for 256 points' --brdf diffuse --weights few.txt morphed.txt
+# Figure 2 of M18 is C_l^2 of the diffuse lobe for l <= 10; the shipped scene draws it, and no glossy result says it is that.
+scene=$source_dir/docs/scenes/m18_figures.yaml
+awk '/^  - result:/ { block = ""; inside = 1 }
+    !inside { print; next }
+    { block = block $0 "\n" }
+    /title: "Figure 2/ { wanted = 1 }
+    /^    max-degree:/ { if (wanted) printf "%s", block; wanted = 0 }' "$scene" >figure2.yaml
+[[ $(grep -c '^  - result:' figure2.yaml) == 1 ]] || complain "Figure 2: $(grep -c '^  - result:' figure2.yaml) results"
+grep -q 'brdf: diffuse' figure2.yaml || complain "Figure 2 is not diffuse"
+"$program" run figure2.yaml -o figure2 --quiet >run.out 2>&1 || complain "Figure 2: $(tail -1 run.out)"
+grep -v '^#' figure2/low-degrees.csv >low.csv || complain "Figure 2: no table"
+# 5 samplers x 2 weights x degrees 0..10, whatever the order of the first two columns
+[[ $(wc -l <low.csv) == 111 ]] || complain "Figure 2: $(wc -l <low.csv) lines"
+# of Fibonacci points c2 + c_l0^2 is (2l+1)/4 pi times the mean of P_l over all pairs
+awk '{ x[NR] = $1; y[NR] = $2; z[NR] = $3 }
+    END {
+        for (i = 1; i <= NR; i++) {
+            for (j = 1; j <= NR; j++) {
+                t = x[i] * x[j] + y[i] * y[j] + z[i] * z[j]; p = 1; q = t
+                for (l = 1; l <= 10; l++) { sum[l] += q; r = ((2 * l + 1) * t * q - l * p) / (l + 1); p = q; q = r }
+            }
+            p = 1; q = z[i]
+            for (l = 1; l <= 10; l++) { zonal[l] += q; r = ((2 * l + 1) * z[i] * q - l * p) / (l + 1); p = q; q = r }
+        }
+        for (l = 1; l <= 10; l++)
+            printf "%d,%.17g\n", l, (2 * l + 1) / 12.566370614359172 * (sum[l] - zonal[l] ^ 2) / NR ^ 2
+    }' morphed.txt >pairs.csv
+grep -E 'fibonacci' low.csv | grep ',\?equal,' | awk -F, 'NR == FNR { c2[$1] = $2; next }
+    $3 > 0 { num++; off = $7 / c2[$3] - 1; if (off > 1e-6 || off < -1e-6) bad = 1 }
+    END { exit bad || num != 10 }' pairs.csv - || complain "Figure 2: c2 of Fibonacci points"
+# of random points d2 + c2 is known, and optimal weights lower c2 of every set
+grep 'white' low.csv | grep 'equal' | awk -F, '$3 > 0 {
+    num++
+    off = ($5 + $7 - ((2 * $3 + 1) / 12.566370614359172 - $4 ^ 2) / 256) / sqrt($6 ^ 2 + $8 ^ 2)
+    if (off > 5 || off < -5) bad = 1 }
+    END { exit bad || num != 10 }' || complain "Figure 2: random points"
+awk -F, '/equal/ { equal += $7 } /optimal/ { optimal += $7; num++ } END { exit !(num == 55 && optimal < equal / 2) }' low.csv ||
+    complain "Figure 2: optimal weights"
 finish
