@@ -2,7 +2,6 @@
 #include "base/text.h"
 #include "cli/command.h"
 #include "cli/run.h"
-#include "cli/run_files.h"
 #include "io/output_file.h"
 #include "io/plot.h"
 #include "pointspec_version.h"
@@ -117,6 +116,18 @@ static pspec_status make_folder(const char *path, ps_error *error) {
 
 /* ---- files ------------------------------------------------------------------------------- */
 
+/* A file that cannot be read back is of the run all the same, but no later run removes it. */
+static void note_written(const ps_run *run, const char *path) {
+    ps_error ignored = {0};
+    ps_run_file *const file = ps_run_files_find(&run->files, strrchr(path, '/') + 1);
+    if (file != NULL) {
+        file->is_written = true;
+        if (ps_digest_file(path, file->digest, &ignored) != PSPEC_OK) {
+            file->digest[0] = '\0';
+        }
+    }
+}
+
 static pspec_status write_file(const ps_run *run, const char *name, const char *ending,
                                const char *bytes, size_t num, ps_error *error) {
     ps_text path = {0};
@@ -130,6 +141,9 @@ static pspec_status write_file(const ps_run *run, const char *name, const char *
         ps_output_write(file, bytes, 1, num);
         status = ps_output_commit(&file, error);
     }
+    if (status == PSPEC_OK) {
+        note_written(run, ps_text_string(&path));
+    }
     ps_text_free(&path);
     return status;
 }
@@ -141,6 +155,9 @@ static pspec_status write_table(const ps_run *run, const ps_table *table, const 
     pspec_status status = ps_text_check(&path, error);
     if (status == PSPEC_OK) {
         status = ps_table_write(table, ps_text_string(&path), PS_FORMAT_CSV, error);
+    }
+    if (status == PSPEC_OK) {
+        note_written(run, ps_text_string(&path));
     }
     ps_text_free(&path);
     return status;
@@ -183,7 +200,8 @@ static pspec_status write_pictures(ps_run *run, ps_run_result *result, ps_error 
     return PSPEC_OK;
 }
 
-/* The record comes first: with it the folder is one of a run, whatever happens next. Numbers come before pictures. */
+/* The record comes first: with it the folder is one of a run, whatever happens next. Numbers come before pictures. The
+ * record of the end names what was written; files of the former run go before it, for it no longer names them. */
 static pspec_status write_all(ps_run *run, ps_error *error) {
     PS_TRY(make_folder(run->folder, error));
     PS_TRY(write_text(run, ps_run_record_name, ps_run_record, error));
@@ -193,7 +211,10 @@ static pspec_status write_all(ps_run *run, ps_error *error) {
     for (size_t i = 0; i < run->num_results; i++) {
         PS_TRY(write_pictures(run, &run->results[i], error));
     }
-    return write_text(run, ps_run_page_name, ps_run_page, error);
+    PS_TRY(write_text(run, ps_run_page_name, ps_run_page, error));
+    PS_TRY(ps_run_remove_former(run, error));
+    run->is_written = true;
+    return write_text(run, ps_run_record_name, ps_run_record, error);
 }
 
 /* ---- what is said at the end ------------------------------------------------------------- */
@@ -285,6 +306,7 @@ static pspec_status judge(const ps_run *run, ps_error *error) {
 static pspec_status run_scene(ps_run *run, ps_error *error) {
     PS_TRY(ps_run_ask(run, error));
     PS_TRY(check_folder(run->folder, error));
+    PS_TRY(ps_run_read_former(run, error));
     PS_TRY(ps_run_open_cache(run, error));
     warn_of_gnuplot(run);
     PS_TRY(ps_run_answer(run, error));

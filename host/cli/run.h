@@ -7,11 +7,14 @@
  *     run_plots.c     those pictures, drawn
  *     run_page.c      the page that shows them
  *     run_record.c    the record that repeats them
+ *     run_files.c     names of the files that there will be
+ *     run_former.c    files of the former run in the folder
  */
 #ifndef PS_CLI_RUN_H
 #define PS_CLI_RUN_H
 
 #include "cli/answer.h"
+#include "cli/run_files.h"
 #include "cli/run_pictures.h"
 #include "io/digest.h"
 #include "io/result_cache.h"
@@ -54,6 +57,9 @@ typedef struct ps_run {
     size_t num_undrawn;
     ps_error undrawn; /* why the first picture that was not drawn was not */
     ps_run_result *results;
+    ps_run_files files; /* that this run may write */
+    ps_scene former;    /* the record of the former run in the folder; no files: none */
+    bool is_written;    /* all files are there, but for the last record */
 } ps_run;
 
 /* Reads the scene and gives it the limit of memory of the command, if there is one. A record repeats what was typed then:

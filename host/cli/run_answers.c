@@ -2,7 +2,6 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "cli/run.h"
-#include "cli/run_files.h"
 #include "plan/figures_file.h"
 #include "scene/quadrature_question.h"
 #include "scene/question.h"
@@ -57,7 +56,6 @@ pspec_status ps_run_read_scene(ps_scene *out, const ps_request *arguments, ps_er
 
 pspec_status ps_run_ask(ps_run *run, ps_error *error) {
     void *memory = NULL;
-    ps_run_files files = {0};
     PS_TRY(ps_scene_check_inputs(run->scene, error));
     PS_TRY(ps_allocate(&memory, run->scene->num_results, sizeof *run->results, "results", error));
     run->results = memory;
@@ -74,9 +72,7 @@ pspec_status ps_run_ask(ps_run *run, ps_error *error) {
         }
         run->num_questions += num;
     }
-    const pspec_status status = ps_run_files_list(&files, run, error);
-    ps_run_files_free(&files);
-    return status;
+    return ps_run_files_list(&run->files, run, error);
 }
 
 /* ---- one question ------------------------------------------------------------------------ */
@@ -179,6 +175,8 @@ void ps_run_free(ps_run *run) {
         free_result(&run->results[i]);
     }
     free(run->results);
+    ps_run_files_free(&run->files);
+    ps_scene_free(&run->former);
     ps_cache_close(run->cache);
     ps_device_close(run->device);
     ps_text_free(&run->identity);

@@ -5,10 +5,8 @@
 #include "plan/figures_file.h"
 #include "pointspec_version.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 /* ---- the cache ---------------------------------------------------------------- */
 
@@ -79,15 +77,6 @@ pspec_status ps_run_open_cache(ps_run *run, ps_error *error) {
 /* Everything that the bits of an answer depend on: the program, the device, the question, and what is in the files. */
 static pspec_status add_file(ps_text *key, const char *path, ps_error *error) {
     char digest[PS_DIGEST_BYTES];
-    struct stat facts;
-    if (stat(path, &facts) != 0) {
-        return ps_fail(error, PSPEC_ERROR_IO, "cannot read \"%s\": %s", path, strerror(errno));
-    }
-    if (S_ISFIFO(facts.st_mode)) {
-        return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "\"%s\" is a pipe: a scene can be run again, what came through it cannot",
-                       path);
-    }
     PS_TRY(ps_digest_file(path, digest, error));
     ps_text_append(key, "file %s\n", digest);
     return PSPEC_OK;

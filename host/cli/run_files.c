@@ -1,7 +1,9 @@
 #include "cli/run_files.h"
 
 #include "base/memory.h"
+#include "cli/run.h"
 
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -23,7 +25,7 @@ static pspec_status add(ps_run_files *files, const ps_scene_result *of, const ch
         ps_text_free(&text);
         return status;
     }
-    files->all[files->num++] = (ps_run_file){text.data, of};
+    files->all[files->num++] = (ps_run_file){.name = text.data, .of = of};
     return PSPEC_OK;
 }
 
@@ -78,11 +80,9 @@ void ps_run_files_free(ps_run_files *files) {
     *files = (ps_run_files){0};
 }
 
-bool ps_run_files_have(const ps_run_files *files, const char *name) {
-    for (size_t i = 0; i < files->num; i++) {
-        if (strcmp(files->all[i].name, name) == 0) {
-            return true;
-        }
-    }
-    return false;
+ps_run_file *ps_run_files_find(const ps_run_files *files, const char *name) {
+    const ps_run_file wanted = {.name = (char *)(uintptr_t)name};
+    return files->num > 0
+               ? bsearch(&wanted, files->all, files->num, sizeof *files->all, compare_names)
+               : NULL;
 }

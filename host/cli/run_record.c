@@ -86,6 +86,8 @@ pspec_status ps_run_record(const ps_run *run, ps_text *out, ps_error *error) {
     PS_TRY(print_folder(run, out, error));
     ps_text_append(out, ",\n    \"questions\": [");
     print_all(run, false, out);
+    ps_text_append(out, "\n    ],\n    \"files\": [");
+    ps_run_print_files(run, out);
     ps_text_append(out, "\n    ],\n    \"digests\": [");
     print_all(run, true, out);
     ps_text_append(out, "\n    ]\n  }\n}\n");

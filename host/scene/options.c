@@ -268,7 +268,8 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                           WORD(format)},
     [PS_OPTION_PLOT] = {.name = "plot",
                         .metavar = "FILE",
-                        .help = "draw a picture too: .png, .svg or .pdf",
+                        .help = "draw a picture too: .png, .svg or .pdf; one that fails is a "
+                                "warning, and an error where no table is kept",
                         TEXT(plot)},
     [PS_OPTION_PROFILE] = {.name = "profile",
                            .help = "time, flop/s and bytes/s of every kernel on standard error",

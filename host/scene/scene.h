@@ -56,6 +56,9 @@ typedef struct ps_scene {
     size_t num_digests;
     const char **digests;
     const char *recorded_version, *recorded_device;
+    size_t num_files;
+    const char **
+        files; /* that the run wrote, each "DIGEST NAME"; - for the digest of one that it did not finish */
     struct ps_scene_memory *memory; /* what the texts and arrays are in */
 } ps_scene;
 

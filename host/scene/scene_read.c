@@ -52,17 +52,16 @@ static pspec_status take_results(const ps_scene_reader *from, yaml_node_t *node)
     return PSPEC_OK;
 }
 
-static pspec_status take_digests(const ps_scene_reader *from, yaml_node_t *node) {
-    ps_scene *const scene = from->scene;
-    void *digests = NULL;
+static pspec_status take_texts(const ps_scene_reader *from, yaml_node_t *node, const char *key,
+                               const char ***out, size_t *num_out) {
+    void *memory = NULL;
     const size_t num = ps_scene_num_items(node);
-    PS_TRY(ps_scene_allocate(scene, num, sizeof *scene->digests, &digests, from->file->error));
-    scene->digests = digests;
+    PS_TRY(ps_scene_allocate(from->scene, num, sizeof **out, &memory, from->file->error));
+    *out = memory;
     for (size_t i = 0; i < num; i++) {
-        PS_TRY(ps_scene_keep_text(from, ps_scene_item(from->file, node, i), "digests",
-                                  &scene->digests[i]));
+        PS_TRY(ps_scene_keep_text(from, ps_scene_item(from->file, node, i), key, &(*out)[i]));
     }
-    scene->num_digests = num;
+    *num_out = num;
     return PSPEC_OK;
 }
 
@@ -78,7 +77,9 @@ static pspec_status take_record(const ps_scene_reader *from, yaml_node_t *node) 
         if (strcmp(key, "folder") == 0) {
             PS_TRY(ps_scene_keep_text(from, value, key, &from->scene->folder));
         } else if (strcmp(key, "digests") == 0) {
-            PS_TRY(take_digests(from, value));
+            PS_TRY(take_texts(from, value, key, &from->scene->digests, &from->scene->num_digests));
+        } else if (strcmp(key, "files") == 0) {
+            PS_TRY(take_texts(from, value, key, &from->scene->files, &from->scene->num_files));
         } else if (strcmp(key, "pointspec_version") == 0) {
             PS_TRY(ps_scene_keep_text(from, value, key, &from->scene->recorded_version));
         } else if (strcmp(key, "device") == 0) {

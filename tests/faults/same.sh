@@ -10,4 +10,6 @@ same=(-I '^# engine: ' # tells the realizations at a time, on which no result de
     # what a record says it was computed with: less where the program or the figures could not be read
     -I '^    "identity": "'
     # what the doctor finds free at the moment, and of the machine
-    -I '^[a-zA-Z]* *\(memory\|cache\|kernels\|threads\) ')
+    -I '^[a-zA-Z]* *\(memory\|cache\|kernels\|threads\) '
+    # digests of files with such lines
+    -I '^      "\(-\|[0-9a-f]\{32\}\) [A-Za-z0-9_.-]*",\{0,1\}$')
