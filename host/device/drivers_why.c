@@ -45,9 +45,11 @@ static int try_folder(char *path) {
             *slash = '\0';
         }
         if (access(path, F_OK) != 0) {
-            const int reason = mkdir(path, 0700) == 0 ? 0 : errno;
-            (void)rmdir(path); /* made for the trial, or not there */
-            return reason;
+            if (mkdir(path, 0700) != 0) {
+                return errno == EEXIST ? 0 : errno; /* somebody else has just made it */
+            }
+            (void)rmdir(path);
+            return 0;
         }
         if (slash == NULL) {
             return access(path, W_OK | X_OK) == 0 ? 0 : errno;
@@ -71,8 +73,9 @@ void ps_drivers_pocl_cache_problem(const char *path, ps_text *out) {
     char *const trial = length > 0 ? strdup(path) : NULL;
     const int reason = trial != NULL ? try_folder(trial) : 0;
     if (reason != 0) {
-        ps_text_append(out, "PoCL cannot keep kernels in %s: %s: %s", path, trial,
-                       strerror(reason));
+        const bool is_whole = strcmp(path, trial) == 0;
+        ps_text_append(out, "PoCL cannot keep kernels in %s: %s%s%s", path, is_whole ? "" : trial,
+                       is_whole ? "" : ": ", strerror(reason));
     }
     free(trial);
 }
