@@ -251,7 +251,7 @@ out:
     return status;
 }
 
-/* Before the work, while there is time to install it. */
+/* Before the work, while there is time to install it. Memory that is refused says nothing about gnuplot. */
 static void warn_of_gnuplot(const ps_run *run) {
     ps_text path = {0};
     ps_error reason = {0};
@@ -259,7 +259,9 @@ static void warn_of_gnuplot(const ps_run *run) {
     for (size_t i = 0; i < run->num_results; i++) {
         num += run->results[i].pictures.num;
     }
-    if (num > 0 && !run->arguments->quiet && ps_plot_find_gnuplot(&path, &reason) != PSPEC_OK) {
+    const pspec_status status =
+        num > 0 && !run->arguments->quiet ? ps_plot_find_gnuplot(&path, &reason) : PSPEC_OK;
+    if (status != PSPEC_OK && status != PSPEC_ERROR_MEMORY) {
         fprintf(stderr, "pointspec: %s; pictures are left out where the cache has none\n",
                 reason.message);
     }
