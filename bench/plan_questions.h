@@ -18,13 +18,13 @@ static const struct {
 };
 
 static const char *const plan_files[] = {
-    "sample --sampler white -n 300000 -o white.txt",
-    "sample --sampler white -n 300000 -o white.csv",
+    "sample --sampler white -n 1000000 -o white.txt",
+    "sample --sampler white -n 1000000 -o white.csv",
     "sample --sampler white -n 3000000 -o white.npy",
-    "sample --sampler white -n 1000000 -o white.rps",
+    "sample --sampler white -n 6000000 -o white.rps",
     "sample --sampler white -n 4096 -m 64 -o sets.txt",
     "sample --sampler white -n 4096 -m 512 -o sets.npy",
-    "sample --sampler white-sphere -n 300000 -o sphere.txt",
+    "sample --sampler white-sphere -n 800000 -o sphere.txt",
     "sample --sampler white-sphere -n 1000000 -o sphere.npy",
     "sample --sampler white-sphere -n 1024 -m 256 -o rules.npy",
     "convert white.txt -o white.utkb --format utk-binary",
@@ -171,7 +171,7 @@ static const char *const plan_questions[] = {
     "sample --sampler jittered -n 4e6 -o out.npy",
     "sample --sampler latin-hypercube -n 2e6 -o out.npy",
     "sample --sampler healpix:nside=512 -o out.npy",
-    "sample --sampler healpix-jittered:nside=256 -o out.npy",
+    "sample --sampler healpix-jittered:nside=512 -o out.npy",
     "sample --sampler fibonacci -n 2e6 -o out.npy",
     "sample --sampler spiral -n 2e6 -o out.npy",
     "sample --sampler white-sphere -n 4e6 -o out.npy",

@@ -67,13 +67,11 @@ static pspec_status sample(bench_host *of, const probe *what, double *predicted,
     return ps_sampler_generate(&request, 0, of->numbers, error);
 }
 
-enum { FEW_POINTS = 20000 };
-
 static pspec_status write_points(bench_host *of, const probe *what, double *predicted,
                                  ps_error *error) {
     enum { AXES = 2 };
     ps_point_writer *writer = NULL;
-    const size_t num = strcmp(what->argument, "npy") == 0 ? NUM_POINTS : FEW_POINTS;
+    const size_t num = NUM_POINTS; /* so that making the file weighs little */
     const ps_point_shape shape = {.num_sets = 1, .num_points = num, .dimension = AXES};
     const ps_point_set set = {.dimension = AXES, .num_points = num, .points = of->numbers};
     for (size_t i = 0; i < AXES * num; i++) { /* what was sampled last may be vectors */

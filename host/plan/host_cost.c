@@ -33,10 +33,10 @@ static const struct {
     [PS_HOST_MOVE] = {"move", 3e-9, false},    /* a point, shifted or rotated */
     [PS_HOST_MORPH] = {"morph", 30e-9, false}, /* a point, to a lobe's density */
 
-    [PS_HOST_READ_TEXT] = {"read-text", 1.2e-9, false},     /* a byte */
-    [PS_HOST_READ_BINARY] = {"read-binary", 0.1e-9, false}, /* a byte */
+    [PS_HOST_READ_TEXT] = {"read-text", 0.85e-9, false},     /* a byte */
+    [PS_HOST_READ_BINARY] = {"read-binary", 0.15e-9, false}, /* a byte */
     [PS_HOST_INFLATE] = {"inflate", 3e-9, false},           /* a byte of what comes out */
-    [PS_HOST_WRITE_TEXT] = {"write-text", 60e-9, false},    /* a number */
+    [PS_HOST_WRITE_TEXT] = {"write-text", 50e-9, false},    /* a number */
     [PS_HOST_WRITE_BINARY] = {"write-binary", 9e-9, false}, /* a number */
     [PS_HOST_CHECK_POINTS] = {"check-points", 2e-9, false}, /* a point */
 
@@ -55,8 +55,8 @@ static const struct {
     [PS_HOST_PAIR_POWER] = {"pair-power", 4e-9, true},  /* and a power of it */
     [PS_HOST_HEMISPHERE] = {"hemisphere", 2e-9, false}, /* a degree of each kind of harmonics */
     [PS_HOST_CHOLESKY] = {"cholesky", 1.25e-11, true},  /* an operation */
-    [PS_HOST_MATRIX] = {"matrix", 18e-9, true},         /* an entry, made and summed */
-    [PS_HOST_MATRIX_POWER] = {"matrix-power", 23e-9, true},
+    [PS_HOST_MATRIX] = {"matrix", 14e-9, true},         /* an entry, made and summed */
+    [PS_HOST_MATRIX_POWER] = {"matrix-power", 19e-9, true},
     [PS_HOST_SOLVE] = {"solve", 8e-9, false},            /* an entry, of condition and solutions */
     [PS_HOST_NEIGHBOURS] = {"neighbours", 0.6e-9, true}, /* a pair of points, in the search */
     [PS_HOST_INVERSE] = {"inverse", 14e-6, true},        /* a point: its row of an inverse */
