@@ -122,6 +122,9 @@ double ps_power_job_phases(const ps_power_job *job, ps_phases *phases) {
     const ps_candidate *const chosen = job->plan.chosen;
     const bool is_known = job->problem.num_realizations > 0;
     ps_phases_start(phases, job->device != NULL && chosen != NULL ? chosen->engine->name : NULL);
+    const bool has_more_kernels =
+        job->device != NULL && chosen != NULL && !job->question->on_sphere && job->dimension >= 3;
+    ps_phases_add(phases, "start", PS_HOST_KERNEL, has_more_kernels ? 2 : 0);
     const amounts all = add_points(job, phases);
     const double repeats = is_known ? 1 : all.sets;
     add_frequencies(job, phases);
