@@ -61,8 +61,8 @@ static const struct {
     [PS_HOST_NEIGHBOURS] = {"neighbours", 0.6e-9, true}, /* a pair of points, in the search */
     [PS_HOST_INVERSE] = {"inverse", 14e-6, true},        /* a point: its row of an inverse */
 
-    [PS_HOST_PRODUCT] = {"product", 0.6e-9, true}, /* a pair, in a product by the device */
-    [PS_HOST_PRODUCT_POWER] = {"product-power", 3e-9, true},
+    [PS_HOST_PRODUCT] = {"product", 0.8e-9, true}, /* a pair, in a product by the device */
+    [PS_HOST_PRODUCT_POWER] = {"product-power", 4e-9, true},
 
     [PS_HOST_ROW] = {"row", 3e-6, false},         /* of a table */
     [PS_HOST_ARRAY] = {"array", 60e-9, false},    /* a number of an array in a file */
