@@ -110,6 +110,36 @@ for sampler in fibonacci healpix sobol:lift=hemisphere; do
     refuses 2 'makes points of the sphere, and this spectrum is of the torus' plan power --sampler $sampler
 done
 
+# ---- names are suggested where they are near
+# says_exactly SENTENCE COMMAND ARGS...
+says_exactly() {
+    local sentence=$1
+    shift
+    refuses 2 "$sentence" "$@"
+    [[ $(<"$scratch/err") == *"$sentence" ]] || complain "more than \"$sentence\": pointspec $*"
+}
+says_exactly 'unknown sampler "poisson-disk"' sample --sampler poisson-disk -n 16
+says_exactly 'unknown command "xylophone"' xylophone
+says_exactly 'there is no engine "quantum"' power --sampler white -n 16 -k 4 --engine quantum
+says_exactly 'unknown BRDF "velvet-cloth"' quadrature --brdf velvet-cloth --sampler fibonacci -n 8
+says_exactly 'sampler sobol has no parameter "mix"' sample --sampler sobol:mix=1 -n 16
+
+# ---- weights whose squares are no numbers
+for weight in 1e160 1e-170 5e-324; do
+    printf '0.6 0 0.8 %s\n0 0 1 %s\n' $weight $weight >"$in/range.txt"
+    refuses 2 'multiply all weights by a constant' pairs -l 4 --weights column --columns xyzw "$in/range.txt"
+done
+printf '0.6 0 0.8 1e160\n0 0 1 1\n' >"$in/range.txt"
+refuses 2 'multiply all weights by a constant' quadrature --brdf diffuse -l 4 --weights column --columns xyzw "$in/range.txt"
+
+# ---- a word of --weights is no file, but for commands that do not have that word
+refuses 2 'are the same file' pairs -l 4 -o optimal --weights optimal "$in/sphere.txt"
+(
+    cd "$scratch"
+    "$program" quadrature --brdf diffuse -l 4 -o optimal --weights optimal --sampler fibonacci-hemisphere -n 8 2>/dev/null &&
+        [[ -s optimal ]]
+) || complain 'quadrature -o optimal --weights optimal'
+
 # ---- point files
 power() { # EXIT PART ARGS...
     local expected=$1 part=$2
@@ -164,6 +194,13 @@ power 2 'per ring: 0 is not between 2' --sampler white -n 16 -k 4 --per-ring 0
 power 2 'per ring: 1 is not between 2' --sampler white -n 16 -k 4 --per-ring 1
 power 2 'between 1 and 2000' --sampler white -n 16 -d 4 -k 2001 --per-ring 9
 power 2 'more than can be counted' --sampler white -n 16 -d 6 -k 1300 --per-ring 9
+# Counting the rings up to 2000 takes some ten seconds, and refusing must not: a limit of processor seconds.
+(
+    ulimit -t 4
+    power 2 'which can be indexed' --sampler white -n 16 -d 5 -k 2000 --per-ring 536870912
+    exit $bad
+) || bad=1
+says_exactly 'can be indexed; a list of frequencies has no such limit' power --sampler white -n 16 -d 2 -k 100000
 power 2 'standard error: 0 is not above 0' --sampler white -n 16 -k 4 --standard-error 0
 power 2 'standard error: 2 is not above 0 and at most 1' --sampler white -n 16 -k 4 --standard-error 2
 power 2 '--per-ring does not go with --standard-error' --sampler white -n 16 -k 4 --per-ring 9 --standard-error 0.1

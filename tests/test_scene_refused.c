@@ -93,7 +93,7 @@ static void keys_of_results(void **state) {
          "result: \"powr\" is no kind of result; did you mean power?"},
         {HEAD "  - result: [power]\n", 3, "result: one value is wanted here"},
         {POWER "    pints: 3\n", 4, "pints: unknown key; did you mean points?"},
-        {POWER "    brdf: diffuse\n", 4, "brdf: not a key of this result; did you mean "},
+        {POWER "    brdf: diffuse\n", 4, "brdf: not a key of this result"},
         {POWER "    max-degree: 3\n", 4, "max-degree: not a key of this result"},
         {POWER "    output: a.csv\n", 4, "output: unknown key; did you mean "},
         {POWER "    device: cpu\n", 4, "device: unknown key; did you mean "},

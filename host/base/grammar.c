@@ -58,9 +58,10 @@ static pspec_status fail_key(const ps_grammar *grammar, const char *key, ps_erro
             nearest = candidate;
         }
     }
-    return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                   "%s %s has no parameter \"%s\"; did you mean %s?", grammar->kind, grammar->name,
-                   key, nearest);
+    return ps_fail(
+        error, PSPEC_ERROR_INVALID_ARGUMENT, "%s %s has no parameter \"%s\"%s", grammar->kind,
+        grammar->name, key,
+        ps_text_suggest(key, nearest, ps_text_distance(key, nearest), "; did you mean ", "?").text);
 }
 
 static pspec_status find_key(const ps_grammar *grammar, const char *key, size_t *i_parameter,

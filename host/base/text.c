@@ -155,6 +155,20 @@ void ps_text_keep_nearest(const char *name, const char *known, const char **near
     }
 }
 
+ps_suggestion ps_text_suggest(const char *typed, const char *known, size_t distance,
+                              const char *before, const char *after) {
+    /* A slip changes few letters: at most two in five, so that "powre" is near "power". */
+    enum { CHANGED = 2, LETTERS = 5 };
+    ps_suggestion out = {""};
+    const size_t typed_length = strlen(typed);
+    const size_t known_length = strlen(known);
+    const size_t length = typed_length > known_length ? typed_length : known_length;
+    if (distance * LETTERS <= length * CHANGED) {
+        snprintf(out.text, sizeof out.text, "%s%s%s", before, known, after);
+    }
+    return out;
+}
+
 /* ---- characters -------------------------------------------------------------------------- */
 
 /* Of the character that begins with that byte; 0: none does. */

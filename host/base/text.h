@@ -42,6 +42,14 @@ pspec_status ps_parse_number(const char *text, const char *what, double minimum,
 /* The nearer one to name of *nearest, which may be NULL at first, and known. */
 void ps_text_keep_nearest(const char *name, const char *known, const char **nearest);
 
+/* "BEFORE known AFTER" for the end of a sentence when the name as typed is near the known one, at the distance
+ * given; else nothing, as a name that only happens to be the nearest misleads. */
+typedef struct ps_suggestion {
+    char text[96];
+} ps_suggestion;
+ps_suggestion ps_text_suggest(const char *typed, const char *known, size_t distance,
+                              const char *before, const char *after);
+
 /* Edit distance, for "did you mean": insertions, deletions, substitutions cost 1. */
 size_t ps_text_distance(const char *a, const char *b);
 

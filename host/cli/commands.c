@@ -1,4 +1,5 @@
 /* The table of commands. */
+#include "base/text.h"
 #include "cli/command.h"
 
 #include "scene/options.h"
@@ -39,8 +40,10 @@ const ps_command *ps_command_find(const char *name, ps_error *error) {
     if (best == 0) {
         return nearest;
     }
-    ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "unknown command \"%s\"; did you mean %s?", name,
-            nearest != NULL ? nearest->name : "help");
+    ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "unknown command \"%s\"%s", name,
+            nearest != NULL
+                ? ps_text_suggest(name, nearest->name, best, "; did you mean ", "?").text
+                : "");
     return NULL;
 }
 

@@ -1,6 +1,7 @@
 #include "engines/frequencies.h"
 
 #include "base/memory.h"
+#include "engines/frequency_sample.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -69,9 +70,12 @@ pspec_status ps_frequencies_lattice(ps_frequencies *out, unsigned dimension, int
     if (max_frequency < 1 || max_frequency > largest) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "max frequency %d is not between 1 and %d, the largest whose full grid in "
-                       "dimension %u can be indexed; a random subset of every ring (--per-ring) "
-                       "and lists of frequencies have no such limit",
-                       (int)max_frequency, (int)largest, dimension);
+                       "dimension %u can be indexed; %s no such limit",
+                       (int)max_frequency, (int)largest, dimension,
+                       dimension > 1 && max_frequency <= PS_MAX_SAMPLED_RING
+                           ? "a random subset of every ring (--per-ring) and lists of frequencies "
+                             "have"
+                           : "a list of frequencies has");
     }
     const size_t box = (size_t)half_box_size(dimension, max_frequency);
     const size_t ball = approximate_half_ball_size(dimension, max_frequency);

@@ -39,9 +39,10 @@ static pspec_status find_kind(const ps_brdf_kind **kind, const char *name, ps_er
             *kind = ps_brdf_kinds[i];
         }
     }
-    return best == 0 ? PSPEC_OK
-                     : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                               "unknown BRDF \"%s\"; did you mean %s?", name, (*kind)->name);
+    return best == 0
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "unknown BRDF \"%s\"%s", name,
+                         ps_text_suggest(name, (*kind)->name, best, "; did you mean ", "?").text);
 }
 
 /* Values as texts of their own, [num] pointers and then their letters in one block. */

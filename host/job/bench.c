@@ -43,8 +43,11 @@ static pspec_status check_names(const ps_bench_options *options, ps_error *error
         ps_text_keep_nearest(options->case_name, what->what.name, &nearest);
     }
     if (nearest != NULL && strcmp(options->case_name, nearest) != 0) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "there is no case \"%s\"; the nearest is %s", options->case_name, nearest);
+        return ps_fail(
+            error, PSPEC_ERROR_INVALID_ARGUMENT, "there is no case \"%s\"%s", options->case_name,
+            ps_text_suggest(options->case_name, nearest,
+                            ps_text_distance(options->case_name, nearest), "; the nearest is ", "")
+                .text);
     }
     nearest = NULL;
     for (const ps_engine *const *engine = ps_engines; options->engine != NULL && *engine != NULL;
@@ -52,8 +55,11 @@ static pspec_status check_names(const ps_bench_options *options, ps_error *error
         ps_text_keep_nearest(options->engine, (*engine)->name, &nearest);
     }
     if (nearest != NULL && strcmp(options->engine, nearest) != 0) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "there is no engine \"%s\"; the nearest is %s", options->engine, nearest);
+        return ps_fail(
+            error, PSPEC_ERROR_INVALID_ARGUMENT, "there is no engine \"%s\"%s", options->engine,
+            ps_text_suggest(options->engine, nearest, ps_text_distance(options->engine, nearest),
+                            "; the nearest is ", "")
+                .text);
     }
     return PSPEC_OK;
 }

@@ -87,6 +87,22 @@ pspec_status ps_pattern_count_add(ps_pattern_count *count, const pspec_pattern *
                : PSPEC_OK;
 }
 
+/* Q is measured in the squared units of the weights, and the squares of Q, summed over
+ * points and realizations for a standard error, must be numbers of full precision. */
+static pspec_status check_range(const ps_pattern_count *count, pspec_normalization normalization,
+                                ps_error *error) {
+    const double largest = PS_LARGEST_ABSOLUTE_WEIGHT;
+    const double smallest = 1 / largest;
+    if (normalization != PSPEC_NORMALIZATION_PAIRS ||
+        (count->largest <= largest && count->largest >= smallest)) {
+        return PSPEC_OK;
+    }
+    return ps_fail(error, PSPEC_ERROR_INPUT,
+                   "set %llu: the largest |weight|, %.17g, is not between %g and %g, where squares "
+                   "of errors are numbers; multiply all weights by a constant",
+                   (unsigned long long)count->realization + 1, count->largest, smallest, largest);
+}
+
 pspec_status ps_pattern_count_finish(const ps_pattern_count *count,
                                      pspec_normalization normalization, ps_pattern_sums *sums,
                                      ps_error *error) {
@@ -99,6 +115,7 @@ pspec_status ps_pattern_count_finish(const ps_pattern_count *count,
     if (count->largest == 0) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "set %llu: all weights are 0", set);
     }
+    PS_TRY(check_range(count, normalization, error));
     /* A sum this small is what rounding of the weights leaves of an exact zero. */
     const long double rounding = (long double)DBL_EPSILON * count->sizes;
     if (fabsl(count->sum) <= rounding && normalization == PSPEC_NORMALIZATION_POWER) {

@@ -7,6 +7,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* Pairs and quadrature measure errors in the units of the weights: their fourth powers, summed over points and
+ * realizations for a standard error, must be numbers. */
+#define PS_LARGEST_ABSOLUTE_WEIGHT 1e60
+
 /* Weights count as w 2^-exponent, which makes the largest |w| a number in [1/2, 1): so neither the
  * squares of double weights nor sums in single precision overflow or vanish. */
 typedef struct ps_pattern_sums {

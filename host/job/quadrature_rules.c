@@ -252,6 +252,21 @@ void ps_rules_name_weights(const ps_rules *rules, char *text, size_t size) {
              rules->largest_residual);
 }
 
+/* E^2 is of degree two in the weights, and its standard error of degree four. */
+static pspec_status refuse_huge(const ps_weighted_rule *rule, unsigned long long set,
+                                ps_error *error) {
+    for (size_t j = 0; j < rule->set.num_points; j++) {
+        if (fabs(rule->weights[j]) > PS_LARGEST_ABSOLUTE_WEIGHT) {
+            return ps_fail(
+                error, PSPEC_ERROR_INPUT,
+                "set %llu, point %zu: |weight| %.17g is above %g, where squares of errors "
+                "are no numbers; multiply all weights by a constant",
+                set, j + 1, fabs(rule->weights[j]), PS_LARGEST_ABSOLUTE_WEIGHT);
+        }
+    }
+    return PSPEC_OK;
+}
+
 /* Points and weights of a set that was just read. */
 static pspec_status begin_rule(ps_rules *rules, ps_weighted_rule *rule, ps_error *error) {
     bool is_equal = false;
@@ -261,7 +276,9 @@ static pspec_status begin_rule(ps_rules *rules, ps_weighted_rule *rule, ps_error
     for (size_t j = 0; is_equal && j < rule->set.num_points; j++) {
         rule->weights[j] = 1 / (double)rule->set.num_points;
     }
-    return PSPEC_OK;
+    return rules->question->weights == PS_WEIGHTS_OPTIMAL
+               ? PSPEC_OK
+               : refuse_huge(rule, (unsigned long long)rules->num_read + 1, error);
 }
 
 static pspec_status find_kernel_form(const ps_representer *representer, ps_weighted_rule *rule,

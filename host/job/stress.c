@@ -75,8 +75,10 @@ static pspec_status check_case(const char *name, ps_error *error) {
     }
     return strcmp(name, nearest) == 0
                ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "there is no case \"%s\"; the nearest is %s", name, nearest);
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "there is no case \"%s\"%s", name,
+                         ps_text_suggest(name, nearest, ps_text_distance(name, nearest),
+                                         "; the nearest is ", "")
+                             .text);
 }
 
 static pspec_status check_engine(const char *name, ps_error *error) {
@@ -93,8 +95,11 @@ static pspec_status check_engine(const char *name, ps_error *error) {
     }
     return strcmp(name, nearest) == 0
                ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "there is no engine \"%s\" to try; the nearest is %s", name, nearest);
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "there is no engine \"%s\" to try%s",
+                         name,
+                         ps_text_suggest(name, nearest, ps_text_distance(name, nearest),
+                                         "; the nearest is ", "")
+                             .text);
 }
 
 pspec_status ps_stress_check(const ps_stress_options *options, ps_error *error) {

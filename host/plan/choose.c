@@ -24,9 +24,12 @@ static pspec_status check_engine_name(const char *name, unsigned domain, ps_erro
             nearest = (*engine)->name;
         }
     }
-    return name == NULL ? PSPEC_OK
-                        : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                                  "there is no engine \"%s\"; the nearest is %s", name, nearest);
+    return name == NULL
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "there is no engine \"%s\"%s", name,
+                         ps_text_suggest(name, nearest, ps_text_distance(name, nearest),
+                                         "; the nearest is ", "")
+                             .text);
 }
 
 /* Is the device's memory that of the machine? Its size then says nothing of the kind of device. */

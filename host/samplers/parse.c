@@ -30,8 +30,8 @@ static pspec_status find_sampler(ps_sampler_request *request, const char *name, 
     const char *nearest_name = NULL;
     request->sampler = nearest_sampler(name, &distance, &nearest_name);
     if (distance > 0) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "unknown sampler \"%s\"; did you mean %s?", name, nearest_name);
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "unknown sampler \"%s\"%s", name,
+                       ps_text_suggest(name, nearest_name, distance, "; did you mean ", "?").text);
     }
     return PSPEC_OK;
 }

@@ -1,4 +1,5 @@
 /* The schema of scenes: the keys of the file. */
+#include "base/text.h"
 #include "scene/scene_file.h"
 
 #include <stdio.h>
@@ -127,8 +128,9 @@ static pspec_status find_parts(const ps_scene_reader *from, yaml_node_t *root, p
             }
         }
         if (!is_known) {
-            return ps_scene_complain(from->file, ps_scene_line(value), key,
-                                     "unknown key; did you mean %s?", best.word);
+            return ps_scene_complain(
+                from->file, ps_scene_line(value), key, "unknown key%s",
+                ps_text_suggest(key, best.word, best.distance, "; did you mean ", "?").text);
         }
     }
     return PSPEC_OK;

@@ -1,4 +1,5 @@
 /* One result of a scene: its keys, and those of the defaults. */
+#include "base/text.h"
 #include "scene/options.h"
 #include "scene/question.h"
 #include "scene/scene_file.h"
@@ -52,9 +53,10 @@ static pspec_status complain_of_key(const ps_scene_reader *from, const ps_result
             ps_scene_consider(&best, key, ps_options[id].name);
         }
     }
-    return ps_scene_complain(from->file, line, key, "%s; did you mean %s?",
-                             is_any_option(key) ? "not a key of this result" : "unknown key",
-                             best.word);
+    return ps_scene_complain(
+        from->file, line, key, "%s%s",
+        is_any_option(key) ? "not a key of this result" : "unknown key",
+        ps_text_suggest(key, best.word, best.distance, "; did you mean ", "?").text);
 }
 
 /* ---- one result -------------------------------------------------------------------------- */
@@ -103,8 +105,9 @@ static pspec_status take_kind(const ps_scene_reader *from, yaml_node_t *node,
             return PSPEC_OK;
         }
     }
-    return ps_scene_complain(from->file, ps_scene_line(node), "result",
-                             "\"%s\" is no kind of result; did you mean %s?", text, best.word);
+    return ps_scene_complain(
+        from->file, ps_scene_line(node), "result", "\"%s\" is no kind of result%s", text,
+        ps_text_suggest(text, best.word, best.distance, "; did you mean ", "?").text);
 }
 
 static pspec_status take_pair(const ps_scene_reader *from, ps_scene_result *out, const char *key,
