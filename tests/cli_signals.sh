@@ -87,6 +87,24 @@ mkfifo endless
 interrupts INT 0.3 convert --input-format rps /dev/zero -o work/a.npy
 interrupts TERM 0.3 power --input-format csv endless -k 8 -o work/a.csv # nobody writes to the pipe
 
+# ---- what takes long has a name on a terminal, and is never "0 of something at 0/s"
+shows() { # PATTERN SECONDS ARGS...
+    local pattern=$1 seconds=$2
+    shift 2
+    script -qec "timeout -s INT $seconds $program $*" /dev/null </dev/null >seen || true
+    tr '\r' '\n' <seen | grep -qE "$pattern" || complain "no \"$pattern\": $*: $(tr '\r' '\n' <seen | tail -n 3)"
+    if tr '\r' '\n' <seen | grep -qE '(^|[^0-9.])0 (of [0-9]+ )?[a-z]+, 0/s'; then complain "no progress: $*"; fi
+}
+if command -v script >/dev/null; then
+    shows '^weights: [0-9]+ of 1000000 rows of an approximate inverse, .* left' 4 \
+        quadrature -n 1e6 "${hemisphere[@]}" -l 8 --weights optimal --engine host_direct
+    shows '^weights: [0-9]+ iterations of conjugate gradients, residual [0-9.e-]+' 4 \
+        quadrature -n 9000 "${hemisphere[@]}" -l 8 --weights optimal --memory 100M --engine host_direct
+    shows '^E: [0-9]+ of [0-9]+ blocks of pairs of points, .* left' 3 \
+        quadrature -n 4e5 "${hemisphere[@]}" -l 8 --engine host_direct
+    shows '^the first of 1 realizations, [1-9] s' 3 power --sampler white -n 1e6 -k 1000 --engine host_direct
+fi
+
 # ---- a program that we have started ends with us
 mkdir bin
 cat >bin/gnuplot <<'END'

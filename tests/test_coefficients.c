@@ -97,9 +97,8 @@ static void hemispherical_harmonics(void **state) {
     pspec_context_destroy(context);
 }
 
-static int cancel(uint64_t done, uint64_t total, void *payload) {
-    (void)done;
-    (void)total;
+static int cancel(const pspec_progress_report *report, void *payload) {
+    (void)report;
     (void)payload;
     return 1;
 }

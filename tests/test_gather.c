@@ -237,12 +237,14 @@ typedef struct watcher {
     uint64_t calls, last, total, stop_at;
 } watcher;
 
-static int watch(uint64_t done, uint64_t total, void *payload) {
+static int watch(const pspec_progress_report *report, void *payload) {
+    const uint64_t done = report->done;
     watcher *seen = payload;
     assert_true(done >= seen->last);
     seen->calls++;
     seen->last = done;
-    seen->total = total;
+    seen->total = report->total;
+    assert_string_equal(report->phase, "realizations");
     return seen->stop_at > 0 && done >= seen->stop_at;
 }
 
@@ -274,9 +276,8 @@ static void progress_counts_and_cancels(void **state) {
     test_free_sample(&what);
 }
 
-static int stop_at_once(uint64_t done, uint64_t total, void *payload) {
-    (void)done;
-    (void)total;
+static int stop_at_once(const pspec_progress_report *report, void *payload) {
+    (void)report;
     (void)payload;
     return 1;
 }

@@ -95,8 +95,8 @@ static void bounds_hold(void **state) {
     pspec_context_destroy(context);
 }
 
-static int stop(uint64_t done, uint64_t total, void *payload) {
-    (void)done, (void)total, (void)payload;
+static int stop(const pspec_progress_report *report, void *payload) {
+    (void)report, (void)payload;
     return 1;
 }
 

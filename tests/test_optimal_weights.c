@@ -192,21 +192,22 @@ static void gradients(void **state) {
     ps_device_close(device);
 }
 
-static bool stop_at_two(void *payload, size_t step, double residual) {
+static int stop_at_two(const ps_watch_report *report, void *payload) {
     (void)payload;
-    return step < 2 && residual > 0;
+    return strcmp(report->phase, "iterations of conjugate gradients") == 0 && report->done >= 2;
 }
 
 /* Few steps, an interrupt, and more than double precision has are errors that say so. */
 static void gradients_that_end(void **state) {
     enum { NUM = 700 };
+    static const ps_watch stopping = {.tell = stop_at_two};
     static const struct {
         ps_kernel_options options;
         pspec_status status;
         const char *says;
     } cases[] = {
         {{.memory_limit = 1, .most_steps = 3}, PSPEC_ERROR_TOLERANCE, "in 3 steps, not the 1e-12"},
-        {{.memory_limit = 1, .goes_on = stop_at_two}, PSPEC_ERROR_CANCELLED, "after 2 steps"}};
+        {{.memory_limit = 1, .watch = &stopping}, PSPEC_ERROR_CANCELLED, "after 2 iterations"}};
     ps_representer r = test_representer("diffuse", 1.5, 1e-13);
     double *points = test_rule_points("fibonacci-hemisphere:morph=diffuse", NUM, 0);
     double *weights = calloc(NUM, sizeof *weights);

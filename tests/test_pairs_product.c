@@ -35,7 +35,7 @@ static void against_long_double(void **state) {
         for (size_t p = 0; p < sizeof powers / sizeof powers[0]; p++) {
             ps_pairs_product *product = NULL;
             assert_ok(ps_pairs_product_create(&product, device, powers[p], num, points, error));
-            assert_ok(ps_pairs_product_apply(product, x, out, error));
+            assert_ok(ps_pairs_product_apply(product, x, out, NULL, error));
             ps_pairs_product_destroy(product);
             for (size_t i = 0; i < num; i++) {
                 long double exact = 0;
@@ -69,9 +69,9 @@ static void segments(void **state) {
     double *again = calloc(NUM, sizeof *again);
     (void)state;
     assert_ok(ps_pairs_product_create(&product, device, s - 1, NUM, points, error));
-    assert_ok(ps_pairs_product_apply(product, x, out, error));
+    assert_ok(ps_pairs_product_apply(product, x, out, NULL, error));
     ps_device_set_group_size(device, 5);
-    assert_ok(ps_pairs_product_apply(product, x, again, error));
+    assert_ok(ps_pairs_product_apply(product, x, again, NULL, error));
     ps_device_set_group_size(device, 0);
     assert_memory_equal(out, again, NUM * sizeof *out);
     for (size_t i = 0; i < NUM; i += 41) {

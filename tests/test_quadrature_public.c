@@ -176,9 +176,8 @@ static void nonsense(void **state) {
     pspec_context_destroy(context);
 }
 
-static int stop(uint64_t done, uint64_t total, void *payload) {
-    (void)total;
-    return done >= *(const uint64_t *)payload;
+static int stop(const pspec_progress_report *report, void *payload) {
+    return report->done >= *(const uint64_t *)payload;
 }
 
 static void cancelled(void **state) {

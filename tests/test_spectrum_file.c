@@ -203,9 +203,8 @@ typedef struct thread_work {
     pspec_spectrum *merged;
 } thread_work;
 
-static int count_progress(uint64_t done, uint64_t total, void *payload) {
-    (void)done;
-    (void)total;
+static int count_progress(const pspec_progress_report *report, void *payload) {
+    (void)report;
     ((thread_work *)payload)->asked++;
     return 0;
 }

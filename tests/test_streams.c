@@ -45,10 +45,9 @@ static void write_sets(const char *name, size_t num_sets, size_t num_points, boo
     ps_point_set_free(&set);
 }
 
-static int count_calls(uint64_t done, uint64_t total, void *payload) {
+static int count_calls(const ps_watch_report *report, void *payload) {
     const uint64_t *limit = payload;
-    (void)done;
-    (void)total;
+    (void)report;
     return ++calls > *limit;
 }
 
@@ -72,8 +71,7 @@ static pspec_status run(uint64_t whole_bytes, bool weight_column, uint64_t most_
         .tolerance = 1e-4,
         .constraints = {.engine = "torus_nufft", .precision = PS_SINGLE},
         .device = getenv("POINTSPEC_DEVICE"),
-        .progress = count_calls,
-        .payload = &most_calls,
+        .watch = {count_calls, &most_calls},
     };
     ps_power_job *job = NULL;
     calls = 0;

@@ -14,10 +14,11 @@ static void tell(const char *sentence, void *payload) {
 }
 
 /* payload: after how many realizations to stop, 0: never */
-static int report(uint64_t done, uint64_t total, void *payload) {
+static int report(const pspec_progress_report *report, void *payload) {
     const uint64_t enough = *(const uint64_t *)payload;
-    fprintf(stderr, "# %llu of %llu\n", (unsigned long long)done, (unsigned long long)total);
-    return enough > 0 && done >= enough;
+    fprintf(stderr, "# %llu of %llu %s\n", (unsigned long long)report->done,
+            (unsigned long long)report->total, report->phase);
+    return enough > 0 && report->done >= enough;
 }
 
 /* White noise, 10 patterns in each call. */

@@ -1,7 +1,7 @@
 #include "analysis/kernel_factor.h"
 
 #include "base/memory.h"
-#include "base/workers.h"
+#include "base/pieces.h"
 #include "math/random.h"
 #include "math/sobolev.h"
 
@@ -134,12 +134,8 @@ static void make_row(const search *of, size_t place) {
     of->nearest[place] = list.num > 0 ? list.distances[0] : INFINITY;
 }
 
-/* Later rows have more to search: dealt out like cards. */
-static void make_rows(void *payload, unsigned index, unsigned count) {
-    const search *const of = payload;
-    for (size_t i = index; i < of->factor->num; i += count) {
-        make_row(of, i);
-    }
+static void make_one(void *payload, size_t i) {
+    make_row(payload, i);
 }
 
 /* ---- all ----------------------------------------------------------------------------------- */
@@ -200,14 +196,18 @@ static pspec_status allocate(ps_kernel_factor *factor, search *of, ps_error *err
 }
 
 pspec_status ps_kernel_factor_create(ps_kernel_factor *out, double smoothness, size_t num,
-                                     const double *points, ps_error *error) {
+                                     const double *points, const ps_watch *watch, ps_error *error) {
     search of = {.factor = out, .smoothness = smoothness, .points = points};
     *out = (ps_kernel_factor){.num = num};
-    const pspec_status status = allocate(out, &of, error);
+    pspec_status status = allocate(out, &of, error);
     if (status == PSPEC_OK) {
         shuffle(num, of.order);
         fill_chunks(&of, num);
-        ps_workers_share(num * MOST * MOST, make_rows, &of);
+        /* a row searches the points before it */
+        status = ps_pieces_share(watch, "rows of an approximate inverse",
+                                 num * (MOST * MOST + num / 2), num, make_one, &of, error);
+    }
+    if (status == PSPEC_OK) {
         find_nearest(&of);
     }
     free(of.order);

@@ -7,7 +7,7 @@
 #ifndef PS_ANALYSIS_KERNEL_FACTOR_H
 #define PS_ANALYSIS_KERNEL_FACTOR_H
 
-#include "base/status.h"
+#include "base/watch.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -29,7 +29,8 @@ uint64_t ps_kernel_factor_bytes(size_t num);
 /* Distinct unit vectors [num][3], num < 2^32. O(num^2) distances, in several threads; the same bits on any number. Freed by
  * ps_kernel_factor_free, also after an error. */
 pspec_status ps_kernel_factor_create(ps_kernel_factor *out, double smoothness, size_t num,
-                                     const double *points, ps_error *error) PS_MUST_CHECK;
+                                     const double *points, const ps_watch *watch,
+                                     ps_error *error) PS_MUST_CHECK;
 void ps_kernel_factor_free(ps_kernel_factor *factor);
 
 /* out = L^T L x; both [num], not the same memory. */

@@ -3,12 +3,13 @@
 #include "analysis/kernel_private.h"
 
 #include "base/memory.h"
-#include "base/workers.h"
+#include "base/pieces.h"
 #include "math/neumaier.h"
 #include "math/sobolev.h"
 
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static const double DEFAULT_RESIDUAL = 1e-12;
@@ -24,6 +25,18 @@ double ps_kernel_dot(size_t num, const double *a, const double *b) {
     return ps_neumaier_value(&sum);
 }
 
+/* ---- progress ------------------------------------------------------------------------------ */
+
+static const char STEPS[] = "iterations of conjugate gradients";
+
+/* How many there will be nobody knows. */
+static pspec_status tell_steps(const ps_kernel_system *system, ps_error *error) {
+    char detail[32];
+    snprintf(detail, sizeof detail, "residual %.2g", system->facts.residual);
+    return ps_watch_tell(system->options.watch, STEPS, system->facts.num_steps, 0,
+                         system->facts.residual > 0 ? detail : NULL, error);
+}
+
 /* ---- products ------------------------------------------------------------------------------ */
 
 typedef struct rows_work {
@@ -32,24 +45,30 @@ typedef struct rows_work {
     double *out;
 } rows_work;
 
-static void multiply_rows(void *payload, unsigned index, unsigned count) {
+static void multiply_row(void *payload, size_t i) {
     const rows_work *const work = payload;
     const ps_kernel_system *const system = work->system;
-    const size_t end = ps_share_begin(system->num, index + 1, count);
-    for (size_t i = ps_share_begin(system->num, index, count); i < end; i++) {
-        work->out[i] = ps_sobolev_distance_sum(system->smoothness, system->points + 3 * i,
-                                               system->num, system->points, work->x);
-    }
+    work->out[i] = ps_sobolev_distance_sum(system->smoothness, system->points + 3 * i, system->num,
+                                           system->points, work->x);
+}
+
+/* A product may take longer than people wait. It is a part of a step, as who listens hears again and again. */
+static int tell_step(const ps_watch_report *report, void *payload) {
+    const ps_kernel_system *const system = payload;
+    (void)report;
+    return tell_steps(system, NULL) == PSPEC_OK ? 0 : 1;
 }
 
 static pspec_status multiply(const ps_kernel_system *system, const double *x, double *out,
                              ps_error *error) {
     const double sum = system->constant * ps_kernel_dot(system->num, x, NULL);
+    const ps_watch watch = {tell_step, (void *)system};
     if (system->product != NULL) {
-        PS_TRY(ps_pairs_product_apply(system->product, x, out, error));
+        PS_TRY(ps_pairs_product_apply(system->product, x, out, &watch, error));
     } else {
         rows_work work = {system, x, out};
-        ps_workers_share(system->num * system->num, multiply_rows, &work);
+        PS_TRY(ps_pieces_share(&watch, "rows of a product", system->num * system->num, system->num,
+                               multiply_row, &work, error));
     }
     for (size_t i = 0; i < system->num; i++) {
         out[i] = sum - out[i];
@@ -103,7 +122,7 @@ static pspec_status find_condition(ps_kernel_system *system, ps_error *error) {
 
 pspec_status ps_kernel_gradients_prepare(ps_kernel_system *system, ps_error *error) {
     PS_TRY(ps_kernel_factor_create(&system->factor, system->smoothness, system->num, system->points,
-                                   error));
+                                   system->options.watch, error));
     if (ps_pairs_product_is_possible(system->options.device)) {
         PS_TRY(ps_pairs_product_create(&system->product, system->options.device,
                                        system->smoothness - 1, system->num, system->points, error));
@@ -128,10 +147,8 @@ static pspec_status check_step(const gradients *of, double residual, ps_error *e
     const ps_kernel_options *const options = &of->system->options;
     const size_t step = of->system->facts.num_steps;
     const size_t most = options->most_steps > 0 ? options->most_steps : DEFAULT_STEPS;
-    if (options->goes_on != NULL && !options->goes_on(options->payload, step, residual)) {
-        return ps_fail(error, PSPEC_ERROR_CANCELLED,
-                       "interrupted after %zu steps of conjugate gradients", step);
-    }
+    of->system->facts.residual = residual;
+    PS_TRY(tell_steps(of->system, error));
     if (step >= most) {
         return ps_fail(error, PSPEC_ERROR_TOLERANCE,
                        "conjugate gradients reached a residual of %.3g in %zu steps, not the %.3g "
@@ -218,5 +235,6 @@ pspec_status ps_kernel_gradients_solve(ps_kernel_system *system, const double *r
     memset(x, 0, n * sizeof *x);
     memcpy(residual, right, n * sizeof *x);
     system->facts.num_steps = 0;
+    system->facts.residual = 1;
     return descend_again(&of, right, error);
 }

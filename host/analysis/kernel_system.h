@@ -22,10 +22,7 @@ typedef struct ps_kernel_options {
     double residual;       /* conjugate gradients end at this |r|/|right side|; 0: 1e-12 */
     size_t most_steps;     /* and fail at so many; 0: 2000 */
     ps_device *device;     /* of conjugate gradients; borrowed. NULL: threads of the host */
-    const ps_watch *watch; /* told of the matrix and its factor; NULL: nobody asks */
-    /* Told after every step; false ends the work as PSPEC_ERROR_CANCELLED. NULL: nobody asks. */
-    bool (*goes_on)(void *payload, size_t step, double residual);
-    void *payload;
+    const ps_watch *watch; /* told of the matrix and its factor, or of steps; NULL: nobody */
 } ps_kernel_options;
 
 typedef struct ps_kernel_facts {

@@ -1,7 +1,7 @@
 #include "analysis/worst_case_error.h"
 
 #include "base/memory.h"
-#include "base/workers.h"
+#include "base/pieces.h"
 #include "math/neumaier.h"
 #include "math/sobolev.h"
 
@@ -43,7 +43,8 @@ enum { BLOCK = PS_SOBOLEV_CHUNK };
 typedef struct pair_work {
     const ps_rule *rule;
     double smoothness;
-    double *sums; /* [num_blocks] */
+    ps_neumaier *sums; /* [num_blocks] */
+    size_t begin, end; /* of the strip of later blocks */
 } pair_work;
 
 static double weight_of(const ps_rule *rule, size_t j) {
@@ -74,38 +75,71 @@ static double sum_two_blocks(const pair_work *work, size_t rows, size_t columns)
     return ps_neumaier_value(&sum);
 }
 
-/* Pairs of the block with itself, and twice those with all later ones. */
-static double sum_block(const pair_work *work, size_t block) {
-    ps_neumaier sum = {sum_two_blocks(work, block, block), 0};
-    for (size_t later = block + 1; later < count_blocks(work->rule); later++) {
-        ps_neumaier_add(&sum, 2 * sum_two_blocks(work, block, later));
-    }
-    return ps_neumaier_value(&sum);
-}
+/* Blocks with which the sums of all blocks grow before anyone is told: with one of them a block has some hundredths of
+ * a second to do. */
+enum { BLOCKS_AT_A_TIME = (1 << 22) / BLOCK / BLOCK };
 
-/* Blocks get smaller towards the end: dealt out like cards. */
-static void do_share(void *payload, unsigned index, unsigned count) {
+/* Pairs of the block with itself, and twice those with all later ones: as far as the blocks before `end`. */
+static void grow_sum(void *payload, size_t block) {
     const pair_work *const work = payload;
-    for (size_t block = index; block < count_blocks(work->rule); block += count) {
-        work->sums[block] = sum_block(work, block);
+    ps_neumaier *const sum = &work->sums[block];
+    for (size_t later = block > work->begin ? block : work->begin; later < work->end; later++) {
+        const double of_two = sum_two_blocks(work, block, later);
+        if (later == block) {
+            *sum = (ps_neumaier){of_two, 0};
+        } else {
+            ps_neumaier_add(sum, 2 * of_two);
+        }
     }
 }
 
-pspec_status ps_rule_distance(const ps_rule *rule, double smoothness, double *sum,
-                              ps_error *error) {
+/* Strip after strip of later blocks, so that no thread is away for long; the order of a sum's terms is that of the
+ * blocks in any case. */
+static pspec_status sum_pairs(pair_work *work, ps_pieces *pieces, ps_error *error) {
+    const size_t num_blocks = count_blocks(work->rule);
+    for (size_t begin = 0; begin < num_blocks; begin += BLOCKS_AT_A_TIME) {
+        const size_t left = num_blocks - begin;
+        work->begin = begin;
+        work->end = begin + (left < BLOCKS_AT_A_TIME ? left : BLOCKS_AT_A_TIME);
+        PS_TRY(ps_pieces_do(pieces, work->end, grow_sum, work, error));
+    }
+    return PSPEC_OK;
+}
+
+/* What is counted: blocks of points, once for every strip that they meet. */
+static uint64_t count_pieces(size_t num_blocks) {
+    uint64_t total = 0;
+    for (size_t begin = 0; begin < num_blocks; begin += BLOCKS_AT_A_TIME) {
+        const size_t left = num_blocks - begin;
+        total += begin + (left < BLOCKS_AT_A_TIME ? left : BLOCKS_AT_A_TIME);
+    }
+    return total;
+}
+
+pspec_status ps_rule_distance(const ps_rule *rule, double smoothness, const ps_watch *watch,
+                              double *sum, ps_error *error) {
+    enum { LEAST_PAIRS = 1 << 17, MOST_THREADS = 16 }; /* as base/pieces.c has them */
     void *memory = NULL;
     const size_t num_blocks = count_blocks(rule);
-    PS_TRY(ps_allocate(&memory, num_blocks, sizeof(double), "sums of pairs", error));
+    PS_TRY(ps_allocate(&memory, num_blocks, sizeof(ps_neumaier), "sums of pairs", error));
     pair_work work = {.rule = rule, .smoothness = smoothness, .sums = memory};
-    ps_workers_share(rule->num_points * (rule->num_points / 2), do_share, &work);
+    ps_pieces pieces = {.workers = rule->num_points * (rule->num_points / 2) >= LEAST_PAIRS
+                                       ? ps_workers_create(MOST_THREADS)
+                                       : NULL,
+                        .each = 1,
+                        .watch = watch,
+                        .phase = "blocks of pairs of points",
+                        .total = count_pieces(num_blocks)};
+    const pspec_status status = sum_pairs(&work, &pieces, error);
     ps_neumaier total = {0, 0};
     for (size_t block = 0; block < num_blocks; block++) {
-        ps_neumaier_add(&total, work.sums[block]);
+        ps_neumaier_add(&total, ps_neumaier_value(&work.sums[block]));
     }
     const double num = (double)rule->num_points;
     *sum = ps_neumaier_value(&total) / (rule->weights != NULL ? 1 : num * num);
+    ps_workers_destroy(pieces.workers);
     free(memory);
-    return PSPEC_OK;
+    return status;
 }
 
 /* ---- kernel form --------------------------------------------------------------------------- */
@@ -142,10 +176,11 @@ static double sum_kappa(const ps_rule *rule, const double *kappa) {
 }
 
 pspec_status ps_kernel_error_of(const ps_representer *representer, const ps_rule *rule,
-                                const double *kappa, ps_kernel_error *out, ps_error *error) {
+                                const double *kappa, const ps_watch *watch, ps_kernel_error *out,
+                                ps_error *error) {
     double distance = 0;
     void *own = NULL;
-    PS_TRY(ps_rule_distance(rule, representer->smoothness, &distance, error));
+    PS_TRY(ps_rule_distance(rule, representer->smoothness, watch, &distance, error));
     if (kappa == NULL) {
         PS_TRY(ps_allocate(&own, rule->num_points, sizeof(double), "kappa", error));
         ps_representer_kappa(representer, rule->num_points, rule->points, own);

@@ -8,6 +8,7 @@
 #define PS_ANALYSIS_WORST_CASE_ERROR_H
 
 #include "analysis/representer.h"
+#include "base/watch.h"
 
 /* Unit vectors [num_points][3] and their weights; weights NULL: 1/N each. Borrowed. */
 typedef struct ps_rule {
@@ -30,13 +31,13 @@ typedef struct ps_kernel_error {
 } ps_kernel_error;
 
 /* sum_ij w_i w_j |u_i-u_j|^(2s-2), O(N^2), compensated, over fixed blocks that are merged in a fixed order: the same
- * bits on any number of threads. */
-pspec_status ps_rule_distance(const ps_rule *rule, double smoothness, double *sum,
-                              ps_error *error) PS_MUST_CHECK;
+ * bits on any number of threads. watch: told how far it is; NULL: nobody. */
+pspec_status ps_rule_distance(const ps_rule *rule, double smoothness, const ps_watch *watch,
+                              double *sum, ps_error *error) PS_MUST_CHECK;
 
 /* (Q2). kappa: of the points, [num_points], or NULL to have it made here. */
 pspec_status ps_kernel_error_of(const ps_representer *representer, const ps_rule *rule,
-                                const double *kappa, ps_kernel_error *out,
+                                const double *kappa, const ps_watch *watch, ps_kernel_error *out,
                                 ps_error *error) PS_MUST_CHECK;
 
 /* E^2 from a sum of distances that something else made, a device, say. */

@@ -11,13 +11,8 @@
 
 #include <stdint.h>
 
-/* What is being done. phase names it ("realizations", "weights"); of total things, 0 when nobody knows how many,
- * done are done; detail is a few words more, such as a residual, or NULL. Texts are gone when the call returns. */
-typedef struct ps_watch_report {
-    const char *phase;
-    uint64_t done, total;
-    const char *detail;
-} ps_watch_report;
+/* What is being done, as the public callback hears it: of total things, 0 when nobody knows how many, done are done. */
+typedef pspec_progress_report ps_watch_report;
 
 typedef struct ps_watch {
     int (*tell)(const ps_watch_report *report, void *payload); /* not 0: stop */

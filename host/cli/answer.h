@@ -9,8 +9,7 @@
 
 /* Who is told how far it is, and what there is already. */
 typedef struct ps_answer_hooks {
-    ps_progress_callback progress; /* realizations or degrees; not 0 cancels; may be NULL */
-    void *payload;
+    ps_watch watch;
     ps_device
         *device; /* borrowed; NULL: the one that the request names is opened where it is needed */
 } ps_answer_hooks;

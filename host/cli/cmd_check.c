@@ -220,7 +220,7 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
     PS_TRY(ps_check_check(arguments, error));
     PS_TRY(check_output(arguments, &format, error));
     ps_progress *const progress = ps_progress_begin(arguments, "realizations");
-    const ps_answer_hooks hooks = {.progress = ps_progress_tell, .payload = progress};
+    const ps_answer_hooks hooks = {.watch = {ps_progress_tell, progress}};
     pspec_status status = find_answer(&table, &verdict, arguments, &hooks, error);
     ps_progress_end(progress);
     if (status == PSPEC_OK) {

@@ -15,11 +15,6 @@ static pspec_status check_words(const ps_request *arguments, ps_error *error) {
     return ps_outputs_check(arguments, false, error);
 }
 
-static int on_progress(uint64_t num_points, void *payload) {
-    ps_progress_update(payload, num_points, 0);
-    return ps_interrupted;
-}
-
 /* A progress line would run into points that go to the same terminal. */
 static ps_progress *begin_progress(const ps_request *arguments, const char *path) {
     const bool shares_terminal = strcmp(path, "-") == 0 && isatty(STDOUT_FILENO);
@@ -40,8 +35,7 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
         .output = output,
         .format = arguments->format,
         .columns = arguments->to_columns,
-        .progress = on_progress,
-        .payload = progress,
+        .watch = {ps_progress_tell, progress},
     };
     const pspec_status status = ps_convert(&conversion, &loss, error);
     ps_progress_end(progress);

@@ -33,8 +33,7 @@ static void warn_of_standard_error(const ps_quadrature_result *result, double st
 static pspec_status run_job(ps_quadrature_result *result, const ps_request *arguments,
                             ps_quadrature_question *question, const ps_answer_hooks *hooks,
                             ps_error *error) {
-    question->progress = hooks->progress;
-    question->payload = hooks->payload;
+    question->watch = hooks->watch;
     question->open_device = hooks->device;
     question->tell_plan = arguments->verbose ? tell_plan : NULL;
     question->tell_profile = arguments->profile ? tell_profile : NULL;
@@ -45,8 +44,7 @@ static pspec_status run_shown(ps_quadrature_result *result, const ps_request *ar
                               ps_quadrature_question *question, ps_device *device,
                               ps_error *error) {
     ps_progress *const progress = ps_progress_begin(arguments, "realizations");
-    const ps_answer_hooks hooks = {
-        .progress = ps_progress_tell, .payload = progress, .device = device};
+    const ps_answer_hooks hooks = {.watch = {ps_progress_tell, progress}, .device = device};
     const pspec_status status = run_job(result, arguments, question, &hooks, error);
     ps_progress_end(progress);
     if (status == PSPEC_OK && !arguments->quiet) {

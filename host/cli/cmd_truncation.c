@@ -76,10 +76,7 @@ static pspec_status find_points(const answer *of, const ps_answer_hooks *hooks, 
         if (equal.morph.kind != PS_MORPH_NONE && of->errors[l] > 0) {
             PS_TRY(ps_equal_error_points(&equal, of->errors[l], &of->points[l], error));
         }
-        if (hooks->progress != NULL && hooks->progress(l + 1, of->max_degree + 1, hooks->payload)) {
-            return ps_fail(error, PSPEC_ERROR_CANCELLED, "interrupted after degree %zu of %zu", l,
-                           of->max_degree);
-        }
+        PS_TRY(ps_watch_tell(&hooks->watch, "degrees", l + 1, of->max_degree + 1, NULL, error));
     }
     return PSPEC_OK;
 }
@@ -283,7 +280,7 @@ pspec_status ps_truncation_answer(ps_table **out, const ps_request *request,
 
 static pspec_status find_shown(answer *of, ps_error *error) {
     ps_progress *const progress = ps_progress_begin(of->arguments, "degrees");
-    const ps_answer_hooks hooks = {.progress = ps_progress_tell, .payload = progress};
+    const ps_answer_hooks hooks = {.watch = {ps_progress_tell, progress}};
     const pspec_status status = find_answer(of, &hooks, error);
     ps_progress_end(progress);
     return status;

@@ -76,8 +76,7 @@ static pspec_status run_job(const ps_request *arguments, const ps_power_question
 
 pspec_status ps_jobs_run_one(const ps_request *arguments, ps_power_question *question,
                              const ps_answer_hooks *hooks, ps_power_job **job, ps_error *error) {
-    question->progress = hooks->progress;
-    question->payload = hooks->payload;
+    question->watch = hooks->watch;
     question->open_device = hooks->device;
     PS_TRY(run_job(arguments, question, job, error));
     if (!arguments->quiet) {
@@ -104,8 +103,7 @@ pspec_status ps_jobs_open_device(ps_device **out, const ps_request *arguments,
 static pspec_status run_shown(const ps_request *arguments, ps_power_question *question,
                               ps_device *device, ps_power_job **job, ps_error *error) {
     ps_progress *const progress = ps_progress_begin(arguments, "realizations");
-    const ps_answer_hooks hooks = {
-        .progress = ps_progress_tell, .payload = progress, .device = device};
+    const ps_answer_hooks hooks = {.watch = {ps_progress_tell, progress}, .device = device};
     const pspec_status status = ps_jobs_run_one(arguments, question, &hooks, job, error);
     ps_progress_end(progress);
     return status;

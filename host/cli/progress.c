@@ -2,26 +2,27 @@
 #include "cli/command.h"
 
 #include "base/clock.h"
+#include "base/text.h"
 
 #include <inttypes.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 /* Seconds before the first line, and between two: short work shows nothing, long work does not
  * flicker. */
 static const double FIRST_DELAY = 0.5, DELAY = 0.1;
 
-enum {
-    LINE_BYTES = 256,
-    PART_BYTES = 64
-}; /* two numbers of 20 digits; what occurs fits 80 columns */
+enum { PART_BYTES = 64, PHASE_BYTES = 128, DURATION_BYTES = 32 };
 
 struct ps_progress {
     const char *what;
-    double start, last;    /* last: when the line was last written, or when it may first be */
-    int width;             /* of the line that stands there now */
+    double start, last;      /* last: when the line was last written, or when it may first be */
+    int width;               /* of the line that stands there now */
+    char phase[PHASE_BYTES]; /* the last one that was not `what` */
+    double phase_start;
     char part[PART_BYTES]; /* what the line begins with */
 };
 
@@ -32,7 +33,8 @@ ps_progress *ps_progress_begin(const ps_request *arguments, const char *what) {
     ps_progress *const progress = malloc(sizeof *progress);
     if (progress != NULL) { /* without memory for it there is no progress line */
         const double start = ps_clock_seconds();
-        *progress = (ps_progress){what, start, start + FIRST_DELAY - DELAY, 0, ""};
+        *progress =
+            (ps_progress){.what = what, .start = start, .last = start + FIRST_DELAY - DELAY};
     }
     return progress;
 }
@@ -60,24 +62,84 @@ static void format_duration(char *text, size_t bytes, double seconds) {
     }
 }
 
-void ps_progress_update(ps_progress *progress, uint64_t done, uint64_t total) {
-    const double time = progress != NULL ? ps_clock_seconds() : 0;
-    if (progress == NULL || time < progress->last + DELAY) {
+/* "weights: iterations" is work for weights, of which iterations are counted. */
+static const char *find_things(const char *phase) {
+    const char *const colon = strstr(phase, ": ");
+    return colon != NULL ? colon + 2 : phase;
+}
+
+/* Of things, the first of which is not done yet. */
+static void append_first(ps_text *line, const char *things, uint64_t total, double seconds) {
+    char passed[DURATION_BYTES];
+    format_duration(passed, sizeof passed, seconds);
+    if (total > 0) {
+        ps_text_append(line, "the first of %" PRIu64 " %s, %s", total, things, passed);
+    } else {
+        ps_text_append(line, "the first %s, %s", things, passed);
+    }
+}
+
+static void append_rate(ps_text *line, uint64_t done, uint64_t total, double rate) {
+    char left[DURATION_BYTES];
+    ps_text_append(line, ", %.3g/s", rate);
+    if (total > 0 && done <= total) {
+        format_duration(left, sizeof left, (double)(total - done) / rate);
+        ps_text_append(line, ", %s left", left);
+    }
+}
+
+static void append_state(ps_text *line, const ps_watch_report *report, double seconds) {
+    const char *const things = find_things(report->phase);
+    ps_text_append(line, "%.*s", (int)(things - report->phase), report->phase);
+    if (report->done == 0) {
+        append_first(line, things, report->total, seconds);
+    } else {
+        ps_text_append(line, "%" PRIu64, report->done);
+        if (report->total > 0) {
+            ps_text_append(line, " of %" PRIu64, report->total);
+        }
+        ps_text_append(line, " %s", things);
+    }
+    if (report->detail != NULL) {
+        ps_text_append(line, ", %s", report->detail);
+    } else if (report->done > 0) {
+        append_rate(line, report->done, report->total, (double)report->done / seconds);
+    }
+}
+
+/* The time of the main phase goes on while others come in between; each of them begins anew. */
+static double phase_start(ps_progress *progress, const char *phase, double time) {
+    if (strcmp(phase, progress->what) == 0) {
+        return progress->start;
+    }
+    if (strcmp(phase, progress->phase) != 0) {
+        snprintf(progress->phase, sizeof progress->phase, "%s", phase);
+        progress->phase_start = time;
+    }
+    return progress->phase_start;
+}
+
+static void show(ps_progress *progress, const ps_watch_report *report) {
+    const double least = 1e-3; /* seconds: a phase may begin at this moment */
+    const double time = ps_clock_seconds();
+    const double passed = time - phase_start(progress, report->phase, time);
+    if (time < progress->last + DELAY) {
         return;
     }
-    const double rate = (double)done / (time - progress->start);
-    char line[LINE_BYTES];
-    if (total == 0 || done == 0 || done > total) {
-        snprintf(line, sizeof line, "%s%" PRIu64 " %s, %.3g/s", progress->part, done,
-                 progress->what, rate);
-    } else {
-        char left[32];
-        format_duration(left, sizeof left, (double)(total - done) / rate);
-        snprintf(line, sizeof line, "%s%" PRIu64 " of %" PRIu64 " %s, %.3g/s, %s left",
-                 progress->part, done, total, progress->what, rate, left);
+    ps_text line = {0};
+    ps_text_append(&line, "%s", progress->part);
+    append_state(&line, report, passed > least ? passed : least);
+    if (!line.failed) {
+        replace_line(progress, line.data);
     }
-    replace_line(progress, line);
+    ps_text_free(&line);
     progress->last = time;
+}
+
+void ps_progress_update(ps_progress *progress, uint64_t done, uint64_t total) {
+    if (progress != NULL) {
+        show(progress, &(ps_watch_report){progress->what, done, total, NULL});
+    }
 }
 
 void ps_progress_part(ps_progress *progress, const char *format, ...) {
@@ -104,7 +166,9 @@ void ps_progress_end(ps_progress *progress) {
     free(progress);
 }
 
-int ps_progress_tell(uint64_t done, uint64_t total, void *progress) {
-    ps_progress_update(progress, done, total);
+int ps_progress_tell(const ps_watch_report *report, void *progress) {
+    if (progress != NULL) {
+        show(progress, report);
+    }
     return ps_interrupted;
 }

@@ -112,7 +112,7 @@ static pspec_status answer_one(ps_run *run, ps_run_result *result, ps_run_questi
                         error));
     if (!question->is_cached) {
         PS_TRY(ps_run_open_device(run, result, error));
-        const ps_answer_hooks hooks = {ps_progress_tell, progress, run->device};
+        const ps_answer_hooks hooks = {{ps_progress_tell, progress}, run->device};
         PS_TRY(ps_answer_make(&question->answer, result->asked->kind, &question->asked.request,
                               &hooks, error));
         question->seconds = ps_clock_seconds() - start;

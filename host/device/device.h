@@ -142,6 +142,7 @@ typedef struct ps_argument {
 /* What one launch covers, and the work it counts as in the profile. */
 typedef struct ps_range {
     unsigned rank;
+    size_t offset[3]; /* of the first work-item */
     size_t global[3];
     size_t local[3];     /* all 0: the driver chooses */
     double flops, bytes; /* arithmetic done and memory touched at least once */

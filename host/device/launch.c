@@ -116,9 +116,9 @@ pspec_status ps_launch_arguments(ps_device *device, cl_kernel kernel, const ps_r
     }
     PS_TRY(set_arguments(kernel, arguments, num_arguments, &local_bytes, error));
     PS_TRY(check_limits(device, kernel, range, local_bytes, error));
-    PS_TRY_CL(clEnqueueNDRangeKernel(device->queue, kernel, range->rank, NULL, range->global,
-                                     range->local[0] > 0 ? range->local : NULL, 0, NULL,
-                                     device->has_profile ? &event : NULL),
+    PS_TRY_CL(clEnqueueNDRangeKernel(device->queue, kernel, range->rank, range->offset,
+                                     range->global, range->local[0] > 0 ? range->local : NULL, 0,
+                                     NULL, device->has_profile ? &event : NULL),
               error);
     device->launched_flops += range->flops;
     const cl_int code = clFlush(device->queue); /* it works while the host prepares more */

@@ -1,5 +1,6 @@
 #include "engines/pairs_product.h"
 
+#include "base/clock.h"
 #include "base/memory.h"
 #include "base/round.h"
 #include "engines/reals.h"
@@ -136,20 +137,46 @@ static void add_up(const ps_pairs_product *self, double *out) {
     }
 }
 
-pspec_status ps_pairs_product_apply(ps_pairs_product *self, const double *x, double *out,
-                                    ps_error *error) {
+/* So many vectors of points, from the first on, with all points. */
+static pspec_status launch(ps_pairs_product *self, size_t first, size_t num, ps_error *error) {
     const double flops_per_pair = 12;
-    const double pairs = (double)self->stride * (double)self->stride;
+    const double pairs = (double)num * self->lanes * (double)self->stride;
+    ps_range range =
+        ps_range_heavy(self->device, num, self->num_segments, 1, flops_per_pair * pairs, 0);
+    range.offset[0] = first;
+    PS_TRY(PS_LAUNCH(self->device, self->kernel, &range, error, PS_BUFFER(self->points),
+                     PS_BUFFER(self->x), PS_BUFFER(self->power), PS_BUFFER(self->partials),
+                     PS_U64(self->stride), PS_U64(SEGMENT)));
+    return ps_device_finish(self->device, error);
+}
+
+/* In launches that take about a tenth of a second, between which the watch is told. What the last one of a launch
+ * rounds up to, the next one does again: the same bits. */
+static pspec_status launch_all(ps_pairs_product *self, const ps_watch *watch, ps_error *error) {
+    const double first_pairs = 1 << 26; /* some hundredths of a second of two cores */
+    const double enough =
+        0.05; /* seconds; a launch of half as many pairs may be followed by a whole one */
+    const size_t num_vectors = self->stride / self->lanes;
+    size_t num = (size_t)(first_pairs / (double)self->lanes / (double)self->stride) + UNIT;
+    for (size_t first = 0; first < num_vectors;) {
+        const size_t left = num_vectors - first;
+        const double begin = ps_clock_seconds();
+        PS_TRY(ps_watch_tell(watch, "points", first * self->lanes, self->num_points, NULL, error));
+        PS_TRY(launch(self, first, num < left ? num : left, error));
+        first += num < left ? num : left;
+        num *= ps_clock_seconds() - begin < enough ? 2 : 1;
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_pairs_product_apply(ps_pairs_product *self, const double *x, double *out,
+                                    const ps_watch *watch, ps_error *error) {
     const size_t bytes = self->stride * sizeof(double);
-    const ps_range range = ps_range_heavy(self->device, self->stride / self->lanes,
-                                          self->num_segments, 1, flops_per_pair * pairs, 0);
     memcpy(self->padded, x, self->num_points * sizeof *x);
     memset(self->padded + self->num_points, 0,
            (self->stride - self->num_points) * sizeof *self->padded);
     PS_TRY(ps_buffer_write(self->device, &self->x, 0, self->padded, bytes, error));
-    PS_TRY(PS_LAUNCH(self->device, self->kernel, &range, error, PS_BUFFER(self->points),
-                     PS_BUFFER(self->x), PS_BUFFER(self->power), PS_BUFFER(self->partials),
-                     PS_U64(self->stride), PS_U64(SEGMENT)));
+    PS_TRY(launch_all(self, watch, error));
     PS_TRY(ps_buffer_read(self->device, &self->partials, 0, self->host,
                           self->num_segments * PARTS * bytes, error));
     add_up(self, out);

@@ -9,6 +9,7 @@
 #ifndef PS_ENGINES_PAIRS_PRODUCT_H
 #define PS_ENGINES_PAIRS_PRODUCT_H
 
+#include "base/watch.h"
 #include "engines/engine.h"
 
 typedef struct ps_pairs_product ps_pairs_product;
@@ -24,8 +25,8 @@ pspec_status ps_pairs_product_create(ps_pairs_product **out, ps_device *device, 
                                      ps_error *error) PS_MUST_CHECK;
 void ps_pairs_product_destroy(ps_pairs_product *product); /* NULL is allowed */
 
-/* x and out: [num_points], not the same memory. Allocates nothing. */
+/* x and out: [num_points], not the same memory. Allocates nothing. watch: told of "points" that are done, or NULL. */
 pspec_status ps_pairs_product_apply(ps_pairs_product *product, const double *x, double *out,
-                                    ps_error *error) PS_MUST_CHECK;
+                                    const ps_watch *watch, ps_error *error) PS_MUST_CHECK;
 
 #endif

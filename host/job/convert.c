@@ -136,12 +136,7 @@ static pspec_status take_block(worker *w, bool ends_set, ps_error *error) {
     w->turns_angles =
         w->turns_angles || (w->block.coordinates == PS_UNIT_VECTORS && columns[0] != 'x');
     PS_TRY(write_block(w, ends_set, error));
-    if (conversion->progress != NULL &&
-        conversion->progress(w->num_points, conversion->payload) != 0) {
-        return ps_fail(error, PSPEC_ERROR_CANCELLED, "interrupted after %llu points",
-                       (unsigned long long)w->num_points);
-    }
-    return PSPEC_OK;
+    return ps_watch_tell(&conversion->watch, "points", w->num_points, 0, NULL, error);
 }
 
 static pspec_status take_file(worker *w, ps_error *error) {

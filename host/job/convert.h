@@ -5,10 +5,8 @@
 #define PS_JOB_CONVERT_H
 
 #include "base/text.h"
+#include "base/watch.h"
 #include "io/points.h"
-
-/* Called after every block with the points read so far; a result other than 0 ends the work. */
-typedef int (*ps_convert_callback)(uint64_t num_points, void *payload);
 
 typedef struct ps_conversion {
     const char *const *paths; /* their sets become the sets of one output, in this order */
@@ -19,8 +17,7 @@ typedef struct ps_conversion {
     const char *output;       /* "-": standard output */
     const char *format;       /* NULL: by the ending of output */
     const char *columns;      /* of points of the sphere; NULL: vectors, unless format has angles */
-    ps_convert_callback progress; /* may be NULL */
-    void *payload;
+    ps_watch watch;           /* told of "points" after every block; {0}: nobody */
 } ps_conversion;
 
 /* Appends to *loss what did not survive. The output appears only when all of it is there. */

@@ -15,7 +15,7 @@ pspec_status ps_fibonacci_error(const ps_representer *representer, const ps_morp
     ps_fibonacci_points(num_points, 2 * (uint64_t)num_points, memory);
     ps_morph_points(morph, num_points, memory);
     const ps_rule rule = {num_points, memory, NULL};
-    const pspec_status status = ps_kernel_error_of(representer, &rule, NULL, &found, error);
+    const pspec_status status = ps_kernel_error_of(representer, &rule, NULL, NULL, &found, error);
     free(memory);
     *out = sqrt(fmax(found.squared, found.bound));
     return status;

@@ -176,7 +176,7 @@ static pspec_status sum_distances(bench_host *of, const probe *what, double *pre
     const double smoothness = strcmp(what->argument, "power") == 0 ? 1.7 : 1.5;
     double sum = 0;
     *predicted = predict(what, (double)NUM * NUM / 2);
-    return ps_rule_distance(&rule, smoothness, &sum, error);
+    return ps_rule_distance(&rule, smoothness, NULL, &sum, error);
 }
 
 /* A whole system: mostly the factor where it is large, mostly the entries where it is small. */
@@ -204,7 +204,7 @@ static pspec_status find_neighbours(bench_host *of, const probe *what, double *p
     const double num = what->kind == PS_HOST_NEIGHBOURS ? 20000 : 1000;
     ps_kernel_factor factor;
     const pspec_status status =
-        ps_kernel_factor_create(&factor, 1.5, (size_t)num, of->points, error);
+        ps_kernel_factor_create(&factor, 1.5, (size_t)num, of->points, NULL, error);
     ps_kernel_factor_free(&factor);
     *predicted = ps_host_seconds(NULL, PS_HOST_NEIGHBOURS, num * num / 2) +
                  ps_host_seconds(NULL, PS_HOST_INVERSE, num);

@@ -20,13 +20,15 @@ static pspec_status open_sampler(ps_power_job *job, ps_error *error) {
     return ps_source_sampler(&job->sets.source, &job->request, job->num_realizations, error);
 }
 
+static pspec_status report_progress(const ps_power_job *job, ps_error *error) {
+    return ps_watch_tell(&job->question->watch, "realizations", job->num_done,
+                         job->num_realizations, NULL, error);
+}
+
 /* Asked by the engine while it works, and while points are counted: progress has not changed since the last
  * batch. */
 static bool should_stop(void *payload) {
-    const ps_power_job *job = payload;
-    const ps_power_question *question = job->question;
-    return question->progress != NULL &&
-           question->progress(job->num_done, job->num_realizations, question->payload) != 0;
+    return report_progress(payload, NULL) != PSPEC_OK;
 }
 
 /* A quarter of a limit that was typed leaves room for what computes with the points. */
@@ -172,13 +174,6 @@ static pspec_status create_estimator(ps_power_job *job, ps_error *error) {
     ps_estimator_destroy(job->estimator);
     job->estimator = NULL;
     return ps_estimator_create(&job->estimator, &options, job->device, error);
-}
-
-static pspec_status report_progress(ps_power_job *job, ps_error *error) {
-    return should_stop(job)
-               ? ps_fail(error, PSPEC_ERROR_CANCELLED, "cancelled after %llu realizations",
-                         (unsigned long long)job->num_done)
-               : PSPEC_OK;
 }
 
 /* What can be refused is refused before the work. */

@@ -9,12 +9,10 @@
 #define PS_JOB_POWER_JOB_H
 
 #include "analysis/sequential.h"
+#include "base/watch.h"
 #include "job/estimator.h"
 #include "job/source.h"
 #include "plan/needs.h"
-
-/* done and total count realizations (total 0: unknown); a result other than 0 cancels the job. */
-typedef int (*ps_progress_callback)(uint64_t done, uint64_t total, void *payload);
 
 typedef struct ps_power_question {
     /* realizations: a sampler, or files */
@@ -55,8 +53,7 @@ typedef struct ps_power_question {
     const char *device;         /* selector, NULL: default */
     const char *figures_folder; /* plan/figures_file.h; NULL: the built-in figures */
     bool profile;
-    ps_progress_callback progress; /* may be NULL */
-    void *payload;
+    ps_watch watch; /* told of realizations and other phases; {0}: nobody */
 } ps_power_question;
 
 /* A job that is planned but not yet run. */

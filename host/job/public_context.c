@@ -52,8 +52,7 @@ void pspec_context_set_memory_limit(pspec_context *context, uint64_t bytes) {
 
 void pspec_context_set_progress(pspec_context *context, pspec_progress progress, void *payload) {
     if (context != NULL) {
-        context->progress = progress;
-        context->progress_payload = payload;
+        context->watch = (ps_watch){progress, payload};
     }
 }
 

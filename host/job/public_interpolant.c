@@ -18,12 +18,6 @@ struct pspec_interpolant {
     double *row, *x; /* [num_points] */
 };
 
-static bool goes_on(void *payload, size_t step, double residual) {
-    const pspec_context *const context = payload;
-    (void)residual;
-    return context->progress == NULL || context->progress(step, 0, context->progress_payload) == 0;
-}
-
 static pspec_status check(size_t num_points, const double *points, const double *values,
                           ps_error *error) {
     ps_pattern_count count = {.realization = 0, .on_sphere = true};
@@ -72,8 +66,7 @@ static pspec_status make(pspec_interpolant *self, const double *points, const do
                          ps_error *error) {
     const ps_kernel_options options = {.memory_limit = self->context->memory_limit,
                                        .device = find_device(self->context, self->num_points),
-                                       .goes_on = goes_on,
-                                       .payload = self->context};
+                                       .watch = &self->context->watch};
     double square = 0;
     PS_TRY(allocate(self, error));
     copy_directions(self->num_points, points, self->points);

@@ -47,11 +47,7 @@ static pspec_status find_points(pspec_context *context, const ps_brdf *lobe,
         if (equal.morph.kind != PS_MORPH_NONE && errors[l] > 0) {
             PS_TRY(ps_equal_error_points(&equal, errors[l], &points[l], &context->error));
         }
-        if (context->progress != NULL &&
-            context->progress(l + 1, last + 1, context->progress_payload) != 0) {
-            return ps_fail(&context->error, PSPEC_ERROR_CANCELLED,
-                           "cancelled by the progress callback after degree %zu of %zu", l, last);
-        }
+        PS_TRY(ps_watch_tell(&context->watch, "degrees", l + 1, last + 1, NULL, &context->error));
     }
     return PSPEC_OK;
 }

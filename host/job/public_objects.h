@@ -4,6 +4,7 @@
 
 #include "analysis/spectrum_sums.h"
 #include "base/log.h"
+#include "base/watch.h"
 #include "device/device.h"
 
 struct pspec_context {
@@ -11,8 +12,7 @@ struct pspec_context {
     char *selector;
     ps_device *device; /* NULL until a plan needs it */
     uint64_t memory_limit;
-    pspec_progress progress;
-    void *progress_payload;
+    ps_watch watch; /* the progress callback */
     ps_log log;
 };
 

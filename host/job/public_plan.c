@@ -24,17 +24,16 @@ struct pspec_plan {
 /* ---- progress ---------------------------------------------------------------------------- */
 
 static bool ask_to_stop(pspec_plan *plan) {
-    const pspec_context *context = plan->context;
-    return context->progress != NULL &&
-           context->progress(ps_estimator_num_realizations(plan->estimator),
-                             plan->problem.num_realizations, context->progress_payload) != 0;
+    return ps_watch_tell(&plan->context->watch, "realizations",
+                         ps_estimator_num_realizations(plan->estimator),
+                         plan->problem.num_realizations, NULL, NULL) != PSPEC_OK;
 }
 
 /* Asked by engines, some of them for every frequency: the callback is not called as often. */
 static bool should_stop(void *payload) {
     const double interval = 0.1; /* seconds; what people call at once */
     pspec_plan *plan = payload;
-    if (plan->context->progress == NULL) {
+    if (plan->context->watch.tell == NULL) {
         return false;
     }
     const double time = ps_clock_seconds();

@@ -36,12 +36,6 @@ static pspec_status check_request(const pspec_quadrature_request *request,
                          PS_MAX_DEGREE);
 }
 
-static int report(uint64_t done, uint64_t total, void *payload) {
-    const pspec_context *const context = payload;
-    return context->progress != NULL ? context->progress(done, total, context->progress_payload)
-                                     : 0;
-}
-
 static void say_plan(void *payload, const ps_plan *plan) {
     const pspec_context *const context = payload;
     if (plan->chosen != NULL) {
@@ -60,7 +54,7 @@ static pspec_status make_question(ps_quadrature_question *out, pspec_context *co
         .tolerance = request->tolerance,
         .constraints = {.engine = request->engine, .memory_limit = context->memory_limit},
         .no_skip = request->no_skip != 0,
-        .progress = report,
+        .watch = context->watch,
         .tell_plan = say_plan,
         .payload = context};
     PS_TRY(ps_public_parse_precision(request->precision, &out->constraints.precision, error));

@@ -117,12 +117,13 @@ static pspec_status allocate(job *of, ps_error *error) {
     return PSPEC_OK;
 }
 
+static pspec_status report_progress(const job *of, ps_error *error) {
+    return ps_watch_tell(&of->question->watch, "realizations", of->out->num_realizations,
+                         of->setup.num_realizations, NULL, error);
+}
+
 static bool should_stop(void *payload) {
-    const job *const of = payload;
-    const ps_quadrature_question *const question = of->question;
-    return question->progress != NULL &&
-           question->progress(of->out->num_realizations, of->setup.num_realizations,
-                              question->payload) != 0;
+    return report_progress(payload, NULL) != PSPEC_OK;
 }
 
 static pspec_status create_estimator(job *of, ps_error *error) {
@@ -206,10 +207,7 @@ static pspec_status run_batches(job *of, ps_error *error) {
         if (ends) {
             return PSPEC_OK;
         }
-        if (should_stop(of)) {
-            return ps_fail(error, PSPEC_ERROR_CANCELLED, "interrupted after %llu realizations",
-                           (unsigned long long)of->out->num_realizations);
-        }
+        PS_TRY(report_progress(of, error));
     }
 }
 

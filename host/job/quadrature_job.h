@@ -44,7 +44,7 @@ typedef struct ps_quadrature_question {
     const char *device;
     const char *figures_folder; /* plan/figures_file.h; NULL: the built-in figures */
     bool profile;
-    ps_progress_callback progress;              /* may be NULL */
+    ps_watch watch; /* told of realizations and other phases; {0}: nobody */
     void (*tell_plan)(void *, const ps_plan *); /* called before the work begins; may be NULL */
     void (*tell_profile)(void *, const ps_profile_row *, size_t num_rows); /* after it; likewise */
     void *payload;

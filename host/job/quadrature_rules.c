@@ -2,7 +2,7 @@
 
 #include "analysis/optimal_weights.h"
 #include "base/memory.h"
-#include "base/workers.h"
+#include "base/pieces.h"
 #include "engines/pairs_product.h"
 #include "math/cholesky.h"
 
@@ -182,32 +182,35 @@ static pspec_status accept_points(ps_rules *rules, ps_weighted_rule *rule, ps_er
 
 /* ---- weights and kernel form --------------------------------------------------------------- */
 
-static bool goes_on(void *payload, size_t step, double residual) {
-    const ps_rules *const rules = payload;
-    const ps_quadrature_question *const question = rules->question;
-    (void)step, (void)residual;
-    return question->progress == NULL ||
-           question->progress(rules->num_read - rules->num,
-                              rules->most < UINT64_MAX ? rules->most : question->num_realizations,
-                              question->payload) == 0;
+/* A phase of work on a rule, by the name of what it is for. */
+typedef struct phase {
+    const ps_watch *watch;
+    const char *purpose;
+} phase;
+
+static int tell(const ps_watch_report *report, void *payload) {
+    const phase *const of = payload;
+    char name[128];
+    ps_watch_report named = *report;
+    snprintf(name, sizeof name, "%s: %s", of->purpose, report->phase);
+    named.phase = name;
+    return of->watch->tell(&named, of->watch->payload);
 }
 
-/* The same for the phases of a matrix. */
-static int tell(const ps_watch_report *report, void *payload) {
-    (void)report;
-    return goes_on(payload, 0, 0) ? 0 : 1;
+/* {0} where nobody listens. */
+static ps_watch watch_phase(const phase *of) {
+    return of->watch->tell != NULL ? (ps_watch){tell, (void *)of} : (ps_watch){0};
 }
 
 static pspec_status find_optimal(ps_rules *rules, const ps_representer *representer,
                                  ps_weighted_rule *rule, ps_error *error) {
     ps_optimal_weights found;
     const size_t num = rule->set.num_points;
-    const ps_watch watch = {tell, rules};
+    const phase weights = {&rules->question->watch, "weights"};
+    const ps_watch watch = watch_phase(&weights);
     const ps_kernel_options options = {.watch = &watch,
                                        .memory_limit = rules->question->constraints.memory_limit,
-                                       .device = rules->device,
-                                       .goes_on = goes_on,
-                                       .payload = rules};
+                                       .device = rules->device};
     PS_TRY(ps_optimal_weights_find(representer, num, rule->set.points, rule->kappa, false, &options,
                                    rule->weights, &found, error));
     const ps_kernel_facts *const facts = &found.facts;
@@ -281,11 +284,14 @@ static pspec_status begin_rule(ps_rules *rules, ps_weighted_rule *rule, ps_error
                : refuse_huge(rule, (unsigned long long)rules->num_read + 1, error);
 }
 
+/* watch: NULL where small rules are done side by side. */
 static pspec_status find_kernel_form(const ps_representer *representer, ps_weighted_rule *rule,
-                                     ps_error *error) {
+                                     const ps_watch *watch, ps_error *error) {
+    const phase e = {watch, "E"};
+    const ps_watch told = watch != NULL ? watch_phase(&e) : (ps_watch){0};
     const ps_rule view = {rule->set.num_points, rule->set.points, rule->weights};
     rule->weight = ps_rule_weight_sums(&view);
-    return ps_kernel_error_of(representer, &view, rule->kappa, &rule->kernel, error);
+    return ps_kernel_error_of(representer, &view, rule->kappa, &told, &rule->kernel, error);
 }
 
 typedef struct work {
@@ -293,21 +299,36 @@ typedef struct work {
     const ps_representer *representer;
 } work;
 
-/* Rules dealt out like cards: what a rule gives does not depend on who does it. */
-static void do_share(void *payload, unsigned index, unsigned count) {
+/* What a rule gives does not depend on who does it. */
+static void do_small(void *payload, size_t r) {
     const work *const all = payload;
-    const bool has_weights = all->rules->question->weights != PS_WEIGHTS_OPTIMAL;
-    for (size_t r = index; r < all->rules->num; r += count) {
-        ps_weighted_rule *const rule = &all->rules->batch[r];
-        ps_representer_kappa(all->representer, rule->set.num_points, rule->set.points, rule->kappa);
-        rule->is_complete =
-            has_weights && find_kernel_form(all->representer, rule, NULL) == PSPEC_OK;
+    ps_weighted_rule *const rule = &all->rules->batch[r];
+    ps_representer_kappa(all->representer, rule->set.num_points, rule->set.points, rule->kappa);
+    rule->is_complete = all->rules->question->weights != PS_WEIGHTS_OPTIMAL &&
+                        find_kernel_form(all->representer, rule, NULL, NULL) == PSPEC_OK;
+}
+
+/* kappa, of a number of points at a time. */
+static pspec_status find_kappa(const ps_rules *rules, const ps_representer *representer,
+                               ps_weighted_rule *rule, ps_error *error) {
+    enum { TERMS = 1 << 26, UNIT = 1024 }; /* some hundredths of a second; whole groups of lanes */
+    const size_t num = rule->set.num_points;
+    const size_t at_a_time = (TERMS / (representer->num_terms + 1) / UNIT + 1) * UNIT;
+    rule->is_complete = false;
+    for (size_t begin = 0; begin < num; begin += at_a_time) {
+        const size_t left = num - begin;
+        PS_TRY(ps_watch_tell(&rules->question->watch, "points of the integral with the kernel",
+                             begin, num, NULL, error));
+        ps_representer_kappa(representer, left < at_a_time ? left : at_a_time,
+                             rule->set.points + 3 * begin, rule->kappa + begin);
     }
+    return PSPEC_OK;
 }
 
 /* kappa and kernel form of the batch: small rules side by side, in large ones pairs of points. */
 static pspec_status complete(ps_rules *rules, const ps_representer *representer, ps_error *error) {
     enum { SMALL = 2048 };
+    const ps_watch *const watch = &rules->question->watch;
     const work all = {rules, representer};
     size_t most = 1;
     size_t num_pairs = 0;
@@ -317,16 +338,16 @@ static pspec_status complete(ps_rules *rules, const ps_representer *representer,
         num_pairs += num * (num / 2 + 1);
     }
     if (most <= SMALL) {
-        ps_workers_share(num_pairs, do_share, (void *)&all);
-    } else {
-        do_share((void *)&all, 0, 1);
+        PS_TRY(
+            ps_pieces_share(watch, "rules", num_pairs, rules->num, do_small, (void *)&all, error));
     }
     for (size_t r = 0; r < rules->num; r++) {
         ps_weighted_rule *const rule = &rules->batch[r];
+        PS_TRY(most > SMALL ? find_kappa(rules, representer, rule, error) : PSPEC_OK);
         if (rules->question->weights == PS_WEIGHTS_OPTIMAL) {
             PS_TRY(find_optimal(rules, representer, rule, error));
         }
-        PS_TRY(rule->is_complete ? PSPEC_OK : find_kernel_form(representer, rule, error));
+        PS_TRY(rule->is_complete ? PSPEC_OK : find_kernel_form(representer, rule, watch, error));
     }
     return PSPEC_OK;
 }

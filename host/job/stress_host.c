@@ -143,7 +143,7 @@ static pspec_status measure_diagonal(ps_device *device, ps_precision precision, 
     (void)device, (void)precision;
     PS_TRY(ps_vector_shape_make(ps_vector_shape_find("duplicates"), NUM, 1, &pattern, error));
     const ps_rule rule = {NUM, pattern.points, NULL};
-    pspec_status status = ps_rule_distance(&rule, smoothness, &sum, error);
+    pspec_status status = ps_rule_distance(&rule, smoothness, NULL, &sum, error);
     if (status == PSPEC_OK) {
         status = ps_host_chords(&pattern, 0, smoothness - 1, &truth, error);
     }
@@ -170,8 +170,8 @@ static pspec_status compare_weights(const ps_representer *representer, const dou
     const ps_rule equal_rule = {num, points, NULL};
     PS_TRY(ps_optimal_weights_find(representer, num, points, NULL, false, NULL, weights, &optimal,
                                    error));
-    PS_TRY(ps_kernel_error_of(representer, &rule, NULL, &own, error));
-    PS_TRY(ps_kernel_error_of(representer, &equal_rule, NULL, &equal, error));
+    PS_TRY(ps_kernel_error_of(representer, &rule, NULL, NULL, &own, error));
+    PS_TRY(ps_kernel_error_of(representer, &equal_rule, NULL, NULL, &equal, error));
     *found = fmax(fabs(optimal.squared - own.squared), own.squared - equal.squared);
     *bound = own.bound;
     return PSPEC_OK;

@@ -120,12 +120,21 @@ PSPEC_EXPORT pspec_status pspec_context_set_device(pspec_context *context, const
  * smaller, or a plan fails; the engine, and with it the bits of results, depends on this limit alone. */
 PSPEC_EXPORT void pspec_context_set_memory_limit(pspec_context *context, uint64_t bytes);
 
-/** How far a plan is: realizations that are in its averages, of those that the request expects (0: not
- * known). Non-zero cancels the call that is running. */
-typedef int (*pspec_progress)(uint64_t done, uint64_t total, void *payload);
+/** What is being done, and how far it is. */
+typedef struct pspec_progress_report {
+    const char *
+        phase; /**< what is counted: "realizations" that are in the averages of a plan, or the name of
+                               another long phase, such as "weights: iterations of conjugate gradients" */
+    uint64_t done, total; /**< so many of so many; total 0: not known */
+    const char *detail;   /**< a few words more, such as "residual 1e-07", or NULL */
+} pspec_progress_report;
 
-/** Calls progress after every batch, and now and then inside a long one, in the thread that runs the
- * plan; NULL: no longer. A callback must not use the context or its plans. */
+/** Is told how far the work is; texts are gone when it returns. Non-zero cancels the call that is running, within a
+ * second. */
+typedef int (*pspec_progress)(const pspec_progress_report *report, void *payload);
+
+/** Calls progress after every batch, now and then inside a long one, and in every other phase that takes long, in the
+ * thread that made the call; NULL: no longer. A callback must not use the context or its plans. */
 PSPEC_EXPORT void pspec_context_set_progress(pspec_context *context, pspec_progress progress,
                                              void *payload);
 
