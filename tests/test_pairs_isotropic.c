@@ -175,6 +175,9 @@ static void public_library(void **state) {
                      PSPEC_OK);
     assert_true(fabs((double)(sums[0] - exact_chords(&plain, 0.5) / NUM / NUM)) <= bounds[0]);
     assert_true(fabs(sums[1] - 2.5) <= bounds[1] && bounds[1] <= tolerance);
+    assert_int_equal(pspec_kernel_sums(context, &weighted, kernels, 2, tolerance, sums, bounds),
+                     PSPEC_ERROR_INPUT);
+    assert_non_null(strstr(pspec_context_message(context), "multiply all weights by a constant"));
     for (size_t j = 0; j < NUM; j++) { /* what doubles cannot hold would be infinite */
         weights[j] = ldexp(weights[j], -200);
     }

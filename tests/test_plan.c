@@ -156,9 +156,12 @@ static void unknown_engines(void **state) {
     const ps_problem problem = test_problem(&set, 10, 1e-3);
     const struct {
         const char *name, *nearest;
-    } cases[] = {{"host", "host_direct"},   {"hots_direct", "host_direct"},
-                 {"torus", "torus_nufft"},  {"torus-direct", "torus_direct"},
-                 {"TORUS_DIRECT", "torus"}, {"", "torus"}};
+    } cases[] = {{"host", "host_direct"},
+                 {"hots_direct", "host_direct"},
+                 {"torus", "torus_nufft"},
+                 {"torus-direct", "torus_direct"},
+                 {"TORUS_DIRECT", "nearest is torus_direct"},
+                 {"fourier", "fourier"}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const ps_plan_constraints constraints = {.engine = cases[i].name, .precision = -1};
         ps_plan plan;
@@ -167,6 +170,8 @@ static void unknown_engines(void **state) {
                          PSPEC_ERROR_INVALID_ARGUMENT);
         assert_non_null(strstr(said.message, cases[i].name));
         assert_non_null(strstr(said.message, cases[i].nearest));
+        assert_true((strstr(said.message, "nearest") == NULL) ==
+                    (strcmp(cases[i].name, "fourier") == 0));
     }
 }
 

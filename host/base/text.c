@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <math.h>
 #include <stdarg.h>
@@ -123,6 +124,10 @@ pspec_status ps_parse_count(const char *text, const char *what, uint64_t minimum
     return PSPEC_OK;
 }
 
+static bool is_same_letter(char a, char b) {
+    return tolower((unsigned char)a) == tolower((unsigned char)b);
+}
+
 size_t ps_text_distance(const char *a, const char *b) {
     enum { LONGEST = 64 }; /* option and sampler names are far shorter */
     size_t row[LONGEST + 1];
@@ -139,7 +144,7 @@ size_t ps_text_distance(const char *a, const char *b) {
         row[0] = i;
         for (size_t j = 1; j <= b_length; j++) {
             const size_t above = row[j];
-            size_t best = diagonal + (a[i - 1] != b[j - 1]);
+            size_t best = diagonal + !is_same_letter(a[i - 1], b[j - 1]);
             best = above + 1 < best ? above + 1 : best;
             best = row[j - 1] + 1 < best ? row[j - 1] + 1 : best;
             diagonal = above;
@@ -157,13 +162,16 @@ void ps_text_keep_nearest(const char *name, const char *known, const char **near
 
 ps_suggestion ps_text_suggest(const char *typed, const char *known, size_t distance,
                               const char *before, const char *after) {
-    /* A slip changes few letters: at most two in five, so that "powre" is near "power". */
-    enum { CHANGED = 2, LETTERS = 5 };
+    /* A slip changes one letter, or two in five of a longer name, so that "powre" is near "power"; and a name may be cut
+     * short, to no less than two letters. */
+    enum { SLIP = 1, CHANGED = 2, LETTERS = 5, LEAST_BEGINNING = 2 };
     ps_suggestion out = {""};
     const size_t typed_length = strlen(typed);
     const size_t known_length = strlen(known);
     const size_t length = typed_length > known_length ? typed_length : known_length;
-    if (distance * LETTERS <= length * CHANGED) {
+    const bool is_beginning =
+        typed_length >= LEAST_BEGINNING && strncmp(typed, known, typed_length) == 0;
+    if (distance <= SLIP || distance * LETTERS <= length * CHANGED || is_beginning) {
         snprintf(out.text, sizeof out.text, "%s%s%s", before, known, after);
     }
     return out;

@@ -7,6 +7,9 @@
 #include <math.h>
 #include <stdlib.h>
 
+/* Squares of weights below 2^450, summed over up to 2^62 pairs, are below 2^1024. */
+enum { MOST_EXPONENT = 450 };
+
 static pspec_status check_pattern(const pspec_pattern *pattern, ps_pattern_sums *sums,
                                   ps_error *error) {
     ps_frequencies degrees = {0};
@@ -15,8 +18,15 @@ static pspec_status check_pattern(const pspec_pattern *pattern, ps_pattern_sums 
     }
     PS_TRY(ps_frequencies_degrees(&degrees, 1, false, error));
     const pspec_status status =
-        ps_pattern_check(pattern, &degrees, PSPEC_NORMALIZATION_PAIRS, 0, sums, error);
+        ps_pattern_check(pattern, &degrees, PSPEC_NORMALIZATION_EFFECTIVE, 0, sums, error);
     ps_frequencies_free(&degrees);
+    if (status == PSPEC_OK && abs(sums->exponent) > MOST_EXPONENT) {
+        return ps_fail(
+            error, PSPEC_ERROR_INPUT,
+            "the largest |weight| is about %.3g, and must be between %.3g and %.3g, where "
+            "sums over pairs are numbers; multiply all weights by a constant",
+            ldexp(1, sums->exponent), ldexp(1, -MOST_EXPONENT), ldexp(1, MOST_EXPONENT));
+    }
     return status;
 }
 
