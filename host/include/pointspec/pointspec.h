@@ -122,11 +122,12 @@ PSPEC_EXPORT void pspec_context_set_memory_limit(pspec_context *context, uint64_
 
 /** What is being done, and how far it is. */
 typedef struct pspec_progress_report {
-    const char *
-        phase; /**< what is counted: "realizations" that are in the averages of a plan, or the name of
-                               another long phase, such as "weights: iterations of conjugate gradients" */
-    uint64_t done, total; /**< so many of so many; total 0: not known */
-    const char *detail;   /**< a few words more, such as "residual 1e-07", or NULL */
+    /** What is counted: "realizations" that are in the averages of a plan, or the name of another long phase, such as
+     * "weights: iterations of conjugate gradients". */
+    const char *phase;
+    uint64_t done;      /**< so many of them */
+    uint64_t total;     /**< of so many; 0: not known */
+    const char *detail; /**< a few words more, such as "residual 1e-07", or NULL */
 } pspec_progress_report;
 
 /** Is told how far the work is; texts are gone when it returns. Non-zero cancels the call that is running, within a
