@@ -72,11 +72,11 @@ hemisphere=(--sampler fibonacci-hemisphere --brdf diffuse --smoothness 1.5)
 interrupts INT 1 quadrature -n 1e6 "${hemisphere[@]}" -l 8 --weights optimal -o work/a.csv
 interrupts TERM 1.5 quadrature -n 15000 "${hemisphere[@]}" -l 8 --weights optimal -o work/a.csv
 interrupts INT 0.5 quadrature -n 1e6 "${hemisphere[@]}" -l 8 -o work/a.csv
-interrupts HUP 1 pairs --sampler white-sphere -n 20000 -l 3000 -o work/a.csv
+interrupts HUP 1 pairs --sampler white-sphere -n 20000 -m 100 -l 3000 -o work/a.csv
 interrupts INT 1 power --sampler white -d 1 -n 1024 -k 268435456 -o work/a.csv
 interrupts INT 0.3 power --sampler white -d 1 -n 1024 -k 268435456 -o work/a.csv
 interrupts TERM 1 power --sampler white -d 6 -n 4096 -k 60 --per-ring 100000 -o work/a.csv
-interrupts INT 1 sample --sampler white -n 1e8 -o work/a.npy
+interrupts INT 1 sample --sampler white -n 3e8 -o work/a.npy
 interrupts TERM 1 sample --sampler sobol -n 1e8 -o work/a.txt
 interrupts INT 0.7 power --sampler white -n 65536 -k 300 --engine host_direct -o work/a.csv
 interrupts HUP 0.7 angular --sampler white-sphere -n 1e6 -m 100 -l 500 -o work/a.csv
