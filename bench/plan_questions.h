@@ -160,7 +160,7 @@ static const char *const plan_questions[] = {
     "truncation --brdf phong:n=30 -l 30",
     "truncation --brdf phong:n=5 --harmonics hemispherical -l 12",
     "truncation --brdf glossy:n=30 --harmonics hemispherical -l 20",
-    "truncation --brdf diffuse -l 5000 --smoothness 1.9",
+    "truncation --brdf diffuse -l 300 --smoothness 1.9",
     /* points */
     "sample --sampler white -n 1e7 -o out.npy",
     "sample --sampler white -n 1e6 -o out.txt",
@@ -184,9 +184,9 @@ static const char *const plan_questions[] = {
     "convert sphere.txt -o out.npy",
     "convert sphere.npy -o out.csv",
     /* scenes */
-    "run torus.yaml --cache 0 -o torus",
-    "run sphere.yaml --cache 0 -o sphere",
-    "run rules.yaml --cache 0 -o rules",
+    "run torus.yaml --cache 0",
+    "run sphere.yaml --cache 0",
+    "run rules.yaml --cache 0",
     /* against what was saved */
     "check --against jittered.json --sampler jittered -n 1024 -m 400 -k 64",
     "check --against jittered.json --sampler jittered -n 1024 -m 2000 -k 64",

@@ -69,21 +69,24 @@ static pspec_status sample(bench_host *of, const probe *what, double *predicted,
 
 static pspec_status write_points(bench_host *of, const probe *what, double *predicted,
                                  ps_error *error) {
-    enum { AXES = 2 };
+    enum { AXES = 2, SETS = 5 }; /* so many that making the file weighs little */
     ps_point_writer *writer = NULL;
-    const size_t num = NUM_POINTS; /* so that making the file weighs little */
-    const ps_point_shape shape = {.num_sets = 1, .num_points = num, .dimension = AXES};
+    const size_t num = NUM_POINTS;
+    const ps_point_shape shape = {.num_sets = SETS, .num_points = num, .dimension = AXES};
     const ps_point_set set = {.dimension = AXES, .num_points = num, .points = of->numbers};
     for (size_t i = 0; i < AXES * num; i++) { /* what was sampled last may be vectors */
         of->numbers[i] = fabs(of->points[i]) / 2;
     }
     PS_TRY(ps_points_create(&writer, of->file, what->argument, &shape, error));
-    pspec_status status = ps_points_write(writer, &set, true, error);
+    pspec_status status = PSPEC_OK;
+    for (int i = 0; i < SETS && status == PSPEC_OK; i++) {
+        status = ps_points_write(writer, &set, true, error);
+    }
     if (status == PSPEC_OK) {
         status = ps_points_commit(writer, error);
     }
     ps_points_discard(writer);
-    *predicted = predict(what, (double)(num * AXES));
+    *predicted = predict(what, (double)(SETS * num * AXES));
     return status;
 }
 
@@ -95,7 +98,10 @@ static pspec_status read_points(bench_host *of, const probe *what, double *predi
     ps_point_set set = {0};
     bool has_set = false;
     PS_TRY(ps_points_open(&reader, of->file, &options, error));
-    const pspec_status status = ps_points_next(reader, &set, &has_set, error);
+    pspec_status status = PSPEC_OK;
+    do {
+        status = ps_points_next(reader, &set, &has_set, error);
+    } while (status == PSPEC_OK && has_set);
     ps_points_close(reader);
     ps_point_set_free(&set);
     struct stat found;

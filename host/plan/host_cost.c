@@ -36,8 +36,8 @@ static const struct {
     [PS_HOST_READ_TEXT] = {"read-text", 0.85e-9, false},     /* a byte */
     [PS_HOST_READ_BINARY] = {"read-binary", 0.15e-9, false}, /* a byte */
     [PS_HOST_INFLATE] = {"inflate", 3e-9, false},            /* a byte of what comes out */
-    [PS_HOST_WRITE_TEXT] = {"write-text", 50e-9, false},     /* a number */
-    [PS_HOST_WRITE_BINARY] = {"write-binary", 9e-9, false},  /* a number */
+    [PS_HOST_WRITE_TEXT] = {"write-text", 40e-9, false},     /* a number */
+    [PS_HOST_WRITE_BINARY] = {"write-binary", 6e-9, false},  /* a number */
     [PS_HOST_CHECK_POINTS] = {"check-points", 20e-9, false}, /* a point */
 
     [PS_HOST_FREQUENCY] = {"frequency", 70e-9, false}, /* of a grid: its bin and its mean */
