@@ -49,6 +49,9 @@ static const struct {
                                 false},      /* a point, a degree and an order */
     [PS_HOST_ZONAL] = {"zonal", 1e-9, true}, /* a point and a degree */
 
+    [PS_HOST_SCATTER] = {"scatter", 200e-9,
+                         false}, /* a point, on a grid that is larger than caches */
+
     [PS_HOST_LOBE] = {"lobe", 3.5e-8, false},           /* a coefficient of a lobe */
     [PS_HOST_KAPPA] = {"kappa", 0.4e-9, true},          /* a point and a degree */
     [PS_HOST_PAIR] = {"pair", 1.1e-9, true},            /* of points: their distance */

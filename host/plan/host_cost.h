@@ -43,6 +43,7 @@ typedef enum ps_host_kind {
     PS_HOST_REFEREE,
     PS_HOST_REFEREE_DEGREE,
     PS_HOST_ZONAL,
+    PS_HOST_SCATTER,
     /* quadrature */
     PS_HOST_LOBE,
     PS_HOST_KAPPA,
