@@ -11,5 +11,7 @@ same=(-I '^# engine: ' # tells the realizations at a time, on which no result de
     -I '^    "identity": "'
     # what the doctor finds free at the moment, and of the machine
     -I '^[a-zA-Z]* *\(memory\|cache\|kernels\|threads\) '
+    # estimates of a plan: points of a file that cannot be looked into are guessed by its length, or left out
+    -I '^# phase: ' -I '^[a-z_]*:[a-z]*,chosen,'
     # digests of files with such lines
     -I '^      "\(-\|[0-9a-f]\{32\}\) [A-Za-z0-9_.-]*",\{0,1\}$')
