@@ -11,15 +11,18 @@ function(add_program_test name)
     ENVIRONMENT "POCL_CACHE_DIR=${POINTSPEC_TEST_CACHE}")
 endfunction()
 
+# Sanitizers map address space without measure, and take several times as long.
+if(NOT POINTSPEC_SANITIZE)
+  add_program_test(cli_signals)   # every long command ends within a second of a signal, and leaves nothing
+  add_program_test(cli_memory)    # limits of memory, streams without an end, records
+endif()
 add_program_test(cli_errors)    # bad input: exit code, one sentence, nothing left behind
 add_program_test(cli_program)   # streams, signals, formats, same bits
-add_program_test(cli_signals)   # every long command ends within a second of a signal, and leaves nothing
 add_program_test(cli_convert)   # every format to every other, pipes, gzip, memory
 add_program_test(cli_formats)   # files as other tools write them
 add_program_test(cli_angular)   # the sphere: formats, header, what is refused
 add_program_test(cli_healpy ${PROJECT_SOURCE_DIR}/build/peers) # against healpy and ducc0, where installed
 set_tests_properties(cli_healpy PROPERTIES SKIP_RETURN_CODE 77)
-add_program_test(cli_memory)     # limits of memory, streams without an end, records
 add_program_test(cli_truncation) # lobes, formats, what is refused
 add_program_test(cli_quadrature) # golden values, engines, files, what is refused
 add_program_test(cli_pairs)     # pair sums: closed forms, every route, what is refused
