@@ -362,7 +362,7 @@ static void effective_normalization(void **state) {
         squares += pow(what.patterns[0].weights[j], 2);
     }
     const double ratio = sum * sum / squares / 64; /* P_eff / P = ESS / N */
-    assert_true(fabs(effective.mean_sample_size / (64 * ratio) - 1) < 1e-14);
+    assert_true(fabs(effective.sample_size.mean / (64 * ratio) - 1) < 1e-14);
     for (size_t i = 0; i < grid.num; i++) {
         assert_true(fabs(effective.powers[i].mean - ratio * power.powers[i].mean) <
                     1e-6 * effective.powers[i].mean);

@@ -133,8 +133,8 @@ static void check_hostile(const char *path, const char *bytes, size_t num_bytes,
 
 static void hostile_files_are_refused(void **state) {
     static const char *const changes[][3] = {
-        {"spectrum 1\n", "spectrum 2\n", "another version"},
-        {"spectrum 1\n", "spectrum 10\n", "another version"},
+        {"spectrum 2\n", "spectrum 1\n", "another version"},
+        {"spectrum 2\n", "spectrum 20\n", "another version"},
         {"pointspec spec", "pointspac spec", "not a spectrum file"},
         {"dimension: 2", "dimension: 7", "from 1 to 6"},
         {"dimension: 2", "dimension: 0", "from 1 to 6"},

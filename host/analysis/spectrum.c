@@ -76,8 +76,9 @@ pspec_status ps_spectrum_from_means(ps_spectrum *out, const ps_frequencies *freq
                          .smallest_points = totals->smallest_points,
                          .largest_points = totals->largest_points,
                          .mean_weight_sum = totals->sum_weights / n,
-                         .mean_sample_size = totals->sum_sample_sizes / n,
                          .powers = powers};
+    ps_sums_finish(&totals->sample_sizes, totals->num_realizations, &out->sample_size.mean,
+                   &out->sample_size.standard_error);
     const pspec_status status = fill(out, frequencies, bins, bin_means, factor, error);
     if (status != PSPEC_OK) {
         ps_spectrum_free(out);
@@ -118,6 +119,7 @@ void ps_spectrum_free(ps_spectrum *spectrum) {
 
 void ps_spectrum_repeat(ps_spectrum *spectrum, uint64_t num_realizations) {
     spectrum->num_realizations = num_realizations;
+    spectrum->sample_size.standard_error = 0;
     for (size_t b = 0; b < spectrum->num_bins; b++) {
         if (spectrum->bins[b].num_computed == spectrum->bins[b].count) {
             spectrum->bins[b].standard_error = 0;
@@ -128,8 +130,8 @@ void ps_spectrum_repeat(ps_spectrum *spectrum, uint64_t num_realizations) {
     }
 }
 
-pspec_status ps_spectrum_full(const ps_spectrum *spectrum, int which, double dc_power,
-                              double **array, size_t *num_entries, ps_error *error) {
+pspec_status ps_spectrum_full(const ps_spectrum *spectrum, int which, ps_mean dc, double **array,
+                              size_t *num_entries, ps_error *error) {
     const ps_frequencies *set = &spectrum->frequencies;
     const size_t width = 2 * (size_t)set->max_frequency + 1;
     void *memory = NULL;
@@ -139,7 +141,7 @@ pspec_status ps_spectrum_full(const ps_spectrum *spectrum, int which, double dc_
     }
     PS_TRY(ps_allocate(&memory, *num_entries, sizeof(double), "the full spectrum", error));
     *array = memory;
-    (*array)[*num_entries / 2] = which == 0 ? dc_power : 0;
+    (*array)[*num_entries / 2] = which == 0 ? dc.mean : dc.standard_error;
     for (size_t i = 0; i < set->num; i++) {
         size_t place = 0;
         for (unsigned axis = 0; axis < set->dimension; axis++) {

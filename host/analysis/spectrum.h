@@ -21,7 +21,7 @@ typedef struct ps_spectrum {
     double mean_points;
     size_t smallest_points, largest_points;
     double mean_weight_sum;
-    double mean_sample_size; /* W^2 / V, the effective power at DC */
+    ps_mean sample_size; /* W^2 / V, the effective power at DC; its standard error: nan for one set */
     size_t num_bins;
     ps_spectrum_bin *bins;
     ps_mean *powers; /* [frequencies.num], or NULL */
@@ -31,7 +31,7 @@ typedef struct ps_spectrum {
 typedef struct ps_pattern_totals {
     uint64_t num_realizations;
     double sum_points, sum_weights;
-    double sum_sample_sizes; /* of W^2 / V, the effective sample size */
+    ps_sums sample_sizes; /* of W^2 / V, the effective sample size */
     size_t smallest_points, largest_points;
 } ps_pattern_totals;
 
@@ -51,9 +51,9 @@ void ps_spectrum_free(ps_spectrum *spectrum);
  * that of the choice of a subset (a deterministic set, whose further realizations were skipped). */
 void ps_spectrum_repeat(ps_spectrum *spectrum, uint64_t num_realizations);
 
-/* The whole box as an array [2K+1]^d in C order, DC in the middle, axis i along x_i; DC itself is
- * dc_power with standard error 0. which: 0 power, 1 standard error. *array is freed by the caller. */
-pspec_status ps_spectrum_full(const ps_spectrum *spectrum, int which, double dc_power,
-                              double **array, size_t *num_entries, ps_error *error) PS_MUST_CHECK;
+/* The whole box as an array [2K+1]^d in C order, DC in the middle, axis i along x_i; DC, which
+ * is not among the frequencies, is dc. which: 0 power, 1 standard error. *array is freed by the caller. */
+pspec_status ps_spectrum_full(const ps_spectrum *spectrum, int which, ps_mean dc, double **array,
+                              size_t *num_entries, ps_error *error) PS_MUST_CHECK;
 
 #endif

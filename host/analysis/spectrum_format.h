@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 #define PS_SPECTRUM_MAGIC "pointspec spectrum"
-enum { PS_SPECTRUM_VERSION = 1 };
+enum { PS_SPECTRUM_VERSION = 2 };
 
 /* Values of the header lines, by the enumerators that they stand for; frequencies by these. */
 static const char *const ps_spectrum_kinds[] = {"list",   "box",     "ball",
@@ -24,8 +24,8 @@ enum {
     PS_SPECTRUM_NUM_KINDS
 };
 
-/* Doubles after the header, and per bin or frequency. */
-enum { PS_SPECTRUM_TOTALS = 5, PS_SPECTRUM_SUMS = 4 };
+/* Doubles after the header, and of the sums of what follows: effective sample sizes, bins, frequencies. */
+enum { PS_SPECTRUM_TOTALS = 4, PS_SPECTRUM_SUMS = 4 };
 
 /* More realizations than a double counts exactly are no realizations. */
 #define PS_SPECTRUM_MOST_REALIZATIONS ((uint64_t)1 << 53)

@@ -204,7 +204,7 @@ static pspec_status check_size(const reader *in, const header *from) {
     const uint64_t ring_bytes =
         from->kind == PS_SPECTRUM_SAMPLE ? from->num_bins * 2 * sizeof(uint64_t) : 0;
     const uint64_t expected = PS_SPECTRUM_TOTALS * sizeof(double) + list_bytes + ring_bytes +
-                              sum_bytes * (from->num_bins + from->num_frequencies) +
+                              sum_bytes * (1 + from->num_bins + from->num_frequencies) +
                               sizeof(uint32_t);
     if (in->rest != expected) {
         return fail(in, in->rest < expected ? "it is truncated"
@@ -320,12 +320,12 @@ static pspec_status read_totals(reader *in, const header *from, ps_spectrum_sums
     out->totals = (ps_pattern_totals){.num_realizations = from->realizations,
                                       .sum_points = totals[1],
                                       .sum_weights = totals[2],
-                                      .sum_sample_sizes = totals[3],
                                       .smallest_points = (size_t)from->smallest_points,
                                       .largest_points = (size_t)from->largest_points};
-    out->error = totals[4];
+    out->error = totals[3];
     const bool is_possible = totals[0] > 0 && isfinite(totals[0]) && totals[1] > 0 &&
-                             isfinite(totals[1]) && totals[4] >= 0;
+                             isfinite(totals[1]) && totals[3] >= 0;
+    PS_TRY(read_sums(in, &out->totals.sample_sizes, 1));
     return is_possible ? PSPEC_OK : fail(in, "its numbers of points are none");
 }
 

@@ -129,7 +129,7 @@ static void add_totals(ps_pattern_totals *totals, const ps_pattern_totals *other
     totals->num_realizations += other->num_realizations;
     totals->sum_points += other->sum_points;
     totals->sum_weights += other->sum_weights;
-    totals->sum_sample_sizes += other->sum_sample_sizes;
+    ps_sums_merge(&totals->sample_sizes, &other->sample_sizes, 1);
     if (other->smallest_points < totals->smallest_points) {
         totals->smallest_points = other->smallest_points;
     }

@@ -77,10 +77,10 @@ static void describe(const ps_spectrum_sums *sums, ps_text *text) {
 static void write_all(writer *out, const ps_spectrum_sums *sums, const ps_text *header) {
     const ps_frequencies *set = &sums->frequencies;
     const double totals[PS_SPECTRUM_TOTALS] = {sums->reference_points, sums->totals.sum_points,
-                                               sums->totals.sum_weights,
-                                               sums->totals.sum_sample_sizes, sums->error};
+                                               sums->totals.sum_weights, sums->error};
     write_bytes(out, header->data, header->length);
     write_doubles(out, totals, PS_SPECTRUM_TOTALS);
+    write_sums(out, &sums->totals.sample_sizes, 1);
     for (size_t i = 0; set->kind == PS_FREQUENCIES_LIST && i < set->num * set->dimension; i++) {
         write_integer(out, (uint32_t)set->vectors[i], sizeof set->vectors[i]);
     }

@@ -14,7 +14,7 @@ typedef pspec_status make_table(ps_table **, const ps_request *, const ps_power_
 
 static pspec_status take_array(ps_answer *out, const ps_spectrum *spectrum, ps_error *error) {
     size_t num = 0;
-    PS_TRY(ps_spectrum_full(spectrum, 0, 0, &out->array, &num, error));
+    PS_TRY(ps_spectrum_full(spectrum, 0, (ps_mean){0}, &out->array, &num, error));
     out->side = 2 * (size_t)spectrum->frequencies.max_frequency + 1;
     return PSPEC_OK;
 }

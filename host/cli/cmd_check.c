@@ -76,7 +76,7 @@ static void make_sides(ps_compared *saved_side, ps_compared *measured_side,
     const ps_spectrum *const measured = ps_power_job_spectrum(job);
     const double modes = ps_compared_modes(&measured->frequencies);
     const bool is_effective = saved->normalization == PSPEC_NORMALIZATION_EFFECTIVE;
-    const double unit = is_effective ? 1 : measured->mean_points / measured->mean_sample_size;
+    const double unit = is_effective ? 1 : measured->mean_points / measured->sample_size.mean;
     for (size_t b = 0; b < measured->num_bins; b++) {
         const ps_saved_bin *const x = &saved->bins[b];
         const ps_spectrum_bin *const y = &measured->bins[b];

@@ -9,9 +9,9 @@
 
 /* ---- --full ------------------------------------------------------------------------------ */
 
-/* P(0) = N W^2 / W^2 = N, or W^2 / V. */
-static double dc_power(const ps_request *arguments, const ps_spectrum *spectrum) {
-    return arguments->effective ? spectrum->mean_sample_size : spectrum->mean_points;
+/* P(0) = N W^2 / W^2 = N, N being the mean over the realizations, a constant; or W^2 / V, which each has its own of. */
+static ps_mean dc_power(const ps_request *arguments, const ps_spectrum *spectrum) {
+    return arguments->effective ? spectrum->sample_size : (ps_mean){.mean = spectrum->mean_points};
 }
 
 static pspec_status write_array(const char *path, const ps_request *arguments,

@@ -10,7 +10,7 @@
 static double power_unit(const ps_power_job *job) {
     const ps_spectrum *spectrum = ps_power_job_spectrum(job);
     const double sum = spectrum->mean_weight_sum;
-    const double unit = spectrum->mean_sample_size / (sum * sum);
+    const double unit = spectrum->sample_size.mean / (sum * sum);
     return ps_power_job_problem(job)->measure == PS_OF_PAIR_SUMS && isfinite(unit) ? unit : 1;
 }
 
@@ -36,7 +36,7 @@ static pspec_status make_curve(ps_plot_curve *curve, const char *label, const ps
 static pspec_status make_image(ps_plot_image *image, double **array, const ps_spectrum *spectrum,
                                ps_error *error) {
     size_t num_entries = 0;
-    PS_TRY(ps_spectrum_full(spectrum, 0, 0, array, &num_entries, error));
+    PS_TRY(ps_spectrum_full(spectrum, 0, (ps_mean){0}, array, &num_entries, error));
     *image = (ps_plot_image){2 * (size_t)spectrum->frequencies.max_frequency + 1, *array,
                              sqrt(spectrum->mean_points)};
     return PSPEC_OK;

@@ -209,8 +209,8 @@ static void count_patterns(ps_estimator *self, const pspec_pattern *patterns, si
         totals->num_realizations++;
         self->accuracy.length_error = fmax(self->accuracy.length_error, self->sums[r].length_error);
         totals->sum_points += (double)num_points;
-        totals->sum_sample_sizes +=
-            self->sums[r].weight_sum * self->sums[r].weight_sum / self->sums[r].weight_square_sum;
+        ps_sums_add(&totals->sample_sizes, self->sums[r].weight_sum * self->sums[r].weight_sum /
+                                               self->sums[r].weight_square_sum);
         totals->sum_weights += ps_estimator_weight_sum(self, &self->sums[r]);
         ps_estimator_measure_share(self, &self->sums[r]);
         if (is_first || num_points < totals->smallest_points) {

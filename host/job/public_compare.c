@@ -33,7 +33,7 @@ static pspec_status check_question(const ps_spectrum_sums *saved, const ps_spect
 static double unit_of(const ps_spectrum_sums *sums) {
     return sums->normalization == PSPEC_NORMALIZATION_EFFECTIVE
                ? 1
-               : sums->totals.sum_points / sums->totals.sum_sample_sizes;
+               : sums->totals.sum_points / sums->totals.sample_sizes.sum;
 }
 
 static pspec_status make_side(ps_compared **out, const pspec_spectrum *spectrum, ps_error *error) {

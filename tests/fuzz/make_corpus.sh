@@ -191,12 +191,13 @@ printf -- '--tol=0\n' | seed arguments tolerance '\0'
 
 # ---- spectra: the harness adds the checksum --------------------------------------------------
 
-# spectrum FREQUENCIES MAX_FREQUENCY NUM_FREQUENCIES BINS NUM_BINS NORMALIZATION: header and totals
+# spectrum FREQUENCIES MAX_FREQUENCY NUM_FREQUENCIES BINS NUM_BINS NORMALIZATION: header, totals, sample sizes
 spectrum() {
-    printf 'pointspec spectrum 1\npointspec_version: 0.1.0\ndimension: 2\nfrequencies: %s\n' "$1"
+    printf 'pointspec spectrum 2\npointspec_version: 0.1.0\ndimension: 2\nfrequencies: %s\n' "$1"
     printf 'max_frequency: %s\nnum_frequencies: %s\nbins: %s\nnum_bins: %s\n' "$2" "$3" "$4" "$5"
     printf 'normalization: %s\nrealizations: 2\nsmallest_points: 4\nlargest_points: 4\n\n' "$6"
-    f64 4 8 8 8 1e-7
+    f64 4 8 8 1e-7
+    f64 8 0 32 0
 }
 sums() { # NUMBER
     local i
