@@ -188,9 +188,9 @@ static const char *const plan_questions[] = {
     "run sphere.yaml --cache 0",
     "run rules.yaml --cache 0",
     /* against what was saved */
-    "check --against jittered.json --sampler jittered -n 1024 -m 400 -k 64",
-    "check --against jittered.json --sampler jittered -n 1024 -m 2000 -k 64",
-    "check --against angular.json --sampler white-sphere -n 1024 -m 1000 -l 64",
+    "check --against jittered.json --sampler jittered -n 1024 -m 400",
+    "check --against jittered.json --sampler jittered -n 1024 -m 2000",
+    "check --against angular.json --sampler white-sphere -n 1024 -m 1000",
     NULL
 };
 /* clang-format on */

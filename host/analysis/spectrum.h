@@ -21,7 +21,8 @@ typedef struct ps_spectrum {
     double mean_points;
     size_t smallest_points, largest_points;
     double mean_weight_sum;
-    ps_mean sample_size; /* W^2 / V, the effective power at DC; its standard error: nan for one set */
+    ps_mean
+        sample_size; /* W^2 / V, the effective power at DC; its standard error: nan for one set */
     size_t num_bins;
     ps_spectrum_bin *bins;
     ps_mean *powers; /* [frequencies.num], or NULL */

@@ -302,6 +302,7 @@ pspec_status ps_plan_table_add_sample(ps_planner *to, const ps_request *request,
     const double sets = (double)request->num_realizations;
     ps_phases_start(&phases, NULL);
     ps_phases_sample(&phases, &sampler, sets);
+    ps_phases_touch(&phases, (double)sampler.num_points * sampler.dimension * sizeof(double));
     ps_phases_write(&phases, request->output != NULL ? request->output : "-", request->format,
                     sets * (double)sampler.num_points * sampler.dimension);
     return add_host(to, &phases, "points of one sampler, one realization at a time", error);

@@ -11,15 +11,16 @@ static const double least_scale = 1e-3, most_scale = 1e3;
 
 enum { MOST_CASES = 32 };
 
-/* Seconds over predicted ones, the best of all rounds; 0: not measured. */
-typedef double ratios[MOST_CASES][PS_FIGURES_ENGINES][PS_FIGURES_PRECISIONS];
+/* Seconds over predicted ones, the middle of the runs of every round: what a job usually takes here. 0: not measured. */
+typedef double ratios[MOST_CASES][PS_FIGURES_ENGINES][PS_FIGURES_PRECISIONS][PS_BENCH_ROUNDS];
 
 typedef struct calibration {
     const ps_bench_options *options;
     ps_device *device;
     ps_device_limits limits; /* without figures: those of the built-in model */
     ps_figures *figures;
-    ratios best;
+    ratios found;
+    size_t round;
 } calibration;
 
 static pspec_status measure_candidate(calibration *self, ps_bench_sets *sets,
@@ -35,9 +36,8 @@ static pspec_status measure_candidate(calibration *self, ps_bench_sets *sets,
     const size_t at = (size_t)(row - self->figures->engines);
     PS_TRY(ps_bench_measure_round(sets, problem, candidate, self->device, self->options, &time,
                                   error));
-    double *const best = &self->best[sets->what - ps_bench_cases][at][candidate->precision];
-    ps_bench_median(time.seconds, time.num); /* in order */
-    *best = *best > 0 ? fmin(*best, time.seconds[0] / predicted) : time.seconds[0] / predicted;
+    double *const found = self->found[sets->what - ps_bench_cases][at][candidate->precision];
+    found[self->round] = ps_bench_median(time.seconds, time.num) / predicted;
     return PSPEC_OK;
 }
 
@@ -74,11 +74,12 @@ static pspec_status measure_case(calibration *self, const ps_bench_case *what, p
 }
 
 /* The geometric mean over the cases; 0 without any. */
-static double mean_of(const calibration *self, size_t engine, size_t precision) {
+static double mean_of(calibration *self, size_t engine, size_t precision) {
+    const size_t num_rounds = ps_bench_num_rounds(self->options);
     double sum = 0;
     unsigned num = 0;
     for (size_t i = 0; i < MOST_CASES; i++) {
-        const double ratio = self->best[i][engine][precision];
+        const double ratio = ps_bench_median(self->found[i][engine][precision], num_rounds);
         sum += ratio > 0 ? log(ratio) : 0;
         num += ratio > 0;
     }
@@ -134,7 +135,7 @@ pspec_status ps_bench_calibrate(const ps_bench_options *options, ps_device *devi
     for (const ps_bench_case *what = ps_bench_cases; what->what.name != NULL; what++) {
         total += ps_bench_wants_case(options, what) ? num_rounds : 0;
     }
-    for (size_t round = 0; round < num_rounds; round++) {
+    for (self.round = 0; self.round < num_rounds; self.round++) {
         PS_TRY(measure_round(&self, &done, total, error));
     }
     take_means(&self);

@@ -139,6 +139,7 @@ double ps_power_job_phases(const ps_power_job *job, ps_phases *phases) {
     add_frequencies(job, phases);
     if (chosen != NULL) {
         ps_phases_add_seconds(phases, "powers", chosen->seconds * repeats);
+        ps_phases_touch(phases, chosen->bytes);
         ps_phases_add(phases, "powers", PS_HOST_SCATTER, scattered_points(job, &all));
         ps_phases_say(phases, "powers", "%s in %s precision", chosen->engine->name,
                       ps_precision_name(chosen->precision));

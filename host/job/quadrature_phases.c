@@ -86,6 +86,7 @@ double ps_quadrature_phases(const ps_quadrature_setup *setup,
     add_rules(setup, question, sets, phases);
     if (chosen != NULL) {
         ps_phases_add_seconds(phases, "powers", chosen->seconds * repeats);
+        ps_phases_touch(phases, chosen->bytes);
         ps_phases_say(phases, "powers", "%s in %s precision", chosen->engine->name,
                       ps_precision_name(chosen->precision));
     }

@@ -11,6 +11,7 @@ typedef enum ps_host_kind {
     PS_HOST_START,
     PS_HOST_DRIVER,
     PS_HOST_KERNEL,
+    PS_HOST_MEMORY,
     /* points of samplers */
     PS_HOST_WHITE,
     PS_HOST_REGULAR,

@@ -28,6 +28,12 @@ void ps_phases_add(ps_phases *phases, const char *name, ps_host_kind kind, doubl
     ps_phases_add_seconds(phases, name, ps_host_seconds(phases->host, kind, units));
 }
 
+void ps_phases_touch(ps_phases *phases, double bytes) {
+    static const char name[] = "memory";
+    ps_phases_add(phases, name, PS_HOST_MEMORY, bytes);
+    ps_phases_say(phases, name, "%.3g bytes, which the system clears", bytes);
+}
+
 void ps_phases_say(ps_phases *phases, const char *name, const char *format, ...) {
     ps_phase_cost *const phase = find(phases, name);
     va_list arguments;

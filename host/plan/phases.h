@@ -31,6 +31,8 @@ typedef struct ps_phases {
 void ps_phases_add(ps_phases *phases, const char *name, ps_host_kind kind, double units);
 /* The same of seconds that are known already. */
 void ps_phases_add_seconds(ps_phases *phases, const char *name, double seconds);
+/* Adds the time that the system takes for memory of so many bytes, when they are touched for the first time. */
+void ps_phases_touch(ps_phases *phases, double bytes);
 /* Describes the phase of that name, if there is one; longer texts are cut. */
 void ps_phases_say(ps_phases *phases, const char *name, const char *format, ...) PS_PRINTF(3, 4);
 /* The phase of that name may end sooner. */
