@@ -153,10 +153,10 @@ says 'line 3'
 runs 0 --engine host_direct -l 3 --normalize-vectors short.txt
 for degree in 0 -1; do
     runs 2 -l $degree plain.txt
-    says "max degree: $degree leaves no degree, the first is 1"
+    says "-l: $degree leaves no degree, the first is 1"
 done
 runs 2 -l 2.5 plain.txt
-says 'max degree: "2.5" is not a whole number'
+says '-l: "2.5" is not a whole number'
 runs 2 -l 100000 plain.txt
 says '32768'
 runs 2 -l 32768 --engine sphere_nufft plain.txt

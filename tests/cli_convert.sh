@@ -188,11 +188,11 @@ refuses 'a set has 4 points; point 5 is asked for' --select-points 5.. three.txt
 refuses 'not one of' --columns uvw three.txt
 refuses '"FILE" is not one of equal, column' --weights FILE three.txt
 refuses 'sets: 0 is not between 1' --select-sets 0 three.txt
-refuses 'points: "x" is not a whole number' --select-points x..3 three.txt
+refuses '--select-points: "x" is not a whole number' --select-points x..3 three.txt
 refuses 'says neither end: A..B, or A, A.., ..B' --select-points .. three.txt
 refuses 'the first number is the larger one' --select-sets 3..2 three.txt
-refuses 'set 1 has 4 points, but -n asks for 5' -n 5 three.txt
-refuses 'set 1 has 4 points, but -n asks for 3' -n 3 three.txt -o out.txt
+refuses 'set 1 has 4 points, but 5 are asked for' -n 5 three.txt
+refuses 'set 1 has 4 points, but 3 are asked for' -n 3 three.txt -o out.txt
 refuses 'nothing to convert' --merge
 refuses 'gzip is read, but not written' three.txt -o out.txt.gz
 refuses 'standard input (-) is named 2 times, but can be read once' - three.txt -

@@ -72,13 +72,13 @@ refuses 2 '-n needs a value' sample --sampler white -n
 refuses 2 'but the option --seed follows' sample -o --seed 1
 refuses 2 '--wrap takes no value' power --wrap=yes
 refuses 2 'unknown option --a?b' sample $'--a\nb'
-refuses 2 'points: "1.5" is not a whole number' sample --sampler white -n 1.5
-refuses 2 'points: 1e30 is not between 1 and' sample --sampler white -n 1e30
-refuses 2 'dimension: 7 is not between 1 and 6' sample --sampler white -d 7
-refuses 2 'dimension: 0 is not between 1 and 6' sample --sampler white -d 0
-refuses 2 'max frequency: -3 is not between 1 and' power --sampler white -k -3
-refuses 2 'tolerance: 0 is not above 0' power --sampler white --tol 0
-refuses 2 'tolerance: "nan" is not a finite number' power --sampler white --tol nan
+refuses 2 ' -n: "1.5" is not a whole number' sample --sampler white -n 1.5
+refuses 2 ' -n: 1e30 is not between 1 and' sample --sampler white -n 1e30
+refuses 2 ' -d: 7 is not between 1 and 6' sample --sampler white -d 7
+refuses 2 ' -d: 0 is not between 1 and 6' sample --sampler white -d 0
+refuses 2 ' -k: -3 is not between 1 and' power --sampler white -k -3
+refuses 2 '--tol: 0 is not above 0' power --sampler white --tol 0
+refuses 2 '--tol: "nan" is not a finite number' power --sampler white --tol nan
 refuses 2 '"half" is not one of auto, single, double' power --sampler white --precision half
 refuses 2 'csv, json, npy' power --sampler white --format tsv
 
@@ -120,6 +120,11 @@ says_exactly() {
 }
 says_exactly 'unknown sampler "poisson-disk"' sample --sampler poisson-disk -n 16
 says_exactly 'unknown command "xylophone"' xylophone
+says_exactly 'unknown option --zebra' power --zebra
+says_exactly '--brdf is not an option of this command' power --brdf diffuse
+says_exactly 'unknown option --zebra; options of a command stand after its name' --zebra
+says_exactly 'there is no engine "torus_nuft"' angular --sampler white-sphere -n 16 -l 4 --engine torus_nuft
+says_exactly 'the nearest is sphere_nufft' pairs --sampler white-sphere -n 16 -l 4 --engine sphere_nuft
 says_exactly 'there is no engine "quantum"' power --sampler white -n 16 -k 4 --engine quantum
 says_exactly 'unknown BRDF "velvet-cloth"' quadrature --brdf velvet-cloth --sampler fibonacci -n 8
 says_exactly 'sampler sobol has no parameter "mix"' sample --sampler sobol:mix=1 -n 16
@@ -175,7 +180,7 @@ fi
 
 # ---- requests that do not fit together, or cannot be met
 power 2 '--sampler' --sampler white "$in/good.txt"
-power 2 'set 1 has 2 points, but -n asks for 5' -n 5 "$in/good.txt"
+power 2 'set 1 has 2 points, but 5 are asked for' -n 5 "$in/good.txt"
 power 2 'it says how point files are read' --columns xy --sampler white
 power 2 'holds 1 set; set 2 is asked for' --select-sets 2 "$in/good.txt"
 power 2 'Points of the torus are meant here' "$in/sphere.txt"
@@ -185,13 +190,15 @@ power 2 '2 columns, but xyw means 3' --columns xyw "$in/good.txt"
 power 2 '--weights column' --weights column --sampler white
 power 2 'nearest is torus_direct' --sampler white --engine torus_drect
 refuses 2 'vectors.txt' power --frequencies "$in/vectors.txt" "$in/good.txt"
-refuses 2 '--max-frequency' power --frequencies "$in/vectors.txt" -k 8 "$in/good.txt"
+refuses 2 '--frequencies does not go with -k: ' power --frequencies "$in/vectors.txt" -k 8 "$in/good.txt"
+refuses 2 'does not go with --max-frequency: ' power --frequencies "$in/vectors.txt" --max-frequency=8 "$in/good.txt"
+refuses 2 ' -s does not go with point files' power -k 4 -s 2 "$in/good.txt"
 power 3 'tolerance' --sampler white -n 64 --tol 1e-30
 power 2 'can be indexed' --sampler white -n 16 -d 6 -k 2e8
 power 2 '--per-ring' --sampler white -n 16 -d 6 -k 20
 refuses 2 '--per-ring' power --sampler white -n 16 -d 4
-power 2 'per ring: 0 is not between 2' --sampler white -n 16 -k 4 --per-ring 0
-power 2 'per ring: 1 is not between 2' --sampler white -n 16 -k 4 --per-ring 1
+power 2 '--per-ring: 0 is not between 2' --sampler white -n 16 -k 4 --per-ring 0
+power 2 '--per-ring: 1 is not between 2' --sampler white -n 16 -k 4 --per-ring 1
 power 2 'between 1 and 2000' --sampler white -n 16 -d 4 -k 2001 --per-ring 9
 power 2 'more than can be counted' --sampler white -n 16 -d 6 -k 1300 --per-ring 9
 # Counting the rings up to 2000 takes some ten seconds, and refusing must not: a limit of processor seconds.
@@ -201,8 +208,8 @@ power 2 'more than can be counted' --sampler white -n 16 -d 6 -k 1300 --per-ring
     exit $bad
 ) || bad=1
 says_exactly 'can be indexed; a list of frequencies has no such limit' power --sampler white -n 16 -d 2 -k 100000
-power 2 'standard error: 0 is not above 0' --sampler white -n 16 -k 4 --standard-error 0
-power 2 'standard error: 2 is not above 0 and at most 1' --sampler white -n 16 -k 4 --standard-error 2
+power 2 '--standard-error: 0 is not above 0' --sampler white -n 16 -k 4 --standard-error 0
+power 2 '--standard-error: 2 is not above 0 and at most 1' --sampler white -n 16 -k 4 --standard-error 2
 power 2 '--per-ring does not go with --standard-error' --sampler white -n 16 -k 4 --per-ring 9 --standard-error 0.1
 refuses 2 '--frequencies does not go with --standard-error' power --frequencies "$in/vectors.txt" --standard-error 0.1 "$in/good.txt"
 power 2 '--full does not go with --per-ring' --sampler white -n 16 -k 4 --per-ring 9 --full full.npy
@@ -223,6 +230,8 @@ power 1 'Is a directory' "${white[@]}" -o "$in"
 power 1 'No such file' "${white[@]}" --full missing/full.npy
 power 1 'No such file' "${white[@]}" --plot missing/picture.png
 power 2 'are the same file' -o "$in/good.txt" "$in/good.txt"
+refuses 2 ' -o "' power -k 8 -o "$in/good.txt" "$in/good.txt"
+refuses 2 ' --output "' power -k 8 --output "$in/good.txt" "$in/good.txt"
 power 2 'are the same file' --full array.npy -o array.npy "$in/good.txt"
 power 2 'are the same file' --full array.npy -o array.standard_error.npy "$in/good.txt"
 power 2 'are the same file' --plot result.png -o result.png "$in/good.txt"

@@ -62,7 +62,7 @@ reads "$square" loose.dat
 refuses 'line 2: a blank line;sets are separated by a' blank.dat
 # pbrt: stdin.dat is text, stdin.binary float32 pairs; the number of points comes with both
 reads "$square" -n 2 utk.dat
-refuses 'set 2 has 1 point, but -n asks for 2' -n 2 sets.dat -o none
+refuses 'set 2 has 1 point, but 2 are asked for' -n 2 sets.dat -o none
 
 # ---- UTK binary: every type, sets, repeated sets, long double
 word() { printf '\\x%02x' $(($1 & 255)) $(($1 >> 8 & 255)) $(($1 >> 16 & 255)) $(($1 >> 24 & 255)); }

@@ -76,7 +76,7 @@ fi
 
 says 1 '1000000 points in 2 dimensions take 15.26M of memory, above the limit of 1M$' \
     "$program" sample --sampler white -n 1e6 --memory 1M
-says 2 'memory: "4X" is not a size above 0, such as 400M, 1.5G or 2e9$' \
+says 2 'power: --memory: "4X" is not a size above 0, such as 400M, 1.5G or 2e9$' \
     "$program" power --sampler white --memory 4X
 says 2 '^pointspec power: POINTSPEC_MEMORY: "much" is not a size' \
     env POINTSPEC_MEMORY=much "$program" power --sampler white

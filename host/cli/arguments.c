@@ -1,9 +1,11 @@
 /* Words of the command line -> ps_request, by the table of options. */
 #include "base/memory.h"
+#include "base/text.h"
 #include "cli/command.h"
 #include "scene/options.h"
 
 #include <ctype.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -25,9 +27,9 @@ typedef struct shown_option {
 
 /* The option of the command that is nearest to a name without dashes. One letter may also be that
  * of an option in the other case. */
-static ps_option_id find_nearest(const ps_command *command, const char *name) {
+static ps_option_id find_nearest(const ps_command *command, const char *name, size_t *best) {
     ps_option_id nearest = PS_OPTION_HELP;
-    size_t best = SIZE_MAX;
+    *best = SIZE_MAX;
     for (int id = 0; id < PS_NUM_OPTIONS; id++) {
         if (!ps_command_takes(command, (ps_option_id)id)) {
             continue;
@@ -35,8 +37,8 @@ static ps_option_id find_nearest(const ps_command *command, const char *name) {
         const bool is_letter =
             strlen(name) == 1 && tolower((unsigned char)name[0]) == ps_options[id].letter;
         const size_t distance = is_letter ? 0 : ps_name_distance(name, ps_options[id].name);
-        if (distance < best) {
-            best = distance;
+        if (distance < *best) {
+            *best = distance;
             nearest = (ps_option_id)id;
         }
     }
@@ -46,14 +48,20 @@ static ps_option_id find_nearest(const ps_command *command, const char *name) {
 /* name: without dashes and value. is_known: some other command has that option. */
 static pspec_status fail_option(const parser *p, shown_option shown, const char *name,
                                 bool is_known) {
-    const ps_option *const nearest = &ps_options[find_nearest(p->command, name)];
-    const char letter[] = {'-', nearest->letter, '\0'};
+    size_t distance = 0;
+    const ps_option *const nearest = &ps_options[find_nearest(p->command, name, &distance)];
+    const char letter[] = {nearest->letter, '\0'};
     const bool has_letter = strlen(name) == 1 && nearest->letter == tolower((unsigned char)name[0]);
+    const char *const before = has_letter ? "-" : "--";
+    char begin[32];
+    snprintf(begin, sizeof begin, "%s%s", is_known ? "; the nearest is " : "; did you mean ",
+             before);
     return ps_fail(p->error, PSPEC_ERROR_INVALID_ARGUMENT,
-                   is_known ? "%.*s is not an option of this command; the nearest is %s%s"
-                            : "unknown option %.*s; did you mean %s%s?",
-                   shown.length, shown.text, has_letter ? letter : "--",
-                   has_letter ? "" : nearest->name);
+                   is_known ? "%.*s is not an option of this command%s" : "unknown option %.*s%s",
+                   shown.length, shown.text,
+                   ps_text_suggest(name, has_letter ? letter : nearest->name, distance, begin,
+                                   is_known ? "" : "?")
+                       .text);
 }
 
 /* Does the word look like an option? Numbers and "-" do not. */
@@ -96,6 +104,7 @@ static pspec_status apply(parser *p, ps_option_id id, shown_option shown, const 
         PS_TRY(take_value(p, id, shown, &value));
     }
     p->arguments->is_given[id] = true;
+    p->arguments->forms[id] = shown.text[1] == '-' ? PS_FORM_LONG : PS_FORM_LETTER;
     return option->set(option, ps_command_words(p->command, id), value, p->arguments, p->error);
 }
 

@@ -177,13 +177,17 @@ static int complain_of_nothing(void) {
 static int fail_program_option(const char *word) {
     ps_error error = {0};
     const char *const name = word + strspn(word, "-");
-    const bool is_version = ps_name_distance(name, "version") < ps_name_distance(name, "help");
-    return report("",
-                  ps_fail(&error, PSPEC_ERROR_INVALID_ARGUMENT,
-                          "unknown option %s; did you mean %s? Options of a command stand after "
-                          "its name",
-                          word, is_version ? "--version" : "--help"),
-                  &error);
+    const size_t to_version = ps_name_distance(name, "version");
+    const size_t to_help = ps_name_distance(name, "help");
+    const bool is_version = to_version < to_help;
+    return report(
+        "",
+        ps_fail(&error, PSPEC_ERROR_INVALID_ARGUMENT,
+                "unknown option %s%s; options of a command stand after its name", word,
+                ps_text_suggest(name, is_version ? "version" : "help",
+                                is_version ? to_version : to_help, "; did you mean --", "?")
+                    .text),
+        &error);
 }
 
 int main(int argc, char **argv) {

@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "io/output_file.h"
+#include "scene/options.h"
 
 #include <errno.h>
 #include <string.h>
@@ -156,8 +157,9 @@ pspec_status ps_outputs_check(const ps_request *arguments, bool is_table, ps_err
     if (arguments->full != NULL) {
         replace_ending(&standard_errors, arguments->full, ".standard_error.npy");
     }
+    const ps_shown_option shown = ps_option_show(arguments, PS_OPTION_OUTPUT);
     const named_path outputs[] = {
-        {"--output", arguments->output},
+        {shown.text, arguments->output},
         {"--full", arguments->full},
         {"--coefficients", arguments->coefficients},
         {"--plot", arguments->plot},

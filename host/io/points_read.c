@@ -241,7 +241,7 @@ static pspec_status check_count(const ps_point_reader *reader, bool ends_set, ps
         return PSPEC_OK;
     }
     return ps_fail(error, PSPEC_ERROR_INPUT,
-                   "%s: set %llu has %s%zu point%s, but -n asks for %zu; %s says itself how many "
+                   "%s: set %llu has %s%zu point%s, but %zu are asked for; %s says itself how many "
                    "its sets have",
                    reader->input.name, (unsigned long long)reader->num_sets + 1,
                    ends_set ? "" : "at least ", there, there == 1 ? "" : "s", wanted,

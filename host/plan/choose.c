@@ -11,7 +11,7 @@
 #include <string.h>
 
 static pspec_status check_engine_name(const char *name, unsigned domain, ps_error *error) {
-    const char *nearest = ps_engines[0]->name;
+    const char *nearest = NULL;
     for (const ps_engine *const *engine = ps_engines; name != NULL && *engine != NULL; engine++) {
         if (strcmp((*engine)->name, name) == 0) {
             return (*engine)->domains & domain
@@ -20,8 +20,8 @@ static pspec_status check_engine_name(const char *name, unsigned domain, ps_erro
                                  "the engine %s is not for points on the %s", name,
                                  domain == PS_ON_SPHERE ? "sphere" : "torus");
         }
-        if (ps_text_distance((*engine)->name, name) < ps_text_distance(nearest, name)) {
-            nearest = (*engine)->name;
+        if ((*engine)->domains & domain) {
+            ps_text_keep_nearest(name, (*engine)->name, &nearest);
         }
     }
     return name == NULL

@@ -5,6 +5,7 @@
 #include "engines/frequency_sample.h"
 #include "io/points.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* ---- the table ----------------------------------------------------------------------------- */
@@ -29,7 +30,6 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
          .help = "points in each realization (default 1024; check: as saved); of files: "
                  "points in each set, for formats that do not say (rps)",
          COUNT(num_points),
-         .what = "points",
          .minimum = 1,
          .maximum = MOST_POINTS},
     [PS_OPTION_REALIZATIONS] = {.letter = 'm',
@@ -37,7 +37,6 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                 .metavar = "M",
                                 .help = "realizations of each sampler (default 1; check: as saved)",
                                 COUNT(num_realizations),
-                                .what = "realizations",
                                 .minimum = 1,
                                 .maximum = MOST_REALIZATIONS},
     [PS_OPTION_STANDARD_ERROR] =
@@ -45,14 +44,12 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
          .metavar = "X",
          .help = "no more realizations than make the relative standard error of every ring or "
                  "degree X (above --floor; at least 16); -m is then the most (default 1e6)",
-         .set = ps_set_standard_error,
-         .what = "standard error"},
+         .set = ps_set_standard_error},
     [PS_OPTION_DIMENSION] = {.letter = 'd',
                              .name = "dimension",
                              .metavar = "D",
                              .help = "dimension, 1 to 6 (default 2; of files: what they have)",
                              .set = ps_set_dimension,
-                             .what = "dimension",
                              .minimum = 1,
                              .maximum = PS_MAX_DIMENSION},
     [PS_OPTION_SEED] = {.letter = 's',
@@ -60,7 +57,6 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                         .metavar = "S",
                         .help = "seed, 0 to 2^64 - 1 (default 1); same seed, same bits",
                         COUNT(seed),
-                        .what = "seed",
                         .minimum = 0,
                         .maximum = UINT64_MAX},
     [PS_OPTION_SAMPLER] = {.name = "sampler",
@@ -77,8 +73,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                     .help =
                                         "probability that any ring or degree differs by chance, "
                                         "above 0 and below 1 (default 0.001)",
-                                    .set = ps_set_false_alarm_rate,
-                                    .what = "false alarm rate"},
+                                    .set = ps_set_false_alarm_rate},
     [PS_OPTION_BRDF] = {.name = "brdf",
                         .metavar = "NAME[:key=value,...]",
                         .help = "lobe of reflection; the names are below",
@@ -87,15 +82,13 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                               .metavar = "S",
                               .help = "of the integrands, functions of the Sobolev space H^S, "
                                       "1 < S < 2 (default 1.5)",
-                              .set = ps_set_smoothness,
-                              .what = "smoothness"},
+                              .set = ps_set_smoothness},
     [PS_OPTION_MAX_FREQUENCY] = {.letter = 'k',
                                  .name = "max-frequency",
                                  .metavar = "K",
                                  .help = "frequencies -K..K on every axis, rings 1..K (default "
                                          "ceil(5 N^(1/d)) for d <= 3)",
                                  .set = ps_set_max_frequency,
-                                 .what = "max frequency",
                                  .minimum = 1,
                                  .maximum = PS_MAX_FREQUENCY},
     [PS_OPTION_MAX_DEGREE] = {.letter = 'l',
@@ -111,8 +104,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                   "chooses among engines and is kept with the results (default: "
                                   "POINTSPEC_MEMORY, else what is free, which chooses nothing)",
                           .set = ps_set_size,
-                          .offset = offsetof(ps_request, memory),
-                          .what = "memory"},
+                          .offset = offsetof(ps_request, memory)},
     [PS_OPTION_HEMISPHERE] = {.name = "hemisphere",
                               .help = "points of the hemisphere, that is of the projective plane: "
                                       "even degrees, odd ones vanish",
@@ -140,7 +132,6 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                             .help = "of every ring (or shell) with more than S frequencies of the "
                                     "half lattice, only a random subset of S, from the seed",
                             COUNT(per_ring),
-                            .what = "frequencies per ring",
                             .minimum = PS_MIN_PER_RING,
                             .maximum = PS_MAX_NUM_FREQUENCIES},
     [PS_OPTION_FULL] = {.name = "full",
@@ -192,14 +183,12 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                .metavar = "A..B",
                                .help = "only these sets of each file, counted from 1; also A, A.., "
                                        "..B",
-                               RANGE(sets),
-                               .what = "sets"},
+                               RANGE(sets)},
     [PS_OPTION_SELECT_POINTS] = {.name = "select-points",
                                  .metavar = "A..B",
                                  .help = "only these points of each set, counted from 1; also A, "
                                          "A.., ..B",
-                                 RANGE(points),
-                                 .what = "points"},
+                                 RANGE(points)},
     [PS_OPTION_MERGE] = {.name = "merge", .help = "make one set of all sets", FLAG(merge)},
     [PS_OPTION_TO_COLUMNS] = {.name = "to-columns",
                               .metavar = PS_SPHERE_COLUMNS,
@@ -212,13 +201,11 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                  "largest error, above 0 and at most 1: of S relative to white "
                                  "noise (default 1e-6); pairs: of Q(l) over (sum |w|)^2 (1e-6); "
                                  "quadrature: of E^2 over c (sum |w|)^2 (1e-10)",
-                             .set = ps_set_tolerance,
-                             .what = "tolerance"},
+                             .set = ps_set_tolerance},
     [PS_OPTION_FLOOR] = {.name = "floor",
                          .metavar = "P",
                          .help = "powers down to P are right to 10 %",
-                         .set = ps_set_floor,
-                         .what = "floor"},
+                         .set = ps_set_floor},
     [PS_OPTION_PRECISION] = {.name = "precision",
                              .metavar = "auto|single|double|extended",
                              .help = "arithmetic of the engine (default auto: the cheapest that "
@@ -246,7 +233,6 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                          .help = "what the cache of results may take on the disk; 0: nothing is "
                                  "taken from it or kept (default 1e9)",
                          COUNT(cache_bytes),
-                         .what = "cache",
                          .minimum = 0,
                          .maximum = INT64_MAX},
     [PS_OPTION_NO_SKIP] = {.name = "no-skip",
@@ -297,6 +283,18 @@ bool ps_options_have(const ps_option_id *list, ps_option_id id) {
         }
     }
     return false;
+}
+
+ps_shown_option ps_option_show(const ps_request *request, ps_option_id id) {
+    ps_shown_option out;
+    const ps_option_form form = request->forms[id];
+    if (form == PS_FORM_LETTER) {
+        snprintf(out.text, sizeof out.text, "-%c", ps_options[id].letter);
+    } else {
+        snprintf(out.text, sizeof out.text, "%s%s", form == PS_FORM_KEY ? "" : "--",
+                 ps_options[id].name);
+    }
+    return out;
 }
 
 size_t ps_name_distance(const char *typed, const char *known) {

@@ -18,13 +18,18 @@ struct ps_option {
     const char *metavar; /* NULL: takes no value */
     const char *help;
     ps_option_setter *set;
-    size_t offset;    /* of the field of ps_request, for setters that serve several options */
-    const char *what; /* in messages, where a limit can be broken */
+    size_t offset; /* of the field of ps_request, for setters that serve several options */
     uint64_t minimum, maximum;
     char letter; /* 0: none */
 };
 
 extern const ps_option ps_options[PS_NUM_OPTIONS];
+
+/* An option as it was said, "-n", "--points" or the key "points"; the long form of one that was not. */
+typedef struct ps_shown_option {
+    char text[32];
+} ps_shown_option;
+ps_shown_option ps_option_show(const ps_request *request, ps_option_id id);
 
 /* Is id in the list, which PS_NUM_OPTIONS or NULL ends? */
 bool ps_options_have(const ps_option_id *list, ps_option_id id);

@@ -36,11 +36,11 @@ static pspec_status check_other_source(const ps_request *arguments, ps_error *er
             is_of_subset) {
             continue;
         }
-        char name[64];
-        snprintf(name, sizeof name, "--%s", ps_options[id].name);
+        const ps_shown_option shown = ps_option_show(arguments, (ps_option_id)id);
         return are_files
-                   ? fail_conflict(name, "point files", "it says what a --sampler makes", error)
-                   : fail_conflict(name, "--sampler", "it says how point files are read", error);
+                   ? fail_conflict(shown.text, "point files", "it says what samplers make", error)
+                   : fail_conflict(shown.text, ps_option_show(arguments, PS_OPTION_SAMPLER).text,
+                                   "it says how point files are read", error);
     }
     return PSPEC_OK;
 }
@@ -63,38 +63,30 @@ static pspec_status check_source(const ps_request *arguments, ps_error *error) {
     return PSPEC_OK;
 }
 
+/* What does not go together, and why; both are options. */
+typedef struct option_pair {
+    ps_option_id a, b;
+    const char *why;
+} option_pair;
+
 static pspec_status check_results(const ps_request *arguments, ps_error *error) {
-    if (arguments->frequencies != NULL) {
-        if (arguments->max_frequency > 0) {
-            return fail_conflict("--frequencies", "--max-frequency", "the list says it all", error);
+    static const option_pair pairs[] = {
+        {PS_OPTION_FREQUENCIES, PS_OPTION_MAX_FREQUENCY, "the list says it all"},
+        {PS_OPTION_FREQUENCIES, PS_OPTION_SHELLS, "a list is not averaged"},
+        {PS_OPTION_FREQUENCIES, PS_OPTION_FULL, "a list is not an array"},
+        {PS_OPTION_FREQUENCIES, PS_OPTION_PLOT, "only grids are drawn"},
+        {PS_OPTION_FREQUENCIES, PS_OPTION_PER_RING, "the list says it all"},
+        {PS_OPTION_FREQUENCIES, PS_OPTION_STANDARD_ERROR,
+         "it is that of rings, and a list has none"},
+        {PS_OPTION_PER_RING, PS_OPTION_STANDARD_ERROR,
+         "more realizations do not mend the error of the choice"},
+        {PS_OPTION_COEFFICIENTS, PS_OPTION_STANDARD_ERROR, "coefficients are of one set"},
+        {PS_OPTION_FULL, PS_OPTION_PER_RING, "a subset does not fill an array"}};
+    for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
+        if (arguments->is_given[pairs[i].a] && arguments->is_given[pairs[i].b]) {
+            return fail_conflict(ps_option_show(arguments, pairs[i].a).text,
+                                 ps_option_show(arguments, pairs[i].b).text, pairs[i].why, error);
         }
-        if (arguments->shells) {
-            return fail_conflict("--frequencies", "--shells", "a list is not averaged", error);
-        }
-        if (arguments->full != NULL) {
-            return fail_conflict("--frequencies", "--full", "a list is not an array", error);
-        }
-        if (arguments->plot != NULL) {
-            return fail_conflict("--frequencies", "--plot", "only grids are drawn", error);
-        }
-        if (arguments->per_ring > 0) {
-            return fail_conflict("--frequencies", "--per-ring", "the list says it all", error);
-        }
-        if (arguments->standard_error > 0) {
-            return fail_conflict("--frequencies", "--standard-error",
-                                 "it is that of rings, and a list has none", error);
-        }
-    }
-    if (arguments->per_ring > 0 && arguments->standard_error > 0) {
-        return fail_conflict("--per-ring", "--standard-error",
-                             "more realizations do not mend the error of the choice", error);
-    }
-    if (arguments->coefficients != NULL && arguments->standard_error > 0) {
-        return fail_conflict("--coefficients", "--standard-error", "coefficients are of one set",
-                             error);
-    }
-    if (arguments->full != NULL && arguments->per_ring > 0) {
-        return fail_conflict("--full", "--per-ring", "a subset does not fill an array", error);
     }
     if (arguments->full != NULL && arguments->num_samplers > 1) {
         return fail_conflict("--full", "several samplers", "one array has one file", error);

@@ -70,12 +70,20 @@ typedef enum ps_option_id {
     PS_NUM_OPTIONS
 } ps_option_id;
 
+/* How an option was said, for sentences that name it. */
+typedef enum ps_option_form {
+    PS_FORM_LONG,   /* --points */
+    PS_FORM_LETTER, /* -n */
+    PS_FORM_KEY     /* points, in a scene */
+} ps_option_form;
+
 typedef struct ps_request {
-    bool is_given[PS_NUM_OPTIONS]; /* which options were said */
-    uint64_t num_points;           /* 1024 unless given */
-    uint64_t num_realizations;     /* 1 unless given */
-    unsigned dimension;            /* 2 unless given, 1..6 */
-    uint64_t seed;                 /* 1 unless given */
+    bool is_given[PS_NUM_OPTIONS];        /* which options were said */
+    ps_option_form forms[PS_NUM_OPTIONS]; /* of those */
+    uint64_t num_points;                  /* 1024 unless given */
+    uint64_t num_realizations;            /* 1 unless given */
+    unsigned dimension;                   /* 2 unless given, 1..6 */
+    uint64_t seed;                        /* 1 unless given */
     size_t num_samplers;
     const char *samplers[PS_MAX_SAMPLERS];
     int32_t max_frequency;         /* 0 unless given: the default of design.md 3.1 */

@@ -21,6 +21,7 @@ pspec_status ps_scene_apply(ps_request *request, const ps_result_kind *kind, ps_
         }
     }
     request->is_given[option] = true;
+    request->forms[option] = PS_FORM_KEY;
     return row->set(row, words, text, request, error);
 }
 
@@ -95,7 +96,6 @@ static pspec_status resolve_paths(ps_scene *scene, const ps_scene_file *file, in
 static pspec_status complain_of_value(const ps_scene_file *file, int line, const char *key,
                                       const ps_error *reason) {
     const char *sentence = reason->message;
-    sentence += strncmp(sentence, "--", 2) == 0 ? 2 : 0;
     const size_t length = strlen(key);
     if (strncmp(sentence, key, length) == 0 && strncmp(sentence + length, ": ", 2) == 0) {
         sentence += length + 2;
