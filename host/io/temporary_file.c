@@ -50,14 +50,19 @@ static void remove_if_dead(int folder, const char *folder_path, const char *name
     ps_text_free(&path);
 }
 
+/* "START" and the number of this process, which is not dead: its files may be without a lock where one was not to be had. */
+static void append_own(ps_text *out, const char *start) {
+    ps_text_append(out, "%s%ld-", start, (long)getpid());
+}
+
 /* A folder that cannot be looked into keeps what it has. */
-static void remove_dead(const char *folder_path, const char *start) {
+static void remove_dead(const char *folder_path, const char *start, const char *own) {
     DIR *const folder = opendir(folder_path[0] != '\0' ? folder_path : ".");
     if (folder == NULL) {
         return;
     }
     for (const struct dirent *found = readdir(folder); found != NULL; found = readdir(folder)) {
-        if (is_ours(found->d_name, start)) {
+        if (is_ours(found->d_name, start) && strncmp(found->d_name, own, strlen(own)) != 0) {
             remove_if_dead(dirfd(folder), folder_path, found->d_name);
         }
     }
@@ -88,11 +93,11 @@ static int create_named(const char *path, mode_t mode) {
 }
 
 /* Numbers that other files of this process have are passed over. */
-static int create_numbered(const char *folder, const char *start, mode_t mode, char **path) {
+static int create_numbered(const char *folder, const char *own, mode_t mode, char **path) {
     enum { MOST_TRIES = 10000 };
     for (int number = 0; number < MOST_TRIES; number++) {
         ps_text text = {0};
-        ps_text_append(&text, "%s%s%ld-%d.tmp", folder, start, (long)getpid(), number);
+        ps_text_append(&text, "%s%s%d.tmp", folder, own, number);
         errno = ENOMEM;
         const int descriptor = text.failed ? -1 : create_named(text.data, mode);
         if (descriptor >= 0) {
@@ -112,18 +117,21 @@ static int create_numbered(const char *folder, const char *start, mode_t mode, c
 int ps_temporary_create(const char *folder, size_t folder_length, mode_t mode, char **path) {
     ps_text where = {0};
     ps_text start = {0};
+    ps_text own = {0};
     int descriptor = -1;
     *path = NULL;
     ps_text_append_bytes(&where, folder, folder_length);
     append_start(&start);
+    append_own(&own, ps_text_string(&start));
     errno = ENOMEM;
-    if (!where.failed && !start.failed) {
-        remove_dead(ps_text_string(&where), ps_text_string(&start));
-        descriptor = create_numbered(ps_text_string(&where), ps_text_string(&start), mode, path);
+    if (!where.failed && !start.failed && !own.failed) {
+        remove_dead(ps_text_string(&where), ps_text_string(&start), ps_text_string(&own));
+        descriptor = create_numbered(ps_text_string(&where), ps_text_string(&own), mode, path);
     }
     const int reason = errno;
     ps_text_free(&where);
     ps_text_free(&start);
+    ps_text_free(&own);
     errno = reason;
     return descriptor;
 }
