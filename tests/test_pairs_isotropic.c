@@ -186,6 +186,12 @@ static void public_library(void **state) {
     assert_true(fabs((double)(sums[0] - exact_chords(&weighted, 0.5))) <= bounds[0]);
     const double size = test_weight_sizes(&weighted);
     assert_true(fabs(sums[1] / (2.5 * size * size) - 1) <= 1e-14);
+    for (size_t j = 0; j < NUM; j++) { /* squares would be 0 */
+        weights[j] = 0x1p-1074;
+    }
+    assert_int_equal(pspec_kernel_sums(context, &weighted, kernels, 2, tolerance, sums, bounds),
+                     PSPEC_ERROR_INPUT);
+    assert_non_null(strstr(pspec_context_message(context), "multiply all weights by a constant"));
     assert_int_equal(pspec_kernel_sums(context, &plain, NULL, 0, tolerance, sums, bounds),
                      PSPEC_ERROR_INVALID_ARGUMENT);
     assert_int_equal(pspec_kernel_sums(context, &plain, kernels, 2, 0, sums, bounds),

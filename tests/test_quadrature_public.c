@@ -129,12 +129,12 @@ static void nonsense(void **state) {
     (void)state;
     static const double below[] = {0, 0, 1, 0.6, 0, -0.8}, off[] = {0, 0, 2},
                         nan_at[] = {0, NAN, 1};
-    static const double zeros[] = {0, 0}, one[] = {0, 0, 1};
+    static const double zeros[] = {0, 0}, one[] = {0, 0, 1}, two[] = {0, 0, 1, 0.6, 0, 0.8};
     pspec_context *context = pspec_context_create();
     pspec_quadrature_request request = make_request();
     const pspec_pattern good = {3, 1, one, NULL};
-    const pspec_pattern bad[] = {{3, 2, below, NULL},  {3, 1, off, NULL}, {3, 1, nan_at, NULL},
-                                 {3, 2, below, zeros}, {2, 1, one, NULL}, {3, 0, one, NULL},
+    const pspec_pattern bad[] = {{3, 2, below, NULL}, {3, 1, off, NULL}, {3, 1, nan_at, NULL},
+                                 {3, 2, two, zeros},  {2, 1, one, NULL}, {3, 0, one, NULL},
                                  {3, 1, NULL, NULL}};
     static const char *const says[] = {
         "point 2 of set 1, z = -0.8", "has the length 2",         "set 1, point 1",

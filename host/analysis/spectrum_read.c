@@ -324,7 +324,7 @@ static pspec_status read_totals(reader *in, const header *from, ps_spectrum_sums
                                       .largest_points = (size_t)from->largest_points};
     out->error = totals[3];
     const bool is_possible = totals[0] > 0 && isfinite(totals[0]) && totals[1] > 0 &&
-                             isfinite(totals[1]) && totals[3] >= 0;
+                             isfinite(totals[1]) && isfinite(totals[2]) && totals[3] >= 0;
     PS_TRY(read_sums(in, &out->totals.sample_sizes, 1));
     return is_possible ? PSPEC_OK : fail(in, "its numbers of points are none");
 }

@@ -87,20 +87,38 @@ pspec_status ps_pattern_count_add(ps_pattern_count *count, const pspec_pattern *
                : PSPEC_OK;
 }
 
-/* Q is measured in the squared units of the weights, and the squares of Q, summed over
- * points and realizations for a standard error, must be numbers of full precision. */
-static pspec_status check_range(const ps_pattern_count *count, pspec_normalization normalization,
-                                ps_error *error) {
-    const double largest = PS_LARGEST_ABSOLUTE_WEIGHT;
-    const double smallest = 1 / largest;
-    if (normalization != PSPEC_NORMALIZATION_PAIRS ||
-        (count->largest <= largest && count->largest >= smallest)) {
-        return PSPEC_OK;
-    }
-    return ps_fail(error, PSPEC_ERROR_INPUT,
-                   "set %llu: the largest |weight|, %.17g, is not between %g and %g, where squares "
-                   "of errors are numbers; multiply all weights by a constant",
-                   (unsigned long long)count->realization + 1, count->largest, smallest, largest);
+pspec_status ps_pattern_check_largest(double largest, uint64_t realization, ps_error *error) {
+    const double least = PS_LEAST_ABSOLUTE_WEIGHT;
+    const double most = PS_MOST_ABSOLUTE_WEIGHT;
+    return largest == 0 || (largest >= least && largest <= most)
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INPUT,
+                         "set %llu: the largest |weight|, %.17g, is not between %g and %g, where "
+                         "squares of errors are numbers; multiply all weights by a constant",
+                         (unsigned long long)realization + 1, largest, least, most);
+}
+
+static pspec_status check_size(const ps_pattern_count *count, ps_error *error) {
+    return ldexpl(count->sizes, count->exponent) <= (long double)PS_MOST_WEIGHT_SUM
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INPUT,
+                         "set %llu: the largest |weight| is %.17g, and all |weight| sum to more "
+                         "than %g, up to which sums over sets are numbers; multiply all weights by "
+                         "a constant",
+                         (unsigned long long)count->realization + 1, count->largest,
+                         PS_MOST_WEIGHT_SUM);
+}
+
+/* P needs W. A sum this small is what rounding of the weights leaves of an exact zero. */
+static pspec_status check_sum(const ps_pattern_count *count, ps_error *error) {
+    const long double rounding = (long double)DBL_EPSILON * count->sizes;
+    return fabsl(count->sum) > rounding
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INPUT,
+                         "set %llu: the weights sum to 0%s, so N |S|^2 / W^2 does not exist; use "
+                         "--normalize effective",
+                         (unsigned long long)count->realization + 1,
+                         count->sum != 0 ? " within rounding" : "");
 }
 
 pspec_status ps_pattern_count_finish(const ps_pattern_count *count,
@@ -115,14 +133,11 @@ pspec_status ps_pattern_count_finish(const ps_pattern_count *count,
     if (count->largest == 0) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "set %llu: all weights are 0", set);
     }
-    PS_TRY(check_range(count, normalization, error));
-    /* A sum this small is what rounding of the weights leaves of an exact zero. */
-    const long double rounding = (long double)DBL_EPSILON * count->sizes;
-    if (fabsl(count->sum) <= rounding && normalization == PSPEC_NORMALIZATION_POWER) {
-        return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "set %llu: the weights sum to 0, so N |S|^2 / W^2 does not exist; use "
-                       "--normalize effective",
-                       set);
+    PS_TRY(normalization == PSPEC_NORMALIZATION_PAIRS
+               ? ps_pattern_check_largest(count->largest, count->realization, error)
+               : check_size(count, error));
+    if (normalization == PSPEC_NORMALIZATION_POWER) {
+        PS_TRY(check_sum(count, error));
     }
     *sums = (ps_pattern_sums){count->exponent,      false,
                               (double)count->sum,   (double)count->squares,

@@ -8,8 +8,12 @@
 #include <stdint.h>
 
 /* Pairs and quadrature measure errors in the units of the weights: their fourth powers, summed over points and
- * realizations for a standard error, must be numbers. */
-#define PS_LARGEST_ABSOLUTE_WEIGHT 1e60
+ * realizations for a standard error, must be numbers. The range of the largest |w| of a set. */
+#define PS_LEAST_ABSOLUTE_WEIGHT 1e-60
+#define PS_MOST_ABSOLUTE_WEIGHT 1e60
+/* Of sum |w| elsewhere: W summed over the 2^53 realizations that there may be, and c_lm, up to a hundred times the sum, are
+ * numbers. */
+#define PS_MOST_WEIGHT_SUM 1e290
 
 /* Weights count as w 2^-exponent, which makes the largest |w| a number in [1/2, 1): so neither the
  * squares of double weights nor sums in single precision overflow or vanish. */
@@ -40,10 +44,14 @@ pspec_status ps_pattern_count_add(ps_pattern_count *count, const pspec_pattern *
 /* The same for weights that come without points. */
 pspec_status ps_pattern_count_weights(ps_pattern_count *count, const double *weights,
                                       size_t num_weights, ps_error *error) PS_MUST_CHECK;
-/* W = 0 under the default normalization is PSPEC_ERROR_INPUT. */
+/* W = 0 under the default normalization, and sums that are too large, are PSPEC_ERROR_INPUT. */
 pspec_status ps_pattern_count_finish(const ps_pattern_count *count,
                                      pspec_normalization normalization, ps_pattern_sums *sums,
                                      ps_error *error) PS_MUST_CHECK;
+
+/* Is the largest |w| of a set what pairs and quadrature can do? 0 passes: that is for ps_pattern_count_finish. */
+pspec_status ps_pattern_check_largest(double largest, uint64_t realization,
+                                      ps_error *error) PS_MUST_CHECK;
 
 /* How far from 1 the length of a vector may be that stands for a point on the sphere: what single precision and
  * printed coordinates leave. */

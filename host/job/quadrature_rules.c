@@ -256,18 +256,12 @@ void ps_rules_name_weights(const ps_rules *rules, char *text, size_t size) {
 }
 
 /* E^2 is of degree two in the weights, and its standard error of degree four. */
-static pspec_status refuse_huge(const ps_weighted_rule *rule, unsigned long long set,
-                                ps_error *error) {
+static pspec_status check_largest(const ps_weighted_rule *rule, uint64_t set, ps_error *error) {
+    double largest = 0;
     for (size_t j = 0; j < rule->set.num_points; j++) {
-        if (fabs(rule->weights[j]) > PS_LARGEST_ABSOLUTE_WEIGHT) {
-            return ps_fail(
-                error, PSPEC_ERROR_INPUT,
-                "set %llu, point %zu: |weight| %.17g is above %g, where squares of errors "
-                "are no numbers; multiply all weights by a constant",
-                set, j + 1, fabs(rule->weights[j]), PS_LARGEST_ABSOLUTE_WEIGHT);
-        }
+        largest = fabs(rule->weights[j]) > largest ? fabs(rule->weights[j]) : largest;
     }
-    return PSPEC_OK;
+    return ps_pattern_check_largest(largest, set, error);
 }
 
 /* Points and weights of a set that was just read. */
@@ -281,7 +275,7 @@ static pspec_status begin_rule(ps_rules *rules, ps_weighted_rule *rule, ps_error
     }
     return rules->question->weights == PS_WEIGHTS_OPTIMAL
                ? PSPEC_OK
-               : refuse_huge(rule, (unsigned long long)rules->num_read + 1, error);
+               : check_largest(rule, rules->num_read, error);
 }
 
 /* watch: NULL where small rules are done side by side. */

@@ -73,7 +73,6 @@ static pspec_status check_vectors(const pspec_pattern *pattern, uint64_t realiza
                                   ps_error *error) {
     const unsigned long long number = (unsigned long long)realization + 1;
     ps_pattern_count count = {.realization = realization, .on_sphere = true};
-    ps_pattern_sums sums;
     if (pattern->dimension != PS_SPHERE_DIMENSION) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "set %llu has dimension %u instead of %d", number,
                        pattern->dimension, (int)PS_SPHERE_DIMENSION);
@@ -81,8 +80,8 @@ static pspec_status check_vectors(const pspec_pattern *pattern, uint64_t realiza
     if (pattern->num_points == 0 || pattern->points == NULL) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "set %llu has no points", number);
     }
-    PS_TRY(ps_pattern_count_add(&count, pattern, error));
-    return ps_pattern_count_finish(&count, PSPEC_NORMALIZATION_EFFECTIVE, &sums, error);
+    return ps_pattern_count_add(&count, pattern,
+                                error); /* what weights sum to depends on their use */
 }
 
 static pspec_status next_pattern(ps_source *source, ps_point_set *set, bool *has_set,

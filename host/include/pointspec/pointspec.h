@@ -8,6 +8,10 @@
  *     power, default normalization:    P(k) = N |S(k)|^2 / W^2     (unit weights: |S|^2 / N)
  *     power, effective normalization:  P(k) = |S(k)|^2 / V
  *
+ * Weights are not all 0, and |w_j| sum to at most 1e290. Sums over pairs and quadrature, whose results have the units of
+ * weights, take sets whose largest |w_j| is between 1e-60 and 1e60, pspec_kernel_sums() between 2^-450 and 2^450. Others are
+ * #PSPEC_ERROR_INPUT, as is W = 0, or within 2^-52 sum |w_j| of it, where W divides.
+ *
  * White noise has mean power 1 at every k != 0. DC (k = 0) is never part of a radial mean. Ring b
  * holds the frequencies with b^2 - b + 1 <= |k|^2 <= b^2 + b.
  *
