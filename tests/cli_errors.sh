@@ -158,7 +158,8 @@ power 2 'standard input' -
 power 2 'nan.txt, line 2' "$in/nan.txt"
 power 2 'inf.txt, line 2' "$in/inf.txt"
 power 2 'columns.txt, line 2: 3 columns' "$in/columns.txt"
-power 2 'outside.txt, line 2: coordinate 1.5 is outside [0,1)' "$in/outside.txt"
+power 2 'line 2: "nan" is not a finite number' --wrap "$in/nan.txt"
+power 2 'outside.txt, line 2: coordinate 1.5 is outside [0,1); --wrap would reduce it mod 1' "$in/outside.txt"
 power 2 'word.txt, line 2: "x" is not a number' "$in/word.txt"
 power 2 'picture.txt, line 1' "$in/picture.txt"
 power 2 'truncated.npy' "$in/truncated.npy"
@@ -200,14 +201,39 @@ refuses 2 '--per-ring' power --sampler white -n 16 -d 4
 power 2 '--per-ring: 0 is not between 2' --sampler white -n 16 -k 4 --per-ring 0
 power 2 '--per-ring: 1 is not between 2' --sampler white -n 16 -k 4 --per-ring 1
 power 2 'between 1 and 2000' --sampler white -n 16 -d 4 -k 2001 --per-ring 9
-power 2 'more than can be counted' --sampler white -n 16 -d 6 -k 1300 --per-ring 9
-# Counting the rings up to 2000 takes some ten seconds, and refusing must not: a limit of processor seconds.
+# Counting the rings up to 2000 takes some ten seconds, drawing from them minutes, and refusing must not: a limit of
+# processor seconds.
 (
     ulimit -t 4
     power 2 'which can be indexed' --sampler white -n 16 -d 5 -k 2000 --per-ring 536870912
+    power 2 'which can be indexed' --sampler white -n 16 -d 5 -k 2000 --per-ring 300000
+    power 2 'which can be indexed' --sampler white -n 16 -d 3 -k 2000 --per-ring 400000
+    power 2 'more than can be counted' --sampler white -n 16 -d 6 -k 1300 --per-ring 9
+    power 2 'more than can be counted' --sampler white -n 16 -d 6 -k 2000 --per-ring 2
+    large=(--sampler white -n 16 -d 4 -k 900 --per-ring 600000)
+    power 2 'there is no engine "nonsense"' "${large[@]}" --engine nonsense
+    power 2 'is not for points on the torus' "${large[@]}" --engine sphere_nufft
+    power 1 'no OpenCL device fits "nonsense"' "${large[@]}" --device nonsense
+    power 1 'missing.txt: No such file' "${large[@]}" --weights missing.txt
+    power 1 'No such file' "${large[@]}" -o missing/result.csv
+    power 2 '--full does not go with --per-ring' "${large[@]}" --full full.npy
     exit $bad
 ) || bad=1
+# What is wrong with a name is said before a file is read, here one that never ends and holds no points.
+refuses 2 'there is no engine "nonsense"' power -k 8 --engine nonsense /dev/zero
+refuses 1 'no OpenCL device fits "nonsense"' power -k 8 --device nonsense /dev/zero
+refuses 1 'missing.txt: No such file' power -k 8 --weights missing.txt /dev/zero
+refuses 1 'missing.txt: No such file' power --frequencies missing.txt /dev/zero
+refuses 1 'missing.txt: No such file' angular -l 8 /dev/zero missing.txt
+refuses 2 'there is no engine "nonsense"' quadrature --brdf diffuse -l 8 --engine nonsense /dev/zero
+refuses 1 'missing.txt: No such file' quadrature --brdf diffuse -l 8 --weights missing.txt /dev/zero
 says_exactly 'can be indexed; a list of frequencies has no such limit' power --sampler white -n 16 -d 2 -k 100000
+says_exactly '(--per-ring) and lists of frequencies have no such limit' power --sampler white -n 16 -d 5 -k 200
+says_exactly 'in dimension 5 can be indexed' power --sampler white -n 16 -d 5 -k 200 --full full.npy
+says_exactly 'in dimension 5 can be indexed' power --sampler white -n 16 -d 5 -k 200 --standard-error 0.1
+says_exactly '(--per-ring) has no such limit' power --sampler white -n 16 -d 5 -k 200 --shells
+says_exactly 'in dimension 6 can be indexed; a list of frequencies has no such limit' power --sampler white -n 16 -d 6 -k 1300
+says_exactly 'must be given: -k K' power --sampler white -n 16 -d 4 --full full.npy
 power 2 '--standard-error: 0 is not above 0' --sampler white -n 16 -k 4 --standard-error 0
 power 2 '--standard-error: 2 is not above 0 and at most 1' --sampler white -n 16 -k 4 --standard-error 2
 power 2 '--per-ring does not go with --standard-error' --sampler white -n 16 -k 4 --per-ring 9 --standard-error 0.1

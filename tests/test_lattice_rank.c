@@ -73,6 +73,25 @@ static void ranks_are_places_in_lexicographic_order(void **state) {
     }
 }
 
+/* The counts lie within them, and they are no wider than the shells at the surface. */
+static void estimates_are_bounds(void **state) {
+    (void)state;
+    const double rounding = 1 + 1e-12; /* in one dimension bounds are met */
+    for (unsigned d = 1; d <= PS_LATTICE_MAX_DIMENSION; d++) {
+        const int64_t most = d <= 3 ? 40000 : 2500;
+        ps_lattice lattice;
+        assert_ok(ps_lattice_create(&lattice, d, most, error));
+        for (int64_t norm2 = 0; norm2 <= most; norm2++) {
+            const ps_lattice_bounds bounds = ps_lattice_estimate(d, norm2);
+            const double count = (double)ps_lattice_count(&lattice, 0, norm2);
+            assert_true(bounds.least <= count * rounding && count <= bounds.most * rounding);
+        }
+        const ps_lattice_bounds last = ps_lattice_estimate(d, most);
+        assert_true(last.most < 1.4 * last.least);
+        ps_lattice_free(&lattice);
+    }
+}
+
 /* r_2(n) = 4 (d_1(n) - d_3(n)), r_4(n) = 8 times the divisors not divisible by 4 (Jacobi). */
 static void counts_are_those_of_jacobi(void **state) {
     (void)state;
@@ -148,6 +167,7 @@ static void too_many_to_count(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ranks_are_places_in_lexicographic_order),
+        cmocka_unit_test(estimates_are_bounds),
         cmocka_unit_test(counts_are_those_of_jacobi),
         cmocka_unit_test(large_shells),
         cmocka_unit_test(too_many_to_count),

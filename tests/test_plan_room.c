@@ -79,7 +79,8 @@ static void what_helps(void **state) {
     size_t num_nothing = 0;
     for (double bytes = 200 * megabyte; bytes < 8000 * megabyte; bytes *= 1.1) {
         const ps_memory_room room = make_room(bytes);
-        ps_plan_constraints constraints = {.precision = -1, .room = &room};
+        ps_plan_constraints constraints = {
+            .precision = -1, .room = &room, .offers = PS_OFFER_RINGS};
         ps_plan plan;
         ps_error said = {0};
         test_make_plan(&plan, &problem, &limits, &constraints);
@@ -105,9 +106,39 @@ static void what_helps(void **state) {
     assert_true(num_memory > 0 && num_nothing > 0);
 }
 
+static bool offers_rings(const ps_problem *problem, double bytes, unsigned offers) {
+    const ps_memory_room room = make_room(bytes);
+    const ps_device_limits limits = test_cpu();
+    const ps_plan_constraints constraints = {.precision = -1, .room = &room, .offers = offers};
+    ps_plan plan;
+    ps_error said = {0};
+    test_make_plan(&plan, problem, &limits, &constraints);
+    assert_int_equal(ps_plan_require(&plan, problem, &said), PSPEC_ERROR_MEMORY);
+    return strstr(said.message, "--per-ring") != NULL;
+}
+
+/* A subset is offered where the question may be asked of one, there is one, and frequencies are what there is too much
+ * of. */
+static void subsets_that_help(void **state) {
+    (void)state;
+    const ps_frequencies plane = test_lattice(2, 2000);
+    const ps_frequencies beyond = test_lattice(2, 2001);
+    const ps_frequencies line = test_lattice(1, 20000000);
+    const double room = 200 * megabyte;
+    const ps_problem few = test_problem(&plane, 1000, 1e-6);
+    const ps_problem many = test_problem(&plane, 100000000, 1e-6);
+    const ps_problem too_far = test_problem(&beyond, 1000, 1e-6);
+    const ps_problem on_line = test_problem(&line, 1000, 1e-6);
+    assert_true(offers_rings(&few, room, PS_OFFER_RINGS | PS_OFFER_LISTS));
+    assert_false(offers_rings(&few, room, PS_OFFER_LISTS));
+    assert_false(offers_rings(&many, room, PS_OFFER_RINGS));
+    assert_false(offers_rings(&too_far, room, PS_OFFER_RINGS));
+    assert_false(offers_rings(&on_line, room, PS_OFFER_RINGS));
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(rooms_change_no_choice),
-                                       cmocka_unit_test(machines_change_no_choice),
-                                       cmocka_unit_test(what_helps)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rooms_change_no_choice), cmocka_unit_test(machines_change_no_choice),
+        cmocka_unit_test(what_helps), cmocka_unit_test(subsets_that_help)};
     return cmocka_run_group_tests_name("plan_room", tests, NULL, NULL);
 }

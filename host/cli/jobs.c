@@ -29,7 +29,7 @@ void ps_print_plan(const ps_plan *plan) {
 }
 
 /* Lattices of many dimensions, and degrees, which cost their square, are more than people think. */
-static void warn_of_hours(const ps_power_job *job) {
+static void warn_of_hours(const ps_power_job *job, unsigned offers) {
     const double hour = 3600;    /* seconds */
     enum { FEW_DIMENSIONS = 3 }; /* where K has a default, and time is a matter of realizations */
     const ps_candidate *chosen = ps_power_job_plan(job)->chosen;
@@ -44,10 +44,10 @@ static void warn_of_hours(const ps_power_job *job) {
                 "(--max-degree) take less\n",
                 chosen->engine->name, hours, (int)set->max_frequency);
     } else if (set->kind != PS_FREQUENCIES_LIST && set->dimension > FEW_DIMENSIONS) {
-        fprintf(stderr,
-                "pointspec: %.3g frequencies will take about %.2g hours; a random subset of "
-                "every ring (--per-ring) takes less\n",
-                (double)set->num, hours);
+        fprintf(stderr, "pointspec: %.3g frequencies will take about %.2g hours%s\n",
+                (double)set->num, hours,
+                offers & PS_OFFER_RINGS ? "; a random subset of every ring (--per-ring) takes less"
+                                        : "");
     }
 }
 
@@ -66,7 +66,7 @@ static pspec_status run_job(const ps_request *arguments, const ps_power_question
                             ps_power_job **job, ps_error *error) {
     PS_TRY(ps_power_job_create(job, question, error));
     if (!arguments->quiet) {
-        warn_of_hours(*job);
+        warn_of_hours(*job, question->constraints.offers);
     }
     if (arguments->verbose) {
         ps_print_plan(ps_power_job_plan(*job));

@@ -57,8 +57,25 @@ static int32_t largest_allowed(unsigned dimension) {
     return low;
 }
 
+/* The end of a sentence about a K that is too large. */
+static const char *say_offers(unsigned dimension, int32_t max_frequency, unsigned offers) {
+    const bool may_list = (offers & PS_OFFER_LISTS) != 0 && max_frequency > 0;
+    const bool may_sample =
+        (offers & PS_OFFER_RINGS) != 0 && ps_frequencies_can_sample(dimension, max_frequency);
+    return may_sample && may_list ? "; a random subset of every ring (--per-ring) and lists of "
+                                    "frequencies have no such limit"
+           : may_sample           ? "; a random subset of every ring (--per-ring) has no such limit"
+           : may_list             ? "; a list of frequencies has no such limit"
+                                  : "";
+}
+
 pspec_status ps_frequencies_lattice(ps_frequencies *out, unsigned dimension, int32_t max_frequency,
                                     bool is_ball, ps_error *error) {
+    return ps_frequencies_grid(out, dimension, max_frequency, is_ball, 0, error);
+}
+
+pspec_status ps_frequencies_grid(ps_frequencies *out, unsigned dimension, int32_t max_frequency,
+                                 bool is_ball, unsigned offers, ps_error *error) {
     *out = (ps_frequencies){.kind = is_ball ? PS_FREQUENCIES_BALL : PS_FREQUENCIES_BOX,
                             .dimension = dimension,
                             .max_frequency = max_frequency};
@@ -70,12 +87,9 @@ pspec_status ps_frequencies_lattice(ps_frequencies *out, unsigned dimension, int
     if (max_frequency < 1 || max_frequency > largest) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "max frequency %d is not between 1 and %d, the largest whose full grid in "
-                       "dimension %u can be indexed; %s no such limit",
+                       "dimension %u can be indexed%s",
                        (int)max_frequency, (int)largest, dimension,
-                       dimension > 1 && max_frequency <= PS_MAX_SAMPLED_RING
-                           ? "a random subset of every ring (--per-ring) and lists of frequencies "
-                             "have"
-                           : "a list of frequencies has");
+                       say_offers(dimension, max_frequency, offers));
     }
     const size_t box = (size_t)half_box_size(dimension, max_frequency);
     const size_t ball = approximate_half_ball_size(dimension, max_frequency);

@@ -62,10 +62,19 @@ typedef struct ps_frequencies {
 /* Slots of results are 32-bit indices on the device, with padding and both signs. */
 #define PS_MAX_NUM_FREQUENCIES (((uint64_t)1 << 31) / 4)
 
+/* What a question may be asked of instead of all frequencies, for sentences that say what would help. */
+enum {
+    PS_OFFER_RINGS = 1, /* a random subset of every ring */
+    PS_OFFER_LISTS = 2
+};
+
 /* A box or ball, not enumerated: costs nothing, whatever the size. dimension 1..6, K >= 1. More
  * frequencies than an index holds: PSPEC_ERROR_INVALID_ARGUMENT with the largest K that fits. */
 pspec_status ps_frequencies_lattice(ps_frequencies *out, unsigned dimension, int32_t max_frequency,
                                     bool is_ball, ps_error *error) PS_MUST_CHECK;
+/* The same, with a sentence that says which of these offers there are, where K is too large. */
+pspec_status ps_frequencies_grid(ps_frequencies *out, unsigned dimension, int32_t max_frequency,
+                                 bool is_ball, unsigned offers, ps_error *error) PS_MUST_CHECK;
 /* A list: takes vectors over ([num][dimension], allocated by malloc). */
 pspec_status ps_frequencies_list(ps_frequencies *out, unsigned dimension, size_t num,
                                  int32_t *vectors, ps_error *error) PS_MUST_CHECK;

@@ -9,6 +9,13 @@
 _Static_assert((int)PS_LATTICE_MAX_DIMENSION == (int)PS_MAX_TORUS_DIMENSION,
                "lattices are counted in as many dimensions as there are");
 
+bool ps_frequencies_can_sample(unsigned dimension, int64_t max_frequency) {
+    return dimension > 1 && dimension <= PS_MAX_TORUS_DIMENSION && max_frequency >= 1 &&
+           max_frequency <= PS_MAX_SAMPLED_RING &&
+           ps_lattice_estimate(dimension, max_frequency * (max_frequency + 1)).most <
+               (double)UINT64_MAX;
+}
+
 /* The shell of one ring, or the ring of one |k|^2. */
 typedef struct ring_range {
     uint64_t number; /* b, or |k|^2 */
@@ -146,8 +153,19 @@ static pspec_status make(ps_frequencies *out, const ps_frequency_sample *sample,
     return status;
 }
 
+/* No fewer frequencies than rings up to K have, when those up to a smaller one have num. Rings grow like b^(d-1), and from
+ * FIRST on their sizes differ from that by far less than twice: where one has twice what is drawn, the later ones have
+ * enough. Shells of one |k|^2 do not grow like that. */
+static uint64_t at_least(const ps_frequency_sample *sample, const ps_frequency_sample *part,
+                         const ps_lattice *lattice, uint64_t num) {
+    const uint64_t number = (uint64_t)part->max_frequency;
+    const bool are_large =
+        !sample->exact_shells && half_size(lattice, range_of(part, number)) / 2 >= sample->per_ring;
+    return are_large ? num + ((uint64_t)sample->max_frequency - number) * sample->per_ring : num;
+}
+
 /* Counting all rings takes seconds where K is large: those of a smaller K, counted in an eighth of the time of
- * twice that K, are often too many already. */
+ * twice that K, tell mostly that there are too many. */
 static pspec_status refuse_soon(const ps_frequency_sample *sample, ps_error *error) {
     enum { FIRST = 125, TIMES = 2 };
     ps_frequency_sample part = *sample;
@@ -159,6 +177,7 @@ static pspec_status refuse_soon(const ps_frequency_sample *sample, ps_error *err
         bool is_complete = false;
         PS_TRY(ps_lattice_create(&lattice, part.dimension, largest_norm2(&part), error));
         count_rings(&part, &lattice, &num_rings, &num, &is_complete);
+        num = num <= PS_MAX_NUM_FREQUENCIES ? at_least(sample, &part, &lattice, num) : num;
         ps_lattice_free(&lattice);
         PS_TRY(check_number(sample, num, error));
     }
@@ -193,7 +212,9 @@ pspec_status ps_frequencies_sample(ps_frequencies *out, const ps_frequency_sampl
     if (sample->dimension == 1) { /* where a ring has one frequency of the half lattice */
         return ps_frequencies_lattice(out, 1, sample->max_frequency, true, error);
     }
-    PS_TRY(refuse_soon(sample, error));
+    if (ps_lattice_estimate(sample->dimension, largest_norm2(sample)).least < (double)UINT64_MAX) {
+        PS_TRY(refuse_soon(sample, error));
+    }
     PS_TRY(ps_lattice_create(&lattice, sample->dimension, largest_norm2(sample), error));
     const pspec_status status = make(out, sample, &lattice, error);
     ps_lattice_free(&lattice);

@@ -19,6 +19,10 @@ enum { PS_MAX_SAMPLED_RING = 2000 };
 /* A ring's subset needs two frequencies to have a variance. */
 enum { PS_MIN_PER_RING = 2 };
 
+/* Is there a subset of fewer frequencies than all up to K? In one dimension a ring has one, and beyond a K, or where
+ * there are more than can be counted, nobody knows how many a ring has. */
+bool ps_frequencies_can_sample(unsigned dimension, int64_t max_frequency);
+
 typedef struct ps_frequency_sample {
     unsigned dimension;
     int32_t max_frequency; /* rings 1..K */

@@ -174,14 +174,21 @@ static const char *show_number(char text[NUMBER_BYTES], double value) {
     return text;
 }
 
+/* Within a period of the torus: what lies further out is hardly a point that left it, and reduced it says nothing. */
+static bool is_near(double coordinate) {
+    return coordinate >= -1 && coordinate < 2;
+}
+
 static pspec_status refuse_torus(const ps_layout *layout, const ps_point_options *options,
                                  const char *where, const double *row, ps_error *error) {
     char text[NUMBER_BYTES];
-    for (unsigned j = 0; j < layout->dimension; j++) {
+    for (unsigned j = 0; j < layout->dimension; j++) { /* first, for nothing else would help */
         if (!isfinite(row[j])) {
             return ps_fail(error, PSPEC_ERROR_INPUT, "%s: coordinate %s is not a finite number",
                            where, show_number(text, row[j]));
         }
+    }
+    for (unsigned j = 0; j < layout->dimension; j++) {
         const bool is_inside = row[j] >= 0 && row[j] < 1;
         if (!is_inside && !options->wrap) {
             const bool is_vector = layout->dimension >= 3 && ps_is_unit_vector(row);
@@ -189,8 +196,9 @@ static pspec_status refuse_torus(const ps_layout *layout, const ps_point_options
                                        !layout->has_weight_column && options->dimension == 0;
             return ps_fail(error, PSPEC_ERROR_INPUT, "%s: coordinate %s is outside [0,1); %s%s",
                            where, show_number(text, row[j]),
-                           is_vector ? "a unit vector? Points of the torus are meant here"
-                                     : "--wrap would reduce it mod 1",
+                           is_vector         ? "a unit vector? Points of the torus are meant here"
+                           : is_near(row[j]) ? "--wrap would reduce it mod 1"
+                                             : "in other units? Divide them by the period",
                            may_be_weight && !is_vector ? " (a weight? --weights column)" : "");
         }
     }

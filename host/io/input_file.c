@@ -21,6 +21,15 @@ pspec_status ps_input_fail(const char *name, ps_error *error) {
                    "cannot read %s: %s", name, strerror(reason));
 }
 
+pspec_status ps_inputs_check(const char *const *paths, size_t num, ps_error *error) {
+    for (size_t i = 0; i < num; i++) {
+        if (paths[i] != NULL && strcmp(paths[i], "-") != 0 && access(paths[i], R_OK) != 0) {
+            return ps_input_fail(paths[i], error);
+        }
+    }
+    return PSPEC_OK;
+}
+
 /* ---- opening ----------------------------------------------------------------------------- */
 
 /* Standard input is read through a copy of its descriptor, so that closing it is ours to do. */

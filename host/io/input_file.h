@@ -23,6 +23,9 @@ typedef struct ps_input {
     bool can_reopen;  /* a regular file that has a path */
 } ps_input;
 
+/* Can the files be read? Without opening them, so that a stream loses nothing. "-" can; a NULL is none. */
+pspec_status ps_inputs_check(const char *const *paths, size_t num, ps_error *error) PS_MUST_CHECK;
+
 /* Opens path, or standard input for "-". Folders and empty files are refused; gzip is recognised by
  * its first bytes. */
 pspec_status ps_input_open(ps_input *input, const char *path, ps_error *error) PS_MUST_CHECK;

@@ -5,15 +5,16 @@
 #include <math.h>
 
 static pspec_status default_max_frequency(int32_t *out, unsigned dimension, size_t num_points,
-                                          ps_error *error) {
+                                          unsigned offers, ps_error *error) {
     /* 5 N^(1/d): what UTK, PSA and GBN show. Above three dimensions it would be a surprise. */
     const double times = 5;
     enum { LARGEST_DIMENSION = 3 };
     if (dimension > LARGEST_DIMENSION) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "in dimension %u the largest frequency must be given: -k K (and --per-ring "
-                       "S, when all frequencies up to K are too many)",
-                       dimension);
+                       "in dimension %u the largest frequency must be given: -k K%s", dimension,
+                       offers & PS_OFFER_RINGS
+                           ? " (and --per-ring S, when all frequencies up to K are too many)"
+                           : "");
     }
     /* The root of an exact power may come out a rounding above it. */
     const double root = pow((double)num_points, 1.0 / dimension);
@@ -62,7 +63,8 @@ pspec_status ps_power_frequencies(ps_frequencies *out, const ps_power_question *
                          dimension, error);
     }
     if (max_frequency == 0) {
-        PS_TRY(default_max_frequency(&max_frequency, dimension, num_points, error));
+        PS_TRY(default_max_frequency(&max_frequency, dimension, num_points,
+                                     question->constraints.offers, error));
     }
     if (question->per_ring > 0) {
         const ps_frequency_sample sample = {.dimension = dimension,
@@ -73,5 +75,6 @@ pspec_status ps_power_frequencies(ps_frequencies *out, const ps_power_question *
         return ps_frequencies_sample(out, &sample, error);
     }
     const bool only_ball = !question->wants_full_array && !question->no_skip;
-    return ps_frequencies_lattice(out, dimension, max_frequency, only_ball, error);
+    return ps_frequencies_grid(out, dimension, max_frequency, only_ball,
+                               question->constraints.offers, error);
 }

@@ -1,6 +1,7 @@
 #include "job/power_job_private.h"
 
 #include "base/memory.h"
+#include "io/input_file.h"
 #include "job/power_frequencies.h"
 #include "job/power_needs.h"
 #include "plan/figures_file.h"
@@ -73,7 +74,7 @@ static pspec_status find_shape(ps_power_job *job, ps_error *error) {
 /* A device is opened unless the user's choice of engine or precision leaves none that needs one. */
 static pspec_status open_device(ps_power_job *job, ps_error *error) {
     const ps_power_question *question = job->question;
-    if (!ps_plan_may_need_device(&question->constraints)) {
+    if (job->device != NULL || !ps_plan_may_need_device(&question->constraints)) {
         return PSPEC_OK;
     }
     job->owns_device = question->open_device == NULL;
@@ -86,18 +87,30 @@ static pspec_status open_device(ps_power_job *job, ps_error *error) {
     return status == PSPEC_ERROR_NO_DEVICE && question->may_lack_device ? PSPEC_OK : status;
 }
 
+/* Names that can be wrong are looked at before anything that takes long: sets are read, and rings counted, in seconds. */
+static pspec_status check_names(ps_power_job *job, ps_error *error) {
+    const ps_power_question *question = job->question;
+    PS_TRY(ps_plan_check_engine(question->constraints.engine,
+                                question->on_sphere ? PS_ON_SPHERE : PS_ON_TORUS, error));
+    PS_TRY(ps_inputs_check(question->paths, question->num_paths, error));
+    PS_TRY(ps_inputs_check(&question->weights_path, 1, error));
+    PS_TRY(ps_inputs_check(&question->frequencies_path, 1, error));
+    return question->device != NULL ? open_device(job, error) : PSPEC_OK;
+}
+
 static pspec_status prepare(ps_power_job *job, ps_error *error) {
     const ps_power_question *question = job->question;
+    PS_TRY(check_names(job, error));
     PS_TRY(find_shape(job, error));
+    if (question->weights_path != NULL) {
+        PS_TRY(
+            ps_power_sets_read_weights(&job->sets, question->weights_path, job->num_points, error));
+    }
     PS_TRY(ps_power_frequencies(&job->frequencies, question, job->dimension,
                                 (size_t)job->num_points, error));
     ps_power_needs_find(job);
     if (question->sampler != NULL) {
         PS_TRY(open_sampler(job, error));
-    }
-    if (question->weights_path != NULL) {
-        PS_TRY(
-            ps_power_sets_read_weights(&job->sets, question->weights_path, job->num_points, error));
     }
     job->problem = (ps_problem){
         .frequencies = &job->frequencies,

@@ -69,6 +69,7 @@ static pspec_status choose_engine(pspec_plan *plan, const ps_public_request *req
     const ps_plan_constraints constraints = {.engine = request->engine,
                                              .precision = request->precision,
                                              .memory_limit = context->memory_limit,
+                                             .offers = PS_OFFER_RINGS,
                                              .room = &room};
     ps_memory_room_find(&room, 0);
     if (ps_plan_may_need_device(&constraints)) {

@@ -68,8 +68,9 @@ static pspec_status set_frequencies(ps_frequencies *out, const pspec_power_reque
         return draw_frequencies(out, request, error);
     }
     if (request->frequencies == NULL) {
-        return ps_frequencies_lattice(out, request->dimension, request->max_frequency,
-                                      request->rings_only != 0, error);
+        return ps_frequencies_grid(out, request->dimension, request->max_frequency,
+                                   request->rings_only != 0, PS_OFFER_RINGS | PS_OFFER_LISTS,
+                                   error);
     }
     if (num == 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "the list of frequencies is empty");

@@ -2,6 +2,7 @@
 
 #include "analysis/sums.h"
 #include "base/memory.h"
+#include "io/input_file.h"
 #include "job/quadrature_looks.h"
 #include "job/quadrature_rules.h"
 
@@ -329,6 +330,13 @@ static void release(job *of) {
     ps_quadrature_setup_free(&of->setup);
 }
 
+/* Names that can be wrong are looked at before sets are read, which may take long. */
+static pspec_status check_names(const ps_quadrature_question *question, ps_error *error) {
+    PS_TRY(ps_plan_check_engine(question->constraints.engine, PS_ON_SPHERE, error));
+    PS_TRY(ps_inputs_check(question->paths, question->num_paths, error));
+    return ps_inputs_check(&question->weights_path, 1, error);
+}
+
 pspec_status ps_quadrature_run(ps_quadrature_result *out, const ps_quadrature_question *question,
                                ps_error *error) {
     enum { MOST_RUNS = 3 };
@@ -336,6 +344,7 @@ pspec_status ps_quadrature_run(ps_quadrature_result *out, const ps_quadrature_qu
     double largest_share = 0;
     bool again = true;
     *out = (ps_quadrature_result){0};
+    PS_TRY(check_names(question, error));
     for (int i = 0; i < MOST_RUNS && again; i++) {
         ps_quadrature_free(out);
         *out = (ps_quadrature_result){.largest_condition = NAN, .was_replanned = i > 0};

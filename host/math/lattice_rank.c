@@ -6,6 +6,16 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
+ps_lattice_bounds ps_lattice_estimate(unsigned dimension, int64_t max_norm2) {
+    const double pi = 3.14159265358979323846;
+    const double half_dimension = dimension / 2.0;
+    const double unit_ball = pow(pi, half_dimension) / tgamma(half_dimension + 1);
+    const double radius = sqrt((double)max_norm2);
+    const double half_diagonal = sqrt((double)dimension) / 2;
+    return (ps_lattice_bounds){unit_ball * pow(fmax(radius - half_diagonal, 0), dimension),
+                               unit_ball * pow(radius + half_diagonal, dimension)};
+}
+
 /* The last entry of the convolution below, which is the largest; false when it does not fit. */
 static bool largest_fits(const uint64_t *in, int64_t max_norm2) {
     uint64_t sum = in[max_norm2];
@@ -32,16 +42,20 @@ static void add_axis(uint64_t *out, const uint64_t *in, int64_t max_norm2) {
     }
 }
 
+static pspec_status fail_countless(const ps_lattice *lattice, ps_error *error) {
+    return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                   "in dimension %u there are more than 2^64 - 1 frequencies with |k|^2 <= "
+                   "%lld: more than can be counted",
+                   lattice->dimension, (long long)lattice->max_norm2);
+}
+
 static pspec_status fill(ps_lattice *lattice, ps_error *error) {
     for (int64_t n = 0; n <= lattice->max_norm2; n++) {
         lattice->within[0][n] = 1;
     }
     for (unsigned j = 1; j <= lattice->dimension; j++) {
         if (!largest_fits(lattice->within[j - 1], lattice->max_norm2)) {
-            return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                           "in dimension %u there are more than 2^64 - 1 frequencies with |k|^2 <= "
-                           "%lld: more than can be counted",
-                           lattice->dimension, (long long)lattice->max_norm2);
+            return fail_countless(lattice, error);
         }
         add_axis(lattice->within[j], lattice->within[j - 1], lattice->max_norm2);
     }
@@ -53,6 +67,9 @@ pspec_status ps_lattice_create(ps_lattice *out, unsigned dimension, int64_t max_
     void *memory = NULL;
     const size_t row = (size_t)max_norm2 + 1;
     *out = (ps_lattice){.dimension = dimension, .max_norm2 = max_norm2};
+    if (ps_lattice_estimate(dimension, max_norm2).least > (double)UINT64_MAX) {
+        return fail_countless(out, error);
+    }
     PS_TRY(ps_allocate(&memory, row, (dimension + 1) * sizeof(uint64_t), "counts of frequencies",
                        error));
     uint64_t *const block = memory;

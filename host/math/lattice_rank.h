@@ -21,9 +21,16 @@ typedef struct ps_lattice {
     uint64_t *within[PS_LATTICE_MAX_DIMENSION + 1];
 } ps_lattice;
 
+/* Between which numbers the points of Z^d with |k|^2 <= max_norm2 are, without counting them: the unit cubes around them
+ * cover the ball whose radius is half a diagonal less, and lie in the one whose radius is half a diagonal more. */
+typedef struct ps_lattice_bounds {
+    double least, most;
+} ps_lattice_bounds;
+ps_lattice_bounds ps_lattice_estimate(unsigned dimension, int64_t max_norm2);
+
 /* Counts all points with |k|^2 <= max_norm2, in (dimension + 1) (max_norm2 + 1) numbers and about
  * dimension max_norm2^1.5 additions. dimension 1..6. More points than 2^64 - 1 are
- * PSPEC_ERROR_INVALID_ARGUMENT. */
+ * PSPEC_ERROR_INVALID_ARGUMENT, at once where the estimate says so. */
 pspec_status ps_lattice_create(ps_lattice *out, unsigned dimension, int64_t max_norm2,
                                ps_error *error) PS_MUST_CHECK;
 void ps_lattice_free(ps_lattice *lattice);

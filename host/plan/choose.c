@@ -1,7 +1,9 @@
 #include "plan/choose.h"
 
+#include "base/memory.h"
 #include "base/text.h"
 #include "engines/error_units.h"
+#include "engines/frequency_sample.h"
 #include "plan/choose_private.h"
 #include "plan/cost_model.h"
 #include "plan/memory_model.h"
@@ -10,7 +12,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static pspec_status check_engine_name(const char *name, unsigned domain, ps_error *error) {
+pspec_status ps_plan_check_engine(const char *name, unsigned domain, ps_error *error) {
     const char *nearest = NULL;
     for (const ps_engine *const *engine = ps_engines; name != NULL && *engine != NULL; engine++) {
         if (strcmp((*engine)->name, name) == 0) {
@@ -212,20 +214,16 @@ static bool is_too_large(const ps_plan *plan, const ps_problem *problem) {
     return ps_plan_fitting(plan) == NULL && (has_exact || !has_any);
 }
 
-/* With this largest degree instead of the problem's. */
-static bool would_do(const ps_problem *problem, int32_t max_degree, const ps_device_limits *limits,
-                     const ps_plan_constraints *constraints) {
-    ps_frequencies degrees;
+/* Of these frequencies instead of the problem's. */
+static bool would_do(const ps_problem *problem, const ps_frequencies *frequencies,
+                     const ps_device_limits *limits, const ps_plan_constraints *constraints) {
     ps_problem smaller = *problem;
-    const bool only_even = problem->frequencies->degree_step > 1;
-    if (ps_frequencies_degrees(&degrees, max_degree, only_even, NULL) != PSPEC_OK) {
-        return false;
-    }
-    smaller.frequencies = &degrees;
+    smaller.frequencies = frequencies;
     for (const ps_engine *const *engine = ps_engines; *engine != NULL; engine++) {
         for (int precision = PS_SINGLE; precision <= PS_EXTENDED; precision++) {
             ps_candidate candidate = {.engine = *engine, .precision = (ps_precision)precision};
-            if ((*engine)->domains & PS_ON_SPHERE && (*engine)->has_precision[precision]) {
+            if ((*engine)->domains & ps_problem_domain(problem) &&
+                (*engine)->has_precision[precision]) {
                 judge(&candidate, &smaller, limits, constraints);
             }
             if (candidate.is_feasible && !candidate.is_crowded) {
@@ -236,6 +234,39 @@ static bool would_do(const ps_problem *problem, int32_t max_degree, const ps_dev
     return false;
 }
 
+/* With this largest degree instead of the problem's. */
+static bool would_do_to(const ps_problem *problem, int32_t max_degree,
+                        const ps_device_limits *limits, const ps_plan_constraints *constraints) {
+    ps_frequencies degrees;
+    const bool only_even = problem->frequencies->degree_step > 1;
+    return ps_frequencies_degrees(&degrees, max_degree, only_even, NULL) == PSPEC_OK &&
+           would_do(problem, &degrees, limits, constraints);
+}
+
+/* With the smallest subset of every ring, or as many other frequencies up to K: points may be what there is too much of. */
+static bool would_do_of_rings(const ps_problem *problem, const ps_device_limits *limits,
+                              const ps_plan_constraints *constraints) {
+    const ps_frequencies *const all = problem->frequencies;
+    const size_t num = (size_t)PS_MIN_PER_RING * (size_t)all->max_frequency;
+    ps_frequencies subset = {0};
+    void *memory = NULL;
+    if ((constraints->offers & PS_OFFER_RINGS) == 0 ||
+        !ps_frequencies_can_sample(all->dimension, all->max_frequency) ||
+        ps_allocate(&memory, num * all->dimension, sizeof(int32_t), "frequencies", NULL) !=
+            PSPEC_OK) {
+        return false;
+    }
+    int32_t *const vectors = memory;
+    for (size_t i = 0; i < num; i++) {
+        vectors[i * all->dimension] = (int32_t)(i / PS_MIN_PER_RING) + 1;
+    }
+    const bool would_fit =
+        ps_frequencies_list(&subset, all->dimension, num, vectors, NULL) == PSPEC_OK &&
+        would_do(problem, &subset, limits, constraints);
+    ps_frequencies_free(&subset);
+    return would_fit;
+}
+
 /* Memory grows with the degree. */
 static int32_t find_largest_degree(const ps_problem *problem, const ps_device_limits *limits,
                                    const ps_plan_constraints *constraints) {
@@ -243,7 +274,7 @@ static int32_t find_largest_degree(const ps_problem *problem, const ps_device_li
     int32_t bad = problem->frequencies->max_frequency;
     while (bad - good > 1) {
         const int32_t middle = good + (bad - good) / 2;
-        if (would_do(problem, middle, limits, constraints)) {
+        if (would_do_to(problem, middle, limits, constraints)) {
             good = middle;
         } else {
             bad = middle;
@@ -282,7 +313,7 @@ pspec_status ps_plan_make(ps_plan *plan, const ps_problem *problem, const ps_dev
     if (constraints->room != NULL) {
         plan->room = *constraints->room;
     }
-    PS_TRY(check_engine_name(constraints->engine, ps_problem_domain(problem), error));
+    PS_TRY(ps_plan_check_engine(constraints->engine, ps_problem_domain(problem), error));
     for (const ps_engine *const *engine = ps_engines; *engine != NULL; engine++) {
         for (int precision = PS_SINGLE; precision <= PS_EXTENDED; precision++) {
             if (!((*engine)->domains & ps_problem_domain(problem)) ||
@@ -296,8 +327,13 @@ pspec_status ps_plan_make(ps_plan *plan, const ps_problem *problem, const ps_dev
         }
     }
     choose_cheapest(plan, constraints->prefers_double);
-    if (ps_problem_domain(problem) == PS_ON_SPHERE && is_too_large(plan, problem)) {
+    if (!is_too_large(plan, problem)) {
+        return PSPEC_OK;
+    }
+    if (ps_problem_domain(problem) == PS_ON_SPHERE) {
         plan->largest_degree = find_largest_degree(problem, limits, constraints);
+    } else if (problem->frequencies->kind != PS_FREQUENCIES_LIST) {
+        plan->would_fit_subset = would_do_of_rings(problem, limits, constraints);
     }
     return PSPEC_OK;
 }

@@ -38,6 +38,7 @@ typedef struct ps_plan {
     const ps_candidate *chosen; /* NULL: nothing is feasible; points into candidates */
     int32_t
         largest_degree; /* on the sphere, of what would be feasible then; 0: none, or not needed */
+    bool would_fit_subset; /* of every ring, which is on offer; false where it is not needed */
 } ps_plan;
 
 typedef struct ps_plan_constraints {
@@ -46,6 +47,7 @@ typedef struct ps_plan_constraints {
     uint64_t memory_limit; /* bytes that somebody typed, which may change the engine; 0: none */
     /* What is free may shrink batches, or refuse what was chosen, but changes no choice. NULL: nobody looked. */
     const ps_memory_room *room;
+    unsigned offers;     /* PS_OFFER_RINGS, .. (engines/frequencies.h), where there is too much */
     bool prefers_double; /* before any other precision, even where less is within the tolerance */
 } ps_plan_constraints;
 
@@ -59,6 +61,9 @@ double ps_plan_tolerance(double tolerance, double floor);
 /* The loosest tolerance of S with which a standard error, relative, of powers down to `floor` means what it says: the
  * numerical error of such a power is at most a third of it, three times over, and the powers are right to 10 %. */
 double ps_plan_statistical_tolerance(double standard_error, double floor);
+
+/* The name of an engine of that domain, or NULL; else PSPEC_ERROR_INVALID_ARGUMENT with the nearest one. */
+pspec_status ps_plan_check_engine(const char *name, unsigned domain, ps_error *error) PS_MUST_CHECK;
 
 /* Fills *plan. limits is NULL without a device. An unknown engine name is
  * PSPEC_ERROR_INVALID_ARGUMENT with the nearest one; that nothing is feasible is not an error here

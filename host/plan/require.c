@@ -1,5 +1,4 @@
 /* Sentences for plans that nothing is left of: what stands in the way, and what would help. */
-#include "engines/frequency_sample.h"
 #include "engines/error_units.h"
 #include "plan/choose_private.h"
 
@@ -41,12 +40,7 @@ static void say_what_fits(char *out, size_t out_bytes, const ps_plan *plan,
                           const ps_problem *problem) {
     const ps_frequency_kind kind = problem->frequencies->kind;
     out[0] = '\0';
-    if (kind == PS_FREQUENCIES_BOX || kind == PS_FREQUENCIES_BALL) {
-        /* In one dimension, and beyond the rings that can be counted, there is no such subset. */
-        if (problem->frequencies->dimension == 1 ||
-            problem->frequencies->max_frequency > PS_MAX_SAMPLED_RING) {
-            return;
-        }
+    if (plan->would_fit_subset) {
         snprintf(out, out_bytes,
                  "; a random subset of the frequencies of every ring (--per-ring) needs less");
     } else if (kind == PS_FREQUENCIES_DEGREES && plan->largest_degree > 0) {

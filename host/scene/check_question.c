@@ -33,5 +33,6 @@ pspec_status ps_check_question_make(ps_question_list *out, const ps_request *own
     PS_TRY(ps_questions_make(out, own, saved->on_sphere ? PS_QUESTION_ANGULAR : PS_QUESTION_POWER,
                              error));
     out->questions[0].per_ring_seed = saved->seed;
+    out->questions[0].constraints.offers = 0; /* the saved spectrum says which frequencies */
     return PSPEC_OK;
 }

@@ -154,6 +154,17 @@ uint64_t ps_num_realizations_asked(const ps_request *arguments) {
                : arguments->num_realizations;
 }
 
+/* What else this may be asked of, as check_results has it. */
+static unsigned find_offers(const ps_request *arguments, ps_question_kind kind) {
+    const bool is_whole = arguments->full != NULL || arguments->standard_error > 0;
+    if (kind != PS_QUESTION_POWER || is_whole || arguments->frequencies != NULL ||
+        arguments->per_ring > 0) {
+        return 0;
+    }
+    return PS_OFFER_RINGS |
+           (arguments->plot == NULL && !arguments->shells ? (unsigned)PS_OFFER_LISTS : 0);
+}
+
 static ps_power_question make_question(const ps_request *arguments, ps_question_kind kind) {
     ps_power_question question = {
         .on_sphere = domain_of(kind) == PS_DOMAIN_SPHERE,
@@ -181,7 +192,8 @@ static ps_power_question make_question(const ps_request *arguments, ps_question_
         .no_self_check = arguments->no_self_check,
         .constraints = {.engine = arguments->engine,
                         .precision = arguments->precision,
-                        .memory_limit = arguments->memory},
+                        .memory_limit = arguments->memory,
+                        .offers = find_offers(arguments, kind)},
         .device = arguments->device,
         .figures_folder = arguments->cache_folder,
         .profile = arguments->profile,
