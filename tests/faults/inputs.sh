@@ -1,6 +1,20 @@
 #!/usr/bin/env bash
-# Sourced: make_inputs makes the files that the command lines of commands.txt want, in $scratch/initial, with $program.
-# shellcheck disable=SC2154,SC2103 # both are the caller's, who is in a folder
+# Sourced: read_line takes a line of commands.txt apart; make_inputs makes the files that these lines want, in
+# $scratch/initial, with $program.
+# shellcheck disable=SC2154,SC2103,SC2034 # variables are the caller's, who is in a folder
+
+# Sets words, what is run, and stdin, a path, from the fields of a line; the program and the kernels are the caller's.
+read_line() { # NAME STDIN [VARIABLE=VALUE...] WORD...
+    stdin=/dev/null words=()
+    [[ $2 == - ]] || stdin=$scratch/initial/$2
+    shift 2
+    while [[ $1 =~ ^[A-Z_]+= ]]; do
+        set -- "${1//@cache@/$scratch/cache}" "${@:2}"
+        words+=("${1//@kernels@/$here/../../kernels}")
+        shift
+    done
+    words+=("$program" "$@")
+}
 
 # Two points and their weights, zeros, column by column: magic, length of the header, header, numbers.
 make_fortran_array() {

@@ -45,17 +45,11 @@ check_symbols() {
 
 # The run without faults: its outputs, its calls, and again, for both must be the same every time.
 prepare_case() { # NAME STDIN [VARIABLE=VALUE...] WORD...
-    local name=$1 case=$scratch/cases/$1 stdin=$2 words=() round
-    shift 2
-    while [[ $1 =~ ^[A-Z_]+= ]]; do
-        set -- "${1//@cache@/$scratch/cache}" "${@:2}"
-        words+=("${1//@kernels@/$here/../../kernels}")
-        shift
-    done
-    words+=("$program" "$@")
+    local name=$1 case=$scratch/cases/$1 stdin words round
+    read_line "$@"
     mkdir -p "$case"
     printf '%s\n' "${words[@]}" >"$case/words"
-    { [[ $stdin == - ]] && echo /dev/null || echo "$scratch/initial/$stdin"; } >"$case/stdin"
+    echo "$stdin" >"$case/stdin"
     # Names that a sentence about a file may have: files without endings, since some lie beside others.
     { printf 'standard (in|out)put|temporary file|gnuplot|kernel source|/dev/null'
         printf '%s\n' "${words[@]}" | sed -nE 's/^([a-z:]*=)?([a-z]*)\.[a-z]*$/|\2\\./p' | tr -d '\n'; } >"$case/things"

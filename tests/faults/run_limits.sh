@@ -97,19 +97,6 @@ judge() { # KIND NUMBER LOADS_DRIVER
     fi
 }
 
-# Sets words and stdin from a line of commands.txt.
-read_line() { # NAME STDIN [VARIABLE=VALUE...] WORD...
-    stdin=/dev/null words=()
-    [[ $2 == - ]] || stdin=$scratch/initial/$2
-    shift 2
-    while [[ $1 =~ ^[A-Z_]+= ]]; do
-        set -- "${1//@cache@/$scratch/cache}" "${@:2}"
-        words+=("${1//@kernels@/$here/../../kernels}")
-        shift
-    done
-    words+=("$program" "$@")
-}
-
 # Does it load a driver when nothing is refused? The loader says so.
 loads_driver() {
     (cd "$scratch/initial" && LD_DEBUG=files LD_DEBUG_OUTPUT=$scratch/loaded env "${words[@]}" <"$stdin" >/dev/null 2>&1) || true
