@@ -2,6 +2,7 @@
  * them. No device is opened: planning is a function of problem, limits and figures. */
 #include "harness_plan.h"
 
+#include "plan/figures_text.h"
 #include "plan/host_cost.h"
 #include "plan/host_figures.h"
 

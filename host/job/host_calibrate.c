@@ -27,7 +27,7 @@
  * on a machine with neighbours, too. */
 enum { ROUNDS = 7 };
 
-/* What a figure may be: host/plan/figures_file.c does not take others. */
+/* What a figure may be: host/plan/figures_text.c does not take others. */
 static const double least_scale = 1e-3, most_scale = 1e3;
 
 /* What probes work on. */

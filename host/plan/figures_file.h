@@ -14,15 +14,6 @@
 pspec_status ps_figures_path(ps_text *path, const char *folder, const ps_device_limits *limits,
                              ps_error *error) PS_MUST_CHECK;
 
-/* Appends the text of a file; figures->note is not in it. */
-pspec_status ps_figures_format(ps_text *text, const ps_figures *figures,
-                               const ps_device_limits *limits, ps_error *error) PS_MUST_CHECK;
-/* PSPEC_ERROR_INPUT with the reason when the text is not one of this device; *figures is then without figures. */
-pspec_status ps_figures_parse(ps_figures *figures, const char *text, size_t length,
-                              const ps_device_limits *limits, ps_error *error) PS_MUST_CHECK;
-/* Appends the last line of a file. */
-void ps_figures_add_checksum(ps_text *text);
-
 /* Makes the folder of the files, unless it is there. */
 pspec_status ps_figures_make_folder(const char *folder, ps_error *error) PS_MUST_CHECK;
 /* That, too; the file is there whole, or as it was. */
