@@ -66,3 +66,38 @@ const char *harness_cache_path(const char *directory, unsigned number,
              (uint64_t)hash.high64, (uint64_t)hash.low64);
     return path;
 }
+
+ps_cache *harness_cache_open(void **state, uint64_t max_bytes) {
+    const test_folder *const folder = *state;
+    ps_cache *cache = NULL;
+    ps_error error = {0};
+    if (ps_cache_open(&cache, folder->path, max_bytes, &error) != PSPEC_OK) {
+        fail_msg("%s", error.message);
+    }
+    return cache;
+}
+
+void harness_cache_must_put(const ps_cache *cache, unsigned number, size_t most_bytes) {
+    ps_error error = {0};
+    if (harness_cache_put(cache, number, most_bytes, &error) != PSPEC_OK) {
+        fail_msg("%s", error.message);
+    }
+}
+
+int harness_cache_must_get(const ps_cache *cache, unsigned number, size_t most_bytes) {
+    ps_error error = {0};
+    const int found = harness_cache_get(cache, number, most_bytes, &error);
+    if (found < 0) {
+        fail_msg("entry %u is wrong, or: %s", number, error.message);
+    }
+    return found;
+}
+
+void harness_cache_check_usage(const ps_cache *cache, size_t num_entries, uint64_t bytes) {
+    size_t entries_there = 0;
+    uint64_t bytes_there = 0;
+    ps_error error = {0};
+    assert_int_equal(ps_cache_usage(cache, &entries_there, &bytes_there, &error), PSPEC_OK);
+    assert_int_equal(entries_there, num_entries);
+    assert_int_equal(bytes_there, bytes);
+}

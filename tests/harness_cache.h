@@ -3,6 +3,12 @@
 #define PS_TESTS_HARNESS_CACHE_H
 
 #include "io/result_cache.h"
+#include "test_folder.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+
+#include <cmocka.h>
 
 enum { CACHE_KEY_BYTES = 40, CACHE_BLOCK_BYTES = 4096, CACHE_PATH_BYTES = 512 };
 
@@ -14,6 +20,12 @@ pspec_status harness_cache_put(const ps_cache *cache, unsigned number, size_t mo
                                ps_error *error);
 /* 1: the data of this number came, 0: nothing came, -1: an error, or other data. */
 int harness_cache_get(const ps_cache *cache, unsigned number, size_t most_bytes, ps_error *error);
+
+/* The cache in the folder of a test; and the same as above, where what does not work is a failure of the test. */
+ps_cache *harness_cache_open(void **state, uint64_t max_bytes);
+void harness_cache_must_put(const ps_cache *cache, unsigned number, size_t most_bytes);
+int harness_cache_must_get(const ps_cache *cache, unsigned number, size_t most_bytes);
+void harness_cache_check_usage(const ps_cache *cache, size_t num_entries, uint64_t bytes);
 
 /* The file of an entry. */
 const char *harness_cache_path(const char *directory, unsigned number, char path[CACHE_PATH_BYTES]);
