@@ -223,6 +223,15 @@ else
     echo "cli_convert: a sanitizer's program does not start in $limit KiB: no test of memory"
 fi
 
+# ---- --memory counts what openquad keeps, too
+"$program" sample --sampler white-sphere -n 1e5 -o large.txt # 1.6 MB of angles
+code=0
+convert large.txt --memory 1M --format openquad >out 2>err || code=$?
+[[ $code == 1 && ! -s out && $(<err) == *'set 1 takes more than 1M, the limit of --memory, and openquad needs it whole'* ]] ||
+    complain "openquad in 1M: exit $code: $(<err)"
+convert large.txt --memory 4M --format openquad --quiet -o large.npy || complain "openquad in 4M"
+rm -f large.*
+
 # ---- interruption
 mkdir interrupted
 mkfifo endless

@@ -224,7 +224,8 @@ static void survives_every_buffer_end(void **state) {
         ps_error error = {0};
         ps_point_writer *writer = NULL;
         const size_t half = i == 0 ? 2 : 1;
-        const ps_point_shape shape = {half, NUM_POINTS / half, 0, DIMENSION, false, NULL};
+        const ps_point_shape shape = {
+            .num_sets = half, .num_points = NUM_POINTS / half, .dimension = DIMENSION};
         ps_point_set set = {
             .dimension = DIMENSION, .num_points = NUM_POINTS / half, .points = points};
         test_path(*state, i == 2 ? "large.npy" : "large.txt", path);

@@ -279,6 +279,36 @@ static void reads_pipes(void **state) {
     }
 }
 
+/* Half of the limit is for sets that are kept: one of them at a time, or no set at all. */
+static void fortran_order_within_memory(void **state) {
+    enum { SETS = 3, POINTS = 4, COLUMNS = 2, SET_BYTES = POINTS * COLUMNS * 8 };
+    const ps_point_options enough = {.memory_limit = 2 * SET_BYTES, .domain = PS_DOMAIN_TORUS};
+    const ps_point_options less = {.memory_limit = 2 * SET_BYTES - 1, .domain = PS_DOMAIN_TORUS};
+    ps_error error = {0};
+    ps_point_reader *reader = NULL;
+    ps_point_set set = {0};
+    bool has_set = true;
+    bytes file;
+    append_header(&file, 1, "{'descr': '<f8', 'fortran_order': True, 'shape': (3, 4, 2), }");
+    for (size_t i = 0; i < SETS * POINTS * COLUMNS; i++) {
+        append_element(&file, value_at(i % SETS, i / SETS % POINTS, i / SETS / POINTS), 8, true);
+    }
+    assert_int_equal(open_bytes(state, &file, &enough, &reader, &error), PSPEC_OK);
+    for (size_t m = 0; m < SETS; m++) {
+        assert_int_equal(ps_points_next(reader, &set, &has_set, &error), PSPEC_OK);
+        assert_true(has_set && set.num_points == POINTS);
+        for (size_t i = 0; i < POINTS * COLUMNS; i++) {
+            assert_true(set.points[i] == value_at(m, i / COLUMNS, i % COLUMNS));
+        }
+    }
+    ps_points_close(reader);
+    assert_int_equal(open_bytes(state, &file, &less, &reader, &error), PSPEC_OK);
+    assert_int_equal(ps_points_next(reader, &set, &has_set, &error), PSPEC_ERROR_MEMORY);
+    assert_non_null(strstr(error.message, "half of 127 at most, the limit of --memory"));
+    ps_points_close(reader);
+    ps_point_set_free(&set);
+}
+
 static void writes_what_numpy_reads(void **state) {
     static const double data[] = {0.5, 0.25, 0.125, -1};
     const size_t shapes[][3] = {{4}, {2, 2}, {1, 2, 2}};
@@ -312,6 +342,7 @@ int main(void) {
         IN_FOLDER(refuses_bad_arrays),
         IN_FOLDER(survives_truncation_and_damage),
         IN_FOLDER(reads_pipes),
+        IN_FOLDER(fortran_order_within_memory),
         IN_FOLDER(writes_what_numpy_reads),
     };
     return cmocka_run_group_tests_name("points_npy", tests, NULL, NULL);

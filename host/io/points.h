@@ -2,8 +2,8 @@
  * (docs/formats.md), from files or standard input.
  *
  * A reader yields one set (realization) at a time, or one block of a set, and holds no more than
- * that (up to 64 MiB of sets for NPY arrays of several sets in Fortran order, which lie scattered
- * over the file). Sets, rows and lines are counted from 1 in messages. A read that a signal
+ * that (up to 64 MiB of sets, or half of the memory limit, for NPY arrays of several sets in Fortran
+ * order, which lie scattered over the file). Sets, rows and lines are counted from 1 in messages. A read that a signal
  * interrupts is PSPEC_ERROR_CANCELLED; a handler installed with SA_RESTART does not interrupt.
  * Another format is another row in the table of formats in points.c and another file beside it.
  */
@@ -109,6 +109,7 @@ typedef struct ps_point_shape {
     unsigned dimension;
     bool has_weights;
     const char *columns; /* of the sphere: one of PS_POINT_COLUMNS; NULL: as the coordinates are */
+    uint64_t memory_limit; /* bytes of points, where the format keeps a set whole; 0: any */
 } ps_point_shape;
 
 /* The format that a file of this name would get: by its ending, else "utk-text". */

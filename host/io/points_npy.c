@@ -149,12 +149,35 @@ static void scatter_block(const ps_point_reader *reader, size_t first, size_t nu
     }
 }
 
+/* Half of a limit that was typed: the other half is for the points that are handed out. */
+static size_t cache_elements(const ps_point_reader *reader) {
+    const uint64_t limit = reader->options.memory_limit;
+    const uint64_t half = limit / 2 / sizeof(double);
+    return limit > 0 && half < CACHE_ELEMENTS ? (size_t)half : CACHE_ELEMENTS;
+}
+
+static pspec_status check_set(const ps_point_reader *reader, size_t set_elements, ps_error *error) {
+    const uint64_t limit = reader->options.memory_limit;
+    char size[PS_SIZE_TEXT];
+    char most[PS_SIZE_TEXT];
+    return limit == 0 || set_elements <= limit / 2 / sizeof(double)
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_MEMORY,
+                         "%.440s: a set takes %s, and sets in Fortran order half of %s at most, "
+                         "the limit of --memory; save the array in C order",
+                         reader->input.name,
+                         ps_size_show(size, (double)set_elements * (double)sizeof(double)),
+                         ps_size_show(most, (double)limit));
+}
+
 /* One pass over the array fills the cache with as many sets as it is meant to hold, at least the
  * one that is wanted. */
 static pspec_status fill_cache(ps_point_reader *reader, size_t wanted, ps_error *error) {
     npy_state *const state = reader->state;
     const size_t set_elements = state->num_points * reader->columns;
-    const size_t fitting = set_elements < CACHE_ELEMENTS ? CACHE_ELEMENTS / set_elements : 1;
+    const size_t most = cache_elements(reader);
+    const size_t fitting = set_elements < most ? most / set_elements : 1;
+    PS_TRY(check_set(reader, set_elements, error));
     const size_t left = state->num_sets - wanted;
     state->first_cached = wanted;
     state->num_cached = left < fitting ? left : fitting;
@@ -177,11 +200,13 @@ static pspec_status fill_cache(ps_point_reader *reader, size_t wanted, ps_error 
 static pspec_status read_cached(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
     npy_state *const state = reader->state;
     const size_t wanted = (size_t)reader->num_sets;
-    if (state->data_position < 0 && state->header.num_elements > CACHE_ELEMENTS) {
-        return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "%s: an array in Fortran order of more than %d elements cannot be read from "
-                       "a pipe; save it in C order",
-                       reader->input.name, CACHE_ELEMENTS);
+    if (state->data_position < 0 && state->header.num_elements > cache_elements(reader)) {
+        return ps_fail(
+            error, PSPEC_ERROR_INPUT,
+            "%s: an array in Fortran order of more than %zu elements cannot be read from "
+            "a pipe%s; save it in C order",
+            reader->input.name, cache_elements(reader),
+            cache_elements(reader) < CACHE_ELEMENTS ? " with this --memory" : "");
     }
     if (wanted - state->first_cached >= state->num_cached) {
         PS_TRY(fill_cache(reader, wanted, error));

@@ -155,6 +155,22 @@ static void write_staged(ps_point_writer *writer, const ps_point_set *block) {
     }
 }
 
+/* What a format keeps until the set is complete, with the block and its rows on their way there. */
+static pspec_status check_kept(const ps_point_writer *writer, const ps_point_set *block,
+                               ps_error *error) {
+    const double limit = (double)writer->shape.memory_limit;
+    const double rows = (double)block->num_points * writer->columns * (double)sizeof(double);
+    char size[PS_SIZE_TEXT];
+    return limit == 0 || writer->format->finish == NULL ||
+                   (double)writer->kept.length + 2 * rows <= limit
+               ? PSPEC_OK
+               : ps_fail(
+                     error, PSPEC_ERROR_MEMORY,
+                     "set %zu takes more than %s, the limit of --memory, and %s needs it whole, "
+                     "for its columns follow one another",
+                     writer->num_sets + 1, ps_size_show(size, limit), writer->format->name);
+}
+
 /* Are the points of the block rows as they stand? */
 static bool is_plain(const ps_point_writer *writer, const ps_point_set *block) {
     return ps_layout_is_plain(&writer->layout) && writer->layout.coordinates == block->coordinates;
@@ -171,6 +187,7 @@ pspec_status ps_points_write(ps_point_writer *writer, const ps_point_set *block,
     if (writer->rows_in_set == 0) {
         PS_TRY(begin_set(writer, error));
     }
+    PS_TRY(check_kept(writer, block, error));
     if (is_plain(writer, block)) {
         writer->format->write(writer, block->points, block->num_points);
     } else {

@@ -37,7 +37,8 @@ static pspec_status create_writer(worker *w, ps_error *error) {
                                 .coordinates = w->block.coordinates,
                                 .dimension = w->block.dimension,
                                 .has_weights = w->block.has_weights,
-                                .columns = conversion->columns};
+                                .columns = conversion->columns,
+                                .memory_limit = conversion->options.memory_limit};
     return ps_points_create(&w->writer, conversion->output, output_format(conversion), &w->shape,
                             error);
 }
