@@ -124,7 +124,7 @@ for folder in limited unlimited; do
     (ulimit -v 4000000; "$program" run "$folder/record.json" -o again --cache 0) >out 2>err ||
         complain "$folder repeated with less memory: $(<err)"
 done
-says 1 'scene.yaml:4: other: .* above the limit of 1;' "$program" run scene.yaml --memory 1 -o refused
+says 1 'scene.yaml:4: other: .* above the limit of 1$' "$program" run scene.yaml --memory 1 -o refused
 
 # ---- a memory cgroup, where one can be made ----------------------------------------------------
 
