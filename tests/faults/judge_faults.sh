@@ -60,7 +60,9 @@ check_sentence() { # CASE CLASS NUMBER[+]
     things=$(<"$1/things")
     remark=
     local -a said=("${said[@]}")
-    [[ ${said[0]-} != pointspec:*' will not be drawn: '* ]] || said=("${said[@]:1}") # a warning before the work
+    case ${said[0]-} in # a warning before the work
+    pointspec:*' will not be drawn: '* | pointspec:*'; pictures are left out '*) said=("${said[@]:1}") ;;
+    esac
     for line in "${said[@]}"; do [[ $line != pointspec* ]] || sentences+=1; done
     last=${said[-1]-}
     if ((sentences != 1)) || [[ $last != pointspec*:* ]]; then
