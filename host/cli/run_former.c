@@ -29,6 +29,13 @@ static const char *find_former(const ps_run *run, const char *name) {
 
 /* ---- before the work --------------------------------------------------------------------- */
 
+/* After a call that did not find the file. */
+static pspec_status fail_unless_missing(const char *path, ps_error *error) {
+    return errno == ENOENT
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_IO, "cannot look at \"%s\": %s", path, strerror(errno));
+}
+
 static pspec_status refuse_foreign(const ps_run *run, const ps_run_file *file, ps_error *error) {
     struct stat facts;
     ps_text path = {0};
@@ -39,9 +46,8 @@ static pspec_status refuse_foreign(const ps_run *run, const ps_run_file *file, p
                          "\"%s\" would be written over, but is not of the former run by its "
                          "record.json; move it away, or say another folder by -o FOLDER",
                          ps_text_string(&path));
-    } else if (status == PSPEC_OK && errno != ENOENT) {
-        status = ps_fail(error, PSPEC_ERROR_IO, "cannot look at \"%s\": %s", ps_text_string(&path),
-                         strerror(errno));
+    } else if (status == PSPEC_OK) {
+        status = fail_unless_missing(ps_text_string(&path), error);
     }
     ps_text_free(&path);
     return status;
@@ -51,7 +57,10 @@ static pspec_status refuse_foreign(const ps_run *run, const ps_run_file *file, p
 static pspec_status read_record(ps_run *run, const char *path, ps_error *error) {
     struct stat facts;
     ps_error reason = {0};
-    if (lstat(path, &facts) != 0 || !S_ISREG(facts.st_mode)) {
+    if (lstat(path, &facts) != 0) {
+        return fail_unless_missing(path, error);
+    }
+    if (!S_ISREG(facts.st_mode)) {
         return PSPEC_OK;
     }
     const pspec_status status = ps_scene_read(&run->former, path, &reason);

@@ -72,7 +72,7 @@ check_sentence() { # CASE CLASS NUMBER[+]
     fi
     case $2 in
     memory) [[ ${last,,} == *memory* ]] || remark="does not speak of memory" ;;
-    file) [[ $last =~ (cannot (read|write|create|run|make|find|open)|could not draw).*($things) || $last == *'PoCL cannot keep kernels in '* ]] ||
+    file) [[ $last =~ (cannot (read|write|create|run|make|find|open|look at)|could not draw).*($things) || $last == *'PoCL cannot keep kernels in '* ]] ||
         remark="does not name the file" ;;
     opencl)
         # Where everything fails from there on, the sentence may tell of a later call.
