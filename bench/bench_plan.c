@@ -209,32 +209,34 @@ static void remove_folder(const char *folder) {
     nftw(folder, remove_one, DESCRIPTORS, FTW_DEPTH | FTW_PHYS);
 }
 
-/* What the yardstick takes beside the calibration: its middle, as figures are those of middle runs. */
-static yardstick calibrate(const char *program) {
-    enum { YARDS = 20 };
-    double single[YARDS];
-    double all[YARDS];
-    for (int i = 0; i < YARDS; i++) {
-        if (i == YARDS / 2) {
-            run_command(program, "", "bench --calibrate", "calibration.csv");
-        }
-        const yardstick found = run_yardstick();
-        single[i] = found.single;
-        all[i] = found.all;
-    }
-    return (yardstick){bench_median(single, YARDS), bench_median(all, YARDS)};
-}
-
-static void make_files(const char *program) {
+static void make_scenes(void) {
     for (size_t i = 0; i < sizeof plan_scenes / sizeof plan_scenes[0]; i++) {
         FILE *const file = fopen(plan_scenes[i].name, "w");
         if (file == NULL || fputs(plan_scenes[i].text, file) == EOF || fclose(file) != 0) {
             bench_die("a scene cannot be written");
         }
     }
-    for (size_t i = 0; plan_files[i] != NULL; i++) {
-        run_command(program, "", plan_files[i], "ignored");
+}
+
+/* Calibrates, and makes the files of the questions. Returns what the yardstick takes just after: the middle, as figures are those
+ * of middle runs, and after a command each, as beside the questions, since a processor that was busy runs at another speed
+ * (measured: 1.2 times as long in a row of yardsticks). */
+static yardstick prepare(const char *program, bool is_calibrated) {
+    enum { FILES = sizeof plan_files / sizeof plan_files[0] - 1 };
+    double single[FILES];
+    double all[FILES];
+    if (is_calibrated) {
+        run_command(program, "", "bench --calibrate", "calibration.csv");
     }
+    make_scenes();
+    for (size_t i = 0; i < FILES; i++) {
+        run_command(program, "", plan_files[i], "ignored");
+        const yardstick found = run_yardstick();
+        single[i] = found.single;
+        all[i] = found.all;
+    }
+    return is_calibrated ? (yardstick){bench_median(single, FILES), bench_median(all, FILES)}
+                         : (yardstick){usual_single, usual_all};
 }
 
 static void find_program(char *path, const char *self) {
@@ -294,7 +296,6 @@ int main(int argc, char **argv) {
                    .part = argc > first + 1 ? argv[first + 1] : "",
                    .questions = is_quick ? plan_quick : plan_questions,
                    .repeats = is_quick ? QUICK_REPEATS : REPEATS,
-                   .usual = {usual_single, usual_all},
                    .good = is_quick ? 4 : 1.5,
                    .bad = is_quick ? 4 : 3};
     if (argc <= first) {
@@ -304,12 +305,11 @@ int main(int argc, char **argv) {
     }
     enter_folder(folder);
     setenv("POINTSPEC_CACHE_DIR", "cache", 1);
+    all.usual = prepare(program, !is_quick);
     if (!is_quick) {
-        all.usual = calibrate(program);
         printf("# yardstick beside the calibration: %.3g s of one thread, %.3g s of all\n",
                all.usual.single, all.usual.all);
     }
-    make_files(program);
     ask_all(&all);
     remove_folder(folder);
     return is_quick && all.num_bad > 0 ? EXIT_FAILURE : EXIT_SUCCESS;

@@ -118,13 +118,12 @@ static uint64_t count_pieces(size_t num_blocks) {
 
 pspec_status ps_rule_distance(const ps_rule *rule, double smoothness, const ps_watch *watch,
                               double *sum, ps_error *error) {
-    enum { LEAST_PAIRS = 1 << 17, MOST_THREADS = 16 }; /* as base/pieces.c has them */
     void *memory = NULL;
     const size_t num_blocks = count_blocks(rule);
     PS_TRY(ps_allocate(&memory, num_blocks, sizeof(ps_neumaier), "sums of pairs", error));
     pair_work work = {.rule = rule, .smoothness = smoothness, .sums = memory};
-    ps_pieces pieces = {.workers = rule->num_points * (rule->num_points / 2) >= LEAST_PAIRS
-                                       ? ps_workers_create(MOST_THREADS)
+    ps_pieces pieces = {.workers = rule->num_points * (rule->num_points / 2) >= PS_WORKERS_LEAST
+                                       ? ps_workers_create(PS_WORKERS_MOST)
                                        : NULL,
                         .each = 1,
                         .watch = watch,

@@ -31,10 +31,9 @@ pspec_status ps_pieces_do(ps_pieces *of, size_t num, void (*task)(void *payload,
 pspec_status ps_pieces_share(const ps_watch *watch, const char *phase, size_t work, size_t num,
                              void (*task)(void *payload, size_t i), void *payload,
                              ps_error *error) {
-    /* So many pay for a thread that comes and goes, 0.1 ms; so many take some hundredths of a second. */
-    enum { LEAST_WORK = 1 << 17, WORK_AT_A_TIME = 1 << 22, MOST_THREADS = 16 };
+    enum { WORK_AT_A_TIME = 1 << 22 }; /* it takes some hundredths of a second */
     ps_workers *const workers =
-        num > 1 && work >= LEAST_WORK ? ps_workers_create(MOST_THREADS) : NULL;
+        num > 1 && work >= PS_WORKERS_LEAST ? ps_workers_create(PS_WORKERS_MOST) : NULL;
     const size_t work_of_one = work / (num > 0 ? num : 1) + 1;
     ps_pieces of = {.workers = workers,
                     .each = work_of_one < WORK_AT_A_TIME ? WORK_AT_A_TIME / work_of_one : 1,

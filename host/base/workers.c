@@ -144,18 +144,13 @@ static void do_share(void *payload, unsigned index) {
     self->task(self->payload, index, self->count);
 }
 
-/* Threads of one sharing. */
-enum { MOST_THREADS = 16 };
-
 unsigned ps_workers_most(void) {
-    return count_processors(MOST_THREADS);
+    return count_processors(PS_WORKERS_MOST);
 }
 
 void ps_workers_share(size_t num, void (*task)(void *payload, unsigned index, unsigned count),
                       void *payload) {
-    /* Of things that take some nanoseconds each, so many pay for a thread that comes and goes, 0.1 ms. */
-    enum { LEAST = 1 << 17 };
-    ps_workers *const workers = num >= LEAST ? ps_workers_create(MOST_THREADS) : NULL;
+    ps_workers *const workers = num >= PS_WORKERS_LEAST ? ps_workers_create(PS_WORKERS_MOST) : NULL;
     sharing all = {task, payload, ps_workers_count(workers)};
     ps_workers_run(workers, do_share, &all);
     ps_workers_destroy(workers);

@@ -202,7 +202,7 @@ static pspec_status calibrate(answer *of, const ps_bench_options *options, ps_ta
     of->progress = ps_progress_begin(of->arguments, "cases");
     pspec_status status = ps_bench_calibrate(options, of->device, &figures, error);
     if (status == PSPEC_OK) {
-        status = ps_bench_calibrate_host(options, of->device, folder, &host, error);
+        status = ps_bench_calibrate_host(options, folder, &host, error);
     }
     ps_progress_end(of->progress);
     PS_TRY(status);
@@ -295,6 +295,8 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
     const ps_bench_options options = {.case_name = arguments->case_name,
                                       .engine = arguments->engine,
                                       .precision = arguments->precision,
+                                      .program = "/proc/self/exe",
+                                      .device = arguments->device,
                                       .quick = arguments->quick,
                                       .should_stop = should_stop,
                                       .report = report,

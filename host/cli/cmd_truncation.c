@@ -117,10 +117,10 @@ static pspec_status find_answer(answer *of, const ps_answer_hooks *hooks, ps_err
 static void add_rule(const answer *of, ps_phases *phases, double num) {
     static const char name[] = "points of equal error";
     ps_phases_add(phases, name, PS_HOST_FIBONACCI, num);
-    ps_phases_add(phases, name, PS_HOST_KAPPA, num * (double)of->representer.num_terms);
-    ps_phases_add(phases, name,
-                  of->arguments->smoothness == 1.5 ? PS_HOST_PAIR : PS_HOST_PAIR_POWER,
-                  num * num / 2);
+    ps_phases_add_sets(phases, name, PS_HOST_KAPPA, num * (double)of->representer.num_terms, 1);
+    ps_phases_add_sets(phases, name,
+                       of->arguments->smoothness == 1.5 ? PS_HOST_PAIR : PS_HOST_PAIR_POWER,
+                       num * num / 2, 1);
 }
 
 /* Of every degree how many points will have its error: E falls like N^(-s/2) from a rule that is cheap. Each takes two

@@ -67,6 +67,7 @@ typedef struct ps_work {
     double pair_degrees; /* (pair of points, degree), each pair once */
     double binned_pairs; /* pairs of points put into a histogram */
     double launches;     /* kernel launches */
+    double kernels;      /* programs that the driver loads for it, once in a process */
     double fixed_bytes;  /* memory, whatever the batch */
     double host_bytes;   /* part of that on the host */
     double bytes_per_realization; /* on the device, for each realization of a batch */

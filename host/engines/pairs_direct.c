@@ -78,7 +78,9 @@ static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
     const double pairs =
         (double)ps_pairs_vectors(problem->num_points, layout.lanes) * layout.lanes * realizations;
     const double slabs = ceil((double)layout.num_runs / (double)layout.slab);
-    return (ps_work){.pair_degrees = pairs * ((double)layout.num_degrees + PS_PAIR_BEGIN_DEGREES),
+    const double kernels = 2; /* sums, and their sum */
+    return (ps_work){.kernels = kernels,
+                     .pair_degrees = pairs * ((double)layout.num_degrees + PS_PAIR_BEGIN_DEGREES),
                      .launches = 2 * slabs,
                      .fixed_bytes = layout.row_bytes,
                      .bytes_per_realization =

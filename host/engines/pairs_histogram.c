@@ -115,7 +115,9 @@ static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
     const double tables = 3 * layout.histogram_bytes / 2 + layout.row_bytes;
     const double histograms = ((double)layout.slab + 3) * layout.histogram_bytes;
     const double rows = ((double)layout.node_runs + 1) * layout.row_bytes;
+    const double kernels = 5; /* histogram, nodes, their sums, two folds */
     return (ps_work){
+        .kernels = kernels,
         .binned_pairs = (pairs + pairs_per_set +
                          (double)(layout.num_runs * layout.num_nodes) / PAIRS_PER_NUMBER) *
                         realizations,

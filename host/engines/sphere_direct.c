@@ -55,7 +55,9 @@ static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
     const double orders = layout.max_degree + 1.0;
     const double slabs = ceil((double)problem->num_points / (double)layout.slab);
     const double launches = 2 * slabs + 1;
+    const double kernels = 3; /* vectors, sums, powers */
     return (ps_work){.harmonics = points * orders * (orders + 1) / 2,
+                     .kernels = kernels,
                      .launches = launches * (double)layout.num_passes,
                      .fixed_bytes = layout.fixed_bytes,
                      .host_bytes = layout.fixed_bytes / 2,

@@ -64,6 +64,16 @@ static const char *refuse_cells(const ps_problem *problem) {
                : NULL;
 }
 
+/* Points, sums of orders and degrees; the bands of sorted points, or the table of cells; coefficients come by another build
+ * of the kernel of degrees. */
+static double kernels_of(const ps_sphere_shape *shape, const ps_problem *problem) {
+    const double of_all = 4;
+    const double of_table = 2;
+    return of_all + (shape->is_sorted ? 1 : 0) +
+           (shape->route == PS_SPHERE_BY_CELLS ? of_table : 0) +
+           (problem->harmonics != PS_NO_HARMONICS ? 1 : 0);
+}
+
 static ps_work work_of(const ps_sphere_shape *shape, const ps_problem *problem,
                        ps_precision precision) {
     const double realizations =
@@ -80,6 +90,7 @@ static ps_work work_of(const ps_sphere_shape *shape, const ps_problem *problem,
         ps_sphere_nufft_flops(shape, precision, (double)problem->num_points, realizations);
     return (ps_work){.transform_flops =
                          realizations * flops + (by_cells ? ps_sphere_grid_table_flops(shape) : 0),
+                     .kernels = kernels_of(shape, problem),
                      .launches = launches_of_some * ceil(realizations / (double)shape->at_once),
                      .fixed_bytes = (double)shape->fixed_bytes + 2 * kept,
                      .host_bytes = (double)shape->host_bytes + kept,

@@ -82,7 +82,9 @@ static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
     const bool has_corners =
         problem->frequencies->kind == PS_FREQUENCIES_BALL && problem->frequencies->dimension > 1;
     const double share = (double)problem->frequencies->num / (2 * left * right + left + right);
+    const double of_list = 3; /* sums, their sum, powers */
     return (ps_work){
+        .kernels = of_list + (layout.is_grid ? 1 : 0),
         .phases = num_points * lanes * (double)(layout.left_tiles + layout.right_tiles),
         .product_flops = 8 * realizations * product_points((double)problem->num_points) * box *
                          (has_corners && share < 1 ? share : 1),

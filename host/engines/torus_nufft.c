@@ -84,6 +84,13 @@ static double launches_of(const ps_nufft_layout *layout, double num_points, doub
     return realizations * (2 * chunks + 1 + num_last);
 }
 
+/* whole.cl alone; else the sort, and rows and columns of tiles, or all that makes tiles of a grid. */
+static double kernels_of(const ps_nufft_choice *choice) {
+    const double of_tiles = choice->num_axes == 1 ? 2 : 3;
+    const double of_grid = 5;
+    return choice->is_whole ? 1 : choice->is_gridded ? of_grid : of_tiles;
+}
+
 static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
                     ps_precision precision) {
     const ps_nufft_layout layout = ps_nufft_layout_make(problem, limits, precision);
@@ -93,6 +100,7 @@ static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
         .transform_flops =
             realizations * ps_nufft_flops(&layout.choice, precision, (double)problem->num_points),
         .launches = launches_of(&layout, (double)problem->num_points, realizations),
+        .kernels = kernels_of(&layout.choice),
         .fixed_bytes = (double)layout.fixed_bytes,
         .host_bytes = (double)layout.host_bytes,
         .bytes_per_realization = (double)layout.bytes_per_realization,

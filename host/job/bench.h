@@ -36,7 +36,10 @@ typedef struct ps_bench_row {
 typedef struct ps_bench_options {
     const char *case_name, *engine; /* NULL: all */
     int precision;                  /* a ps_precision, or -1: all */
-    bool quick; /* the quick cases only, unless one is named, and shorter runs */
+    const char
+        *program; /* for ps_bench_calibrate_host: a path to pointspec itself, which is started, */
+    const char *device; /* on the device of that --device; NULL: the usual one */
+    bool quick;         /* the quick cases only, unless one is named, and shorter runs */
     bool (*should_stop)(void *payload);
     /* Told of the rows of a case when it is done, tightest tolerance first; and of cases done and to be done. */
     pspec_status (*report)(void *payload, const ps_bench_row *rows, size_t num, ps_error *error);
@@ -61,8 +64,7 @@ pspec_status ps_bench_calibrate(const ps_bench_options *options, ps_device *devi
 
 /* The same of the host's own work (plan/host_cost.h), with a file below `folder` that is written, read and removed.
  * After ps_bench_calibrate, whose kernels the driver has kept. */
-pspec_status ps_bench_calibrate_host(const ps_bench_options *options, const ps_device *device,
-                                     const char *folder, ps_figures *figures,
-                                     ps_error *error) PS_MUST_CHECK;
+pspec_status ps_bench_calibrate_host(const ps_bench_options *options, const char *folder,
+                                     ps_figures *figures, ps_error *error) PS_MUST_CHECK;
 
 #endif

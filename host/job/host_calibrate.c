@@ -71,25 +71,13 @@ static pspec_status prepare(ps_probe_data *of, void **memory, ps_error *error) {
     return ps_sampler_generate(&white, 0, of->points, error);
 }
 
-/* The other parts of a start take libraries and processes as much as kernels do. */
-static void take_start(ps_figures *figures) {
-    const double scale = ps_figures_host_scale(figures, ps_host_kind_name(PS_HOST_KERNEL));
-    const ps_host_kind others[] = {PS_HOST_START, PS_HOST_DRIVER};
-    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
-        ps_host_figure *const row = ps_figures_host_row(figures, ps_host_kind_name(others[i]));
-        if (row != NULL) {
-            row->scale = scale;
-        }
-    }
-}
-
-pspec_status ps_bench_calibrate_host(const ps_bench_options *options, const ps_device *device,
-                                     const char *folder, ps_figures *figures, ps_error *error) {
+pspec_status ps_bench_calibrate_host(const ps_bench_options *options, const char *folder,
+                                     ps_figures *figures, ps_error *error) {
     void *memory = NULL;
     ps_text file = {0};
     ps_text_append(&file, "%s/devices/probe.%ld", folder, (long)getpid());
-    ps_probe_data of = {.file = ps_text_string(&file),
-                        .device_name = ps_device_get_limits(device)->name};
+    ps_probe_data of = {
+        .file = ps_text_string(&file), .program = options->program, .device = options->device};
     *figures = (ps_figures){.is_measured = true};
     pspec_status status = ps_text_check(&file, error);
     if (status == PSPEC_OK) {
@@ -97,7 +85,6 @@ pspec_status ps_bench_calibrate_host(const ps_bench_options *options, const ps_d
     }
     if (status == PSPEC_OK) {
         status = measure_all(&of, options, figures, error);
-        take_start(figures);
         unlink(of.file);
     }
     ps_representer_destroy(&of.representer);

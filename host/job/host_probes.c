@@ -11,7 +11,7 @@
 #include "engines/host_direct.h"
 #include "engines/pairs_zonal.h"
 #include "io/points.h"
-#include "job/device_peaks.h"
+#include "job/start_probes.h"
 #include "samplers/sampler.h"
 
 #include <math.h>
@@ -190,35 +190,7 @@ static pspec_status find_neighbours(ps_probe_data *of, const ps_probe *what, dou
     return status;
 }
 
-/* ---- kernels and memory -------------------------------------------------------------------- */
-
-static pspec_status run_peak(ps_device *device, double *seconds, ps_error *error) {
-    const double begin = ps_clock_seconds();
-    ps_peak peak;
-    const pspec_status status = ps_peak_create(&peak, device, PS_SINGLE, error);
-    ps_peak_destroy(&peak);
-    *seconds = ps_clock_seconds() - begin;
-    return status;
-}
-
-/* One that the driver's cache has, since the peaks were measured with it. A device that was just opened knows none; the
- * second time it does, and all the rest is the same. */
-static pspec_status load_kernel(ps_probe_data *of, const ps_probe *what, double *predicted,
-                                ps_error *error) {
-    const double begin = ps_clock_seconds();
-    ps_device *device = NULL;
-    double first = 0;
-    double second = 0;
-    PS_TRY(ps_device_open(&device, of->device_name, false, error));
-    pspec_status status = run_peak(device, &first, error);
-    if (status == PSPEC_OK) {
-        status = run_peak(device, &second, error);
-    }
-    ps_device_close(device);
-    of->unmeasured = ps_clock_seconds() - begin - fmax(first - second, 0);
-    *predicted = predict(what, 1);
-    return status;
-}
+/* ---- memory -------------------------------------------------------------------------------- */
 
 /* So much at once comes from the system and goes back to it. */
 static pspec_status touch_memory(ps_probe_data *of, const ps_probe *what, double *predicted,
@@ -257,7 +229,9 @@ static pspec_status enumerate(ps_probe_data *of, const ps_probe *what, double *p
 /* ---- all ----------------------------------------------------------------------------------- */
 
 const ps_probe ps_probes[] = {
-    {PS_HOST_KERNEL, "", load_kernel},
+    {PS_HOST_START, "", ps_probe_start},
+    {PS_HOST_DRIVER, "", ps_probe_start},
+    {PS_HOST_KERNEL, "", ps_probe_start},
     {PS_HOST_MEMORY, "", touch_memory},
     {PS_HOST_WHITE, "white", sample},
     {PS_HOST_REGULAR, "regular", sample},

@@ -12,9 +12,11 @@ typedef struct ps_probe_data {
     double *points;  /* [PS_PROBE_POINTS][3]: unit vectors */
     double *numbers; /* [PS_PROBE_POINTS][3]: room */
     ps_representer representer;
-    const char *file; /* to be written and read */
-    const char *device_name;
-    double unmeasured; /* seconds of a probe that are no part of what it measures */
+    const char *file;     /* to be written and read */
+    const char *program;  /* pointspec itself, to be started */
+    const char *device;   /* as --device takes it; NULL: the usual one */
+    double start, driver; /* seconds of one without work, and of one that opens a driver */
+    double unmeasured;    /* seconds of a probe that are no part of what it measures */
 } ps_probe_data;
 
 typedef struct ps_probe {

@@ -9,32 +9,32 @@
 
 /* ---- beginning ----------------------------------------------------------------------------- */
 
-/* Kernels that an engine builds, with those that sum its powers up. */
-static const struct {
-    const char *engine;
-    double kernels;
-} builds[] = {{"torus_direct", 4}, {"torus_nufft", 4},  {"sphere_direct", 3},  {"sphere_nufft", 4},
-              {"sphere_grid", 6},  {"pairs_direct", 2}, {"pairs_histogram", 4}};
+/* Its bit among those whose kernels are loaded. */
+static unsigned bit_of(const ps_engine *engine) {
+    unsigned index = 0;
+    while (ps_engines[index] != engine && ps_engines[index] != NULL) {
+        index++;
+    }
+    return 1U << index;
+}
 
 /* Each once in a process. */
-void ps_phases_start(ps_phases *phases, const char *engine) {
+void ps_phases_start(ps_phases *phases, const ps_candidate *chosen) {
     static const char name[] = "start";
     ps_begun first = {false, false, 0};
     ps_begun *const begun = phases->begun != NULL ? phases->begun : &first;
     ps_phases_add(phases, name, PS_HOST_START, begun->program ? 0 : 1);
     begun->program = true;
-    for (size_t i = 0; engine != NULL && i < sizeof builds / sizeof builds[0]; i++) {
-        if (strcmp(builds[i].engine, engine) == 0) {
-            const bool is_there = (begun->engines >> i & 1) != 0;
-            ps_phases_add(phases, name, PS_HOST_DRIVER, begun->driver ? 0 : 1);
-            ps_phases_add(phases, name, PS_HOST_KERNEL, is_there ? 0 : builds[i].kernels);
-            begun->driver = true;
-            begun->engines |= 1U << i;
-        }
+    ps_phases_say(phases, name, "libraries");
+    if (chosen != NULL && chosen->engine->needs_device) {
+        const unsigned bit = bit_of(chosen->engine);
+        const bool is_there = (begun->engines & bit) != 0;
+        ps_phases_add(phases, name, PS_HOST_DRIVER, begun->driver ? 0 : 1);
+        ps_phases_add(phases, name, PS_HOST_KERNEL, is_there ? 0 : chosen->kernels);
+        ps_phases_say(phases, name, "driver and kernels, which the driver's cache has");
+        begun->driver = true;
+        begun->engines |= bit;
     }
-    ps_phases_say(phases, name, "%s",
-                  engine != NULL ? "driver and kernels, which the driver's cache has"
-                                 : "libraries");
 }
 
 /* ---- parts --------------------------------------------------------------------------------- */
@@ -130,15 +130,16 @@ static double scattered_points(const ps_power_job *job, const amounts *all) {
 double ps_power_job_phases(const ps_power_job *job, ps_phases *phases) {
     const ps_candidate *const chosen = job->plan.chosen;
     const bool is_known = job->problem.num_realizations > 0;
-    ps_phases_start(phases, job->device != NULL && chosen != NULL ? chosen->engine->name : NULL);
-    const bool has_more_kernels =
-        job->device != NULL && chosen != NULL && !job->question->on_sphere && job->dimension >= 3;
-    ps_phases_add(phases, "start", PS_HOST_KERNEL, has_more_kernels ? 2 : 0);
+    ps_phases_start(phases, chosen);
     const amounts all = add_points(job, phases);
     const double repeats = is_known ? 1 : all.sets;
     add_frequencies(job, phases);
     if (chosen != NULL) {
-        ps_phases_add_seconds(phases, "powers", chosen->seconds * repeats);
+        const bool is_on_device = chosen->engine->needs_device;
+        ps_phases_add_seconds(
+            phases, "powers",
+            chosen->seconds * repeats *
+                (is_on_device ? 1 : ps_host_referee_scale(phases->host, job->question->on_sphere)));
         ps_phases_touch(phases, chosen->bytes);
         ps_phases_add(phases, "powers", PS_HOST_SCATTER, scattered_points(job, &all));
         ps_phases_say(phases, "powers", "%s in %s precision", chosen->engine->name,

@@ -9,7 +9,8 @@
  * not say beforehand how many sets they have. */
 double ps_power_job_phases(const ps_power_job *job, ps_phases *phases);
 
-/* Of a program that begins: a device, and the kernels of the engine, from the cache of its driver; NULL: none is needed. */
-void ps_phases_start(ps_phases *phases, const char *engine);
+/* Adds the beginning of a program: its libraries, and where the chosen engine needs a device, that and its kernels, which the
+ * driver's cache has. NULL: no engine is needed. */
+void ps_phases_start(ps_phases *phases, const ps_candidate *chosen);
 
 #endif

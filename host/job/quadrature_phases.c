@@ -60,7 +60,7 @@ static void add_rules(const ps_quadrature_setup *setup, const ps_quadrature_ques
                       double sets, ps_phases *phases) {
     const double points = (double)setup->problem.num_points;
     const double terms = (double)setup->representer.num_terms;
-    ps_phases_add(phases, "kappa", PS_HOST_KAPPA, sets * points * terms);
+    ps_phases_add_sets(phases, "kappa", PS_HOST_KAPPA, points * terms, sets);
     ps_phases_say(phases, "kappa", "%.4g points, %.4g terms", sets * points, terms);
     if (question->weights == PS_WEIGHTS_OPTIMAL) {
         if (ps_kernel_system_is_dense((size_t)points, question->constraints.memory_limit)) {
@@ -69,16 +69,18 @@ static void add_rules(const ps_quadrature_setup *setup, const ps_quadrature_ques
             add_gradients(question, points, sets, phases);
         }
     }
-    ps_phases_add(phases, "worst-case error",
-                  needs_powers(question) ? PS_HOST_PAIR_POWER : PS_HOST_PAIR,
-                  sets * points * points / 2);
+    ps_phases_add_sets(phases, "worst-case error",
+                       needs_powers(question) ? PS_HOST_PAIR_POWER : PS_HOST_PAIR,
+                       points * points / 2, sets);
     ps_phases_say(phases, "worst-case error", "%.4g pairs of points", sets * points * points / 2);
 }
 
 double ps_quadrature_phases(const ps_quadrature_setup *setup,
                             const ps_quadrature_question *question, ps_phases *phases) {
     const ps_candidate *const chosen = setup->plan.chosen;
-    ps_phases_start(phases, setup->device != NULL && chosen != NULL ? chosen->engine->name : NULL);
+    ps_phases_start(phases, chosen);
+    /* coefficients come by another build of the engine's last kernel */
+    ps_phases_add(phases, "start", PS_HOST_KERNEL, chosen != NULL && !setup->by_pairs ? 1 : 0);
     ps_phases_lobe(phases, &setup->representer);
     const double sets = add_points(setup, question, phases);
     const double planned = (double)setup->problem.num_realizations;

@@ -25,6 +25,7 @@ typedef struct ps_candidate {
     double host_room; /* what there is of that; infinite when nobody looked */
     bool
         is_crowded; /* it may be chosen, but there is no room for it now, not even for one realization at a time */
+    double kernels; /* programs that the driver loads, those of averages included */
     size_t batch;
     char reason[160]; /* one phrase: why chosen, why not */
 } ps_candidate;

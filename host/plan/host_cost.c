@@ -11,9 +11,9 @@ static const struct {
     double seconds;
     bool is_shared; /* among threads */
 } kinds[PS_NUM_HOST_KINDS] = {
-    [PS_HOST_START] = {"start", 4e-3, false},     /* process and libraries, once */
-    [PS_HOST_DRIVER] = {"driver", 20e-3, false},  /* OpenCL's and its compiler's libraries, once */
-    [PS_HOST_KERNEL] = {"kernel", 35e-3, false},  /* a kernel that the driver's cache has */
+    [PS_HOST_START] = {"start", 2.2e-3, false},   /* process and libraries, once */
+    [PS_HOST_DRIVER] = {"driver", 32e-3, false},  /* OpenCL's and its compiler's libraries, once */
+    [PS_HOST_KERNEL] = {"kernel", 34e-3, false},  /* a kernel that the driver's cache has */
     [PS_HOST_MEMORY] = {"memory", 0.5e-9, false}, /* a byte that is touched for the first time */
 
     [PS_HOST_WHITE] = {"white", 4.5e-9,
@@ -78,7 +78,24 @@ const char *ps_host_kind_name(ps_host_kind kind) {
     return kinds[kind].name;
 }
 
-double ps_host_seconds(const ps_figures *figures, ps_host_kind kind, double units) {
-    const double threads = kinds[kind].is_shared ? ps_workers_most() : 1;
+static double seconds_by(const ps_figures *figures, ps_host_kind kind, double units,
+                         double threads) {
     return units * kinds[kind].seconds / threads * ps_figures_host_scale(figures, kinds[kind].name);
+}
+
+double ps_host_seconds(const ps_figures *figures, ps_host_kind kind, double units) {
+    return seconds_by(figures, kind, units, kinds[kind].is_shared ? ps_workers_most() : 1);
+}
+
+double ps_host_seconds_of_sets(const ps_figures *figures, ps_host_kind kind, double units,
+                               double sets) {
+    const double threads = ps_workers_most();
+    const bool is_shared = kinds[kind].is_shared && threads > 1 && units >= PS_WORKERS_LEAST;
+    return is_shared ? sets * (seconds_by(figures, kind, units, threads) + PS_WORKERS_SECONDS)
+                     : seconds_by(figures, kind, units * sets, 1);
+}
+
+double ps_host_referee_scale(const ps_figures *figures, bool is_of_degrees) {
+    return ps_figures_host_scale(
+        figures, kinds[is_of_degrees ? PS_HOST_REFEREE_DEGREE : PS_HOST_REFEREE].name);
 }

@@ -5,6 +5,8 @@
 
 #include "device/figures.h"
 
+#include <stdbool.h>
+
 /* Kinds of work; what one unit of each is stands in host_cost.c. */
 typedef enum ps_host_kind {
     /* beginning */
@@ -73,5 +75,13 @@ const char *ps_host_kind_name(ps_host_kind kind);
 /* Of so many units; figures: what was measured of this host, NULL: nothing. Work that is shared out among threads is divided
  * by the processors of this machine. */
 double ps_host_seconds(const ps_figures *figures, ps_host_kind kind, double units);
+
+/* The same for sets of so many units each, which are shared out one set at a time: few units are left to one thread, and for
+ * many the threads are started for every set (ps_workers_share). */
+double ps_host_seconds_of_sets(const ps_figures *figures, ps_host_kind kind, double units,
+                               double sets);
+
+/* How many times longer than built in a referee's sum takes on this host, in the engine host_direct as in the self-check. */
+double ps_host_referee_scale(const ps_figures *figures, bool is_of_degrees);
 
 #endif

@@ -28,6 +28,11 @@ void ps_phases_add(ps_phases *phases, const char *name, ps_host_kind kind, doubl
     ps_phases_add_seconds(phases, name, ps_host_seconds(phases->host, kind, units));
 }
 
+void ps_phases_add_sets(ps_phases *phases, const char *name, ps_host_kind kind, double units,
+                        double sets) {
+    ps_phases_add_seconds(phases, name, ps_host_seconds_of_sets(phases->host, kind, units, sets));
+}
+
 void ps_phases_touch(ps_phases *phases, double bytes) {
     static const char name[] = "memory";
     ps_phases_add(phases, name, PS_HOST_MEMORY, bytes);

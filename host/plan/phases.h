@@ -29,6 +29,9 @@ typedef struct ps_phases {
 
 /* Units of the kind become a phase, or more of the phase of that name, whose `what` stays; nothing for no units. */
 void ps_phases_add(ps_phases *phases, const char *name, ps_host_kind kind, double units);
+/* The same of so many sets that are shared out among threads one by one (ps_host_seconds_of_sets). */
+void ps_phases_add_sets(ps_phases *phases, const char *name, ps_host_kind kind, double units,
+                        double sets);
 /* The same of seconds that are known already. */
 void ps_phases_add_seconds(ps_phases *phases, const char *name, double seconds);
 /* Adds the time that the system takes for memory of so many bytes, when they are touched for the first time. */
