@@ -1,8 +1,8 @@
 #include "bench.h"
 
 #include "base/clock.h"
-#include "engines/host_direct.h"
-#include "math/random.h"
+#include "engines/host/host_direct.h"
+#include "math/random/random.h"
 #include "plan/cost_model.h"
 
 #include <math.h>

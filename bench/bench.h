@@ -5,7 +5,7 @@
 #define BENCH_H
 
 #include "engines/engine.h"
-#include "job/device_peaks.h"
+#include "verify/bench/device_peaks.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -26,7 +26,7 @@ double bench_seconds(void);
 /* count numbers in [0,1), the same for the same seed. The caller frees them. */
 double *bench_uniform(size_t count, uint64_t seed);
 
-/* One run, flop/s: job/device_peaks.h. */
+/* One run, flop/s: verify/bench/device_peaks.h. */
 double bench_peak_run(const ps_peak *peak);
 
 /* One engine on R realizations of N white points with scale 1/N. */

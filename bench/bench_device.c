@@ -9,10 +9,10 @@
  */
 #include "bench.h"
 
-#include "engines/nufft_fft.h"
-#include "engines/nufft_layout.h"
-#include "engines/torus_direct.h"
-#include "engines/torus_nufft.h"
+#include "engines/nufft/fft.h"
+#include "engines/torus/nufft/layout.h"
+#include "engines/torus/torus_direct.h"
+#include "engines/torus/nufft/torus_nufft.h"
 
 #include <math.h>
 #include <stdio.h>

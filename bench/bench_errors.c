@@ -9,7 +9,7 @@
  */
 #include "bench.h"
 
-#include "job/estimator.h"
+#include "jobs/parts/estimator.h"
 #include "plan/choose.h"
 
 #include <stdio.h>

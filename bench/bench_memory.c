@@ -9,7 +9,7 @@
  */
 #include "bench.h"
 
-#include "job/power_job.h"
+#include "jobs/spectrum/power_job.h"
 
 #include <stdio.h>
 #include <stdlib.h>

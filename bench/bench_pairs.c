@@ -5,11 +5,11 @@
 #include "bench.h"
 
 #include "engines/error_units.h"
-#include "engines/host_degree.h"
-#include "engines/pairs_direct.h"
-#include "engines/pairs_histogram.h"
-#include "engines/sphere_direct.h"
-#include "engines/sphere_nufft.h"
+#include "engines/host/host_degree.h"
+#include "engines/pairs/pairs_direct.h"
+#include "engines/pairs/pairs_histogram.h"
+#include "engines/sphere/sphere_direct.h"
+#include "engines/sphere/nufft/sphere_nufft.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -11,7 +11,7 @@
 #include "bench.h"
 
 #include "base/text.h"
-#include "io/points.h"
+#include "points/points.h"
 
 #include <math.h>
 #include <stdio.h>

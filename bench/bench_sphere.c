@@ -3,7 +3,7 @@
  */
 #include "bench.h"
 
-#include "engines/sphere_direct.h"
+#include "engines/sphere/sphere_direct.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -9,8 +9,8 @@
  */
 #include "bench.h"
 
-#include "engines/host_direct.h"
-#include "engines/torus_direct.h"
+#include "engines/host/host_direct.h"
+#include "engines/torus/torus_direct.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -5,8 +5,8 @@
  */
 #include "bench.h"
 
-#include "analysis/optimal_weights.h"
-#include "analysis/worst_case_error.h"
+#include "rules/optimal_weights.h"
+#include "rules/worst_case_error.h"
 #include "samplers/sampler.h"
 
 #include <math.h>

@@ -6,9 +6,9 @@
 #include "cycles.h"
 
 #include "bench.h"
-#include "engines/nufft_cost.h"
-#include "engines/nufft_layout.h"
-#include "engines/torus_nufft.h"
+#include "engines/nufft/cost.h"
+#include "engines/torus/nufft/layout.h"
+#include "engines/torus/nufft/torus_nufft.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,9 +1,9 @@
 #include "cli/answer.h"
 
-#include "cli/angular_table.h"
+#include "report/angular_table.h"
 #include "cli/jobs.h"
-#include "cli/pairs_table.h"
-#include "cli/power_table.h"
+#include "report/pairs_table.h"
+#include "report/power_table.h"
 
 #include <stdlib.h>
 

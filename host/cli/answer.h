@@ -3,8 +3,8 @@
 #define PS_CLI_ANSWER_H
 
 #include "cli/command.h"
-#include "io/table.h"
-#include "job/power_job.h"
+#include "tables/table.h"
+#include "jobs/spectrum/power_job.h"
 #include "plan/phases.h"
 
 /* Who is told how far it is, and what there is already. */

@@ -4,7 +4,7 @@
 
 #include "base/watch.h"
 #include "cli/signals.h"
-#include "scene/results.h"
+#include "questions/results.h"
 
 #include <stdio.h>
 

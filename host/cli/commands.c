@@ -2,7 +2,7 @@
 #include "base/text.h"
 #include "cli/command.h"
 
-#include "scene/options.h"
+#include "questions/options.h"
 
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* --help: everything comes from the tables of commands, options and samplers. */
 #include "cli/command.h"
-#include "scene/options.h"
+#include "questions/options.h"
 #include "integrands/brdf.h"
 #include "samplers/sampler.h"
 

@@ -3,8 +3,8 @@
 #include "cli/command.h"
 #include "cli/output_check.h"
 #include "cli/picture.h"
-#include "cli/spectrum_plot.h"
-#include "plan/figures_file.h"
+#include "report/spectrum_plot.h"
+#include "store/figures_file.h"
 
 #include <stdio.h>
 

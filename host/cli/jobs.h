@@ -4,7 +4,7 @@
 #define PS_CLI_JOBS_H
 
 #include "cli/answer.h"
-#include "scene/question.h"
+#include "questions/question.h"
 
 /* What becomes of jobs that have run, besides pictures. */
 typedef struct ps_jobs_output {

@@ -3,9 +3,9 @@
 #include "base/memory_limit.h"
 #include "base/text.h"
 #include "cli/command.h"
-#include "io/cache_trust.h"
-#include "io/result_cache.h"
-#include "scene/options.h"
+#include "store/cache_trust.h"
+#include "store/result_cache.h"
+#include "questions/options.h"
 
 #include <errno.h>
 #include <fcntl.h>

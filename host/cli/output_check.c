@@ -1,8 +1,8 @@
 #include "cli/output_check.h"
 
 #include "base/text.h"
-#include "io/output_file.h"
-#include "scene/options.h"
+#include "files/output_file.h"
+#include "questions/options.h"
 
 #include <errno.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #ifndef PS_CLI_OUTPUT_CHECK_H
 #define PS_CLI_OUTPUT_CHECK_H
 
-#include "scene/request.h"
+#include "questions/request.h"
 
 /* Refuses outputs that would overwrite each other or an input, and those whose folder cannot be
  * written. Pipes and devices are not opened: somebody may be waiting at their other end. is_table: --output is

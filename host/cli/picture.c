@@ -2,7 +2,7 @@
 
 #include "base/text.h"
 #include "cli/command.h"
-#include "io/plot.h"
+#include "plots/plot.h"
 
 #include <stdio.h>
 #include <string.h>

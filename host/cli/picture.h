@@ -2,7 +2,7 @@
 #ifndef PS_CLI_PICTURE_H
 #define PS_CLI_PICTURE_H
 
-#include "scene/request.h"
+#include "questions/request.h"
 
 /* Before the work: can the ending be drawn, and is there gnuplot? Without it a warning, or an error where the picture is all
  * that was asked for: the table goes to /dev/null, and there is no other file. */

@@ -2,12 +2,12 @@
 #include "cli/plan_table.h"
 
 #include "cli/answer.h"
-#include "job/point_phases.h"
-#include "job/power_phases.h"
-#include "job/quadrature_phases.h"
-#include "scene/check_question.h"
-#include "scene/quadrature_question.h"
-#include "scene/question.h"
+#include "jobs/parts/point_phases.h"
+#include "jobs/spectrum/power_phases.h"
+#include "jobs/quadrature/quadrature_phases.h"
+#include "questions/check_question.h"
+#include "questions/quadrature_question.h"
+#include "questions/question.h"
 
 #include <stdio.h>
 #include <stdlib.h>

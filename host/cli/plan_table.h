@@ -2,10 +2,10 @@
 #ifndef PS_CLI_PLAN_TABLE_H
 #define PS_CLI_PLAN_TABLE_H
 
-#include "io/table.h"
+#include "tables/table.h"
 #include "device/device.h"
 #include "plan/phases.h"
-#include "scene/results.h"
+#include "questions/results.h"
 
 typedef struct ps_planner {
     ps_table *table;

@@ -1,8 +1,8 @@
 /* --full of power. */
-#include "cli/power_table.h"
+#include "report/power_table.h"
 
 #include "cli/output_check.h"
-#include "io/npy.h"
+#include "files/npy.h"
 
 #include <stdlib.h>
 #include <string.h>

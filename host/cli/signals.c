@@ -51,7 +51,7 @@ static void join(char *out, size_t bytes, const char *start, const char *end) {
     out[length] = '\0';
 }
 
-/* Is it /folder/.pointspec-HOST-PID-NUMBER.tmp of this process? See io/temporary_file.h. */
+/* Is it /folder/.pointspec-HOST-PID-NUMBER.tmp of this process? See files/temporary_file.h. */
 static bool is_own_temporary(const char *path, const char *pid) {
     static const char start[] = "/.pointspec-";
     static const char end[] = ".tmp";

@@ -1,5 +1,5 @@
 /* What was measured of a device: its peaks, and how long engines take there against the built-in cost model; of the host,
- * how long its own work takes. Plain data: written and read by plan/figures_file.h, measured by job/bench.h, looked at by
+ * how long its own work takes. Plain data: written and read by store/figures_file.h, measured by verify/bench/bench.h, looked at by
  * the planner and by nobody else.
  */
 #ifndef PS_DEVICE_FIGURES_H

@@ -11,7 +11,7 @@
 #include "base/status.h"
 #include "base/text.h"
 #include "device/device.h"
-#include "engines/frequencies.h"
+#include "frequencies/frequencies.h"
 
 typedef enum ps_precision {
     PS_SINGLE = 0,  /* float terms, float-pair sums */

@@ -1,12 +1,12 @@
 /* The table of engines. */
 #include "engines/engine.h"
-#include "engines/host_direct.h"
-#include "engines/pairs_direct.h"
-#include "engines/pairs_histogram.h"
-#include "engines/sphere_direct.h"
-#include "engines/sphere_nufft.h"
-#include "engines/torus_direct.h"
-#include "engines/torus_nufft.h"
+#include "engines/host/host_direct.h"
+#include "engines/pairs/pairs_direct.h"
+#include "engines/pairs/pairs_histogram.h"
+#include "engines/sphere/sphere_direct.h"
+#include "engines/sphere/nufft/sphere_nufft.h"
+#include "engines/torus/torus_direct.h"
+#include "engines/torus/nufft/torus_nufft.h"
 
 #include <math.h>
 

@@ -2,7 +2,7 @@
 #include "integrands/brdf_kind.h"
 
 #include "base/memory.h"
-#include "io/points.h"
+#include "points/points.h"
 
 #include <math.h>
 #include <stdlib.h>

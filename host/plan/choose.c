@@ -3,7 +3,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "engines/error_units.h"
-#include "engines/frequency_sample.h"
+#include "frequencies/frequency_sample.h"
 #include "plan/choose_private.h"
 #include "plan/cost_model.h"
 #include "plan/memory_model.h"
@@ -57,7 +57,7 @@ static void set_bytes(ps_candidate *candidate, const ps_memory *sum, const ps_de
     candidate->is_crowded = candidate->host_bytes > candidate->host_room;
 }
 
-/* Where rows stay on the device, two kernels average them there: analysis/accumulate_device.c. */
+/* Where rows stay on the device, two kernels average them there: spectra/accumulate_device.c. */
 static double kernels_of_averages(const ps_engine *engine) {
     return engine->needs_device && !engine->rows_on_host ? 2 : 0;
 }

@@ -21,7 +21,7 @@ static const struct {
 /* Long double cosine and sine of one (point, frequency) pair on one core, same machine. */
 static const double host_seconds_per_phase = 190e-9;
 
-/* analysis/worst_case_error.c and representer.c on one core, same machine: perf record pointspec quadrature --brdf diffuse
+/* rules/worst_case_error.c and representer.c on one core, same machine: perf record pointspec quadrature --brdf diffuse
  * --sampler white-hemisphere -n 1024 -m 3000. For the shares of skips only. */
 static const double host_seconds_per_rule_pair = 1.1e-9;
 static const double host_seconds_per_kappa_term = 0.4e-9;

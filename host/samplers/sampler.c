@@ -1,8 +1,8 @@
 #include "samplers/sampler.h"
 
 #include "base/memory.h"
-#include "math/random.h"
-#include "math/rotation.h"
+#include "math/random/random.h"
+#include "math/random/rotation.h"
 #include "samplers/sphere.h"
 #include "samplers/values.h"
 

@@ -3,7 +3,7 @@
  *
  * A sampler writes one realization at a time. Realization r depends on nothing but
  * (sampler, parameters, number of points, dimension, seed, r), through the counter-based generator
- * of math/random.h; so any batch, thread or rank makes the same points.
+ * of math/random/random.h; so any batch, thread or rank makes the same points.
  *
  * A request is parsed, gets its number of points, dimension and seed, is resolved (what was left open
  * is filled in, and all of it is checked), and then makes points.

@@ -1,5 +1,5 @@
 /* The values of one key of a scene. */
-#include "scene/options.h"
+#include "questions/options.h"
 #include "scene/scene_file.h"
 
 #include <string.h>

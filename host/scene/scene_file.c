@@ -1,7 +1,7 @@
 #include "scene/scene_file.h"
 
 #include "base/memory.h"
-#include "io/input_file.h"
+#include "files/input_file.h"
 
 #include <stdarg.h>
 #include <stdio.h>

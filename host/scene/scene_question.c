@@ -1,5 +1,5 @@
 /* The questions of a result: one for each combination of its values. */
-#include "scene/options.h"
+#include "questions/options.h"
 #include "scene/scene_file.h"
 
 #include <stdlib.h>

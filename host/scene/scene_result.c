@@ -1,7 +1,7 @@
 /* One result of a scene: its keys, and those of the defaults. */
 #include "base/text.h"
-#include "scene/options.h"
-#include "scene/question.h"
+#include "questions/options.h"
+#include "questions/question.h"
 #include "scene/scene_file.h"
 
 #include <ctype.h>

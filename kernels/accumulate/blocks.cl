@@ -22,7 +22,7 @@
 #include "shared/transpose.h"
 
 /* Fixed: sums depend on it. Long enough that pieces are few, short enough for the local memory of any
- * device and for the nearest cache of a core. host/analysis/accumulate_device.c knows it too. */
+ * device and for the nearest cache of a core. host/spectra/accumulate_device.c knows it too. */
 #define BLOCK 512
 
 /* 0: sums alone, nobody asks for standard errors of frequencies. */

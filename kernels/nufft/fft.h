@@ -8,7 +8,7 @@
  *   twiddles  [pass][t][j][cosine, sine] of -2 pi t j / length, j = 1 .. radix - 1, for the transforms
  *             of that pass: of the whole length first, then of a radix-th part, ...
  *
- * The result of frequency k stands in cell position[k] (host/engines/nufft_fft.c): putting it in order
+ * The result of frequency k stands in cell position[k] (host/engines/nufft/fft.c): putting it in order
  * would be a pass of its own. Nothing depends on what stands in other lanes.
  *
  * Buffers are in local memory, or in global memory where FFT_IN_GLOBAL is defined before: one program has one

@@ -5,7 +5,7 @@
  * over m_1, at k_1. For CPUs: the grid and what the first transform leaves stay in the cache of a core, so a work-group
  * takes one realization after the other. Launch: (work-items of one group, groups).
  *
- *   points, weights, offsets  of engines/torus_points.h
+ *   points, weights, offsets  of engines/torus/torus_points.h
  *   across_*, along_*  of nufft/window.h, of axis 0 and axis 1; in one dimension there is no window across, and
  *              across_width is 1
  *   first_*, second_*  transforms of nufft/finish.h, K the largest frequency of which is kept

@@ -3,7 +3,7 @@
  *
  *   data    [group][length][re, im][LANES]
  *   result  [group][frequency][re, im][LANES]
- *   radices, twiddles, position  of host/engines/nufft_fft.c
+ *   radices, twiddles, position  of host/engines/nufft/fft.c
  *   row     local, [length][re, im][LANES]
  */
 #include "nufft/fft.h"

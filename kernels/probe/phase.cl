@@ -1,5 +1,5 @@
 /* Phases of one point per work-item for LANES frequencies, so that the device can be compared with
- * the same text compiled as C (tests/shared_cases.h). Launch: (points), rounded up at will.
+ * the same text compiled as C (tests/kernels/shared_cases.h). Launch: (points), rounded up at will.
  *
  *   points       [num][DIMENSION] fixed point
  *   frequencies  [DIMENSION][LANES] two's complement words

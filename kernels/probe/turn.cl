@@ -1,5 +1,5 @@
 /* Maps turn_cosine_sine over an array, so that the device can be compared with the same text
- * compiled as C (tests/shared_cases.h). Launch: (num / LANES), rounded up at will.
+ * compiled as C (tests/kernels/shared_cases.h). Launch: (num / LANES), rounded up at will.
  *
  *   words          [num] fractions of a turn, num a multiple of LANES
  *   cosine, sine   [num]

@@ -3,7 +3,7 @@
  *     log2 m = (2/ln 2) (f + f^3/3 + f^5/5 + ..),   f = (m-1)/(m+1),   |f| <= 0.172
  *     2^z = 2^k e^t,   k = round(z),   t = (z-k) ln 2,   |t| <= 0.347
  *
- * Numbers below the smallest normal one become 0. In double precision the error is below 1e-15 (tests/test_sobolev.c); series
+ * Numbers below the smallest normal one become 0. In double precision the error is below 1e-15 (tests/math/test_sobolev.c); series
  * end where terms are below 1e-17. No branches and no conversions, so that compilers make vectors of it on the host, where
  * pow of libm takes four times as long; PoCL's exp and log take 1.3 times as long (bench_weights). In single precision on a
  * device: its own functions.

@@ -12,7 +12,7 @@
  *     E_l = E_{l-1} - (kappa_l / epsilon_l) t p_{l-1},   p_l = p_{l-1} + epsilon_l E_l.
  *
  * From block to block p takes G up, so that it keeps the size of Y_lm, and E becomes D. The table of a block
- * (sphere/layout.h) is made by host/engines/sphere_table.c.
+ * (sphere/layout.h) is made by host/engines/sphere/sphere_table.c.
  */
 #ifndef PS_SPHERE_LEGENDRE_H
 #define PS_SPHERE_LEGENDRE_H

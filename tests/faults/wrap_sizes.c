@@ -8,8 +8,8 @@
  */
 #include "faults.h"
 
-#include "engines/nufft_choice.h"
-#include "job/source.h"
+#include "engines/nufft/choice.h"
+#include "jobs/parts/source.h"
 
 #include <stdlib.h>
 

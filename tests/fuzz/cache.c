@@ -1,8 +1,8 @@
 /* Files of the cache of results, and packed tables. */
 #include "fuzz.h"
 
-#include "io/cache_entry.h"
-#include "io/table_pack.h"
+#include "store/cache_entry.h"
+#include "tables/table_pack.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* Decimal text against the C library: the same bits, and the same end of the number. */
-#include "io/decimal.h"
+#include "files/decimal.h"
 #include "fuzz.h"
 
 #include <math.h>

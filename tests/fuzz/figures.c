@@ -1,7 +1,7 @@
 /* Files with figures of a device. The first byte says whether the input gets a right checksum, which hardly any would have. */
 #include "fuzz.h"
-#include "plan/figures_file.h"
-#include "plan/figures_text.h"
+#include "store/figures_file.h"
+#include "store/figures_text.h"
 
 #include <math.h>
 #include <stdio.h>

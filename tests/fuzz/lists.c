@@ -1,7 +1,7 @@
 /* Frequency vectors and weights. The first byte: does the rest come through a pipe? */
 #include "fuzz.h"
 
-#include "io/points.h"
+#include "points/points.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
 
 #include "fuzz.h"
 
-#include "io/points.h"
+#include "points/points.h"
 
 /* What the first bytes of the input select, beside the options of the reader. */
 typedef struct fuzz_choices {
@@ -33,7 +33,7 @@ void fuzz_read(fuzz_reading *out, const char *path, const fuzz_choices *choices,
                size_t block_points);
 void fuzz_reading_free(fuzz_reading *reading);
 
-/* Do the points obey what io/points.h promises? */
+/* Do the points obey what points/points.h promises? */
 void fuzz_check_points(const fuzz_reading *reading, const ps_point_options *options);
 
 /* Are the first num_sets sets the same to the bit? */

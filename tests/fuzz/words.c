@@ -1,8 +1,8 @@
 /* What people type: samplers with their parameters, and the words of commands. */
 #include "base/text.h"
 #include "cli/command.h"
-#include "scene/options.h"
-#include "scene/question.h"
+#include "questions/options.h"
+#include "questions/question.h"
 #include "fuzz.h"
 #include "integrands/brdf.h"
 #include "samplers/sampler.h"

@@ -1,0 +1,315 @@
+/* The public library: plans over the estimator, and the callbacks of their context. */
+#include "base/clock.h"
+#include "base/memory.h"
+#include "jobs/parts/gather.h"
+#include "api/public_objects.h"
+#include "api/public_request.h"
+#include "plan/memory_model.h"
+
+#include <stdlib.h>
+
+struct pspec_plan {
+    pspec_context *context;
+    ps_frequencies frequencies;
+    ps_problem problem;
+    ps_plan choice;
+    ps_estimator *estimator;
+    ps_gather *gather;
+    ps_text text;
+    bool has_c2;
+    bool has_failed;   /* its sums may hold a part of a batch */
+    double last_asked; /* seconds: when progress was called last */
+};
+
+/* ---- progress ---------------------------------------------------------------------------- */
+
+static bool ask_to_stop(pspec_plan *plan) {
+    return ps_watch_tell(&plan->context->watch, "realizations",
+                         ps_estimator_num_realizations(plan->estimator),
+                         plan->problem.num_realizations, NULL, NULL) != PSPEC_OK;
+}
+
+/* Asked by engines, some of them for every frequency: the callback is not called as often. */
+static bool should_stop(void *payload) {
+    const double interval = 0.1; /* seconds; what people call at once */
+    pspec_plan *plan = payload;
+    if (plan->context->watch.tell == NULL) {
+        return false;
+    }
+    const double time = ps_clock_seconds();
+    if (time - plan->last_asked < interval) {
+        return false;
+    }
+    plan->last_asked = time;
+    return ask_to_stop(plan);
+}
+
+static pspec_status after_batch(void *payload, ps_error *error) {
+    return ask_to_stop(payload) ? ps_fail(error, PSPEC_ERROR_CANCELLED, "cancelled") : PSPEC_OK;
+}
+
+/* ---- create ------------------------------------------------------------------------------ */
+
+static void log_choice(const pspec_plan *plan) {
+    for (size_t i = 0; i < plan->choice.num_candidates; i++) {
+        const ps_candidate *candidate = &plan->choice.candidates[i];
+        if (candidate->is_excluded) { /* as the request says */
+            continue;
+        }
+        ps_log_say(&plan->context->log, "%s in %s precision%s: %s", candidate->engine->name,
+                   ps_precision_name(candidate->precision), candidate->is_chosen ? ", chosen" : "",
+                   candidate->reason);
+    }
+}
+
+static pspec_status choose_engine(pspec_plan *plan, const ps_public_request *request,
+                                  ps_error *error) {
+    pspec_context *context = plan->context;
+    ps_memory_room room;
+    const ps_plan_constraints constraints = {.engine = request->engine,
+                                             .precision = request->precision,
+                                             .memory_limit = context->memory_limit,
+                                             .offers = PS_OFFER_RINGS,
+                                             .room = &room};
+    ps_memory_room_find(&room, 0);
+    if (ps_plan_may_need_device(&constraints)) {
+        PS_TRY(ps_context_open_device(context));
+    }
+    const ps_device_limits *limits =
+        context->device != NULL ? ps_device_get_limits(context->device) : NULL;
+    PS_TRY(ps_plan_make(&plan->choice, &plan->problem, limits, &constraints, error));
+    log_choice(plan);
+    return ps_plan_require(&plan->choice, &plan->problem, error);
+}
+
+static pspec_status create_estimator(pspec_plan *plan, const ps_public_request *request,
+                                     ps_error *error) {
+    const ps_estimator_options options = {
+        .problem = plan->problem,
+        .engine = plan->choice.chosen->engine,
+        .precision = plan->choice.chosen->precision,
+        .batch = plan->choice.chosen->batch,
+        .exact_shells = request->exact_shells,
+        .want_frequencies = true,
+        .want_c2 = request->want_c2,
+        .self_check = !request->no_self_check,
+        .normalization = request->normalization,
+        .should_stop = should_stop,
+        .payload = plan,
+        .log = plan->context->log,
+    };
+    PS_TRY(ps_estimator_create(&plan->estimator, &options, plan->context->device, error));
+    ps_estimator_describe(plan->estimator, &plan->text);
+    PS_TRY(ps_text_check(&plan->text, error));
+    ps_log_say(&plan->context->log, "plan: %s, %zu realizations at a time",
+               ps_text_string(&plan->text), ps_estimator_batch(plan->estimator));
+    const ps_gather_options gather = {.estimator = plan->estimator,
+                                      .dimension = plan->frequencies.dimension,
+                                      .num_points = request->num_points,
+                                      .after_batch = after_batch,
+                                      .payload = plan};
+    return ps_gather_create(&plan->gather, &gather, error);
+}
+
+static pspec_status fill_plan(pspec_plan *plan, const ps_public_request *request, ps_error *error) {
+    PS_TRY(ps_frequencies_enumerate(&plan->frequencies, error));
+    const bool is_pairs = request->normalization == PSPEC_NORMALIZATION_PAIRS;
+    plan->problem = (ps_problem){
+        .frequencies = &plan->frequencies,
+        .num_points = request->num_points,
+        .planned_points = request->num_points,
+        .num_realizations = request->num_realizations,
+        .has_weights = true,
+        .measure = is_pairs ? PS_OF_PAIR_SUMS : PS_OF_AMPLITUDES,
+        .floor = is_pairs ? request->floor : 0,
+        .tolerance = ps_plan_tolerance(request->tolerance, is_pairs ? 0 : request->floor),
+    };
+    PS_TRY(choose_engine(plan, request, error));
+    return create_estimator(plan, request, error);
+}
+
+/* Takes over the frequencies of the request. */
+static pspec_status create_plan(pspec_plan **out, pspec_context *context,
+                                ps_public_request *request) {
+    void *memory = NULL;
+    pspec_status status = ps_allocate(&memory, 1, sizeof(pspec_plan), "a plan", &context->error);
+    if (status != PSPEC_OK) {
+        ps_frequencies_free(&request->frequencies);
+        return status;
+    }
+    pspec_plan *plan = memory;
+    plan->context = context;
+    plan->frequencies = request->frequencies;
+    plan->has_c2 = request->want_c2;
+    status = fill_plan(plan, request, &context->error);
+    if (status != PSPEC_OK) {
+        pspec_plan_destroy(plan);
+        return status;
+    }
+    *out = plan;
+    return PSPEC_OK;
+}
+
+pspec_status pspec_plan_create(pspec_plan **out, pspec_context *context,
+                               const pspec_power_request *request) {
+    ps_public_request checked = {0};
+    *out = NULL;
+    if (context == NULL) {
+        return PSPEC_ERROR_INVALID_ARGUMENT;
+    }
+    PS_TRY(ps_public_request_power(&checked, request, &context->error));
+    return create_plan(out, context, &checked);
+}
+
+pspec_status pspec_plan_create_angular(pspec_plan **out, pspec_context *context,
+                                       const pspec_angular_request *request) {
+    ps_public_request checked = {0};
+    *out = NULL;
+    if (context == NULL) {
+        return PSPEC_ERROR_INVALID_ARGUMENT;
+    }
+    PS_TRY(ps_public_request_angular(&checked, request, &context->error));
+    return create_plan(out, context, &checked);
+}
+
+void pspec_plan_destroy(pspec_plan *plan) {
+    if (plan != NULL) {
+        ps_gather_destroy(plan->gather);
+        ps_estimator_destroy(plan->estimator);
+        ps_frequencies_free(&plan->frequencies);
+        ps_text_free(&plan->text);
+        free(plan);
+    }
+}
+
+const char *pspec_plan_text(const pspec_plan *plan) {
+    return ps_text_string(&plan->text);
+}
+
+/* ---- run --------------------------------------------------------------------------------- */
+
+static pspec_status require_sound(const pspec_plan *plan) {
+    return plan->has_failed
+               ? ps_fail(&plan->context->error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "this plan failed before, so its averages cannot be used: destroy it, or "
+                         "begin again with pspec_plan_reset")
+               : PSPEC_OK;
+}
+
+/* Engines that were cancelled do not know how far the whole plan is. */
+static pspec_status fail_cancelled(pspec_plan *plan) {
+    return ps_fail(&plan->context->error, PSPEC_ERROR_CANCELLED,
+                   "cancelled by the progress callback after %llu realizations",
+                   (unsigned long long)ps_estimator_num_realizations(plan->estimator));
+}
+
+/* Remembers a failure. */
+static pspec_status note(pspec_plan *plan, pspec_status status) {
+    plan->has_failed = status != PSPEC_OK;
+    return status == PSPEC_ERROR_CANCELLED ? fail_cancelled(plan) : status;
+}
+
+pspec_status pspec_plan_run(pspec_plan *plan, const pspec_pattern *patterns, size_t num_patterns) {
+    if (plan == NULL) {
+        return PSPEC_ERROR_INVALID_ARGUMENT;
+    }
+    PS_TRY(require_sound(plan));
+    if (patterns == NULL && num_patterns > 0) {
+        return ps_fail(&plan->context->error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "%zu patterns at the address NULL", num_patterns);
+    }
+    return note(plan, ps_gather_add(plan->gather, patterns, num_patterns, &plan->context->error));
+}
+
+/* Are coefficients within the limit that the caller has set, together with what the plan has? The array that they are
+ * for counts, though it is the caller's. */
+static pspec_status require_memory(const pspec_plan *plan, ps_harmonics harmonics) {
+    pspec_context *context = plan->context;
+    const ps_candidate *chosen = plan->choice.chosen;
+    const double limit = (double)context->memory_limit;
+    if (context->memory_limit == 0 || ps_problem_domain(&plan->problem) != PS_ON_SPHERE) {
+        return PSPEC_OK;
+    }
+    const double bytes = ps_memory_of_coefficients(
+        chosen->engine, chosen->precision, &plan->problem,
+        context->device != NULL ? ps_device_get_limits(context->device) : NULL, harmonics);
+    return chosen->bytes + bytes <= limit
+               ? PSPEC_OK
+               : ps_fail(&context->error, PSPEC_ERROR_MEMORY,
+                         "coefficients to degree %d take %.3g bytes; with the %.3g of the plan "
+                         "that is above the memory limit of %.3g",
+                         (int)plan->frequencies.max_frequency, bytes, chosen->bytes, limit);
+}
+
+pspec_status pspec_plan_coefficients(pspec_plan *plan, const pspec_pattern *pattern,
+                                     int hemispherical, double *coefficients) {
+    if (plan == NULL) {
+        return PSPEC_ERROR_INVALID_ARGUMENT;
+    }
+    if (pattern == NULL || coefficients == NULL) {
+        return ps_fail(&plan->context->error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "there is no pattern, or no room for its coefficients");
+    }
+    const ps_harmonics harmonics =
+        hemispherical != 0 ? PS_HEMISPHERICAL_HARMONICS : PS_SPHERICAL_HARMONICS;
+    PS_TRY(require_memory(plan, harmonics));
+    const pspec_status status = ps_estimator_coefficients(plan->estimator, pattern, harmonics,
+                                                          coefficients, &plan->context->error);
+    return status == PSPEC_ERROR_CANCELLED ? fail_cancelled(plan) : status;
+}
+
+pspec_status pspec_plan_reset(pspec_plan *plan) {
+    if (plan == NULL) {
+        return PSPEC_ERROR_INVALID_ARGUMENT;
+    }
+    ps_gather_reset(plan->gather);
+    return note(plan, ps_estimator_reset(plan->estimator, &plan->context->error));
+}
+
+pspec_status ps_plan_sums(pspec_plan *plan, ps_spectrum_sums *out, const ps_bins **bins) {
+    ps_error *error = &plan->context->error;
+    PS_TRY(require_sound(plan));
+    PS_TRY(note(plan, ps_gather_flush(plan->gather, error)));
+    const ps_accuracy accuracy = ps_estimator_accuracy(plan->estimator);
+    *bins = ps_estimator_bins(plan->estimator);
+    if (ps_estimator_num_realizations(plan->estimator) > 0 &&
+        !(accuracy.error <= plan->problem.tolerance)) {
+        return ps_fail(error, PSPEC_ERROR_TOLERANCE,
+                       "these patterns have a mean power of %.3g, so %s precision has an error of "
+                       "%.2g, above the tolerance %g: make a plan of higher precision",
+                       accuracy.largest_mean_power,
+                       ps_precision_name(plan->choice.chosen->precision), accuracy.error,
+                       plan->problem.tolerance);
+    }
+    return ps_estimator_sums(plan->estimator, out, error);
+}
+
+pspec_status pspec_plan_c2(pspec_plan *plan, pspec_mean *c2) {
+    ps_spectrum_sums sums = {0};
+    const ps_bins *bins = NULL;
+    void *memory = NULL;
+    if (plan == NULL) {
+        return PSPEC_ERROR_INVALID_ARGUMENT;
+    }
+    ps_error *error = &plan->context->error;
+    const size_t num = plan->frequencies.num;
+    if (!plan->has_c2 || c2 == NULL) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       plan->has_c2 ? "there is no room for C_l^2"
+                                    : "this plan does not have C_l^2: its request lacks want_c2");
+    }
+    PS_TRY(ps_plan_sums(plan, &sums, &bins)); /* runs what waits, and checks the tolerance */
+    ps_spectrum_sums_free(&sums);
+    PS_TRY(ps_allocate(&memory, num, sizeof(ps_mean), "C_l^2", error));
+    const ps_mean *const means = memory;
+    ps_estimator_c2(plan->estimator, memory);
+    for (size_t i = 0; i < num; i++) {
+        c2[i] = (pspec_mean){means[i].mean, means[i].standard_error};
+    }
+    free(memory);
+    return PSPEC_OK;
+}
+
+pspec_context *ps_plan_context(const pspec_plan *plan) {
+    return plan->context;
+}

@@ -1,0 +1,348 @@
+/* pointspec bench: run time against error on this device, and its figures for the planner. */
+#include "report/bench_plot.h"
+#include "cli/commands/bench_scenes.h"
+#include "cli/command.h"
+#include "cli/output_check.h"
+#include "cli/picture.h"
+#include "tables/table_stream.h"
+#include "store/host_figures.h"
+#include "questions/options.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <time.h>
+
+typedef struct answer {
+    const ps_request *arguments;
+    ps_device *device;
+    ps_device_peaks peaks;
+    ps_bench_rows rows;
+    ps_table *table;
+    ps_table_stream *stream;
+    ps_progress *progress;
+} answer;
+
+/* ---- rows ---------------------------------------------------------------------------------- */
+
+static ps_cell number_of(double value) {
+    return isnan(value) ? PS_MISSING : PS_NUMBER(value);
+}
+
+static pspec_status add_row(ps_table *table, const ps_bench_row *row, ps_error *error) {
+    const ps_cell cells[] = {PS_TEXT(row->what->what.name),
+                             PS_TEXT(row->engine->name),
+                             PS_NUMBER(row->tolerance),
+                             PS_NUMBER(row->seconds),
+                             PS_NUMBER(row->error),
+                             PS_NUMBER((double)row->what->what.num_points / row->seconds),
+                             number_of(row->fraction_of_peak),
+                             PS_TEXT(ps_precision_name(row->precision)),
+                             number_of(row->fraction_of_bandwidth),
+                             PS_NUMBER(row->predicted_seconds),
+                             PS_NUMBER(row->predicted_error),
+                             PS_INTEGER(row->is_pareto)};
+    return ps_table_add_row(table, cells, error);
+}
+
+static pspec_status report(void *payload, const ps_bench_row *rows, size_t num, ps_error *error) {
+    answer *const of = payload;
+    for (size_t i = 0; i < num; i++) {
+        PS_TRY(add_row(of->table, &rows[i], error));
+    }
+    PS_TRY(ps_bench_rows_add(&of->rows, rows, num, error));
+    ps_progress_hide(of->progress);
+    return ps_table_stream_update(of->stream, error);
+}
+
+static void advance(void *payload, size_t done, size_t total) {
+    const answer *const of = payload;
+    ps_progress_update(of->progress, done, total);
+}
+
+static bool should_stop(void *payload) {
+    (void)payload;
+    return ps_interrupted != 0;
+}
+
+/* ---- headers ------------------------------------------------------------------------------- */
+
+static ps_cell rate(double value) {
+    return value > 0 ? PS_NUMBER(value) : PS_MISSING;
+}
+
+static pspec_status add_device(const answer *of, const ps_device_peaks *peaks, ps_error *error) {
+    const ps_device_limits *const limits = ps_device_get_limits(of->device);
+    const ps_meta entries[] = {
+        {"pointspec_version", PS_TEXT(pspec_version())},
+        {"schema", PS_INTEGER(1)},
+        {"command", PS_TEXT(of->arguments->command_line)},
+        {"device", PS_TEXT(limits->name)},
+        {"platform", PS_TEXT(limits->platform)},
+        {"driver", PS_TEXT(limits->driver)},
+        {"compute_units", PS_INTEGER(limits->compute_units)},
+        {"peak_flops_single", rate(peaks->flops[PS_SINGLE])},
+        {"peak_flops_double", rate(peaks->flops[PS_DOUBLE])},
+        {"copied_bytes_per_second", rate(peaks->copied_bytes)},
+    };
+    return ps_table_add_metas(of->table, entries, sizeof entries / sizeof entries[0], error);
+}
+
+static pspec_status add_explanation(const answer *of, ps_error *error) {
+    const ps_meta entries[] = {
+        {"figures", PS_TEXT(ps_device_get_limits(of->device)->figures->note)},
+        {"time", PS_TEXT("of a realization, from points in host memory to powers on the device: "
+                         "median of nine runs, three at a time in turn with other rows, with "
+                         "--quick of three; setup is not counted")},
+        {"error", PS_TEXT("measured against long double sums, in units of --tol; 0: the engine is "
+                          "that referee")},
+        {"tolerance", PS_TEXT("the tightest of 1e-2 1e-4 ... 1e-12 that leads to this computation; "
+                              "what takes longer than 2 s, on the host 0.5 s, is left out")},
+        {"fraction_of_peak",
+         PS_TEXT("arithmetic that the launches count, of the peak measured "
+                 "beside it; fraction_of_bandwidth: points read and powers written "
+                 "once, of a copy")},
+    };
+    return ps_table_add_metas(of->table, entries, sizeof entries / sizeof entries[0], error);
+}
+
+/* ---- the table ----------------------------------------------------------------------------- */
+
+static pspec_status make_table(answer *of, ps_table_format format, const char *path,
+                               ps_error *error) {
+    static const char *const columns[] = {"case",
+                                          "engine",
+                                          "tolerance",
+                                          "seconds_per_realization",
+                                          "error",
+                                          "points_per_second",
+                                          "fraction_of_peak",
+                                          "precision",
+                                          "fraction_of_bandwidth",
+                                          "predicted_seconds",
+                                          "predicted_error",
+                                          "pareto"};
+    PS_TRY(
+        ps_table_create(&of->table, "bench", columns, sizeof columns / sizeof columns[0], error));
+    PS_TRY(add_device(of, &of->peaks, error));
+    PS_TRY(add_explanation(of, error));
+    return ps_table_stream_open(&of->stream, of->table, path, format, error);
+}
+
+static pspec_status run_cases(answer *of, const ps_bench_options *options, ps_table_format format,
+                              const char *path, ps_error *error) {
+    const ps_request *arguments = of->arguments;
+    PS_TRY(ps_device_peaks_measure(of->device, &of->peaks, error));
+    PS_TRY(make_table(of, format, path, error));
+    of->progress = ps_progress_begin(arguments, "cases");
+    const pspec_status status = ps_bench_run(options, of->device, of->peaks.copied_bytes, error);
+    ps_progress_end(of->progress);
+    PS_TRY(status);
+    PS_TRY(ps_table_stream_close(&of->stream, error));
+    return arguments->plot == NULL
+               ? PSPEC_OK
+               : ps_picture_settle(arguments,
+                                   ps_bench_plot(arguments->plot, &of->rows,
+                                                 ps_device_get_limits(of->device)->name, error),
+                                   error);
+}
+
+/* ---- calibration --------------------------------------------------------------------------- */
+
+static pspec_status add_figures(answer *of, const ps_figures *figures, const char *path,
+                                ps_error *error) {
+    static const char *const columns[] = {"engine", "precision", "seconds_over_predicted"};
+    const ps_device_peaks peaks = {{figures->flops[0], figures->flops[1]}, figures->copied_bytes};
+    PS_TRY(
+        ps_table_create(&of->table, "bench", columns, sizeof columns / sizeof columns[0], error));
+    PS_TRY(add_device(of, &peaks, error));
+    PS_TRY(ps_table_add_meta(of->table, "date", PS_TEXT(figures->date), error));
+    PS_TRY(ps_table_add_meta(of->table, "file", PS_TEXT(path), error));
+    for (size_t i = 0; i < figures->num_engines; i++) {
+        const ps_engine_figure *row = &figures->engines[i];
+        for (int precision = PS_SINGLE; precision <= PS_EXTENDED; precision++) {
+            const ps_cell cells[] = {PS_TEXT(row->engine),
+                                     PS_TEXT(ps_precision_name((ps_precision)precision)),
+                                     PS_NUMBER(row->scales[precision])};
+            if (row->scales[precision] > 0) {
+                PS_TRY(ps_table_add_row(of->table, cells, error));
+            }
+        }
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status add_host_figures(answer *of, const ps_figures *host, ps_error *error) {
+    for (size_t i = 0; i < host->num_host; i++) {
+        char name[64];
+        snprintf(name, sizeof name, "host %s", host->host[i].kind);
+        const ps_cell cells[] = {PS_TEXT(name), PS_MISSING, PS_NUMBER(host->host[i].scale)};
+        PS_TRY(ps_table_add_row(of->table, cells, error));
+    }
+    return PSPEC_OK;
+}
+
+static void say_date(ps_figures *figures) {
+    const time_t now = time(NULL);
+    struct tm parts;
+    if (gmtime_r(&now, &parts) == NULL ||
+        strftime(figures->date, sizeof figures->date, "%Y-%m-%dT%H:%M:%SZ", &parts) == 0) {
+        snprintf(figures->date, sizeof figures->date, "a day unknown");
+    }
+}
+
+/* Measures, keeps, and shows what was kept. */
+static pspec_status calibrate(answer *of, const ps_bench_options *options, ps_table_format format,
+                              const char *path, ps_error *error) {
+    const char *const folder = of->arguments->cache_folder;
+    const ps_device_limits *const limits = ps_device_get_limits(of->device);
+    ps_figures figures;
+    ps_figures host;
+    ps_text file = {0};
+    PS_TRY(ps_figures_make_folder(folder, error)); /* before the work */
+    of->progress = ps_progress_begin(of->arguments, "cases");
+    pspec_status status = ps_bench_calibrate(options, of->device, &figures, error);
+    if (status == PSPEC_OK) {
+        status = ps_bench_calibrate_host(options, folder, &host, error);
+    }
+    ps_progress_end(of->progress);
+    PS_TRY(status);
+    say_date(&figures);
+    say_date(&host);
+    PS_TRY(ps_figures_write(folder, &figures, limits, error));
+    PS_TRY(ps_host_figures_write(folder, &host, error));
+    PS_TRY_OUT(status, ps_figures_path(&file, folder, limits, error));
+    PS_TRY_OUT(status, add_figures(of, &figures, ps_text_string(&file), error));
+    PS_TRY_OUT(status, add_host_figures(of, &host, error));
+    status = ps_table_write(of->table, path, format, error);
+out:
+    ps_text_free(&file);
+    return status;
+}
+
+/* ---- the command --------------------------------------------------------------------------- */
+
+/* Options that are about cases. */
+static pspec_status check_others(const ps_request *arguments, const char *flag, const char *why,
+                                 ps_error *error) {
+    static const ps_option_id ids[] = {PS_OPTION_ENGINE, PS_OPTION_PRECISION, PS_OPTION_PLOT,
+                                       PS_OPTION_CASE, PS_OPTION_QUICK};
+    const bool has_quick = arguments->calibrate; /* which leaves cases out there, too */
+    const size_t num = sizeof ids / sizeof ids[0] - (has_quick ? 2 : 0);
+    for (size_t i = 0; i < num; i++) {
+        if (arguments->is_given[ids[i]]) {
+            return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "--%s does not go with %s: %s",
+                           ps_options[ids[i]].name, flag, why);
+        }
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status check_calibration(const ps_request *arguments, ps_error *error) {
+    PS_TRY(check_others(arguments, "--calibrate", "all engines are measured", error));
+    return arguments->cache_folder != NULL
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "there is no folder to keep the figures in: set POINTSPEC_CACHE_DIR");
+}
+
+static pspec_status check_words(const ps_request *arguments, const ps_bench_options *options,
+                                ps_error *error) {
+    if (arguments->num_files > 0) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "no file is read, but %s was given; --scenes is for scenes",
+                       arguments->files[0]);
+    }
+    PS_TRY(ps_picture_check(arguments, error));
+    if (arguments->calibrate) {
+        PS_TRY(check_calibration(arguments, error));
+    }
+    return ps_bench_check(options, error);
+}
+
+/* The table is there also when answers differ. */
+static pspec_status run_scenes(const ps_request *arguments, ps_error *error) {
+    const char *const path = arguments->output != NULL ? arguments->output : "-";
+    ps_table *table = NULL;
+    ps_table_format format = PS_FORMAT_CSV;
+    ps_error unwritten = {0};
+    if (arguments->num_files == 0) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "--scenes needs scenes, as in --scenes docs/scenes/diffuse.yaml");
+    }
+    PS_TRY(check_others(arguments, "--scenes", "scenes are timed as they are", error));
+    if (arguments->calibrate) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "--calibrate does not go with --scenes: one at a time");
+    }
+    PS_TRY(ps_table_choose_format(&format, arguments->format, path, error));
+    PS_TRY(ps_outputs_check(arguments, true, error));
+    pspec_status status = ps_bench_scenes(&table, arguments, error);
+    if ((status == PSPEC_OK || status == PSPEC_ERROR_CHECK) &&
+        ps_table_write(table, path, format, &unwritten) != PSPEC_OK) {
+        *error = unwritten;
+        status = unwritten.status;
+    }
+    ps_table_destroy(table);
+    return status;
+}
+
+static pspec_status run(const ps_request *arguments, ps_error *error) {
+    if (arguments->scenes) {
+        return run_scenes(arguments, error);
+    }
+    const char *const path = arguments->output != NULL ? arguments->output : "-";
+    answer of = {.arguments = arguments};
+    const ps_bench_options options = {.case_name = arguments->case_name,
+                                      .engine = arguments->engine,
+                                      .precision = arguments->precision,
+                                      .program = "/proc/self/exe",
+                                      .device = arguments->device,
+                                      .quick = arguments->quick,
+                                      .should_stop = should_stop,
+                                      .report = report,
+                                      .advance = advance,
+                                      .payload = &of};
+    ps_table_format format = PS_FORMAT_CSV;
+    PS_TRY(check_words(arguments, &options, error));
+    PS_TRY(ps_table_choose_format(&format, arguments->format, path, error));
+    PS_TRY(ps_outputs_check(arguments, true, error));
+    PS_TRY(ps_figures_open_device(&of.device, arguments->device, false, arguments->cache_folder,
+                                  error));
+    const pspec_status status = arguments->calibrate
+                                    ? calibrate(&of, &options, format, path, error)
+                                    : run_cases(&of, &options, format, path, error);
+    ps_table_stream_discard(&of.stream);
+    ps_table_destroy(of.table);
+    ps_bench_rows_free(&of.rows);
+    ps_device_close(of.device);
+    return status;
+}
+
+static const ps_option_id options[] = {
+    PS_OPTION_CASE,      PS_OPTION_QUICK,  PS_OPTION_PRECISION, PS_OPTION_ENGINE, PS_OPTION_DEVICE,
+    PS_OPTION_OUTPUT,    PS_OPTION_FORMAT, PS_OPTION_PLOT,      PS_OPTION_QUIET,  PS_OPTION_HELP,
+    PS_OPTION_CALIBRATE, PS_OPTION_SCENES, PS_NUM_OPTIONS};
+
+const ps_command ps_command_bench = {
+    .name = "bench",
+    .summary = "run time against error on this device; its figures for the planner",
+    .usage = "bench [options] | bench --scenes [options] SCENE.yaml...",
+    .description =
+        "Runs every engine in every precision at tolerances from 1e-2 to 1e-12 on cases of the "
+        "torus, the sphere, the hemisphere and pair sums, and prints the time of a realization "
+        "beside the error that long double sums find. pareto is 1 where nothing else of the case "
+        "is as fast and as exact. --calibrate measures instead how far this device is from the "
+        "planner's cost model and keeps that below POINTSPEC_CACHE_DIR (else "
+        "XDG_CACHE_HOME/pointspec, else ~/.cache/pointspec): plan says its seconds with it from "
+        "then "
+        "on. --scenes runs scenes with and without skips instead, without the cache of results, "
+        "and "
+        "compares time and answers; exit status 3 when they differ. Wants a quiet machine; a plain "
+        "run takes about three minutes.",
+    .options = options,
+    .formats = "csv|json",
+    .examples =
+        {"pointspec bench --case plane-many --quick -o bench.csv --plot bench.svg",
+         "pointspec bench --case sphere --engine sphere_nufft --precision single --format json"},
+    .run = run,
+};

@@ -1,0 +1,35 @@
+/* pointspec pairs: Legendre sums over all pairs of points. */
+#include "cli/command.h"
+#include "cli/jobs.h"
+#include "report/pairs_table.h"
+
+/* Beside those of the question. */
+static const ps_option_id options[] = {PS_OPTION_DEVICE,  PS_OPTION_OUTPUT,  PS_OPTION_FORMAT,
+                                       PS_OPTION_PLOT,    PS_OPTION_PROFILE, PS_OPTION_QUIET,
+                                       PS_OPTION_VERBOSE, PS_OPTION_HELP,    PS_NUM_OPTIONS};
+
+static pspec_status run(const ps_request *arguments, ps_error *error) {
+    static const ps_jobs_output output = {ps_pairs_table, NULL};
+    return ps_jobs_run(arguments, PS_QUESTION_PAIRS, &output, error);
+}
+
+const ps_command ps_command_pairs = {
+    .name = "pairs",
+    .summary = "Legendre sums over all pairs of points on the sphere",
+    .usage = "pairs [options] --sampler NAME | pairs [options] FILE...",
+    .description =
+        "Averages Q(l) = sum_ij w_i w_j P_l(u_i.u_j) over realizations, and "
+        "C_l^2 = 2 sum_{m > 0} |c_lm|^2 = (2l + 1) / (4 pi) Q(l) - c_l0^2, the part of it that "
+        "depends on the azimuth, and prints both for the degrees 1..L with standard errors over "
+        "the realizations. Weights are 1/N unless given. Files hold unit vectors or angles; "
+        "several files, and several sets in a file, are realizations. With --hemisphere a point "
+        "stands for its direction and the opposite one: even degrees only. --tol (default 1e-6) is "
+        "the "
+        "largest error of Q(l) in units of (sum |w|)^2; --floor P asks for sums down to P sum w^2 "
+        "right to 10 %, which sums over pairs lose sooner than sums of squares do.",
+    .result = &ps_result_pairs,
+    .options = options,
+    .examples = {"pointspec pairs --sampler fibonacci -n 256 -l 32",
+                 "pointspec pairs --sampler white-hemisphere -n 64 -m 100 -l 16 --tol 1e-10"},
+    .run = run,
+};

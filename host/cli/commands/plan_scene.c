@@ -1,0 +1,83 @@
+/* The plan of a scene: a block for each of its questions. */
+#include "cli/plan_table.h"
+#include "cli/run/run.h"
+#include "cli/run/pictures.h"
+
+#include <stdio.h>
+
+static pspec_status add_block(ps_run *run, const ps_run_result *result, size_t number,
+                              ps_planner *to, ps_error *error) {
+    enum { JOB = 128 };
+    ps_table *const table = to->table;
+    char job[JOB];
+    ps_answer answer = {0};
+    double seconds = 0;
+    bool is_cached = false;
+    const ps_run_question *const question = &result->questions[number];
+    snprintf(job, sizeof job, "%s:%zu", result->asked->name, number + 1);
+    PS_TRY(ps_table_add_meta(table, "job", PS_TEXT(job), error));
+    PS_TRY(
+        ps_table_add_meta(table, "question", PS_TEXT(question->asked.request.command_line), error));
+    PS_TRY(ps_run_fetch(run, question, &answer, &seconds, &is_cached, error));
+    ps_answer_free(&answer);
+    if (is_cached) {
+        to->job = job;
+        return ps_plan_table_add_cached(to, error);
+    }
+    if (!run->lacks_device) {
+        const pspec_status status = ps_run_open_device(run, result, error);
+        run->lacks_device = status == PSPEC_ERROR_NO_DEVICE;
+        if (status != PSPEC_OK && !run->lacks_device) {
+            return status;
+        }
+    }
+    to->job = job;
+    to->device = run->device;
+    return ps_plan_table_add(to, result->asked->kind, &question->asked.request, error);
+}
+
+/* Of all results; those that are in the cache take no time. */
+static pspec_status add_pictures(const ps_run *run, ps_planner *to, ps_error *error) {
+    ps_phases phases = {.host = to->host};
+    ps_pictures pictures = {0};
+    pspec_status status = PSPEC_OK;
+    for (size_t i = 0; i < run->num_results && status == PSPEC_OK; i++) {
+        status = ps_pictures_list(&pictures, run->results[i].asked, error);
+    }
+    ps_phases_add(&phases, "pictures", PS_HOST_PICTURE, (double)pictures.num);
+    ps_phases_say(&phases, "pictures", "%zu by gnuplot", pictures.num);
+    ps_pictures_free(&pictures);
+    to->job = "pictures";
+    return status == PSPEC_OK ? ps_plan_table_add_phases(to, &phases, error) : status;
+}
+
+static pspec_status add_blocks(ps_run *run, ps_planner *to, ps_error *error) {
+    PS_TRY(ps_run_ask(run, error));
+    PS_TRY(ps_run_open_cache(run, error));
+    for (size_t i = 0; i < run->num_results; i++) {
+        const ps_run_result *const result = &run->results[i];
+        for (size_t q = 0; q < result->num; q++) {
+            if (add_block(run, result, q, to, error) != PSPEC_OK) {
+                return ps_scene_blame(run->scene, result->asked, error);
+            }
+        }
+    }
+    return add_pictures(run, to, error);
+}
+
+pspec_status ps_plan_scene(ps_planner *to, const ps_request *arguments, ps_error *error) {
+    ps_scene scene = {0};
+    if (arguments->num_files != 1) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "one scene is planned at a time, but %zu files were named",
+                       arguments->num_files);
+    }
+    ps_run run = {.arguments = arguments, .scene = &scene};
+    pspec_status status = ps_run_read_scene(&scene, arguments, error);
+    if (status == PSPEC_OK) {
+        status = add_blocks(&run, to, error);
+    }
+    ps_run_free(&run);
+    ps_scene_free(&scene);
+    return status;
+}

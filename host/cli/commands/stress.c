@@ -1,0 +1,156 @@
+/* pointspec stress: the numerical stability suite on this device. */
+#include "cli/command.h"
+#include "cli/output_check.h"
+#include "tables/table_stream.h"
+#include "verify/stress.h"
+
+#include <stdio.h>
+
+typedef struct answer {
+    const ps_request *arguments;
+    ps_device *device; /* NULL: for what the host computes alone */
+    ps_table *table;
+    ps_table_stream *stream;
+    ps_progress *progress;
+} answer;
+
+/* ---- rows ---------------------------------------------------------------------------------- */
+
+static pspec_status report(void *payload, const ps_stress_row *row, ps_error *error) {
+    answer *const of = payload;
+    char verdict[sizeof row->reason + 32];
+    ps_stress_verdict_text(row, verdict, sizeof verdict);
+    const ps_cell cells[] = {
+        PS_TEXT(row->what->name), PS_TEXT(row->engine),  PS_TEXT(ps_precision_name(row->precision)),
+        PS_NUMBER(row->error),    PS_NUMBER(row->bound), PS_TEXT(verdict)};
+    PS_TRY(ps_table_add_row(of->table, cells, error));
+    ps_progress_hide(of->progress);
+    return ps_table_stream_update(of->stream, error);
+}
+
+static void advance(void *payload, size_t done, size_t total) {
+    const answer *const of = payload;
+    ps_progress_update(of->progress, done, total);
+}
+
+static bool should_stop(void *payload) {
+    (void)payload;
+    return ps_interrupted != 0;
+}
+
+/* ---- the table ----------------------------------------------------------------------------- */
+
+static pspec_status add_header(const answer *of, ps_error *error) {
+    const ps_request *const arguments = of->arguments;
+    const ps_device_limits *const limits =
+        of->device != NULL ? ps_device_get_limits(of->device) : NULL;
+    const struct {
+        const char *key;
+        ps_cell value;
+    } entries[] = {
+        {"pointspec_version", PS_TEXT(pspec_version())},
+        {"schema", PS_INTEGER(1)},
+        {"command", PS_TEXT(arguments->command_line)},
+        {"device", PS_TEXT(limits != NULL ? limits->name : "none")},
+        {"platform", PS_TEXT(limits != NULL ? limits->platform : "none")},
+        {"driver", PS_TEXT(limits != NULL ? limits->driver : "none")},
+        {"error_units", PS_TEXT("of S and c_lm: white noise; of pair sums and distances: (sum "
+                                "|w|)^2; of the host: as its bound")},
+    };
+    for (size_t i = 0; i < sizeof entries / sizeof entries[0]; i++) {
+        PS_TRY(ps_table_add_meta(of->table, entries[i].key, entries[i].value, error));
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status make_table(answer *of, ps_table_format format, const char *path,
+                               ps_error *error) {
+    static const char *const columns[] = {"case",  "engine", "precision",
+                                          "error", "bound",  "verdict"};
+    enum { NUM_COLUMNS = sizeof columns / sizeof columns[0] };
+    PS_TRY(ps_table_create(&of->table, "stress", columns, NUM_COLUMNS, error));
+    PS_TRY(add_header(of, error));
+    return ps_table_stream_open(&of->stream, of->table, path, format, error);
+}
+
+/* ---- the command --------------------------------------------------------------------------- */
+
+/* What computes wrongly failed a check; what did not compute failed. */
+static pspec_status conclude(const ps_stress_totals *totals, ps_error *error) {
+    const ps_stress_row *const first = &totals->first_failure;
+    const bool is_refused = first->reason[0] != '\0';
+    if (totals->num_failed == 0) {
+        return PSPEC_OK;
+    }
+    return ps_fail(error, is_refused ? PSPEC_ERROR_DEVICE : PSPEC_ERROR_CHECK,
+                   "%zu of %zu checks failed, the first of them %s by %s in %s precision: %s",
+                   totals->num_failed, totals->num_failed + totals->num_passed, first->what->name,
+                   first->engine, ps_precision_name(first->precision),
+                   is_refused ? first->reason : "the device or its driver computes wrongly");
+}
+
+static pspec_status check_words(const ps_request *arguments, const ps_stress_options *options,
+                                ps_error *error) {
+    if (arguments->num_files > 0) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "no file is read, but %s was given",
+                       arguments->files[0]);
+    }
+    return ps_stress_check(options, error);
+}
+
+static pspec_status run(const ps_request *arguments, ps_error *error) {
+    const char *const path = arguments->output != NULL ? arguments->output : "-";
+    answer of = {.arguments = arguments};
+    const ps_stress_options options = {.case_name = arguments->case_name,
+                                       .engine = arguments->engine,
+                                       .precision = arguments->precision,
+                                       .quick = arguments->quick,
+                                       .should_stop = should_stop,
+                                       .report = report,
+                                       .advance = advance,
+                                       .payload = &of};
+    ps_table_format format = PS_FORMAT_CSV;
+    ps_stress_totals totals;
+    pspec_status status = PSPEC_OK;
+    PS_TRY(check_words(arguments, &options, error));
+    PS_TRY(ps_table_choose_format(&format, arguments->format, path, error));
+    PS_TRY(ps_outputs_check(arguments, true, error));
+    if (ps_stress_needs_device(&options)) {
+        PS_TRY(ps_device_open(&of.device, arguments->device, false, error));
+    }
+    PS_TRY_OUT(status, make_table(&of, format, path, error));
+    of.progress = ps_progress_begin(arguments, "cases");
+    status = ps_stress_run(&options, of.device, &totals, error);
+    ps_progress_end(of.progress);
+    if (status == PSPEC_OK) {
+        PS_TRY_OUT(status, ps_table_stream_close(&of.stream, error));
+        status = conclude(&totals, error);
+    }
+out:
+    ps_table_stream_discard(&of.stream);
+    ps_table_destroy(of.table);
+    ps_device_close(of.device);
+    return status;
+}
+
+static const ps_option_id options[] = {
+    PS_OPTION_CASE,   PS_OPTION_QUICK,  PS_OPTION_PRECISION, PS_OPTION_ENGINE, PS_OPTION_DEVICE,
+    PS_OPTION_OUTPUT, PS_OPTION_FORMAT, PS_OPTION_QUIET,     PS_OPTION_HELP,   PS_NUM_OPTIONS};
+
+const ps_command ps_command_stress = {
+    .name = "stress",
+    .summary = "numerical stability suite: an acceptance test of this device and its driver",
+    .usage = "stress [options]",
+    .description =
+        "Runs cases that are hard on arithmetic (large frequencies, tiny powers, ten million "
+        "points, duplicates, poles, high degrees, weights from 1e-12 to 1e12, ...) by every engine "
+        "in every precision and compares with long double sums; --engine and --precision choose "
+        "some of the rows. A row passes when its error is at most its bound, the engine's own "
+        "error formula. Exits with 3 when one fails: then the device or its driver computes "
+        "wrongly.",
+    .options = options,
+    .formats = "csv|json",
+    .examples = {"pointspec stress --quick --engine pairs_direct -o stress.csv",
+                 "pointspec stress --case frequencies-1e6 --format json"},
+    .run = run,
+};

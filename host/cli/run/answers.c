@@ -1,0 +1,183 @@
+/* Every question of a scene, from the cache or computed. */
+#include "base/clock.h"
+#include "base/memory.h"
+#include "cli/run/run.h"
+#include "store/figures_file.h"
+#include "questions/quadrature_question.h"
+#include "questions/question.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- questions --------------------------------------------------------------------------- */
+
+/* What can be refused is refused before the first hour of work. */
+static pspec_status check_question(const ps_result_kind *kind, const ps_request *request,
+                                   ps_error *error) {
+    ps_question_list spectra;
+    ps_quadrature_list rules = {0};
+    if (kind == &ps_result_quadrature) {
+        const pspec_status status = ps_quadrature_list_make(&rules, request, error);
+        ps_quadrature_list_free(&rules);
+        return status;
+    }
+    if (kind == &ps_result_truncation || kind == &ps_result_check) {
+        return ps_answer_check(kind, request, error);
+    }
+    return ps_questions_make(&spectra, request,
+                             kind == &ps_result_power     ? PS_QUESTION_POWER
+                             : kind == &ps_result_angular ? PS_QUESTION_ANGULAR
+                                                          : PS_QUESTION_PAIRS,
+                             error);
+}
+
+static pspec_status ask_one(ps_run *run, ps_run_result *result, size_t number, ps_error *error) {
+    ps_scene_question *const asked = &result->questions[number].asked;
+    pspec_status status = ps_scene_question_make(asked, result->asked, number, error);
+    result->num = number + 1;
+    if (run->arguments->no_skip) {
+        asked->request.no_skip = true;
+    }
+    asked->request.device = run->arguments->device;
+    asked->request.cache_folder = run->arguments->cache_folder;
+    if (status == PSPEC_OK) {
+        status = check_question(result->asked->kind, &asked->request, error);
+    }
+    return status == PSPEC_OK ? PSPEC_OK : ps_scene_blame(run->scene, result->asked, error);
+}
+
+pspec_status ps_run_read_scene(ps_scene *out, const ps_request *arguments, ps_error *error) {
+    PS_TRY(ps_scene_read(out, arguments->files[0], error));
+    const bool is_repeated = out->num_digests > 0 && arguments->is_memory_of_environment;
+    return arguments->memory > 0 && !is_repeated
+               ? ps_scene_limit_memory(out, arguments->memory, error)
+               : PSPEC_OK;
+}
+
+pspec_status ps_run_ask(ps_run *run, ps_error *error) {
+    void *memory = NULL;
+    PS_TRY(ps_scene_check_inputs(run->scene, error));
+    PS_TRY(ps_allocate(&memory, run->scene->num_results, sizeof *run->results, "results", error));
+    run->results = memory;
+    run->num_results = run->scene->num_results;
+    for (size_t i = 0; i < run->num_results; i++) {
+        ps_run_result *const result = &run->results[i];
+        result->asked = &run->scene->results[i];
+        PS_TRY(ps_pictures_list(&result->pictures, result->asked, error));
+        const size_t num = ps_scene_num_questions(result->asked);
+        PS_TRY(ps_allocate(&memory, num, sizeof *result->questions, "questions", error));
+        result->questions = memory;
+        for (size_t q = 0; q < num; q++) {
+            PS_TRY(ask_one(run, result, q, error));
+        }
+        run->num_questions += num;
+    }
+    return ps_run_files_list(&run->files, run, error);
+}
+
+/* ---- one question ------------------------------------------------------------------------ */
+
+/* The header says how the rows came about, with versions and paths; the rows are the result. */
+static pspec_status digest(const ps_answer *answer, char out[PS_DIGEST_BYTES], ps_error *error) {
+    ps_text bytes = {0};
+    const size_t num_columns = ps_table_num_columns(answer->table);
+    for (size_t row = 0; row < ps_table_num_rows(answer->table); row++) {
+        for (size_t column = 0; column < num_columns; column++) {
+            const ps_cell cell = ps_table_cell(answer->table, row, column);
+            ps_text_append_bytes(&bytes, (const char *)&cell.number, sizeof cell.number);
+            ps_text_append_bytes(&bytes, (const char *)&cell.integer, sizeof cell.integer);
+            ps_text_append(&bytes, "%d %s;", (int)cell.kind, cell.text != NULL ? cell.text : "");
+        }
+    }
+    ps_text_append_bytes(&bytes, (const char *)answer->array,
+                         answer->side * answer->side * sizeof(double));
+    ps_digest_bytes(ps_text_string(&bytes), bytes.length, out);
+    const pspec_status status = ps_text_check(&bytes, error);
+    ps_text_free(&bytes);
+    return status;
+}
+
+/* One device for all questions: its programs are built once. */
+pspec_status ps_run_open_device(ps_run *run, const ps_run_result *result, ps_error *error) {
+    return run->device != NULL || result->asked->kind == &ps_result_truncation
+               ? PSPEC_OK
+               : ps_figures_open_device(&run->device, run->arguments->device, false,
+                                        run->arguments->cache_folder, error);
+}
+
+static pspec_status answer_one(ps_run *run, ps_run_result *result, ps_run_question *question,
+                               ps_progress *progress, ps_error *error) {
+    const double start = ps_clock_seconds();
+    PS_TRY(ps_run_fetch(run, question, &question->answer, &question->seconds, &question->is_cached,
+                        error));
+    if (!question->is_cached) {
+        PS_TRY(ps_run_open_device(run, result, error));
+        const ps_answer_hooks hooks = {{ps_progress_tell, progress}, run->device};
+        PS_TRY(ps_answer_make(&question->answer, result->asked->kind, &question->asked.request,
+                              &hooks, error));
+        question->seconds = ps_clock_seconds() - start;
+        PS_TRY(ps_run_keep(run, question, question->seconds, error));
+    }
+    run->num_cached += question->is_cached;
+    return digest(&question->answer, question->digest, error);
+}
+
+static pspec_status answer_result(ps_run *run, ps_run_result *result, size_t *done,
+                                  ps_progress *progress, ps_error *error) {
+    for (size_t q = 0; q < result->num; q++) {
+        if (ps_interrupted) {
+            return ps_fail(error, PSPEC_ERROR_CANCELLED, "interrupted after %zu of %zu questions",
+                           *done, run->num_questions);
+        }
+        ps_progress_part(progress, "%s, question %zu of %zu: ", result->asked->name, *done + 1,
+                         run->num_questions);
+        if (answer_one(run, result, &result->questions[q], progress, error) != PSPEC_OK) {
+            return ps_scene_blame(run->scene, result->asked, error);
+        }
+        ++*done;
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_run_answer(ps_run *run, ps_error *error) {
+    size_t done = 0;
+    pspec_status status = PSPEC_OK;
+    const double start = ps_clock_seconds();
+    ps_progress *const progress = ps_progress_begin(run->arguments, "realizations");
+    for (size_t i = 0; status == PSPEC_OK && i < run->num_results; i++) {
+        status = answer_result(run, &run->results[i], &done, progress, error);
+    }
+    ps_progress_end(progress);
+    run->seconds = ps_clock_seconds() - start;
+    return status;
+}
+
+/* ---- end --------------------------------------------------------------------------------- */
+
+static void free_result(ps_run_result *result) {
+    for (size_t q = 0; q < result->num; q++) {
+        ps_scene_question_free(&result->questions[q].asked);
+        ps_answer_free(&result->questions[q].answer);
+    }
+    for (size_t p = 0; p < result->num_plots; p++) {
+        free(result->plots[p].svg);
+        free(result->plots[p].reason);
+    }
+    free(result->questions);
+    free(result->plots);
+    ps_pictures_free(&result->pictures);
+    ps_table_destroy(result->table);
+    ps_table_destroy(result->summary);
+}
+
+void ps_run_free(ps_run *run) {
+    for (size_t i = 0; i < run->num_results; i++) {
+        free_result(&run->results[i]);
+    }
+    free(run->results);
+    ps_run_files_free(&run->files);
+    ps_scene_free(&run->former);
+    ps_cache_close(run->cache);
+    ps_device_close(run->device);
+    ps_text_free(&run->identity);
+}

@@ -1,0 +1,215 @@
+/* Answers in the cache of results: under which key, as which bytes. */
+#include "base/memory.h"
+#include "cli/run/run.h"
+#include "tables/table_pack.h"
+#include "store/figures_file.h"
+#include "pointspec_version.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- the cache ---------------------------------------------------------------- */
+
+/* The program is one of the things that results depend on; where the system does not show it, nothing is kept. */
+static bool identify_program(ps_text *out) {
+    char digest[PS_DIGEST_BYTES];
+    ps_error ignored = {0};
+    const bool is_known = ps_digest_file("/proc/self/exe", digest, &ignored) == PSPEC_OK;
+    ps_text_append(out, "pointspec %s %s\n", PS_VERSION, is_known ? digest : "");
+    return is_known;
+}
+
+static pspec_status identify_device(const ps_run *run, ps_text *out, ps_error *error) {
+    ps_device_limits *all = NULL;
+    size_t num = 0;
+    size_t index = 0;
+    ps_error none = {0};
+    const pspec_status listed = ps_device_list(&all, &num, &none);
+    if (listed == PSPEC_ERROR_NO_DEVICE) {
+        ps_text_append(out, "no device\n");
+        return PSPEC_OK;
+    }
+    if (listed != PSPEC_OK) {
+        *error = none;
+        return listed;
+    }
+    ps_figures figures; /* plans, and so bits, depend on them */
+    pspec_status status = ps_device_choose(all, num, run->arguments->device, &index, error);
+    if (status == PSPEC_OK) {
+        status = ps_figures_read(&figures, run->arguments->cache_folder, &all[index], error);
+    }
+    if (status == PSPEC_OK) {
+        const ps_device_limits *const limits = &all[index];
+        ps_text_append(out, "%s\n%s\n%s\n%s\n%u %u\nfigures %s\n", limits->platform, limits->name,
+                       limits->driver, limits->version, limits->native_float_lanes,
+                       limits->native_double_lanes, figures.is_measured ? figures.note : "");
+    }
+    free(all);
+    return status;
+}
+
+/* Kernels of somebody's own are not part of the key: their results are not kept. */
+pspec_status ps_run_open_cache(ps_run *run, ps_error *error) {
+    const uint64_t most = run->arguments->cache_bytes;
+    ps_text folder = {0};
+    ps_error reason = {0};
+    const bool is_known = identify_program(&run->identity);
+    PS_TRY(identify_device(run, &run->identity, error));
+    PS_TRY(ps_text_check(&run->identity, error));
+    if (most == 0 || run->arguments->no_skip || run->arguments->cache_folder == NULL || !is_known ||
+        getenv("POINTSPEC_KERNEL_DIR") != NULL) {
+        return PSPEC_OK;
+    }
+    ps_text_append(&folder, "%s/results", run->arguments->cache_folder);
+    pspec_status status = ps_text_check(&folder, &reason);
+    if (status == PSPEC_OK) {
+        status = ps_cache_open(&run->cache, ps_text_string(&folder), most, &reason);
+    }
+    if (status != PSPEC_OK && !run->arguments->quiet) {
+        fprintf(stderr, "pointspec: no cache of results: %s\n", reason.message);
+    }
+    ps_text_free(&folder);
+    return PSPEC_OK;
+}
+
+/* ---- keys of the cache ------------------------------------------------------------------- */
+
+/* Everything that the bits of an answer depend on: the program, the device, the question, and what is in the files. */
+static pspec_status add_file(ps_text *key, const char *path, ps_error *error) {
+    char digest[PS_DIGEST_BYTES];
+    PS_TRY(ps_digest_file(path, digest, error));
+    ps_text_append(key, "file %s\n", digest);
+    return PSPEC_OK;
+}
+
+static pspec_status add_files(ps_text *key, const ps_request *request, ps_error *error) {
+    static const char table_of_lobe[] = "file=";
+    for (size_t i = 0; i < request->num_files; i++) {
+        PS_TRY(add_file(key, request->files[i], error));
+    }
+    const char *const weights = request->weights;
+    if (weights != NULL && strcmp(weights, "equal") != 0 && strcmp(weights, "column") != 0 &&
+        strcmp(weights, "optimal") != 0) {
+        PS_TRY(add_file(key, weights, error));
+    }
+    if (request->frequencies != NULL) {
+        PS_TRY(add_file(key, request->frequencies, error));
+    }
+    if (request->against != NULL) {
+        PS_TRY(add_file(key, request->against, error));
+    }
+    const char *const lobe = request->brdf != NULL ? strstr(request->brdf, table_of_lobe) : NULL;
+    return lobe != NULL ? add_file(key, lobe + strlen(table_of_lobe), error) : PSPEC_OK;
+}
+
+static pspec_status make_key(const ps_run *run, const ps_run_question *question, ps_text *key,
+                             ps_error *error) {
+    const ps_request *const request = &question->asked.request;
+    ps_text_append(key, "%s%s\npicture %d\nno-skip %d\n", ps_text_string(&run->identity),
+                   request->command_line, request->wants_picture, request->no_skip);
+    PS_TRY(add_files(key, request, error));
+    return ps_text_check(key, error);
+}
+
+/* ---- answers as bytes -------------------------------------------------------------------- */
+
+/* What it took, the size of the packed table and the side of the array; the table, the array. */
+typedef struct packed_head {
+    double seconds;
+    uint64_t table_bytes, side;
+} packed_head;
+
+static pspec_status pack(const ps_answer *answer, double seconds, ps_text *out, ps_error *error) {
+    void *bytes = NULL;
+    size_t num = 0;
+    PS_TRY(ps_table_pack(answer->table, &bytes, &num, error));
+    const packed_head head = {seconds, num, answer->side};
+    ps_text_append_bytes(out, (const char *)&head, sizeof head);
+    ps_text_append_bytes(out, bytes, num);
+    ps_text_append_bytes(out, (const char *)answer->array,
+                         answer->side * answer->side * sizeof(double));
+    free(bytes);
+    return ps_text_check(out, error);
+}
+
+/* What another version may have packed is no answer: PSPEC_ERROR_INPUT. */
+static pspec_status unpack(ps_answer *out, double *seconds, const char *bytes, size_t num,
+                           ps_error *error) {
+    packed_head head;
+    void *array = NULL;
+    if (num < sizeof head) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "an entry of %zu bytes is no answer", num);
+    }
+    memcpy(&head, bytes, sizeof head);
+    const size_t rest = num - sizeof head;
+    if (head.table_bytes > rest || head.side > rest ||
+        head.side * head.side * sizeof(double) != rest - head.table_bytes) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "an entry of %zu bytes is cut off", num);
+    }
+    PS_TRY(ps_table_unpack(&out->table, bytes + sizeof head, (size_t)head.table_bytes, error));
+    if (head.side > 0) {
+        const size_t num_entries = (size_t)(head.side * head.side);
+        PS_TRY(ps_allocate(&array, num_entries, sizeof(double), "an array", error));
+        memcpy(array, bytes + sizeof head + head.table_bytes, num_entries * sizeof(double));
+    }
+    out->array = array;
+    out->side = (size_t)head.side;
+    *seconds = head.seconds;
+    return PSPEC_OK;
+}
+
+/* ---- to and fro ------------------------------------------------------------------------------ */
+
+void ps_run_warn_of_cache(const ps_run *run, ps_error *reason) {
+    if (ps_cache_first_failure(run->cache) && !run->arguments->quiet) {
+        fprintf(stderr, "pointspec: the cache of results: %s\n", reason->message);
+    }
+    *reason = (ps_error){0};
+}
+
+pspec_status ps_run_fetch(ps_run *run, const ps_run_question *question, ps_answer *out,
+                          double *seconds, bool *is_found, ps_error *error) {
+    ps_text key = {0};
+    void *bytes = NULL;
+    size_t num = 0;
+    ps_error reason = {0};
+    *is_found = false;
+    *out = (ps_answer){0};
+    if (run->cache == NULL) {
+        return PSPEC_OK;
+    }
+    pspec_status status = make_key(run, question, &key, error);
+    if (status == PSPEC_OK && ps_cache_get(run->cache, key.data, key.length, &bytes, &num, is_found,
+                                           &reason) != PSPEC_OK) {
+        ps_run_warn_of_cache(run, &reason);
+    }
+    if (*is_found && unpack(out, seconds, bytes, num, &reason) != PSPEC_OK) {
+        ps_run_warn_of_cache(run, &reason);
+        ps_answer_free(out);
+        *is_found = false;
+    }
+    free(bytes);
+    ps_text_free(&key);
+    return status;
+}
+
+pspec_status ps_run_keep(ps_run *run, const ps_run_question *question, double seconds,
+                         ps_error *error) {
+    ps_text key = {0};
+    ps_text bytes = {0};
+    ps_error reason = {0};
+    pspec_status status = PSPEC_OK;
+    if (run->cache == NULL) {
+        return PSPEC_OK;
+    }
+    PS_TRY_OUT(status, make_key(run, question, &key, error));
+    PS_TRY_OUT(status, pack(&question->answer, seconds, &bytes, error));
+    if (ps_cache_put(run->cache, key.data, key.length, bytes.data, bytes.length, &reason) !=
+        PSPEC_OK) {
+        ps_run_warn_of_cache(run, &reason);
+    }
+out:
+    ps_text_free(&key);
+    ps_text_free(&bytes);
+    return status;
+}

@@ -1,0 +1,88 @@
+#include "cli/run/files.h"
+
+#include "base/memory.h"
+#include "cli/run/run.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char ps_run_table_ending[] = ".csv";
+const char ps_run_summary_ending[] = ".summary.csv";
+const char ps_run_picture_ending[] = ".svg";
+const char ps_run_record_name[] = "record.json";
+const char ps_run_page_name[] = "index.html";
+
+static pspec_status add(ps_run_files *files, const ps_scene_result *of, const char *name,
+                        const char *suffix, const char *ending, ps_error *error) {
+    ps_text text = {0};
+    void *all = files->all;
+    PS_TRY(ps_grow(&all, &files->capacity, files->num + 1, sizeof *files->all, "files", error));
+    files->all = all;
+    ps_text_append(&text, "%s%s%s", name, suffix, ending);
+    const pspec_status status = ps_text_check(&text, error);
+    if (status != PSPEC_OK) {
+        ps_text_free(&text);
+        return status;
+    }
+    files->all[files->num++] = (ps_run_file){.name = text.data, .of = of};
+    return PSPEC_OK;
+}
+
+static pspec_status add_result(ps_run_files *files, const ps_run_result *result, ps_error *error) {
+    const ps_scene_result *const asked = result->asked;
+    PS_TRY(add(files, asked, asked->name, "", ps_run_table_ending, error));
+    PS_TRY(add(files, asked, asked->name, "", ps_run_summary_ending, error));
+    for (size_t i = 0; i < result->pictures.num; i++) {
+        PS_TRY(add(files, asked, asked->name, result->pictures.all[i].suffix, ps_run_picture_ending,
+                   error));
+    }
+    return PSPEC_OK;
+}
+
+static int compare_names(const void *a, const void *b) {
+    return strcmp(((const ps_run_file *)a)->name, ((const ps_run_file *)b)->name);
+}
+
+static pspec_status complain(const ps_run *run, const ps_run_file *one, const ps_run_file *other,
+                             ps_error *error) {
+    const bool is_first = other->of == NULL || (one->of != NULL && one->of->line > other->of->line);
+    const ps_run_file *const late = is_first ? one : other;
+    const ps_run_file *const early = is_first ? other : one;
+    return ps_fail(error, PSPEC_ERROR_INPUT,
+                   "%s:%d: name: \"%s\" and \"%s\" would write the same file %s; another name "
+                   "for one of them keeps them apart",
+                   run->scene->path, late->of != NULL ? late->of->line : 0,
+                   early->of != NULL ? early->of->name : "the run",
+                   late->of != NULL ? late->of->name : "the run", late->name);
+}
+
+pspec_status ps_run_files_list(ps_run_files *out, const ps_run *run, ps_error *error) {
+    PS_TRY(add(out, NULL, ps_run_record_name, "", "", error));
+    PS_TRY(add(out, NULL, ps_run_page_name, "", "", error));
+    for (size_t i = 0; i < run->num_results; i++) {
+        PS_TRY(add_result(out, &run->results[i], error));
+    }
+    qsort(out->all, out->num, sizeof *out->all, compare_names);
+    for (size_t i = 1; i < out->num; i++) {
+        if (compare_names(&out->all[i - 1], &out->all[i]) == 0) {
+            return complain(run, &out->all[i - 1], &out->all[i], error);
+        }
+    }
+    return PSPEC_OK;
+}
+
+void ps_run_files_free(ps_run_files *files) {
+    for (size_t i = 0; i < files->num; i++) {
+        free(files->all[i].name);
+    }
+    free(files->all);
+    *files = (ps_run_files){0};
+}
+
+ps_run_file *ps_run_files_find(const ps_run_files *files, const char *name) {
+    const ps_run_file wanted = {.name = (char *)(uintptr_t)name};
+    return files->num > 0
+               ? bsearch(&wanted, files->all, files->num, sizeof *files->all, compare_names)
+               : NULL;
+}

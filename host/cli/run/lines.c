@@ -1,0 +1,303 @@
+/* Pictures of lines, in one frame or in panels: columns against the degree, worst-case errors against the number of points. */
+#include "base/memory.h"
+#include "cli/run/drawing.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- labels ------------------------------------------------------------------------------ */
+
+/* Values of the entries that vary, but for the number of points, that of the picture, and that of the panel. */
+static bool is_told(const ps_scene_result *asked, const ps_picture *what, size_t entry) {
+    return entry != what->group && entry != what->points && entry != what->panel &&
+           ps_run_varies(&asked->entries[entry]);
+}
+
+/* Where no entry has panels of its own, that is the one that changes fastest; the others tell panels apart. */
+static size_t find_fastest(const ps_scene_result *asked, const ps_picture *what) {
+    size_t fastest = asked->num_entries;
+    for (size_t i = 0; i < asked->num_entries; i++) {
+        fastest = is_told(asked, what, i) ? i : fastest;
+    }
+    return fastest;
+}
+
+static void append_value(const ps_scene_result *asked, size_t question, size_t entry,
+                         ps_text *out) {
+    ps_text_append(out, "%s%s", out->length > 0 ? ", " : "",
+                   ps_scene_value_of(asked, question, entry)->originals[0]);
+}
+
+static void label_panel(const ps_scene_result *asked, const ps_picture *what, size_t question,
+                        ps_text *out) {
+    const size_t fastest = find_fastest(asked, what);
+    if (what->panel < asked->num_entries) {
+        append_value(asked, question, what->panel, out);
+        return;
+    }
+    for (size_t i = 0; i < asked->num_entries; i++) {
+        if (i != fastest && is_told(asked, what, i)) {
+            append_value(asked, question, i, out);
+        }
+    }
+}
+
+static void label_curve(const ps_scene_result *asked, const ps_picture *what, size_t question,
+                        ps_text *out) {
+    const size_t fastest = find_fastest(asked, what);
+    const bool is_chunk = what->panel == asked->num_entries;
+    for (size_t i = 0; i < asked->num_entries; i++) {
+        if (is_told(asked, what, i) && (what->num_panels == 1 || !is_chunk || i == fastest)) {
+            append_value(asked, question, i, out);
+        }
+    }
+}
+
+/* ---- numbers ----------------------------------------------------------------------------- */
+
+typedef struct line_set {
+    size_t num;
+    ps_plot_line *lines;
+    ps_text *labels;
+    double **numbers;
+} line_set;
+
+static void free_lines(line_set *set) {
+    for (size_t i = 0; i < set->num; i++) {
+        free(set->numbers[i]);
+        ps_text_free(&set->labels[i]);
+    }
+    free(set->lines);
+    free(set->labels);
+    free(set->numbers);
+}
+
+static pspec_status allocate_lines(line_set *set, size_t num, ps_error *error) {
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, num, sizeof *set->lines, "curves", error));
+    set->lines = memory;
+    PS_TRY(ps_allocate(&memory, num, sizeof *set->labels, "curves", error));
+    set->labels = memory;
+    PS_TRY(ps_allocate(&memory, num, sizeof *set->numbers, "curves", error));
+    set->numbers = memory;
+    set->num = num;
+    return PSPEC_OK;
+}
+
+static pspec_status begin_line(line_set *set, size_t index, size_t num, ps_error *error) {
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, 2 * num, sizeof(double), "a curve", error));
+    double *const numbers = set->numbers[index] = memory;
+    set->lines[index] = (ps_plot_line){"", num, numbers, numbers + num};
+    return PSPEC_OK;
+}
+
+static pspec_status take_columns(const ps_artist *of, line_set *set, size_t index, size_t question,
+                                 const ps_line_kind *kind) {
+    const ps_table *const table = of->result->questions[question].answer.table;
+    PS_TRY(begin_line(set, index, ps_table_num_rows(table), of->error));
+    ps_read_column(table, kind->x, set->numbers[index]);
+    ps_read_column(table, kind->y, set->numbers[index] + ps_table_num_rows(table));
+    return PSPEC_OK;
+}
+
+/* Of log y over log x, least squares; nan for fewer than two places. */
+static double slope(const double *x, const double *y, size_t num) {
+    double sx = 0;
+    double sy = 0;
+    double sxx = 0;
+    double sxy = 0;
+    for (size_t i = 0; i < num; i++) {
+        const double u = log(x[i]);
+        const double v = log(y[i]);
+        sx += u;
+        sy += v;
+        sxx += u * u;
+        sxy += u * v;
+    }
+    const double n = (double)num;
+    return num > 1 ? (n * sxy - sx * sy) / (n * sxx - sx * sx) : NAN;
+}
+
+/* Worst-case error of the questions that differ from `first` in the number of points only. */
+static pspec_status take_errors(const ps_artist *of, line_set *set, size_t index, size_t first,
+                                size_t points) {
+    const ps_scene_result *const asked = of->result->asked;
+    const size_t num = asked->entries[points].num_values;
+    size_t step = 1;
+    for (size_t i = points + 1; i < asked->num_entries; i++) {
+        step *= asked->entries[i].num_values;
+    }
+    PS_TRY(begin_line(set, index, num, of->error));
+    double *const x = set->numbers[index];
+    for (size_t i = 0; i < num; i++) {
+        const ps_table *const table = of->result->questions[first + i * step].answer.table;
+        x[i] = ps_cell_number(ps_run_meta(table, "points"));
+        x[num + i] = ps_cell_number(ps_run_meta(table, "worst_case_error"));
+    }
+    return PSPEC_OK;
+}
+
+/* One frame has room for more of a label than the key of many panels. */
+static void label_line(const ps_artist *of, const ps_picture *what, size_t question,
+                       const ps_plot_line *line, ps_text *out) {
+    if (what->num_panels > 1 || what->form == PS_PICTURE_ERRORS) {
+        label_curve(of->result->asked, what, question, out);
+    } else {
+        ps_run_label(of->result, question, out);
+    }
+    if (what->num_panels == 1 && what->form == PS_PICTURE_ERRORS) {
+        ps_text_append(out, "%sslope %.3f", out->length > 0 ? ": " : "",
+                       slope(line->x, line->y, line->num));
+    }
+}
+
+static pspec_status take_lines(const ps_artist *of, const ps_picture *what,
+                               const ps_line_kind *kind, line_set *set) {
+    PS_TRY(allocate_lines(set, what->num_curves, of->error));
+    for (size_t i = 0; i < what->num_curves; i++) {
+        const size_t question = what->curves[i];
+        PS_TRY(what->form == PS_PICTURE_ERRORS ? take_errors(of, set, i, question, what->points)
+                                               : take_columns(of, set, i, question, kind));
+        label_line(of, what, question, &set->lines[i], &set->labels[i]);
+        PS_TRY(ps_text_check(&set->labels[i], of->error));
+        set->lines[i].label = ps_text_string(&set->labels[i]);
+    }
+    return PSPEC_OK;
+}
+
+/* ---- one frame --------------------------------------------------------------------------- */
+
+static pspec_status draw_frame(const ps_artist *of, const ps_picture *what,
+                               const ps_line_kind *kind, const char *title, const line_set *set) {
+    const ps_line_plot plot = {.title = title,
+                               .x_label = kind->x_label,
+                               .y_label = kind->y_label,
+                               .is_log_x = kind->is_log_x,
+                               .is_log_y = kind->is_log_y,
+                               .num_lines = set->num,
+                               .lines = set->lines};
+    return ps_draw(of, &(ps_drawing){.lines = &plot}, what);
+}
+
+/* ---- panels ------------------------------------------------------------------------------ */
+
+/* Curves with the same label look the same in all panels. */
+static size_t find_kind(const ps_plot_series *all, size_t num, const char *label,
+                        size_t *num_kinds) {
+    for (size_t i = 0; i < num; i++) {
+        if (strcmp(all[i].label, label) == 0) {
+            return all[i].kind;
+        }
+    }
+    return (*num_kinds)++;
+}
+
+static void fill_series(ps_plot_series *out, const line_set *set) {
+    size_t num_kinds = 0;
+    for (size_t i = 0; i < set->num; i++) {
+        const ps_plot_line *const line = &set->lines[i];
+        const size_t kind = find_kind(out, i, line->label, &num_kinds);
+        out[i] = (ps_plot_series){line->label, kind, false, line->num, line->x, line->y};
+    }
+}
+
+static pspec_status fill_panels(const ps_artist *of, const ps_picture *what, ps_plot_panel *panels,
+                                ps_text *titles, const ps_plot_series *series) {
+    for (size_t i = 0, begin = 0; i < what->num_panels; begin = what->ends[i++]) {
+        label_panel(of->result->asked, what, what->curves[begin], &titles[i]);
+        PS_TRY(ps_text_check(&titles[i], of->error));
+        panels[i] =
+            (ps_plot_panel){ps_text_string(&titles[i]), what->ends[i] - begin, series + begin};
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status draw_panels(const ps_artist *of, const ps_picture *what,
+                                const ps_line_kind *kind, const char *title, const line_set *set) {
+    void *series = NULL;
+    void *panels = NULL;
+    void *titles = NULL;
+    pspec_status status = PSPEC_OK;
+    PS_TRY_OUT(status, ps_allocate(&series, set->num, sizeof(ps_plot_series), "panels", of->error));
+    PS_TRY_OUT(status,
+               ps_allocate(&panels, what->num_panels, sizeof(ps_plot_panel), "panels", of->error));
+    PS_TRY_OUT(status,
+               ps_allocate(&titles, what->num_panels, sizeof(ps_text), "panels", of->error));
+    fill_series(series, set);
+    PS_TRY_OUT(status, fill_panels(of, what, panels, titles, series));
+    const ps_panel_plot plot = {.title = title,
+                                .x_label = kind->x_label,
+                                .y_label = kind->y_label,
+                                .has_lines = true,
+                                .is_linear_x = !kind->is_log_x,
+                                .is_linear_y = !kind->is_log_y,
+                                .num_panels = what->num_panels,
+                                .panels = panels};
+    status = ps_draw(of, &(ps_drawing){.panels = &plot}, what);
+out:
+    for (size_t i = 0; titles != NULL && i < what->num_panels; i++) {
+        ps_text_free((ps_text *)titles + i);
+    }
+    free(series);
+    free(panels);
+    free(titles);
+    return status;
+}
+
+/* ---- all --------------------------------------------------------------------------------- */
+
+static ps_line_kind find_axes(const ps_artist *of, const ps_picture *what) {
+    static const ps_line_kind errors = {NULL, "worst-case error", "", "", "points N", "E", true,
+                                        true};
+    static const ps_line_kind torus = {NULL,
+                                       "",
+                                       "normalized_frequency",
+                                       "power",
+                                       "normalized frequency |k| N^{-1/d}",
+                                       "radial mean power",
+                                       false,
+                                       false};
+    static const ps_line_kind sphere = {
+        NULL, "",  "normalized_degree", "power", "normalized degree l N^{-1/2}", "power",
+        true, true};
+    if (what->form == PS_PICTURE_ERRORS) {
+        return errors;
+    }
+    if (what->form == PS_PICTURE_SPECTRA) {
+        return of->result->asked->kind == &ps_result_power ? torus : sphere;
+    }
+    size_t column = 0;
+    ps_line_kind kind = *what->lines;
+    if (!ps_table_find_column(of->result->questions[0].answer.table, kind.x, &column)) {
+        kind.x = kind.x_label = "degree"; /* what was checked is of the sphere */
+    }
+    return kind;
+}
+
+/* Nothing where there are too few degrees for a line. */
+static bool has_lines(const ps_artist *of, const ps_picture *what) {
+    enum { FEWEST_ROWS = 4 };
+    const ps_table *const first = of->result->questions[what->curves[0]].answer.table;
+    return what->form != PS_PICTURE_COLUMNS || ps_table_num_rows(first) >= FEWEST_ROWS;
+}
+
+pspec_status ps_draw_lines(const ps_artist *of, const ps_picture *what) {
+    line_set set = {0};
+    ps_text title = {0};
+    pspec_status status = PSPEC_OK;
+    const ps_line_kind kind = find_axes(of, what);
+    if (!has_lines(of, what)) {
+        return PSPEC_OK;
+    }
+    PS_TRY_OUT(status, take_lines(of, what, &kind, &set));
+    ps_plot_title(of, what, kind.what, &title);
+    PS_TRY_OUT(status, ps_text_check(&title, of->error));
+    status = what->num_panels > 1 ? draw_panels(of, what, &kind, ps_text_string(&title), &set)
+                                  : draw_frame(of, what, &kind, ps_text_string(&title), &set);
+out:
+    free_lines(&set);
+    ps_text_free(&title);
+    return status;
+}

@@ -1,0 +1,280 @@
+/* The page of a run: one file of HTML with its pictures inside, which needs no network. */
+#include "cli/run/run.h"
+#include "pointspec_version.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char style[] =
+    "body{font:15px/1.45 sans-serif;color:#222;max-width:1280px;margin:1.5em auto;padding:0 1em}\n"
+    "h1{font-size:1.6em;margin:.2em 0}\n"
+    "h2{font-size:1.2em;margin:2em 0 .3em;border-top:1px solid #ccc;padding-top:.8em}\n"
+    ".facts{color:#555;margin:.2em 0}.scroll{overflow-x:auto}\n"
+    "table{border-collapse:collapse;margin:.6em 0;font-size:.87em}\n"
+    "th,td{padding:.15em .7em;text-align:right;border-bottom:1px solid #e4e4e4}\n"
+    "td{white-space:nowrap}th{background:#f3f3f3;vertical-align:bottom}\n"
+    "td.text,th.text{text-align:left}\n"
+    ".plots{display:flex;flex-wrap:wrap;gap:.6em}\n"
+    ".plots>svg{width:100%;max-width:580px;height:auto;flex:1 1 460px;border:1px solid #eee}\n"
+    ".plots.one>svg{max-width:900px}\n"
+    ".bad{color:#b00020;font-weight:bold}.good{color:#006b3c;font-weight:bold}\n"
+    "details{margin:.4em 0}summary{cursor:pointer;color:#0b5394}code{font-size:.92em}\n"
+    "dl{display:grid;grid-template-columns:max-content auto;gap:.1em 1em;font-size:.87em}\n"
+    "dl{margin:.3em 0 1em}dt{color:#555}dd{margin:0;overflow-wrap:anywhere}\n";
+
+/* ---- texts ------------------------------------------------------------------------------- */
+
+/* Bytes that are no character would end what a parser takes. */
+static void print_text(const char *text, ps_text *out) {
+    while (*text != '\0') {
+        const size_t length = ps_text_character(text);
+        switch (*text) {
+        case '<':
+            ps_text_append(out, "&lt;");
+            break;
+        case '>':
+            ps_text_append(out, "&gt;");
+            break;
+        case '&':
+            ps_text_append(out, "&amp;");
+            break;
+        case '"':
+            ps_text_append(out, "&quot;");
+            break;
+        case '\n':
+        case '\t':
+            ps_text_append_bytes(out, text, 1);
+            break;
+        default:
+            if (length > 0) {
+                ps_text_append_bytes(out, text, length);
+            } else {
+                ps_text_append(out, "%s", PS_TEXT_UNKNOWN);
+            }
+        }
+        text += length > 0 ? length : 1;
+    }
+}
+
+/* The name of a column in words, which may stand below each other. */
+static void print_name(const char *name, ps_text *out) {
+    for (; *name != '\0'; name++) {
+        ps_text_append(out, "%c", *name == '_' ? ' ' : *name);
+    }
+}
+
+/* Tables for reading have five digits; those of files have all. */
+static void print_cell(ps_cell cell, ps_text *out) {
+    switch (cell.kind) {
+    case PS_CELL_NUMBER:
+        ps_text_append(out, "%.5g", cell.number);
+        break;
+    case PS_CELL_INTEGER:
+        ps_text_append(out, "%lld", (long long)cell.integer);
+        break;
+    case PS_CELL_TEXT:
+        print_text(cell.text, out);
+        break;
+    case PS_CELL_MISSING:
+        break;
+    }
+}
+
+static void print_seconds(double seconds, ps_text *out) {
+    const double millisecond = 1e-3;
+    const double shown_in_seconds = 0.1;
+    if (seconds < shown_in_seconds) {
+        ps_text_append(out, "%.1f ms", seconds / millisecond);
+    } else {
+        ps_text_append(out, "%.2f s", seconds);
+    }
+}
+
+/* ---- a result ---------------------------------------------------------------------------- */
+
+/* An XML declaration and a document type belong at the beginning of a file only. */
+static void print_plot(const ps_run_plot *plot, ps_text *out) {
+    const char *const svg = plot->svg != NULL ? strstr(plot->svg, "<svg") : NULL;
+    ps_text_append(out, "%s\n", svg != NULL ? svg : "");
+}
+
+/* What is to be known of pictures: why they have panels, or why they are not there. */
+static void print_remarks(const ps_run_result *result, ps_text *out) {
+    for (size_t p = 0; p < result->num_plots; p++) {
+        const ps_run_plot *const plot = &result->plots[p];
+        if (plot->svg != NULL && plot->what->num_panels == 1) {
+            continue;
+        }
+        ps_text_append(out, "<p class=\"facts\">%s%s.svg: ", result->asked->name,
+                       plot->what->suffix);
+        if (plot->svg == NULL) {
+            ps_text_append(out, "<span class=\"bad\">not drawn</span>: ");
+            print_text(plot->reason, out);
+        } else {
+            ps_picture_say_panels(plot->what, result->asked, out);
+        }
+        ps_text_append(out, "</p>\n");
+    }
+}
+
+static void print_plots(const ps_run_result *result, ps_text *out) {
+    if (result->num_plots == 0) {
+        return;
+    }
+    const bool is_wide = result->num_plots == 1 || result->plots[0].what->num_panels > 1;
+    ps_text_append(out, "<div class=\"plots%s\">\n", is_wide ? " one" : "");
+    for (size_t p = 0; p < result->num_plots; p++) {
+        print_plot(&result->plots[p], out);
+    }
+    ps_text_append(out, "</div>\n");
+    print_remarks(result, out);
+}
+
+static void print_row(const ps_run_result *result, size_t number, ps_text *out) {
+    const ps_table *const table = result->summary;
+    const ps_run_question *const question = &result->questions[number];
+    ps_text_append(out, "<tr>");
+    for (size_t column = 0; column < ps_table_num_columns(table); column++) {
+        const ps_cell cell = ps_table_cell(table, number, column);
+        const bool is_verdict = strcmp(ps_table_column_name(table, column), "verdict") == 0;
+        ps_text_append(out, "<td%s>",
+                       is_verdict && cell.kind == PS_CELL_TEXT
+                           ? (strcmp(cell.text, "same") == 0 ? " class=\"good\"" : " class=\"bad\"")
+                       : cell.kind == PS_CELL_TEXT ? " class=\"text\""
+                                                   : "");
+        print_cell(cell, out);
+        ps_text_append(out, "</td>");
+    }
+    ps_text_append(out, "<td>");
+    print_seconds(question->seconds, out);
+    ps_text_append(out, "</td><td class=\"text\">%s</td></tr>\n",
+                   question->is_cached ? "cache" : "computed");
+}
+
+static void print_summary(const ps_run_result *result, ps_text *out) {
+    const ps_table *const table = result->summary;
+    ps_text_append(out, "<div class=\"scroll\"><table><tr>");
+    for (size_t column = 0; column < ps_table_num_columns(table); column++) {
+        const bool is_text = ps_table_cell(table, 0, column).kind == PS_CELL_TEXT;
+        ps_text_append(out, "<th%s>", is_text ? " class=\"text\"" : "");
+        print_name(ps_table_column_name(table, column), out);
+        ps_text_append(out, "</th>");
+    }
+    ps_text_append(out, "<th>time</th><th class=\"text\">from</th></tr>\n");
+    for (size_t q = 0; q < result->num; q++) {
+        print_row(result, q, out);
+    }
+    ps_text_append(out, "</table></div>\n");
+}
+
+/* The header of a question: command, engine, precision, what was skipped, how it was checked. */
+static void print_header(const ps_run_result *result, size_t number, ps_text *out) {
+    const ps_table *const table = result->questions[number].answer.table;
+    ps_text_append(out, "<dl>");
+    for (size_t i = 0; i < ps_table_num_meta(table); i++) {
+        const char *key = NULL;
+        const ps_cell value = ps_table_meta(table, i, &key);
+        const bool is_command = strcmp(key, "command") == 0;
+        if (strcmp(key, "pointspec_version") == 0 || strcmp(key, "schema") == 0) {
+            continue;
+        }
+        ps_text_append(out, "<dt>");
+        print_text(key, out);
+        ps_text_append(out, "</dt><dd>%s", is_command ? "<code>" : "");
+        print_cell(value, out);
+        ps_text_append(out, "%s</dd>\n", is_command ? "</code>" : "");
+    }
+    ps_text_append(out, "</dl>\n");
+}
+
+static void print_plan(const ps_run_result *result, ps_text *out) {
+    ps_text_append(out, "<details><summary>plan: how every number was made, and what was skipped"
+                        "</summary>\n");
+    for (size_t q = 0; q < result->num; q++) {
+        ps_text_append(out, "<details><summary>");
+        ps_text label = {0};
+        ps_run_label(result, q, &label);
+        print_text(ps_text_string(&label), out);
+        out->failed = out->failed || label.failed;
+        ps_text_free(&label);
+        ps_text_append(out, "</summary>\n");
+        print_header(result, q, out);
+        ps_text_append(out, "</details>\n");
+    }
+    ps_text_append(out, "</details>\n");
+}
+
+static void print_result(const ps_run_result *result, ps_text *out) {
+    const ps_scene_result *const asked = result->asked;
+    ps_text_append(out, "<h2 id=\"%s\">", asked->name);
+    print_text(asked->title != NULL ? asked->title : asked->name, out);
+    ps_text_append(out,
+                   "</h2>\n<p class=\"facts\">%s; tables <a href=\"%s.csv\">%s.csv</a>, "
+                   "<a href=\"%s.summary.csv\">%s.summary.csv</a></p>\n",
+                   asked->kind->name, asked->name, asked->name, asked->name, asked->name);
+    print_plots(result, out);
+    print_summary(result, out);
+    print_plan(result, out);
+}
+
+/* ---- the page ---------------------------------------------------------------------------- */
+
+static void print_facts(const ps_run *run, ps_text *out) {
+    const ps_run_question *slowest = NULL;
+    const ps_run_result *of = NULL;
+    for (size_t i = 0; i < run->num_results; i++) {
+        for (size_t q = 0; q < run->results[i].num; q++) {
+            const ps_run_question *const question = &run->results[i].questions[q];
+            if (slowest == NULL || question->seconds > slowest->seconds) {
+                slowest = question;
+                of = &run->results[i];
+            }
+        }
+    }
+    ps_text_append(out,
+                   "<p class=\"facts\">pointspec %s; %zu result%s, %zu question%s, %zu from the "
+                   "cache; ",
+                   PS_VERSION, run->num_results, run->num_results == 1 ? "" : "s",
+                   run->num_questions, run->num_questions == 1 ? "" : "s", run->num_cached);
+    print_seconds(run->seconds, out);
+    if (slowest != NULL) {
+        ps_text_append(out, ", of which the slowest question (%s) took ", of->asked->name);
+        print_seconds(slowest->seconds, out);
+    }
+    ps_text_append(out, "; <a href=\"record.json\">record.json</a> repeats it: <code>pointspec run "
+                        "record.json</code></p>\n");
+}
+
+static void print_contents(const ps_run *run, ps_text *out) {
+    ps_text_append(out, "<p class=\"facts\">");
+    for (size_t i = 0; i < run->num_results && run->num_results > 1; i++) {
+        const ps_scene_result *const asked = run->results[i].asked;
+        ps_text_append(out, "%s<a href=\"#%s\">", i > 0 ? " &middot; " : "", asked->name);
+        print_text(asked->title != NULL ? asked->title : asked->name, out);
+        ps_text_append(out, "</a>");
+    }
+    ps_text_append(out, "</p>\n");
+}
+
+pspec_status ps_run_page(const ps_run *run, ps_text *out, ps_error *error) {
+    const ps_scene *const scene = run->scene;
+    const char *const title = scene->title != NULL ? scene->title : scene->path;
+    ps_text_append(out, "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<meta "
+                        "name=\"viewport\" content=\"width=device-width\">\n<title>");
+    print_text(title, out);
+    ps_text_append(out, "</title>\n<style>\n%s</style></head><body>\n<h1>", style);
+    print_text(title, out);
+    ps_text_append(out, "</h1>\n");
+    if (scene->description != NULL) {
+        ps_text_append(out, "<p>");
+        print_text(scene->description, out);
+        ps_text_append(out, "</p>\n");
+    }
+    print_facts(run, out);
+    print_contents(run, out);
+    for (size_t i = 0; i < run->num_results; i++) {
+        print_result(&run->results[i], out);
+    }
+    ps_text_append(out, "</body></html>\n");
+    return ps_text_check(out, error);
+}

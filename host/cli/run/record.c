@@ -1,0 +1,125 @@
+/* The record of a run: the scene as JSON, which can be run again, with what it gave, by what, and where. */
+#include "cli/run/run.h"
+#include "pointspec_version.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static void print_pair(const char *key, const char *value, ps_text *out) {
+    ps_text_append(out, ",\n    \"%s\": ", key);
+    ps_scene_print_text(value, out);
+}
+
+static const char *meta_text(const ps_table *table, const char *key) {
+    const ps_cell cell = ps_run_meta(table, key);
+    return cell.kind == PS_CELL_TEXT ? cell.text : "";
+}
+
+/* The devices that results say they were made on; that of the first with one. */
+static const char *find_device(const ps_run *run) {
+    for (size_t i = 0; i < run->num_results; i++) {
+        const char *const device = meta_text(run->results[i].questions[0].answer.table, "device");
+        if (device[0] != '\0' && strcmp(device, "none") != 0) {
+            return device;
+        }
+    }
+    return "none";
+}
+
+static void print_question(const ps_run_question *question, ps_text *out) {
+    const ps_table *const table = question->answer.table;
+    ps_text_append(out, "\n      {\"command\": ");
+    ps_scene_print_text(question->asked.request.command_line, out);
+    ps_text_append(out, ", \"engine\": ");
+    ps_scene_print_text(meta_text(table, "engine"), out);
+    ps_text_append(out, ", \"precision\": ");
+    ps_scene_print_text(meta_text(table, "precision"), out);
+    ps_text_append(out, ", \"skipped\": ");
+    ps_scene_print_text(meta_text(table, "skipped"), out);
+    ps_text_append(out, ", \"seed\": \"%llu\", \"seconds\": \"%.6f\", \"from_cache\": \"%s\"}",
+                   (unsigned long long)question->asked.request.seed, question->seconds,
+                   question->is_cached ? "true" : "false");
+}
+
+/* What a question was answered with, for each in their order. */
+static void print_all(const ps_run *run, bool are_digests, ps_text *out) {
+    bool is_first = true;
+    for (size_t i = 0; i < run->num_results; i++) {
+        for (size_t q = 0; q < run->results[i].num; q++) {
+            const ps_run_question *const question = &run->results[i].questions[q];
+            ps_text_append(out, "%s", is_first ? "" : ",");
+            if (are_digests) {
+                ps_text_append(out, "\n      \"%s\"", question->digest);
+            } else {
+                print_question(question, out);
+            }
+            is_first = false;
+        }
+    }
+}
+
+/* Paths of the record are those of the scene: this is the folder they are relative to, wherever the record lies. */
+static pspec_status print_folder(const ps_run *run, ps_text *out, ps_error *error) {
+    const char *const folder = run->scene->folder;
+    char *const absolute = realpath(folder[0] != '\0' ? folder : ".", NULL);
+    if (absolute == NULL) {
+        return ps_fail(error, PSPEC_ERROR_IO, "cannot find the folder of the scene \"%s\"",
+                       run->scene->path);
+    }
+    ps_text path = {0};
+    ps_text_append(&path, "%s/", absolute);
+    print_pair("folder", ps_text_string(&path), out);
+    out->failed = out->failed || path.failed;
+    ps_text_free(&path);
+    free(absolute);
+    return PSPEC_OK;
+}
+
+pspec_status ps_run_record(const ps_run *run, ps_text *out, ps_error *error) {
+    ps_scene_print(run->scene, out);
+    ps_text_append(out, ",\n  \"record\": {\n    \"pointspec_version\": ");
+    ps_scene_print_text(PS_VERSION, out);
+    print_pair("device", find_device(run), out);
+    /* version and digest of the program; platform, name, driver, lanes and figures of the device */
+    print_pair("identity", ps_text_string(&run->identity), out);
+    print_pair("command", run->arguments->command_line, out);
+    PS_TRY(print_folder(run, out, error));
+    ps_text_append(out, ",\n    \"questions\": [");
+    print_all(run, false, out);
+    ps_text_append(out, "\n    ],\n    \"files\": [");
+    ps_run_print_files(run, out);
+    ps_text_append(out, "\n    ],\n    \"digests\": [");
+    print_all(run, true, out);
+    ps_text_append(out, "\n    ]\n  }\n}\n");
+    return ps_text_check(out, error);
+}
+
+/* ---- a record run again ------------------------------------------------------------------ */
+
+pspec_status ps_run_compare(const ps_run *run, ps_error *error) {
+    const ps_scene *const scene = run->scene;
+    size_t number = 0;
+    if (scene->num_digests == 0) {
+        return PSPEC_OK;
+    }
+    for (size_t i = 0; i < run->num_results; i++) {
+        const ps_run_result *const result = &run->results[i];
+        for (size_t q = 0; q < result->num; q++, number++) {
+            if (number >= scene->num_digests ||
+                strcmp(scene->digests[number], result->questions[q].digest) != 0) {
+                return ps_fail(error, PSPEC_ERROR_CHECK,
+                               "question %zu of result %s has other bits than the record, which is "
+                               "of pointspec %s on %s: %s",
+                               q + 1, result->asked->name,
+                               scene->recorded_version != NULL ? scene->recorded_version : "?",
+                               scene->recorded_device != NULL ? scene->recorded_device : "?",
+                               result->questions[q].asked.request.command_line);
+            }
+        }
+    }
+    return number == scene->num_digests
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_CHECK,
+                         "the record is of %zu questions, but its scene asks %zu",
+                         scene->num_digests, number);
+}

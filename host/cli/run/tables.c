@@ -1,0 +1,251 @@
+/* The tables of a scene: of every result the rows of all its questions, and a summary with a row for each. */
+#include "base/memory.h"
+#include "cli/run/run.h"
+#include "pointspec_version.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void ps_run_label(const ps_run_result *result, size_t number, ps_text *out) {
+    const ps_scene_result *const asked = result->asked;
+    bool is_first = true;
+    for (size_t i = 0; i < asked->num_entries; i++) {
+        if (ps_run_varies(&asked->entries[i])) {
+            ps_text_append(out, "%s%s", is_first ? "" : ", ",
+                           ps_scene_value_of(asked, number, i)->originals[0]);
+            is_first = false;
+        }
+    }
+    for (size_t i = 0; i < asked->num_entries && is_first; i++) {
+        const int option = asked->entries[i].option;
+        if (option == PS_OPTION_SAMPLER || option == PS_SCENE_FILES || option == PS_OPTION_BRDF) {
+            ps_text_append(out, "%s", asked->entries[i].values[0].originals[0]);
+            is_first = false;
+        }
+    }
+    ps_text_append(out, "%s", is_first ? asked->kind->name : "");
+}
+
+double ps_cell_number(ps_cell cell) {
+    return cell.kind == PS_CELL_NUMBER    ? cell.number
+           : cell.kind == PS_CELL_INTEGER ? (double)cell.integer
+                                          : NAN;
+}
+
+ps_cell ps_run_meta(const ps_table *table, const char *key) {
+    for (size_t i = 0; i < ps_table_num_meta(table); i++) {
+        const char *own = NULL;
+        const ps_cell value = ps_table_meta(table, i, &own);
+        if (strcmp(own, key) == 0) {
+            return value;
+        }
+    }
+    return PS_MISSING;
+}
+
+/* ---- what all tables have ---------------------------------------------------------------- */
+
+static pspec_status begin(ps_table **out, const ps_run *run, const ps_run_result *result,
+                          const char *const *columns, size_t num_columns, ps_error *error) {
+    const ps_scene *const scene = run->scene;
+    PS_TRY(ps_table_create(out, result->asked->kind->name, columns, num_columns, error));
+    PS_TRY(ps_table_add_meta(*out, "pointspec_version", PS_TEXT(PS_VERSION), error));
+    PS_TRY(ps_table_add_meta(*out, "schema", PS_INTEGER(1), error));
+    PS_TRY(
+        ps_table_add_meta(*out, "scene", PS_TEXT(scene->title != NULL ? scene->title : ""), error));
+    return ps_table_add_meta(*out, "result", PS_TEXT(result->asked->name), error);
+}
+
+/* Values that vary come first; whole numbers stay numbers. */
+static ps_cell value_cell(const ps_scene_value *value) {
+    char *end = NULL;
+    errno = 0;
+    const long long whole = strtoll(value->originals[0], &end, 10);
+    return *end == '\0' && errno == 0 ? PS_INTEGER(whole) : PS_TEXT(value->originals[0]);
+}
+
+static size_t count_varying(const ps_run_result *result) {
+    size_t num = 0;
+    for (size_t i = 0; i < result->asked->num_entries; i++) {
+        num += ps_run_varies(&result->asked->entries[i]);
+    }
+    return num;
+}
+
+static size_t put_values(const ps_run_result *result, size_t number, ps_cell *cells) {
+    size_t num = 0;
+    for (size_t i = 0; i < result->asked->num_entries; i++) {
+        if (ps_run_varies(&result->asked->entries[i])) {
+            cells[num++] = value_cell(ps_scene_value_of(result->asked, number, i));
+        }
+    }
+    return num;
+}
+
+static size_t put_names(const ps_run_result *result, const char **columns) {
+    size_t num = 0;
+    for (size_t i = 0; i < result->asked->num_entries; i++) {
+        if (ps_run_varies(&result->asked->entries[i])) {
+            columns[num++] = ps_scene_key(&result->asked->entries[i]);
+        }
+    }
+    return num;
+}
+
+/* ---- all rows ---------------------------------------------------------------------------- */
+
+/* The header of every question, after its command line. */
+static pspec_status add_header(ps_table *to, const ps_table *from, ps_error *error) {
+    for (size_t i = 0; i < ps_table_num_meta(from); i++) {
+        const char *key = NULL;
+        const ps_cell value = ps_table_meta(from, i, &key);
+        if (strcmp(key, "pointspec_version") != 0 && strcmp(key, "schema") != 0) {
+            PS_TRY(ps_table_add_meta(to, key, value, error));
+        }
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status add_rows(ps_table *to, const ps_run_result *result, size_t number,
+                             ps_cell *cells, ps_error *error) {
+    const ps_table *const from = result->questions[number].answer.table;
+    const size_t num = put_values(result, number, cells);
+    for (size_t row = 0; row < ps_table_num_rows(from); row++) {
+        for (size_t column = 0; column < ps_table_num_columns(from); column++) {
+            cells[num + column] = ps_table_cell(from, row, column);
+        }
+        PS_TRY(ps_table_add_row(to, cells, error));
+    }
+    return PSPEC_OK;
+}
+
+/* names and cells: [columns], memory for both. */
+static pspec_status fill_table(const ps_run *run, ps_run_result *result, const char **names,
+                               ps_cell *cells, ps_error *error) {
+    const ps_table *const first = result->questions[0].answer.table;
+    const size_t num = put_names(result, names);
+    for (size_t i = 0; i < ps_table_num_columns(first); i++) {
+        names[num + i] = ps_table_column_name(first, i);
+    }
+    PS_TRY(begin(&result->table, run, result, names, num + ps_table_num_columns(first), error));
+    for (size_t q = 0; q < result->num; q++) {
+        PS_TRY(add_header(result->table, result->questions[q].answer.table, error));
+    }
+    for (size_t q = 0; q < result->num; q++) {
+        PS_TRY(add_rows(result->table, result, q, cells, error));
+    }
+    return PSPEC_OK;
+}
+
+static bool have_same_columns(const ps_table *a, const ps_table *b) {
+    const size_t num = ps_table_num_columns(a);
+    bool is_same = num == ps_table_num_columns(b);
+    for (size_t i = 0; is_same && i < num; i++) {
+        is_same = strcmp(ps_table_column_name(a, i), ps_table_column_name(b, i)) == 0;
+    }
+    return is_same;
+}
+
+/* Spectra on the torus and on the sphere have other columns, and so may files with other domains. */
+static pspec_status check_columns(const ps_run *run, const ps_run_result *result, ps_error *error) {
+    const ps_table *const first = result->questions[0].answer.table;
+    for (size_t q = 1; q < result->num; q++) {
+        if (!have_same_columns(result->questions[q].answer.table, first)) {
+            (void)ps_fail(error, PSPEC_ERROR_INPUT,
+                          "its questions have tables with other columns; let them be results of "
+                          "their own");
+            return ps_scene_blame(run->scene, result->asked, error);
+        }
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status make_table(const ps_run *run, ps_run_result *result, ps_error *error) {
+    void *names = NULL;
+    void *cells = NULL;
+    pspec_status status = PSPEC_OK;
+    PS_TRY(check_columns(run, result, error));
+    const size_t num =
+        count_varying(result) + ps_table_num_columns(result->questions[0].answer.table);
+    PS_TRY_OUT(status, ps_allocate(&names, num, sizeof(char *), "names of columns", error));
+    PS_TRY_OUT(status, ps_allocate(&cells, num, sizeof(ps_cell), "a row", error));
+    status = fill_table(run, result, names, cells, error);
+out:
+    free(names);
+    free(cells);
+    return status;
+}
+
+/* ---- summaries --------------------------------------------------------------------------- */
+
+/* Header entries that are columns of a summary. */
+static const char *const of_spectra[] = {"points",          "realizations", "weight_sum",
+                                         "predicted_error", "self_check",   NULL};
+static const char *const of_rules[] = {"points",
+                                       "realizations",
+                                       "max_degree",
+                                       "weight_sum",
+                                       "worst_case_error",
+                                       "worst_case_error_standard_error",
+                                       "zonal_error",
+                                       "anisotropic_error",
+                                       "tail",
+                                       "predicted_error",
+                                       NULL};
+static const char *const of_truncation[] = {"brdf",    "smoothness",      "harmonics",
+                                            "kappa_0", "predicted_error", NULL};
+static const char *const of_checks[] = {"points",           "realizations", "different",
+                                        "adjusted_p_value", "verdict",      NULL};
+
+static const char *const *summary_keys(const ps_result_kind *kind) {
+    return kind == &ps_result_quadrature   ? of_rules
+           : kind == &ps_result_truncation ? of_truncation
+           : kind == &ps_result_check      ? of_checks
+                                           : of_spectra;
+}
+
+static pspec_status fill_summary(const ps_run *run, ps_run_result *result, const char **names,
+                                 ps_cell *cells, ps_error *error) {
+    const char *const *const keys = summary_keys(result->asked->kind);
+    size_t num = put_names(result, names);
+    for (size_t k = 0; keys[k] != NULL; k++) {
+        bool is_known = false; /* points may vary, and then come first already */
+        for (size_t i = 0; i < num; i++) {
+            is_known = is_known || strcmp(names[i], keys[k]) == 0;
+        }
+        if (!is_known) {
+            names[num++] = keys[k];
+        }
+    }
+    PS_TRY(begin(&result->summary, run, result, names, num, error));
+    for (size_t q = 0; q < result->num; q++) {
+        const size_t num_values = put_values(result, q, cells);
+        for (size_t i = num_values; i < num; i++) {
+            cells[i] = ps_run_meta(result->questions[q].answer.table, names[i]);
+        }
+        PS_TRY(ps_table_add_row(result->summary, cells, error));
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status make_summary(const ps_run *run, ps_run_result *result, ps_error *error) {
+    enum { MOST_KEYS = 16 };
+    void *names = NULL;
+    void *cells = NULL;
+    pspec_status status = PSPEC_OK;
+    const size_t num = count_varying(result) + MOST_KEYS;
+    PS_TRY_OUT(status, ps_allocate(&names, num, sizeof(char *), "names of columns", error));
+    PS_TRY_OUT(status, ps_allocate(&cells, num, sizeof(ps_cell), "a row", error));
+    status = fill_summary(run, result, names, cells, error);
+out:
+    free(names);
+    free(cells);
+    return status;
+}
+
+pspec_status ps_run_make_tables(const ps_run *run, ps_run_result *result, ps_error *error) {
+    PS_TRY(make_table(run, result, error));
+    return make_summary(run, result, error);
+}

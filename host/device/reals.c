@@ -1,0 +1,31 @@
+#include "device/reals.h"
+
+/* Rounded at a time, on the stack: one write for the scales of most batches. */
+enum { PIECE = 1024 };
+
+size_t ps_real_bytes(ps_precision precision) {
+    return precision == PS_SINGLE ? sizeof(float) : sizeof(double);
+}
+
+pspec_status ps_reals_write(ps_device *device, const ps_buffer *to, ps_precision precision,
+                            const double *numbers, size_t num, ps_error *error) {
+    if (precision != PS_SINGLE) {
+        return ps_buffer_write(device, to, 0, numbers, num * sizeof(double), error);
+    }
+    for (size_t first = 0; first < num; first += PIECE) {
+        float piece[PIECE];
+        const size_t length = num - first < PIECE ? num - first : PIECE;
+        for (size_t i = 0; i < length; i++) {
+            piece[i] = (float)numbers[first + i];
+        }
+        PS_TRY(ps_buffer_write(device, to, first * sizeof(float), piece, length * sizeof(float),
+                               error));
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_reals_upload(ps_device *device, ps_buffer *out, ps_precision precision,
+                             const double *numbers, size_t num, const char *what, ps_error *error) {
+    PS_TRY(ps_buffer_create(device, out, num * ps_real_bytes(precision), what, error));
+    return ps_reals_write(device, out, precision, numbers, num, error);
+}

@@ -1,0 +1,232 @@
+#include "engines/nufft/cost.h"
+
+#include "base/round.h"
+#include "engines/nufft/fft.h"
+#include "engines/torus/nufft/kernels.h"
+#include "engines/nufft/plan.h"
+#include "engines/nufft/whole_shape.h"
+#include "device/reals.h"
+
+#include <math.h>
+
+/* Zen 5, PoCL 3.1, 2026-11: profiles of bench_nufft, of kernels with parts left out in turn, and transforms of
+ * lengths 392, 512 and 1024 (5800, 6100, 12600 cycles). `./dev bench calibrate` measures all of them on another
+ * device and prints this table. Vectors are of as many numbers as the device has lanes. */
+const double ps_nufft_cycles[PS_NUFFT_NUM_PARTS] = {
+    /* transforms: an operation on vectors; a cell on its way through a pass */
+    [PS_NUFFT_OPERATION] = 0.27,
+    [PS_NUFFT_PASSED] = 0.8,
+    /* tiles: a point to be sorted; its phases, once for all tiles whose rows are in local memory together, and its
+     * windows, where a fused operation makes a value of a vector of points; a point in a tile, and a cell that it
+     * touches there; a cell cleared; a frequency written */
+    [PS_NUFFT_SORTED] = 8,
+    [PS_NUFFT_PHASE] = 13,
+    [PS_NUFFT_COEFFICIENT] = 0.5,
+    [PS_NUFFT_VALUE] = 2.5,
+    [PS_NUFFT_TOUCHED] = 1,
+    [PS_NUFFT_CLEARED] = 2.3,
+    [PS_NUFFT_POWER] = 12,
+    /* grids of large sets: a point on its way to a block of rows, and a row of the block; four bytes of a cell
+     * cleared and fetched by the transform, and taken into pairs for every chunk */
+    [PS_NUFFT_GRID_BLOCK] = 40,
+    [PS_NUFFT_GRID_ROW] = 4,
+    [PS_NUFFT_GRID_CELL] = 5,
+    [PS_NUFFT_GRID_PAIR] = 1,
+    /* whole realizations (4096 points and K = 64 in the plane): a point to be placed; a vector of polynomials,
+     * mirrored ones half; a vector added to a row in the nearest cache, and beyond; a column of cells fetched, and a
+     * vector turned into a tile, a quarter; a cell of a lane put into a shared tile; a vector of powers written; a
+     * vector of the grid cleared */
+    [PS_NUFFT_WHOLE_POINT] = 7,
+    [PS_NUFFT_WHOLE_POLYNOMIAL] = 0.45,
+    [PS_NUFFT_WHOLE_ROW] = 1.5,
+    [PS_NUFFT_WHOLE_FAR_ROW] = 2.5,
+    [PS_NUFFT_WHOLE_CELL] = 3,
+    [PS_NUFFT_WHOLE_TURNED] = 21,
+    [PS_NUFFT_WHOLE_SHARED] = 15,
+    [PS_NUFFT_WHOLE_POWER] = 12,
+    [PS_NUFFT_WHOLE_CLEARED] = 1,
+};
+
+/* Two fused operations in a cycle. */
+static const double flops_per_lane = 4;
+
+/* Local memory for rows to choose for, whatever the device has; the rest is for a chunk of points. */
+static const double nominal_local_bytes = (1 << 20) - (8 << 10);
+
+/* The nearest cache of a core (Zen 5), nominal as well. */
+static const double near_bytes = 32 << 10;
+
+static void add(ps_nufft_counts *counts, ps_nufft_part part, double num) {
+    counts->num[part] += num;
+}
+
+/* num transforms of a length. */
+static void add_transforms(ps_nufft_counts *counts, double num, uint32_t length) {
+    add(counts, PS_NUFFT_OPERATION, num * ps_fft_flops(length));
+    add(counts, PS_NUFFT_PASSED, num * ps_fft_passed(length));
+}
+
+static double sum_cycles(const ps_nufft_counts *counts) {
+    double cycles = 0;
+    for (size_t i = 0; i < PS_NUFFT_NUM_PARTS; i++) {
+        cycles += ps_nufft_cycles[i] * counts->num[i];
+    }
+    return cycles;
+}
+
+double ps_fft_cycles(uint32_t length) {
+    return ps_nufft_cycles[PS_NUFFT_OPERATION] * ps_fft_flops(length) +
+           ps_nufft_cycles[PS_NUFFT_PASSED] * ps_fft_passed(length);
+}
+
+/* ---- tiles ------------------------------------------------------------------------------- */
+
+/* Four neighbours are added together: to cells from the first of one window to the last of another. */
+static double touched_cells(const ps_nufft_axis *axis, double num_points) {
+    const double between = 3 * (double)axis->n / num_points;
+    return axis->window.width + fmin(between, axis->window.width);
+}
+
+/* Rows that fit into local memory; less than 1 where tiles must be narrower. */
+static double rows_at_once(const ps_nufft_axis *axis) {
+    const double vector_bytes = 64;
+    return nominal_local_bytes / (2 * vector_bytes * axis->n);
+}
+
+/* Transforms of the rows of the tiles, all the way to powers. */
+static void count_tiles(ps_nufft_counts *counts, const ps_nufft_choice *choice, double num_tiles) {
+    unsigned num = 0;
+    const ps_nufft_axis *axes = ps_nufft_last_axes(choice, &num);
+    const ps_nufft_axis *last = &axes[num - 1];
+    const double kept = 2.0 * last->max_frequency + 1;
+    const double rows = num_tiles * (num == 1 ? 1 : axes[0].n);
+    add_transforms(counts, rows, last->n);
+    add(counts, PS_NUFFT_CLEARED, rows * last->n);
+    add(counts, PS_NUFFT_POWER, rows * kept);
+    if (num > 1) {
+        add_transforms(counts, num_tiles * kept, axes[0].n);
+        add(counts, PS_NUFFT_POWER, num_tiles * kept * kept);
+    }
+}
+
+/* Places that are filled for the num_points points of a list, in mean: lists go through whole chunks. */
+static double filled_places(double num_points) {
+    const double half = 0.5; /* of a chunk is empty at the end of a long list */
+    const double is_not_empty = -expm1(-num_points);
+    return PS_NUFFT_CHUNK * fmax(is_not_empty, num_points / PS_NUFFT_CHUNK + half);
+}
+
+/* Spreading by direct phases on axis 0. */
+static void count_spreading(ps_nufft_counts *counts, const ps_nufft_choice *choice,
+                            double num_tiles, double num_points) {
+    const ps_nufft_axis *first = &choice->axes[0];
+    const ps_nufft_axis *last = &choice->axes[choice->num_axes - 1];
+    const bool has_rows = choice->num_axes == 2;
+    /* a list for each row that touches another */
+    const double lists = has_rows ? (double)first->n * first->window.width : 1;
+    const double points_of_list = has_rows ? num_points / first->n : num_points;
+    const double visits = lists * filled_places(points_of_list);
+    const double touched = touched_cells(last, points_of_list);
+    const double groups = ceil(num_tiles / fmax(1, floor(rows_at_once(last))));
+    const double degree = last->window.width + 2;
+    add(counts, PS_NUFFT_PHASE, visits * groups);
+    add(counts, PS_NUFFT_COEFFICIENT,
+        visits * groups * last->window.width * degree / choice->lanes);
+    add(counts, PS_NUFFT_VALUE, visits * num_tiles);
+    add(counts, PS_NUFFT_TOUCHED, visits * num_tiles * touched);
+}
+
+/* ---- grids of large sets ----------------------------------------------------------------- */
+
+static const size_t word_bytes = sizeof(float);
+
+/* Spreading on a grid and the transform along axis 0. */
+static void count_grid(ps_nufft_counts *counts, const ps_nufft_choice *choice,
+                       ps_precision precision, double num_points) {
+    const ps_nufft_axis *axes = choice->axes;
+    const ps_nufft_axis *block = &axes[choice->num_axes - 2];
+    const ps_nufft_axis *last = &axes[choice->num_axes - 1];
+    const double visits = num_points * (choice->num_axes == 3 ? axes[0].window.width : 1);
+    const double blocks = (PS_NUFFT_BLOCK_ROWS + block->window.width - 1.0) / PS_NUFFT_BLOCK_ROWS;
+    const double strips = last->window.width > PS_NUFFT_BLOCK_ROWS ? 2 : 1;
+    const double columns = (choice->num_axes == 3 ? (double)block->n : 1) * last->n;
+    const double words = columns * axes[0].n * (double)(ps_real_bytes(precision) / word_bytes);
+    add(counts, PS_NUFFT_GRID_BLOCK, visits * blocks);
+    add(counts, PS_NUFFT_GRID_ROW, visits * block->window.width * strips);
+    add_transforms(counts, columns / (2 * choice->lanes), axes[0].n);
+    add(counts, PS_NUFFT_GRID_CELL, words);
+    add(counts, PS_NUFFT_GRID_PAIR, words * ceil(num_points / (double)choice->chunk));
+}
+
+/* ---- whole realizations ------------------------------------------------------------------ */
+
+static void count_whole_transforms(ps_nufft_counts *counts, const ps_nufft_choice *choice) {
+    const unsigned lanes = choice->lanes;
+    uint32_t kept[2];
+    ps_nufft_whole_kept(choice, kept);
+    const double groups = (double)ps_divide_up(choice->lengths[1], 2 * lanes);
+    const double tiles = (double)ps_divide_up(choice->span, lanes);
+    const double shared = ps_nufft_whole_shared(choice, lanes);
+    const double turned = tiles - (shared > 0 ? 1 : 0);
+    const double second = turned + shared / lanes; /* of a shared tile, its part */
+    add_transforms(counts, groups, choice->lengths[0]);
+    add_transforms(counts, second, choice->lengths[1]);
+    add(counts, PS_NUFFT_WHOLE_CELL, groups * choice->lengths[0] + second * choice->lengths[1]);
+    add(counts, PS_NUFFT_WHOLE_TURNED, groups * turned * lanes);
+    add(counts, PS_NUFFT_WHOLE_SHARED, shared * choice->lengths[1]);
+    add(counts, PS_NUFFT_WHOLE_POWER, tiles * (2.0 * kept[1] + 1));
+}
+
+double ps_nufft_whole_transform_cycles(const ps_nufft_choice *choice) {
+    ps_nufft_counts counts = {{0}};
+    count_whole_transforms(&counts, choice);
+    return sum_cycles(&counts);
+}
+
+static void count_whole(ps_nufft_counts *counts, const ps_nufft_choice *choice,
+                        ps_precision precision, double num_points) {
+    const unsigned lanes = choice->lanes;
+    const ps_nufft_whole_sizes sizes = ps_nufft_whole_measure(choice, lanes);
+    const ps_nufft_axis *last = &choice->axes[choice->num_axes - 1];
+    const bool is_near = (double)(sizes.grid_reals * ps_real_bytes(precision)) <= near_bytes;
+    const double rows = choice->num_axes > 1 ? choice->axes[0].window.width : 1;
+    const double vectors = ceil(ps_nufft_bins(last) / (double)lanes);
+    double polynomials = 0;
+    for (unsigned i = 0; i < choice->num_axes; i++) {
+        const ps_nufft_axis *axis = &choice->axes[i];
+        const double mirrored = choice->num_axes == 2 && i == 0 ? 2 : 1;
+        polynomials += (axis->window.width + 2.0) * ps_nufft_bins(axis) / (lanes * mirrored);
+    }
+    add(counts, PS_NUFFT_WHOLE_POINT, num_points);
+    add(counts, PS_NUFFT_WHOLE_POLYNOMIAL, num_points * polynomials);
+    add(counts, is_near ? PS_NUFFT_WHOLE_ROW : PS_NUFFT_WHOLE_FAR_ROW, num_points * rows * vectors);
+    add(counts, PS_NUFFT_WHOLE_CLEARED, (double)sizes.grid_reals / lanes);
+    count_whole_transforms(counts, choice);
+}
+
+/* ---- all --------------------------------------------------------------------------------- */
+
+ps_nufft_counts ps_nufft_count(const ps_nufft_choice *choice, ps_precision precision,
+                               double num_points) {
+    ps_nufft_counts counts = {{0}};
+    if (choice->is_whole) {
+        count_whole(&counts, choice, precision, num_points);
+        return counts;
+    }
+    const ps_nufft_axis *last = &choice->axes[choice->num_axes - 1];
+    const double narrower = ceil(1 / fmin(1, rows_at_once(last)));
+    const double num_tiles = (double)ps_divide_up(choice->span, choice->lanes) * narrower;
+    add(&counts, PS_NUFFT_SORTED, num_points);
+    count_tiles(&counts, choice, num_tiles);
+    if (choice->is_gridded) {
+        count_grid(&counts, choice, precision, num_points);
+    } else {
+        count_spreading(&counts, choice, num_tiles, num_points);
+    }
+    return counts;
+}
+
+double ps_nufft_flops(const ps_nufft_choice *choice, ps_precision precision, double num_points) {
+    const ps_nufft_counts counts = ps_nufft_count(choice, precision, num_points);
+    return sum_cycles(&counts) * choice->lanes * flops_per_lane;
+}

@@ -1,0 +1,102 @@
+/* The error formula of torus_nufft: docs/torus_nufft.md has the reasons. All errors are in units of the root of
+ * sum w^2; constants were measured, and are held, by tests/engines/test_tolerance_sweep.c and
+ * tests/engines/test_tolerance_regular.c. */
+#include "engines/nufft/choice.h"
+
+#include <math.h>
+
+static const double unit_roundoff[2] = {0x1p-24, 0x1p-53};
+
+/* A set that is regular along an axis may have all its power at the frequency that aliases harm most, at K and
+ * at -K. */
+static const double in_step = 2;
+
+/* Of rounding, in units of roundoff: of points and powers, whatever the grid; of windows and phases, of each
+ * pass of the transforms on both axes, of sums in dense cells (root of the number of terms; where axis 0 has
+ * frequency 0, terms are in step and it is the number of points in a cell that counts, and columns of equal
+ * terms round the same way every time), of coincident points. */
+static const double point_roundings = 2;
+static const double window_roundings = 7;
+static const double roundings_per_pass = 1;
+static const double turning_roundings = 2; /* between the two transforms of one dimension */
+static const double dense_roundings = 1;
+static const double dense_roundings_at_zero = 2;
+static const double column_roundings = 0.3;
+static const double grid_roundings_at_zero = 0.08;
+static const double coherent_roundings = 0.45;
+
+double ps_nufft_modes(const ps_problem *problem) {
+    return pow(2.0 * problem->frequencies->max_frequency + 1, problem->frequencies->dimension);
+}
+
+double ps_nufft_points(const ps_problem *problem) {
+    return (double)(problem->planned_points > 0 ? problem->planned_points : problem->num_points);
+}
+
+/* Of all axes together. */
+typedef struct whole_loss {
+    double aliasing, worst, amplification, passes;
+    double density;  /* points in a cell, */
+    double touching; /* those whose windows touch it, */
+    double dense;    /* and the root of their product: what they add up to */
+    double widths;
+    double chunks; /* whose roundings may be in step */
+} whole_loss;
+
+static whole_loss add_axes(const ps_nufft_choice *choice, uint64_t num_points) {
+    const bool has_chunks = choice->chunk > 0 && choice->chunk < num_points;
+    const double at_once = fmax(1, (double)(has_chunks ? choice->chunk : num_points));
+    whole_loss sum = {.amplification = 1,
+                      .density = at_once,
+                      .touching = at_once,
+                      .widths = 1,
+                      .chunks = (double)num_points / at_once};
+    for (unsigned i = 0; i < choice->num_axes; i++) {
+        const ps_nufft_axis *axis = &choice->axes[i];
+        sum.aliasing += axis->loss.aliasing;
+        sum.worst += axis->loss.worst;
+        sum.amplification *= axis->loss.amplification;
+        sum.passes += axis->passes * roundings_per_pass;
+        sum.density /= axis->n;
+        sum.touching *= (double)axis->window.width / axis->n;
+        sum.widths *= axis->window.width;
+    }
+    sum.passes += choice->is_whole && choice->num_axes == 1 ? turning_roundings : 0;
+    sum.dense = sqrt(sum.density * sum.touching);
+    return sum;
+}
+
+/* Peaks of lattices, of power N, come in pairs: 2^(d-1) of them fit on a line of aliases, more than K from each
+ * other, so that none is in the band; in one dimension one at each end of the band. */
+static double aliasing_of(const ps_nufft_choice *choice, const ps_problem *problem,
+                          const whole_loss *loss, double power) {
+    const double peaks = choice->stride != 0 ? 4 : pow(2, problem->frequencies->dimension);
+    const double points_per_mode = ps_nufft_points(problem) / ps_nufft_modes(problem);
+    return sqrt(loss->aliasing + loss->worst * (in_step * power + peaks * points_per_mode));
+}
+
+/* In units of roundoff, where terms are in step. */
+static double rounding_at_zero(const ps_nufft_choice *choice, const whole_loss *loss) {
+    const double columns = choice->stride == 0 ? column_roundings * loss->touching : 0;
+    return choice->is_gridded
+               ? grid_roundings_at_zero * loss->touching * sqrt(loss->widths * loss->chunks)
+               : hypot(dense_roundings_at_zero * loss->dense, columns * sqrt(loss->density)) /
+                     sqrt(choice->span);
+}
+
+double ps_nufft_error(const ps_nufft_choice *choice, const ps_problem *problem,
+                      ps_precision precision, double mean_power) {
+    const double power = mean_power > 1 ? mean_power : 1;
+    const double unit = unit_roundoff[precision];
+    const whole_loss loss = add_axes(choice, problem->num_points);
+    const double aliasing = aliasing_of(choice, problem, &loss, power);
+    const double polynomials =
+        PS_NUFFT_POLYNOMIAL_SHARE * problem->tolerance * sqrt(choice->num_axes * power);
+    const double each =
+        hypot(window_roundings + loss.passes, dense_roundings * sqrt(loss.touching));
+    const double rounding =
+        unit * loss.amplification * hypot(each * sqrt(power), rounding_at_zero(choice, &loss));
+    const double coherent = unit * coherent_roundings * power * sqrt(power);
+    const double given = unit * point_roundings * sqrt(power);
+    return hypot(hypot(aliasing, polynomials), hypot(rounding, given)) + coherent;
+}

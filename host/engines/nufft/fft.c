@@ -1,0 +1,230 @@
+#include "engines/nufft/fft.h"
+
+#include "base/memory.h"
+#include "device/reals.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Large radices first: the fewest passes over memory. Additions and multiplications (a fused operation is
+ * two) of each butterfly as kernels/nufft/butterfly.h writes it. */
+static const struct {
+    uint32_t radix;
+    double flops;
+} butterflies[] = {{8, 60}, {7, 96}, {5, 52}, {4, 16}, {3, 18}, {2, 4}};
+enum { NUM_BUTTERFLIES = sizeof butterflies / sizeof butterflies[0] };
+
+/* A twiddle factor: two products and two fused operations. */
+static const double flops_per_twiddle = 6;
+
+static uint64_t without_small_factors(uint64_t n) {
+    static const uint32_t primes[] = {2, 3, 5, 7};
+    for (size_t i = 0; i < sizeof primes / sizeof primes[0]; i++) {
+        while (n % primes[i] == 0) {
+            n /= primes[i];
+        }
+    }
+    return n;
+}
+
+uint32_t ps_fft_length(uint64_t least) {
+    uint64_t n = least > 0 ? least : 1;
+    while (n <= UINT32_MAX && without_small_factors(n) != 1) {
+        n++;
+    }
+    return n <= UINT32_MAX ? (uint32_t)n : 0;
+}
+
+bool ps_fft_radices(uint32_t length, uint32_t radices[PS_FFT_MAX_PASSES]) {
+    size_t num = 0;
+    uint32_t rest = length;
+    for (size_t i = 0; i < NUM_BUTTERFLIES && length > 0; i++) {
+        while (rest % butterflies[i].radix == 0) {
+            radices[num++] = butterflies[i].radix;
+            rest /= butterflies[i].radix;
+        }
+    }
+    radices[num] = 0;
+    return rest == 1;
+}
+
+double ps_fft_flops(uint32_t length) {
+    uint32_t radices[PS_FFT_MAX_PASSES];
+    double flops = 0;
+    if (!ps_fft_radices(length, radices)) {
+        return HUGE_VAL;
+    }
+    for (const uint32_t *radix = radices; *radix != 0; radix++) {
+        double each = radix[1] != 0 ? flops_per_twiddle * (*radix - 1) : 0;
+        for (size_t i = 0; i < NUM_BUTTERFLIES; i++) {
+            each += butterflies[i].radix == *radix ? butterflies[i].flops : 0;
+        }
+        flops += each * (double)length / *radix;
+    }
+    return flops;
+}
+
+double ps_fft_passed(uint32_t length) {
+    uint32_t radices[PS_FFT_MAX_PASSES];
+    double passes = 0;
+    if (!ps_fft_radices(length, radices)) {
+        return HUGE_VAL;
+    }
+    for (const uint32_t *radix = radices; *radix != 0; radix++) {
+        passes++;
+    }
+    return passes * length;
+}
+
+/* Lengths from least to last, visited in any order: 2^a times every product of 3, 5 and 7 that is small enough.
+ * Going through the integers instead took 14 ms for a plan of 32768 frequencies. */
+typedef struct lengths {
+    uint64_t least, last, odd;
+    uint64_t threes, fives; /* of odd: the powers that it ends with */
+} lengths;
+
+/* Of the next odd part the first length; 0 at the end. */
+static uint64_t next_length(lengths *self) {
+    if (self->odd == 0) {
+        self->odd = self->threes = self->fives = 1;
+    } else if (3 * self->odd <= self->last) {
+        self->odd *= 3;
+        self->threes *= 3;
+    } else if (5 * (self->odd / self->threes) <= self->last) {
+        self->odd = 5 * (self->odd / self->threes);
+        self->fives *= 5;
+        self->threes = 1;
+    } else {
+        self->odd = 7 * (self->odd / self->threes / self->fives);
+        self->threes = self->fives = 1;
+    }
+    uint64_t length = self->odd;
+    while (length < self->least) {
+        length *= 2;
+    }
+    return self->odd <= self->last ? length : 0;
+}
+
+/* The smallest of them; powers of 2 are among them. */
+static uint64_t least_length(uint64_t least) {
+    lengths all = {.least = least, .last = 2 * least};
+    uint64_t smallest = UINT64_MAX;
+    for (uint64_t n = next_length(&all); n != 0; n = next_length(&all)) {
+        smallest = n < smallest ? n : smallest;
+    }
+    return smallest;
+}
+
+uint32_t ps_fft_good_length(uint64_t least) {
+    const uint32_t beyond_share = 4; /* a quarter longer costs more in any case */
+    const uint64_t first = least_length(least > 0 ? least : 1);
+    lengths all = {.least = first, .last = first + first / beyond_share};
+    uint64_t best = 0;
+    double least_cycles = HUGE_VAL;
+    for (uint64_t n = next_length(&all); n != 0; n = next_length(&all)) {
+        const bool is_long = n > all.last || n > UINT32_MAX;
+        const double cycles = is_long ? HUGE_VAL : ps_fft_cycles((uint32_t)n);
+        if (cycles < least_cycles || (cycles == least_cycles && n > best && !is_long)) {
+            least_cycles = cycles;
+            best = n;
+        }
+    }
+    return (uint32_t)best;
+}
+
+/* Cosine and sine of -2 pi t / n, the angle reduced to an eighth of a turn so that symmetric factors
+ * are equal to the bit. */
+static void twiddle(uint32_t t, uint32_t n, long double *cosine, long double *sine) {
+    const long double pi = 3.141592653589793238462643383279502884L;
+    const uint64_t eighths = 8 * (uint64_t)t;
+    const uint64_t octant = eighths / n;
+    const uint64_t quarter = (octant + 1) / 2; /* nearest quarter turn */
+    const long double rest =
+        (long double)(int64_t)(4 * (uint64_t)t - quarter * n); /* quarters / n */
+    const long double angle = pi / 2 * rest / n;
+    const long double c = cosl(angle);
+    const long double s = sinl(angle);
+    const long double cosines[4] = {c, -s, -c, s};
+    const long double sines[4] = {s, c, -s, -c};
+    *cosine = cosines[quarter % 4];
+    *sine = -sines[quarter % 4];
+}
+
+/* [pass][t][j - 1]: as the passes read them. */
+static void fill_twiddles(uint32_t length, const uint32_t *radices, double *out) {
+    uint32_t step = 1; /* of twiddles of the whole length */
+    for (uint32_t rest = length; *radices != 0; radices++) {
+        const uint32_t radix = *radices;
+        rest /= radix;
+        for (uint32_t t = 0; t < rest; t++) {
+            for (uint32_t j = 1; j < radix; j++) {
+                long double value[2];
+                twiddle((uint32_t)((uint64_t)t * j * step % length), length, &value[0], &value[1]);
+                *out++ = (double)value[0];
+                *out++ = (double)value[1];
+            }
+        }
+        step *= radix;
+    }
+}
+
+static pspec_status upload_twiddles(ps_fft_plan *plan, const uint32_t *radices,
+                                    ps_precision precision, ps_device *device, ps_error *error) {
+    void *memory = NULL;
+    const size_t count = 2 * ((size_t)plan->length - 1); /* n - n/r_1 + n/r_1 - n/(r_1 r_2) + ... */
+    PS_TRY(ps_allocate(&memory, count, sizeof(double), "twiddle factors", error));
+    fill_twiddles(plan->length, radices, memory);
+    const pspec_status status = ps_reals_upload(device, &plan->twiddles, precision, memory, count,
+                                                "twiddle factors", error);
+    free(memory);
+    return status;
+}
+
+/* Frequency k = k_1 + r_1 (k_2 + r_2 (...)) ends in cell k_1 n/r_1 + k_2 n/(r_1 r_2) + ... */
+uint32_t ps_fft_position(uint32_t length, const uint32_t *radices, uint32_t k) {
+    uint32_t position = 0;
+    for (uint32_t rest = length; *radices != 0; radices++) {
+        rest /= *radices;
+        position += k % *radices * rest;
+        k /= *radices;
+    }
+    return position;
+}
+
+static pspec_status upload_positions(ps_fft_plan *plan, const uint32_t *radices, ps_device *device,
+                                     ps_error *error) {
+    void *memory = NULL;
+    const size_t bytes = plan->length * sizeof(uint32_t);
+    PS_TRY(ps_allocate(&memory, plan->length, sizeof(uint32_t), "positions", error));
+    for (uint32_t k = 0; k < plan->length; k++) {
+        ((uint32_t *)memory)[k] = ps_fft_position(plan->length, radices, k);
+    }
+    pspec_status status = ps_buffer_create(device, &plan->position, bytes, "positions", error);
+    if (status == PSPEC_OK) {
+        status = ps_buffer_write(device, &plan->position, 0, memory, bytes, error);
+    }
+    free(memory);
+    return status;
+}
+
+pspec_status ps_fft_plan_create(ps_fft_plan *out, uint32_t length, ps_precision precision,
+                                ps_device *device, ps_error *error) {
+    uint32_t radices[PS_FFT_MAX_PASSES] = {0};
+    *out = (ps_fft_plan){.length = length};
+    if (!ps_fft_radices(length, radices)) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "no transform of length %lu: it has a prime factor above 7",
+                       (unsigned long)length);
+    }
+    PS_TRY(ps_buffer_create(device, &out->radices, sizeof radices, "radices", error));
+    PS_TRY(ps_buffer_write(device, &out->radices, 0, radices, sizeof radices, error));
+    PS_TRY(upload_positions(out, radices, device, error));
+    return upload_twiddles(out, radices, precision, device, error);
+}
+
+void ps_fft_plan_free(ps_fft_plan *plan) {
+    ps_buffer_release(&plan->radices);
+    ps_buffer_release(&plan->twiddles);
+    ps_buffer_release(&plan->position);
+    *plan = (ps_fft_plan){0};
+}

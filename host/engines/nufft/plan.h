@@ -1,0 +1,45 @@
+/* One axis of the fine grid on the device: its transform, its window as polynomials, what undoes the window. */
+#ifndef PS_ENGINES_NUFFT_PLAN_H
+#define PS_ENGINES_NUFFT_PLAN_H
+
+#include "engines/nufft/choice.h"
+#include "engines/nufft/fft.h"
+
+typedef struct ps_nufft_plan {
+    ps_nufft_axis axis;
+    uint32_t bins, pitch; /* of a window, kernels/nufft/place.h */
+    unsigned degree;      /* of the polynomials */
+    ps_fft_plan fft;
+    ps_buffer coefficients; /* [degree + 1][bins] */
+    ps_buffer gains;        /* [K + 1]: 1 / squared transform of the window */
+} ps_nufft_plan;
+
+/* tolerance: of the problem. has_transform: else there are neither fft nor gains, for whoever has
+ * those of all axes together. */
+pspec_status ps_nufft_plan_create(ps_nufft_plan *out, const ps_nufft_axis *axis, bool has_transform,
+                                  double tolerance, ps_precision precision, ps_device *device,
+                                  ps_error *error) PS_MUST_CHECK;
+void ps_nufft_plan_free(ps_nufft_plan *plan);
+
+/* What undoes the window in the power of frequency k. */
+double ps_nufft_gain(const ps_nufft_axis *axis, uint32_t k);
+
+/* Numbers of a window that are computed (whole vectors), and room for one. */
+uint32_t ps_nufft_bins(const ps_nufft_axis *axis);
+uint32_t ps_nufft_pitch(const ps_nufft_axis *axis);
+
+/* Cells of a row in memory: windows go on behind its end. */
+size_t ps_nufft_row_cells(const ps_nufft_axis *axis);
+
+/* Where powers go: rows from `realization` on of power, times their entries in scales. */
+typedef struct ps_nufft_target {
+    const ps_buffer *power, *scales;
+    size_t realization;
+} ps_nufft_target;
+
+/* Work-groups of one item on CPUs, where lanes are vectors; of several that share a row on GPUs, and where
+ * tests say so. */
+ps_range ps_nufft_group_range(const ps_device *device, size_t num_groups, size_t num_realizations,
+                              double flops);
+
+#endif

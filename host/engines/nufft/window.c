@@ -1,0 +1,194 @@
+#include "engines/nufft/window.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double pi = 3.14159265358979323846;
+
+/* sum (x^2/4)^j / j!^2: all terms are positive, and beta stays below 16 pi. */
+static long double bessel_i0(long double x) {
+    const long double quarter = x * x / 4;
+    long double term = 1;
+    long double sum = 1;
+    for (int j = 1; term > sum * 1e-21L; j++) {
+        term *= quarter / ((long double)j * j);
+        sum += term;
+    }
+    return sum;
+}
+
+/* beta = pi w (1 - K/n) would put the edge of the main lobe on the nearest alias of K. With the alias this
+ * far beyond the edge (the first zero is at pi) the largest frequency loses no more than the others: sets that
+ * are regular along an axis may have all their power there. Best values for the mean plus the largest of the
+ * squares of aliases, 1.7 to 2, were 2.5 .. 2.9 for w = 2 .. 16 and sigma = 1.2 .. 4; the optimum is flat. */
+static const double beyond_edge = 2.7;
+
+ps_nufft_window ps_nufft_window_make(unsigned width, int32_t max_frequency, uint32_t n) {
+    const double alias = pi * width * (1 - (double)max_frequency / (double)n);
+    const double beta = sqrt(alias * alias - beyond_edge * beyond_edge);
+    return (ps_nufft_window){.width = width, .beta = beta, .peak = bessel_i0(beta)};
+}
+
+static long double value(const ps_nufft_window *window, long double t) {
+    const long double x = 2 * t / window->width;
+    const long double square = 1 - x * x;
+    return square < 0 ? 0 : bessel_i0(window->beta * sqrtl(square)) / window->peak;
+}
+
+double ps_nufft_window_value(const ps_nufft_window *window, double t) {
+    return (double)value(window, t);
+}
+
+/* Without the constant factor w / I_0(beta), for ratios. */
+static double relative_transform(const ps_nufft_window *window, double f) {
+    const double z = pi * window->width * f;
+    const double square = window->beta * window->beta - z * z;
+    const double root = sqrt(fabs(square));
+    return root == 0 ? 1 : (square > 0 ? sinh(root) : sin(root)) / root;
+}
+
+/* Long double: sinh(40) in double is off by 40 roundings of its argument. */
+double ps_nufft_window_transform(const ps_nufft_window *window, long double f) {
+    const long double z = 3.141592653589793238462643383279502884L * window->width * f;
+    const long double square = (long double)window->beta * window->beta - z * z;
+    const long double root = sqrtl(fabsl(square));
+    const long double ratio = root == 0 ? 1 : (square > 0 ? sinhl(root) : sinl(root)) / root;
+    return (double)(window->width * ratio / window->peak);
+}
+
+typedef struct alias_sums {
+    double squares; /* what aliases make of one frequency, squared: of white sets; */
+    double in_step; /* of sets as regular as the grid */
+} alias_sums;
+
+static alias_sums aliases_at(const ps_nufft_window *window, double f) {
+    enum { ALIASES = 3 }; /* more aliases add 2 % of the error */
+    const double wanted = relative_transform(window, f);
+    double squares = 0;
+    double sum = 0;
+    for (int m = 1; m <= ALIASES; m++) {
+        const double above = fabs(relative_transform(window, f + m) / wanted);
+        const double below = fabs(relative_transform(window, f - m) / wanted);
+        squares += above * above + below * below;
+        sum += above + below;
+    }
+    return (alias_sums){squares, sum * sum};
+}
+
+static void add_frequency(const ps_nufft_window *window, double f, double share,
+                          ps_nufft_loss *sums) {
+    const double wanted = relative_transform(window, f);
+    sums->aliasing += share * aliases_at(window, f).squares;
+    sums->amplification += share / (wanted * wanted);
+}
+
+double ps_nufft_window_least_worst(const ps_nufft_window *window, int32_t max_frequency,
+                                   uint32_t n) {
+    return aliases_at(window, (double)max_frequency / n).in_step;
+}
+
+ps_nufft_loss ps_nufft_window_loss(const ps_nufft_window *window, int32_t max_frequency,
+                                   uint32_t n) {
+    enum { ALL = 24, SAMPLES = 24 }; /* every frequency, if so few; else dense near the largest */
+    ps_nufft_loss loss = {.worst = ps_nufft_window_least_worst(window, max_frequency, n)};
+    double grid = 0;
+    for (int k = 0; k <= max_frequency && max_frequency <= ALL; k++) {
+        const double share = (k == 0 ? 1.0 : 2.0) / (2 * max_frequency + 1);
+        add_frequency(window, (double)k / n, share, &loss);
+    }
+    for (int i = 0; i < SAMPLES; i++) {
+        const double at = (i + 0.5) / SAMPLES;
+        const double any = relative_transform(window, at / 2);
+        grid += any * any / SAMPLES;
+        if (max_frequency > ALL) {
+            const double largest = max_frequency + 0.5;
+            add_frequency(window, (1 - at * at) * largest / n, 2 * at / SAMPLES, &loss);
+        }
+        loss.worst =
+            fmax(loss.worst, aliases_at(window, (1 - at * at) * max_frequency / n).in_step);
+    }
+    loss.amplification = sqrt(grid * loss.amplification);
+    return loss;
+}
+
+/* ---- polynomials ------------------------------------------------------------------------- */
+
+enum { NODES = PS_NUFFT_MAX_DEGREE + 8 };
+
+/* Chebyshev coefficients of bin i in u. */
+static void chebyshev(const ps_nufft_window *window, unsigned bin, long double series[NODES]) {
+    const long double long_pi = 3.141592653589793238462643383279502884L;
+    long double values[NODES];
+    for (int j = 0; j < NODES; j++) {
+        const long double u = cosl(long_pi * (j + 0.5L) / NODES);
+        const long double t = bin + 1 - window->width / 2.0L - (u + 1) / 2;
+        values[j] = value(window, t);
+    }
+    for (int k = 0; k < NODES; k++) {
+        series[k] = 0;
+        for (int j = 0; j < NODES; j++) {
+            series[k] += values[j] * cosl(long_pi * k * (j + 0.5L) / NODES);
+        }
+        series[k] *= (k == 0 ? 1.0L : 2.0L) / NODES;
+    }
+}
+
+unsigned ps_nufft_window_degree(const ps_nufft_window *window, double error) {
+    unsigned degree = 0;
+    for (unsigned bin = 0; bin < window->width; bin++) {
+        long double series[NODES];
+        long double rest = 0;
+        chebyshev(window, bin, series);
+        unsigned needed = NODES - 1;
+        while (needed > 0 && rest + fabsl(series[needed]) <= error) {
+            rest += fabsl(series[needed]);
+            needed--;
+        }
+        degree = needed > degree ? needed : degree;
+    }
+    return degree < PS_NUFFT_MAX_DEGREE ? degree | 1 : PS_NUFFT_MAX_DEGREE;
+}
+
+/* Powers of u of a Chebyshev series, by T_(k+1) = 2 u T_k - T_(k-1). */
+static void powers_of_series(const long double series[NODES], unsigned degree,
+                             long double powers[NODES]) {
+    long double before[NODES] = {1}; /* T_0 */
+    long double current[NODES] = {0, 1};
+    memset(powers, 0, NODES * sizeof *powers);
+    for (unsigned k = 0; k <= degree; k++) {
+        long double next[NODES] = {0};
+        const long double *polynomial = k == 0 ? before : current;
+        for (unsigned i = 0; i <= k; i++) {
+            powers[i] += series[k] * polynomial[i];
+        }
+        if (k == 0) {
+            continue;
+        }
+        for (unsigned i = 0; i + 1 < NODES; i++) {
+            next[i + 1] = 2 * current[i];
+        }
+        for (unsigned i = 0; i < NODES; i++) {
+            next[i] -= before[i];
+        }
+        memcpy(before, current, sizeof before);
+        memcpy(current, next, sizeof current);
+    }
+}
+
+/* Bin i is bin width - 1 - i at -u: made once, so that it is to the bit. */
+void ps_nufft_window_polynomials(const ps_nufft_window *window, unsigned degree, unsigned bins,
+                                 double *coefficients) {
+    memset(coefficients, 0, (degree + 1) * (size_t)bins * sizeof *coefficients);
+    for (unsigned bin = 0; 2 * bin < window->width; bin++) {
+        const unsigned mirror = window->width - 1 - bin;
+        long double series[NODES];
+        long double powers[NODES];
+        chebyshev(window, bin, series);
+        powers_of_series(series, degree, powers);
+        for (unsigned i = 0; i <= degree; i++) {
+            const double power = bin == mirror && i % 2 != 0 ? 0 : (double)powers[i];
+            coefficients[i * bins + bin] = power;
+            coefficients[i * bins + mirror] = i % 2 != 0 ? -power : power;
+        }
+    }
+}

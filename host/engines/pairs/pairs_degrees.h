@@ -1,0 +1,60 @@
+/* What engines of pair sums have in common behind their kernels: partial sums of degrees, added up on the device, and
+ * Q(l) = sum w^2 + 2 sum over pairs.
+ */
+#ifndef PS_ENGINES_PAIRS_PAIRS_DEGREES_H
+#define PS_ENGINES_PAIRS_PAIRS_DEGREES_H
+
+#include "engines/pairs/pairs_points.h"
+
+/* As in kernels/pairs/walk.h. Vectors of a chunk: their state, four numbers each, stays in the first-level cache (16 KiB
+ * with vectors of 64 bytes). Chunks of a run: enough work for a work-item, and enough work-items. */
+enum { PS_PAIRS_CHUNK = 64, PS_PAIRS_RUN_CHUNKS = 16, PS_PAIRS_RUN = 1024 };
+
+/* Sums of runs come in two parts, high and low. */
+enum { PS_PAIRS_PARTS = 2 };
+
+/* Rounding of pair sums in units of (sum |w|)^2: hypot(begin, step sqrt(L)) for one pair, which is the worst there is,
+ * since errors of many average out: that of t grows like the slope of the polynomials. And drift L for the share of
+ * (sum |w|)^2 that is in pairs so close that P_l stays near 1: its steps are then all rounded alike. That share is the mean
+ * of Q(l) / (sum |w|)^2. Measured, with slack, by tests/engines/test_pairs_error.c; docs/pairs_direct.md. */
+typedef struct ps_pairs_error_law {
+    double begin, step, drift;
+} ps_pairs_error_law;
+
+double ps_pairs_rounding(const ps_pairs_error_law *law, const ps_problem *problem,
+                         double mean_power);
+
+typedef struct ps_pairs_degrees {
+    ps_device *device;
+    const ps_frequencies *frequencies;
+    ps_precision precision;
+    unsigned lanes;
+    size_t num_degrees, row_bytes; /* rounded up; of both parts */
+    cl_kernel fold;
+    double *power;   /* [batch][frequencies->num] */
+    void *host_sums; /* [batch][PS_PAIRS_PARTS][num_degrees] */
+    ps_buffer inverses, sums;
+} ps_pairs_degrees;
+
+/* Degrees of a row for degrees to max_degree. */
+size_t ps_pairs_num_degrees(int32_t max_degree);
+/* "-DPRECISION=.." of all kernels of pairs. */
+void ps_pairs_options(ps_text *options, const ps_problem *problem, ps_precision precision,
+                      unsigned lanes);
+
+/* Zeroed memory must be given; free it also after a failure. */
+pspec_status ps_pairs_degrees_create(ps_pairs_degrees *out, const ps_problem *problem,
+                                     ps_precision precision, unsigned lanes, size_t batch,
+                                     ps_device *device, ps_error *error) PS_MUST_CHECK;
+void ps_pairs_degrees_free(ps_pairs_degrees *degrees);
+
+/* Adds partials[num_patterns][num_runs][high, low][num_degrees] to the sums, which begin anew with is_first. */
+pspec_status ps_pairs_degrees_fold(ps_pairs_degrees *degrees, const ps_buffer *partials,
+                                   size_t num_patterns, size_t num_runs, bool is_first,
+                                   ps_error *error) PS_MUST_CHECK;
+/* The rows of a batch whose points these are. */
+pspec_status ps_pairs_degrees_read(ps_pairs_degrees *degrees, const ps_pairs_points *points,
+                                   const ps_batch *batch, ps_rows *rows,
+                                   ps_error *error) PS_MUST_CHECK;
+
+#endif

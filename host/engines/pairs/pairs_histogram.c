@@ -1,0 +1,373 @@
+/* The engine: runs of pairs in slabs, each run into a histogram of its own, all added up; then weights of nodes from the
+ * moments of the bins, and Legendre sums over the nodes. */
+#include "engines/pairs/pairs_histogram.h"
+
+#include "base/memory.h"
+#include "base/round.h"
+#include "engines/error_units.h"
+#include "engines/pairs/pairs_bins.h"
+#include "engines/pairs/pairs_degrees.h"
+#include "device/reals.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Histograms of the runs of a slab, for one realization. */
+static const double slab_bytes = 8.0 * 1024 * 1024;
+
+/* Pairs of a run at least, for each number of its histogram, which is cleared and added up: a tenth of the time of the
+ * pairs; and for a work-item to be worth it. */
+enum { PAIRS_PER_NUMBER = 4, LEAST_RUN = 1 << 14 };
+
+/* Of the tolerance, what bins may lose: more leaves too little for the rounding of single precision at 1e-5 and L = 500,
+ * and a quarter takes a tenth more bins than a half; but not less than precision does, nor so much that it shows in a
+ * plot. */
+static const double share_of_bins = 0.25;
+static const double least_bound[] = {[PS_SINGLE] = 1e-7, [PS_DOUBLE] = 1e-15};
+static const double largest_bound = 1e-3;
+
+typedef struct histogram_layout {
+    unsigned lanes;
+    size_t stride;                  /* of points */
+    size_t num_bins, num_nodes;     /* bins of either side; nodes of both, as many as moments */
+    uint64_t run_vectors, num_runs; /* of pairs */
+    size_t slab;                    /* runs of pairs at a time */
+    size_t node_runs;               /* of nodes */
+    size_t num_degrees;
+    double histogram_bytes, points_bytes, row_bytes;
+} histogram_layout;
+
+typedef struct pairs_histogram {
+    ps_device *device;
+    ps_precision precision;
+    double bound;
+    histogram_layout layout;
+    ps_pairs_points points;
+    ps_pairs_degrees degrees;
+    cl_kernel histogram_kernel, fold_kernel, nodes_kernel, sums_kernel;
+    ps_buffer scale, matrix, nodes;
+    ps_buffer partials, moments, weights, node_partials;
+} pairs_histogram;
+
+/* ---- what the planner asks --------------------------------------------------------------- */
+
+static size_t find_bins(const ps_problem *problem, ps_precision precision) {
+    const double wanted = fmin(share_of_bins * problem->tolerance, largest_bound);
+    return ps_pairs_bins_choose(problem->frequencies->max_frequency,
+                                fmax(wanted, least_bound[precision]));
+}
+
+static histogram_layout make_layout(const ps_problem *problem, const ps_device_limits *limits,
+                                    ps_precision precision) {
+    const uint64_t num_points = problem->num_points > 0 ? problem->num_points : 1;
+    const double real_bytes = (double)ps_real_bytes(precision);
+    histogram_layout out = {.lanes = ps_engine_lanes(limits, precision),
+                            .num_bins = find_bins(problem, precision),
+                            .num_degrees =
+                                ps_pairs_num_degrees(problem->frequencies->max_frequency)};
+    out.stride = ps_pairs_stride(num_points, out.lanes);
+    out.num_nodes = 2 * out.num_bins * PS_PAIRS_MOMENTS;
+    const uint64_t wanted = PAIRS_PER_NUMBER * out.num_nodes;
+    out.run_vectors = ps_divide_up(wanted > LEAST_RUN ? wanted : LEAST_RUN, out.lanes);
+    out.num_runs = ps_divide_up(ps_pairs_vectors(num_points, out.lanes), out.run_vectors);
+    out.num_runs = out.num_runs > 0 ? out.num_runs : 1;
+    out.node_runs = ps_divide_up(out.num_nodes / out.lanes, PS_PAIRS_RUN);
+    out.histogram_bytes = (double)out.num_nodes * real_bytes;
+    out.points_bytes = (double)(PS_PAIRS_ARRAYS * out.stride) * real_bytes;
+    out.row_bytes = (double)(PS_PAIRS_PARTS * out.num_degrees) * real_bytes;
+    const double fit = slab_bytes / out.histogram_bytes;
+    out.slab = fit < (double)out.num_runs ? (size_t)fmax(fit, 1) : (size_t)out.num_runs;
+    return out;
+}
+
+static double largest_buffer(const histogram_layout *layout) {
+    const double histograms = fmax((double)layout->slab, 2) * layout->histogram_bytes;
+    return fmax(fmax(histograms, layout->points_bytes),
+                (double)layout->node_runs * layout->row_bytes);
+}
+
+static bool applicable(const ps_problem *problem, const ps_device_limits *limits,
+                       ps_precision precision, const char **why_not) {
+    if (!ps_engine_sums_pairs(problem, why_not) ||
+        !ps_engine_on_device(limits, precision, why_not)) {
+        return false;
+    }
+    const histogram_layout layout = make_layout(problem, limits, precision);
+    if (largest_buffer(&layout) > (double)limits->max_allocation_bytes) {
+        *why_not = "needs a larger buffer than the device allows";
+        return false;
+    }
+    *why_not = NULL;
+    return true;
+}
+
+/* What a set costs besides, as pairs: 1 us for the kernels and 2 us of the host at N = 64 .. 256 (Zen 5, PoCL 3.1). */
+static const double pairs_per_set = 2500;
+
+static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
+                    ps_precision precision) {
+    const histogram_layout layout = make_layout(problem, limits, precision);
+    const double realizations =
+        problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
+    const double pairs = (double)ps_pairs_vectors(problem->num_points, layout.lanes) * layout.lanes;
+    const double slabs = ceil((double)layout.num_runs / (double)layout.slab);
+    const double tables = 3 * layout.histogram_bytes / 2 + layout.row_bytes;
+    const double histograms = ((double)layout.slab + 3) * layout.histogram_bytes;
+    const double rows = ((double)layout.node_runs + 1) * layout.row_bytes;
+    const double kernels = 5; /* histogram, nodes, their sums, two folds */
+    return (ps_work){
+        .kernels = kernels,
+        .binned_pairs = (pairs + pairs_per_set +
+                         (double)(layout.num_runs * layout.num_nodes) / PAIRS_PER_NUMBER) *
+                        realizations,
+        .pair_degrees = (double)layout.num_nodes *
+                        ((double)layout.num_degrees + PS_PAIR_BEGIN_DEGREES) * realizations,
+        .launches = 2 * slabs + 3,
+        .fixed_bytes = 2 * tables,
+        .host_bytes = tables,
+        .bytes_per_realization = layout.points_bytes + histograms + rows,
+        .row_bytes = (double)problem->frequencies->num * sizeof(double),
+        .point_bytes = layout.points_bytes + layout.row_bytes,
+        .largest_buffer_per_realization = largest_buffer(&layout)};
+}
+
+/* ---- create and destroy ------------------------------------------------------------------ */
+
+static void release_kernels(pairs_histogram *self) {
+    cl_kernel all[] = {self->histogram_kernel, self->fold_kernel, self->nodes_kernel,
+                       self->sums_kernel};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
+        if (all[i] != NULL) {
+            clReleaseKernel(all[i]);
+        }
+    }
+}
+
+static void destroy(void *state) {
+    pairs_histogram *self = state;
+    if (self == NULL) {
+        return;
+    }
+    ps_pairs_points_free(&self->points);
+    ps_pairs_degrees_free(&self->degrees);
+    release_kernels(self);
+    ps_buffer_release(&self->scale);
+    ps_buffer_release(&self->matrix);
+    ps_buffer_release(&self->nodes);
+    ps_buffer_release(&self->partials);
+    ps_buffer_release(&self->moments);
+    ps_buffer_release(&self->weights);
+    ps_buffer_release(&self->node_partials);
+    free(self);
+}
+
+static pspec_status create_kernels(pairs_histogram *self, const ps_problem *problem,
+                                   ps_error *error) {
+    ps_text options = {0};
+    pspec_status status = PSPEC_OK;
+    ps_pairs_options(&options, problem, self->precision, self->layout.lanes);
+    PS_TRY_OUT(status, ps_text_check(&options, error));
+    PS_TRY_OUT(status, ps_kernel_create(self->device, &self->histogram_kernel, "pairs/histogram.cl",
+                                        "pairs_histogram", ps_text_string(&options), error));
+    PS_TRY_OUT(status, ps_kernel_create(self->device, &self->nodes_kernel, "pairs/nodes.cl",
+                                        "pairs_nodes", ps_text_string(&options), error));
+    PS_TRY_OUT(status, ps_kernel_create(self->device, &self->sums_kernel, "pairs/nodes_sums.cl",
+                                        "pairs_nodes_sums", ps_text_string(&options), error));
+    ps_text_append(&options, " -DPARTS=1");
+    PS_TRY_OUT(status, ps_text_check(&options, error));
+    PS_TRY_OUT(status, ps_kernel_create(self->device, &self->fold_kernel, "pairs/fold.cl",
+                                        "pairs_fold", ps_text_string(&options), error));
+out:
+    ps_text_free(&options);
+    return status;
+}
+
+static pspec_status upload_tables(pairs_histogram *self, ps_error *error) {
+    const double sqrt2 = 1.4142135623730951;
+    const double per_chord = (double)self->layout.num_bins / sqrt2;
+    double matrix[PS_PAIRS_MOMENTS * PS_PAIRS_MOMENTS];
+    void *nodes = NULL;
+    PS_TRY(ps_reals_upload(self->device, &self->scale, self->precision, &per_chord, 1,
+                           "the width of a bin", error));
+    ps_pairs_bins_matrix(matrix);
+    PS_TRY(ps_reals_upload(self->device, &self->matrix, self->precision, matrix,
+                           sizeof matrix / sizeof matrix[0], "a table of cosines", error));
+    PS_TRY(ps_allocate(&nodes, 2 * self->layout.num_nodes, sizeof(double), "nodes", error));
+    ps_pairs_bins_nodes(self->layout.num_bins, nodes);
+    const pspec_status status = ps_reals_upload(self->device, &self->nodes, self->precision, nodes,
+                                                2 * self->layout.num_nodes, "nodes", error);
+    free(nodes);
+    return status;
+}
+
+static pspec_status create_buffers(pairs_histogram *self, size_t batch, ps_error *error) {
+    const histogram_layout *layout = &self->layout;
+    const size_t histogram = layout->num_nodes * ps_real_bytes(self->precision);
+    PS_TRY(ps_buffer_create(self->device, &self->partials, batch * layout->slab * histogram,
+                            "histograms of runs of pairs", error));
+    PS_TRY(ps_buffer_create(self->device, &self->moments, batch * PS_PAIRS_PARTS * histogram,
+                            "histograms", error));
+    PS_TRY(ps_buffer_create(self->device, &self->weights, batch * histogram, "weights of nodes",
+                            error));
+    return ps_buffer_create(self->device, &self->node_partials,
+                            batch * layout->node_runs * self->degrees.row_bytes,
+                            "sums of runs of nodes", error);
+}
+
+static pspec_status create(void **state, const ps_problem *problem, ps_precision precision,
+                           size_t batch, ps_device *device, ps_error *error) {
+    void *memory = NULL;
+    *state = NULL;
+    PS_TRY(ps_allocate(&memory, 1, sizeof(pairs_histogram), "an engine", error));
+    pairs_histogram *self = memory;
+    pspec_status status = PSPEC_OK;
+    self->device = device;
+    self->precision = precision;
+    self->layout = make_layout(problem, ps_device_get_limits(device), precision);
+    self->bound = ps_pairs_bins_bound(problem->frequencies->max_frequency, self->layout.num_bins);
+    PS_TRY_OUT(status, ps_pairs_points_create(&self->points, problem->num_points, batch, precision,
+                                              self->layout.lanes, device, error));
+    PS_TRY_OUT(status, ps_pairs_degrees_create(&self->degrees, problem, precision,
+                                               self->layout.lanes, batch, device, error));
+    PS_TRY_OUT(status, create_kernels(self, problem, error));
+    PS_TRY_OUT(status, upload_tables(self, error));
+    PS_TRY_OUT(status, create_buffers(self, batch, error));
+    *state = self;
+out:
+    if (status != PSPEC_OK) {
+        destroy(self);
+    }
+    return status;
+}
+
+static size_t get_stride(const void *state) {
+    return ((const pairs_histogram *)state)->degrees.frequencies->num;
+}
+
+/* ---- run --------------------------------------------------------------------------------- */
+
+static pspec_status add_slab(pairs_histogram *self, size_t num_patterns, uint64_t first,
+                             size_t num_runs, ps_error *error) {
+    const histogram_layout *layout = &self->layout;
+    const double flops_per_pair = 40; /* counted in the source */
+    const double flops_per_number = 6;
+    const double rows = (double)(num_runs * num_patterns);
+    const double pairs = rows * (double)(layout->run_vectors * layout->lanes);
+    const ps_range range = {.rank = 3,
+                            .global = {num_runs, num_patterns, 1},
+                            .local = {1, 1, 1},
+                            .flops = flops_per_pair * pairs};
+    const ps_range fold = ps_range_heavy(
+        self->device, layout->num_nodes / layout->lanes, num_patterns, 1,
+        flops_per_number * rows * (double)layout->num_nodes, rows * layout->histogram_bytes);
+    PS_TRY(PS_LAUNCH(self->device, self->histogram_kernel, &range, error,
+                     PS_BUFFER(self->points.points), PS_BUFFER(self->points.counts),
+                     PS_BUFFER(self->partials), PS_U64(layout->stride), PS_U64(first),
+                     PS_U64(layout->run_vectors), PS_U32(layout->num_bins),
+                     PS_BUFFER(self->scale)));
+    return PS_LAUNCH(self->device, self->fold_kernel, &fold, error, PS_BUFFER(self->partials),
+                     PS_BUFFER(self->moments), PS_U64(num_runs), PS_U32(layout->num_nodes),
+                     PS_U32(first == 0));
+}
+
+/* Legendre sums from the histograms. */
+static pspec_status sum_nodes(pairs_histogram *self, size_t num_patterns, ps_error *error) {
+    const histogram_layout *layout = &self->layout;
+    const double flops_per_degree = 6;
+    const double numbers = (double)(layout->num_nodes * num_patterns);
+    const ps_range nodes = ps_range_heavy(self->device, 2 * layout->num_bins, num_patterns, 1,
+                                          2 * PS_PAIRS_MOMENTS * numbers,
+                                          4 * layout->histogram_bytes * (double)num_patterns);
+    const ps_range range = {.rank = 3,
+                            .global = {layout->node_runs, num_patterns, 1},
+                            .local = {1, 1, 1},
+                            .flops = flops_per_degree * numbers * (double)layout->num_degrees};
+    PS_TRY(PS_LAUNCH(self->device, self->nodes_kernel, &nodes, error, PS_BUFFER(self->moments),
+                     PS_BUFFER(self->matrix), PS_BUFFER(self->weights),
+                     PS_U64(2 * layout->num_bins), PS_U64(layout->num_nodes)));
+    PS_TRY(PS_LAUNCH(self->device, self->sums_kernel, &range, error, PS_BUFFER(self->nodes),
+                     PS_BUFFER(self->weights), PS_BUFFER(self->degrees.inverses),
+                     PS_BUFFER(self->node_partials), PS_U64(layout->num_nodes),
+                     PS_U32(layout->num_degrees)));
+    return ps_pairs_degrees_fold(&self->degrees, &self->node_partials, num_patterns,
+                                 layout->node_runs, true, error);
+}
+
+static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_error *error) {
+    pairs_histogram *self = state;
+    const uint64_t num_runs =
+        ps_pairs_count_runs(batch, self->layout.lanes, self->layout.run_vectors);
+    const size_t slab = self->layout.slab;
+    PS_TRY(ps_pairs_points_upload(&self->points, batch, error));
+    for (uint64_t first = 0; first < num_runs; first += slab) {
+        const uint64_t rest = num_runs - first;
+        PS_TRY(ps_batch_go_on(batch, error));
+        PS_TRY(
+            add_slab(self, batch->num_patterns, first, rest < slab ? (size_t)rest : slab, error));
+    }
+    PS_TRY(sum_nodes(self, batch->num_patterns, error));
+    return ps_pairs_degrees_read(&self->degrees, &self->points, batch, rows, error);
+}
+
+size_t ps_pairs_histogram_num_bins(const void *state) {
+    return ((const pairs_histogram *)state)->layout.num_bins;
+}
+
+pspec_status ps_pairs_histogram_weights(void *state, double *weights, ps_error *error) {
+    const pairs_histogram *self = state;
+    const size_t num = self->layout.num_nodes;
+    PS_TRY(ps_buffer_read(self->device, &self->weights, 0, weights,
+                          num * ps_real_bytes(self->precision), error));
+    for (size_t i = num; self->precision == PS_SINGLE && i-- > 0;) { /* from the end, in place */
+        float single = 0;
+        memcpy(&single, (const char *)weights + i * sizeof single, sizeof single);
+        weights[i] = (double)single;
+    }
+    return PSPEC_OK;
+}
+
+static void describe(const void *state, ps_text *text) {
+    const pairs_histogram *self = state;
+    ps_text_append(
+        text, "(pairs_histogram precision=%s lanes=%u bins=2x%zu moments=%d bound=%.2g%s)",
+        ps_precision_name(self->precision), self->layout.lanes, self->layout.num_bins,
+        PS_PAIRS_MOMENTS, self->bound, self->degrees.frequencies->degree_step == 2 ? " even" : "");
+}
+
+/* ---- error ------------------------------------------------------------------------------- */
+
+/* The bound of the bins, and rounding, mostly of the place in a bin. Pairs of the same chord go into one bin, where a run
+ * adds them up one by one: if all are alike, each addition may round by half a unit, the same way. */
+static const ps_pairs_error_law error_laws[] = {
+    [PS_SINGLE] = {1e-6, 2e-7, 3e-8}, [PS_DOUBLE] = {5e-15, 4e-16, 6e-17}};
+
+static double error_of(const ps_problem *problem, const ps_device_limits *limits,
+                       ps_precision precision, double mean_power) {
+    static const double half_unit[] = {[PS_SINGLE] = 0x1p-25, [PS_DOUBLE] = 0x1p-54};
+    const histogram_layout layout = make_layout(problem, limits, precision);
+    const double num = (double)problem->num_points;
+    const double pairs = fmin((double)layout.run_vectors * layout.lanes, num * (num - 1) / 2);
+    const double share = fmin(1, fabs(mean_power) * ps_weight_share(problem));
+    return half_unit[precision] * pairs * share +
+           ps_pairs_bins_bound(problem->frequencies->max_frequency, find_bins(problem, precision)) +
+           ps_pairs_rounding(&error_laws[precision], problem, mean_power);
+}
+
+const ps_engine ps_pairs_histogram = {
+    .name = "pairs_histogram",
+    .summary = "a histogram of the chords of all pairs of points on the device",
+    .domains = PS_ON_SPHERE,
+    .needs_device = true,
+    .rows_on_host = true,
+    .sums_pairs = true,
+    .has_precision = {true, true, false},
+    .applicable = applicable,
+    .work = work,
+    .error = error_of,
+    .create = create,
+    .get_stride = get_stride,
+    .run = run,
+    .describe = describe,
+    .destroy = destroy,
+};

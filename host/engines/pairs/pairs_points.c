@@ -1,0 +1,142 @@
+#include "engines/pairs/pairs_points.h"
+
+#include "base/memory.h"
+#include "base/round.h"
+#include "base/workers.h"
+#include "device/reals.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { LOW = 3, WEIGHT = 6, OWN_WEIGHT = 7 };
+
+size_t ps_pairs_stride(uint64_t num_points, unsigned lanes) {
+    return ps_round_up(num_points, lanes) + ps_round_up(num_points / 2, lanes);
+}
+
+uint64_t ps_pairs_vectors(uint64_t num_points, unsigned lanes) {
+    return num_points / 2 * ps_divide_up(num_points, lanes);
+}
+
+uint64_t ps_pairs_count_runs(const ps_batch *batch, unsigned lanes, uint64_t run_vectors) {
+    uint64_t most = 0;
+    for (size_t r = 0; r < batch->num_patterns; r++) {
+        const uint64_t vectors = ps_pairs_vectors(batch->patterns[r].num_points, lanes);
+        most = vectors > most ? vectors : most;
+    }
+    return most > 0 ? ps_divide_up(most, run_vectors) : 1;
+}
+
+static pspec_status allocate(ps_pairs_points *self, ps_error *error) {
+    void *memory = NULL;
+    size_t num = 0;
+    if (!ps_size_multiply(self->batch, PS_PAIRS_ARRAYS * self->stride, &num)) {
+        return ps_fail(error, PSPEC_ERROR_MEMORY, "%zu realizations of %zu points are too many",
+                       self->batch, self->stride);
+    }
+    PS_TRY(ps_allocate(&self->host_points, num, ps_real_bytes(self->precision), "points", error));
+    PS_TRY(ps_allocate(&memory, self->batch, sizeof(uint64_t), "numbers of points", error));
+    self->host_counts = memory;
+    PS_TRY(ps_allocate(&memory, self->batch, 2 * sizeof(double), "sums of weights", error));
+    self->squares = memory;
+    self->sizes = self->squares + self->batch;
+    PS_TRY(ps_buffer_create(self->device, &self->points, num * ps_real_bytes(self->precision),
+                            "points", error));
+    return ps_buffer_create(self->device, &self->counts, self->batch * sizeof(uint64_t),
+                            "numbers of points", error);
+}
+
+pspec_status ps_pairs_points_create(ps_pairs_points *out, uint64_t num_points, size_t batch,
+                                    ps_precision precision, unsigned lanes, ps_device *device,
+                                    ps_error *error) {
+    *out = (ps_pairs_points){.device = device,
+                             .precision = precision,
+                             .lanes = lanes,
+                             .stride = ps_pairs_stride(num_points, lanes),
+                             .batch = batch};
+    return allocate(out, error);
+}
+
+void ps_pairs_points_free(ps_pairs_points *self) {
+    free(self->host_points);
+    free(self->host_counts);
+    free(self->squares);
+    ps_buffer_release(&self->points);
+    ps_buffer_release(&self->counts);
+    *self = (ps_pairs_points){0};
+}
+
+static void put(const ps_pairs_points *self, size_t at, double value) {
+    if (self->precision == PS_SINGLE) {
+        ((float *)self->host_points)[at] = (float)value;
+    } else {
+        ((double *)self->host_points)[at] = value;
+    }
+}
+
+/* A number as working precision has it, and what that leaves. */
+static void put_parts(const ps_pairs_points *self, size_t at, long double value) {
+    const double high = self->precision == PS_SINGLE ? (double)(float)value : (double)value;
+    put(self, at, high);
+    put(self, at + LOW * self->stride, (double)(value - high));
+}
+
+/* Point j of a pattern to place `at` of its arrays. */
+static void put_point(const ps_pairs_points *self, size_t first, size_t at,
+                      const pspec_pattern *pattern, size_t j, int exponent) {
+    const double *u = pattern->points + j * PS_SPHERE_DIMENSION;
+    const long double x = u[0], y = u[1], z = u[2];
+    const long double length = sqrtl(x * x + y * y + z * z);
+    const double weight = ldexp(pattern->weights != NULL ? pattern->weights[j] : 1, -exponent);
+    put_parts(self, first + at, x / length);
+    put_parts(self, first + self->stride + at, y / length);
+    put_parts(self, first + 2 * self->stride + at, z / length);
+    put(self, first + WEIGHT * self->stride + at, weight);
+    put(self, first + OWN_WEIGHT * self->stride + at, at < pattern->num_points ? weight : 0);
+}
+
+static void count_weights(ps_pairs_points *self, size_t r, const pspec_pattern *pattern,
+                          int exponent) {
+    long double squares = 0;
+    long double sizes = 0;
+    for (size_t j = 0; j < pattern->num_points; j++) {
+        const long double weight =
+            ldexpl(pattern->weights != NULL ? pattern->weights[j] : 1, -exponent);
+        squares += weight * weight;
+        sizes += fabsl(weight);
+    }
+    self->squares[r] = (double)squares;
+    self->sizes[r] = (double)sizes;
+}
+
+typedef struct task {
+    ps_pairs_points *points;
+    const ps_batch *batch;
+} task;
+
+/* The points of some realizations, which go on with the first ones again. */
+static void put_some(void *payload, unsigned index, unsigned count) {
+    const task *all = payload;
+    ps_pairs_points *self = all->points;
+    for (size_t r = index; r < all->batch->num_patterns; r += count) {
+        const pspec_pattern *pattern = &all->batch->patterns[r];
+        const int exponent = all->batch->exponents != NULL ? all->batch->exponents[r] : 0;
+        const size_t first = r * PS_PAIRS_ARRAYS * self->stride;
+        const size_t num = ps_pairs_stride(pattern->num_points, self->lanes);
+        for (size_t at = 0; at < num; at++) {
+            put_point(self, first, at, pattern, at % pattern->num_points, exponent);
+        }
+        self->host_counts[r] = pattern->num_points;
+        count_weights(self, r, pattern, exponent);
+    }
+}
+
+pspec_status ps_pairs_points_upload(ps_pairs_points *self, const ps_batch *batch, ps_error *error) {
+    const size_t bytes =
+        batch->num_patterns * PS_PAIRS_ARRAYS * self->stride * ps_real_bytes(self->precision);
+    task all = {self, batch};
+    ps_workers_share(batch->num_patterns * self->stride, put_some, &all);
+    PS_TRY(ps_buffer_write(self->device, &self->points, 0, self->host_points, bytes, error));
+    return ps_buffer_write(self->device, &self->counts, 0, self->host_counts,
+                           batch->num_patterns * sizeof(uint64_t), error);
+}

@@ -1,0 +1,184 @@
+#include "engines/pairs/pairs_product.h"
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "base/round.h"
+#include "device/reals.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Points of a segment: some 20 microseconds of a work-item, and few enough segments for the host to add up. */
+enum { SEGMENT = 4096, AXES = 3, PARTS = 2 };
+/* Strides are multiples of all numbers of lanes and of the kernel's BLOCK. */
+enum { UNIT = 16 };
+
+struct ps_pairs_product {
+    ps_device *device;
+    size_t num_points, stride, num_segments;
+    unsigned lanes;
+    cl_kernel kernel;
+    ps_buffer points, x, power, partials;
+    double *host;   /* [num_segments][PARTS][stride] */
+    double *padded; /* [stride]: x, and 0 beyond it */
+};
+
+static size_t stride_of(uint64_t num_points) {
+    return ps_round_up((size_t)num_points, UNIT);
+}
+
+static size_t count_segments(size_t stride) {
+    return (size_t)ps_divide_up(stride, SEGMENT);
+}
+
+bool ps_pairs_product_is_possible(const ps_device *device) {
+    return device != NULL && ps_device_get_limits(device)->has_fp64;
+}
+
+uint64_t ps_pairs_product_bytes(uint64_t num_points) {
+    enum { HOST_AND_DEVICE = 2 };
+    const uint64_t stride = stride_of(num_points);
+    const uint64_t columns =
+        AXES + HOST_AND_DEVICE * (1 + PARTS * (uint64_t)count_segments((size_t)stride));
+    return columns * stride * sizeof(double);
+}
+
+static pspec_status create_kernel(ps_pairs_product *self, double power, ps_error *error) {
+    const double root = 0.5;
+    ps_text options = {0};
+    pspec_status status = PSPEC_OK;
+    ps_text_append(&options, "-DPRECISION=64 -DLANES=%u -DROOT=%d", self->lanes, power == root);
+    PS_TRY_OUT(status, ps_text_check(&options, error));
+    PS_TRY_OUT(status, ps_kernel_create(self->device, &self->kernel, "pairs/product.cl",
+                                        "pairs_product", ps_text_string(&options), error));
+out:
+    ps_text_free(&options);
+    return status;
+}
+
+/* Coordinates in columns. */
+static pspec_status upload_points(ps_pairs_product *self, const double *points, ps_error *error) {
+    const size_t row = self->stride * sizeof(double);
+    PS_TRY(ps_buffer_create(self->device, &self->points, AXES * row, "points", error));
+    for (size_t axis = 0; axis < AXES; axis++) {
+        for (size_t j = 0; j < self->num_points; j++) {
+            self->padded[j] = points[AXES * j + axis];
+        }
+        PS_TRY(ps_buffer_write(self->device, &self->points, axis * row, self->padded, row, error));
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status fill(ps_pairs_product *self, double power, const double *points,
+                         ps_error *error) {
+    void *memory = NULL;
+    size_t num = 0;
+    if (!ps_size_multiply(self->num_segments * PARTS, self->stride, &num)) {
+        return ps_fail(error, PSPEC_ERROR_MEMORY, "%zu points are too many for a product",
+                       self->num_points);
+    }
+    PS_TRY(ps_allocate(&memory, num, sizeof(double), "sums of segments of points", error));
+    self->host = memory;
+    PS_TRY(ps_allocate(&memory, self->stride, sizeof(double), "a vector", error));
+    self->padded = memory;
+    PS_TRY(create_kernel(self, power, error));
+    PS_TRY(upload_points(self, points, error));
+    PS_TRY(ps_reals_upload(self->device, &self->power, PS_DOUBLE, &power, 1, "a power", error));
+    PS_TRY(
+        ps_buffer_create(self->device, &self->x, self->stride * sizeof(double), "a vector", error));
+    return ps_buffer_create(self->device, &self->partials, num * sizeof(double),
+                            "sums of segments of points", error);
+}
+
+pspec_status ps_pairs_product_create(ps_pairs_product **out, ps_device *device, double power,
+                                     size_t num_points, const double *points, ps_error *error) {
+    void *memory = NULL;
+    *out = NULL;
+    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_pairs_product), "a product", error));
+    ps_pairs_product *const self = memory;
+    self->device = device;
+    self->num_points = num_points;
+    self->stride = stride_of(num_points);
+    self->num_segments = count_segments(self->stride);
+    self->lanes = ps_engine_lanes(ps_device_get_limits(device), PS_DOUBLE);
+    const pspec_status status = fill(self, power, points, error);
+    if (status != PSPEC_OK) {
+        ps_pairs_product_destroy(self);
+        return status;
+    }
+    *out = self;
+    return PSPEC_OK;
+}
+
+void ps_pairs_product_destroy(ps_pairs_product *self) {
+    if (self == NULL) {
+        return;
+    }
+    if (self->kernel != NULL) {
+        clReleaseKernel(self->kernel);
+    }
+    ps_buffer_release(&self->points);
+    ps_buffer_release(&self->x);
+    ps_buffer_release(&self->power);
+    ps_buffer_release(&self->partials);
+    free(self->host);
+    free(self->padded);
+    free(self);
+}
+
+/* Segment after segment, high parts first where both are of one segment. */
+static void add_up(const ps_pairs_product *self, double *out) {
+    for (size_t i = 0; i < self->num_points; i++) {
+        long double sum = 0;
+        for (size_t row = 0; row < self->num_segments * PARTS; row++) {
+            sum += self->host[row * self->stride + i];
+        }
+        out[i] = (double)sum;
+    }
+}
+
+/* So many vectors of points, from the first on, with all points. */
+static pspec_status launch(ps_pairs_product *self, size_t first, size_t num, ps_error *error) {
+    const double flops_per_pair = 12;
+    const double pairs = (double)num * self->lanes * (double)self->stride;
+    ps_range range =
+        ps_range_heavy(self->device, num, self->num_segments, 1, flops_per_pair * pairs, 0);
+    range.offset[0] = first;
+    PS_TRY(PS_LAUNCH(self->device, self->kernel, &range, error, PS_BUFFER(self->points),
+                     PS_BUFFER(self->x), PS_BUFFER(self->power), PS_BUFFER(self->partials),
+                     PS_U64(self->stride), PS_U64(SEGMENT)));
+    return ps_device_finish(self->device, error);
+}
+
+/* In launches that take about a tenth of a second, between which the watch is told. What the last one of a launch
+ * rounds up to, the next one does again: the same bits. */
+static pspec_status launch_all(ps_pairs_product *self, const ps_watch *watch, ps_error *error) {
+    const double first_pairs = 1 << 26; /* some hundredths of a second of two cores */
+    const double enough =
+        0.05; /* seconds; a launch of half as many pairs may be followed by a whole one */
+    const size_t num_vectors = self->stride / self->lanes;
+    size_t num = (size_t)(first_pairs / (double)self->lanes / (double)self->stride) + UNIT;
+    for (size_t first = 0; first < num_vectors;) {
+        const size_t left = num_vectors - first;
+        const double begin = ps_clock_seconds();
+        PS_TRY(ps_watch_tell(watch, "points", first * self->lanes, self->num_points, NULL, error));
+        PS_TRY(launch(self, first, num < left ? num : left, error));
+        first += num < left ? num : left;
+        num *= ps_clock_seconds() - begin < enough ? 2 : 1;
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_pairs_product_apply(ps_pairs_product *self, const double *x, double *out,
+                                    const ps_watch *watch, ps_error *error) {
+    const size_t bytes = self->stride * sizeof(double);
+    memcpy(self->padded, x, self->num_points * sizeof *x);
+    memset(self->padded + self->num_points, 0,
+           (self->stride - self->num_points) * sizeof *self->padded);
+    PS_TRY(ps_buffer_write(self->device, &self->x, 0, self->padded, bytes, error));
+    PS_TRY(launch_all(self, watch, error));
+    PS_TRY(ps_buffer_read(self->device, &self->partials, 0, self->host,
+                          self->num_segments * PARTS * bytes, error));
+    add_up(self, out);
+    return PSPEC_OK;
+}

@@ -1,0 +1,115 @@
+/* The error formula of sphere_nufft and sphere_grid: docs/sphere_nufft.md has the reasons. All errors are in units of the root of
+ * sum w^2; constants were measured, and are held, by tests/engines/test_sphere_nufft_sweep.c. */
+#include "engines/nufft/plan.h"
+#include "engines/sphere/nufft/shape.h"
+
+#include <math.h>
+
+static const double pi = 3.141592653589793;
+static const double unit_roundoff[2] = {0x1p-24, 0x1p-53};
+
+/* A set that is regular along an axis, circles of n - m points or as many circles, may have all its power where
+ * aliases harm most: order 0 (or k = 0) comes back at m and -m. */
+static const double in_step = 1;
+
+/* Peaks of lattices, of power N: on a line of aliases, two, of both signs (nufft_error.c). */
+static const double peaks = 4;
+
+/* Of rounding, in units of roundoff: of points and coefficients, whatever the grid; of windows; of each pass of
+ * the transforms, three by rings and one by cells; of sums in dense cells; of coincident points; of the recurrence of Lambda_lm and of sums over
+ * rings, for the root of their number. */
+static const double point_roundings = 2;
+static const double window_roundings = 4;
+static const double cell_roundings = 3.5; /* the same by cells, and of the table */
+static const double roundings_per_pass = 0.4;
+static const double dense_roundings =
+    2; /* 1.4 with a million points: pointspec stress --case sphere-sum-1e6 */
+static const double coherent_roundings = 0.3;
+static const double ring_roundings = 0.3;
+
+/* Angles are made of vectors in double precision: half a unit in the last place of a number below pi or so, times the
+ * order or degree. In single precision next to nothing. */
+static const double angle_roundings = 1.5;
+
+/* ---- aliases ----------------------------------------------------------------------------- */
+
+/* What aliases k + i n make of frequency k, |k| <= n / 2: the sum of their squares, and the square of the sum of their
+ * sizes. */
+static void aliases_of(const ps_nufft_axis *axis, double k, double *squares, double *square) {
+    enum {
+        ALIASES = 8
+    }; /* of each sign. With 1 / i in the end, but these are enough for points on cells */
+    const double own = ps_nufft_window_transform(&axis->window, (long double)k / axis->n);
+    double sum = 0;
+    *squares = 0;
+    for (int i = -ALIASES; i <= ALIASES; i++) {
+        const double other =
+            ps_nufft_window_transform(&axis->window, (long double)k / axis->n + i) / own;
+        *squares += i != 0 ? other * other : 0;
+        sum += i != 0 ? fabs(other) : 0;
+    }
+    *square = sum * sum;
+}
+
+/* Frequencies count by their share in Y_lm, mean over all l <= L and m: order x L by how many degrees it has,
+ * 2 (1 - x); frequency x L of theta by 4 / pi sqrt(1 - x^2), since the mean of |Lambda_lm|^2 over m is that of
+ * P_l. Both are small at the edge, where aliases are largest. x = sin(t) for a smooth integrand. */
+void ps_sphere_nufft_loss(const ps_nufft_axis *axis, double *aliasing, double *worst) {
+    enum { STEPS = 24 };
+    double worst_around = 0;
+    double worst_along = 0;
+    *aliasing = 0;
+    for (int i = 0; i < STEPS; i++) {
+        const double t = pi / 2 * (i + 0.5) / STEPS;
+        const double around = 2 * (1 - sin(t));
+        const double along = 4 / pi * cos(t);
+        double squares = 0;
+        double square = 0;
+        aliases_of(axis, fmin(axis->max_frequency, (axis->max_frequency + 1) * sin(t)), &squares,
+                   &square);
+        *aliasing += squares * (around + along) * cos(t) * pi / 2 / STEPS;
+        worst_around = fmax(worst_around, around * square);
+        worst_along = fmax(worst_along, along * square);
+    }
+    *worst = worst_around + worst_along;
+}
+
+/* Few degrees are less of a mean than many: points at the poles, all of whose aliases are in step, were off by 1.25
+ * times the rest of the formula at L = 3, by no more from L = 9 on. */
+static const double few_degrees = 3;
+
+static double aliasing_of(const ps_nufft_axis *axis, const ps_problem *problem, double power) {
+    const double modes = pow(2.0 * axis->max_frequency + 1, 2);
+    const double points_per_mode = ps_nufft_points(problem) / modes;
+    return sqrt(
+        (axis->loss.aliasing + axis->loss.worst * (in_step * power + peaks * points_per_mode)) *
+        (1 + few_degrees / axis->max_frequency));
+}
+
+/* ---- all --------------------------------------------------------------------------------- */
+
+double ps_sphere_nufft_error(const ps_nufft_axis *axis, const ps_problem *problem,
+                             ps_precision precision, double mean_power, ps_sphere_route route) {
+    const double grid_roundings = route == PS_SPHERE_BY_RINGS
+                                      ? window_roundings + 3 * axis->passes * roundings_per_pass
+                                      : cell_roundings + axis->passes * roundings_per_pass;
+    const double power = mean_power > 1 ? mean_power : 1;
+    const double unit = unit_roundoff[precision];
+    const double L = axis->max_frequency;
+    const double points = ps_nufft_points(problem);
+    /* Degree 0 is in the cells, too. */
+    const double with_mean = power + points / ((L + 1) * (L + 1));
+    const double cells = (double)axis->n * axis->n / 2;
+    const double touching = points * pow(axis->window.width, 2) / cells;
+    const double polynomials = PS_NUFFT_POLYNOMIAL_SHARE * problem->tolerance * sqrt(2 * power);
+    const double each = hypot(grid_roundings, dense_roundings * sqrt(touching));
+    const double amplification = axis->loss.amplification * axis->loss.amplification;
+    const double rounding = unit * amplification * each * sqrt(with_mean);
+    const double rings = unit * ring_roundings * sqrt(L * with_mean);
+    const double coherent = unit * coherent_roundings * power * sqrt(power);
+    const double angles = unit_roundoff[PS_DOUBLE] * angle_roundings * L;
+    const double given = hypot(unit * point_roundings, angles) * sqrt(power);
+    return hypot(hypot(aliasing_of(axis, problem, power), polynomials),
+                 hypot(hypot(rounding, rings), given)) +
+           coherent;
+}

@@ -1,0 +1,118 @@
+#include "engines/sphere/nufft/grid_stages.h"
+
+#include "engines/nufft/fft.h"
+#include "device/reals.h"
+
+/* Of powers, and of coefficients. */
+static const char sums_file[] = "sphere/grid_sums.cl";
+static const char sums_name[] = "sphere_grid_sums";
+
+/* ---- create ------------------------------------------------------------------------------ */
+
+static pspec_status create_kernels(ps_sphere_grid_stages *self, ps_error *error) {
+    PS_TRY(ps_sphere_kernel_create(&self->powers, &self->make, "sphere/grid_values.cl",
+                                   "sphere_grid_values", false, error));
+    return ps_sphere_kernel_create(&self->powers, &self->sum, sums_file, sums_name, false, error);
+}
+
+static pspec_status create_buffers(ps_sphere_grid_stages *self, ps_error *error) {
+    const ps_sphere_shape *shape = self->shape;
+    const ps_sphere_bytes bytes = ps_sphere_bytes_of(shape, ps_real_bytes(self->precision));
+    const struct {
+        ps_buffer *buffer;
+        size_t bytes;
+        const char *what;
+    } wanted[] = {{&self->grids, bytes.grids, "grids of the sphere"},
+                  {&self->scratch, bytes.scratch, "rows of transforms"},
+                  {&self->values, shape->at_once * bytes.values + bytes.gaps, "values on angles"}};
+    for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
+        PS_TRY(ps_buffer_create(self->device, wanted[i].buffer, wanted[i].bytes, wanted[i].what,
+                                error));
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_sphere_grid_stages_create(ps_sphere_grid_stages *out, const ps_sphere_shape *shape,
+                                          const ps_sphere_places *points,
+                                          const ps_sphere_tables *tables, bool only_even,
+                                          ps_precision precision, ps_device *device,
+                                          ps_error *error) {
+    *out = (ps_sphere_grid_stages){.device = device,
+                                   .precision = precision,
+                                   .only_even = only_even,
+                                   .shape = shape,
+                                   .points = points,
+                                   .tables = tables};
+    PS_TRY(ps_sphere_grid_table_create(&out->table, shape, only_even, precision, device, error));
+    PS_TRY(ps_sphere_powers_create(&out->powers, shape, precision, device, error));
+    PS_TRY(create_kernels(out, error));
+    return create_buffers(out, error);
+}
+
+void ps_sphere_grid_stages_free(ps_sphere_grid_stages *stages) {
+    const cl_kernel kernels[] = {stages->make, stages->sum};
+    for (size_t i = 0; i < sizeof kernels / sizeof kernels[0]; i++) {
+        if (kernels[i] != NULL) {
+            clReleaseKernel(kernels[i]);
+        }
+    }
+    ps_sphere_grid_table_free(&stages->table);
+    ps_buffer_release(&stages->grids);
+    ps_buffer_release(&stages->scratch);
+    ps_buffer_release(&stages->values);
+    ps_sphere_powers_free(&stages->powers);
+    *stages = (ps_sphere_grid_stages){0};
+}
+
+/* ---- run --------------------------------------------------------------------------------- */
+
+pspec_status ps_sphere_grid_make_values(ps_sphere_grid_stages *self, size_t first_value, size_t num,
+                                        ps_error *error) {
+    const ps_sphere_shape *shape = self->shape;
+    const ps_sphere_tables *tables = self->tables;
+    const ps_nufft_plan *plan = &tables->plan;
+    const ps_sphere_local local = ps_sphere_local_bytes(shape, ps_real_bytes(self->precision));
+    const size_t slots = num < shape->slots ? num : shape->slots;
+    const double transforms = (double)num * shape->num_angles * 2;
+    const ps_range range = ps_sphere_group_range(self->device, self->powers.is_alone, slots,
+                                                 transforms * ps_fft_flops(plan->axis.n / 2));
+    return PS_LAUNCH(self->device, self->make, &range, error, PS_BUFFER(self->points->turns),
+                     PS_BUFFER(self->points->weights), PS_BUFFER(self->points->offsets),
+                     PS_U32(num), PS_BUFFER(plan->coefficients), PS_U32(plan->axis.n),
+                     PS_U32(plan->axis.window.width), PS_U32(plan->degree), PS_U32(plan->bins),
+                     PS_BUFFER(tables->halves.radices), PS_BUFFER(tables->halves.twiddles),
+                     PS_BUFFER(tables->halves.position), PS_BUFFER(tables->around_gains),
+                     PS_BUFFER(self->table.begins), PS_U32(shape->most_runs),
+                     PS_U32(shape->max_degree), PS_U32(self->only_even), PS_U32(shape->pitch),
+                     PS_U32(shape->pole), PS_U32(shape->num_angles), PS_BUFFER(self->grids),
+                     PS_BUFFER(self->values), PS_U32(first_value), PS_U32(shape->at_once),
+                     PS_BUFFER(self->scratch), PS_LOCAL(local.windows), PS_LOCAL(local.cells));
+}
+
+/* ps_sphere_launch_sums */
+static pspec_status sum_cells(void *stages, cl_kernel kernel, const ps_buffer *to, size_t num,
+                              ps_error *error) {
+    const ps_sphere_grid_stages *self = stages;
+    const ps_sphere_shape *shape = self->shape;
+    const ps_sphere_grid_table *table = &self->table;
+    const ps_range range =
+        ps_sphere_group_range(self->device, self->powers.is_alone, PS_SPHERE_GROUPS,
+                              4 * (double)shape->table_reals * (double)num);
+    return PS_LAUNCH(self->device, kernel, &range, error, PS_BUFFER(self->values),
+                     PS_U32(shape->at_once), PS_U32(num), PS_BUFFER(table->numbers),
+                     PS_BUFFER(table->offsets), PS_BUFFER(table->begins), PS_U32(shape->most_runs),
+                     PS_U32(shape->max_degree), PS_U32(shape->num_angles), PS_U32(self->only_even),
+                     PS_U32(shape->half_pitch), PS_BUFFER(*to));
+}
+
+pspec_status ps_sphere_grid_sum(ps_sphere_grid_stages *stages, size_t num, double *powers,
+                                ps_error *error) {
+    PS_TRY(sum_cells(stages, stages->sum, &stages->powers.sums, num, error));
+    return ps_sphere_powers_read(&stages->powers, num, powers, error);
+}
+
+pspec_status ps_sphere_grid_keep(ps_sphere_grid_stages *stages, double *coefficients,
+                                 ps_error *error) {
+    return ps_sphere_keep(&stages->powers, sums_file, sums_name, sum_cells, stages, coefficients,
+                          error);
+}

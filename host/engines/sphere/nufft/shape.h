@@ -1,0 +1,142 @@
+/* How sphere_nufft and sphere_grid treat a problem: the fine grid of longitude and angle from the pole, rings, sizes of what is
+ * in memory, error and cost. A function of the problem, the precision and the device. docs/sphere_nufft.md and
+ * docs/sphere_grid.md.
+ */
+#ifndef PS_ENGINES_SPHERE_NUFFT_SHAPE_H
+#define PS_ENGINES_SPHERE_NUFFT_SHAPE_H
+
+#include "engines/engine.h"
+#include "engines/nufft/choice.h"
+
+/* Of orders, in kernels/sphere/orders_sum.cl, grid_sums.cl and grid_table.cl: each adds up those of its own. A number of its own, whatever the
+ * device, since sums depend on it; enough that all cores have work to the end. */
+enum { PS_SPHERE_GROUPS = 32 };
+
+/* How c_lm is made of the grid. */
+typedef enum ps_sphere_route {
+    PS_SPHERE_BY_RINGS, /* sphere_nufft: transforms to rings, where Lambda_lm is known */
+    PS_SPHERE_BY_CELLS  /* sphere_grid: a table of what each cell counts */
+} ps_sphere_route;
+
+typedef struct ps_sphere_shape {
+    ps_sphere_route route;
+    int32_t max_degree;   /* L */
+    ps_nufft_axis axis;   /* longitude and angle from the pole: n is even */
+    uint32_t rings;       /* on a whole great circle through the poles, even and above 2 L */
+    uint32_t num_rings;   /* in the northern quarter of it */
+    uint32_t num_angles;  /* of the grid, in the northern quarter of a great circle; by cells */
+    uint32_t most_runs;   /* of vectors of degrees of an order and parity; by cells */
+    uint64_t table_reals; /* of the table, by cells */
+
+    unsigned lanes;                       /* 0: L is too large */
+    uint32_t pole;                        /* cells in front of the north pole */
+    uint32_t pitch, grid_rows;            /* of a grid */
+    uint32_t columns;                     /* with cells in them, whole groups */
+    uint32_t pairs;                       /* of tiles of orders */
+    uint32_t ring_pitch;                  /* rings up to whole vectors */
+    uint32_t run_vectors;                 /* RUN_VECTORS of orders_table.h */
+    uint32_t polar, crossing, equatorial; /* ring_angles of orders_table.h */
+    uint32_t block;                       /* rings of a block of orders_sum.cl */
+    uint32_t half_pitch;                  /* degrees of one parity, and room behind them */
+    uint32_t bands, band_rows;            /* of a grid (kernels/sphere/bands.h) */
+    uint32_t tiles;                       /* of angles from the pole, of sorted points */
+    uint32_t strip;                       /* columns of a strip (kernels/sphere/orders_strips.h) */
+    bool is_sorted;                       /* one realization at a time, in chunks of points */
+    size_t at_once;                       /* realizations between values on rings and powers */
+    size_t together;                      /* between points and values on rings */
+    size_t slots;                         /* grids */
+    size_t shares;                        /* work-groups for each grid */
+    uint64_t most_points;                 /* on the device at a time */
+    uint64_t set_points;                  /* of a realization that comes in strips, else 0 */
+
+    uint64_t grid_bytes;  /* of a grid, or of a strip */
+    uint64_t row_bytes;   /* of the rows of a realization */
+    uint64_t value_bytes; /* of values on rings, or on angles of the grid, of a realization */
+    uint64_t
+        each_bytes; /* of a realization of a batch; what depends on at_once is there or in fixed_bytes */
+    uint64_t fixed_bytes, host_bytes, largest_buffer;
+} ps_sphere_shape;
+
+/* What the kernels need of a problem; axis.n == 0: L is too large. */
+ps_sphere_shape ps_sphere_shape_make(const ps_problem *problem, const ps_device_limits *limits,
+                                     ps_precision precision, ps_sphere_route route);
+
+/* Only what the kernels need to make Lambda_lm on rings: of the rest nothing is there. */
+ps_sphere_shape ps_sphere_rings_shape(int32_t max_degree, const ps_device_limits *limits,
+                                      ps_precision precision);
+/* Whether local memory has room for a block of them. */
+bool ps_sphere_rings_fit(const ps_sphere_shape *shape, const ps_device_limits *limits,
+                         size_t real_bytes);
+
+/* Bytes of the largest table of sphere_grid. */
+enum { PS_SPHERE_MOST_TABLE_BYTES = 64 << 20 };
+
+/* Points of a realization that sphere_nufft sorts, to do it by all cores. */
+enum { PS_SPHERE_LEAST_SORTED = 1 << 16 };
+
+/* Whether a grid is done in strips, one for each work-group, or lies in memory as a whole. */
+static inline bool ps_sphere_has_strips(const ps_sphere_shape *shape) {
+    return shape->strip < shape->columns;
+}
+
+/* For batches of no more than `batch` realizations. */
+void ps_sphere_shape_shrink(ps_sphere_shape *shape, size_t batch);
+
+/* Its parts, of sphere_nufft_axis.c and sphere_nufft_cost.c. The grid, the same on both axes; the most exact one when none keeps the tolerance,
+ * n == 0: L is too large. */
+ps_nufft_axis ps_sphere_choose_axis(const ps_problem *problem, ps_precision precision,
+                                    ps_sphere_route route);
+
+/* Rings on a whole great circle: even, above 2 L, and half of them transforms well. */
+uint32_t ps_sphere_ring_length(int32_t max_degree);
+
+/* Cycles on a core, of what depends on the grid. */
+double ps_sphere_grid_cycles(const ps_nufft_axis *axis, ps_precision precision, double num_points,
+                             ps_sphere_route route);
+
+/* Of the buffers, as kernels/sphere/ names them; values, powers and sums for each of at_once realizations, sums for one
+ * more. */
+typedef struct ps_sphere_bytes {
+    uint64_t vectors, turns, weights; /* sorted points have turns and weights twice */
+    uint64_t keys, starts;
+    uint64_t grids, rows, scratch;
+    uint64_t strip_turns, strip_weights, strips, strip_starts;
+    uint64_t values, powers, sums;
+    uint64_t gaps; /* between the values of orders: kernels/sphere/values.h */
+    uint64_t states, scales, diagonals;
+    uint64_t table;
+} ps_sphere_bytes;
+ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_bytes);
+
+/* axis.loss for the sphere: mean square of what aliases do, and the most when all power is in step. */
+void ps_sphere_nufft_loss(const ps_nufft_axis *axis, double *aliasing, double *worst);
+
+/* ps_engine.error */
+double ps_sphere_nufft_error(const ps_nufft_axis *axis, const ps_problem *problem,
+                             ps_precision precision, double mean_power, ps_sphere_route route);
+
+/* What a device at its peak would do while it works on one realization. */
+double ps_sphere_nufft_flops(const ps_sphere_shape *shape, ps_precision precision,
+                             double num_points, double num_realizations);
+
+/* Local memory in bytes: of orders.cl, orders_bands.cl and grid_values.cl, and of orders_sum.cl and grid_table.cl. */
+typedef struct ps_sphere_local {
+    size_t windows, cells;
+    size_t table, coefficients, begins;
+} ps_sphere_local;
+ps_sphere_local ps_sphere_local_bytes(const ps_sphere_shape *shape, size_t real_bytes);
+
+/* Points that are sorted together, and parts of a chunk of a large set. Sums depend on them: the same on all devices. */
+enum { PS_SPHERE_PART_POINTS = 1 << 16, PS_SPHERE_PARTS = 16 };
+
+/* Numbers that kernels/sphere/ agrees on, as it names them. */
+enum {
+    PS_SPHERE_TILE_CELLS = 64,  /* bands.h */
+    PS_SPHERE_RING_VECTORS = 2, /* orders_chains.h: the most, in double precision */
+    PS_SPHERE_SCALE = 100,      /* orders_chains.h: the exponent of SCALE_UP */
+    PS_SPHERE_COEFFICIENTS = 9, /* orders_chains.h: COEFFICIENTS for each degree of a run */
+    PS_SPHERE_CHAIN_AHEAD = 4,  /* orders_chains.h: and these */
+    PS_SPHERE_TABLE_ANGLES = 8  /* grid_table.cl: ANGLES */
+};
+
+#endif

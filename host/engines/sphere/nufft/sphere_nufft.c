@@ -1,0 +1,398 @@
+/* Two engines that differ in what they make of the grid: sphere_nufft and sphere_grid. */
+#include "engines/sphere/nufft/sphere_nufft.h"
+
+#include "base/memory.h"
+#include "base/round.h"
+#include "device/reals.h"
+#include "engines/sphere/nufft/grid_stages.h"
+#include "engines/sphere/nufft/stages.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static const double four_pi = 12.566370614359172954;
+
+typedef struct sphere_nufft {
+    ps_device *device;
+    ps_problem problem;
+    ps_precision precision;
+    ps_sphere_shape shape;
+    ps_sphere_places points;
+    ps_sphere_tables tables;
+    ps_sphere_stages stages;           /* by rings, */
+    ps_sphere_grid_stages grid_stages; /* or by cells */
+    double *host_powers;               /* [at_once][2][half_pitch] */
+    double *host_rows;                 /* [batch][degrees] */
+} sphere_nufft;
+
+/* ---- what the planner asks --------------------------------------------------------------- */
+
+/* Why there is no shape, before and after it is made; NULL: there is one. */
+static const char *refuse(const ps_problem *problem, const ps_device_limits *limits,
+                          ps_precision precision) {
+    const char *why_not = NULL;
+    if (!ps_engine_on_device(limits, precision, &why_not)) {
+        return why_not;
+    }
+    if (!limits->has_fp64) {
+        return "Legendre functions need double precision, which the device does not have";
+    }
+    return problem->num_points > UINT32_MAX ? "too many points for 32-bit places" : NULL;
+}
+
+static const char *refuse_shape(const ps_sphere_shape *shape, const ps_device_limits *limits,
+                                ps_precision precision) {
+    if (shape->lanes == 0) {
+        return "the degree is too large, or local memory too small";
+    }
+    if (shape->table_reals * ps_real_bytes(precision) > PS_SPHERE_MOST_TABLE_BYTES) {
+        return "the table of cells would take more than 64 MiB";
+    }
+    return shape->largest_buffer > limits->max_allocation_bytes
+               ? "needs a larger buffer than the device allows"
+               : NULL;
+}
+
+/* Before axes are tried, which takes long where tables would be far too large anyway. */
+static const char *refuse_cells(const ps_problem *problem) {
+    const int32_t most_degree = 1024;
+    if (problem->frequencies->max_frequency > most_degree) {
+        return "the table of cells would take more than 64 MiB";
+    }
+    return problem->num_points >= PS_SPHERE_LEAST_SORTED
+               ? "sphere_nufft sorts so many points, this engine does not"
+               : NULL;
+}
+
+/* Points, sums of orders and degrees; the bands of sorted points, or the table of cells; coefficients come by another build
+ * of the kernel of degrees. */
+static double kernels_of(const ps_sphere_shape *shape, const ps_problem *problem) {
+    const double of_all = 4;
+    const double of_table = 2;
+    return of_all + (shape->is_sorted ? 1 : 0) +
+           (shape->route == PS_SPHERE_BY_CELLS ? of_table : 0) +
+           (problem->harmonics != PS_NO_HARMONICS ? 1 : 0);
+}
+
+static ps_work work_of(const ps_sphere_shape *shape, const ps_problem *problem,
+                       ps_precision precision) {
+    const double realizations =
+        problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
+    const double launches_of_some = 4;
+    const double row = (double)problem->frequencies->num * sizeof(double);
+    /* coefficients as the kernel keeps them, on the device and on the host */
+    const double kept = problem->harmonics == PS_NO_HARMONICS
+                            ? 0
+                            : (double)(((size_t)shape->max_degree + 1) * 4 * shape->half_pitch) *
+                                  (double)sizeof(double);
+    const bool by_cells = shape->route == PS_SPHERE_BY_CELLS;
+    const double flops =
+        ps_sphere_nufft_flops(shape, precision, (double)problem->num_points, realizations);
+    return (ps_work){.transform_flops =
+                         realizations * flops + (by_cells ? ps_sphere_grid_table_flops(shape) : 0),
+                     .kernels = kernels_of(shape, problem),
+                     .launches = launches_of_some * ceil(realizations / (double)shape->at_once),
+                     .fixed_bytes = (double)shape->fixed_bytes + 2 * kept,
+                     .host_bytes = (double)shape->host_bytes + kept,
+                     .bytes_per_realization = row + (double)shape->each_bytes,
+                     .row_bytes = row,
+                     .wanted_batch = (double)shape->at_once,
+                     .largest_buffer_per_realization = row};
+}
+
+static ps_survey survey_route(const ps_problem *problem, const ps_device_limits *limits,
+                              ps_precision precision, ps_sphere_route route) {
+    ps_survey result = {.why_not = refuse(problem, limits, precision)};
+    if (result.why_not == NULL && route == PS_SPHERE_BY_CELLS) {
+        result.why_not = refuse_cells(problem);
+    }
+    if (result.why_not != NULL) {
+        return result;
+    }
+    const ps_sphere_shape shape = ps_sphere_shape_make(problem, limits, precision, route);
+    result.why_not = refuse_shape(&shape, limits, precision);
+    if (result.why_not == NULL) {
+        result.work = work_of(&shape, problem, precision);
+        result.error = ps_sphere_nufft_error(&shape.axis, problem, precision,
+                                             ps_expected_power(problem), route);
+    }
+    return result;
+}
+
+static double error_of_route(const ps_problem *problem, const ps_device_limits *limits,
+                             ps_precision precision, double mean_power, ps_sphere_route route) {
+    const ps_sphere_shape shape = ps_sphere_shape_make(problem, limits, precision, route);
+    return shape.lanes == 0
+               ? HUGE_VAL
+               : ps_sphere_nufft_error(&shape.axis, problem, precision, mean_power, route);
+}
+
+static double error_of_state(const void *state, double mean_power) {
+    const sphere_nufft *self = state;
+    return ps_sphere_nufft_error(&self->shape.axis, &self->problem, self->precision, mean_power,
+                                 self->shape.route);
+}
+
+/* ---- create and destroy ------------------------------------------------------------------ */
+
+static void destroy(void *state) {
+    sphere_nufft *self = state;
+    if (self == NULL) {
+        return;
+    }
+    ps_sphere_stages_free(&self->stages);
+    ps_sphere_grid_stages_free(&self->grid_stages);
+    ps_sphere_places_free(&self->points);
+    ps_sphere_tables_free(&self->tables);
+    free(self->host_powers);
+    free(self->host_rows);
+    free(self);
+}
+
+static pspec_status create_parts(sphere_nufft *self, size_t batch, ps_error *error) {
+    const ps_sphere_shape *shape = &self->shape;
+    const bool only_even = self->problem.frequencies->degree_step == 2;
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, shape->at_once * 2 * shape->half_pitch, sizeof(double),
+                       "powers of degrees", error));
+    self->host_powers = memory;
+    PS_TRY(ps_allocate(&memory, batch * self->problem.frequencies->num, sizeof(double),
+                       "powers of a batch", error));
+    self->host_rows = memory;
+    PS_TRY(ps_sphere_places_create(&self->points, shape, self->precision, self->device, error));
+    PS_TRY(ps_sphere_tables_create(&self->tables, shape, self->problem.tolerance, self->precision,
+                                   self->device, error));
+    return shape->route == PS_SPHERE_BY_CELLS
+               ? ps_sphere_grid_stages_create(&self->grid_stages, shape, &self->points,
+                                              &self->tables, only_even, self->precision,
+                                              self->device, error)
+               : ps_sphere_stages_create(&self->stages, shape, &self->points, &self->tables,
+                                         only_even, self->precision, self->device, error);
+}
+
+static pspec_status create_route(void **state, const ps_problem *problem, ps_precision precision,
+                                 size_t batch, ps_device *device, ps_sphere_route route,
+                                 ps_error *error) {
+    void *memory = NULL;
+    *state = NULL;
+    PS_TRY(ps_allocate(&memory, 1, sizeof(sphere_nufft), "an engine", error));
+    sphere_nufft *self = memory;
+    self->device = device;
+    self->problem = *problem;
+    self->precision = precision;
+    self->shape = ps_sphere_shape_make(problem, ps_device_get_limits(device), precision, route);
+    ps_sphere_shape_shrink(&self->shape, batch);
+    const pspec_status status = create_parts(self, batch, error);
+    if (status != PSPEC_OK) {
+        destroy(self);
+        return status;
+    }
+    *state = self;
+    return PSPEC_OK;
+}
+
+static size_t get_stride(const void *state) {
+    return ((const sphere_nufft *)state)->problem.frequencies->num;
+}
+
+/* ---- run --------------------------------------------------------------------------------- */
+
+static void write_rows(sphere_nufft *self, size_t first, const ps_batch *some) {
+    const ps_frequencies *set = self->problem.frequencies;
+    const size_t pitch = self->shape.half_pitch;
+    for (size_t r = 0; r < some->num_patterns; r++) {
+        const double *powers = self->host_powers + r * 2 * pitch;
+        double *row = self->host_rows + (first + r) * set->num;
+        for (size_t i = 0; i < set->num; i++) {
+            const size_t l = (size_t)set->vectors[i];
+            row[i] =
+                some->scales[r] * four_pi / (2 * (double)l + 1) * powers[l % 2 * pitch + l / 2];
+        }
+    }
+}
+
+static ps_batch part_of(const ps_batch *batch, size_t first, size_t most) {
+    const size_t rest = batch->num_patterns - first;
+    ps_batch some = *batch;
+    some.num_patterns = rest < most ? rest : most;
+    some.patterns += first;
+    some.scales = batch->scales != NULL ? batch->scales + first : NULL;
+    some.exponents = batch->exponents != NULL ? batch->exponents + first : NULL;
+    return some;
+}
+
+/* Points of the only pattern, a chunk at a time. */
+static pspec_status add_points(sphere_nufft *self, const ps_batch *one, bool is_first,
+                               ps_error *error) {
+    const size_t most = self->shape.most_points;
+    const pspec_pattern *all = one->patterns;
+    for (size_t at = 0; at < all->num_points; at += most) {
+        pspec_pattern chunk = *all;
+        chunk.points += at * PS_SPHERE_DIMENSION;
+        chunk.weights = all->weights != NULL ? all->weights + at : NULL;
+        chunk.num_points = all->num_points - at < most ? all->num_points - at : most;
+        ps_batch some = *one;
+        some.patterns = &chunk;
+        PS_TRY(ps_batch_go_on(one, error));
+        PS_TRY(ps_sphere_places_make(&self->points, &some, error));
+        PS_TRY(ps_sphere_stages_add_sorted(&self->stages, is_first && at == 0, error));
+    }
+    return PSPEC_OK;
+}
+
+/* Values on rings of at most at_once patterns. */
+static pspec_status make_values(sphere_nufft *self, const ps_batch *batch, ps_error *error) {
+    const size_t together = self->shape.together;
+    for (size_t first = 0; first < batch->num_patterns; first += together) {
+        const ps_batch some = part_of(batch, first, together);
+        PS_TRY(ps_batch_go_on(batch, error));
+        if (self->shape.is_sorted) {
+            PS_TRY(add_points(self, &some, true, error));
+            PS_TRY(ps_sphere_stages_finish_sorted(&self->stages, first, error));
+        } else {
+            PS_TRY(ps_sphere_places_make(&self->points, &some, error));
+            PS_TRY(
+                self->shape.route == PS_SPHERE_BY_CELLS
+                    ? ps_sphere_grid_make_values(&self->grid_stages, first, some.num_patterns,
+                                                 error)
+                    : ps_sphere_stages_make_values(&self->stages, first, some.num_patterns, error));
+        }
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_error *error) {
+    sphere_nufft *self = state;
+    const size_t at_once = self->shape.at_once;
+    for (size_t first = 0; first < batch->num_patterns; first += at_once) {
+        const ps_batch some = part_of(batch, first, at_once);
+        PS_TRY(make_values(self, &some, error));
+        PS_TRY(
+            self->shape.route == PS_SPHERE_BY_CELLS
+                ? ps_sphere_grid_sum(&self->grid_stages, some.num_patterns, self->host_powers,
+                                     error)
+                : ps_sphere_stages_sum(&self->stages, some.num_patterns, self->host_powers, error));
+        write_rows(self, first, &some);
+    }
+    *rows = (ps_rows){.num_rows = batch->num_patterns,
+                      .stride = self->problem.frequencies->num,
+                      .precision = PS_DOUBLE,
+                      .host = self->host_rows};
+    return PSPEC_OK;
+}
+
+/* ---- coefficients ------------------------------------------------------------------------ */
+
+/* The largest weight is below 2^exponent: sums of them do not overflow. */
+static int largest_exponent(const pspec_pattern *pattern) {
+    double largest = 0;
+    int exponent = 0;
+    for (size_t j = 0; pattern->weights != NULL && j < pattern->num_points; j++) {
+        largest = fmax(largest, fabs(pattern->weights[j]));
+    }
+    frexp(largest, &exponent);
+    return exponent;
+}
+
+/* From [order][even, odd l - m][re, im][half_pitch]; the kernels sum conjugates. */
+static void write_coefficients(const sphere_nufft *self, const double *from, int exponent,
+                               double *out) {
+    const size_t L = (size_t)self->shape.max_degree;
+    const size_t pitch = self->shape.half_pitch;
+    const bool only_even = self->problem.frequencies->degree_step == 2;
+    for (size_t m = 0; m <= L; m++) {
+        for (size_t l = m; l <= L; l++) {
+            const double *at = from + (m * 2 + (l - m) % 2) * 2 * pitch + (l - m) / 2;
+            double *to = out + 2 * (m * (2 * L + 1 - m) / 2 + l);
+            const bool is_there = !only_even || l % 2 == 0;
+            to[0] = is_there ? ldexp(at[0], exponent) : 0;
+            to[1] = is_there ? -ldexp(at[pitch], exponent) : 0;
+        }
+    }
+}
+
+static pspec_status coefficients(void *state, const ps_batch *one, ps_rows *rows, double *out,
+                                 ps_error *error) {
+    sphere_nufft *self = state;
+    const int exponent = largest_exponent(one->patterns);
+    ps_batch scaled = *one;
+    void *host = NULL;
+    scaled.exponents = &exponent;
+    PS_TRY(rows != NULL ? run(state, one, rows, error) /* its values stay on the rings */
+                        : make_values(self, &scaled, error));
+    PS_TRY(ps_batch_go_on(one, error));
+    PS_TRY(ps_allocate(&host, ((size_t)self->shape.max_degree + 1) * 4 * self->shape.half_pitch,
+                       sizeof(double), "coefficients", error));
+    const pspec_status status = self->shape.route == PS_SPHERE_BY_CELLS
+                                    ? ps_sphere_grid_keep(&self->grid_stages, host, error)
+                                    : ps_sphere_stages_keep(&self->stages, host, error);
+    if (status == PSPEC_OK) {
+        write_coefficients(self, host, exponent, out);
+    }
+    free(host);
+    return status;
+}
+
+static void describe(const void *state, ps_text *text) {
+    const sphere_nufft *self = state;
+    const ps_sphere_shape *shape = &self->shape;
+    const bool by_cells = shape->route == PS_SPHERE_BY_CELLS;
+    ps_text_append(text, "(%s precision=%s lanes=%u grid=%lu sigma=%.3g width=%u degree=%u ",
+                   by_cells ? "sphere_grid" : "sphere_nufft", ps_precision_name(self->precision),
+                   shape->lanes, (unsigned long)shape->axis.n,
+                   shape->axis.n / (2.0 * shape->max_degree), shape->axis.window.width,
+                   self->tables.plan.degree);
+    if (by_cells) {
+        ps_text_append(text, "angles=%lu at_once=%zu table=%.3gMB)",
+                       (unsigned long)shape->num_angles, shape->at_once,
+                       (double)(shape->table_reals * ps_real_bytes(self->precision)) * 1e-6);
+    } else {
+        ps_text_append(text, "rings=%lu at_once=%zu bands=%lu strip=%lu)",
+                       (unsigned long)shape->num_rings, shape->at_once, (unsigned long)shape->bands,
+                       (unsigned long)shape->strip);
+    }
+}
+
+/* ---- the engines ------------------------------------------------------------------------- */
+
+#define FUNCTIONS_OF(name, route)                                                                  \
+    static ps_survey survey_##name(const ps_problem *problem, const ps_device_limits *limits,      \
+                                   ps_precision precision) {                                       \
+        return survey_route(problem, limits, precision, route);                                    \
+    }                                                                                              \
+    static bool applicable_##name(const ps_problem *problem, const ps_device_limits *limits,       \
+                                  ps_precision precision, const char **why_not) {                  \
+        *why_not = survey_route(problem, limits, precision, route).why_not;                        \
+        return *why_not == NULL;                                                                   \
+    }                                                                                              \
+    static ps_work work_##name(const ps_problem *problem, const ps_device_limits *limits,          \
+                               ps_precision precision) {                                           \
+        return survey_route(problem, limits, precision, route).work;                               \
+    }                                                                                              \
+    static double error_##name(const ps_problem *problem, const ps_device_limits *limits,          \
+                               ps_precision precision, double mean_power) {                        \
+        return error_of_route(problem, limits, precision, mean_power, route);                      \
+    }                                                                                              \
+    static pspec_status create_##name(void **state, const ps_problem *problem,                     \
+                                      ps_precision precision, size_t batch, ps_device *device,     \
+                                      ps_error *error) {                                           \
+        return create_route(state, problem, precision, batch, device, route, error);               \
+    }
+
+#define ENGINE(the_name, the_summary)                                                              \
+    {                                                                                              \
+        .name = "sphere_" #the_name, .summary = (the_summary), .domains = PS_ON_SPHERE,            \
+        .needs_device = true, .rows_on_host = true, .has_precision = {true, true, false},          \
+        .applicable = applicable_##the_name, .work = work_##the_name, .error = error_##the_name,   \
+        .survey = survey_##the_name, .error_of_state = error_of_state,                             \
+        .create = create_##the_name, .get_stride = get_stride, .run = run,                         \
+        .coefficients = coefficients, .describe = describe, .destroy = destroy,                    \
+    }
+
+FUNCTIONS_OF(nufft, PS_SPHERE_BY_RINGS)
+FUNCTIONS_OF(grid, PS_SPHERE_BY_CELLS)
+
+const ps_engine ps_sphere_nufft = ENGINE(
+    nufft, "fast spherical-harmonic sums: points spread on a grid, rings, Legendre products");
+const ps_engine ps_sphere_grid =
+    ENGINE(grid, "fast spherical-harmonic sums: points spread on a grid, a table of its cells");

@@ -1,0 +1,74 @@
+#include "engines/sphere/nufft/sphere_powers.h"
+
+#include <stdio.h>
+
+pspec_status ps_sphere_kernel_create(const ps_sphere_powers *self, cl_kernel *out, const char *file,
+                                     const char *name, bool keeps, ps_error *error) {
+    char options[96];
+    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u -DRUN_VECTORS=%u -DALONE=%u%s",
+             self->precision == PS_SINGLE ? 32u : 64u, self->shape->lanes, self->shape->run_vectors,
+             self->is_alone ? 1u : 0u, keeps ? " -DKEEP=1" : "");
+    return ps_kernel_create(self->device, out, file, name, options, error);
+}
+
+pspec_status ps_sphere_powers_create(ps_sphere_powers *out, const ps_sphere_shape *shape,
+                                     ps_precision precision, ps_device *device, ps_error *error) {
+    const uint64_t each = (uint64_t)PS_SPHERE_GROUPS * 2 * shape->half_pitch * sizeof(double);
+    *out = (ps_sphere_powers){.device = device,
+                              .precision = precision,
+                              .is_alone = ps_range_is_alone(device),
+                              .shape = shape};
+    PS_TRY(ps_sphere_kernel_create(out, &out->fold, "sphere/orders_fold.cl", "sphere_orders_fold",
+                                   false, error));
+    return ps_buffer_create(device, &out->sums, shape->at_once * each, "powers of orders", error);
+}
+
+void ps_sphere_powers_free(ps_sphere_powers *powers) {
+    if (powers->fold != NULL) {
+        clReleaseKernel(powers->fold);
+    }
+    ps_buffer_release(&powers->sums);
+    *powers = (ps_sphere_powers){0};
+}
+
+ps_range ps_sphere_group_range(const ps_device *device, bool is_alone, size_t groups,
+                               double flops) {
+    return is_alone ? ps_range_alone(groups, 1, flops, 0)
+                    : ps_range_heavy(device, 1, groups, 1, flops, 0);
+}
+
+pspec_status ps_sphere_powers_read(const ps_sphere_powers *self, size_t num, double *powers,
+                                   ps_error *error) {
+    const size_t entries = num * 2 * self->shape->half_pitch;
+    const ps_range range = ps_range_light(self->device, entries / self->shape->lanes, 1, 1,
+                                          (double)(PS_SPHERE_GROUPS * entries), 0);
+    PS_TRY(PS_LAUNCH(self->device, self->fold, &range, error, PS_BUFFER(self->sums),
+                     PS_U32(PS_SPHERE_GROUPS), PS_U64(entries), PS_U32(self->shape->half_pitch)));
+    return ps_buffer_read(self->device, &self->sums, 0, powers, entries * sizeof(double), error);
+}
+
+/* ---- coefficients ------------------------------------------------------------------------ */
+
+static pspec_status keep_with(const ps_sphere_powers *self, cl_kernel kernel,
+                              ps_sphere_launch_sums launch, void *stages, double *to,
+                              ps_error *error) {
+    const size_t num = ((size_t)self->shape->max_degree + 1) * 4 * self->shape->half_pitch;
+    ps_buffer kept = {0};
+    PS_TRY(ps_buffer_create(self->device, &kept, num * sizeof(double), "coefficients", error));
+    pspec_status status = launch(stages, kernel, &kept, 1, error);
+    if (status == PSPEC_OK) {
+        status = ps_buffer_read(self->device, &kept, 0, to, num * sizeof(double), error);
+    }
+    ps_buffer_release(&kept);
+    return status;
+}
+
+pspec_status ps_sphere_keep(const ps_sphere_powers *self, const char *file, const char *name,
+                            ps_sphere_launch_sums launch, void *stages, double *coefficients,
+                            ps_error *error) {
+    cl_kernel kernel = NULL;
+    PS_TRY(ps_sphere_kernel_create(self, &kernel, file, name, true, error));
+    const pspec_status status = keep_with(self, kernel, launch, stages, coefficients, error);
+    clReleaseKernel(kernel);
+    return status;
+}

@@ -1,0 +1,209 @@
+#include "engines/sphere/nufft/tables.h"
+
+#include "base/memory.h"
+#include "device/reals.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static const long double pi = 3.141592653589793238462643383279502884L;
+
+/* ---- gains and turns ---------------------------------------------------------------------- */
+
+static pspec_status create_gains(ps_sphere_tables *self, const ps_sphere_shape *shape,
+                                 ps_precision precision, ps_device *device, ps_error *error) {
+    const ps_nufft_axis *axis = &shape->axis;
+    const size_t num = (size_t)shape->max_degree + 1;
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, 4 * num, sizeof(double), "gains", error));
+    double *around = memory;
+    double *along = around + 3 * num;
+    for (size_t k = 0; k < num; k++) {
+        const double inverse =
+            1 / ps_nufft_window_transform(&axis->window, (long double)k / axis->n);
+        const long double angle = 2 * pi * k / axis->n;
+        around[3 * k] = inverse / 2;
+        around[3 * k + 1] = (double)(-inverse / 2 * sinl(angle));
+        around[3 * k + 2] = (double)(-inverse / 2 * cosl(angle));
+        along[k] = inverse / 2 / shape->rings;
+    }
+    pspec_status status =
+        ps_reals_upload(device, &self->around_gains, precision, around, 3 * num, "gains", error);
+    if (status == PSPEC_OK && shape->route == PS_SPHERE_BY_RINGS) {
+        status = ps_reals_upload(device, &self->along_gains, precision, along, num, "gains", error);
+    }
+    free(memory);
+    return status;
+}
+
+/* exp(-2 pi i j / n), j < num. */
+static pspec_status create_turns(ps_buffer *out, uint32_t n, uint32_t num, ps_precision precision,
+                                 ps_device *device, ps_error *error) {
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, 2 * (size_t)num, sizeof(double), "turns", error));
+    double *turns = memory;
+    for (uint32_t j = 0; j < num; j++) {
+        const long double angle = 2 * pi * j / n;
+        turns[2 * (size_t)j] = (double)cosl(angle);
+        turns[2 * (size_t)j + 1] = (double)-sinl(angle);
+    }
+    const pspec_status status =
+        ps_reals_upload(device, out, precision, turns, 2 * (size_t)num, "turns", error);
+    free(memory);
+    return status;
+}
+
+static pspec_status create_transforms(ps_sphere_tables *self, const ps_sphere_shape *shape,
+                                      ps_precision precision, ps_device *device, ps_error *error) {
+    const uint32_t n = shape->axis.n;
+    PS_TRY(ps_fft_plan_create(&self->halves, n / 2, precision, device, error));
+    if (shape->route == PS_SPHERE_BY_CELLS) {
+        return PSPEC_OK;
+    }
+    PS_TRY(ps_fft_plan_create(&self->rings, shape->rings / 2, precision, device, error));
+    PS_TRY(create_turns(&self->turns, n, n / 2, precision, device, error));
+    return create_turns(&self->ring_turns, shape->rings, shape->num_rings, precision, device,
+                        error);
+}
+
+/* ---- Lambda_mm --------------------------------------------------------------------------- */
+
+/* value 2^(-PS_SPHERE_SCALE scale), scale >= 0 and value at least 2^-PS_SPHERE_SCALE, or zero. */
+typedef struct scaled {
+    long double value;
+    int32_t scale;
+} scaled;
+
+static scaled multiply(scaled a, long double factor) {
+    a.value *= factor;
+    if (a.value != 0 && fabsl(a.value) < ldexpl(1, -PS_SPHERE_SCALE)) {
+        a.value = ldexpl(a.value, PS_SPHERE_SCALE);
+        a.scale++;
+    }
+    return a;
+}
+
+/* The norm of Lambda_mm over that of Lambda_{m-1,m-1}, with its sign. */
+static long double ratio(int32_t m) {
+    return -sqrtl((2 * (long double)m + 1) / (2 * (long double)m));
+}
+
+/* Numbers of the host, on their way to the device. */
+typedef struct host_tables {
+    double *starts, *steps, *ratios, *cosines, *distances, *squares;
+    int32_t *start_scales, *step_scales;
+    size_t num_starts, num_rings, num_orders;
+} host_tables;
+
+static void fill_ring(host_tables *to, const ps_sphere_shape *shape, uint32_t ring) {
+    const long double angle = 2 * pi * ring / shape->rings;
+    const long double sine = sinl(angle);
+    const long double cosine = cosl(angle);
+    const long double half = sinl(angle / 2);
+    scaled start = {sqrtl(1 / (4 * pi)), 0};
+    scaled step = {1, 0};
+    for (int32_t m = 0; m < PS_SPHERE_GROUPS; m++) {
+        start = m > 0 ? multiply(start, ratio(m) * sine) : start;
+        step = multiply(step, sine);
+        to->starts[(size_t)m * to->num_rings + ring] = (double)start.value;
+        to->start_scales[(size_t)m * to->num_rings + ring] = start.scale;
+    }
+    to->steps[ring] = (double)step.value;
+    to->step_scales[ring] = step.scale;
+    to->cosines[ring] = (double)cosine;
+    to->distances[ring] = (double)(2 * half * half);
+    to->squares[ring] = (double)(ring < shape->crossing ? -sine * sine : cosine * cosine);
+}
+
+static void fill_ratios(host_tables *to) {
+    for (size_t m = 0; m < to->num_orders; m++) {
+        long double product = 1;
+        for (size_t i = 0; i < PS_SPHERE_GROUPS && i < m; i++) {
+            product *= ratio((int32_t)(m - i));
+        }
+        to->ratios[m] = (double)product;
+    }
+}
+
+static pspec_status upload(ps_device *device, ps_buffer *out, const void *data, size_t bytes,
+                           ps_error *error) {
+    PS_TRY(ps_buffer_create(device, out, bytes, "a table of the sphere", error));
+    return ps_buffer_write(device, out, 0, data, bytes, error);
+}
+
+static pspec_status upload_all(ps_sphere_starts *self, const host_tables *from, ps_device *device,
+                               ps_error *error) {
+    const size_t starts = from->num_starts * sizeof(double);
+    const size_t rings = from->num_rings * sizeof(double);
+    PS_TRY(upload(device, &self->starts, from->starts, starts, error));
+    PS_TRY(upload(device, &self->start_scales, from->start_scales, starts / 2, error));
+    PS_TRY(upload(device, &self->steps, from->steps, rings, error));
+    PS_TRY(upload(device, &self->step_scales, from->step_scales, rings / 2, error));
+    PS_TRY(upload(device, &self->cosines, from->cosines, rings, error));
+    PS_TRY(upload(device, &self->distances, from->distances, rings, error));
+    PS_TRY(upload(device, &self->squares, from->squares, rings, error));
+    return upload(device, &self->ratios, from->ratios, from->num_orders * sizeof(double), error);
+}
+
+pspec_status ps_sphere_starts_create(ps_sphere_starts *out, const ps_sphere_shape *shape,
+                                     ps_device *device, ps_error *error) {
+    host_tables host = {.num_starts = (size_t)PS_SPHERE_GROUPS * shape->ring_pitch,
+                        .num_rings = shape->ring_pitch,
+                        .num_orders = (size_t)shape->max_degree + 1};
+    const size_t reals = host.num_starts + 4 * host.num_rings + host.num_orders;
+    const size_t scales = host.num_starts + host.num_rings;
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, reals + scales, sizeof(double), "tables of the sphere", error));
+    host.starts = memory;
+    host.steps = host.starts + host.num_starts;
+    host.distances = host.steps + host.num_rings;
+    host.cosines = host.distances + host.num_rings;
+    host.squares = host.cosines + host.num_rings;
+    host.ratios = host.squares + host.num_rings;
+    host.start_scales = (int32_t *)(host.ratios + host.num_orders);
+    host.step_scales = host.start_scales + host.num_starts;
+    for (uint32_t ring = 0; ring < shape->num_rings; ring++) {
+        fill_ring(&host, shape, ring);
+    }
+    fill_ratios(&host);
+    const pspec_status status = upload_all(out, &host, device, error);
+    free(memory);
+    return status;
+}
+
+void ps_sphere_starts_free(ps_sphere_starts *starts) {
+    ps_buffer *const buffers[] = {&starts->starts,      &starts->start_scales, &starts->steps,
+                                  &starts->step_scales, &starts->ratios,       &starts->cosines,
+                                  &starts->distances,   &starts->squares};
+    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
+        ps_buffer_release(buffers[i]);
+    }
+    *starts = (ps_sphere_starts){0};
+}
+
+/* ---- all --------------------------------------------------------------------------------- */
+
+pspec_status ps_sphere_tables_create(ps_sphere_tables *out, const ps_sphere_shape *shape,
+                                     double tolerance, ps_precision precision, ps_device *device,
+                                     ps_error *error) {
+    *out = (ps_sphere_tables){0};
+    PS_TRY(
+        ps_nufft_plan_create(&out->plan, &shape->axis, false, tolerance, precision, device, error));
+    PS_TRY(create_transforms(out, shape, precision, device, error));
+    PS_TRY(create_gains(out, shape, precision, device, error));
+    return shape->route == PS_SPHERE_BY_RINGS
+               ? ps_sphere_starts_create(&out->of_rings, shape, device, error)
+               : PSPEC_OK;
+}
+
+void ps_sphere_tables_free(ps_sphere_tables *tables) {
+    ps_buffer_release(&tables->turns);
+    ps_buffer_release(&tables->ring_turns);
+    ps_buffer_release(&tables->around_gains);
+    ps_buffer_release(&tables->along_gains);
+    ps_nufft_plan_free(&tables->plan);
+    ps_fft_plan_free(&tables->halves);
+    ps_fft_plan_free(&tables->rings);
+    ps_sphere_starts_free(&tables->of_rings);
+    *tables = (ps_sphere_tables){0};
+}

@@ -1,0 +1,33 @@
+/* Numbers that sphere_nufft has on the device for all realizations. */
+#ifndef PS_ENGINES_SPHERE_NUFFT_TABLES_H
+#define PS_ENGINES_SPHERE_NUFFT_TABLES_H
+
+#include "engines/nufft/plan.h"
+#include "engines/sphere/nufft/shape.h"
+
+/* What Lambda_lm on rings begins with. Names of kernels/sphere/orders_sum.cl. */
+typedef struct ps_sphere_starts {
+    ps_buffer starts, start_scales, steps, step_scales, ratios;
+    ps_buffer cosines, distances, squares;
+} ps_sphere_starts;
+
+/* Names of kernels/sphere/orders.cl. By cells of the grid rings, turns and what belongs to rings are not there. */
+typedef struct ps_sphere_tables {
+    ps_nufft_plan plan; /* of the grid: its window */
+    ps_fft_plan halves; /* transforms of half its length */
+    ps_fft_plan rings;  /* transforms to rings, of half their number */
+    ps_buffer turns, ring_turns;
+    ps_buffer around_gains, along_gains;
+    ps_sphere_starts of_rings;
+} ps_sphere_tables;
+
+pspec_status ps_sphere_starts_create(ps_sphere_starts *out, const ps_sphere_shape *shape,
+                                     ps_device *device, ps_error *error) PS_MUST_CHECK;
+void ps_sphere_starts_free(ps_sphere_starts *starts);
+
+pspec_status ps_sphere_tables_create(ps_sphere_tables *out, const ps_sphere_shape *shape,
+                                     double tolerance, ps_precision precision, ps_device *device,
+                                     ps_error *error) PS_MUST_CHECK;
+void ps_sphere_tables_free(ps_sphere_tables *tables);
+
+#endif

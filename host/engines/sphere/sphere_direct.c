@@ -1,0 +1,394 @@
+/* Orders in passes, points in slabs: for each directions and sums over points, after the last slab sums over orders. */
+#include "engines/sphere/sphere_direct.h"
+
+#include "base/memory.h"
+#include "base/round.h"
+#include "device/reals.h"
+#include "engines/sphere/sphere_error.h"
+#include "engines/sphere/sphere_layout.h"
+#include "engines/sphere/sphere_points.h"
+#include "engines/sphere/sphere_table.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct sphere_direct {
+    ps_device *device;
+    const ps_frequencies *frequencies;
+    ps_sphere_layout layout;
+    size_t batch;
+    ps_sphere_points points;
+    cl_kernel sums_kernel, power_kernel;
+    size_t table_pass;      /* whose table is on the device */
+    long double *constants; /* [L + 1] of the orders */
+    double *host_table;     /* [pass_blocks][PS_SPHERE_BLOCK_REALS] */
+    uint32_t *host_blocks;  /* [pass_orders] */
+    void *host_rows; /* one realization's sums of an order, or powers, as the device has them */
+    double *power;   /* [batch][number of degrees] */
+    ps_buffer table, blocks, sums, powers;
+} sphere_direct;
+
+/* ---- what the planner asks --------------------------------------------------------------- */
+
+static bool applicable(const ps_problem *problem, const ps_device_limits *limits,
+                       ps_precision precision, const char **why_not) {
+    if (!ps_engine_on_device(limits, precision, why_not)) {
+        return false;
+    }
+    const ps_sphere_layout layout = ps_sphere_layout_make(problem, limits, precision);
+    if (layout.largest_buffer > (double)limits->max_allocation_bytes ||
+        layout.largest_buffer_per_realization > (double)limits->max_allocation_bytes) {
+        *why_not = "needs a larger buffer than the device allows";
+        return false;
+    }
+    *why_not = NULL;
+    return true;
+}
+
+static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
+                    ps_precision precision) {
+    const ps_sphere_layout layout = ps_sphere_layout_make(problem, limits, precision);
+    const double realizations =
+        problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
+    const double points = (double)ps_round_up(problem->num_points, layout.lanes) * realizations;
+    const double orders = layout.max_degree + 1.0;
+    const double slabs = ceil((double)problem->num_points / (double)layout.slab);
+    const double launches = 2 * slabs + 1;
+    const double kernels = 3; /* vectors, sums, powers */
+    return (ps_work){.harmonics = points * orders * (orders + 1) / 2,
+                     .kernels = kernels,
+                     .launches = launches * (double)layout.num_passes,
+                     .fixed_bytes = layout.fixed_bytes,
+                     .host_bytes = layout.fixed_bytes / 2,
+                     .bytes_per_realization = layout.bytes_per_realization,
+                     .row_bytes = (double)problem->frequencies->num * sizeof(double),
+                     .point_bytes = layout.point_bytes,
+                     .largest_buffer_per_realization = layout.largest_buffer_per_realization};
+}
+
+/* ---- create and destroy ------------------------------------------------------------------ */
+
+static void destroy(void *state) {
+    sphere_direct *self = state;
+    if (self == NULL) {
+        return;
+    }
+    ps_sphere_points_free(&self->points);
+    if (self->sums_kernel != NULL) {
+        clReleaseKernel(self->sums_kernel);
+    }
+    if (self->power_kernel != NULL) {
+        clReleaseKernel(self->power_kernel);
+    }
+    free(self->constants);
+    free(self->host_table);
+    free(self->host_blocks);
+    free(self->host_rows);
+    free(self->power);
+    ps_buffer_release(&self->table);
+    ps_buffer_release(&self->blocks);
+    ps_buffer_release(&self->sums);
+    ps_buffer_release(&self->powers);
+    free(self);
+}
+
+static pspec_status create_kernels(sphere_direct *self, ps_error *error) {
+    const ps_sphere_layout *layout = &self->layout;
+    ps_text options = {0};
+    pspec_status status = PSPEC_OK;
+    ps_text_append(&options, "-DPRECISION=%zu -DLANES=%u -DCHUNK=%d -DORDERS=%d -DONLY_EVEN=%d",
+                   8 * layout->real_bytes, layout->lanes, PS_SPHERE_CHUNK, PS_SPHERE_ORDERS,
+                   layout->only_even);
+    PS_TRY_OUT(status, ps_text_check(&options, error));
+    PS_TRY_OUT(status, ps_kernel_create(self->device, &self->sums_kernel, "sphere/sums.cl",
+                                        "sphere_sums", ps_text_string(&options), error));
+    PS_TRY_OUT(status, ps_kernel_create(self->device, &self->power_kernel, "sphere/power.cl",
+                                        "sphere_power", ps_text_string(&options), error));
+out:
+    ps_text_free(&options);
+    return status;
+}
+
+static pspec_status allocate_on_host(sphere_direct *self, ps_error *error) {
+    const ps_sphere_layout *layout = &self->layout;
+    const size_t num = self->frequencies->num;
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, (size_t)layout->max_degree + 1, sizeof(long double),
+                       "constants of the orders", error));
+    self->constants = memory;
+    PS_TRY(ps_allocate(&memory, layout->pass_blocks, PS_SPHERE_BLOCK_REALS * sizeof(double),
+                       "a table of Legendre functions", error));
+    self->host_table = memory;
+    PS_TRY(ps_allocate(&memory, layout->pass_orders, sizeof(uint32_t), "places of orders", error));
+    self->host_blocks = memory;
+    PS_TRY(ps_allocate(&self->host_rows, PS_SPHERE_SUMS * layout->stride, layout->real_bytes,
+                       "sums of an order", error));
+    PS_TRY(ps_allocate(&memory, self->batch, num * sizeof(double), "the powers of a batch", error));
+    self->power = memory;
+    const long double four_pi = 12.566370614359172953850573533118L;
+    self->constants[0] = sqrtl(1 / four_pi);
+    for (int32_t m = 1; m <= layout->max_degree; m++) {
+        self->constants[m] = ps_sphere_next_constant(self->constants[m - 1], m);
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status create_buffers(sphere_direct *self, ps_error *error) {
+    const ps_sphere_layout *layout = &self->layout;
+    const size_t row = layout->stride * layout->real_bytes;
+    PS_TRY(ps_buffer_create(self->device, &self->table,
+                            layout->pass_blocks * PS_SPHERE_BLOCK_REALS * layout->real_bytes,
+                            "a table of Legendre functions", error));
+    PS_TRY(ps_buffer_create(self->device, &self->blocks, layout->pass_orders * sizeof(uint32_t),
+                            "places of orders", error));
+    PS_TRY(ps_buffer_create(self->device, &self->sums,
+                            self->batch * layout->pass_orders * PS_SPHERE_SUMS * row,
+                            "coefficients of a batch", error));
+    return ps_buffer_create(self->device, &self->powers, self->batch * PS_SPHERE_POWERS * row,
+                            "powers of a batch", error);
+}
+
+static pspec_status create(void **state, const ps_problem *problem, ps_precision precision,
+                           size_t batch, ps_device *device, ps_error *error) {
+    void *memory = NULL;
+    *state = NULL;
+    PS_TRY(ps_allocate(&memory, 1, sizeof(sphere_direct), "an engine", error));
+    sphere_direct *self = memory;
+    pspec_status status = PSPEC_OK;
+    self->device = device;
+    self->frequencies = problem->frequencies;
+    self->batch = batch;
+    self->layout = ps_sphere_layout_make(problem, ps_device_get_limits(device), precision);
+    self->table_pass = SIZE_MAX;
+    PS_TRY_OUT(status, ps_sphere_points_create(&self->points, &self->layout, batch, device, error));
+    PS_TRY_OUT(status, create_kernels(self, error));
+    PS_TRY_OUT(status, allocate_on_host(self, error));
+    PS_TRY_OUT(status, create_buffers(self, error));
+    *state = self;
+out:
+    if (status != PSPEC_OK) {
+        destroy(self);
+    }
+    return status;
+}
+
+static size_t get_stride(const void *state) {
+    return ((const sphere_direct *)state)->frequencies->num;
+}
+
+/* ---- a pass of orders -------------------------------------------------------------------- */
+
+/* The table of a pass, unless it is there. */
+static pspec_status upload_table(sphere_direct *self, size_t pass, ps_error *error) {
+    const ps_sphere_layout *layout = &self->layout;
+    const size_t orders = ps_sphere_pass_orders(layout, pass);
+    const int32_t first = (int32_t)(pass * layout->pass_orders);
+    if (self->table_pass == pass) {
+        return PSPEC_OK;
+    }
+    const size_t blocks =
+        ps_sphere_all_blocks(layout->max_degree, first, orders, self->host_blocks);
+    for (size_t i = 0; i < orders; i++) {
+        const int32_t m = first + (int32_t)i;
+        ps_sphere_fill_order(self->host_table +
+                                 (size_t)self->host_blocks[i] * PS_SPHERE_BLOCK_REALS,
+                             layout->max_degree, m, self->constants[m]);
+    }
+    PS_TRY(ps_reals_write(self->device, &self->table, layout->precision, self->host_table,
+                          blocks * PS_SPHERE_BLOCK_REALS, error));
+    PS_TRY(ps_buffer_write(self->device, &self->blocks, 0, self->host_blocks,
+                           orders * sizeof(uint32_t), error));
+    self->table_pass = pass;
+    return PSPEC_OK;
+}
+
+static double pass_harmonics(const ps_sphere_layout *layout, size_t pass) {
+    const double orders = (double)ps_sphere_pass_orders(layout, pass);
+    const double first = (double)(pass * layout->pass_orders);
+    return orders * (layout->max_degree + 1 - first - (orders - 1) / 2);
+}
+
+static pspec_status add_slab(sphere_direct *self, size_t num_patterns, size_t pass, bool has_low,
+                             bool is_first, ps_error *error) {
+    const ps_sphere_layout *layout = &self->layout;
+    const ps_sphere_points *points = &self->points;
+    const size_t orders = ps_sphere_pass_orders(layout, pass);
+    const double harmonics =
+        (double)(points->num_vectors * layout->lanes) * pass_harmonics(layout, pass);
+    const double flops_per_harmonic = layout->only_even ? 7 : 9;
+    ps_range range = {.rank = 3,
+                      .global = {ps_divide_up(orders, PS_SPHERE_ORDERS), num_patterns, 1},
+                      .local = {1, 1, 1},
+                      .flops = flops_per_harmonic * harmonics};
+    return PS_LAUNCH(self->device, self->sums_kernel, &range, error, PS_BUFFER(points->values),
+                     PS_BUFFER(points->turns), PS_BUFFER(points->weights),
+                     PS_BUFFER(points->offsets), PS_BUFFER(self->table), PS_BUFFER(self->blocks),
+                     PS_BUFFER(self->sums), PS_U32(pass * layout->pass_orders), PS_U32(orders),
+                     PS_U32(layout->max_degree), PS_U64(layout->stride), PS_U64(points->capacity),
+                     PS_U32(has_low), PS_U32(is_first));
+}
+
+static pspec_status add_orders(sphere_direct *self, size_t num_patterns, size_t pass, bool has_low,
+                               ps_error *error) {
+    const ps_sphere_layout *layout = &self->layout;
+    const size_t vectors = ps_divide_up((uint64_t)layout->max_degree + 1, layout->lanes);
+    const double flops_per_harmonic = 18;
+    const double harmonics = (double)num_patterns * pass_harmonics(layout, pass);
+    const ps_range range =
+        ps_range_heavy(self->device, vectors, num_patterns, 1, flops_per_harmonic * harmonics,
+                       2 * harmonics * (double)layout->real_bytes);
+    return PS_LAUNCH(self->device, self->power_kernel, &range, error, PS_BUFFER(self->sums),
+                     PS_BUFFER(self->powers), PS_U32(pass * layout->pass_orders),
+                     PS_U32(ps_sphere_pass_orders(layout, pass)), PS_U32(layout->max_degree),
+                     PS_U64(layout->stride), PS_U32(has_low));
+}
+
+static size_t longest_pattern(const ps_batch *batch) {
+    size_t longest = 1;
+    for (size_t r = 0; r < batch->num_patterns; r++) {
+        const size_t num_points = batch->patterns[r].num_points;
+        longest = num_points > longest ? num_points : longest;
+    }
+    return longest;
+}
+
+/* More points than a chunk: the sums have low parts. */
+static bool has_low_parts(const sphere_direct *self, size_t longest) {
+    return longest > PS_SPHERE_CHUNK || longest > self->layout.slab;
+}
+
+/* The coefficients of a pass of orders, in the device's sums. */
+static pspec_status sum_pass(sphere_direct *self, const ps_batch *batch, size_t pass,
+                             ps_error *error) {
+    const size_t longest = longest_pattern(batch);
+    const size_t slab = self->layout.slab;
+    PS_TRY(upload_table(self, pass, error));
+    for (size_t first = 0; first < longest; first += slab) {
+        PS_TRY(ps_batch_go_on(batch, error));
+        if (pass == 0 || longest > slab) { /* else they are still there */
+            PS_TRY(ps_sphere_points_upload(&self->points, batch, first, error));
+        }
+        PS_TRY(add_slab(self, batch->num_patterns, pass, has_low_parts(self, longest), first == 0,
+                        error));
+    }
+    return PSPEC_OK;
+}
+
+static double real_at(const sphere_direct *self, size_t i) {
+    return self->layout.precision == PS_SINGLE ? (double)((const float *)self->host_rows)[i]
+                                               : ((const double *)self->host_rows)[i];
+}
+
+/* c_lm of an order from the first realization's sums, times 2^exponent. */
+static pspec_status read_order(sphere_direct *self, size_t order, int32_t m, bool has_low,
+                               int exponent, double *out, ps_error *error) {
+    const ps_sphere_layout *layout = &self->layout;
+    const size_t stride = layout->stride;
+    const size_t bytes = PS_SPHERE_SUMS * stride * layout->real_bytes;
+    const int64_t max_degree = layout->max_degree;
+    double *to = out + m * (2 * max_degree + 1 - m);
+    PS_TRY(ps_buffer_read(self->device, &self->sums, order * bytes, self->host_rows, bytes, error));
+    for (int64_t l = m; l <= max_degree; l++) {
+        const bool is_there = !layout->only_even || l % 2 == 0;
+        for (size_t part = 0; part < 2; part++) {
+            const size_t at = part * stride + (size_t)l;
+            const double low = has_low ? real_at(self, 2 * stride + at) : 0;
+            to[2 * l + (int64_t)part] = is_there ? ldexp(real_at(self, at) + low, exponent) : 0;
+        }
+    }
+    return PSPEC_OK;
+}
+
+/* Q(l) = (4 pi / (2l + 1)) (|c_l0|^2 + 2 sum_{m > 0} |c_lm|^2). */
+static pspec_status read_powers(sphere_direct *self, const ps_batch *batch, ps_error *error) {
+    const double four_pi = 12.566370614359172;
+    const ps_frequencies *set = self->frequencies;
+    const size_t stride = self->layout.stride;
+    const size_t bytes = PS_SPHERE_POWERS * stride * self->layout.real_bytes;
+    for (size_t r = 0; r < batch->num_patterns; r++) {
+        PS_TRY(
+            ps_buffer_read(self->device, &self->powers, r * bytes, self->host_rows, bytes, error));
+        for (size_t i = 0; i < set->num; i++) {
+            const size_t l = (size_t)set->vectors[i];
+            const double half = real_at(self, l) + real_at(self, stride + l);
+            self->power[r * set->num + i] =
+                2 * four_pi / (2 * (double)l + 1) * half * batch->scales[r];
+        }
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status read_pass(sphere_direct *self, const ps_batch *one, size_t pass, bool has_low,
+                              double *out, ps_error *error) {
+    const int exponent = one->exponents != NULL ? one->exponents[0] : 0;
+    for (size_t i = 0; i < ps_sphere_pass_orders(&self->layout, pass); i++) {
+        const size_t m = pass * self->layout.pass_orders + i;
+        PS_TRY(read_order(self, i, (int32_t)m, has_low, exponent, out, error));
+    }
+    return PSPEC_OK;
+}
+
+/* Sums on the device, and from them powers there and coefficients here (NULL: none). */
+static pspec_status run_passes(sphere_direct *self, const ps_batch *batch, bool wants_powers,
+                               double *coefficients, ps_error *error) {
+    const bool has_low = has_low_parts(self, longest_pattern(batch));
+    for (size_t pass = 0; pass < self->layout.num_passes; pass++) {
+        PS_TRY(sum_pass(self, batch, pass, error));
+        if (wants_powers) {
+            PS_TRY(add_orders(self, batch->num_patterns, pass, has_low, error));
+        }
+        if (coefficients != NULL) {
+            PS_TRY(read_pass(self, batch, pass, has_low, coefficients, error));
+        }
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status give_rows(sphere_direct *self, const ps_batch *batch, ps_rows *rows,
+                              ps_error *error) {
+    PS_TRY(read_powers(self, batch, error));
+    *rows = (ps_rows){.num_rows = batch->num_patterns,
+                      .stride = self->frequencies->num,
+                      .precision = PS_DOUBLE,
+                      .host = self->power};
+    return PSPEC_OK;
+}
+
+/* ---- run --------------------------------------------------------------------------------- */
+
+static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_error *error) {
+    PS_TRY(run_passes(state, batch, true, NULL, error));
+    return give_rows(state, batch, rows, error);
+}
+
+static pspec_status coefficients(void *state, const ps_batch *one, ps_rows *rows, double *out,
+                                 ps_error *error) {
+    PS_TRY(run_passes(state, one, rows != NULL, out, error));
+    return rows != NULL ? give_rows(state, one, rows, error) : PSPEC_OK;
+}
+
+static void describe(const void *state, ps_text *text) {
+    const ps_sphere_layout *layout = &((const sphere_direct *)state)->layout;
+    ps_text_append(text, "(sphere_direct precision=%s lanes=%u chunk=%d passes=%zu slab=%zu%s)",
+                   ps_precision_name(layout->precision), layout->lanes, PS_SPHERE_CHUNK,
+                   layout->num_passes, layout->slab, layout->only_even ? " even" : "");
+}
+
+const ps_engine ps_sphere_direct = {
+    .name = "sphere_direct",
+    .summary = "direct sums of spherical harmonics on the device",
+    .domains = PS_ON_SPHERE,
+    .needs_device = true,
+    .rows_on_host = true,
+    .has_precision = {true, true, false},
+    .applicable = applicable,
+    .work = work,
+    .error = ps_sphere_error,
+    .create = create,
+    .get_stride = get_stride,
+    .run = run,
+    .coefficients = coefficients,
+    .describe = describe,
+    .destroy = destroy,
+};

@@ -1,0 +1,36 @@
+/* Sizes of a job of sphere_direct: a pure function of problem, device and precision. */
+#ifndef PS_ENGINES_SPHERE_SPHERE_LAYOUT_H
+#define PS_ENGINES_SPHERE_SPHERE_LAYOUT_H
+
+#include "engines/engine.h"
+
+/* As in kernels/sphere/layout.h. Points of a chunk: their state (8 numbers and two exponents each, 20 KiB in single
+ * precision) stays in the first-level cache as far as a block of degrees needs it. ORDERS: more orders of a work-item
+ * spread the cost of an exact beginning, but each multiplies its rounding errors on. */
+enum { PS_SPHERE_CHUNK = 512, PS_SPHERE_ORDERS = 16 };
+
+/* Numbers of a point that kernels/sphere/prepare.cl makes, of a coefficient and of a power: (re, im) and high, low. */
+enum { PS_SPHERE_ARRAYS = 6, PS_SPHERE_SUMS = 4, PS_SPHERE_POWERS = 2 };
+
+typedef struct ps_sphere_layout {
+    int32_t max_degree;
+    bool only_even;
+    unsigned lanes, prepare_lanes;
+    ps_precision precision;
+    size_t real_bytes;
+    size_t stride;      /* entries of a row of coefficients */
+    size_t pass_orders; /* orders whose table and sums are in memory at a time */
+    size_t num_passes;
+    size_t pass_blocks; /* of the table, at most */
+    size_t slab;        /* points of a realization on the device at a time */
+    double fixed_bytes, bytes_per_realization, point_bytes, largest_buffer,
+        largest_buffer_per_realization;
+} ps_sphere_layout;
+
+ps_sphere_layout ps_sphere_layout_make(const ps_problem *problem, const ps_device_limits *limits,
+                                       ps_precision precision);
+
+/* Orders of a pass. */
+size_t ps_sphere_pass_orders(const ps_sphere_layout *layout, size_t pass);
+
+#endif

@@ -1,0 +1,309 @@
+#include "engines/torus/nufft/grid.h"
+
+#include "base/round.h"
+#include "engines/torus/nufft/kernels.h"
+
+#include <stdio.h>
+
+/* ---- create ------------------------------------------------------------------------------ */
+
+static pspec_status create_kernels(ps_nufft_grid *self, ps_precision precision, ps_error *error) {
+    char options[64];
+    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u",
+             precision == PS_SINGLE ? 32u : 64u, self->layout->lanes);
+    const struct {
+        cl_kernel *kernel;
+        const char *source, *name;
+    } all[] = {{&self->spread, "nufft/grid.cl", "nufft_grid"},
+               {&self->first, "nufft/first.cl", "nufft_first"},
+               {&self->tile, "nufft/finish.cl", "nufft_finish_tile"},
+               {&self->rows, "nufft/finish.cl", "nufft_finish_rows"},
+               {&self->columns, "nufft/columns.cl", "nufft_columns"}};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
+        PS_TRY(ps_kernel_create(self->device, all[i].kernel, all[i].source, all[i].name, options,
+                                error));
+    }
+    return PSPEC_OK;
+}
+
+/* Cells of all axes but the first. */
+static size_t num_columns(const ps_nufft_layout *layout) {
+    return layout->grid_reals / layout->choice.axes[0].n;
+}
+
+/* Cells of axis 0 in a slab. */
+static size_t slab_rows(const ps_nufft_layout *layout, uint32_t slab) {
+    const uint32_t rest = layout->choice.axes[0].n - slab * layout->slab_rows;
+    return rest < layout->slab_rows ? rest : layout->slab_rows;
+}
+
+static pspec_status create_buffers(ps_nufft_grid *self, ps_error *error) {
+    const ps_nufft_layout *layout = self->layout;
+    const size_t vector_bytes = 2 * layout->lanes * layout->real_bytes;
+    const size_t tile_cells = layout->grid_cells / layout->num_tiles;
+    const size_t strip = layout->strip_columns * layout->choice.axes[0].n * layout->real_bytes;
+    for (uint32_t slab = 0; slab < layout->num_slabs; slab++) {
+        const size_t bytes = slab_rows(layout, slab) * num_columns(layout) * layout->real_bytes;
+        PS_TRY(ps_buffer_create(self->device, &self->high[slab], bytes, "the fine grid", error));
+        PS_TRY(ps_buffer_create(self->device, &self->low[slab], bytes, "the fine grid", error));
+    }
+    if (strip > 0) {
+        PS_TRY(ps_buffer_create(self->device, &self->high_strip, strip, "the fine grid", error));
+        PS_TRY(ps_buffer_create(self->device, &self->low_strip, strip, "the fine grid", error));
+    }
+    PS_TRY(ps_buffer_create(self->device, &self->tile_rows,
+                            layout->tiles_at_once * num_columns(layout) * vector_bytes,
+                            "rows of tiles", error));
+    return ps_buffer_create(self->device, &self->transformed,
+                            layout->tiles_at_once * tile_cells * vector_bytes, "transformed rows",
+                            error);
+}
+
+pspec_status ps_nufft_grid_create(ps_nufft_grid *out, const ps_nufft_layout *layout,
+                                  const ps_nufft_plan *plans, ps_nufft_places *places,
+                                  ps_precision precision, ps_device *device, ps_error *error) {
+    *out = (ps_nufft_grid){.layout = layout, .plans = plans, .places = places, .device = device};
+    PS_TRY(create_kernels(out, precision, error));
+    return create_buffers(out, error);
+}
+
+void ps_nufft_grid_free(ps_nufft_grid *grid) {
+    const cl_kernel kernels[] = {grid->spread, grid->first, grid->tile, grid->rows, grid->columns};
+    for (size_t i = 0; i < sizeof kernels / sizeof kernels[0]; i++) {
+        if (kernels[i] != NULL) {
+            clReleaseKernel(kernels[i]);
+        }
+    }
+    for (uint32_t slab = 0; slab < PS_NUFFT_MOST_SLABS; slab++) {
+        ps_buffer_release(&grid->high[slab]);
+        ps_buffer_release(&grid->low[slab]);
+    }
+    ps_buffer_release(&grid->high_strip);
+    ps_buffer_release(&grid->low_strip);
+    ps_buffer_release(&grid->tile_rows);
+    ps_buffer_release(&grid->transformed);
+    *grid = (ps_nufft_grid){0};
+}
+
+/* ---- add --------------------------------------------------------------------------------- */
+
+void ps_nufft_grid_begin(ps_nufft_grid *grid) {
+    grid->is_empty = true;
+}
+
+/* Arguments of an axis, as kernels/nufft/grid.cl has them. */
+#define GRID_AXIS(plan)                                                                            \
+    PS_BUFFER((plan)->coefficients), PS_U32((plan)->axis.n), PS_U32((plan)->axis.window.width),    \
+        PS_U32((plan)->degree), PS_U32((plan)->bins)
+
+static pspec_status spread_on(ps_nufft_grid *self, uint32_t slab, size_t num_parts,
+                              size_t num_points, ps_error *error) {
+    const unsigned axes = self->layout->choice.num_axes;
+    const ps_nufft_plan *block = &self->plans[axes - 2];
+    const ps_nufft_plan *last = &self->plans[axes - 1];
+    const ps_nufft_plan none = {.coefficients = block->coefficients,
+                                .axis = {.n = 1, .window = {.width = 1}}};
+    const ps_nufft_plan *outer = axes == 3 ? &self->plans[0] : &none;
+    const size_t across = ps_divide_up(block->axis.n, PS_NUFFT_BLOCK_ROWS);
+    const size_t rows = slab_rows(self->layout, slab);
+    const size_t num_blocks = axes == 3 ? rows * across : ps_divide_up(rows, PS_NUFFT_BLOCK_ROWS);
+    const size_t first_row = (size_t)slab * self->layout->slab_rows;
+    const size_t first_block = axes == 3 ? first_row * across : first_row / PS_NUFFT_BLOCK_ROWS;
+    const double flops = 2.0 * (double)num_points * outer->axis.window.width *
+                         block->axis.window.width * last->bins * (double)rows /
+                         self->plans[0].axis.n;
+    const ps_range range = ps_nufft_group_range(self->device, num_blocks, 1, flops);
+    const size_t row_bytes = (last->axis.n + last->bins) * self->layout->real_bytes;
+    const size_t windows = PS_NUFFT_CHUNK * (block->bins + last->bins + 3);
+    return PS_LAUNCH(self->device, self->spread, &range, error, PS_BUFFER(self->places->places),
+                     PS_BUFFER(self->places->sorted), PS_BUFFER(self->places->heights),
+                     PS_BUFFER(self->places->starts), PS_U32(num_parts), PS_U32(axes),
+                     GRID_AXIS(outer), GRID_AXIS(block), GRID_AXIS(last), PS_U32(first_block),
+                     PS_U32(self->is_empty ? 1 : 0), PS_BUFFER(self->high[slab]),
+                     PS_BUFFER(self->low[slab]), PS_LOCAL(PS_NUFFT_BLOCK_ROWS * row_bytes),
+                     PS_LOCAL(windows * self->layout->real_bytes),
+                     PS_LOCAL(2 * PS_NUFFT_CHUNK * sizeof(uint32_t)));
+}
+
+static pspec_status spread(ps_nufft_grid *self, size_t num_parts, size_t num_points,
+                           ps_error *error) {
+    for (uint32_t slab = 0; slab < self->layout->num_slabs; slab++) {
+        PS_TRY(spread_on(self, slab, num_parts, num_points, error));
+    }
+    self->is_empty = false;
+    return PSPEC_OK;
+}
+
+/* Points first .. of a pattern that fit into a chunk, as parts; how many parts. */
+static size_t cut(const ps_nufft_layout *layout, const pspec_pattern *pattern, size_t first,
+                  pspec_pattern *parts, size_t *num_points) {
+    size_t num = 0;
+    *num_points = 0;
+    while (num < layout->parts && first < pattern->num_points) {
+        const size_t rest = pattern->num_points - first;
+        parts[num] = *pattern;
+        parts[num].num_points = rest < layout->part_points ? rest : layout->part_points;
+        parts[num].points = pattern->points + first * pattern->dimension;
+        parts[num].weights = pattern->weights != NULL ? pattern->weights + first : NULL;
+        first += parts[num].num_points;
+        *num_points += parts[num++].num_points;
+    }
+    return num;
+}
+
+pspec_status ps_nufft_grid_add(ps_nufft_grid *grid, const ps_batch *batch, ps_error *error) {
+    pspec_pattern parts[PS_NUFFT_MOST_PARTS];
+    int exponents[PS_NUFFT_MOST_PARTS];
+    size_t num_points = 0;
+    for (size_t i = 0; i < PS_NUFFT_MOST_PARTS; i++) {
+        exponents[i] = batch->exponents != NULL ? batch->exponents[0] : 0;
+    }
+    for (size_t first = 0; first < batch->patterns[0].num_points; first += num_points) {
+        ps_batch chunk = *batch;
+        chunk.patterns = parts;
+        chunk.exponents = exponents;
+        chunk.num_patterns = cut(grid->layout, &batch->patterns[0], first, parts, &num_points);
+        PS_TRY(ps_batch_go_on(batch, error));
+        PS_TRY(ps_nufft_places_upload(grid->places, &chunk, error));
+        PS_TRY(ps_nufft_places_sort(grid->places, chunk.num_patterns, error));
+        PS_TRY(spread(grid, chunk.num_patterns, num_points, error));
+    }
+    return PSPEC_OK;
+}
+
+/* ---- finish ------------------------------------------------------------------------------ */
+
+static size_t cells_bytes(const ps_nufft_grid *self, const ps_nufft_plan *plan) {
+    return plan->axis.n * 2 * (size_t)self->layout->lanes * self->layout->real_bytes;
+}
+
+/* Work-groups that each transform one row of lanes along an axis. */
+static ps_range transform_range(const ps_nufft_grid *self, const ps_nufft_plan *plan,
+                                size_t num_groups) {
+    return ps_nufft_group_range(self->device, num_groups, 1,
+                                (double)num_groups * self->layout->lanes *
+                                    ps_fft_flops(plan->axis.n));
+}
+
+/* Columns, and tiles, that are worked on. */
+typedef struct extent {
+    size_t first, num;
+} extent;
+
+static extent cut_extent(size_t first, size_t at_once, size_t whole) {
+    return (extent){first, whole - first < at_once ? whole - first : at_once};
+}
+
+/* The same columns of all slabs, one below the other. */
+static pspec_status gather_strip(ps_nufft_grid *self, extent columns, ps_error *error) {
+    const ps_nufft_layout *layout = self->layout;
+    const size_t real = layout->real_bytes;
+    for (uint32_t slab = 0; slab < layout->num_slabs; slab++) {
+        const ps_rectangle rectangle = {
+            .row_bytes = columns.num * real,
+            .num_rows = slab_rows(layout, slab),
+            .from_offset = columns.first * real,
+            .from_pitch = num_columns(layout) * real,
+            .to_offset = (size_t)slab * layout->slab_rows * columns.num * real,
+            .to_pitch = columns.num * real,
+        };
+        PS_TRY(ps_buffer_copy_rectangle(self->device, &self->high[slab], &self->high_strip,
+                                        &rectangle, error));
+        PS_TRY(ps_buffer_copy_rectangle(self->device, &self->low[slab], &self->low_strip,
+                                        &rectangle, error));
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status transform_columns(ps_nufft_grid *self, const ps_buffer *means, extent columns,
+                                      extent tiles, ps_error *error) {
+    const ps_nufft_plan *plan = &self->plans[0];
+    const bool is_whole = self->layout->strip_columns == 0;
+    const ps_range range = transform_range(self, plan, columns.num / (2 * self->layout->lanes));
+    return PS_LAUNCH(self->device, self->first, &range, error,
+                     PS_BUFFER(*(is_whole ? &self->high[0] : &self->high_strip)),
+                     PS_BUFFER(*(is_whole ? &self->low[0] : &self->low_strip)), PS_BUFFER(*means),
+                     PS_U64(columns.num), PS_BUFFER(plan->fft.radices),
+                     PS_BUFFER(plan->fft.twiddles), PS_BUFFER(plan->fft.position),
+                     PS_BUFFER(plan->gains), PS_U32(plan->axis.n), PS_U32(plan->axis.max_frequency),
+                     PS_U32(tiles.first), PS_U32(tiles.num), PS_U64(columns.first),
+                     PS_U64(num_columns(self->layout)), PS_BUFFER(self->tile_rows),
+                     PS_LOCAL(cells_bytes(self, plan)));
+}
+
+static pspec_status transform_first(ps_nufft_grid *self, const ps_buffer *means, extent tiles,
+                                    ps_error *error) {
+    const size_t whole = num_columns(self->layout);
+    const size_t strip = self->layout->strip_columns;
+    if (strip == 0) {
+        return transform_columns(self, means, (extent){0, whole}, tiles, error);
+    }
+    for (size_t first = 0; first < whole; first += strip) {
+        const extent columns = cut_extent(first, strip, whole);
+        PS_TRY(gather_strip(self, columns, error));
+        PS_TRY(transform_columns(self, means, columns, tiles, error));
+    }
+    return PSPEC_OK;
+}
+
+/* Powers of a row in front of a tile. */
+static uint64_t powers_before(const ps_nufft_grid *self, extent tiles) {
+    return self->layout->stride / self->layout->num_tiles * tiles.first;
+}
+
+static pspec_status finish_tiles(ps_nufft_grid *self, extent tiles, const ps_nufft_target *target,
+                                 ps_error *error) {
+    const ps_nufft_plan *plan = &self->plans[1];
+    const ps_range range = transform_range(self, plan, tiles.num);
+    return PS_LAUNCH(self->device, self->tile, &range, error, PS_BUFFER(self->tile_rows),
+                     PS_BUFFER(plan->fft.radices), PS_BUFFER(plan->fft.twiddles),
+                     PS_BUFFER(plan->fft.position), PS_BUFFER(plan->gains),
+                     PS_BUFFER(*target->scales), PS_BUFFER(*target->power),
+                     PS_U32(target->realization), PS_U64(self->layout->stride),
+                     PS_U32(plan->axis.n), PS_U32(plan->axis.max_frequency),
+                     PS_U64(powers_before(self, tiles)), PS_LOCAL(cells_bytes(self, plan)));
+}
+
+static pspec_status finish_rows(ps_nufft_grid *self, extent tiles, const ps_nufft_target *target,
+                                ps_error *error) {
+    const ps_nufft_plan *across = &self->plans[1];
+    const ps_nufft_plan *along = &self->plans[2];
+    const size_t kept = 2 * (size_t)along->axis.max_frequency + 1;
+    const ps_range rows = transform_range(self, along, tiles.num * across->axis.n);
+    const ps_range columns = transform_range(self, across, tiles.num * kept);
+    PS_TRY(PS_LAUNCH(self->device, self->rows, &rows, error, PS_BUFFER(self->tile_rows),
+                     PS_BUFFER(along->fft.radices), PS_BUFFER(along->fft.twiddles),
+                     PS_BUFFER(along->fft.position), PS_BUFFER(self->transformed),
+                     PS_U32(across->axis.n), PS_U32(along->axis.n),
+                     PS_U32(along->axis.max_frequency), PS_LOCAL(cells_bytes(self, along))));
+    return PS_LAUNCH(self->device, self->columns, &columns, error, PS_BUFFER(self->transformed),
+                     PS_BUFFER(across->fft.radices), PS_BUFFER(across->fft.twiddles),
+                     PS_BUFFER(across->fft.position), PS_BUFFER(across->gains),
+                     PS_BUFFER(along->gains), PS_BUFFER(*target->scales), PS_BUFFER(*target->power),
+                     PS_U32(target->realization), PS_U64(self->layout->stride),
+                     PS_U32(across->axis.n), PS_U32(across->axis.max_frequency),
+                     PS_U32(along->axis.max_frequency), PS_U64(powers_before(self, tiles)),
+                     PS_LOCAL(cells_bytes(self, across)));
+}
+
+/* Without a point, nothing was stored. */
+static pspec_status clear_if_empty(ps_nufft_grid *self, ps_error *error) {
+    for (uint32_t slab = 0; self->is_empty && slab < self->layout->num_slabs; slab++) {
+        PS_TRY(ps_buffer_clear(self->device, &self->high[slab], error));
+        PS_TRY(ps_buffer_clear(self->device, &self->low[slab], error));
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_nufft_grid_finish(ps_nufft_grid *grid, const ps_buffer *means,
+                                  const ps_nufft_target *target, ps_error *error) {
+    const ps_nufft_layout *layout = grid->layout;
+    PS_TRY(clear_if_empty(grid, error));
+    for (size_t first = 0; first < layout->num_tiles; first += layout->tiles_at_once) {
+        const extent tiles = cut_extent(first, layout->tiles_at_once, layout->num_tiles);
+        PS_TRY(transform_first(grid, means, tiles, error));
+        PS_TRY(layout->choice.num_axes == 2 ? finish_tiles(grid, tiles, target, error)
+                                            : finish_rows(grid, tiles, target, error));
+    }
+    return PSPEC_OK;
+}

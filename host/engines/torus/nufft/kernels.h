@@ -1,0 +1,12 @@
+/* Numbers that kernels/nufft/ and its host code agree on, as the kernels name them. */
+#ifndef PS_ENGINES_TORUS_NUFFT_KERNELS_H
+#define PS_ENGINES_TORUS_NUFFT_KERNELS_H
+
+enum {
+    PS_NUFFT_PLACE_UNIT = 16, /* place.h: a realization fills whole units of places */
+    PS_NUFFT_GAP = 4,         /* place.h: zeros on either side of a window */
+    PS_NUFFT_CHUNK = 16,      /* spread.h: points that are spread together */
+    PS_NUFFT_BLOCK_ROWS = 8   /* grid.cl: rows of a work-group */
+};
+
+#endif

@@ -1,0 +1,347 @@
+#include "engines/torus/nufft/layout.h"
+
+#include "base/round.h"
+#include "engines/torus/nufft/kernels.h"
+#include "engines/nufft/plan.h"
+#include "device/reals.h"
+
+#include <math.h>
+
+/* Places and grids of the realizations that are worked on at a time: on CPUs a share of the last-level
+ * cache, on GPUs enough to fill the device. */
+static const double work_share = 0.25;
+static const double gpu_work_bytes = 512.0 * 1024 * 1024;
+enum { DEFAULT_CACHE_BYTES = 8 << 20, MOST_AT_ONCE = 1024 };
+
+/* How much each point of a chunk turns, kernels/nufft/spread.h. */
+enum { TURN_REALS = 2 * PS_NUFFT_CHUNK };
+
+static uint64_t starts_bytes(const ps_nufft_layout *layout) {
+    return ((uint64_t)layout->num_keys + 2) * sizeof(uint32_t);
+}
+
+/* Points sorted together: on the host, as they came and sorted; where cells, places and points begin. */
+static uint64_t part_bytes(const ps_nufft_layout *layout, unsigned dimension) {
+    enum { COPIES = 3, BEGINNINGS = 4, MEANS = 2 };
+    const uint64_t point = dimension * sizeof(uint64_t) + layout->real_bytes;
+    return COPIES * layout->part_places * point + starts_bytes(layout) +
+           (BEGINNINGS + MEANS) * sizeof(uint64_t);
+}
+
+/* For one point of every part, of the copy that the host keeps (engines/torus_points): weights; coordinates where
+ * the device cannot read them there, else they are a second copy of its own. */
+static uint64_t host_point_bytes(const ps_nufft_layout *layout, const ps_problem *problem,
+                                 const ps_device_limits *limits) {
+    const uint64_t coordinates =
+        limits->has_unified_memory ? 0 : problem->frequencies->dimension * sizeof(uint64_t);
+    return layout->parts * (coordinates + layout->real_bytes);
+}
+
+/* Whatever the number of points: plans of the axes (twiddles and pattern, gains, positions; polynomials and
+ * radices are small). */
+static uint64_t table_bytes(const ps_nufft_layout *layout) {
+    enum { SMALL = 1536 };
+    uint64_t bytes = 0;
+    for (unsigned i = 0; i < layout->choice.num_axes; i++) {
+        const ps_nufft_axis *axis = &layout->choice.axes[i];
+        const uint64_t reals = 4 * (uint64_t)axis->n + (uint64_t)axis->max_frequency + 1;
+        bytes += reals * layout->real_bytes + axis->n * sizeof(uint32_t) + SMALL;
+    }
+    return bytes;
+}
+
+static uint64_t largest_of(const uint64_t *numbers, size_t num) {
+    uint64_t largest = 0;
+    for (size_t i = 0; i < num; i++) {
+        largest = numbers[i] > largest ? numbers[i] : largest;
+    }
+    return largest;
+}
+
+/* Realizations at a time whose `each` bytes of work stay in the cache or fill the device, in whole units, no more
+ * than there are. */
+static size_t fitting_parts(const ps_problem *problem, const ps_device_limits *limits, double each,
+                            size_t unit) {
+    const double cache =
+        limits->cache_bytes > 0 ? (double)limits->cache_bytes : DEFAULT_CACHE_BYTES;
+    const double budget = limits->has_dedicated_local_memory ? gpu_work_bytes : work_share * cache;
+    const double fitting = fmin(budget / each, MOST_AT_ONCE);
+    const size_t units = fitting > (double)unit ? (size_t)fitting / unit : 1;
+    const uint64_t known = problem->num_realizations;
+    return known > 0 && known < units * unit ? (size_t)known : units * unit;
+}
+
+static void choose_at_once(ps_nufft_layout *layout, const ps_problem *problem,
+                           const ps_device_limits *limits) {
+    const unsigned dimension = problem->frequencies->dimension;
+    const uint64_t grid = layout->grid_cells * 2 * layout->lanes * layout->real_bytes;
+    const uint64_t each = part_bytes(layout, dimension) + grid;
+    layout->parts = fitting_parts(problem, limits, (double)each, 1);
+    layout->fixed_bytes = layout->parts * each + table_bytes(layout);
+    const uint64_t buffers[] = {grid, layout->part_places * dimension * sizeof(uint64_t),
+                                starts_bytes(layout)};
+    layout->largest_buffer =
+        layout->parts * largest_of(buffers, sizeof buffers / sizeof buffers[0]);
+}
+
+static void measure_axes(ps_nufft_layout *layout) {
+    const ps_nufft_choice *choice = &layout->choice;
+    unsigned num_last = 0;
+    const ps_nufft_axis *last = ps_nufft_last_axes(choice, &num_last);
+    layout->num_tiles = layout->lanes > 0 ? (uint32_t)ps_divide_up(choice->span, layout->lanes) : 0;
+    layout->row_bytes = 0;
+    layout->stride = (size_t)layout->num_tiles * layout->lanes;
+    for (unsigned i = 0; i < choice->num_axes; i++) {
+        const size_t bytes =
+            ps_nufft_row_cells(&choice->axes[i]) * 2 * layout->lanes * layout->real_bytes;
+        const size_t numbers = ps_nufft_pitch(&choice->axes[i]) + 2 * (size_t)layout->lanes + 2;
+        layout->row_bytes = bytes > layout->row_bytes ? bytes : layout->row_bytes;
+        layout->chunk_reals = PS_NUFFT_CHUNK * numbers;
+    }
+    for (unsigned i = 0; i < num_last; i++) {
+        layout->stride *= 2 * (size_t)last[i].max_frequency + 1;
+    }
+    layout->num_keys = choice->axes[0].n;
+    if (num_last == 2) { /* in the order of cells, rows are filled from end to end */
+        layout->num_keys = last[0].n * last[1].n;
+        layout->grid_cells =
+            (size_t)layout->num_tiles * last[0].n * (2 * (size_t)last[1].max_frequency + 1);
+    }
+    if (choice->is_gridded) {
+        layout->grid_reals = choice->axes[0].n;
+        for (unsigned i = 1; i < choice->num_axes; i++) {
+            layout->grid_reals *= choice->axes[i].n;
+        }
+        layout->num_keys = (uint32_t)(layout->grid_reals / choice->axes[choice->num_axes - 1].n);
+    }
+}
+
+/* Equal shares of a whole, at most `most` each and whole units; one unit when not even that fits. */
+static uint64_t share_out(uint64_t whole, uint64_t most, uint64_t unit) {
+    const uint64_t fitting = most / unit > 0 ? most / unit * unit : unit;
+    const uint64_t shares = ps_divide_up(whole, fitting);
+    const uint64_t share = ps_round_up(ps_divide_up(whole, shares), unit);
+    return share < whole ? share : whole;
+}
+
+/* The grid of a large set in buffers that the device allows: slabs of axis 0 where points are spread, which are
+ * copied together for strips of columns where axis 0 is transformed, into some tiles at a time. */
+static void split_grid(ps_nufft_layout *layout, uint64_t limit) {
+    enum { STRIPS = 16 };
+    const uint64_t n = layout->choice.axes[0].n;
+    const uint64_t columns = layout->grid_reals / n;
+    const uint64_t unit = layout->choice.num_axes == 2 ? PS_NUFFT_BLOCK_ROWS : 1;
+    const uint64_t lanes = 2 * layout->lanes;
+    const uint64_t tile_rows = columns * lanes * layout->real_bytes;
+    const uint64_t tile_transformed =
+        layout->grid_cells / layout->num_tiles * lanes * layout->real_bytes;
+    const uint64_t tile = tile_rows > tile_transformed ? tile_rows : tile_transformed;
+    layout->slab_rows = (uint32_t)share_out(n, limit / (columns * layout->real_bytes), unit);
+    layout->num_slabs = (uint32_t)ps_divide_up(n, layout->slab_rows);
+    layout->tiles_at_once = (uint32_t)share_out(layout->num_tiles, limit / tile, 1);
+    if (layout->num_slabs > 1) {
+        const uint64_t fitting = limit / (n * layout->real_bytes);
+        const uint64_t wanted = ps_round_up(ps_divide_up(columns, STRIPS), lanes);
+        layout->strip_columns = share_out(columns, wanted < fitting ? wanted : fitting, lanes);
+    }
+}
+
+/* Memory of a large set: a chunk of points, the grid in pairs, rows of tiles, what two transforms leave. */
+static void measure_grid(ps_nufft_layout *layout, const ps_problem *problem, uint64_t limit) {
+    split_grid(layout, limit);
+    const uint64_t vector_bytes = 2 * layout->lanes * layout->real_bytes;
+    const uint64_t n = layout->choice.axes[0].n;
+    const uint64_t columns = layout->grid_reals / n;
+    const uint64_t rows = layout->tiles_at_once * columns * vector_bytes;
+    const uint64_t transformed =
+        layout->grid_cells / layout->num_tiles * layout->tiles_at_once * vector_bytes;
+    const uint64_t reals = layout->grid_reals * layout->real_bytes;
+    const uint64_t slab = layout->slab_rows * columns * layout->real_bytes;
+    const uint64_t strip = layout->strip_columns * n * layout->real_bytes;
+    const unsigned dimension = problem->frequencies->dimension;
+    const uint64_t part = part_bytes(layout, dimension);
+    const size_t parts = ps_divide_up(problem->num_points, layout->part_points);
+    layout->parts = parts < PS_NUFFT_MOST_PARTS ? parts : PS_NUFFT_MOST_PARTS;
+    layout->fixed_bytes =
+        layout->parts * part + 2 * (reals + strip) + rows + transformed + table_bytes(layout);
+    const uint64_t buffers[] = {rows,
+                                slab,
+                                transformed,
+                                strip,
+                                layout->parts * starts_bytes(layout),
+                                layout->parts * layout->part_places * dimension * sizeof(uint64_t)};
+    layout->largest_buffer = layout->num_slabs > PS_NUFFT_MOST_SLABS
+                                 ? reals
+                                 : largest_of(buffers, sizeof buffers / sizeof buffers[0]);
+}
+
+/* Of a tile: its row, and how much each point of a chunk turns. */
+static size_t tile_bytes(const ps_nufft_layout *layout) {
+    return layout->row_bytes + TURN_REALS * layout->real_bytes;
+}
+
+/* Without turns. */
+static size_t chunk_bytes(const ps_nufft_layout *layout) {
+    return layout->chunk_reals * layout->real_bytes +
+           PS_NUFFT_CHUNK * (sizeof(uint64_t) + sizeof(uint32_t));
+}
+
+/* Tiles of a work-group share windows and phases. One on GPUs, where there is little local memory; on CPUs
+ * what it holds, in groups of equal size, but work for all cores. */
+static uint32_t choose_group(const ps_nufft_layout *layout, const ps_problem *problem,
+                             const ps_device_limits *limits) {
+    if (limits->has_dedicated_local_memory) {
+        return 1;
+    }
+    const size_t room = (limits->local_bytes - chunk_bytes(layout)) / tile_bytes(layout);
+    const uint32_t largest = room > 1 ? (uint32_t)room : 1;
+    uint64_t groups = ps_divide_up(layout->num_tiles, largest);
+    const bool has_one = problem->num_realizations == 1 && layout->choice.num_axes == 1;
+    groups = has_one && groups < limits->compute_units ? limits->compute_units : groups;
+    return (uint32_t)ps_divide_up(layout->num_tiles, groups);
+}
+
+/* Work-groups for each core: so few that grids stay in the cache, so many that no core waits long for another. */
+enum { GROUPS_PER_CORE = 4 };
+
+/* Gains, turns of one dimension, plans of the windows and of the two transforms. */
+static uint64_t whole_table_bytes(const ps_nufft_layout *layout) {
+    enum { SMALL = 1536 };
+    const ps_nufft_choice *choice = &layout->choice;
+    const uint64_t turns = choice->num_axes == 1 ? 2 * (uint64_t)choice->lengths[1] *
+                                                       (layout->lanes + layout->num_tiles)
+                                                 : 0;
+    const uint64_t cells = (uint64_t)choice->lengths[0] + choice->lengths[1];
+    const uint64_t reals = layout->stride + turns + 2 * cells;
+    return reals * layout->real_bytes + cells * sizeof(uint32_t) + choice->num_axes * SMALL;
+}
+
+static bool fits_whole(const ps_nufft_layout *layout, const ps_device_limits *limits) {
+    return layout->whole.window_reals * layout->real_bytes +
+               2 * PS_NUFFT_CHUNK * sizeof(uint32_t) <=
+           limits->local_bytes;
+}
+
+/* Points on the host and on the device, grids and rows of the work-groups, tables. Parts are realizations: as many
+ * as keep all cores at work. */
+static void count_whole(ps_nufft_layout *layout, const ps_problem *problem,
+                        const ps_device_limits *limits) {
+    const size_t cores = limits->compute_units > 0 ? limits->compute_units : 1;
+    const uint64_t point = problem->frequencies->dimension * sizeof(uint64_t) + layout->real_bytes;
+    const double each = 2 * (double)(layout->part_points * point);
+    layout->parts = fitting_parts(problem, limits, each, cores);
+    layout->groups =
+        layout->parts < GROUPS_PER_CORE * cores ? layout->parts : GROUPS_PER_CORE * cores;
+    const uint64_t grids = layout->groups * layout->whole.grid_reals * layout->real_bytes;
+    const uint64_t rows = layout->groups * layout->whole.row_reals * layout->real_bytes;
+    layout->host_bytes = host_point_bytes(layout, problem, limits) * layout->part_points;
+    layout->fixed_bytes = 2 * layout->parts * layout->part_points * point + grids + rows +
+                          whole_table_bytes(layout) +
+                          layout->parts * (sizeof(uint64_t) + 2 * layout->real_bytes);
+    const uint64_t buffers[] = {grids, rows,
+                                layout->parts * layout->part_points *
+                                    problem->frequencies->dimension * sizeof(uint64_t)};
+    layout->largest_buffer = largest_of(buffers, sizeof buffers / sizeof buffers[0]);
+}
+
+static void measure_whole(ps_nufft_layout *layout, const ps_problem *problem,
+                          const ps_device_limits *limits) {
+    const ps_nufft_choice *choice = &layout->choice;
+    uint32_t kept[2];
+    ps_nufft_whole_kept(choice, kept);
+    layout->whole = ps_nufft_whole_measure(choice, layout->lanes);
+    while (layout->lanes > 0 && !fits_whole(layout, limits)) {
+        layout->lanes /= 2;
+        layout->whole =
+            layout->lanes > 0 ? ps_nufft_whole_measure(choice, layout->lanes) : layout->whole;
+    }
+    if (layout->lanes == 0) {
+        return;
+    }
+    layout->num_tiles = (uint32_t)ps_divide_up(choice->span, layout->lanes);
+    layout->stride = (size_t)layout->num_tiles * layout->lanes * (2 * (size_t)kept[1] + 1);
+    layout->bytes_per_realization = layout->stride * layout->real_bytes;
+    layout->largest_buffer_per_realization = layout->bytes_per_realization;
+    layout->part_points = problem->num_points;
+    count_whole(layout, problem, limits);
+}
+
+ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_limits *limits,
+                                     ps_precision precision) {
+    ps_nufft_layout layout = {.choice = ps_nufft_choose(problem, limits, precision),
+                              .lanes = ps_engine_lanes(limits, precision),
+                              .real_bytes = ps_real_bytes(precision)};
+    if (layout.choice.num_axes == 0) {
+        layout.lanes = 0;
+        return layout;
+    }
+    if (layout.choice.is_whole) {
+        measure_whole(&layout, problem, limits);
+        return layout;
+    }
+    measure_axes(&layout);
+    while (layout.lanes > 0 && tile_bytes(&layout) + chunk_bytes(&layout) > limits->local_bytes) {
+        layout.lanes /= 2;
+        measure_axes(&layout);
+    }
+    if (layout.lanes == 0) {
+        return layout;
+    }
+    layout.group = choose_group(&layout, problem, limits);
+    layout.chunk_reals += layout.group * TURN_REALS;
+    layout.part_points = problem->num_points;
+    if (ps_nufft_is_large(&layout.choice) &&
+        layout.part_points > layout.choice.chunk / PS_NUFFT_MOST_PARTS) {
+        layout.part_points = layout.choice.chunk / PS_NUFFT_MOST_PARTS;
+    }
+    layout.part_places = ps_round_up(layout.part_points, PS_NUFFT_PLACE_UNIT);
+    layout.bytes_per_realization = layout.stride * layout.real_bytes;
+    layout.largest_buffer_per_realization = layout.bytes_per_realization;
+    if (ps_nufft_is_large(&layout.choice)) {
+        measure_grid(&layout, problem, limits->max_allocation_bytes);
+    } else {
+        choose_at_once(&layout, problem, limits);
+    }
+    layout.host_bytes = host_point_bytes(&layout, problem, limits) * layout.part_places;
+    return layout;
+}
+
+void ps_nufft_layout_shrink(ps_nufft_layout *layout, size_t batch) {
+    if (!ps_nufft_is_large(&layout->choice)) {
+        layout->parts = layout->parts < batch ? layout->parts : batch;
+        layout->groups = layout->groups < batch ? layout->groups : batch;
+    }
+}
+
+/* k or -k, whichever has its rest modulo the first length in the first half. */
+static uint32_t line_slot(const ps_nufft_layout *layout, uint32_t k) {
+    const uint32_t first = layout->choice.lengths[0];
+    const uint32_t rest = k % first;
+    uint32_t kept[2];
+    ps_nufft_whole_kept(&layout->choice, kept);
+    const uint32_t k_1 = rest <= first / 2 ? rest : first - rest;
+    const uint32_t q = rest <= first / 2 ? kept[1] + k / first : kept[1] - k / first - 1;
+    return (k_1 / layout->lanes * (2 * kept[1] + 1) + q) * layout->lanes + k_1 % layout->lanes;
+}
+
+uint32_t ps_nufft_slot(const ps_nufft_layout *layout, const int32_t *k, unsigned dimension) {
+    const ps_nufft_choice *choice = &layout->choice;
+    const int32_t sign = k[0] < 0 ? -1 : 1; /* |S(-k)| = |S(k)| */
+    const uint32_t along = (uint32_t)(sign * k[0]);
+    const uint32_t within = choice->stride != 0 ? along % choice->stride : along;
+    unsigned num = 0;
+    const ps_nufft_axis *last = ps_nufft_last_axes(choice, &num);
+    if (choice->is_whole && dimension == 1) {
+        return line_slot(layout, along);
+    }
+    uint32_t slot = within / layout->lanes;
+    for (unsigned i = num;
+         i-- > 0;) { /* kernels/nufft/columns.cl writes the first axis innermost */
+        const int32_t q = choice->stride != 0
+                              ? (int32_t)(along / choice->stride) - last[i].max_frequency
+                              : sign * k[dimension - num + i];
+        slot = slot * (2 * (uint32_t)last[i].max_frequency + 1) +
+               (uint32_t)(last[i].max_frequency + q);
+    }
+    return slot * layout->lanes + within % layout->lanes;
+}

@@ -1,0 +1,49 @@
+/* Sizes of one torus_nufft job: how much memory of which kind, for planning and for allocation. */
+#ifndef PS_ENGINES_TORUS_NUFFT_LAYOUT_H
+#define PS_ENGINES_TORUS_NUFFT_LAYOUT_H
+
+#include "engines/nufft/whole_shape.h"
+
+/* Buffers of the grid of a large set. */
+enum { PS_NUFFT_MOST_SLABS = 16 };
+
+/* Parts of a chunk of a large set, which are sorted side by side. */
+enum { PS_NUFFT_MOST_PARTS = 8 };
+
+typedef struct ps_nufft_layout {
+    ps_nufft_choice choice;
+    unsigned lanes; /* 0: no row fits into local memory */
+    uint32_t num_tiles;
+    size_t real_bytes;
+    size_t chunk_reals; /* kernels/nufft/spread.h: local memory of a work-group, */
+    size_t row_bytes;   /* and of each of its rows, the longest */
+    uint32_t group;     /* tiles of a work-group */
+    size_t stride;      /* powers in a row */
+    size_t grid_cells;  /* of a realization between two transforms, [..][re, im][lanes] */
+    size_t grid_reals;  /* cells of the grid of a large set */
+    uint32_t
+        slab_rows; /* cells of axis 0 whose part of that grid is in one buffer; all, where that fits */
+    uint32_t num_slabs;
+    size_t strip_columns;   /* cells of the other axes transformed along axis 0 at a time; 0: all */
+    uint32_t tiles_at_once; /* made of the grid at a time */
+    uint32_t num_keys;      /* cells that points are sorted by */
+    size_t part_points;     /* points sorted together: all of a realization, or part of a chunk */
+    size_t part_places;     /* whole units of places for them */
+    size_t parts;           /* whose places are made at a time */
+    ps_nufft_whole_sizes whole;
+    size_t groups; /* of whole realizations */
+    uint64_t fixed_bytes, bytes_per_realization;
+    uint64_t host_bytes; /* part of fixed_bytes: points and weights as they came */
+    uint64_t largest_buffer, largest_buffer_per_realization;
+} ps_nufft_layout;
+
+ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_limits *limits,
+                                     ps_precision precision);
+
+/* Of a smaller batch than was planned: places, grids and tiles for so many realizations. */
+void ps_nufft_layout_shrink(ps_nufft_layout *layout, size_t batch);
+
+/* Where the power of a frequency stands in a row. */
+uint32_t ps_nufft_slot(const ps_nufft_layout *layout, const int32_t *k, unsigned dimension);
+
+#endif

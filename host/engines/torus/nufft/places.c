@@ -1,0 +1,90 @@
+#include "engines/torus/nufft/places.h"
+
+#include "base/memory.h"
+#include "base/round.h"
+#include "engines/torus/nufft/kernels.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+static pspec_status create_buffers(ps_nufft_places *self, ps_error *error) {
+    const ps_nufft_layout *layout = self->layout;
+    const size_t num = layout->parts * layout->part_places;
+    const size_t starts = layout->parts * ((size_t)layout->num_keys + 2);
+    PS_TRY(ps_buffer_create(self->device, &self->places, (layout->parts + 1) * sizeof(uint64_t),
+                            "places", error));
+    PS_TRY(ps_buffer_create(self->device, &self->sorted, num * self->dimension * sizeof(uint64_t),
+                            "sorted points", error));
+    PS_TRY(ps_buffer_create(self->device, &self->heights, num * layout->real_bytes,
+                            "sorted weights", error));
+    return ps_buffer_create(self->device, &self->starts, starts * sizeof(uint32_t),
+                            "starts of cells", error);
+}
+
+static pspec_status create_sort(ps_nufft_places *self, ps_precision precision, ps_error *error) {
+    char options[64];
+    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u -DDIMENSION=%u",
+             precision == PS_SINGLE ? 32u : 64u, self->layout->lanes, self->dimension);
+    return ps_kernel_create(self->device, &self->sort, "nufft/sort.cl", "nufft_sort", options,
+                            error);
+}
+
+pspec_status ps_nufft_places_create(ps_nufft_places *out, const ps_nufft_layout *layout,
+                                    unsigned dimension, ps_precision precision, ps_device *device,
+                                    ps_error *error) {
+    void *memory = NULL;
+    *out = (ps_nufft_places){.layout = layout, .device = device, .dimension = dimension};
+    PS_TRY(ps_allocate(&memory, layout->parts + 1, sizeof(uint64_t), "places", error));
+    out->host_places = memory;
+    PS_TRY(create_sort(out, precision, error));
+    PS_TRY(ps_torus_points_create(&out->points, dimension, layout->parts, layout->part_points,
+                                  precision, false, device, error));
+    return create_buffers(out, error);
+}
+
+void ps_nufft_places_free(ps_nufft_places *places) {
+    if (places->sort != NULL) {
+        clReleaseKernel(places->sort);
+    }
+    ps_buffer_release(&places->places);
+    ps_buffer_release(&places->sorted);
+    ps_buffer_release(&places->heights);
+    ps_buffer_release(&places->starts);
+    ps_torus_points_free(&places->points);
+    free(places->host_places);
+    *places = (ps_nufft_places){0};
+}
+
+static pspec_status upload_places(ps_nufft_places *self, const ps_batch *parts, ps_error *error) {
+    self->host_places[0] = 0;
+    for (size_t r = 0; r < parts->num_patterns; r++) {
+        const size_t num = parts->patterns[r].num_points;
+        self->host_places[r + 1] = self->host_places[r] + ps_round_up(num, PS_NUFFT_PLACE_UNIT);
+    }
+    return ps_buffer_write(self->device, &self->places, 0, self->host_places,
+                           (parts->num_patterns + 1) * sizeof(uint64_t), error);
+}
+
+pspec_status ps_nufft_places_upload(ps_nufft_places *places, const ps_batch *parts,
+                                    ps_error *error) {
+    PS_TRY(ps_torus_points_upload(&places->points, places->device, parts, 0, &places->num_points,
+                                  error));
+    return upload_places(places, parts, error);
+}
+
+pspec_status ps_nufft_places_sort(ps_nufft_places *places, size_t num_parts, ps_error *error) {
+    const ps_nufft_axis *axis = &places->layout->choice.axes[0];
+    static const ps_nufft_axis none = {.n = 1};
+    const ps_nufft_axis *second =
+        places->layout->num_keys > axis->n ? &places->layout->choice.axes[1] : &none;
+    const double flops_per_point = 1000; /* work-groups of one work-item on CPUs */
+    const ps_range range = ps_range_heavy(places->device, num_parts, 1, 1,
+                                          (double)places->num_points * flops_per_point, 0);
+    return PS_LAUNCH(places->device, places->sort, &range, error, PS_BUFFER(places->points.points),
+                     PS_BUFFER(places->points.weights), PS_BUFFER(places->points.offsets),
+                     PS_BUFFER(places->places), PS_BUFFER(places->sorted),
+                     PS_BUFFER(places->heights), PS_BUFFER(places->starts), PS_U64(num_parts),
+                     PS_U32(axis->n), PS_U32(axis->window.width), PS_U32(axis->axis),
+                     PS_U64(axis->factor), PS_U32(second->n), PS_U32(second->window.width),
+                     PS_U32(second->axis), PS_U32(places->points.has_unit_weights ? 0 : 1));
+}

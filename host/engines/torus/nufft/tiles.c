@@ -1,0 +1,163 @@
+#include "engines/torus/nufft/tiles.h"
+
+#include "base/memory.h"
+#include "base/round.h"
+#include "engines/torus/nufft/kernels.h"
+#include "device/reals.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+/* ---- create ------------------------------------------------------------------------------ */
+
+static pspec_status create_kernels(ps_nufft_tiles *self, ps_precision precision, ps_error *error) {
+    char options[64];
+    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u",
+             precision == PS_SINGLE ? 32u : 64u, self->layout->lanes);
+    if (self->layout->choice.num_axes == 1) {
+        return ps_kernel_create(self->device, &self->tile, "nufft/tile.cl", "nufft_tile", options,
+                                error);
+    }
+    PS_TRY(
+        ps_kernel_create(self->device, &self->rows, "nufft/rows.cl", "nufft_rows", options, error));
+    return ps_kernel_create(self->device, &self->columns, "nufft/columns.cl", "nufft_columns",
+                            options, error);
+}
+
+/* How frequency 0 turns from cell to cell of the first axis: by -K turns around it where that axis makes
+ * frequencies of axis 0 (its frequency -K is that one), not at all otherwise. */
+static pspec_status create_pattern(ps_nufft_tiles *self, ps_precision precision, ps_error *error) {
+    const ps_nufft_choice *choice = &self->layout->choice;
+    const uint32_t n = choice->axes[0].n;
+    const uint64_t turns = choice->stride != 0 ? (uint64_t)choice->axes[0].max_frequency : 0;
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, n, 2 * sizeof(double), "a pattern", error));
+    double *pattern = memory;
+    for (uint32_t m = 0; m < n; m++) {
+        const double two_pi = 6.283185307179586;
+        const double angle = two_pi * (double)(turns * m % n) / n;
+        pattern[2 * m] = cos(angle);
+        pattern[2 * m + 1] = -sin(angle);
+    }
+    const pspec_status status = ps_reals_upload(self->device, &self->pattern, precision, pattern,
+                                                2 * (size_t)n, "a pattern", error);
+    free(memory);
+    return status;
+}
+
+pspec_status ps_nufft_tiles_create(ps_nufft_tiles *out, const ps_nufft_layout *layout,
+                                   const ps_nufft_plan *plans, const ps_nufft_places *places,
+                                   ps_precision precision, ps_device *device, ps_error *error) {
+    const size_t vector_bytes = 2 * layout->lanes * layout->real_bytes;
+    *out = (ps_nufft_tiles){.layout = layout, .plans = plans, .places = places, .device = device};
+    PS_TRY(create_kernels(out, precision, error));
+    PS_TRY(create_pattern(out, precision, error));
+    return ps_buffer_create(device, &out->grid, layout->parts * layout->grid_cells * vector_bytes,
+                            "transformed rows", error);
+}
+
+void ps_nufft_tiles_free(ps_nufft_tiles *tiles) {
+    const cl_kernel kernels[] = {tiles->tile, tiles->rows, tiles->columns};
+    for (size_t i = 0; i < sizeof kernels / sizeof kernels[0]; i++) {
+        if (kernels[i] != NULL) {
+            clReleaseKernel(kernels[i]);
+        }
+    }
+    ps_buffer_release(&tiles->pattern);
+    ps_buffer_release(&tiles->grid);
+    *tiles = (ps_nufft_tiles){0};
+}
+
+/* ---- run --------------------------------------------------------------------------------- */
+
+static ps_range group_range(const ps_nufft_tiles *self, size_t num_groups, size_t num_realizations,
+                            const ps_nufft_axis *axis, size_t rows_of_group) {
+    const double transforms =
+        (double)(num_groups * num_realizations * rows_of_group) * self->layout->lanes;
+    return ps_nufft_group_range(self->device, num_groups, num_realizations,
+                                transforms * ps_fft_flops(axis->n));
+}
+
+static size_t row_bytes(const ps_nufft_tiles *self, const ps_nufft_axis *axis) {
+    return ps_nufft_row_cells(axis) * 2 * self->layout->lanes * self->layout->real_bytes;
+}
+
+/* Arguments of an axis, as kernels/nufft/window.h has them. */
+#define WINDOW_ARGUMENTS(plan)                                                                     \
+    PS_U32((plan)->axis.n), PS_U32((plan)->axis.window.width), PS_U32((plan)->axis.axis),          \
+        PS_U64((plan)->axis.factor), PS_U32((plan)->degree), PS_U32((plan)->bins),                 \
+        PS_U32((plan)->pitch)
+
+/* Local memory of a work-group, as kernels/nufft/spread.h has it. */
+#define LOCAL_ARGUMENTS(self, axis)                                                                \
+    PS_LOCAL((self)->layout->group *row_bytes(self, axis)),                                        \
+        PS_LOCAL((self)->layout->chunk_reals *(self)->layout->real_bytes),                         \
+        PS_LOCAL(PS_NUFFT_CHUNK * sizeof(uint64_t)), PS_LOCAL(PS_NUFFT_CHUNK * sizeof(uint32_t))
+
+static size_t num_groups(const ps_nufft_tiles *self) {
+    return ps_divide_up(self->layout->num_tiles, self->layout->group);
+}
+
+static pspec_status make_tiles(ps_nufft_tiles *self, size_t num_realizations,
+                               const ps_buffer *means, const ps_nufft_target *target,
+                               ps_error *error) {
+    const ps_nufft_plan *plan = &self->plans[0];
+    const ps_nufft_places *places = self->places;
+    const ps_range range =
+        group_range(self, num_groups(self), num_realizations, &plan->axis, self->layout->group);
+    return PS_LAUNCH(
+        self->device, self->tile, &range, error, PS_BUFFER(places->places),
+        PS_BUFFER(places->sorted), PS_BUFFER(places->heights), PS_BUFFER(plan->coefficients),
+        PS_BUFFER(plan->fft.radices), PS_BUFFER(plan->fft.twiddles), PS_BUFFER(plan->fft.position),
+        PS_BUFFER(plan->gains), PS_BUFFER(*means), PS_BUFFER(self->pattern),
+        PS_BUFFER(*target->scales), PS_BUFFER(*target->power), PS_U32(target->realization),
+        PS_U64(self->layout->stride), PS_U32(ps_nufft_base(&self->layout->choice)),
+        PS_U32(self->layout->num_tiles), PS_U32(self->layout->group),
+        PS_U32(self->places->dimension), WINDOW_ARGUMENTS(plan), PS_U32(plan->axis.max_frequency),
+        LOCAL_ARGUMENTS(self, &plan->axis));
+}
+
+static pspec_status make_rows(ps_nufft_tiles *self, size_t num_realizations, const ps_buffer *means,
+                              ps_error *error) {
+    const ps_nufft_plan *across = &self->plans[0];
+    const ps_nufft_plan *along = &self->plans[1];
+    const ps_nufft_places *places = self->places;
+    const ps_range range = group_range(self, num_groups(self) * across->axis.n, num_realizations,
+                                       &along->axis, self->layout->group);
+    return PS_LAUNCH(
+        self->device, self->rows, &range, error, PS_BUFFER(places->places),
+        PS_BUFFER(places->sorted), PS_BUFFER(places->heights), PS_BUFFER(places->starts),
+        PS_BUFFER(across->coefficients), WINDOW_ARGUMENTS(across), PS_BUFFER(along->coefficients),
+        WINDOW_ARGUMENTS(along), PS_BUFFER(along->fft.radices), PS_BUFFER(along->fft.twiddles),
+        PS_BUFFER(along->fft.position), PS_BUFFER(*means), PS_BUFFER(self->grid),
+        PS_U32(ps_nufft_base(&self->layout->choice)), PS_U32(self->layout->num_tiles),
+        PS_U32(self->layout->group), PS_U32(along->axis.max_frequency),
+        LOCAL_ARGUMENTS(self, &along->axis));
+}
+
+static pspec_status make_columns(ps_nufft_tiles *self, size_t num_realizations,
+                                 const ps_nufft_target *target, ps_error *error) {
+    const ps_nufft_plan *across = &self->plans[0];
+    const ps_nufft_plan *along = &self->plans[1];
+    const size_t kept = 2 * (size_t)along->axis.max_frequency + 1;
+    const ps_range range =
+        group_range(self, self->layout->num_tiles * kept, num_realizations, &across->axis, 1);
+    return PS_LAUNCH(
+        self->device, self->columns, &range, error, PS_BUFFER(self->grid),
+        PS_BUFFER(across->fft.radices), PS_BUFFER(across->fft.twiddles),
+        PS_BUFFER(across->fft.position), PS_BUFFER(across->gains), PS_BUFFER(along->gains),
+        PS_BUFFER(*target->scales), PS_BUFFER(*target->power), PS_U32(target->realization),
+        PS_U64(self->layout->stride), PS_U32(across->axis.n), PS_U32(across->axis.max_frequency),
+        PS_U32(along->axis.max_frequency), PS_U64(0), PS_LOCAL(row_bytes(self, &across->axis)));
+}
+
+pspec_status ps_nufft_tiles_run(ps_nufft_tiles *tiles, size_t num_realizations,
+                                const ps_buffer *means, const ps_nufft_target *target,
+                                ps_error *error) {
+    if (tiles->layout->choice.num_axes == 1) {
+        return make_tiles(tiles, num_realizations, means, target, error);
+    }
+    PS_TRY(make_rows(tiles, num_realizations, means, error));
+    return make_columns(tiles, num_realizations, target, error);
+}

@@ -1,0 +1,382 @@
+/* The engine: for some realizations at a time, sort points by cells of the fine grid, make their windows and
+ * phases, spread and transform tiles into powers. docs/torus_nufft.md. */
+#include "engines/torus/nufft/torus_nufft.h"
+
+#include "base/memory.h"
+#include "base/round.h"
+#include "engines/torus/nufft/grid.h"
+#include "engines/torus/nufft/layout.h"
+#include "engines/torus/nufft/places.h"
+#include "engines/nufft/plan.h"
+#include "engines/torus/nufft/tiles.h"
+#include "engines/torus/nufft/whole.h"
+#include "device/reals.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct torus_nufft {
+    ps_device *device;
+    ps_problem problem;
+    ps_precision precision;
+    ps_nufft_layout layout;
+    size_t batch;
+    ps_nufft_plan plans[PS_NUFFT_MAX_AXES];
+    ps_nufft_places places;
+    ps_nufft_grid large;  /* gridded choices only */
+    ps_nufft_whole whole; /* whole realizations */
+    ps_nufft_tiles tiles; /* all others */
+    ps_buffer means, scales, power;
+    double *means_of_parts;
+    double large_sum; /* of the weights added so far */
+} torus_nufft;
+
+/* ---- what the planner asks --------------------------------------------------------------- */
+
+static bool applicable_to_problem(const ps_problem *problem, const char **why_not) {
+    const ps_frequencies *set = problem->frequencies;
+    if (set->kind == PS_FREQUENCIES_LIST) {
+        *why_not = "full grids only, not lists of frequencies";
+    } else if (set->dimension > 3) {
+        *why_not = "up to three dimensions only";
+    } else if (problem->num_points > UINT32_MAX) {
+        *why_not = "too many points for 32-bit places";
+    } else {
+        return true;
+    }
+    return false;
+}
+
+static bool applicable(const ps_problem *problem, const ps_device_limits *limits,
+                       ps_precision precision, const char **why_not) {
+    if (!ps_engine_on_device(limits, precision, why_not) ||
+        !applicable_to_problem(problem, why_not)) {
+        return false;
+    }
+    const ps_nufft_layout layout = ps_nufft_layout_make(problem, limits, precision);
+    if (layout.lanes == 0) {
+        *why_not = "a row of the fine grid does not fit into local memory";
+        return false;
+    }
+    if (layout.stride > UINT32_MAX) {
+        *why_not = "too many frequencies for 32-bit slots";
+        return false;
+    }
+    if (layout.largest_buffer > limits->max_allocation_bytes ||
+        layout.largest_buffer_per_realization > limits->max_allocation_bytes) {
+        *why_not = "needs a larger buffer than the device allows";
+        return false;
+    }
+    *why_not = NULL;
+    return true;
+}
+
+/* Sorting, then one or two launches that spread and transform, for some realizations at a time; for a large set
+ * sorting and spreading of every chunk, then a launch for each axis. */
+static double launches_of(const ps_nufft_layout *layout, double num_points, double realizations) {
+    unsigned num_last = 0;
+    ps_nufft_last_axes(&layout->choice, &num_last);
+    if (!ps_nufft_is_large(&layout->choice)) {
+        const double rounds = ceil(realizations / (double)layout->parts);
+        return rounds * (layout->choice.is_whole ? 1 : 1 + num_last);
+    }
+    const double chunks = ceil(num_points / ((double)layout->parts * (double)layout->part_points));
+    return realizations * (2 * chunks + 1 + num_last);
+}
+
+/* whole.cl alone; else the sort, and rows and columns of tiles, or all that makes tiles of a grid. */
+static double kernels_of(const ps_nufft_choice *choice) {
+    const double of_tiles = choice->num_axes == 1 ? 2 : 3;
+    const double of_grid = 5;
+    return choice->is_whole ? 1 : choice->is_gridded ? of_grid : of_tiles;
+}
+
+static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
+                    ps_precision precision) {
+    const ps_nufft_layout layout = ps_nufft_layout_make(problem, limits, precision);
+    const double realizations =
+        problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
+    return (ps_work){
+        .transform_flops =
+            realizations * ps_nufft_flops(&layout.choice, precision, (double)problem->num_points),
+        .launches = launches_of(&layout, (double)problem->num_points, realizations),
+        .kernels = kernels_of(&layout.choice),
+        .fixed_bytes = (double)layout.fixed_bytes,
+        .host_bytes = (double)layout.host_bytes,
+        .bytes_per_realization = (double)layout.bytes_per_realization,
+        .row_bytes = (double)layout.bytes_per_realization,
+        .largest_buffer_per_realization = (double)layout.largest_buffer_per_realization,
+        .takes_blocks = ps_nufft_is_large(&layout.choice)};
+}
+
+static double error_of(const ps_problem *problem, const ps_device_limits *limits,
+                       ps_precision precision, double mean_power) {
+    const ps_nufft_choice choice = ps_nufft_choose(problem, limits, precision);
+    return choice.num_axes == 0 ? HUGE_VAL
+                                : ps_nufft_error(&choice, problem, precision, mean_power);
+}
+
+static double error_of_state(const void *state, double mean_power) {
+    const torus_nufft *self = state;
+    return ps_nufft_error(&self->layout.choice, &self->problem, self->precision, mean_power);
+}
+
+/* ---- create and destroy ------------------------------------------------------------------ */
+
+static void destroy(void *state) {
+    torus_nufft *self = state;
+    if (self == NULL) {
+        return;
+    }
+    ps_buffer_release(&self->means);
+    ps_buffer_release(&self->scales);
+    ps_buffer_release(&self->power);
+    for (unsigned i = 0; i < PS_NUFFT_MAX_AXES; i++) {
+        ps_nufft_plan_free(&self->plans[i]);
+    }
+    ps_nufft_grid_free(&self->large);
+    ps_nufft_whole_free(&self->whole);
+    ps_nufft_tiles_free(&self->tiles);
+    ps_nufft_places_free(&self->places);
+    free(self->means_of_parts);
+    free(self);
+}
+
+static pspec_status create_buffers(torus_nufft *self, size_t rows, ps_error *error) {
+    const ps_nufft_layout *layout = &self->layout;
+    PS_TRY(ps_buffer_create(self->device, &self->means, layout->parts * layout->real_bytes, "means",
+                            error));
+    PS_TRY(
+        ps_buffer_create(self->device, &self->scales, rows * layout->real_bytes, "scales", error));
+    PS_TRY(ps_buffer_create(self->device, &self->power, rows * layout->stride * layout->real_bytes,
+                            "powers of a batch", error));
+    return ps_buffer_clear(self->device, &self->power, error);
+}
+
+static pspec_status create_parts(torus_nufft *self, const ps_problem *problem, ps_error *error) {
+    const ps_nufft_choice *choice = &self->layout.choice;
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, self->layout.parts, sizeof(double), "means", error));
+    self->means_of_parts = memory;
+    for (unsigned i = 0; i < choice->num_axes; i++) {
+        PS_TRY(ps_nufft_plan_create(&self->plans[i], &choice->axes[i], !choice->is_whole,
+                                    problem->tolerance, self->precision, self->device, error));
+    }
+    PS_TRY(create_buffers(self, self->batch, error));
+    if (choice->is_whole) {
+        return ps_nufft_whole_create(&self->whole, &self->layout, self->plans, self->precision,
+                                     self->device, error);
+    }
+    PS_TRY(ps_nufft_places_create(&self->places, &self->layout,
+                                  self->problem.frequencies->dimension, self->precision,
+                                  self->device, error));
+    if (ps_nufft_is_large(choice)) {
+        return ps_nufft_grid_create(&self->large, &self->layout, self->plans, &self->places,
+                                    self->precision, self->device, error);
+    }
+    return ps_nufft_tiles_create(&self->tiles, &self->layout, self->plans, &self->places,
+                                 self->precision, self->device, error);
+}
+
+static pspec_status create(void **state, const ps_problem *problem, ps_precision precision,
+                           size_t batch, ps_device *device, ps_error *error) {
+    void *memory = NULL;
+    *state = NULL;
+    PS_TRY(ps_allocate(&memory, 1, sizeof(torus_nufft), "an engine", error));
+    torus_nufft *self = memory;
+    self->device = device;
+    self->problem = *problem;
+    self->precision = precision;
+    self->batch = batch;
+    self->layout = ps_nufft_layout_make(problem, ps_device_get_limits(device), precision);
+    ps_nufft_layout_shrink(&self->layout, batch);
+    const pspec_status status = create_parts(self, problem, error);
+    if (status != PSPEC_OK) {
+        destroy(self);
+        return status;
+    }
+    *state = self;
+    return PSPEC_OK;
+}
+
+static void get_slots(const void *state, uint32_t *slots) {
+    const torus_nufft *self = state;
+    const ps_frequencies *set = self->problem.frequencies;
+    for (size_t i = 0; i < set->num; i++) {
+        slots[i] = ps_nufft_slot(&self->layout, set->vectors + i * set->dimension, set->dimension);
+    }
+}
+
+static size_t get_stride(const void *state) {
+    return ((const torus_nufft *)state)->layout.stride;
+}
+
+/* ---- run --------------------------------------------------------------------------------- */
+
+/* A sum of weights, and more of them. */
+static double add_weights(double sum, const pspec_pattern *pattern, int exponent) {
+    if (pattern->weights == NULL) {
+        return sum + (double)pattern->num_points;
+    }
+    for (size_t j = 0; j < pattern->num_points; j++) {
+        sum += ldexp(pattern->weights[j], -exponent);
+    }
+    return sum;
+}
+
+/* What frequency 0 leaves in a cell, to be taken off: it then does not round into the others. */
+static double mean_of_cells(const torus_nufft *self, double weight_sum) {
+    const ps_nufft_choice *choice = &self->layout.choice;
+    double mean = weight_sum;
+    for (unsigned i = 0; i < choice->num_axes; i++) {
+        const ps_nufft_axis *axis = &choice->axes[i];
+        const double q = i == 0 && choice->stride != 0 ? axis->max_frequency : 0;
+        mean *= ps_nufft_window_transform(&axis->window, q / axis->n) / axis->n;
+    }
+    return mean;
+}
+
+static int exponent_of(const ps_batch *batch, size_t pattern) {
+    return batch->exponents != NULL ? batch->exponents[pattern] : 0;
+}
+
+static pspec_status upload_means(torus_nufft *self, const ps_batch *some, ps_error *error) {
+    for (size_t r = 0; r < some->num_patterns; r++) {
+        self->means_of_parts[r] =
+            mean_of_cells(self, add_weights(0, &some->patterns[r], exponent_of(some, r)));
+    }
+    return ps_reals_write(self->device, &self->means, self->precision, self->means_of_parts,
+                          some->num_patterns, error);
+}
+
+static pspec_status run_some(torus_nufft *self, const ps_batch *some, const ps_nufft_target *target,
+                             ps_error *error) {
+    const bool is_whole = self->layout.choice.is_whole;
+    /* Points first: what is written after them waits for the launch before. */
+    PS_TRY(is_whole ? ps_nufft_whole_upload(&self->whole, some, error)
+                    : ps_nufft_places_upload(&self->places, some, error));
+    PS_TRY(upload_means(self, some, error));
+    if (is_whole) {
+        return ps_nufft_whole_run(&self->whole, some->num_patterns, &self->means, target, error);
+    }
+    PS_TRY(ps_nufft_places_sort(&self->places, some->num_patterns, error));
+    return ps_nufft_tiles_run(&self->tiles, some->num_patterns, &self->means, target, error);
+}
+
+/* ---- very large sets --------------------------------------------------------------------- */
+
+static pspec_status begin_large(void *state, ps_error *error) {
+    torus_nufft *self = state;
+    (void)error;
+    self->large_sum = 0;
+    ps_nufft_grid_begin(&self->large);
+    return PSPEC_OK;
+}
+
+static pspec_status add_large(void *state, const ps_batch *block, ps_error *error) {
+    torus_nufft *self = state;
+    self->large_sum = add_weights(self->large_sum, &block->patterns[0], exponent_of(block, 0));
+    return ps_nufft_grid_add(&self->large, block, error);
+}
+
+static pspec_status end_large(torus_nufft *self, const ps_nufft_target *target, ps_error *error) {
+    const double mean = mean_of_cells(self, self->large_sum);
+    PS_TRY(ps_reals_write(self->device, &self->means, self->precision, &mean, 1, error));
+    return ps_nufft_grid_finish(&self->large, &self->means, target, error);
+}
+
+static size_t stream_unit(const void *state) {
+    const torus_nufft *self = state;
+    return ps_nufft_is_large(&self->layout.choice) ? self->layout.parts * self->layout.part_points
+                                                   : 0;
+}
+
+static ps_rows show_rows(const torus_nufft *self, size_t num_rows) {
+    return (ps_rows){.num_rows = num_rows,
+                     .stride = self->layout.stride,
+                     .precision = self->precision,
+                     .device = self->power};
+}
+
+static pspec_status finish_large(void *state, double scale, ps_rows *rows, ps_error *error) {
+    torus_nufft *self = state;
+    const ps_nufft_target target = {&self->power, &self->scales, 0};
+    PS_TRY(ps_reals_write(self->device, &self->scales, self->precision, &scale, 1, error));
+    *rows = show_rows(self, 1);
+    return end_large(self, &target, error);
+}
+
+static const ps_engine_stream stream = {
+    .unit = stream_unit, .begin = begin_large, .add = add_large, .finish = finish_large};
+
+static pspec_status run_large(torus_nufft *self, const ps_batch *one, const ps_nufft_target *target,
+                              ps_error *error) {
+    PS_TRY(begin_large(self, error));
+    PS_TRY(add_large(self, one, error));
+    return end_large(self, target, error);
+}
+
+static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_error *error) {
+    torus_nufft *self = state;
+    PS_TRY(ps_reals_write(self->device, &self->scales, self->precision, batch->scales,
+                          batch->num_patterns, error));
+    const bool is_large = ps_nufft_is_large(&self->layout.choice);
+    const size_t at_once = is_large ? 1 : self->layout.parts;
+    for (size_t row = 0; row < batch->num_patterns; row += at_once) {
+        const size_t rest = batch->num_patterns - row;
+        ps_batch some = *batch;
+        some.num_patterns = rest < at_once ? rest : at_once;
+        some.patterns += row;
+        some.exponents = batch->exponents != NULL ? batch->exponents + row : NULL;
+        PS_TRY(ps_batch_go_on(batch, error));
+        const ps_nufft_target target = {&self->power, &self->scales, row};
+        PS_TRY(is_large ? run_large(self, &some, &target, error)
+                        : run_some(self, &some, &target, error));
+    }
+    *rows = show_rows(self, batch->num_patterns);
+    return PSPEC_OK;
+}
+
+static void describe(const void *state, ps_text *text) {
+    const torus_nufft *self = state;
+    const ps_nufft_choice *choice = &self->layout.choice;
+    ps_text_append(text, "(torus_nufft precision=%s lanes=%u tiles=%lu",
+                   ps_precision_name(self->precision), self->layout.lanes,
+                   (unsigned long)self->layout.num_tiles);
+    for (unsigned i = 0; i < choice->num_axes; i++) {
+        const ps_nufft_axis *axis = &choice->axes[i];
+        ps_text_append(text, " grid=%lu sigma=%.3g width=%u degree=%u", (unsigned long)axis->n,
+                       axis->n / (2.0 * axis->max_frequency), axis->window.width,
+                       self->plans[i].degree);
+    }
+    if (choice->is_whole) {
+        ps_text_append(text, " whole=%lux%lu", (unsigned long)choice->lengths[0],
+                       (unsigned long)choice->lengths[1]);
+    } else if (choice->is_gridded) {
+        ps_text_append(text, " gridded");
+    } else {
+        ps_text_append(text, " group=%lu", (unsigned long)self->layout.group);
+    }
+    ps_text_append(text, " at_once=%zu)", self->layout.parts);
+}
+
+const ps_engine ps_torus_nufft = {
+    .name = "torus_nufft",
+    .summary =
+        "fast transforms of points spread on a grid, on the device; grids in 1 to 3 dimensions",
+    .domains = PS_ON_TORUS,
+    .needs_device = true,
+    .has_precision = {true, true, false},
+    .checks_points = true,
+    .applicable = applicable,
+    .work = work,
+    .error = error_of,
+    .error_of_state = error_of_state,
+    .create = create,
+    .get_slots = get_slots,
+    .get_stride = get_stride,
+    .run = run,
+    .stream = &stream,
+    .describe = describe,
+    .destroy = destroy,
+};

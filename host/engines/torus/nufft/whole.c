@@ -1,0 +1,189 @@
+#include "engines/torus/nufft/whole.h"
+
+#include "base/memory.h"
+#include "engines/torus/nufft/kernels.h"
+#include "device/reals.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+/* ---- tables ------------------------------------------------------------------------------ */
+
+static double gain(const ps_nufft_axis *axis, uint32_t k) {
+    return k <= (uint32_t)axis->max_frequency ? ps_nufft_gain(axis, k) : 0;
+}
+
+/* Of frequency k_1 of the first transform and k_2 of the second. */
+static double gain_of(const ps_nufft_choice *choice, uint32_t k_1, int64_t k_2) {
+    if (choice->num_axes == 1) {
+        const int64_t k = k_1 + choice->lengths[0] * k_2;
+        return k_1 <= choice->lengths[0] / 2 ? gain(&choice->axes[0], (uint32_t)llabs(k)) : 0;
+    }
+    return gain(&choice->axes[0], k_1) * gain(&choice->axes[1], (uint32_t)llabs(k_2));
+}
+
+static pspec_status create_gains(ps_nufft_whole *self, ps_precision precision, ps_error *error) {
+    const ps_nufft_layout *layout = self->layout;
+    uint32_t kept[2];
+    void *memory = NULL;
+    ps_nufft_whole_kept(&layout->choice, kept);
+    PS_TRY(ps_allocate(&memory, layout->stride, sizeof(double), "gains", error));
+    double *gains = memory;
+    const double quarter = 0.25; /* the kernel's frequencies are doubled */
+    for (size_t i = 0; i < layout->stride; i++) {
+        const size_t row = i / layout->lanes;
+        const size_t tile = row / (2 * (size_t)kept[1] + 1);
+        const size_t k_1 = tile * layout->lanes + i % layout->lanes;
+        gains[i] = quarter * gain_of(&layout->choice, (uint32_t)k_1,
+                                     (int64_t)(row % (2 * (size_t)kept[1] + 1)) - kept[1]);
+    }
+    const pspec_status status = ps_reals_upload(self->device, &self->gains, precision, gains,
+                                                layout->stride, "gains", error);
+    free(memory);
+    return status;
+}
+
+/* exp(-2 pi i turns / n) */
+static void turn(uint64_t turns, uint64_t n, double *cosine, double *sine) {
+    const long double two_pi = 6.283185307179586476925286766559005768L;
+    const long double angle = two_pi * (long double)(turns % n) / (long double)n;
+    *cosine = (double)cosl(angle);
+    *sine = (double)-sinl(angle);
+}
+
+/* Between the transforms of one dimension; in two, a number each, since buffers are not empty. */
+static pspec_status create_turns(ps_nufft_whole *self, ps_precision precision, ps_error *error) {
+    const ps_nufft_layout *layout = self->layout;
+    const bool is_line = layout->choice.num_axes == 1;
+    const size_t lanes = layout->lanes;
+    const size_t cells = is_line ? layout->choice.lengths[1] : 1;
+    const size_t num_tiles = is_line ? layout->num_tiles : 1;
+    const uint64_t n = layout->choice.axes[0].n;
+    const size_t most = 2 * cells * (num_tiles > lanes ? num_tiles : lanes);
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, most, sizeof(double), "turns", error));
+    double *turns = memory;
+    for (size_t i = 0; i < cells * lanes; i++) {
+        double *at = turns + i / lanes * 2 * lanes + i % lanes;
+        turn(i % lanes * (i / lanes), n, at, at + lanes);
+    }
+    pspec_status status = ps_reals_upload(self->device, &self->lane_turns, precision, turns,
+                                          2 * cells * lanes, "turns of lanes", error);
+    for (size_t i = 0; i < cells * num_tiles; i++) {
+        turn(i / cells * lanes * (i % cells), n, turns + 2 * i, turns + 2 * i + 1);
+    }
+    if (status == PSPEC_OK) {
+        status = ps_reals_upload(self->device, &self->tile_turns, precision, turns,
+                                 2 * cells * num_tiles, "turns of tiles", error);
+    }
+    free(memory);
+    return status;
+}
+
+/* ---- create ------------------------------------------------------------------------------ */
+
+static pspec_status create_buffers(ps_nufft_whole *self, ps_error *error) {
+    const ps_nufft_layout *layout = self->layout;
+    PS_TRY(ps_buffer_create(self->device, &self->grids,
+                            layout->groups * layout->whole.grid_reals * layout->real_bytes, "grids",
+                            error));
+    return ps_buffer_create(self->device, &self->rows,
+                            layout->groups * layout->whole.row_reals * layout->real_bytes, "rows",
+                            error);
+}
+
+pspec_status ps_nufft_whole_create(ps_nufft_whole *out, const ps_nufft_layout *layout,
+                                   const ps_nufft_plan *plans, ps_precision precision,
+                                   ps_device *device, ps_error *error) {
+    char options[64];
+    *out = (ps_nufft_whole){
+        .layout = layout, .plans = plans, .device = device, .is_alone = ps_range_is_alone(device)};
+    snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u -DALONE=%u",
+             precision == PS_SINGLE ? 32u : 64u, layout->lanes, out->is_alone ? 1u : 0u);
+    PS_TRY(ps_kernel_create(device, &out->kernel, "nufft/whole.cl", "nufft_whole", options, error));
+    PS_TRY(ps_torus_points_create(&out->points, layout->choice.num_axes, layout->parts,
+                                  layout->part_points, precision, false, device, error));
+    for (size_t i = 0; i < 2; i++) {
+        PS_TRY(ps_fft_plan_create(&out->transforms[i], layout->choice.lengths[i], precision, device,
+                                  error));
+    }
+    PS_TRY(create_gains(out, precision, error));
+    PS_TRY(create_turns(out, precision, error));
+    return create_buffers(out, error);
+}
+
+void ps_nufft_whole_free(ps_nufft_whole *whole) {
+    if (whole->kernel != NULL) {
+        clReleaseKernel(whole->kernel);
+    }
+    ps_torus_points_free(&whole->points);
+    for (size_t i = 0; i < 2; i++) {
+        ps_fft_plan_free(&whole->transforms[i]);
+    }
+    ps_buffer *const buffers[] = {&whole->gains, &whole->lane_turns, &whole->tile_turns,
+                                  &whole->grids, &whole->rows};
+    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
+        ps_buffer_release(buffers[i]);
+    }
+    *whole = (ps_nufft_whole){0};
+}
+
+/* ---- run --------------------------------------------------------------------------------- */
+
+/* Arguments of a window and of a transform, as kernels/nufft/whole.cl has them. */
+#define WHOLE_WINDOW(plan)                                                                         \
+    PS_BUFFER((plan)->coefficients), PS_U32((plan)->axis.n), PS_U32((plan)->axis.window.width),    \
+        PS_U32((plan)->degree), PS_U32((plan)->bins)
+#define WHOLE_TRANSFORM(fft, length, kept)                                                         \
+    PS_BUFFER((fft)->radices), PS_BUFFER((fft)->twiddles), PS_BUFFER((fft)->position),             \
+        PS_U32(length), PS_U32(kept)
+
+static ps_range range_of(const ps_nufft_whole *self, size_t num_realizations, size_t num_points) {
+    const ps_nufft_choice *choice = &self->layout->choice;
+    const double lanes = self->layout->lanes;
+    const double flops =
+        (double)num_realizations *
+        (ps_fft_flops(choice->lengths[0]) * choice->lengths[1] / 2 +
+         ps_fft_flops(choice->lengths[1]) * (double)self->layout->num_tiles * lanes);
+    const double spread = 2.0 * choice->axes[0].window.width *
+                          (choice->num_axes == 2 ? choice->axes[1].window.width : 1);
+    const size_t groups =
+        num_realizations < self->layout->groups ? num_realizations : self->layout->groups;
+    const double all_flops = flops + spread * (double)num_points;
+    return self->is_alone ? ps_range_alone(groups, 1, all_flops, 0)
+                          : ps_nufft_group_range(self->device, groups, 1, all_flops);
+}
+
+pspec_status ps_nufft_whole_upload(ps_nufft_whole *whole, const ps_batch *batch, ps_error *error) {
+    return ps_torus_points_upload(&whole->points, whole->device, batch, 0, &whole->num_points,
+                                  error);
+}
+
+pspec_status ps_nufft_whole_run(ps_nufft_whole *whole, size_t num_realizations,
+                                const ps_buffer *means, const ps_nufft_target *target,
+                                ps_error *error) {
+    const ps_nufft_layout *layout = whole->layout;
+    const ps_nufft_choice *choice = &layout->choice;
+    const ps_nufft_whole_sizes *sizes = &layout->whole;
+    const ps_nufft_plan *along = &whole->plans[choice->num_axes - 1];
+    const ps_nufft_plan none = {
+        .coefficients = along->coefficients, .bins = 1, .axis = {.n = 1, .window = {.width = 1}}};
+    const ps_nufft_plan *across = choice->num_axes == 2 ? &whole->plans[0] : &none;
+    uint32_t kept[2];
+    ps_nufft_whole_kept(choice, kept);
+    const ps_range range = range_of(whole, num_realizations, whole->num_points);
+    return PS_LAUNCH(whole->device, whole->kernel, &range, error, PS_BUFFER(whole->points.points),
+                     PS_BUFFER(whole->points.weights), PS_BUFFER(whole->points.offsets),
+                     PS_U32(num_realizations), WHOLE_WINDOW(across), WHOLE_WINDOW(along),
+                     WHOLE_TRANSFORM(&whole->transforms[0], choice->lengths[0], kept[0]),
+                     WHOLE_TRANSFORM(&whole->transforms[1], choice->lengths[1], kept[1]),
+                     PS_BUFFER(whole->lane_turns), PS_BUFFER(whole->tile_turns),
+                     PS_BUFFER(whole->gains), PS_BUFFER(*means), PS_BUFFER(*target->scales),
+                     PS_BUFFER(*target->power), PS_U32(target->realization), PS_U64(layout->stride),
+                     PS_U32(layout->num_tiles), PS_U32(choice->num_axes), PS_U32(sizes->pitch),
+                     PS_U32(sizes->grid_rows), PS_U64(sizes->grid_reals), PS_BUFFER(whole->grids),
+                     PS_U64(sizes->row_reals), PS_BUFFER(whole->rows), PS_U32(sizes->shared),
+                     PS_LOCAL(sizes->window_reals * layout->real_bytes),
+                     PS_LOCAL(2 * PS_NUFFT_CHUNK * sizeof(uint32_t)));
+}

@@ -1,0 +1,369 @@
+/* The engine: sums over a list of frequencies; for a grid, over the two factors of its split, whose
+ * tables are then multiplied. */
+#include "engines/torus/torus_direct.h"
+
+#include "base/memory.h"
+#include "base/round.h"
+#include "device/reals.h"
+#include "engines/torus/torus_layout.h"
+#include "engines/torus/torus_points.h"
+#include "engines/torus/torus_sums.h"
+#include "engines/torus/torus_split.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct torus_direct {
+    ps_device *device;
+    const ps_frequencies *frequencies;
+    ps_precision precision;
+    ps_torus_layout layout;
+    size_t batch, stride;
+    ps_split split; /* grids only */
+    ps_torus_points points;
+    ps_torus_sums sums; /* of the list, or of the left and right factors of the grid */
+    cl_kernel product;
+    ps_buffer pairs, products, scales, power;
+} torus_direct;
+
+/* ---- what the planner asks --------------------------------------------------------------- */
+
+/* Errors of S in units of sqrt(sum w^2). Cosines and sines round independently from point to point,
+ * and runs of L = PS_TORUS_RUN terms in a far-apart order (torus_points.h) like sums of white noise:
+ * together random_error, measured up to 1.8e-7 and 3e-16. Terms that are all equal (coincident points,
+ * lattices at their peaks) round the same way and add up to L u / 4 of S itself (u = 2^-24, 2^-53):
+ * coherent_error. Measured, with slack, in tests/engines/test_tolerance.c; docs/torus_direct.md. */
+static const double random_error[2] = {2.2e-7, 4.0e-16};
+static const double coherent_error[2] = {4.8e-7, 9.0e-16};
+
+static bool applicable(const ps_problem *problem, const ps_device_limits *limits,
+                       ps_precision precision, const char **why_not) {
+    if (!ps_engine_on_device(limits, precision, why_not)) {
+        return false;
+    }
+    const ps_torus_layout layout = ps_torus_layout_make(problem, limits, precision);
+    if (layout.largest_buffer > limits->max_allocation_bytes ||
+        layout.largest_buffer_per_realization > limits->max_allocation_bytes) {
+        *why_not = "needs a larger buffer than the device allows";
+        return false;
+    }
+    if (layout.max_stride > UINT32_MAX) {
+        *why_not = "too many frequencies for 32-bit slots";
+        return false;
+    }
+    *why_not = NULL;
+    return true;
+}
+
+/* What the product of the tables of num_points points takes, in points of an endless pattern: each begun run is
+ * added to the sums in memory, at the end powers are made of them. CPU time of 1 to 128 points, K = 64 in
+ * the plane, AVX2, PoCL 3.1, 2026-11. */
+static double product_points(double num_points) {
+    const double points_per_run = 22;
+    const double points_per_pattern = 10;
+    const double runs = ceil(num_points / PS_TORUS_RUN);
+    return (num_points + runs * points_per_run + points_per_pattern) /
+           (1 + points_per_run / PS_TORUS_RUN);
+}
+
+static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
+                    ps_precision precision) {
+    const ps_torus_layout layout = ps_torus_layout_make(problem, limits, precision);
+    const double realizations =
+        problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
+    const double num_points = (double)problem->num_points * realizations;
+    const double lanes = layout.lanes;
+    const double box =
+        lanes * lanes * (double)layout.left_tiles * (double)layout.right_tiles; /* padding counts */
+    /* Tile pairs in the corners of a ball are left out; in one dimension there are none. */
+    const double left = (double)layout.num_left;
+    const double right = (double)layout.num_right;
+    const bool has_corners =
+        problem->frequencies->kind == PS_FREQUENCIES_BALL && problem->frequencies->dimension > 1;
+    const double share = (double)problem->frequencies->num / (2 * left * right + left + right);
+    const double of_list = 3; /* sums, their sum, powers */
+    return (ps_work){
+        .kernels = of_list + (layout.is_grid ? 1 : 0),
+        .phases = num_points * lanes * (double)(layout.left_tiles + layout.right_tiles),
+        .product_flops = 8 * realizations * product_points((double)problem->num_points) * box *
+                         (has_corners && share < 1 ? share : 1),
+        .launches = ceil(realizations / (double)layout.group) *
+                    (double)ps_divide_up((size_t)problem->num_points, layout.slab) *
+                    (layout.is_grid ? 2 : 1),
+        .fixed_bytes = (double)layout.fixed_bytes,
+        .point_bytes = (double)layout.point_bytes,
+        .coordinate_bytes =
+            (double)(layout.table_points * problem->frequencies->dimension * sizeof(uint64_t)),
+        .bytes_per_realization = (double)layout.bytes_per_realization,
+        .row_bytes = (double)(layout.max_stride * layout.real_bytes),
+        .largest_buffer_per_realization = (double)layout.largest_buffer_per_realization};
+}
+
+static double error_of(const ps_problem *problem, const ps_device_limits *limits,
+                       ps_precision precision, double mean_power) {
+    (void)limits;
+    /* Fixed-point phases: 2 + (2 + d) 2^-24 sum |k| units of 2^-32 turns (float, torus/phase.h), 2^-65 |k|
+     * turns (coordinates below 2^-11). Uniform errors: standard deviation 1/sqrt(12) of a unit. */
+    const double dimension = problem->frequencies->dimension;
+    const double sum_k = problem->frequencies->max_frequency * dimension;
+    const double two_pi = 6.283185307179586;
+    const double phase = precision == PS_SINGLE
+                             ? two_pi * (2 + (2 + dimension) * ldexp(sum_k, -24)) * ldexp(1, -32)
+                             : two_pi * ldexp(sum_k, -65);
+    const double uniform = sqrt(12.0);
+    const double in_step = (coherent_error[precision] + phase / uniform) * sqrt(mean_power);
+    return hypot(hypot(random_error[precision], phase / uniform), in_step);
+}
+
+/* ---- create and destroy ------------------------------------------------------------------ */
+
+static void destroy(void *state) {
+    torus_direct *self = state;
+    if (self == NULL) {
+        return;
+    }
+    ps_split_free(&self->split);
+    ps_torus_points_free(&self->points);
+    ps_torus_sums_free(&self->sums);
+    if (self->product != NULL) {
+        clReleaseKernel(self->product);
+    }
+    ps_buffer_release(&self->pairs);
+    ps_buffer_release(&self->products);
+    ps_buffer_release(&self->scales);
+    ps_buffer_release(&self->power);
+    free(self);
+}
+
+static pspec_status create_product(torus_direct *self, ps_error *error) {
+    ps_text options = {0};
+    const unsigned lanes = self->layout.lanes;
+    const ps_split *split = &self->split;
+    ps_torus_options(&options, &self->layout, self->frequencies->dimension);
+    pspec_status status = ps_text_check(&options, error);
+    if (status == PSPEC_OK) {
+        status = ps_kernel_create(self->device, &self->product, "torus/product.cl", "torus_product",
+                                  ps_text_string(&options), error);
+    }
+    ps_text_free(&options);
+    PS_TRY(status);
+    PS_TRY(ps_buffer_create(self->device, &self->pairs, split->num_pairs * sizeof *split->pairs,
+                            "tile pairs", error));
+    PS_TRY(ps_buffer_write(self->device, &self->pairs, 0, split->pairs,
+                           split->num_pairs * sizeof *split->pairs, error));
+    return ps_buffer_create(self->device, &self->products,
+                            self->layout.group * split->num_pairs * lanes * 8 * lanes *
+                                self->layout.real_bytes,
+                            "sums of products", error);
+}
+
+/* Left and right factors in one list; the left ones fill whole tiles, padded with zeros. */
+static pspec_status create_factor_sums(torus_direct *self, ps_error *error) {
+    const ps_split *split = &self->split;
+    const unsigned dimension = self->frequencies->dimension;
+    const size_t num_left = split->left.num_tiles * split->lanes;
+    const size_t num = num_left + split->right.num;
+    void *vectors = NULL;
+    PS_TRY(ps_allocate(&vectors, num * dimension, sizeof(int32_t), "frequencies", error));
+    memcpy(vectors, split->left.vectors, split->left.num * dimension * sizeof(int32_t));
+    memcpy((int32_t *)vectors + num_left * dimension, split->right.vectors,
+           split->right.num * dimension * sizeof(int32_t));
+    const pspec_status status =
+        ps_torus_sums_create(&self->sums, &self->layout, dimension, num, vectors, self->batch,
+                             self->layout.group, true, split->left.num_tiles, self->device, error);
+    free(vectors);
+    return status;
+}
+
+static pspec_status create_grid(torus_direct *self, ps_error *error) {
+    PS_TRY(ps_split_create(&self->split, self->frequencies, self->layout.lanes, error));
+    PS_TRY(create_factor_sums(self, error));
+    self->stride = ps_split_stride(&self->split);
+    return create_product(self, error);
+}
+
+static pspec_status create_list(torus_direct *self, ps_error *error) {
+    PS_TRY(ps_torus_sums_create(&self->sums, &self->layout, self->frequencies->dimension,
+                                self->frequencies->num, self->frequencies->vectors, self->batch,
+                                self->layout.group, false, 0, self->device, error));
+    self->stride = self->sums.num_tiles * self->layout.lanes;
+    return PSPEC_OK;
+}
+
+/* Rows begin as zeros: accumulation reads what stands between the frequencies, too. */
+static pspec_status create_rows(torus_direct *self, ps_error *error) {
+    const size_t num_rows = self->batch;
+    PS_TRY(ps_buffer_create(self->device, &self->power,
+                            num_rows * self->stride * self->layout.real_bytes, "powers of a batch",
+                            error));
+    PS_TRY(ps_buffer_clear(self->device, &self->power, error));
+    return ps_buffer_create(self->device, &self->scales, self->batch * self->layout.real_bytes,
+                            "scales", error);
+}
+
+static pspec_status create(void **state, const ps_problem *problem, ps_precision precision,
+                           size_t batch, ps_device *device, ps_error *error) {
+    void *memory = NULL;
+    *state = NULL;
+    PS_TRY(ps_allocate(&memory, 1, sizeof(torus_direct), "an engine", error));
+    torus_direct *self = memory;
+    self->device = device;
+    self->frequencies = problem->frequencies;
+    self->precision = precision;
+    self->batch = batch;
+    self->layout = ps_torus_layout_make(problem, ps_device_get_limits(device), precision);
+    self->layout.group = self->layout.group < batch ? self->layout.group : batch;
+    pspec_status status = ps_torus_points_create(&self->points, problem->frequencies->dimension,
+                                                 batch, self->layout.table_points, precision,
+                                                 self->layout.is_grid, device, error);
+    if (status == PSPEC_OK) {
+        status = self->layout.is_grid ? create_grid(self, error) : create_list(self, error);
+    }
+    if (status == PSPEC_OK) {
+        status = create_rows(self, error);
+    }
+    if (status != PSPEC_OK) {
+        destroy(self);
+        return status;
+    }
+    *state = self;
+    return PSPEC_OK;
+}
+
+static void get_slots(const void *state, uint32_t *slots) {
+    const torus_direct *self = state;
+    const ps_frequencies *set = self->frequencies;
+    for (size_t i = 0; i < set->num; i++) {
+        slots[i] = self->layout.is_grid
+                       ? (uint32_t)ps_split_slot(&self->split, set->vectors + i * set->dimension)
+                       : (uint32_t)i;
+    }
+}
+
+static size_t get_stride(const void *state) {
+    return ((const torus_direct *)state)->stride;
+}
+
+/* ---- run --------------------------------------------------------------------------------- */
+
+/* Where a slab of a group of realizations stands in its job. */
+typedef struct slab_place {
+    size_t first_row, num_patterns;
+    size_t first_point;
+    bool is_only, is_last; /* slab of its group */
+} slab_place;
+
+static pspec_status multiply(torus_direct *self, const slab_place *at, size_t num_points,
+                             ps_error *error) {
+    const ps_split *split = &self->split;
+    const double lanes = self->layout.lanes;
+    const double products = (double)num_points * (double)split->num_pairs * lanes * lanes;
+    const double tables = (double)num_points * lanes * (double)self->sums.num_tiles * 2;
+    const ps_range range = ps_range_heavy(self->device, split->num_pairs, at->num_patterns, 1,
+                                          8 * products, tables * (double)self->layout.real_bytes);
+    return PS_LAUNCH(self->device, self->product, &range, error, PS_BUFFER(self->sums.table),
+                     PS_BUFFER(self->points.offsets), PS_BUFFER(self->pairs),
+                     PS_BUFFER(self->products), PS_U64(split->num_pairs),
+                     PS_U64(self->sums.num_tiles), PS_U64(split->left.num_tiles),
+                     PS_U64(self->layout.table_points), PS_U32(at->first_point == 0),
+                     PS_U32(at->is_last), PS_BUFFER(self->scales), PS_BUFFER(self->power),
+                     PS_U64(at->first_row), PS_U64(self->stride));
+}
+
+static pspec_status add_slab(torus_direct *self, const ps_batch *group, const slab_place *at,
+                             ps_error *error) {
+    size_t num_points = 0;
+    PS_TRY(ps_torus_points_upload(&self->points, self->device, group, at->first_point, &num_points,
+                                  error));
+    PS_TRY(ps_torus_sums_add(&self->sums, &self->points, at->first_row, at->num_patterns,
+                             num_points, self->device, error));
+    if (!at->is_only) { /* the next slab overwrites the sums of the chunks */
+        PS_TRY(ps_torus_sums_fold(&self->sums, at->first_row, at->num_patterns,
+                                  at->first_point == 0, self->device, error));
+    }
+    return self->layout.is_grid ? multiply(self, at, num_points, error) : PSPEC_OK;
+}
+
+static size_t longest_pattern(const ps_batch *batch) {
+    size_t longest = 1;
+    for (size_t r = 0; r < batch->num_patterns; r++) {
+        const size_t num_points = batch->patterns[r].num_points;
+        longest = num_points > longest ? num_points : longest;
+    }
+    return longest;
+}
+
+/* One group of realizations, slab after slab. All groups of a batch have as many slabs as its longest
+ * pattern needs, so that one fold serves all of them when that is one. */
+static pspec_status run_group(torus_direct *self, const ps_batch *group, size_t first_row,
+                              size_t num_slabs, ps_error *error) {
+    for (size_t slab = 0; slab < num_slabs; slab++) {
+        const slab_place at = {.first_row = first_row,
+                               .num_patterns = group->num_patterns,
+                               .first_point = slab * self->layout.slab,
+                               .is_only = num_slabs == 1,
+                               .is_last = slab + 1 == num_slabs};
+        PS_TRY(ps_batch_go_on(group, error));
+        PS_TRY(add_slab(self, group, &at, error));
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_error *error) {
+    torus_direct *self = state;
+    const size_t num_slabs = ps_divide_up(longest_pattern(batch), self->layout.slab);
+    const size_t first_slot = self->layout.is_grid ? ps_split_left_slot(&self->split) : 0;
+    PS_TRY(ps_reals_write(self->device, &self->scales, self->precision, batch->scales,
+                          batch->num_patterns, error));
+    for (size_t row = 0; row < batch->num_patterns; row += self->layout.group) {
+        const size_t rest = batch->num_patterns - row;
+        ps_batch group = *batch;
+        group.num_patterns = rest < self->layout.group ? rest : self->layout.group;
+        group.patterns += row;
+        group.exponents = batch->exponents != NULL ? batch->exponents + row : NULL;
+        PS_TRY(run_group(self, &group, row, num_slabs, error));
+    }
+    if (num_slabs == 1) {
+        PS_TRY(ps_torus_sums_fold(&self->sums, 0, batch->num_patterns, true, self->device, error));
+    }
+    PS_TRY(ps_torus_sums_power(&self->sums, &self->scales, &self->power, first_slot, self->stride,
+                               batch->num_patterns, self->device, error));
+    *rows = (ps_rows){.num_rows = batch->num_patterns,
+                      .stride = self->stride,
+                      .precision = self->precision,
+                      .device = self->power};
+    return PSPEC_OK;
+}
+
+static void describe(const void *state, ps_text *text) {
+    const torus_direct *self = state;
+    const ps_torus_layout *layout = &self->layout;
+    ps_text_append(text, "(torus_direct precision=%s lanes=%u run=%d group=%zu slab=%zu",
+                   ps_precision_name(self->precision), layout->lanes,
+                   layout->is_grid ? PS_TORUS_RUN : PS_TORUS_LIST_RUN, layout->group, layout->slab);
+    if (layout->is_grid) {
+        ps_text_append(text, " split=%zux%zu tiles=%zu/%zu)", layout->num_left, layout->num_right,
+                       self->split.num_pairs, layout->max_pairs);
+    } else {
+        ps_text_append(text, " list=%zu)", layout->num_left);
+    }
+}
+
+const ps_engine ps_torus_direct = {
+    .name = "torus_direct",
+    .summary = "direct sums on the device; grids as separable products of two tables",
+    .domains = PS_ON_TORUS,
+    .needs_device = true,
+    .has_precision = {true, true, false},
+    .checks_points = true,
+    .applicable = applicable,
+    .work = work,
+    .error = error_of,
+    .create = create,
+    .get_slots = get_slots,
+    .get_stride = get_stride,
+    .run = run,
+    .describe = describe,
+    .destroy = destroy,
+};

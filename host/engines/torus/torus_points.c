@@ -1,0 +1,246 @@
+#include "engines/torus/torus_points.h"
+
+#include "base/memory.h"
+#include "device/reals.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+__extension__ typedef unsigned __int128 wide; /* not in ISO C */
+
+static uint64_t bits_of(double x) {
+    uint64_t bits = 0;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+/* Without branches and conversions, since every point passes here: adding 1 leaves the upper 52 bits
+ * of x in the mantissa; what that rounds off is below 2^-52, exact, and goes through the mantissa of
+ * another sum, which rounds it to whole units of 2^-64. 1 + x may round up to 2: the upper part then
+ * is 0, the rest negative, and the sum wraps as it should. */
+uint64_t ps_fixed_point(double x) {
+    enum { EXPONENT_BITS = 12 };
+    const double two_to_64 = 18446744073709551616.0;
+    const double rounder = 6755399441055744.0; /* 1.5 * 2^52: its last bit is a unit */
+    const double upper = 1 + x;
+    const double rest = (x - (upper - 1)) * two_to_64;
+    return (bits_of(upper) << EXPONENT_BITS) + (bits_of(rest + rounder) - bits_of(rounder));
+}
+
+/* ---- create ------------------------------------------------------------------------------ */
+
+static pspec_status create_host(ps_torus_points *out, ps_error *error) {
+    void *memory = NULL;
+    const size_t count = out->batch * out->slab;
+    if (!out->is_unified) {
+        PS_TRY(ps_allocate(&memory, count, out->dimension * sizeof(uint64_t), "points", error));
+        out->host_points = memory;
+    }
+    PS_TRY(ps_allocate(&memory, count, ps_real_bytes(out->precision), "weights", error));
+    out->host_weights = memory;
+    PS_TRY(ps_allocate(&memory, out->batch + 1, sizeof(uint64_t), "offsets", error));
+    out->host_offsets = memory;
+    return PSPEC_OK;
+}
+
+static void set_weight(ps_torus_points *points, size_t at, double weight) {
+    if (points->precision == PS_SINGLE) {
+        ((float *)points->host_weights)[at] = (float)weight;
+    } else {
+        ((double *)points->host_weights)[at] = weight;
+    }
+}
+
+/* Unit weights are on the device from the start and stay there until weights arrive. */
+static pspec_status upload_unit_weights(ps_torus_points *points, ps_device *device,
+                                        ps_error *error) {
+    const size_t count = points->batch * points->slab;
+    for (size_t j = 0; j < count; j++) {
+        set_weight(points, j, 1);
+    }
+    points->has_unit_weights = true;
+    return ps_buffer_write(device, &points->weights, 0, points->host_weights,
+                           count * ps_real_bytes(points->precision), error);
+}
+
+pspec_status ps_torus_points_create(ps_torus_points *out, unsigned dimension, size_t batch,
+                                    size_t slab, ps_precision precision, bool far_apart,
+                                    ps_device *device, ps_error *error) {
+    const size_t count = batch * slab;
+    *out = (ps_torus_points){.dimension = dimension,
+                             .batch = batch,
+                             .slab = slab,
+                             .precision = precision,
+                             .far_apart = far_apart,
+                             .is_unified = ps_device_get_limits(device)->has_unified_memory};
+    PS_TRY(create_host(out, error));
+    for (unsigned i = 0; i < (out->is_unified ? 2 : 1); i++) {
+        PS_TRY(ps_buffer_create(device, &out->buffers[i], count * dimension * sizeof(uint64_t),
+                                "points", error));
+    }
+    PS_TRY(ps_buffer_create(device, &out->weights, count * ps_real_bytes(precision), "weights",
+                            error));
+    PS_TRY(
+        ps_buffer_create(device, &out->offsets, (batch + 1) * sizeof(uint64_t), "offsets", error));
+    return upload_unit_weights(out, device, error);
+}
+
+void ps_torus_points_free(ps_torus_points *points) {
+    if (points->mapping.memory != NULL) {
+        ps_mapping_abandon(points->buffers[0].device, &points->mapping);
+    }
+    free(points->host_points);
+    free(points->host_weights);
+    free(points->host_offsets);
+    ps_buffer_release(&points->buffers[0]);
+    ps_buffer_release(&points->buffers[1]);
+    ps_buffer_release(&points->weights);
+    ps_buffer_release(&points->offsets);
+    *points = (ps_torus_points){0};
+}
+
+/* ---- upload ------------------------------------------------------------------------------ */
+
+static uint64_t greatest_common_divisor(uint64_t a, uint64_t b) {
+    while (b != 0) {
+        const uint64_t rest = a % b;
+        a = b;
+        b = rest;
+    }
+    return a;
+}
+
+uint64_t ps_torus_point_step(uint64_t n) {
+    const double golden = 0.6180339887498949;
+    uint64_t step = (uint64_t)((double)n * golden);
+    while (step > 1 && greatest_common_divisor(step, n) != 1) {
+        step--;
+    }
+    return step > 0 ? step : 1;
+}
+
+/* The sign bit says that x is in [0,1), without a branch: bits are in the order of numbers, and those of 1
+ * taken off wrap around below 1; -0 + 0 is 0. */
+static inline uint64_t is_inside(double x) {
+    const uint64_t bits = bits_of(x + 0.0);
+    return (bits - bits_of(1)) & ~bits;
+}
+
+/* Fixed-point coordinates of count points, from point j on in steps; dimension is a constant in every
+ * call, so that the inner loop unrolls. The sign bit says whether all are in [0,1): checked here since points
+ * of large sets come from memory, where a second reading would take as long. */
+static inline uint64_t convert_points(uint64_t *out, const double *points, unsigned dimension,
+                                      size_t count, uint64_t j, uint64_t step, uint64_t n) {
+    uint64_t inside = UINT64_MAX;
+    for (size_t i = 0; i < count; i++) {
+        for (unsigned axis = 0; axis < dimension; axis++) {
+            const double x = points[j * dimension + axis];
+            out[i * dimension + axis] = ps_fixed_point(x);
+            inside &= is_inside(x);
+        }
+        j += step;
+        j -= j >= n ? n : 0;
+    }
+    return inside;
+}
+
+static uint64_t convert_coordinates(uint64_t *out, const pspec_pattern *pattern, size_t count,
+                                    uint64_t j, uint64_t step) {
+    const uint64_t n = pattern->num_points;
+    const unsigned dimension = pattern->dimension;
+    if (step == 1 && count <= n - j) {
+        return convert_points(out, pattern->points + j * dimension, 1, count * dimension, 0, 1,
+                              count * dimension);
+    }
+    switch (dimension) {
+    case 1:
+        return convert_points(out, pattern->points, 1, count, j, step, n);
+    case 2:
+        return convert_points(out, pattern->points, 2, count, j, step, n);
+    case 3:
+        return convert_points(out, pattern->points, 3, count, j, step, n);
+    default:
+        return convert_points(out, pattern->points, dimension, count, j, step, n);
+    }
+}
+
+/* Points first .. of a pattern, in the order of steps, to place `at` on; how many there were. The sign bit of
+ * *inside stays where all are in [0,1). */
+static size_t convert_pattern(ps_torus_points *points, uint64_t *out, size_t at,
+                              const pspec_pattern *pattern, int exponent, size_t first,
+                              uint64_t *inside) {
+    const uint64_t n = pattern->num_points;
+    if (first >= n) {
+        return 0;
+    }
+    const size_t count = n - first < points->slab ? (size_t)(n - first) : points->slab;
+    const uint64_t step = points->far_apart ? ps_torus_point_step(n) : 1;
+    uint64_t j = (uint64_t)((wide)first * step % n);
+    *inside &= convert_coordinates(out + at * points->dimension, pattern, count, j, step);
+    for (size_t i = at; !points->has_unit_weights && i < at + count; i++) {
+        set_weight(points, i, pattern->weights != NULL ? ldexp(pattern->weights[j], -exponent) : 1);
+        j += step;
+        j -= j >= n ? n : 0;
+    }
+    return count;
+}
+
+/* All patterns, to memory of the host or of a buffer. */
+static pspec_status convert(ps_torus_points *points, uint64_t *out, const ps_batch *batch,
+                            size_t first, size_t *num_points, ps_error *error) {
+    size_t at = 0;
+    uint64_t inside = UINT64_MAX;
+    for (size_t r = 0; r < batch->num_patterns; r++) {
+        points->has_unit_weights = points->has_unit_weights && batch->patterns[r].weights == NULL;
+    }
+    for (size_t r = 0; r < batch->num_patterns; r++) {
+        points->host_offsets[r] = at;
+        at += convert_pattern(points, out, at, &batch->patterns[r],
+                              batch->exponents != NULL ? batch->exponents[r] : 0, first, &inside);
+    }
+    points->host_offsets[batch->num_patterns] = at;
+    *num_points = at;
+    return inside >> 63 != 0 ? PSPEC_OK
+                             : ps_fail(error, PSPEC_ERROR_INPUT, "a coordinate is outside [0,1)");
+}
+
+/* The host fills one buffer while the device reads the other, and nothing is copied. */
+static pspec_status fill_mapped(ps_torus_points *points, ps_device *device, const ps_batch *batch,
+                                size_t first, size_t *num_points, ps_error *error) {
+    const ps_buffer *buffer = &points->buffers[points->next];
+    if (points->mapping.memory == NULL) {
+        PS_TRY(ps_mapping_begin(device, &points->mapping, buffer, error));
+    }
+    PS_TRY(ps_mapping_wait(&points->mapping, error));
+    PS_TRY(convert(points, points->mapping.data, batch, first, num_points, error));
+    PS_TRY(ps_mapping_end(device, &points->mapping, error));
+    points->points = *buffer;
+    points->next = 1 - points->next;
+    return PSPEC_OK;
+}
+
+static pspec_status fill_copied(ps_torus_points *points, ps_device *device, const ps_batch *batch,
+                                size_t first, size_t *num_points, ps_error *error) {
+    PS_TRY(convert(points, points->host_points, batch, first, num_points, error));
+    points->points = points->buffers[0];
+    return ps_buffer_write(device, &points->points, 0, points->host_points,
+                           *num_points * points->dimension * sizeof(uint64_t), error);
+}
+
+pspec_status ps_torus_points_upload(ps_torus_points *points, ps_device *device,
+                                    const ps_batch *batch, size_t first, size_t *num_points,
+                                    ps_error *error) {
+    PS_TRY(points->is_unified ? fill_mapped(points, device, batch, first, num_points, error)
+                              : fill_copied(points, device, batch, first, num_points, error));
+    if (!points->has_unit_weights) {
+        PS_TRY(ps_buffer_write(device, &points->weights, 0, points->host_weights,
+                               *num_points * ps_real_bytes(points->precision), error));
+    }
+    PS_TRY(ps_buffer_write(device, &points->offsets, 0, points->host_offsets,
+                           (batch->num_patterns + 1) * sizeof(uint64_t), error));
+    /* Before the launch that reads this buffer, so that it need not be waited for. */
+    return points->is_unified
+               ? ps_mapping_begin(device, &points->mapping, &points->buffers[points->next], error)
+               : PSPEC_OK;
+}

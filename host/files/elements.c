@@ -1,0 +1,108 @@
+#include "files/elements.h"
+
+#include "base/wide.h"
+
+#include <string.h>
+
+bool ps_host_is_big_endian(void) {
+    const uint16_t probe = 1;
+    unsigned char first = 0;
+    memcpy(&first, &probe, 1);
+    return first == 0;
+}
+
+static void swap_bytes(unsigned char *bytes, size_t count, size_t element_bytes) {
+    for (size_t i = 0; i < count; i++) {
+        unsigned char *const element = bytes + i * element_bytes;
+        for (size_t j = 0; j < element_bytes / 2; j++) {
+            const unsigned char kept = element[j];
+            element[j] = element[element_bytes - 1 - j];
+            element[element_bytes - 1 - j] = kept;
+        }
+    }
+}
+
+/* Widens elements; raw and out do not overlap, so that compilers make vectors of this. */
+#define DEFINE_WIDEN(name, element)                                                                \
+    PS_WIDE_BODY(size_t, name,                                                                     \
+                 (const unsigned char *restrict raw, double *restrict out, size_t count)) {        \
+        for (size_t i = 0; i < count; i++) {                                                       \
+            element narrow = 0;                                                                    \
+            memcpy(&narrow, raw + i * sizeof narrow, sizeof narrow);                               \
+            out[i] = (double)narrow;                                                               \
+        }                                                                                          \
+        return count;                                                                              \
+    }                                                                                              \
+    PS_WIDE(size_t, name, (const unsigned char *restrict raw, double *restrict out, size_t count), \
+            (raw, out, count))
+
+DEFINE_WIDEN(widen_float, float)
+DEFINE_WIDEN(widen_int32, int32_t)
+DEFINE_WIDEN(widen_int64, int64_t)
+DEFINE_WIDEN(widen_uint32, uint32_t)
+DEFINE_WIDEN(widen_uint64, uint64_t)
+
+static void widen(ps_element_type type, const unsigned char *raw, double *out, size_t count) {
+    const bool is_long = type.num_bytes == sizeof(double);
+    switch (type.kind) {
+    case PS_ELEMENT_FLOAT: /* doubles are not widened */
+        widen_float(raw, out, count);
+        break;
+    case PS_ELEMENT_SIGNED:
+        (is_long ? widen_int64 : widen_int32)(raw, out, count);
+        break;
+    case PS_ELEMENT_UNSIGNED:
+        (is_long ? widen_uint64 : widen_uint32)(raw, out, count);
+        break;
+    }
+}
+
+/* One read: *count elements at most, and at the end fewer. */
+static pspec_status read_step(ps_input *input, ps_element_type type, double *out, size_t *count,
+                              ps_error *error) {
+    enum { STEP_BYTES = 1 << 16 }; /* not less than ps_input reads without its buffer */
+    unsigned char raw[STEP_BYTES];
+    const bool is_double = type.kind == PS_ELEMENT_FLOAT && type.num_bytes == sizeof(double);
+    const size_t most = is_double ? *count : STEP_BYTES / type.num_bytes;
+    const size_t wanted = *count < most ? *count : most;
+    unsigned char *const target = is_double ? (unsigned char *)out : raw;
+    size_t num_bytes = 0;
+    PS_TRY(ps_input_read(input, target, wanted * type.num_bytes, &num_bytes, error));
+    if (num_bytes % type.num_bytes != 0) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s is truncated: it ends inside a number",
+                       input->name);
+    }
+    *count = num_bytes / type.num_bytes;
+    if (type.is_big_endian != ps_host_is_big_endian()) {
+        swap_bytes(target, *count, type.num_bytes);
+    }
+    if (!is_double) {
+        widen(type, raw, out, *count);
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_elements_read(ps_input *input, ps_element_type type, double *out, size_t count,
+                              size_t *num_read, ps_error *error) {
+    size_t step = 1;
+    for (*num_read = 0; *num_read < count && step > 0; *num_read += step) {
+        step = count - *num_read;
+        PS_TRY(read_step(input, type, out + *num_read, &step, error));
+    }
+    return PSPEC_OK;
+}
+
+void ps_elements_write(ps_output_file *file, const double *values, size_t count) {
+    enum { BLOCK = 4096 };
+    double block[BLOCK];
+    if (!ps_host_is_big_endian()) {
+        ps_output_write(file, values, sizeof *values, count);
+        return;
+    }
+    for (size_t first = 0; first < count; first += BLOCK) {
+        const size_t num = count - first < BLOCK ? count - first : BLOCK;
+        memcpy(block, values + first, num * sizeof *block);
+        swap_bytes((unsigned char *)block, num, sizeof *block);
+        ps_output_write(file, block, sizeof *block, num);
+    }
+}

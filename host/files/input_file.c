@@ -1,0 +1,210 @@
+#include "files/input_file.h"
+
+#include "base/memory.h"
+#include "files/gzip.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum {
+    BUFFER_BYTES = 1 << 16, /* larger reads go around the buffer; smaller ones share system calls */
+    MOST_PEEKED = 16
+};
+
+pspec_status ps_input_fail(const char *name, ps_error *error) {
+    const int reason = errno;
+    return ps_fail(error, reason == EINTR ? PSPEC_ERROR_CANCELLED : PSPEC_ERROR_IO,
+                   "cannot read %s: %s", name, strerror(reason));
+}
+
+pspec_status ps_inputs_check(const char *const *paths, size_t num, ps_error *error) {
+    for (size_t i = 0; i < num; i++) {
+        if (paths[i] != NULL && strcmp(paths[i], "-") != 0 && access(paths[i], R_OK) != 0) {
+            return ps_input_fail(paths[i], error);
+        }
+    }
+    return PSPEC_OK;
+}
+
+/* ---- opening ----------------------------------------------------------------------------- */
+
+/* Standard input is read through a copy of its descriptor, so that closing it is ours to do. */
+static int open_descriptor(const char *path) {
+    return strcmp(path, "-") != 0 ? open(path, O_RDONLY | O_NOCTTY | O_CLOEXEC)
+                                  : fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0);
+}
+
+static pspec_status check_kind(ps_input *input, ps_error *error) {
+    struct stat facts;
+    if (fstat(input->descriptor, &facts) != 0) {
+        return ps_input_fail(input->name, error);
+    }
+    if (S_ISDIR(facts.st_mode)) {
+        errno = EISDIR;
+        return ps_input_fail(input->name, error);
+    }
+    input->is_seekable = S_ISREG(facts.st_mode);
+    return PSPEC_OK;
+}
+
+static pspec_status start_gzip(ps_input *input, ps_error *error) {
+    static const unsigned char magic[] = {0x1f, 0x8b};
+    const unsigned char *bytes = NULL;
+    size_t num_bytes = 0;
+    PS_TRY(ps_input_peek(input, 1, &bytes, &num_bytes, error));
+    if (num_bytes == 0) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s is empty", input->name);
+    }
+    if (bytes[0] != magic[0]) {
+        return PSPEC_OK; /* without waiting for a second byte of a slow pipe */
+    }
+    PS_TRY(ps_input_peek(input, sizeof magic, &bytes, &num_bytes, error));
+    if (num_bytes < sizeof magic || bytes[1] != magic[1]) {
+        return PSPEC_OK;
+    }
+    PS_TRY(ps_gzip_create(&input->gzip, input->buffer + input->begin, input->end - input->begin,
+                          error));
+    input->begin = input->end = 0;
+    input->is_seekable = false;
+    return PSPEC_OK;
+}
+
+static pspec_status open_input(ps_input *input, const char *path, ps_error *error) {
+    input->name = strdup(strcmp(path, "-") == 0 ? "standard input" : path);
+    if (input->name == NULL) {
+        return ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for a file name");
+    }
+    input->descriptor = open_descriptor(path);
+    if (input->descriptor < 0) {
+        return ps_input_fail(input->name, error);
+    }
+    PS_TRY(check_kind(input, error));
+    input->can_reopen = input->is_seekable && strcmp(path, "-") != 0;
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, BUFFER_BYTES, 1, "an input buffer", error));
+    input->buffer = memory;
+    return start_gzip(input, error);
+}
+
+pspec_status ps_input_open(ps_input *input, const char *path, ps_error *error) {
+    *input = (ps_input){.descriptor = -1};
+    const pspec_status status = open_input(input, path, error);
+    if (status != PSPEC_OK) {
+        ps_input_close(input);
+    }
+    return status;
+}
+
+void ps_input_close(ps_input *input) {
+    if (input->name != NULL && input->descriptor >= 0) {
+        close(input->descriptor);
+    }
+    ps_gzip_destroy(input->gzip);
+    free(input->buffer);
+    free(input->name);
+    *input = (ps_input){.descriptor = -1};
+}
+
+/* ---- reading ----------------------------------------------------------------------------- */
+
+/* One step of the source itself, around the buffer. */
+static pspec_status read_source(ps_input *input, void *out, size_t max_bytes, size_t *count,
+                                ps_error *error) {
+    if (input->gzip != NULL) {
+        return ps_gzip_read(input->gzip, input, out, max_bytes, count, error);
+    }
+    const ssize_t taken = read(input->descriptor, out, max_bytes);
+    if (taken < 0) {
+        return ps_input_fail(input->name, error);
+    }
+    *count = (size_t)taken;
+    return PSPEC_OK;
+}
+
+pspec_status ps_input_peek(ps_input *input, size_t wanted, const unsigned char **bytes,
+                           size_t *num_bytes, ps_error *error) {
+    size_t count = 1;
+    if (input->begin > 0 && input->end - input->begin < MOST_PEEKED) {
+        memmove(input->buffer, input->buffer + input->begin, input->end - input->begin);
+        input->end -= input->begin;
+        input->begin = 0;
+    }
+    while (input->end - input->begin < wanted && count > 0) {
+        PS_TRY(read_source(input, input->buffer + input->end, BUFFER_BYTES - input->end, &count,
+                           error));
+        input->end += count;
+    }
+    *bytes = input->buffer + input->begin;
+    *num_bytes = input->end - input->begin;
+    return PSPEC_OK;
+}
+
+static size_t take_buffered(ps_input *input, void *out, size_t max_bytes) {
+    const size_t there = input->end - input->begin;
+    const size_t count = there < max_bytes ? there : max_bytes;
+    if (count > 0) {
+        memcpy(out, input->buffer + input->begin, count);
+        input->begin += count;
+    }
+    return count;
+}
+
+pspec_status ps_input_read_some(ps_input *input, void *out, size_t max_bytes, size_t *count,
+                                ps_error *error) {
+    *count = take_buffered(input, out, max_bytes);
+    return *count > 0 ? PSPEC_OK : read_source(input, out, max_bytes, count, error);
+}
+
+/* Large reads go where they are wanted, small ones through the buffer. */
+static pspec_status read_step(ps_input *input, void *out, size_t num_bytes, size_t *count,
+                              ps_error *error) {
+    if (num_bytes >= BUFFER_BYTES) {
+        return read_source(input, out, num_bytes, count, error);
+    }
+    input->begin = input->end = 0;
+    PS_TRY(read_source(input, input->buffer, BUFFER_BYTES, count, error));
+    input->end = *count;
+    *count = take_buffered(input, out, num_bytes);
+    return PSPEC_OK;
+}
+
+pspec_status ps_input_read(ps_input *input, void *out, size_t num_bytes, size_t *count,
+                           ps_error *error) {
+    *count = take_buffered(input, out, num_bytes);
+    while (*count < num_bytes) {
+        size_t step = 0;
+        PS_TRY(read_step(input, (unsigned char *)out + *count, num_bytes - *count, &step, error));
+        if (step == 0) {
+            break;
+        }
+        *count += step;
+    }
+    return PSPEC_OK;
+}
+
+/* ---- places in files --------------------------------------------------------------------- */
+
+off_t ps_input_position(const ps_input *input) {
+    return lseek(input->descriptor, 0, SEEK_CUR) - (off_t)(input->end - input->begin);
+}
+
+bool ps_input_bytes_left(const ps_input *input, uint64_t *num_bytes) {
+    struct stat facts;
+    const off_t position = input->is_seekable ? ps_input_position(input) : -1;
+    if (position < 0 || fstat(input->descriptor, &facts) != 0) {
+        return false;
+    }
+    *num_bytes = facts.st_size > position ? (uint64_t)(facts.st_size - position) : 0;
+    return true;
+}
+
+pspec_status ps_input_seek(ps_input *input, off_t position, ps_error *error) {
+    input->begin = input->end = 0;
+    return lseek(input->descriptor, position, SEEK_SET) == position
+               ? PSPEC_OK
+               : ps_input_fail(input->name, error);
+}

@@ -1,0 +1,39 @@
+/* NPY arrays (format 1.0 of NumPy): writing float64 arrays, and the header parser that readers use.
+ */
+#ifndef PS_FILES_NPY_H
+#define PS_FILES_NPY_H
+
+#include "files/elements.h"
+
+#include <stdio.h>
+
+enum { PS_NPY_MAX_RANK = 8 };
+
+typedef struct ps_npy_header {
+    unsigned rank;
+    size_t shape[PS_NPY_MAX_RANK];
+    size_t num_elements;
+    bool is_fortran_order;
+    ps_element_type type; /* floats only */
+} ps_npy_header;
+
+/* Reads magic and header (of versions 1 to 3). Where the size of the file is known, it must be what
+ * the header says. */
+pspec_status ps_npy_read_header(ps_input *input, ps_npy_header *out, ps_error *error) PS_MUST_CHECK;
+/* Reads the next count elements as doubles, in the order of the file. */
+pspec_status ps_npy_read_elements(ps_input *input, const ps_npy_header *header, double *out,
+                                  size_t count, ps_error *error) PS_MUST_CHECK;
+/* After the last element: the input must end here (a pipe does not tell its size in advance). */
+pspec_status ps_npy_check_end(ps_input *input, ps_error *error) PS_MUST_CHECK;
+
+/* Writes the header of a float64 array in C order and in the byte order of this machine, so that
+ * the elements follow by fwrite. Write errors show at commit. */
+void ps_npy_write_header(FILE *stream, unsigned rank, const size_t *shape);
+/* Writes count complex numbers, pairs (real, imaginary) of doubles, as a vector to path. */
+pspec_status ps_npy_write_complex(const char *path, size_t count, const double *pairs,
+                                  ps_error *error) PS_MUST_CHECK;
+/* Writes a whole float64 array to path through ps_output_file. */
+pspec_status ps_npy_write(const char *path, unsigned rank, const size_t *shape, const double *data,
+                          ps_error *error) PS_MUST_CHECK;
+
+#endif

@@ -1,0 +1,183 @@
+#include "files/temporary_file.h"
+
+#include "base/text.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+/* ---- names --------------------------------------------------------------------------------- */
+
+/* What names of this machine begin with. Locks of another machine may not be seen here. */
+static void append_start(ps_text *out) {
+    char host[256] = ""; /* POSIX machines have shorter names */
+    (void)gethostname(host, sizeof host - 1);
+    ps_text_append(out, ".pointspec-%08lx-",
+                   (unsigned long)(XXH3_64bits(host, strlen(host)) & 0xffffffff));
+}
+
+static bool is_ours(const char *name, const char *start) {
+    static const char end[] = ".tmp";
+    const size_t length = strlen(name);
+    const size_t start_length = strlen(start);
+    return strncmp(name, start, start_length) == 0 && length > start_length + sizeof end - 1 &&
+           strcmp(name + length - (sizeof end - 1), end) == 0;
+}
+
+/* ---- what dead processes left -------------------------------------------------------------- */
+
+/* Whoever writes to the file holds its lock. Files that are no files, or that cannot be opened, stay. */
+static void remove_if_dead(int folder, const char *folder_path, const char *name) {
+    struct stat facts;
+    ps_text path = {0};
+    ps_text_append(&path, "%s%s", folder_path, name);
+    const int descriptor =
+        path.failed ? -1 : open(path.data, O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    if (descriptor >= 0) {
+        if (fstat(descriptor, &facts) == 0 && S_ISREG(facts.st_mode) && facts.st_uid == geteuid() &&
+            flock(descriptor, LOCK_EX | LOCK_NB) == 0) {
+            (void)unlinkat(folder, name, 0);
+        }
+        close(descriptor);
+    }
+    ps_text_free(&path);
+}
+
+/* "START" and the number of this process, which is not dead: its files may be without a lock where one was not to be had. */
+static void append_own(ps_text *out, const char *start) {
+    ps_text_append(out, "%s%ld-", start, (long)getpid());
+}
+
+/* A folder that cannot be looked into keeps what it has. */
+static void remove_dead(const char *folder_path, const char *start, const char *own) {
+    DIR *const folder = opendir(folder_path[0] != '\0' ? folder_path : ".");
+    if (folder == NULL) {
+        return;
+    }
+    for (const struct dirent *found = readdir(folder); found != NULL; found = readdir(folder)) {
+        if (is_ours(found->d_name, start) && strncmp(found->d_name, own, strlen(own)) != 0) {
+            remove_if_dead(dirfd(folder), folder_path, found->d_name);
+        }
+    }
+    closedir(folder);
+}
+
+/* ---- new files ----------------------------------------------------------------------------- */
+
+/* Another process may have taken the file for a dead one's before it was locked: it then has no name any more. Where
+ * locks do not work nobody can do that. */
+static bool is_kept(int descriptor) {
+    struct stat facts;
+    if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+        return false;
+    }
+    return fstat(descriptor, &facts) != 0 || facts.st_nlink > 0;
+}
+
+/* -1 and errno: EEXIST where another name may do. */
+static int create_named(const char *path, mode_t mode) {
+    const int descriptor = open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+    if (descriptor >= 0 && !is_kept(descriptor)) {
+        close(descriptor);
+        errno = EEXIST;
+        return -1;
+    }
+    return descriptor;
+}
+
+/* Numbers that other files of this process have are passed over. */
+static int create_numbered(const char *folder, const char *own, mode_t mode, char **path) {
+    enum { MOST_TRIES = 10000 };
+    for (int number = 0; number < MOST_TRIES; number++) {
+        ps_text text = {0};
+        ps_text_append(&text, "%s%s%d.tmp", folder, own, number);
+        errno = ENOMEM;
+        const int descriptor = text.failed ? -1 : create_named(text.data, mode);
+        if (descriptor >= 0) {
+            *path = text.data;
+            return descriptor;
+        }
+        const int reason = errno;
+        ps_text_free(&text);
+        errno = reason;
+        if (reason != EEXIST) {
+            return -1;
+        }
+    }
+    return -1;
+}
+
+int ps_temporary_create(const char *folder, size_t folder_length, mode_t mode, char **path) {
+    ps_text where = {0};
+    ps_text start = {0};
+    ps_text own = {0};
+    int descriptor = -1;
+    *path = NULL;
+    ps_text_append_bytes(&where, folder, folder_length);
+    append_start(&start);
+    append_own(&own, ps_text_string(&start));
+    errno = ENOMEM;
+    if (!where.failed && !start.failed && !own.failed) {
+        remove_dead(ps_text_string(&where), ps_text_string(&start), ps_text_string(&own));
+        descriptor = create_numbered(ps_text_string(&where), ps_text_string(&own), mode, path);
+    }
+    const int reason = errno;
+    ps_text_free(&where);
+    ps_text_free(&start);
+    ps_text_free(&own);
+    errno = reason;
+    return descriptor;
+}
+
+/* ---- files without a name ------------------------------------------------------------------ */
+
+static const char *find_folder(void) {
+    const char *const folder = getenv("TMPDIR");
+    return folder != NULL && folder[0] != '\0' ? folder : "/tmp";
+}
+
+static pspec_status fail(int reason, ps_error *error) {
+    return ps_fail(error, PSPEC_ERROR_IO,
+                   "cannot create a temporary file in \"%s\", a folder that TMPDIR chooses: %s",
+                   find_folder(), strerror(reason));
+}
+
+/* A new file of a name that nobody has, which it loses at once. -1 and errno: there is none. */
+static int open_nameless(const char *folder) {
+    ps_text where = {0};
+    char *path = NULL;
+    ps_text_append(&where, "%s/", folder);
+    errno = ENOMEM;
+    const int descriptor =
+        where.failed ? -1 : ps_temporary_create(where.data, where.length, 0600, &path);
+    const int reason = errno;
+    if (descriptor >= 0) {
+        (void)unlink(path); /* what cannot be removed stays, and holds nothing secret */
+    }
+    free(path);
+    ps_text_free(&where);
+    errno = reason;
+    return descriptor;
+}
+
+pspec_status ps_temporary_open(FILE **out, ps_error *error) {
+    *out = NULL;
+    const int descriptor = open_nameless(find_folder());
+    if (descriptor < 0) {
+        return fail(errno, error);
+    }
+    *out = fdopen(descriptor, "w+b");
+    if (*out == NULL) {
+        const int reason = errno;
+        close(descriptor);
+        return fail(reason, error);
+    }
+    return PSPEC_OK;
+}

@@ -1,0 +1,218 @@
+#include "files/text_lines.h"
+
+#include "base/memory.h"
+#include "files/decimal.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+/* The buffer grows with its input: small files are many, and of a large one several threads share a
+ * part that stays in their cache. */
+enum { FIRST_BYTES = 1 << 16, MOST_BYTES = 1 << 22, GROWTH = 8 };
+
+/* ---- lines ------------------------------------------------------------------------------- */
+
+pspec_status ps_lines_open(ps_lines *lines, ps_input *input, ps_error *error) {
+    void *memory = NULL;
+    *lines = (ps_lines){.input = input, .line_number = 1, .capacity = FIRST_BYTES};
+    PS_TRY(ps_allocate(&memory, FIRST_BYTES + PS_DECIMAL_PADDING, 1, "text buffer", error));
+    lines->buffer = memory;
+    lines->cursor = lines->lines_end = lines->buffer;
+    return PSPEC_OK;
+}
+
+void ps_lines_close(ps_lines *lines) {
+    free(lines->buffer);
+    *lines = (ps_lines){0};
+}
+
+/* Moves what is left to the start of the buffer. */
+static void make_room(ps_lines *lines) {
+    const size_t used = (size_t)(lines->cursor - lines->buffer);
+    lines->num_bytes -= used;
+    memmove(lines->buffer, lines->cursor, lines->num_bytes);
+    lines->lines_end -= used;
+    lines->cursor = lines->buffer;
+}
+
+/* Looks for the last '\n' in the bytes from first on. */
+static void find_lines(ps_lines *lines, size_t first) {
+    for (size_t i = lines->num_bytes; i > first; i--) {
+        if (lines->buffer[i - 1] == '\n') {
+            lines->lines_end = lines->buffer + i;
+            return;
+        }
+    }
+}
+
+static void end_last_line(ps_lines *lines) {
+    lines->is_at_end = true;
+    if (lines->num_bytes > 0 && lines->buffer[lines->num_bytes - 1] != '\n') {
+        lines->buffer[lines->num_bytes++] = '\n';
+    }
+    lines->lines_end = lines->buffer + lines->num_bytes;
+}
+
+/* One byte is kept for a missing '\n'. */
+static size_t free_bytes(const ps_lines *lines) {
+    return lines->capacity - 1 - lines->num_bytes;
+}
+
+static bool is_full(const ps_lines *lines) {
+    return free_bytes(lines) == 0 && lines->capacity >= MOST_BYTES;
+}
+
+static pspec_status grow(ps_lines *lines, ps_error *error) {
+    const size_t capacity = lines->capacity * GROWTH;
+    char *const larger = realloc(lines->buffer, capacity + PS_DECIMAL_PADDING);
+    if (larger == NULL) {
+        return ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for a text buffer");
+    }
+    memset(larger + lines->capacity, 0, capacity + PS_DECIMAL_PADDING - lines->capacity);
+    lines->cursor = larger + (lines->cursor - lines->buffer);
+    lines->lines_end = larger + (lines->lines_end - lines->buffer);
+    lines->buffer = larger;
+    lines->capacity = capacity;
+    return PSPEC_OK;
+}
+
+static pspec_status read_more(ps_lines *lines, ps_error *error) {
+    if ((lines->wants_more || free_bytes(lines) == 0) && lines->capacity < MOST_BYTES) {
+        PS_TRY(grow(lines, error));
+    }
+    const size_t first = lines->num_bytes;
+    const size_t room = free_bytes(lines);
+    size_t count = 0;
+    PS_TRY(ps_input_read_some(lines->input, lines->buffer + first, room, &count, error));
+    lines->wants_more = count == room; /* there would have been more */
+    lines->num_bytes += count;
+    find_lines(lines, first);
+    if (count == 0) {
+        end_last_line(lines);
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_lines_fill(ps_lines *lines, bool *has_line, ps_error *error) {
+    if (lines->cursor == lines->lines_end && !lines->is_at_end) {
+        make_room(lines);
+    }
+    while (lines->cursor == lines->lines_end && !lines->is_at_end) {
+        if (is_full(lines)) {
+            return ps_fail(error, PSPEC_ERROR_INPUT,
+                           "%s, line %zu: no end of line within %d bytes; is this a text file?",
+                           lines->input->name, lines->line_number, MOST_BYTES - 1);
+        }
+        PS_TRY(read_more(lines, error));
+    }
+    *has_line = lines->cursor != lines->lines_end;
+    return PSPEC_OK;
+}
+
+static const char *find_second(const ps_lines *lines) {
+    const char *const next =
+        (const char *)memchr(lines->cursor, '\n', (size_t)(lines->lines_end - lines->cursor)) + 1;
+    return next < lines->lines_end ? next : NULL;
+}
+
+pspec_status ps_lines_peek_second(ps_lines *lines, const char **line, ps_error *error) {
+    make_room(lines);
+    while (find_second(lines) == NULL && !lines->is_at_end && !is_full(lines)) {
+        PS_TRY(read_more(lines, error));
+    }
+    *line = find_second(lines);
+    return PSPEC_OK;
+}
+
+void ps_lines_skip(ps_lines *lines) {
+    lines->cursor =
+        (const char *)memchr(lines->cursor, '\n', (size_t)(lines->lines_end - lines->cursor)) + 1;
+    lines->line_number++;
+}
+
+/* ---- tokens ------------------------------------------------------------------------------ */
+
+size_t ps_token_length(const char *text) {
+    size_t length = 0;
+    while (text[length] != ' ' && text[length] != '\t' && text[length] != ',' &&
+           !ps_ends_line(text + length)) {
+        length++;
+    }
+    return length;
+}
+
+const char *ps_token_show(char shown[PS_TOKEN_BYTES], const char *text, size_t length) {
+    enum { LONGEST = 4, SHOWN = 30 }; /* one byte may become "\xHH"; 30 tell which token it was */
+    size_t used = 0;
+    const size_t count = length < SHOWN ? length : SHOWN;
+    for (size_t i = 0; i < count && used + LONGEST < PS_TOKEN_BYTES - 4; i++) {
+        const unsigned char byte = (unsigned char)text[i];
+        const int is_printable = byte >= ' ' && byte < 0x7f;
+        used += (size_t)snprintf(shown + used, PS_TOKEN_BYTES - used,
+                                 is_printable ? "%c" : "\\x%02x", byte);
+    }
+    snprintf(shown + used, PS_TOKEN_BYTES - used, "%s", count < length ? "..." : "");
+    return shown;
+}
+
+bool ps_token_is_not_finite(const char *token, size_t length) {
+    static const char *const words[] = {"nan", "inf", "infinity"};
+    const size_t sign = length > 0 && (*token == '-' || *token == '+');
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
+        if (length - sign == strlen(words[i]) &&
+            strncasecmp(token + sign, words[i], length - sign) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* ---- rows -------------------------------------------------------------------------------- */
+
+static bool ends_number(const char *text, char separator) {
+    return *text == ' ' || *text == '\t' || *text == separator || ps_ends_line(text);
+}
+
+const char *ps_row_parse(const char *text, char separator, size_t num_columns, double *row) {
+    for (size_t i = 0; i < num_columns; i++) {
+        text = ps_skip_blanks(text);
+        if (separator == ',' && i > 0) {
+            if (*text != ',') {
+                return NULL;
+            }
+            text = ps_skip_blanks(text + 1);
+        }
+        text = ps_decimal_parse(text, &row[i]);
+        if (text == NULL || !ends_number(text, separator)) {
+            return NULL;
+        }
+    }
+    text = ps_skip_blanks(text);
+    text += *text == '\r';
+    return *text == '\n' ? text : NULL;
+}
+
+pspec_status ps_row_count(const ps_lines *lines, char separator, size_t *num_columns,
+                          ps_error *error) {
+    const char *text = ps_skip_blanks(lines->cursor);
+    bool needs_number = true;
+    *num_columns = 0;
+    while (needs_number || !ps_ends_line(text)) {
+        double value = 0;
+        const size_t length = ps_token_length(text);
+        if (length == 0 || ps_decimal_parse(text, &value) != text + length) {
+            char shown[PS_TOKEN_BYTES];
+            ps_token_show(shown, text, length > 0 ? length : !ps_ends_line(text));
+            return ps_fail(error, PSPEC_ERROR_INPUT, "%s, line %zu: \"%s\" is not a %snumber",
+                           lines->input->name, lines->line_number, shown,
+                           ps_token_is_not_finite(text, length) ? "finite " : "");
+        }
+        ++*num_columns;
+        text = ps_skip_blanks(text + length);
+        needs_number = separator == ',' && *text == ',';
+        text = needs_number ? ps_skip_blanks(text + 1) : text;
+    }
+    return PSPEC_OK;
+}

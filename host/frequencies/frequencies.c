@@ -1,0 +1,240 @@
+#include "frequencies/frequencies.h"
+
+#include "base/memory.h"
+#include "frequencies/frequency_sample.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+int64_t ps_frequency_norm2(const int32_t *k, unsigned dimension) {
+    int64_t sum = 0;
+    for (unsigned i = 0; i < dimension; i++) {
+        sum += (int64_t)k[i] * k[i];
+    }
+    return sum;
+}
+
+bool ps_frequency_is_in_half_lattice(const int32_t *k, unsigned dimension) {
+    unsigned i = 0;
+    while (i < dimension && k[i] == 0) {
+        i++;
+    }
+    return i < dimension && k[i] > 0;
+}
+
+/* ((2K+1)^d - 1) / 2, or more than the limit when it does not fit. */
+static uint64_t half_box_size(unsigned dimension, int64_t max_frequency) {
+    uint64_t size = 1;
+    for (unsigned i = 0; i < dimension; i++) {
+        if (size > 4 * PS_MAX_NUM_FREQUENCIES) {
+            return size;
+        }
+        size *= (uint64_t)(2 * max_frequency + 1);
+    }
+    return (size - 1) / 2;
+}
+
+/* Half the volume of the ball |k|^2 <= K^2 + K: planning needs no more than this. */
+static size_t approximate_half_ball_size(unsigned dimension, double max_frequency) {
+    const double half_dimension = dimension / 2.0;
+    const double pi = 3.14159265358979323846;
+    const double unit_ball = pow(pi, half_dimension) / tgamma(half_dimension + 1);
+    return (size_t)ceil(unit_ball * pow(max_frequency + 0.5, dimension) / 2);
+}
+
+static int32_t largest_allowed(unsigned dimension) {
+    int32_t low = 1;
+    int32_t high = PS_MAX_FREQUENCY;
+    while (low < high) {
+        const int32_t middle = low + (high - low + 1) / 2;
+        if (half_box_size(dimension, middle) <= PS_MAX_NUM_FREQUENCIES) {
+            low = middle;
+        } else {
+            high = middle - 1;
+        }
+    }
+    return low;
+}
+
+/* The end of a sentence about a K that is too large. */
+static const char *say_offers(unsigned dimension, int32_t max_frequency, unsigned offers) {
+    const bool may_list = (offers & PS_OFFER_LISTS) != 0 && max_frequency > 0;
+    const bool may_sample =
+        (offers & PS_OFFER_RINGS) != 0 && ps_frequencies_can_sample(dimension, max_frequency);
+    return may_sample && may_list ? "; a random subset of every ring (--per-ring) and lists of "
+                                    "frequencies have no such limit"
+           : may_sample           ? "; a random subset of every ring (--per-ring) has no such limit"
+           : may_list             ? "; a list of frequencies has no such limit"
+                                  : "";
+}
+
+pspec_status ps_frequencies_lattice(ps_frequencies *out, unsigned dimension, int32_t max_frequency,
+                                    bool is_ball, ps_error *error) {
+    return ps_frequencies_grid(out, dimension, max_frequency, is_ball, 0, error);
+}
+
+pspec_status ps_frequencies_grid(ps_frequencies *out, unsigned dimension, int32_t max_frequency,
+                                 bool is_ball, unsigned offers, ps_error *error) {
+    *out = (ps_frequencies){.kind = is_ball ? PS_FREQUENCIES_BALL : PS_FREQUENCIES_BOX,
+                            .dimension = dimension,
+                            .max_frequency = max_frequency};
+    if (dimension < 1 || dimension > PS_MAX_TORUS_DIMENSION) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "dimension %u is not between 1 and %d",
+                       dimension, PS_MAX_TORUS_DIMENSION);
+    }
+    const int32_t largest = largest_allowed(dimension);
+    if (max_frequency < 1 || max_frequency > largest) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "max frequency %d is not between 1 and %d, the largest whose full grid in "
+                       "dimension %u can be indexed%s",
+                       (int)max_frequency, (int)largest, dimension,
+                       say_offers(dimension, max_frequency, offers));
+    }
+    const size_t box = (size_t)half_box_size(dimension, max_frequency);
+    const size_t ball = approximate_half_ball_size(dimension, max_frequency);
+    out->num = is_ball && ball < box ? ball : box;
+    return PSPEC_OK;
+}
+
+pspec_status ps_frequencies_list(ps_frequencies *out, unsigned dimension, size_t num,
+                                 int32_t *vectors, ps_error *error) {
+    *out = (ps_frequencies){
+        .kind = PS_FREQUENCIES_LIST, .dimension = dimension, .num = num, .vectors = vectors};
+    for (size_t i = 0; i < num * dimension; i++) {
+        const int64_t size = llabs((long long)vectors[i]);
+        if (size > PS_MAX_FREQUENCY) {
+            return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                           "frequency %zu has the component %d; the largest allowed is %d",
+                           i / dimension + 1, (int)vectors[i], (int)PS_MAX_FREQUENCY);
+        }
+        out->max_frequency = size > out->max_frequency ? (int32_t)size : out->max_frequency;
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_frequencies_degrees(ps_frequencies *out, int64_t max_degree, bool only_even,
+                                    ps_error *error) {
+    const int32_t first = only_even ? 2 : 1;
+    *out = (ps_frequencies){
+        .kind = PS_FREQUENCIES_DEGREES, .dimension = PS_SPHERE_DIMENSION, .degree_step = first};
+    if (max_degree < first) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "the largest degree %lld leaves none: the first is %d%s",
+                       (long long)max_degree, (int)first,
+                       only_even ? ", odd degrees vanish on the hemisphere"
+                                 : ", degree 0 is known to be N");
+    }
+    if (max_degree > PS_MAX_DEGREE) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "the largest degree %lld is above %d, where the coefficients of one set "
+                       "take 8 GiB",
+                       (long long)max_degree, (int)PS_MAX_DEGREE);
+    }
+    out->max_frequency = (int32_t)(max_degree - max_degree % first);
+    out->num = (size_t)(max_degree / first);
+    return PSPEC_OK;
+}
+
+unsigned ps_frequency_components(const ps_frequencies *frequencies) {
+    return frequencies->kind == PS_FREQUENCIES_DEGREES ? 1 : frequencies->dimension;
+}
+
+unsigned ps_frequencies_space_dimension(const ps_frequencies *frequencies) {
+    return frequencies->kind == PS_FREQUENCIES_DEGREES ? frequencies->dimension - 1
+                                                       : frequencies->dimension;
+}
+
+/* The next vector of the box in lexicographic order; false after the last. */
+static bool advance(int32_t *k, unsigned dimension, int32_t max_frequency) {
+    for (unsigned i = dimension; i-- > 0;) {
+        if (k[i] < max_frequency) {
+            k[i]++;
+            return true;
+        }
+        k[i] = -max_frequency;
+    }
+    return false;
+}
+
+/* Walks through the half lattice after DC; stores vectors where out is not NULL. */
+static size_t walk_half_lattice(const ps_frequencies *set, int32_t *out) {
+    const int64_t limit = (int64_t)set->max_frequency * (set->max_frequency + (int64_t)1);
+    int32_t k[PS_MAX_TORUS_DIMENSION] = {0};
+    size_t count = 0;
+    while (advance(k, set->dimension, set->max_frequency)) {
+        if (set->kind == PS_FREQUENCIES_BALL && ps_frequency_norm2(k, set->dimension) > limit) {
+            continue;
+        }
+        for (unsigned i = 0; out != NULL && i < set->dimension; i++) {
+            out[count * set->dimension + i] = k[i];
+        }
+        count++;
+    }
+    return count;
+}
+
+static void list_degrees(ps_frequencies *set) {
+    for (size_t i = 0; i < set->num; i++) {
+        set->vectors[i] = (int32_t)(i + 1) * set->degree_step;
+    }
+}
+
+pspec_status ps_frequencies_enumerate(ps_frequencies *frequencies, ps_error *error) {
+    void *vectors = NULL;
+    size_t num_components = 0;
+    if (frequencies->vectors != NULL) {
+        return PSPEC_OK;
+    }
+    const bool are_degrees = frequencies->kind == PS_FREQUENCIES_DEGREES;
+    const size_t num = are_degrees ? frequencies->num : walk_half_lattice(frequencies, NULL);
+    if (!ps_size_multiply(num, ps_frequency_components(frequencies), &num_components)) {
+        return ps_fail(error, PSPEC_ERROR_MEMORY, "%zu frequencies are too many", num);
+    }
+    PS_TRY(ps_allocate(&vectors, num_components, sizeof(int32_t), "the frequencies", error));
+    frequencies->num = num;
+    frequencies->vectors = vectors;
+    if (are_degrees) {
+        list_degrees(frequencies);
+    } else {
+        walk_half_lattice(frequencies, frequencies->vectors);
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status copy_rings(ps_frequencies *out, const ps_frequencies *from, ps_error *error) {
+    void *rings = NULL;
+    PS_TRY(ps_allocate(&rings, from->num_rings, sizeof *out->rings, "the rings", error));
+    memcpy(rings, from->rings, from->num_rings * sizeof *out->rings);
+    out->rings = rings;
+    return PSPEC_OK;
+}
+
+pspec_status ps_frequencies_copy(ps_frequencies *out, const ps_frequencies *from, ps_error *error) {
+    void *vectors = NULL;
+    const size_t num_components = from->num * ps_frequency_components(from);
+    PS_TRY(ps_allocate(&vectors, num_components, sizeof(int32_t), "the frequencies", error));
+    memcpy(vectors, from->vectors, num_components * sizeof(int32_t));
+    *out = *from;
+    out->vectors = vectors;
+    out->rings = NULL;
+    const pspec_status status = from->rings != NULL ? copy_rings(out, from, error) : PSPEC_OK;
+    if (status != PSPEC_OK) {
+        ps_frequencies_free(out);
+    }
+    return status;
+}
+
+void ps_frequencies_free(ps_frequencies *frequencies) {
+    free(frequencies->vectors);
+    free(frequencies->rings);
+    *frequencies = (ps_frequencies){0};
+}
+
+uint64_t ps_frequencies_population(const ps_frequencies *frequencies) {
+    uint64_t sum = 0;
+    for (size_t i = 0; i < frequencies->num_rings; i++) {
+        sum += frequencies->rings[i].num_frequencies;
+    }
+    return frequencies->rings != NULL ? sum : frequencies->num;
+}

@@ -1,0 +1,103 @@
+/* What powers are computed of. On the torus integer frequencies: a list that somebody made, or the half
+ * lattice of a box. On the sphere degrees.
+ *
+ * Real weights make |S(-k)| = |S(k)|, so a box |k_i| <= K is represented by its half lattice: the k
+ * whose first non-zero component is positive, in lexicographic order, DC left out
+ * (mathematics.md 1.3). A ball keeps only k with |k|^2 <= K^2 + K: all rings 1..K, no corners.
+ *
+ * The power of a degree l is a mean over its 2l + 1 orders (mathematics.md 2.2). Degree 0 is the DC of the
+ * sphere and left out like it; on the hemisphere, the projective plane, only even degrees are there
+ * (mathematics.md 3).
+ */
+#ifndef PS_FREQUENCIES_FREQUENCIES_H
+#define PS_FREQUENCIES_FREQUENCIES_H
+
+#include "base/status.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum { PS_MAX_TORUS_DIMENSION = 6 };
+
+/* Largest |k_i|: fixed-point phases in float stay exact to a few units below it (torus/phase.h:
+ * the sum over six axes must stay below 2^31). */
+#define PS_MAX_FREQUENCY ((int32_t)1 << 28)
+
+typedef enum ps_frequency_kind {
+    PS_FREQUENCIES_LIST,
+    PS_FREQUENCIES_BOX,
+    PS_FREQUENCIES_BALL,
+    PS_FREQUENCIES_DEGREES
+} ps_frequency_kind;
+
+/* Largest degree: the coefficients of one set take 8 GiB there, and nothing was tested above. */
+#define PS_MAX_DEGREE ((int32_t)1 << 15)
+
+/* Coordinates of a point on the sphere: a unit vector. */
+enum { PS_SPHERE_DIMENSION = 3 };
+
+/* A ring or shell of which a list holds a part, or all. */
+typedef struct ps_sampled_ring {
+    uint64_t num_frequencies; /* half-lattice frequencies that the ring has */
+    double mean_frequency;    /* mean |k| of all of them */
+} ps_sampled_ring;
+
+typedef struct ps_frequencies {
+    ps_frequency_kind kind;
+    unsigned dimension;    /* coordinates of a point */
+    int32_t max_frequency; /* K; for a list the largest |k_i| in it; L for degrees */
+    size_t num;            /* exact but for balls that are not enumerated */
+    int32_t *
+        vectors; /* [num][ps_frequency_components]; NULL for boxes, balls and degrees not yet enumerated */
+    int32_t degree_step; /* from degree to degree: 1, or 2 on the hemisphere; 0 on the torus */
+
+    /* A list that holds at most per_ring frequencies of every ring 1..K, or of every shell that these
+     * rings have (frequencies/frequency_sample.h). Otherwise 0, 0 and NULL. */
+    uint64_t per_ring;
+    size_t num_rings;
+    ps_sampled_ring *rings; /* ascending */
+} ps_frequencies;
+
+/* Slots of results are 32-bit indices on the device, with padding and both signs. */
+#define PS_MAX_NUM_FREQUENCIES (((uint64_t)1 << 31) / 4)
+
+/* What a question may be asked of instead of all frequencies, for sentences that say what would help. */
+enum {
+    PS_OFFER_RINGS = 1, /* a random subset of every ring */
+    PS_OFFER_LISTS = 2
+};
+
+/* A box or ball, not enumerated: costs nothing, whatever the size. dimension 1..6, K >= 1. More
+ * frequencies than an index holds: PSPEC_ERROR_INVALID_ARGUMENT with the largest K that fits. */
+pspec_status ps_frequencies_lattice(ps_frequencies *out, unsigned dimension, int32_t max_frequency,
+                                    bool is_ball, ps_error *error) PS_MUST_CHECK;
+/* The same, with a sentence that says which of these offers there are, where K is too large. */
+pspec_status ps_frequencies_grid(ps_frequencies *out, unsigned dimension, int32_t max_frequency,
+                                 bool is_ball, unsigned offers, ps_error *error) PS_MUST_CHECK;
+/* A list: takes vectors over ([num][dimension], allocated by malloc). */
+pspec_status ps_frequencies_list(ps_frequencies *out, unsigned dimension, size_t num,
+                                 int32_t *vectors, ps_error *error) PS_MUST_CHECK;
+/* Degrees 1 .. max_degree, or with only_even 2, 4 .. max_degree, not enumerated. An L that leaves none or is
+ * larger than PS_MAX_DEGREE is PSPEC_ERROR_INVALID_ARGUMENT. */
+pspec_status ps_frequencies_degrees(ps_frequencies *out, int64_t max_degree, bool only_even,
+                                    ps_error *error) PS_MUST_CHECK;
+/* Numbers of a vector: the dimension, or 1 for degrees. */
+unsigned ps_frequency_components(const ps_frequencies *frequencies);
+/* Dimension of the space that the points fill: 2 on the sphere. */
+unsigned ps_frequencies_space_dimension(const ps_frequencies *frequencies);
+/* Fills vectors (and the exact num of a ball). */
+pspec_status ps_frequencies_enumerate(ps_frequencies *frequencies, ps_error *error) PS_MUST_CHECK;
+/* A copy with vectors of its own; from is enumerated. */
+pspec_status ps_frequencies_copy(ps_frequencies *out, const ps_frequencies *from,
+                                 ps_error *error) PS_MUST_CHECK;
+void ps_frequencies_free(ps_frequencies *frequencies);
+/* Half-lattice frequencies of all rings that the list was drawn from; num when it was not. */
+uint64_t ps_frequencies_population(const ps_frequencies *frequencies);
+
+/* |k|^2 */
+int64_t ps_frequency_norm2(const int32_t *k, unsigned dimension);
+/* True when the first non-zero component is positive. */
+bool ps_frequency_is_in_half_lattice(const int32_t *k, unsigned dimension);
+
+#endif

@@ -1,0 +1,222 @@
+#include "frequencies/frequency_sample.h"
+
+#include "base/memory.h"
+#include "math/lattice_rank.h"
+#include "math/random/subset.h"
+
+#include <stdlib.h>
+
+_Static_assert((int)PS_LATTICE_MAX_DIMENSION == (int)PS_MAX_TORUS_DIMENSION,
+               "lattices are counted in as many dimensions as there are");
+
+bool ps_frequencies_can_sample(unsigned dimension, int64_t max_frequency) {
+    return dimension > 1 && dimension <= PS_MAX_TORUS_DIMENSION && max_frequency >= 1 &&
+           max_frequency <= PS_MAX_SAMPLED_RING &&
+           ps_lattice_estimate(dimension, max_frequency * (max_frequency + 1)).most <
+               (double)UINT64_MAX;
+}
+
+/* The shell of one ring, or the ring of one |k|^2. */
+typedef struct ring_range {
+    uint64_t number; /* b, or |k|^2 */
+    int64_t low, high;
+} ring_range;
+
+static ring_range range_of(const ps_frequency_sample *sample, uint64_t number) {
+    const int64_t b = (int64_t)number;
+    return sample->exact_shells ? (ring_range){number, b, b}
+                                : (ring_range){number, b * b - b + 1, b * b + b};
+}
+
+static int64_t largest_norm2(const ps_frequency_sample *sample) {
+    return (int64_t)sample->max_frequency * (sample->max_frequency + (int64_t)1);
+}
+
+static uint64_t last_number(const ps_frequency_sample *sample) {
+    return sample->exact_shells ? (uint64_t)largest_norm2(sample) : (uint64_t)sample->max_frequency;
+}
+
+static uint64_t half_size(const ps_lattice *lattice, ring_range range) {
+    return ps_lattice_count(lattice, range.low, range.high) / 2;
+}
+
+static uint64_t num_drawn(const ps_frequency_sample *sample, uint64_t size) {
+    return size < sample->per_ring ? size : sample->per_ring;
+}
+
+/* Rings that have frequencies, the frequencies to be drawn, and whether these are all there are. */
+static void count_rings(const ps_frequency_sample *sample, const ps_lattice *lattice,
+                        size_t *num_rings, uint64_t *num, bool *is_complete) {
+    *num_rings = 0;
+    *num = 0;
+    *is_complete = true;
+    for (uint64_t number = 1; number <= last_number(sample); number++) {
+        const uint64_t size = half_size(lattice, range_of(sample, number));
+        *num_rings += size > 0;
+        *num += num_drawn(sample, size);
+        *is_complete = *is_complete && size <= sample->per_ring;
+        if (*num > PS_MAX_NUM_FREQUENCIES) {
+            return;
+        }
+    }
+}
+
+static pspec_status draw_ring(const ps_frequency_sample *sample, const ps_lattice *lattice,
+                              ring_range range, uint64_t *ranks, int32_t *vectors,
+                              ps_error *error) {
+    const uint64_t size = half_size(lattice, range);
+    const size_t num = (size_t)num_drawn(sample, size);
+    ps_random random = ps_random_init(sample->seed, PS_STREAM_FREQUENCIES, range.number);
+    if (num == size) {
+        for (size_t i = 0; i < num; i++) {
+            ranks[i] = i;
+        }
+    } else {
+        PS_TRY(ps_random_subset(ranks, num, size, &random, error));
+    }
+    for (size_t i = 0; i < num; i++) { /* the half lattice is the upper half of the ranks */
+        ps_lattice_unrank(lattice, range.low, range.high, size + ranks[i],
+                          vectors + i * sample->dimension);
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status draw_rings(ps_frequencies *out, const ps_frequency_sample *sample,
+                               const ps_lattice *lattice, ps_error *error) {
+    void *ranks = NULL;
+    size_t ring = 0;
+    size_t at = 0;
+    pspec_status status = PSPEC_OK;
+    const size_t most = (size_t)num_drawn(sample, out->num);
+    PS_TRY(ps_allocate(&ranks, most, sizeof(uint64_t), "ranks of frequencies", error));
+    for (uint64_t number = 1; status == PSPEC_OK && ring < out->num_rings; number++) {
+        const ring_range range = range_of(sample, number);
+        const uint64_t size = half_size(lattice, range);
+        if (size == 0) {
+            continue;
+        }
+        out->rings[ring++] =
+            (ps_sampled_ring){size, ps_lattice_mean_norm(lattice, range.low, range.high)};
+        status =
+            draw_ring(sample, lattice, range, ranks, out->vectors + at * sample->dimension, error);
+        at += (size_t)num_drawn(sample, size);
+    }
+    free(ranks);
+    return status;
+}
+
+static pspec_status allocate(ps_frequencies *out, const ps_frequency_sample *sample,
+                             size_t num_rings, uint64_t num, ps_error *error) {
+    void *memory = NULL;
+    *out = (ps_frequencies){.kind = PS_FREQUENCIES_LIST,
+                            .dimension = sample->dimension,
+                            .max_frequency = sample->max_frequency,
+                            .num = (size_t)num,
+                            .per_ring = sample->per_ring,
+                            .num_rings = num_rings};
+    PS_TRY(ps_allocate(&memory, num_rings, sizeof *out->rings, "the rings", error));
+    out->rings = memory;
+    PS_TRY(ps_allocate(&memory, (size_t)num, sample->dimension * sizeof(int32_t), "the frequencies",
+                       error));
+    out->vectors = memory;
+    return PSPEC_OK;
+}
+
+static pspec_status check_number(const ps_frequency_sample *sample, uint64_t num, ps_error *error) {
+    return num <= PS_MAX_NUM_FREQUENCIES
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "%llu frequencies of every ring or shell up to %llu are more than %llu, "
+                         "which can be indexed",
+                         (unsigned long long)sample->per_ring,
+                         (unsigned long long)last_number(sample),
+                         (unsigned long long)PS_MAX_NUM_FREQUENCIES);
+}
+
+static pspec_status make(ps_frequencies *out, const ps_frequency_sample *sample,
+                         const ps_lattice *lattice, ps_error *error) {
+    size_t num_rings = 0;
+    uint64_t num = 0;
+    bool is_complete = false;
+    count_rings(sample, lattice, &num_rings, &num, &is_complete);
+    PS_TRY(check_number(sample, num, error));
+    if (is_complete) {
+        return ps_frequencies_lattice(out, sample->dimension, sample->max_frequency, true, error);
+    }
+    pspec_status status = allocate(out, sample, num_rings, num, error);
+    if (status == PSPEC_OK) {
+        status = draw_rings(out, sample, lattice, error);
+    }
+    if (status != PSPEC_OK) {
+        ps_frequencies_free(out);
+    }
+    return status;
+}
+
+/* No fewer frequencies than rings up to K have, when those up to a smaller one have num. Rings grow like b^(d-1), and from
+ * FIRST on their sizes differ from that by far less than twice: where one has twice what is drawn, the later ones have
+ * enough. Shells of one |k|^2 do not grow like that. */
+static uint64_t at_least(const ps_frequency_sample *sample, const ps_frequency_sample *part,
+                         const ps_lattice *lattice, uint64_t num) {
+    const uint64_t number = (uint64_t)part->max_frequency;
+    const bool are_large =
+        !sample->exact_shells && half_size(lattice, range_of(part, number)) / 2 >= sample->per_ring;
+    return are_large ? num + ((uint64_t)sample->max_frequency - number) * sample->per_ring : num;
+}
+
+/* Counting all rings takes seconds where K is large: those of a smaller K, counted in an eighth of the time of
+ * twice that K, tell mostly that there are too many. */
+static pspec_status refuse_soon(const ps_frequency_sample *sample, ps_error *error) {
+    enum { FIRST = 125, TIMES = 2 };
+    ps_frequency_sample part = *sample;
+    for (part.max_frequency = FIRST; part.max_frequency < sample->max_frequency;
+         part.max_frequency *= TIMES) {
+        ps_lattice lattice;
+        size_t num_rings = 0;
+        uint64_t num = 0;
+        bool is_complete = false;
+        PS_TRY(ps_lattice_create(&lattice, part.dimension, largest_norm2(&part), error));
+        count_rings(&part, &lattice, &num_rings, &num, &is_complete);
+        num = num <= PS_MAX_NUM_FREQUENCIES ? at_least(sample, &part, &lattice, num) : num;
+        ps_lattice_free(&lattice);
+        PS_TRY(check_number(sample, num, error));
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status check(const ps_frequency_sample *sample, ps_error *error) {
+    if (sample->dimension < 1 || sample->dimension > PS_MAX_TORUS_DIMENSION) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "dimension %u is not between 1 and %d",
+                       sample->dimension, PS_MAX_TORUS_DIMENSION);
+    }
+    if (sample->per_ring < PS_MIN_PER_RING) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "%llu frequencies per ring have no variance: at least %d are needed",
+                       (unsigned long long)sample->per_ring, PS_MIN_PER_RING);
+    }
+    if (sample->dimension > 1 &&
+        (sample->max_frequency < 1 || sample->max_frequency > PS_MAX_SAMPLED_RING)) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "max frequency %d is not between 1 and %d, the largest whose rings are "
+                       "counted for a random subset of each",
+                       (int)sample->max_frequency, PS_MAX_SAMPLED_RING);
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_frequencies_sample(ps_frequencies *out, const ps_frequency_sample *sample,
+                                   ps_error *error) {
+    ps_lattice lattice;
+    *out = (ps_frequencies){0};
+    PS_TRY(check(sample, error));
+    if (sample->dimension == 1) { /* where a ring has one frequency of the half lattice */
+        return ps_frequencies_lattice(out, 1, sample->max_frequency, true, error);
+    }
+    if (ps_lattice_estimate(sample->dimension, largest_norm2(sample)).least < (double)UINT64_MAX) {
+        PS_TRY(refuse_soon(sample, error));
+    }
+    PS_TRY(ps_lattice_create(&lattice, sample->dimension, largest_norm2(sample), error));
+    const pspec_status status = make(out, sample, &lattice, error);
+    ps_lattice_free(&lattice);
+    return status;
+}

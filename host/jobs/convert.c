@@ -1,0 +1,194 @@
+#include "jobs/convert.h"
+
+#include <string.h>
+
+/* Small enough to stay in the cache, large enough for few system calls. */
+enum { BLOCK_POINTS = 32768 };
+
+typedef struct worker {
+    const ps_conversion *conversion;
+    ps_point_options options;
+    ps_point_reader *reader;
+    ps_point_writer *writer; /* made when the first block tells what there is to write */
+    ps_point_set block;
+    const char *path;
+    ps_point_shape shape; /* of the first block */
+    uint64_t num_points;  /* read so far */
+    uint64_t position;    /* points of the set in front of the block */
+    bool turns_angles;    /* directions came as angles and became vectors */
+} worker;
+
+/* ---- what is written --------------------------------------------------------------------- */
+
+static const char *output_format(const ps_conversion *conversion) {
+    return conversion->format != NULL ? conversion->format
+                                      : ps_points_format_by_ending(conversion->output);
+}
+
+/* Angles that are written as angles are not turned into vectors on the way. */
+static bool writes_angles(const ps_conversion *conversion) {
+    return conversion->columns != NULL ? conversion->columns[0] != 'x'
+                                       : strcmp(output_format(conversion), "openquad") == 0;
+}
+
+static pspec_status create_writer(worker *w, ps_error *error) {
+    const ps_conversion *const conversion = w->conversion;
+    w->shape = (ps_point_shape){.num_sets = conversion->merge ? 1 : 0,
+                                .coordinates = w->block.coordinates,
+                                .dimension = w->block.dimension,
+                                .has_weights = w->block.has_weights,
+                                .columns = conversion->columns,
+                                .memory_limit = conversion->options.memory_limit};
+    return ps_points_create(&w->writer, conversion->output, output_format(conversion), &w->shape,
+                            error);
+}
+
+static void describe_points(ps_text *out, ps_coordinates coordinates, unsigned dimension,
+                            bool has_weights) {
+    switch (coordinates) {
+    case PS_TORUS_COORDINATES:
+        ps_text_append(out, "points of the torus in %u dimension%s", dimension,
+                       dimension == 1 ? "" : "s");
+        break;
+    case PS_UNIT_VECTORS:
+        ps_text_append(out, "unit vectors");
+        break;
+    case PS_ANGLES:
+        ps_text_append(out, "angles");
+        break;
+    }
+    ps_text_append(out, has_weights ? " with weights" : "");
+}
+
+/* One output holds one kind of points. */
+static pspec_status check_kind(const worker *w, ps_error *error) {
+    const ps_point_set *const block = &w->block;
+    const ps_point_shape *const shape = &w->shape;
+    if (block->coordinates == shape->coordinates && block->dimension == shape->dimension &&
+        block->has_weights == shape->has_weights) {
+        return PSPEC_OK;
+    }
+    ps_text these = {0};
+    ps_text those = {0};
+    describe_points(&these, block->coordinates, block->dimension, block->has_weights);
+    describe_points(&those, shape->coordinates, shape->dimension, shape->has_weights);
+    ps_fail(error, PSPEC_ERROR_INPUT,
+            "\"%s\" holds %s, but \"%s\" %s; one output holds one kind (--domain, --columns and "
+            "--weights say how all files are read)",
+            w->path, ps_text_string(&these), w->conversion->paths[0], ps_text_string(&those));
+    ps_text_free(&these);
+    ps_text_free(&those);
+    return PSPEC_ERROR_INPUT;
+}
+
+/* The part of the block that is wanted; the view borrows its arrays. */
+static ps_point_set select_points(const worker *w) {
+    const ps_point_range *const range = &w->conversion->points;
+    ps_point_set view = w->block;
+    uint64_t first = 0;
+    uint64_t end = view.num_points;
+    if (range->last > 0) {
+        const uint64_t wanted = range->first - 1;
+        first = wanted > w->position ? wanted - w->position : 0;
+        end = range->last > w->position ? range->last - w->position : 0;
+    }
+    end = end < view.num_points ? end : view.num_points;
+    first = first < end ? first : end;
+    view.num_points = (size_t)(end - first);
+    view.points += first * view.dimension;
+    view.weights += view.has_weights ? first : 0;
+    return view;
+}
+
+static pspec_status check_selection(const worker *w, ps_error *error) {
+    const ps_point_range *const range = &w->conversion->points;
+    const uint64_t needed = range->last == UINT64_MAX ? range->first : range->last;
+    return w->position >= needed
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INPUT,
+                         "\"%s\": a set has %llu points; point %llu is asked for", w->path,
+                         (unsigned long long)w->position, (unsigned long long)needed);
+}
+
+static pspec_status write_block(worker *w, bool ends_set, ps_error *error) {
+    const ps_point_set view = select_points(w);
+    const bool ends_output_set = ends_set && !w->conversion->merge;
+    if (view.num_points > 0 || ends_output_set) {
+        PS_TRY(ps_points_write(w->writer, &view, ends_output_set, error));
+    }
+    w->num_points += w->block.num_points;
+    w->position += w->block.num_points;
+    if (ends_set) {
+        PS_TRY(check_selection(w, error));
+        w->position = 0;
+    }
+    return PSPEC_OK;
+}
+
+/* ---- files ------------------------------------------------------------------------------- */
+
+static pspec_status take_block(worker *w, bool ends_set, ps_error *error) {
+    const ps_conversion *const conversion = w->conversion;
+    if (w->writer == NULL) {
+        PS_TRY(create_writer(w, error));
+    }
+    PS_TRY(check_kind(w, error));
+    const char *const columns = ps_points_columns(w->reader);
+    w->turns_angles =
+        w->turns_angles || (w->block.coordinates == PS_UNIT_VECTORS && columns[0] != 'x');
+    PS_TRY(write_block(w, ends_set, error));
+    return ps_watch_tell(&conversion->watch, "points", w->num_points, 0, NULL, error);
+}
+
+static pspec_status take_file(worker *w, ps_error *error) {
+    bool has_block = true;
+    bool ends_set = false;
+    PS_TRY(ps_points_open(&w->reader, w->path, &w->options, error));
+    while (has_block) {
+        w->block.num_points = 0;
+        PS_TRY(
+            ps_points_next_block(w->reader, &w->block, BLOCK_POINTS, &has_block, &ends_set, error));
+        if (has_block) {
+            PS_TRY(take_block(w, ends_set, error));
+        }
+    }
+    ps_points_close(w->reader);
+    w->reader = NULL;
+    return PSPEC_OK;
+}
+
+static void describe_loss(const worker *w, ps_text *loss) {
+    enum { LOSS_BYTES = 512 };
+    char text[LOSS_BYTES];
+    ps_points_describe_loss(w->writer, text, sizeof text);
+    ps_text_append(loss, "%s", text);
+    if (w->turns_angles) {
+        ps_text_append(loss, "%sangles became vectors, rounded in their last digits",
+                       text[0] != '\0' ? "; " : "");
+    }
+}
+
+static pspec_status convert_all(worker *w, ps_text *loss, ps_error *error) {
+    const ps_conversion *const conversion = w->conversion;
+    for (size_t i = 0; i < conversion->num_paths; i++) {
+        w->path = conversion->paths[i];
+        PS_TRY(take_file(w, error));
+    }
+    if (conversion->merge) {
+        w->block.num_points = 0;
+        PS_TRY(ps_points_write(w->writer, &w->block, true, error));
+    }
+    describe_loss(w, loss);
+    PS_TRY(ps_text_check(loss, error));
+    return ps_points_commit(w->writer, error);
+}
+
+pspec_status ps_convert(const ps_conversion *conversion, ps_text *loss, ps_error *error) {
+    worker w = {.conversion = conversion, .options = conversion->options};
+    w.options.keep_angles = writes_angles(conversion);
+    const pspec_status status = convert_all(&w, loss, error);
+    ps_points_close(w.reader);
+    ps_points_discard(w.writer);
+    ps_point_set_free(&w.block);
+    return status;
+}

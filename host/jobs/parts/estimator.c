@@ -1,0 +1,384 @@
+#include "jobs/parts/estimator_private.h"
+
+#include "base/memory.h"
+#include "engines/error_units.h"
+#include "jobs/parts/self_check.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* ---- create ------------------------------------------------------------------------------ */
+
+/* Makes the engine anew for self->batch realizations. */
+static pspec_status create_engine(ps_estimator *self, ps_error *error) {
+    const ps_estimator_options *options = &self->options;
+    options->engine->destroy(self->engine_state);
+    self->engine_state = NULL;
+    const ps_problem own = ps_engine_problem(options->engine, &options->problem);
+    return options->engine->create(&self->engine_state, &own, options->precision, self->batch,
+                                   self->device, error);
+}
+
+void ps_estimator_halve_batch(ps_estimator *self) {
+    self->batch /= 2;
+    ps_log_say(&self->options.log, "memory was refused: %zu realizations at a time instead",
+               self->batch);
+}
+
+pspec_status ps_estimator_make_engine(ps_estimator *self, ps_error *error) {
+    for (;;) {
+        const pspec_status status = create_engine(self, error);
+        if (status != PSPEC_ERROR_MEMORY || self->batch == 1) {
+            return status;
+        }
+        ps_estimator_halve_batch(self);
+    }
+}
+
+static pspec_status create_accumulator(ps_estimator *self, ps_error *error) {
+    const ps_estimator_options *options = &self->options;
+    const ps_frequencies *set = options->problem.frequencies;
+    const bool is_on_device = options->engine->needs_device && !options->engine->rows_on_host;
+    const ps_accumulator_options accumulator = {
+        .bins = &self->bins,
+        .num_frequencies = set->num,
+        .slots = self->slots,
+        .stride = options->engine->get_stride(self->engine_state),
+        .batch = self->batch,
+        .is_on_device = is_on_device,
+        .precision = options->precision == PS_SINGLE && is_on_device ? PS_SINGLE : PS_DOUBLE,
+        .lanes = is_on_device
+                     ? ps_engine_lanes(ps_device_get_limits(self->device), options->precision)
+                     : 1,
+        .want_frequencies = options->want_frequencies,
+        .mean_only = options->mean_only,
+        .no_frequency_errors = options->no_frequency_errors,
+    };
+    return ps_accumulator_create(&self->accumulator, &accumulator, self->device, error);
+}
+
+/* Engine and accumulator, for half as many realizations as long as memory is refused to either. */
+static pspec_status create_parts(ps_estimator *self, ps_error *error) {
+    for (;;) {
+        PS_TRY(ps_estimator_make_engine(self, error));
+        ps_engine_slots(self->options.engine, self->engine_state,
+                        self->options.problem.frequencies->num, self->slots);
+        const pspec_status status = create_accumulator(self, error);
+        if (status != PSPEC_ERROR_MEMORY || self->batch == 1) {
+            return status;
+        }
+        ps_estimator_halve_batch(self);
+    }
+}
+
+static pspec_status create_arrays(ps_estimator *self, ps_error *error) {
+    void *memory = NULL;
+    const ps_frequencies *set = self->options.problem.frequencies;
+    PS_TRY(ps_bins_create(&self->bins, set, self->options.exact_shells, error));
+    PS_TRY(ps_allocate(&memory, set->num, sizeof(uint32_t), "slots", error));
+    self->slots = memory;
+    PS_TRY(ps_allocate(&memory, self->batch, sizeof(double), "scales", error));
+    self->scales = memory;
+    PS_TRY(ps_allocate(&memory, self->batch, sizeof(int), "exponents", error));
+    self->exponents = memory;
+    PS_TRY(ps_allocate(&memory, self->batch, sizeof *self->sums, "sums of weights", error));
+    self->sums = memory;
+    return self->options.want_c2
+               ? ps_pair_sums_create(&self->c2, set, self->batch, self->options.observer, error)
+               : PSPEC_OK;
+}
+
+pspec_status ps_estimator_create(ps_estimator **out, const ps_estimator_options *options,
+                                 ps_device *device, ps_error *error) {
+    void *memory = NULL;
+    *out = NULL;
+    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_estimator), "an estimator", error));
+    ps_estimator *self = memory;
+    self->options = *options;
+    self->device = device;
+    self->batch = options->batch;
+    self->reference_points = (double)options->problem.num_points;
+    pspec_status status = create_arrays(self, error);
+    if (status == PSPEC_OK) {
+        status = create_parts(self, error);
+    }
+    if (status != PSPEC_OK) {
+        ps_estimator_destroy(self);
+        return status;
+    }
+    *out = self;
+    return PSPEC_OK;
+}
+
+void ps_estimator_destroy(ps_estimator *estimator) {
+    if (estimator == NULL) {
+        return;
+    }
+    estimator->options.engine->destroy(estimator->engine_state);
+    ps_accumulator_destroy(estimator->accumulator);
+    ps_bins_free(&estimator->bins);
+    free(estimator->slots);
+    free(estimator->scales);
+    free(estimator->exponents);
+    free(estimator->sums);
+    ps_pair_sums_free(&estimator->c2);
+    free(estimator);
+}
+
+size_t ps_estimator_batch(const ps_estimator *estimator) {
+    return estimator->batch;
+}
+
+uint64_t ps_estimator_num_realizations(const ps_estimator *estimator) {
+    return estimator->totals.num_realizations;
+}
+
+/* ---- add --------------------------------------------------------------------------------- */
+
+pspec_status ps_estimator_check(const ps_estimator *estimator, const pspec_pattern *pattern,
+                                uint64_t realization, ps_pattern_sums *sums, ps_error *error) {
+    const ps_estimator_options *options = &estimator->options;
+    return ps_pattern_check(pattern, options->problem.frequencies, options->normalization,
+                            realization, sums, error);
+}
+
+/* Nothing but the coordinates could be wrong, and the engine sees them anyway. */
+static bool may_leave_checks(const ps_estimator *self, const pspec_pattern *patterns,
+                             size_t num_patterns) {
+    const unsigned dimension = self->options.problem.frequencies->dimension;
+    bool is_plain = self->options.engine->checks_points;
+    for (size_t r = 0; r < num_patterns; r++) {
+        is_plain = is_plain && patterns[r].dimension == dimension && patterns[r].num_points > 0 &&
+                   patterns[r].points != NULL && patterns[r].weights == NULL;
+    }
+    return is_plain;
+}
+
+static pspec_status check_all(const ps_estimator *self, const pspec_pattern *patterns,
+                              size_t num_patterns, ps_error *error) {
+    pspec_status status = PSPEC_OK;
+    for (size_t r = 0; r < num_patterns && status == PSPEC_OK; r++) {
+        ps_pattern_sums sums = {0};
+        status =
+            ps_estimator_check(self, &patterns[r], self->totals.num_realizations + r, &sums, error);
+    }
+    return status;
+}
+
+/* Of a pattern without weights. */
+static ps_pattern_sums plain_sums(const pspec_pattern *pattern) {
+    const double num = (double)pattern->num_points;
+    return (ps_pattern_sums){
+        .is_plain = true, .weight_sum = num, .weight_square_sum = num, .weight_size_sum = num};
+}
+
+/* Scales of the patterns of a batch, whose sums are known or found here, and the largest number of
+ * points. */
+static pspec_status prepare(ps_estimator *self, const pspec_pattern *patterns,
+                            const ps_pattern_sums *sums, size_t num_patterns, uint64_t *longest,
+                            ps_error *error) {
+    *longest = 0;
+    self->leaves_checks = sums == NULL && may_leave_checks(self, patterns, num_patterns);
+    for (size_t r = 0; r < num_patterns; r++) {
+        ps_pattern_sums found = plain_sums(&patterns[r]);
+        if (sums == NULL && !self->leaves_checks) {
+            PS_TRY(ps_estimator_check(self, &patterns[r], self->totals.num_realizations + r, &found,
+                                      error));
+        }
+        ps_estimator_set_sums(self, r, sums != NULL ? &sums[r] : &found);
+        *longest = patterns[r].num_points > *longest ? patterns[r].num_points : *longest;
+    }
+    return PSPEC_OK;
+}
+
+/* Effective power of every realization, mean over all frequencies but DC: what the error formula needs. */
+static void measure_powers(ps_estimator *self, const double *mean_powers, size_t num_patterns) {
+    for (size_t r = 0; r < num_patterns; r++) {
+        const double power = mean_powers[r] / (self->scales[r] * self->sums[r].weight_square_sum);
+        if (!(power <= self->accuracy.largest_mean_power)) {
+            self->accuracy.largest_mean_power = power;
+        }
+    }
+}
+
+static void count_patterns(ps_estimator *self, const pspec_pattern *patterns, size_t num_patterns) {
+    ps_pattern_totals *totals = &self->totals;
+    for (size_t r = 0; r < num_patterns; r++) {
+        const size_t num_points = patterns[r].num_points;
+        const bool is_first = totals->num_realizations == 0;
+        totals->num_realizations++;
+        self->accuracy.length_error = fmax(self->accuracy.length_error, self->sums[r].length_error);
+        totals->sum_points += (double)num_points;
+        ps_sums_add(&totals->sample_sizes, self->sums[r].weight_sum * self->sums[r].weight_sum /
+                                               self->sums[r].weight_square_sum);
+        totals->sum_weights += ps_estimator_weight_sum(self, &self->sums[r]);
+        ps_estimator_measure_share(self, &self->sums[r]);
+        if (is_first || num_points < totals->smallest_points) {
+            totals->smallest_points = num_points;
+        }
+        if (num_points > totals->largest_points) {
+            totals->largest_points = num_points;
+        }
+    }
+}
+
+ps_batch ps_estimator_make_batch(const ps_estimator *self, const pspec_pattern *patterns,
+                                 size_t num_patterns) {
+    return (ps_batch){.num_patterns = num_patterns,
+                      .patterns = patterns,
+                      .scales = self->scales,
+                      .exponents = self->exponents,
+                      .should_stop = self->options.should_stop,
+                      .payload = self->options.payload};
+}
+
+static pspec_status compare_with_referee(ps_estimator *self, const ps_rows *rows,
+                                         const pspec_pattern *pattern, ps_error *error) {
+    const ps_problem *problem = &self->options.problem;
+    const ps_self_check_input input = {
+        .rows = rows,
+        .slots = self->slots,
+        .frequencies = problem->frequencies,
+        .pattern = pattern,
+        .exponent = self->exponents[0],
+        .scale = self->scales[0],
+        .weight_square_sum = self->sums[0].weight_square_sum,
+        .size_square = problem->measure == PS_OF_PAIR_SUMS
+                           ? self->sums[0].weight_size_sum * self->sums[0].weight_size_sum
+                           : 0,
+        .engine_error = ps_estimator_error_of(self, 1, &self->sums[0]),
+    };
+    return ps_self_check(&input, self->device, &self->accuracy.self_check, error);
+}
+
+pspec_status ps_estimator_check_beginning(ps_estimator *self, const pspec_pattern *beginning,
+                                          ps_error *error) {
+    pspec_pattern pattern = *beginning;
+    ps_rows rows = {0};
+    const double scale = self->scales[0];
+    const ps_pattern_sums sums = self->sums[0];
+    pattern.num_points =
+        pattern.num_points < PS_SELF_CHECK_POINTS ? pattern.num_points : PS_SELF_CHECK_POINTS;
+    if (ps_pattern_check(&pattern, self->options.problem.frequencies, PSPEC_NORMALIZATION_EFFECTIVE,
+                         0, &self->sums[0], NULL) != PSPEC_OK) {
+        self->sums[0] = sums; /* these weights are all 0: nothing to compare */
+        return PSPEC_OK;
+    }
+    self->exponents[0] = self->sums[0].exponent;
+    self->scales[0] = 1 / self->sums[0].weight_square_sum;
+    const ps_batch batch = ps_estimator_make_batch(self, &pattern, 1);
+    pspec_status status = self->options.engine->run(self->engine_state, &batch, &rows, error);
+    if (status == PSPEC_OK) {
+        status = compare_with_referee(self, &rows, &pattern, error);
+    }
+    self->scales[0] = scale;
+    self->sums[0] = sums;
+    self->exponents[0] = sums.exponent;
+    return status;
+}
+
+/* Runs the engine on one batch that fits; makes a smaller engine when memory is refused (drivers may
+ * allocate no sooner than at the first use). */
+static pspec_status run_batch(ps_estimator *self, const pspec_pattern *patterns,
+                              size_t *num_patterns, ps_rows *rows, ps_error *error) {
+    for (;;) {
+        *num_patterns = *num_patterns < self->batch ? *num_patterns : self->batch;
+        const ps_batch batch = ps_estimator_make_batch(self, patterns, *num_patterns);
+        const bool has_coefficients = self->options.coefficients != NULL && *num_patterns == 1;
+        const pspec_status status =
+            has_coefficients ? ps_estimator_run_with_coefficients(self, &batch, rows, error)
+                             : self->options.engine->run(self->engine_state, &batch, rows, error);
+        if (status == PSPEC_ERROR_INPUT && self->leaves_checks) {
+            PS_TRY(check_all(self, patterns, *num_patterns, error)); /* says which point it is */
+        }
+        if (status != PSPEC_ERROR_MEMORY || self->batch == 1) {
+            return status;
+        }
+        ps_estimator_halve_batch(self);
+        PS_TRY(ps_estimator_make_engine(self, error));
+    }
+}
+
+/* The engine's rows of a batch, the first of the job compared with the referee. */
+static pspec_status run_checked(ps_estimator *self, const pspec_pattern *patterns,
+                                size_t *num_patterns, ps_rows *rows, ps_error *error) {
+    const bool is_due = self->options.self_check && !self->accuracy.was_checked;
+    const bool is_large = patterns[0].num_points > PS_SELF_CHECK_POINTS;
+    if (is_due && is_large) {
+        PS_TRY(ps_estimator_check_beginning(self, patterns, error));
+    }
+    PS_TRY(run_batch(self, patterns, num_patterns, rows, error));
+    if (is_due && !is_large) {
+        PS_TRY(compare_with_referee(self, rows, patterns, error));
+    }
+    self->accuracy.was_checked = self->accuracy.was_checked || is_due;
+    return PSPEC_OK;
+}
+
+static pspec_status enlarge(ps_estimator *self, uint64_t num_points, ps_error *error) {
+    ps_log_say(
+        &self->options.log, "a pattern has %llu points, more than %llu: the engine is made anew",
+        (unsigned long long)num_points, (unsigned long long)self->options.problem.num_points);
+    self->options.problem.num_points = num_points;
+    return ps_estimator_make_engine(self, error);
+}
+
+pspec_status ps_estimator_get_ready(ps_estimator *self, uint64_t num_points, ps_error *error) {
+    if (num_points > self->options.problem.num_points) {
+        return enlarge(self, num_points, error);
+    }
+    return self->engine_state == NULL
+               ? ps_estimator_make_engine(self, error) /* refused before a reset */
+               : PSPEC_OK;
+}
+
+pspec_status ps_estimator_take(ps_estimator *self, const ps_rows *rows,
+                               const pspec_pattern *patterns, size_t num_patterns,
+                               ps_error *error) {
+    const double *mean_powers = NULL;
+    PS_TRY(ps_accumulator_add(self->accumulator, rows, &mean_powers, error));
+    if (self->options.want_c2) {
+        const ps_batch batch = ps_estimator_make_batch(self, patterns, num_patterns);
+        ps_pair_sums_add(&self->c2, &batch, rows, self->slots);
+    }
+    measure_powers(self, mean_powers, num_patterns);
+    count_patterns(self, patterns, num_patterns);
+    return PSPEC_OK;
+}
+
+static pspec_status add_batch(ps_estimator *self, const pspec_pattern *patterns,
+                              const ps_pattern_sums *sums, size_t *num_patterns, ps_error *error) {
+    uint64_t longest = 0;
+    ps_rows rows = {0};
+    PS_TRY(prepare(self, patterns, sums, *num_patterns, &longest, error));
+    PS_TRY(ps_estimator_get_ready(self, longest, error));
+    PS_TRY(run_checked(self, patterns, num_patterns, &rows, error));
+    return ps_estimator_take(self, &rows, patterns, *num_patterns, error);
+}
+
+pspec_status ps_estimator_add_checked(ps_estimator *estimator, const pspec_pattern *patterns,
+                                      const ps_pattern_sums *sums, size_t num_patterns,
+                                      ps_error *error) {
+    for (size_t done = 0; done < num_patterns;) {
+        const size_t rest = num_patterns - done;
+        size_t taken = rest < estimator->batch ? rest : estimator->batch;
+        PS_TRY(add_batch(estimator, patterns + done, sums != NULL ? sums + done : NULL, &taken,
+                         error));
+        done += taken;
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_estimator_add(ps_estimator *estimator, const pspec_pattern *patterns,
+                              size_t num_patterns, ps_error *error) {
+    return ps_estimator_add_checked(estimator, patterns, NULL, num_patterns, error);
+}
+
+pspec_status ps_estimator_reset(ps_estimator *estimator, ps_error *error) {
+    estimator->totals = (ps_pattern_totals){0};
+    estimator->accuracy = (ps_accuracy){0};
+    if (estimator->options.want_c2) {
+        ps_pair_sums_reset(&estimator->c2);
+    }
+    return ps_accumulator_reset(estimator->accumulator, error);
+}

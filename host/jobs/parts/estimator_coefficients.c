@@ -1,0 +1,86 @@
+/* Coefficients of one pattern on the sphere. */
+#include "base/memory.h"
+#include "jobs/parts/estimator_private.h"
+#include "math/hemisphere.h"
+
+#include <stdlib.h>
+
+/* vectors: [num_points][3], freed by the caller. */
+static pspec_status stretch(const pspec_pattern *pattern, double **vectors, ps_error *error) {
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, pattern->num_points, PS_SPHERE_DIMENSION * sizeof(double),
+                       "the stretched hemisphere", error));
+    *vectors = memory;
+    for (size_t j = 0; j < pattern->num_points; j++) {
+        const size_t at = j * PS_SPHERE_DIMENSION;
+        if (!ps_hemisphere_stretch(pattern->points + at, *vectors + at)) {
+            return ps_fail(error, PSPEC_ERROR_INPUT,
+                           "point %zu, z = %.17g, is below the horizon: hemispherical harmonics "
+                           "are for z >= 0",
+                           j + 1, pattern->points[at + 2]);
+        }
+    }
+    return PSPEC_OK;
+}
+
+/* sqrt(2) makes spherical harmonics on the stretched hemisphere orthonormal on the hemisphere. */
+static pspec_status run_stretched(ps_estimator *self, const ps_batch *one, double *out,
+                                  ps_error *error) {
+    const double root_two = 1.4142135623730950488;
+    pspec_pattern stretched = *one->patterns;
+    ps_batch batch = *one;
+    double *vectors = NULL;
+    pspec_status status = stretch(one->patterns, &vectors, error);
+    if (status == PSPEC_OK) {
+        stretched.points = vectors;
+        batch.patterns = &stretched;
+        status = self->options.engine->coefficients(self->engine_state, &batch, NULL, out, error);
+    }
+    free(vectors);
+    const size_t num = ps_num_coefficients(self->options.problem.frequencies->max_frequency);
+    for (size_t i = 0; status == PSPEC_OK && i < num; i++) {
+        out[i] *= root_two;
+    }
+    return status;
+}
+
+static pspec_status require_coefficients(const ps_estimator *self, ps_error *error) {
+    const ps_engine *engine = self->options.engine;
+    return engine->coefficients != NULL && ps_problem_domain(&self->options.problem) == PS_ON_SPHERE
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "coefficients are for points on the sphere, by an engine that has them; "
+                         "%s has none",
+                         engine->name);
+}
+
+pspec_status ps_estimator_run_with_coefficients(ps_estimator *self, const ps_batch *one,
+                                                ps_rows *rows, ps_error *error) {
+    const ps_engine *engine = self->options.engine;
+    double *out = self->options.coefficients;
+    PS_TRY(require_coefficients(self, error));
+    if (self->options.problem.harmonics != PS_HEMISPHERICAL_HARMONICS) {
+        return engine->coefficients(self->engine_state, one, rows, out, error);
+    }
+    PS_TRY(run_stretched(self, one, out, error)); /* first: it refuses points below the horizon */
+    return engine->run(self->engine_state, one, rows, error);
+}
+
+pspec_status ps_estimator_coefficients(ps_estimator *estimator, const pspec_pattern *pattern,
+                                       ps_harmonics harmonics, double *out, ps_error *error) {
+    const ps_estimator_options *options = &estimator->options;
+    ps_pattern_sums sums = {0};
+    const ps_batch one = {.num_patterns = 1,
+                          .patterns = pattern,
+                          .exponents = &sums.exponent,
+                          .should_stop = options->should_stop,
+                          .payload = options->payload};
+    PS_TRY(require_coefficients(estimator, error));
+    /* any weights will do, also those that sum to 0 */
+    PS_TRY(ps_pattern_check(pattern, options->problem.frequencies, PSPEC_NORMALIZATION_EFFECTIVE, 0,
+                            &sums, error));
+    PS_TRY(ps_estimator_get_ready(estimator, pattern->num_points, error));
+    return harmonics == PS_HEMISPHERICAL_HARMONICS
+               ? run_stretched(estimator, &one, out, error)
+               : options->engine->coefficients(estimator->engine_state, &one, NULL, out, error);
+}

@@ -1,0 +1,103 @@
+#include "jobs/quadrature/quadrature_phases.h"
+
+#include "jobs/parts/point_phases.h"
+#include "jobs/spectrum/power_phases.h"
+
+#include <math.h>
+
+/* Conjugate gradients take 10 to 18 steps for most sets, 34 to 43 where s is near its limits (docs/quadrature.md). */
+static const double most_steps = 18, most_steps_of_powers = 43;
+
+static bool needs_powers(const ps_quadrature_question *question) {
+    return question->smoothness != 1.5;
+}
+
+void ps_phases_lobe(ps_phases *phases, const ps_representer *representer) {
+    const double tries = 3; /* degrees grow by half until they are enough: 1 + 2/3 + 4/9 + .. */
+    ps_phases_add(phases, "lobe", PS_HOST_LOBE, tries * (double)representer->max_degree);
+    ps_phases_say(phases, "lobe", "%zu coefficients", representer->max_degree + 1);
+}
+
+/* Realizations that are made; of files as many as their size suggests. */
+static double add_points(const ps_quadrature_setup *setup, const ps_quadrature_question *question,
+                         ps_phases *phases) {
+    const double each = (double)setup->problem.num_points;
+    const double planned = (double)setup->planned_realizations;
+    if (question->sampler != NULL) {
+        ps_phases_sample(phases, question->sampler, planned > 0 ? planned : 1);
+        return planned > 0 ? planned : 1;
+    }
+    const double points = ps_phases_read(phases, question->paths, question->num_paths,
+                                         question->point_options.format, 3);
+    return fmax(1, nearbyint(points / each));
+}
+
+static void add_matrices(const ps_quadrature_question *question, double points, double sets,
+                         ps_phases *phases) {
+    const double square = points * points * sets;
+    ps_phases_add(phases, "weights", PS_HOST_CHOLESKY, square * points / 3);
+    ps_phases_add(phases, "weights", needs_powers(question) ? PS_HOST_MATRIX_POWER : PS_HOST_MATRIX,
+                  square);
+    ps_phases_add(phases, "weights", PS_HOST_SOLVE, square);
+    ps_phases_say(phases, "weights", "Cholesky of %.6g x %.6g", points, points);
+}
+
+/* One step is a product; so are the condition, the residual and what the kernel form does. */
+static void add_gradients(const ps_quadrature_question *question, double points, double sets,
+                          ps_phases *phases) {
+    const double others = 3;
+    const bool powers = needs_powers(question);
+    const double steps = powers ? most_steps_of_powers : most_steps;
+    ps_phases_add(phases, "weights", PS_HOST_NEIGHBOURS, points * points / 2 * sets);
+    ps_phases_add(phases, "weights", PS_HOST_INVERSE, points * sets);
+    ps_phases_add(phases, "weights", powers ? PS_HOST_PRODUCT_POWER : PS_HOST_PRODUCT,
+                  (steps + others) * points * points * sets);
+    ps_phases_say(phases, "weights", "conjugate gradients, %g steps", steps);
+    ps_phases_limit(phases, "weights");
+}
+
+static void add_rules(const ps_quadrature_setup *setup, const ps_quadrature_question *question,
+                      double sets, ps_phases *phases) {
+    const double points = (double)setup->problem.num_points;
+    const double terms = (double)setup->representer.num_terms;
+    ps_phases_add_sets(phases, "kappa", PS_HOST_KAPPA, points * terms, sets);
+    ps_phases_say(phases, "kappa", "%.4g points, %.4g terms", sets * points, terms);
+    if (question->weights == PS_WEIGHTS_OPTIMAL) {
+        if (ps_kernel_system_is_dense((size_t)points, question->constraints.memory_limit)) {
+            add_matrices(question, points, sets, phases);
+        } else {
+            add_gradients(question, points, sets, phases);
+        }
+    }
+    ps_phases_add_sets(phases, "worst-case error",
+                       needs_powers(question) ? PS_HOST_PAIR_POWER : PS_HOST_PAIR,
+                       points * points / 2, sets);
+    ps_phases_say(phases, "worst-case error", "%.4g pairs of points", sets * points * points / 2);
+}
+
+double ps_quadrature_phases(const ps_quadrature_setup *setup,
+                            const ps_quadrature_question *question, ps_phases *phases) {
+    const ps_candidate *const chosen = setup->plan.chosen;
+    ps_phases_start(phases, chosen);
+    /* coefficients come by another build of the engine's last kernel */
+    ps_phases_add(phases, "start", PS_HOST_KERNEL, chosen != NULL && !setup->by_pairs ? 1 : 0);
+    ps_phases_lobe(phases, &setup->representer);
+    const double sets = add_points(setup, question, phases);
+    const double planned = (double)setup->problem.num_realizations;
+    const double repeats = planned > 0 ? 1 : sets;
+    add_rules(setup, question, sets, phases);
+    if (chosen != NULL) {
+        ps_phases_add_seconds(phases, "powers", chosen->seconds * repeats);
+        ps_phases_touch(phases, chosen->bytes);
+        ps_phases_say(phases, "powers", "%s in %s precision", chosen->engine->name,
+                      ps_precision_name(chosen->precision));
+    }
+    if (setup->by_pairs) {
+        ps_phases_add(phases, "averages", PS_HOST_ZONAL,
+                      sets * (double)setup->problem.num_points * (double)setup->max_degree);
+        ps_phases_say(phases, "averages", "zonal sums");
+    }
+    ps_phases_add(phases, "results", PS_HOST_ROW, (double)setup->max_degree);
+    ps_phases_say(phases, "results", "a table");
+    return repeats;
+}

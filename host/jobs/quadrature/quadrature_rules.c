@@ -1,0 +1,369 @@
+#include "jobs/quadrature/quadrature_rules.h"
+
+#include "rules/optimal_weights.h"
+#include "base/memory.h"
+#include "base/pieces.h"
+#include "engines/pairs/pairs_product.h"
+#include "math/linear/cholesky.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+/* ---- the source ---------------------------------------------------------------------------- */
+
+static pspec_status open_source(ps_rules *rules, ps_error *error) {
+    const ps_quadrature_question *const question = rules->question;
+    if (question->sampler != NULL) {
+        return ps_source_sampler(&rules->source, question->sampler, question->num_realizations,
+                                 error);
+    }
+    if (question->patterns != NULL) {
+        return ps_source_patterns(&rules->source, question->patterns, question->num_patterns,
+                                  error);
+    }
+    const ps_source_options options = {.points = question->point_options,
+                                       .whole_bytes = UINT64_MAX}; /* rules are whole */
+    return ps_source_files(&rules->source, question->paths, question->num_paths, &options, error);
+}
+
+/* Whether files have one set or several decides how they are taken. */
+static pspec_status read_ahead(ps_rules *rules, ps_error *error) {
+    ps_source_part part;
+    bool has_set = true;
+    while (has_set && rules->num_waiting < PS_RULES_AHEAD) {
+        PS_TRY(ps_source_next(rules->source, &rules->waiting[rules->num_waiting], &part, &has_set,
+                              error));
+        rules->num_waiting += has_set ? 1 : 0;
+    }
+    return rules->num_waiting > 0
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INPUT, "there are no point sets to integrate with");
+}
+
+pspec_status ps_rules_open(ps_rules *rules, ps_rule_shape *shape, ps_error *error) {
+    const ps_quadrature_question *const question = rules->question;
+    *shape = (ps_rule_shape){0};
+    PS_TRY(open_source(rules, error));
+    if (question->sampler != NULL) {
+        shape->num_points = question->sampler->num_points;
+        shape->has_several = question->num_realizations > 1;
+    } else {
+        PS_TRY(read_ahead(rules, error));
+        shape->num_points = rules->waiting[0].num_points;
+        shape->has_several = rules->num_waiting > 1;
+    }
+    if (shape->num_points == 0) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "set 1 has no points");
+    }
+    return question->weights_path == NULL
+               ? PSPEC_OK
+               : ps_read_weights(question->weights_path, shape->num_points, &rules->file_weights,
+                                 &rules->num_file_weights, error);
+}
+
+void ps_rules_free(ps_rules *rules) {
+    ps_source_destroy(rules->source);
+    free(rules->file_weights);
+    for (size_t i = 0; i < PS_RULES_AHEAD; i++) {
+        ps_point_set_free(&rules->waiting[i]);
+    }
+    for (size_t i = 0; i < rules->capacity; i++) {
+        ps_point_set_free(&rules->batch[i].set);
+        free(rules->batch[i].weights);
+    }
+    free(rules->batch);
+    free(rules->patterns);
+    *rules = (ps_rules){0};
+}
+
+pspec_status ps_rules_allocate(ps_rules *rules, size_t capacity, ps_error *error) {
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, capacity, sizeof(pspec_pattern), "rules", error));
+    rules->patterns = memory;
+    PS_TRY(ps_allocate(&memory, capacity, sizeof(ps_weighted_rule), "rules", error));
+    rules->batch = memory;
+    rules->capacity = capacity;
+    return PSPEC_OK;
+}
+
+static pspec_status read_set(ps_rules *rules, ps_point_set *set, bool *has_set, ps_error *error) {
+    ps_source_part part;
+    if (rules->num_taken < rules->num_waiting) {
+        ps_point_set *const waiting = &rules->waiting[rules->num_taken++];
+        const ps_point_set kept = *set;
+        *set = *waiting;
+        *waiting = kept;
+        *has_set = true;
+        return PSPEC_OK;
+    }
+    return ps_source_next(rules->source, set, &part, has_set, error);
+}
+
+/* ---- points -------------------------------------------------------------------------------- */
+
+static pspec_status reserve(ps_weighted_rule *rule, ps_error *error) {
+    const size_t num = rule->set.num_points;
+    void *memory = NULL;
+    if (num > rule->capacity) {
+        free(rule->weights);
+        rule->weights = NULL;
+        PS_TRY(ps_allocate(&memory, num, 2 * sizeof(double), "weights", error));
+        rule->weights = memory;
+        rule->kappa = rule->weights + num;
+        rule->capacity = num;
+    }
+    return PSPEC_OK;
+}
+
+/* Those of the set, before any point is dropped; 1 where there are none. */
+static pspec_status copy_weights(const ps_rules *rules, ps_weighted_rule *rule, bool *is_equal,
+                                 ps_error *error) {
+    const size_t num = rule->set.num_points;
+    const double *given = rule->set.has_weights ? rule->set.weights : NULL;
+    if (rules->file_weights != NULL) {
+        if (rules->num_file_weights != num) {
+            return ps_fail(error, PSPEC_ERROR_INPUT, "%s has %zu weights for %zu points",
+                           rules->question->weights_path, rules->num_file_weights, num);
+        }
+        given = rules->file_weights;
+    }
+    *is_equal = rules->question->weights == PS_WEIGHTS_EQUAL || given == NULL;
+    for (size_t j = 0; j < num; j++) {
+        rule->weights[j] = *is_equal ? 1 : given[j];
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status refuse(const ps_rules *rules, size_t j, double z, ps_error *error) {
+    return ps_fail(error, PSPEC_ERROR_INPUT,
+                   "point %zu of set %llu, z = %.17g, is below the horizon, where this BRDF is 0; "
+                   "--drop-below-horizon leaves such points out",
+                   j + 1, (unsigned long long)rules->num_read + 1, z);
+}
+
+/* Files may have vectors whose length is 1 within 1e-6: they stand for their directions. */
+static void straighten(double u[3]) {
+    const double square = u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
+    if (fabs(square - 1) > 4 * DBL_EPSILON) {
+        const double length = sqrt(square);
+        for (int i = 0; i < 3; i++) {
+            u[i] /= length;
+        }
+    }
+}
+
+static pspec_status accept_points(ps_rules *rules, ps_weighted_rule *rule, ps_error *error) {
+    const bool is_cut = !ps_brdf_is_below_horizon(rules->question->brdf);
+    double *const points = rule->set.points;
+    size_t kept = 0;
+    for (size_t j = 0; j < rule->set.num_points; j++) {
+        const double *const u = points + 3 * j;
+        if (is_cut && !(u[2] >= 0)) {
+            if (!rules->question->drops_below_horizon) {
+                return refuse(rules, j, u[2], error);
+            }
+            continue;
+        }
+        for (int i = 0; i < 3; i++) {
+            points[3 * kept + (size_t)i] = u[i];
+        }
+        straighten(points + 3 * kept);
+        rule->weights[kept++] = rule->weights[j];
+    }
+    rules->num_dropped += rule->set.num_points - kept;
+    rule->set.num_points = kept;
+    return kept > 0 ? PSPEC_OK
+                    : ps_fail(error, PSPEC_ERROR_INPUT,
+                              "no point of set %llu is above the horizon, where this BRDF is not 0",
+                              (unsigned long long)rules->num_read + 1);
+}
+
+/* ---- weights and kernel form --------------------------------------------------------------- */
+
+/* A phase of work on a rule, by the name of what it is for. */
+typedef struct phase {
+    const ps_watch *watch;
+    const char *purpose;
+} phase;
+
+static int tell(const ps_watch_report *report, void *payload) {
+    const phase *const of = payload;
+    char name[128];
+    ps_watch_report named = *report;
+    snprintf(name, sizeof name, "%s: %s", of->purpose, report->phase);
+    named.phase = name;
+    return of->watch->tell(&named, of->watch->payload);
+}
+
+/* {0} where nobody listens. */
+static ps_watch watch_phase(const phase *of) {
+    return of->watch->tell != NULL ? (ps_watch){tell, (void *)of} : (ps_watch){0};
+}
+
+static pspec_status find_optimal(ps_rules *rules, const ps_representer *representer,
+                                 ps_weighted_rule *rule, ps_error *error) {
+    ps_optimal_weights found;
+    const size_t num = rule->set.num_points;
+    const phase weights = {&rules->question->watch, "weights"};
+    const ps_watch watch = watch_phase(&weights);
+    const ps_kernel_options options = {.watch = &watch,
+                                       .memory_limit = rules->question->constraints.memory_limit,
+                                       .device = rules->device};
+    PS_TRY(ps_optimal_weights_find(representer, num, rule->set.points, rule->kappa, false, &options,
+                                   rule->weights, &found, error));
+    const ps_kernel_facts *const facts = &found.facts;
+    rules->largest_condition = fmax(rules->largest_condition, facts->condition);
+    rules->is_ill_conditioned |= facts->is_ill_conditioned;
+    rules->has_matrices |= facts->is_dense;
+    rules->most_steps = facts->num_steps > rules->most_steps ? facts->num_steps : rules->most_steps;
+    rules->largest_residual = fmax(rules->largest_residual, facts->residual);
+    rules->num_duplicates += num - facts->num_distinct;
+    return PSPEC_OK;
+}
+
+void ps_rules_plan_weights(const ps_quadrature_question *question, size_t num_points,
+                           const ps_device *device, char *text, size_t size) {
+    const uint64_t limit = question->constraints.memory_limit;
+    const double dense = (double)ps_kernel_system_bytes(num_points, true);
+    const double sparse = (double)ps_kernel_system_bytes(num_points, false);
+    text[0] = '\0';
+    if (question->weights != PS_WEIGHTS_OPTIMAL) {
+        return;
+    }
+    if (ps_kernel_system_is_dense(num_points, limit)) {
+        snprintf(text, size, "optimal, by Cholesky; a matrix of %zu x %zu, %.4g bytes", num_points,
+                 num_points, dense);
+        return;
+    }
+    snprintf(text, size,
+             "optimal, by conjugate gradients with products %s, %.4g bytes; a matrix would take "
+             "%.4g bytes, and %s",
+             ps_pairs_product_is_possible(device) ? "on the device" : "in threads", sparse, dense,
+             num_points > PS_KERNEL_MOST_DENSE ? "matrices are made for 20000 points and fewer"
+                                               : "--memory is less");
+}
+
+void ps_rules_name_weights(const ps_rules *rules, char *text, size_t size) {
+    if (rules->most_steps == 0) {
+        snprintf(text, size, "Cholesky");
+        return;
+    }
+    snprintf(text, size, "%sconjugate gradients, %zu steps to a residual of %.2g, at most",
+             rules->has_matrices ? "Cholesky, and " : "", rules->most_steps,
+             rules->largest_residual);
+}
+
+/* E^2 is of degree two in the weights, and its standard error of degree four. */
+static pspec_status check_largest(const ps_weighted_rule *rule, uint64_t set, ps_error *error) {
+    double largest = 0;
+    for (size_t j = 0; j < rule->set.num_points; j++) {
+        largest = fabs(rule->weights[j]) > largest ? fabs(rule->weights[j]) : largest;
+    }
+    return ps_pattern_check_largest(largest, set, error);
+}
+
+/* Points and weights of a set that was just read. */
+static pspec_status begin_rule(ps_rules *rules, ps_weighted_rule *rule, ps_error *error) {
+    bool is_equal = false;
+    PS_TRY(reserve(rule, error));
+    PS_TRY(copy_weights(rules, rule, &is_equal, error));
+    PS_TRY(accept_points(rules, rule, error));
+    for (size_t j = 0; is_equal && j < rule->set.num_points; j++) {
+        rule->weights[j] = 1 / (double)rule->set.num_points;
+    }
+    return rules->question->weights == PS_WEIGHTS_OPTIMAL
+               ? PSPEC_OK
+               : check_largest(rule, rules->num_read, error);
+}
+
+/* watch: NULL where small rules are done side by side. */
+static pspec_status find_kernel_form(const ps_representer *representer, ps_weighted_rule *rule,
+                                     const ps_watch *watch, ps_error *error) {
+    const phase e = {watch, "E"};
+    const ps_watch told = watch != NULL ? watch_phase(&e) : (ps_watch){0};
+    const ps_rule view = {rule->set.num_points, rule->set.points, rule->weights};
+    rule->weight = ps_rule_weight_sums(&view);
+    return ps_kernel_error_of(representer, &view, rule->kappa, &told, &rule->kernel, error);
+}
+
+typedef struct work {
+    const ps_rules *rules;
+    const ps_representer *representer;
+} work;
+
+/* What a rule gives does not depend on who does it. */
+static void do_small(void *payload, size_t r) {
+    const work *const all = payload;
+    ps_weighted_rule *const rule = &all->rules->batch[r];
+    ps_representer_kappa(all->representer, rule->set.num_points, rule->set.points, rule->kappa);
+    rule->is_complete = all->rules->question->weights != PS_WEIGHTS_OPTIMAL &&
+                        find_kernel_form(all->representer, rule, NULL, NULL) == PSPEC_OK;
+}
+
+/* kappa, of a number of points at a time. */
+static pspec_status find_kappa(const ps_rules *rules, const ps_representer *representer,
+                               ps_weighted_rule *rule, ps_error *error) {
+    enum { TERMS = 1 << 26, UNIT = 1024 }; /* some hundredths of a second; whole groups of lanes */
+    const size_t num = rule->set.num_points;
+    const size_t at_a_time = (TERMS / (representer->num_terms + 1) / UNIT + 1) * UNIT;
+    rule->is_complete = false;
+    for (size_t begin = 0; begin < num; begin += at_a_time) {
+        const size_t left = num - begin;
+        PS_TRY(ps_watch_tell(&rules->question->watch, "points of the integral with the kernel",
+                             begin, num, NULL, error));
+        ps_representer_kappa(representer, left < at_a_time ? left : at_a_time,
+                             rule->set.points + 3 * begin, rule->kappa + begin);
+    }
+    return PSPEC_OK;
+}
+
+/* kappa and kernel form of the batch: small rules side by side, in large ones pairs of points. */
+static pspec_status complete(ps_rules *rules, const ps_representer *representer, ps_error *error) {
+    enum { SMALL = 2048 };
+    const ps_watch *const watch = &rules->question->watch;
+    const work all = {rules, representer};
+    size_t most = 1;
+    size_t num_pairs = 0;
+    for (size_t r = 0; r < rules->num; r++) {
+        const size_t num = rules->batch[r].set.num_points;
+        most = num > most ? num : most;
+        num_pairs += num * (num / 2 + 1);
+    }
+    if (most <= SMALL) {
+        PS_TRY(
+            ps_pieces_share(watch, "rules", num_pairs, rules->num, do_small, (void *)&all, error));
+    }
+    for (size_t r = 0; r < rules->num; r++) {
+        ps_weighted_rule *const rule = &rules->batch[r];
+        PS_TRY(most > SMALL ? find_kappa(rules, representer, rule, error) : PSPEC_OK);
+        if (rules->question->weights == PS_WEIGHTS_OPTIMAL) {
+            PS_TRY(find_optimal(rules, representer, rule, error));
+        }
+        PS_TRY(rule->is_complete ? PSPEC_OK : find_kernel_form(representer, rule, watch, error));
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status read_batch(ps_rules *rules, ps_error *error) {
+    const uint64_t end = rules->until < rules->most ? rules->until : rules->most;
+    for (rules->num = 0; rules->num < rules->capacity && rules->num_read < end; rules->num++) {
+        ps_weighted_rule *const rule = &rules->batch[rules->num];
+        bool has_set = false;
+        PS_TRY(read_set(rules, &rule->set, &has_set, error));
+        if (!has_set) {
+            return PSPEC_OK;
+        }
+        PS_TRY(begin_rule(rules, rule, error));
+        rules->patterns[rules->num] =
+            (pspec_pattern){3, rule->set.num_points, rule->set.points, rule->weights};
+        rules->num_read++;
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_rules_next(ps_rules *rules, const ps_representer *representer, ps_error *error) {
+    PS_TRY(read_batch(rules, error));
+    return complete(rules, representer, error);
+}

@@ -1,0 +1,174 @@
+#include "jobs/quadrature/quadrature_setup.h"
+
+#include "jobs/quadrature/quadrature_needs.h"
+#include "jobs/quadrature/quadrature_rules.h"
+#include "math/sobolev.h"
+#include "store/figures_file.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---- degrees ------------------------------------------------------------------------------- */
+
+/* 4 sqrt N, as for a spectrum: beyond it rules of N points have C_l^2 like random ones. */
+static size_t most_degrees(size_t num_points) {
+    const double times = 4;
+    return (size_t)fmin(ceil(times * sqrt((double)num_points)), PS_MAX_DEGREE);
+}
+
+/* E^2 beyond degree L is at most that, for sum |w| = 1 (mathematics.md 4.4). */
+static double bound_tail(const ps_representer *of, size_t last) {
+    double half_width = 0;
+    const double rest = ps_representer_rest(of, last, &half_width);
+    const double root =
+        sqrt(ps_sobolev_tail(of->smoothness, last, of->a[last + 1])) + sqrt(rest + half_width);
+    return root * root;
+}
+
+/* Bounds fall with the degree. */
+static size_t find_degree(const ps_representer *of, size_t most, double wanted) {
+    size_t low = 0;
+    size_t high = most;
+    while (high - low > 1) {
+        const size_t middle = low + (high - low) / 2;
+        if (bound_tail(of, middle) <= wanted) {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    return high;
+}
+
+static void choose_degrees(ps_quadrature_setup *out, double tolerance, size_t most) {
+    const double wanted = tolerance * out->representer.constant;
+    const size_t last = find_degree(&out->representer, most, wanted);
+    const double bound = bound_tail(&out->representer, last);
+    out->max_degree = last;
+    out->beyond_bound = bound;
+    if (bound <= wanted) {
+        snprintf(out->degrees_note, sizeof out->degrees_note,
+                 "%zu, where what is beyond, at most %.3g of E^2, meets the tolerance %.3g", last,
+                 bound, wanted);
+        return;
+    }
+    const double power =
+        2 * out->representer.smoothness - 2; /* of the tail, which goes as L^-power */
+    snprintf(out->degrees_note, sizeof out->degrees_note,
+             "%zu = 4 sqrt N: the bound of the rest, %.3g, meets the tolerance %.3g near degree "
+             "%.1g only; -l asks for more, and E has all degrees in any case",
+             last, bound, wanted, (double)last * pow(bound / wanted, 1 / power));
+}
+
+/* ---- engine -------------------------------------------------------------------------------- */
+
+/* N Q(l) of points with the density of the lobe is 1 + (N - 1) 4 pi / (2l + 1) b_l^2: what the errors of engines that
+ * sum squares depend on, with a margin. */
+static double expect_power(const ps_representer *of, size_t last, size_t num_points) {
+    const double four_pi = 12.566370614359172;
+    const double margin = 2;
+    double sum = 0;
+    for (size_t l = 1; l <= last; l++) {
+        sum += four_pi / (2 * (double)l + 1) * of->b[l] * of->b[l];
+    }
+    return margin * (1 + (double)(num_points - 1) * sum / (double)last);
+}
+
+static bool is_for_pairs(const char *name) {
+    for (size_t i = 0; name != NULL && ps_engines[i] != NULL; i++) {
+        if (strcmp(ps_engines[i]->name, name) == 0) {
+            return ps_engines[i]->sums_pairs;
+        }
+    }
+    return false;
+}
+
+static ps_problem make_problem(const ps_quadrature_setup *of,
+                               const ps_quadrature_question *question, const ps_rule_shape *shape) {
+    /* |dc_lm| is e relative to white noise: Q is then off by 4 e at most */
+    const double amplitudes = 4;
+    const double power = shape->mean_power > 0
+                             ? shape->mean_power
+                             : expect_power(&of->representer, of->max_degree, shape->num_points);
+    return (ps_problem){.frequencies = &of->frequencies,
+                        .num_points = shape->num_points,
+                        .planned_points = shape->num_points,
+                        .num_realizations = of->planned_realizations,
+                        .has_weights = true,
+                        .measure = of->by_pairs ? PS_OF_PAIR_SUMS : PS_OF_AMPLITUDES,
+                        .tolerance =
+                            of->by_pairs ? question->tolerance : question->tolerance / amplitudes,
+                        .weight_share = shape->largest_share,
+                        .expected_power = of->by_pairs ? power : 0};
+}
+
+static pspec_status get_device(ps_quadrature_setup *out, const ps_quadrature_question *question,
+                               ps_error *error) {
+    out->device = question->open_device;
+    if (out->device != NULL) {
+        return PSPEC_OK;
+    }
+    const pspec_status status = ps_figures_open_device(
+        &out->device, question->device, question->profile, question->figures_folder, error);
+    out->owns_device = status == PSPEC_OK;
+    return status == PSPEC_ERROR_NO_DEVICE && question->may_lack_device ? PSPEC_OK : status;
+}
+
+static pspec_status plan_engine(ps_quadrature_setup *out, const ps_quadrature_question *question,
+                                const ps_rule_shape *shape, ps_error *error) {
+    PS_TRY(ps_frequencies_degrees(&out->frequencies, (int64_t)out->max_degree, false, error));
+    PS_TRY(ps_frequencies_enumerate(&out->frequencies, error));
+    if (ps_plan_may_need_device(&question->constraints)) {
+        PS_TRY(get_device(out, question, error));
+    }
+    out->problem = make_problem(out, question, shape);
+    return ps_quadrature_needs_plan(out, question, error);
+}
+
+pspec_status ps_quadrature_setup_make(ps_quadrature_setup *out,
+                                      const ps_quadrature_question *question,
+                                      const ps_rule_shape *shape, ps_error *error) {
+    const size_t most = most_degrees(shape->num_points);
+    const size_t asked = question->max_degree;
+    *out = (ps_quadrature_setup){.max_degree = asked > 0 ? asked : most};
+    out->most_degree = out->max_degree;
+    ps_quadrature_needs_find(out, question);
+    const bool has_several = shape->has_several && out->num_realizations != 1;
+    const double accuracy = ps_quadrature_needs_accuracy(out, question, has_several);
+    out->by_pairs = has_several || is_for_pairs(question->constraints.engine);
+    PS_TRY(ps_representer_create(&out->representer, question->brdf, question->smoothness, accuracy,
+                                 2 * out->most_degree, error));
+    if (asked == 0 && !question->no_skip) {
+        choose_degrees(out, question->tolerance, most);
+    }
+    ps_quadrature_needs_terms(out, accuracy);
+    PS_TRY(plan_engine(out, question, shape, error));
+    ps_rules_plan_weights(question, shape->num_points, out->device, out->weights_note,
+                          sizeof out->weights_note);
+    return PSPEC_OK;
+}
+
+pspec_status ps_quadrature_setup_ask(ps_quadrature_setup *out,
+                                     const ps_quadrature_question *question, ps_error *error) {
+    ps_rules rules = {.question = question};
+    ps_rule_shape shape;
+    *out = (ps_quadrature_setup){0};
+    pspec_status status = ps_rules_open(&rules, &shape, error);
+    if (status == PSPEC_OK) {
+        status = ps_quadrature_setup_make(out, question, &shape, error);
+    }
+    if (status == PSPEC_OK) {
+        status = ps_quadrature_needs_rate(out, question, error);
+    }
+    ps_rules_free(&rules);
+    return status;
+}
+
+void ps_quadrature_setup_free(ps_quadrature_setup *setup) {
+    ps_representer_destroy(&setup->representer);
+    ps_frequencies_free(&setup->frequencies);
+    if (setup->owns_device) {
+        ps_device_close(setup->device);
+    }
+}

@@ -1,0 +1,80 @@
+#include "jobs/spectrum/power_frequencies.h"
+
+#include "frequencies/frequency_sample.h"
+
+#include <math.h>
+
+static pspec_status default_max_frequency(int32_t *out, unsigned dimension, size_t num_points,
+                                          unsigned offers, ps_error *error) {
+    /* 5 N^(1/d): what UTK, PSA and GBN show. Above three dimensions it would be a surprise. */
+    const double times = 5;
+    enum { LARGEST_DIMENSION = 3 };
+    if (dimension > LARGEST_DIMENSION) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "in dimension %u the largest frequency must be given: -k K%s", dimension,
+                       offers & PS_OFFER_RINGS
+                           ? " (and --per-ring S, when all frequencies up to K are too many)"
+                           : "");
+    }
+    /* The root of an exact power may come out a rounding above it. */
+    const double root = pow((double)num_points, 1.0 / dimension);
+    const double rounding = 1e-12;
+    *out = (int32_t)fmin(ceil(times * root * (1 - rounding)), PS_MAX_FREQUENCY);
+    return PSPEC_OK;
+}
+
+static pspec_status choose_degrees(ps_frequencies *out, const ps_power_question *question,
+                                   size_t num_points, ps_error *error) {
+    /* 4 sqrt N: past the second bump of a blue-noise spectrum, which begins near 1.8 sqrt N. */
+    const double times = 4;
+    const double by_default = fmin(ceil(times * sqrt((double)num_points)), PS_MAX_DEGREE);
+    const int64_t max_degree =
+        question->max_degree > 0 ? question->max_degree : (int64_t)by_default;
+    return ps_frequencies_degrees(out, max_degree, question->on_hemisphere, error);
+}
+
+static pspec_status read_list(ps_frequencies *out, const char *path, uint64_t memory_limit,
+                              unsigned dimension, ps_error *error) {
+    int *vectors = NULL;
+    size_t num = 0;
+    unsigned found = 0;
+    PS_TRY(ps_read_frequencies(path, memory_limit, &vectors, &num, &found, error));
+    ps_error inner = {0};
+    const pspec_status status = ps_frequencies_list(out, found, num, vectors, &inner);
+    if (status != PSPEC_OK) {
+        return ps_fail(error, status, "\"%s\": %s", path, inner.message);
+    }
+    if (found != dimension) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "\"%s\" holds frequencies of dimension %u, the points have dimension %u",
+                       path, found, dimension);
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_power_frequencies(ps_frequencies *out, const ps_power_question *question,
+                                  unsigned dimension, size_t num_points, ps_error *error) {
+    int32_t max_frequency = question->max_frequency;
+    if (question->on_sphere) {
+        return choose_degrees(out, question, num_points, error);
+    }
+    if (question->frequencies_path != NULL) {
+        return read_list(out, question->frequencies_path, question->constraints.memory_limit,
+                         dimension, error);
+    }
+    if (max_frequency == 0) {
+        PS_TRY(default_max_frequency(&max_frequency, dimension, num_points,
+                                     question->constraints.offers, error));
+    }
+    if (question->per_ring > 0) {
+        const ps_frequency_sample sample = {.dimension = dimension,
+                                            .max_frequency = max_frequency,
+                                            .exact_shells = question->exact_shells,
+                                            .per_ring = question->per_ring,
+                                            .seed = question->per_ring_seed};
+        return ps_frequencies_sample(out, &sample, error);
+    }
+    const bool only_ball = !question->wants_full_array && !question->no_skip;
+    return ps_frequencies_grid(out, dimension, max_frequency, only_ball,
+                               question->constraints.offers, error);
+}

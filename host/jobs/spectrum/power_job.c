@@ -1,0 +1,324 @@
+#include "jobs/spectrum/power_job_private.h"
+
+#include "base/memory.h"
+#include "files/input_file.h"
+#include "jobs/spectrum/power_frequencies.h"
+#include "jobs/spectrum/power_needs.h"
+#include "store/figures_file.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- source ------------------------------------------------------------------------------ */
+
+/* The sampler as it is needed: without shifts that nobody sees, one realization that stands for all. */
+static pspec_status open_sampler(ps_power_job *job, ps_error *error) {
+    const ps_power_question *question = job->question;
+    job->request = *question->sampler;
+    job->request.homogenize = question->sampler->homogenize && !job->needs.no_shift;
+    job->num_realizations = job->needs.one_realization ? 1 : question->num_realizations;
+    return ps_source_sampler(&job->sets.source, &job->request, job->num_realizations, error);
+}
+
+static pspec_status report_progress(const ps_power_job *job, ps_error *error) {
+    return ps_watch_tell(&job->question->watch, "realizations", job->num_done,
+                         job->num_realizations, NULL, error);
+}
+
+/* Asked by the engine while it works, and while points are counted: progress has not changed since the last
+ * batch. */
+static bool should_stop(void *payload) {
+    return report_progress(payload, NULL) != PSPEC_OK;
+}
+
+/* A quarter of a limit that was typed leaves room for what computes with the points. */
+static uint64_t choose_whole_bytes(const ps_power_question *question) {
+    const uint64_t limit = question->constraints.memory_limit / 4;
+    const uint64_t asked =
+        question->whole_bytes > 0 ? question->whole_bytes : PS_SOURCE_WHOLE_BYTES;
+    return limit > 0 && limit < asked ? limit : asked;
+}
+
+static pspec_status open_files(ps_power_job *job, ps_error *error) {
+    const ps_power_question *question = job->question;
+    const ps_source_options options = {.points = question->point_options,
+                                       .whole_bytes = choose_whole_bytes(question),
+                                       .should_stop = should_stop,
+                                       .payload = job};
+    return ps_source_files(&job->sets.source, question->paths, question->num_paths, &options,
+                           error);
+}
+
+/* The shape of the first set: a sampler's is known, a file is read. */
+static pspec_status find_shape(ps_power_job *job, ps_error *error) {
+    const ps_power_question *question = job->question;
+    bool has_set = false;
+    if (question->sampler != NULL) {
+        job->dimension = question->sampler->dimension;
+        job->num_points = question->sampler->num_points;
+        return PSPEC_OK;
+    }
+    PS_TRY(open_files(job, error));
+    PS_TRY(ps_power_sets_peek(&job->sets, &has_set, error));
+    if (!has_set) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "there are no point sets to take a spectrum of");
+    }
+    job->dimension = job->sets.next.dimension;
+    job->num_points = ps_power_sets_next_points(&job->sets);
+    return PSPEC_OK;
+}
+
+/* ---- plan -------------------------------------------------------------------------------- */
+
+/* A device is opened unless the user's choice of engine or precision leaves none that needs one. */
+static pspec_status open_device(ps_power_job *job, ps_error *error) {
+    const ps_power_question *question = job->question;
+    if (job->device != NULL || !ps_plan_may_need_device(&question->constraints)) {
+        return PSPEC_OK;
+    }
+    job->owns_device = question->open_device == NULL;
+    job->device = question->open_device;
+    if (!job->owns_device) {
+        return PSPEC_OK;
+    }
+    const pspec_status status = ps_figures_open_device(
+        &job->device, question->device, question->profile, question->figures_folder, error);
+    return status == PSPEC_ERROR_NO_DEVICE && question->may_lack_device ? PSPEC_OK : status;
+}
+
+/* Names that can be wrong are looked at before anything that takes long: sets are read, and rings counted, in seconds. */
+static pspec_status check_names(ps_power_job *job, ps_error *error) {
+    const ps_power_question *question = job->question;
+    PS_TRY(ps_plan_check_engine(question->constraints.engine,
+                                question->on_sphere ? PS_ON_SPHERE : PS_ON_TORUS, error));
+    PS_TRY(ps_inputs_check(question->paths, question->num_paths, error));
+    PS_TRY(ps_inputs_check(&question->weights_path, 1, error));
+    PS_TRY(ps_inputs_check(&question->frequencies_path, 1, error));
+    return question->device != NULL ? open_device(job, error) : PSPEC_OK;
+}
+
+static pspec_status prepare(ps_power_job *job, ps_error *error) {
+    const ps_power_question *question = job->question;
+    PS_TRY(check_names(job, error));
+    PS_TRY(find_shape(job, error));
+    if (question->weights_path != NULL) {
+        PS_TRY(
+            ps_power_sets_read_weights(&job->sets, question->weights_path, job->num_points, error));
+    }
+    PS_TRY(ps_power_frequencies(&job->frequencies, question, job->dimension,
+                                (size_t)job->num_points, error));
+    ps_power_needs_find(job);
+    if (question->sampler != NULL) {
+        PS_TRY(open_sampler(job, error));
+    }
+    job->problem = (ps_problem){
+        .frequencies = &job->frequencies,
+        .num_points = job->num_points,
+        .planned_points = job->num_points,
+        .num_realizations =
+            question->harmonics != PS_NO_HARMONICS ? 1 : ps_power_needs_realizations(job),
+        .harmonics = question->harmonics,
+        .has_weights = job->sets.next.has_weights || job->sets.weights != NULL,
+        .block_points =
+            question->sampler == NULL && !job->sets.part.is_whole ? job->sets.part.block_points : 0,
+        .measure = question->wants_pair_sums ? PS_OF_PAIR_SUMS : PS_OF_AMPLITUDES,
+        .floor = question->wants_pair_sums ? question->floor : 0,
+        .tolerance = ps_power_needs_tolerance(question),
+    };
+    PS_TRY(open_device(job, error));
+    return ps_power_needs_plan(job, error);
+}
+
+pspec_status ps_power_job_create(ps_power_job **out, const ps_power_question *question,
+                                 ps_error *error) {
+    void *memory = NULL;
+    *out = NULL;
+    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_power_job), "a job", error));
+    ps_power_job *job = memory;
+    job->question = question;
+    const pspec_status status = prepare(job, error);
+    if (status != PSPEC_OK) {
+        ps_power_job_destroy(job);
+        return status;
+    }
+    *out = job;
+    return PSPEC_OK;
+}
+
+void ps_power_job_destroy(ps_power_job *job) {
+    if (job == NULL) {
+        return;
+    }
+    ps_estimator_destroy(job->estimator);
+    ps_spectrum_free(&job->spectrum);
+    ps_text_free(&job->description);
+    free(job->coefficients);
+    free(job->c2);
+    free(job->means);
+    ps_frequencies_free(&job->frequencies);
+    ps_power_sets_free(&job->sets);
+    if (job->owns_device) {
+        ps_device_close(job->device);
+    }
+    free(job);
+}
+
+/* ---- run --------------------------------------------------------------------------------- */
+
+static pspec_status create_estimator(ps_power_job *job, ps_error *error) {
+    const ps_power_question *question = job->question;
+    const ps_candidate *chosen = job->plan.chosen;
+    const ps_estimator_options options = {
+        .problem = job->problem,
+        .engine = chosen->engine,
+        .precision = chosen->precision,
+        .batch = chosen->batch,
+        .exact_shells = question->exact_shells,
+        .want_frequencies = !question->on_sphere, /* anisotropy needs them, too */
+        .no_frequency_errors = job->needs.no_frequency_errors,
+        .self_check = !question->no_self_check,
+        .normalization = question->normalization,
+        .coefficients = job->coefficients,
+        .want_c2 = question->wants_pair_sums,
+        .should_stop = should_stop,
+        .payload = job,
+    };
+    ps_estimator_destroy(job->estimator);
+    job->estimator = NULL;
+    return ps_estimator_create(&job->estimator, &options, job->device, error);
+}
+
+/* What can be refused is refused before the work. */
+static pspec_status make_room_for_coefficients(ps_power_job *job, ps_error *error) {
+    void *memory = NULL;
+    if (job->num_realizations > 1) { /* of a sampler; how many sets files have is not known yet */
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "coefficients are of one set, but there are %llu realizations",
+                       (unsigned long long)job->num_realizations);
+    }
+    PS_TRY(ps_allocate(&memory, ps_num_coefficients(job->frequencies.max_frequency), sizeof(double),
+                       "the coefficients", error));
+    job->coefficients = memory;
+    return PSPEC_OK;
+}
+
+static pspec_status require_one_set(const ps_power_job *job, ps_error *error) {
+    return job->coefficients == NULL || job->num_done <= 1
+               ? PSPEC_OK
+               : ps_fail(
+                     error, PSPEC_ERROR_INVALID_ARGUMENT,
+                     "coefficients are of one set, but there are more; --select-sets chooses one");
+}
+
+static pspec_status look_at_errors(ps_power_job *job, ps_error *error) {
+    const ps_bins *bins = ps_estimator_bins(job->estimator);
+    void *memory = NULL;
+    if (job->means == NULL) {
+        PS_TRY(ps_allocate(&memory, bins->num, sizeof *job->means, "means of bins", error));
+        job->means = memory;
+    }
+    PS_TRY(ps_estimator_bin_means(job->estimator, job->means, error));
+    job->look = ps_sequential_find(bins, job->means, job->question->floor, job->num_done);
+    return PSPEC_OK;
+}
+
+/* All sets, or as many as the standard error needs. */
+static pspec_status add_sets(ps_power_job *job, ps_error *error) {
+    size_t num = 1;
+    bool is_enough = false;
+    while (num > 0 && !is_enough) {
+        const uint64_t next =
+            job->needs.sequential ? ps_sequential_next_look(job->num_done) : UINT64_MAX;
+        PS_TRY(report_progress(job, error));
+        PS_TRY(ps_power_sets_give(&job->sets, job->estimator, job->question->normalization,
+                                  next - job->num_done, &num, error));
+        job->num_done += num;
+        PS_TRY(require_one_set(job, error));
+        if (job->num_done == next) {
+            PS_TRY(look_at_errors(job, error));
+            is_enough = job->look.corrected <= job->question->standard_error;
+        }
+    }
+    const bool is_asked = job->question->standard_error > 0 && job->num_done > 1;
+    return is_asked && !is_enough ? look_at_errors(job, error) : PSPEC_OK;
+}
+
+static pspec_status run_once(ps_power_job *job, ps_error *error) {
+    job->num_done = 0;
+    PS_TRY(create_estimator(job, error));
+    PS_TRY(ps_power_sets_allocate(&job->sets, ps_estimator_batch(job->estimator), error));
+    PS_TRY(add_sets(job, error));
+    job->accuracy = ps_estimator_accuracy(job->estimator);
+    return isfinite(job->accuracy.error)
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_CHECK, "the powers are not finite numbers");
+}
+
+/* The measured powers make the error larger than the tolerance: plan again with them. */
+static pspec_status run_again(ps_power_job *job, ps_error *error) {
+    job->problem.expected_power = job->accuracy.largest_mean_power;
+    job->problem.weight_share = job->accuracy.largest_share;
+    PS_TRY(ps_power_needs_plan(job, error));
+    PS_TRY(ps_plan_require(&job->plan, &job->problem, error));
+    const ps_precision precision = job->plan.chosen->precision;
+    if (!ps_source_can_rewind(job->sets.source)) {
+        return ps_fail(
+            error, PSPEC_ERROR_TOLERANCE,
+            "these sets have a mean power of %.3g, so what was planned has an error of "
+            "%.2g, above the tolerance %g, and standard input cannot be read twice: give a "
+            "file%s%s",
+            job->accuracy.largest_mean_power, job->accuracy.error, job->problem.tolerance,
+            precision == PS_SINGLE ? "" : ", or --precision ",
+            precision == PS_SINGLE ? "" : ps_precision_name(precision));
+    }
+    job->was_replanned = true;
+    PS_TRY(ps_power_sets_rewind(&job->sets, error));
+    return run_once(job, error);
+}
+
+static pspec_status find_c2(ps_power_job *job, ps_error *error) {
+    const size_t num = job->frequencies.num;
+    void *memory = NULL;
+    if (!job->question->wants_pair_sums) {
+        return PSPEC_OK;
+    }
+    PS_TRY(ps_allocate(&memory, num, sizeof *job->c2, "C_l^2", error));
+    job->c2 = memory;
+    ps_estimator_c2(job->estimator, job->c2);
+    for (size_t i = 0; job->needs.one_realization && i < num; i++) {
+        job->c2[i].standard_error = 0;
+    }
+    return PSPEC_OK;
+}
+
+/* Realizations that a deterministic one stands for: all, or as few as a standard error takes. */
+static uint64_t count_repeats(const ps_power_question *question) {
+    const uint64_t all = question->num_realizations;
+    return question->standard_error > 0 && all > PS_LEAST_REALIZATIONS ? PS_LEAST_REALIZATIONS
+                                                                       : all;
+}
+
+static pspec_status finish(ps_power_job *job, ps_error *error) {
+    ps_estimator_describe(job->estimator, &job->description);
+    PS_TRY(ps_text_check(&job->description, error));
+    PS_TRY(ps_estimator_spectrum(job->estimator, &job->spectrum, error));
+    PS_TRY(find_c2(job, error));
+    if (job->needs.one_realization) {
+        ps_spectrum_repeat(&job->spectrum, count_repeats(job->question));
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_power_job_run(ps_power_job *job, ps_error *error) {
+    PS_TRY(ps_plan_require(&job->plan, &job->problem, error));
+    if (job->question->harmonics != PS_NO_HARMONICS) {
+        PS_TRY(make_room_for_coefficients(job, error));
+    }
+    PS_TRY(ps_frequencies_enumerate(&job->frequencies, error));
+    PS_TRY(run_once(job, error));
+    if (!(job->accuracy.error <= job->problem.tolerance)) {
+        PS_TRY(run_again(job, error));
+    }
+    return finish(job, error);
+}

@@ -1,0 +1,102 @@
+/* The averaged power spectrum, on the torus or on the sphere, as one job: source of realizations -> plan -> batches -> spectrum.
+ *
+ * The tolerance is a contract. The plan predicts the error for sets like white noise; afterwards the
+ * error formula is evaluated again with the powers that were measured (docs/conventions.md). When it
+ * then exceeds the tolerance, the job runs once more with what the plan chooses for those powers, or
+ * fails with PSPEC_ERROR_TOLERANCE when nothing reaches it or the input cannot be read twice.
+ */
+#ifndef PS_JOBS_SPECTRUM_POWER_JOB_H
+#define PS_JOBS_SPECTRUM_POWER_JOB_H
+
+#include "spectra/sequential.h"
+#include "base/watch.h"
+#include "jobs/parts/estimator.h"
+#include "jobs/parts/source.h"
+#include "plan/needs.h"
+
+typedef struct ps_power_question {
+    /* realizations: a sampler, or files */
+    const ps_sampler_request *sampler; /* NULL: files */
+    uint64_t num_realizations;         /* of the sampler */
+    const char *const *paths;
+    size_t num_paths;
+    ps_point_options point_options;
+    const char *weights_path; /* NULL: none; the same weights for every set */
+    uint64_t whole_bytes;     /* of a set of a file, see ps_source_options */
+
+    /* degrees, where points are on the sphere; frequencies are then not looked at */
+    bool on_sphere;
+    bool on_hemisphere; /* even degrees only */
+    int64_t max_degree; /* 0: ceil(4 sqrt N) */
+
+    /* frequencies */
+    int32_t max_frequency;        /* 0: ceil(5 N^(1/d)), for d <= 3 */
+    const char *frequencies_path; /* NULL: a grid */
+    uint64_t per_ring; /* of every ring, at random; 0: all (frequencies/frequency_sample.h) */
+    uint64_t per_ring_seed;
+    bool exact_shells;
+    bool wants_full_array;
+
+    /* result */
+    bool wants_pair_sums;   /* on the sphere: Q(l) itself, weights 1/N unless given, and C_l^2 */
+    ps_harmonics harmonics; /* whose coefficients are wanted, of the only set, on the sphere */
+    pspec_normalization normalization;
+    double tolerance, floor; /* floor 0: none */
+    bool may_loosen; /* the tolerance, to what standard_error and floor need; not for pair sums */
+    double
+        standard_error; /* relative, of every bin above the floor, at which realizations stop (spectra/sequential.h);
+                              0: all of them are done */
+    bool no_skip, no_self_check;
+    ps_plan_constraints constraints;
+    bool may_lack_device;       /* to be planned only: without a device, with the host's engines */
+    ps_device *open_device;     /* borrowed; NULL: the one that `device` selects is opened */
+    const char *device;         /* selector, NULL: default */
+    const char *figures_folder; /* store/figures_file.h; NULL: the built-in figures */
+    bool profile;
+    ps_watch watch; /* told of realizations and other phases; {0}: nobody */
+} ps_power_question;
+
+/* A job that is planned but not yet run. */
+typedef struct ps_power_job ps_power_job;
+
+/* Reads the first set, opens the device unless no engine that may be chosen needs it, and plans. The
+ * question must outlive the job. With nothing feasible the job exists all the same, and only
+ * ps_power_job_run fails: `plan` shows why. */
+pspec_status ps_power_job_create(ps_power_job **out, const ps_power_question *question,
+                                 ps_error *error) PS_MUST_CHECK;
+void ps_power_job_destroy(ps_power_job *job);
+
+pspec_status ps_power_job_run(ps_power_job *job, ps_error *error) PS_MUST_CHECK;
+
+/* For who shows the shares of skips: makes those that depend on the plan better than from counts, by planning again,
+ * which takes milliseconds. Before run. */
+void ps_power_job_rate_skips(ps_power_job *job);
+
+/* What is known after create. */
+const ps_plan *ps_power_job_plan(const ps_power_job *job);
+const ps_needs *ps_power_job_needs(const ps_power_job *job);
+const ps_problem *ps_power_job_problem(const ps_power_job *job);
+const ps_device_limits *ps_power_job_limits(const ps_power_job *job); /* NULL: no device */
+const char *ps_power_job_source_format(const ps_power_job *job);
+const char *ps_power_job_source_columns(const ps_power_job *job);
+const ps_sampler_request *ps_power_job_sampler(const ps_power_job *job); /* NULL: files */
+
+/* What is known after run. Borrowed. */
+const ps_spectrum *ps_power_job_spectrum(const ps_power_job *job);
+const ps_accuracy *ps_power_job_accuracy(const ps_power_job *job);
+/* "(torus_direct ...)" */
+const char *ps_power_job_description(const ps_power_job *job);
+/* c_lm as ps_engine.coefficients has them, [ps_num_coefficients(L)]; NULL unless they were asked for. */
+const double *ps_power_job_coefficients(const ps_power_job *job);
+/* The bin of the largest standard error when the realizations ended; NULL unless question.standard_error was asked for,
+ * and with one realization that stands for all. */
+const ps_sequential_look *ps_power_job_look(const ps_power_job *job);
+/* C_l^2 of pair sums, [number of degrees]; NULL unless they were asked for. */
+const ps_mean *ps_power_job_c2(const ps_power_job *job);
+/* True when the first run missed the tolerance and the plan was made again. */
+bool ps_power_job_was_replanned(const ps_power_job *job);
+/* The most bytes that buffers of the device had at a time. */
+uint64_t ps_power_job_buffer_bytes(const ps_power_job *job);
+const ps_profile_row *ps_power_job_profile(const ps_power_job *job, size_t *num_rows);
+
+#endif

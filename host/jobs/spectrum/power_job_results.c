@@ -1,0 +1,67 @@
+/* What a power job knows. */
+#include "jobs/spectrum/power_job_private.h"
+
+const ps_plan *ps_power_job_plan(const ps_power_job *job) {
+    return &job->plan;
+}
+
+const ps_needs *ps_power_job_needs(const ps_power_job *job) {
+    return &job->needs;
+}
+
+const ps_problem *ps_power_job_problem(const ps_power_job *job) {
+    return &job->problem;
+}
+
+const ps_device_limits *ps_power_job_limits(const ps_power_job *job) {
+    return job->device != NULL ? ps_device_get_limits(job->device) : NULL;
+}
+
+const ps_sampler_request *ps_power_job_sampler(const ps_power_job *job) {
+    return job->question->sampler;
+}
+
+const char *ps_power_job_source_format(const ps_power_job *job) {
+    return ps_source_format(job->sets.source);
+}
+
+const char *ps_power_job_source_columns(const ps_power_job *job) {
+    return ps_source_columns(job->sets.source);
+}
+
+const ps_spectrum *ps_power_job_spectrum(const ps_power_job *job) {
+    return &job->spectrum;
+}
+
+const ps_accuracy *ps_power_job_accuracy(const ps_power_job *job) {
+    return &job->accuracy;
+}
+
+const char *ps_power_job_description(const ps_power_job *job) {
+    return ps_text_string(&job->description);
+}
+
+const double *ps_power_job_coefficients(const ps_power_job *job) {
+    return job->coefficients;
+}
+
+const ps_sequential_look *ps_power_job_look(const ps_power_job *job) {
+    return job->question->standard_error > 0 && job->num_done > 1 ? &job->look : NULL;
+}
+
+const ps_mean *ps_power_job_c2(const ps_power_job *job) {
+    return job->c2;
+}
+
+bool ps_power_job_was_replanned(const ps_power_job *job) {
+    return job->was_replanned;
+}
+
+uint64_t ps_power_job_buffer_bytes(const ps_power_job *job) {
+    return job->device != NULL ? ps_device_most_buffer_bytes(job->device) : 0;
+}
+
+const ps_profile_row *ps_power_job_profile(const ps_power_job *job, size_t *num_rows) {
+    *num_rows = 0;
+    return job->device != NULL ? ps_device_profile(job->device, num_rows) : NULL;
+}

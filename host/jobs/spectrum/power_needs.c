@@ -1,0 +1,104 @@
+#include "jobs/spectrum/power_needs.h"
+
+/* Rotated points of the hemisphere that go below it become their antipodes. That changes no even degree, but
+ * the odd ones, which points have when they are taken as points of the sphere. */
+static bool folding_matters(const ps_power_question *question) {
+    const ps_sampler_request *sampler = question->sampler;
+    return sampler != NULL && sampler->homogenize && ps_sampler_is_on_hemisphere(sampler) &&
+           !question->on_hemisphere;
+}
+
+/* Independent frequencies of the first ring, |k|^2 <= 2, or shell, or of the first degree. */
+static double count_fewest(const ps_power_job *job) {
+    const double d = job->dimension;
+    if (job->question->on_sphere) {
+        return job->question->on_hemisphere ? 2.5 : 1.5;
+    }
+    return job->question->exact_shells ? d : d * d;
+}
+
+void ps_power_needs_find(ps_power_job *job) {
+    const ps_power_question *question = job->question;
+    const ps_sampler_request *sampler = question->sampler;
+    const bool is_grid = question->frequencies_path == NULL && !question->on_sphere;
+    /* coefficients, unlike powers, turn with the set */
+    const bool is_invariant =
+        sampler != NULL && !folding_matters(question) && question->harmonics == PS_NO_HARMONICS;
+    /* C_l^2 turns with the set, too */
+    const bool turns = question->wants_pair_sums && sampler != NULL && sampler->homogenize;
+    const ps_needs_question needs = {
+        .dimension = job->dimension,
+        .max_frequency = is_grid ? job->frequencies.max_frequency : 0,
+        .on_sphere = question->on_sphere,
+        .on_hemisphere = question->on_hemisphere,
+        .wants_full_array = question->wants_full_array,
+        .wants_frequency_errors = question->wants_full_array || question->per_ring > 0,
+        .share_not_drawn =
+            1 - (double)job->frequencies.num / (double)ps_frequencies_population(&job->frequencies),
+        .has_constant_power = is_invariant && !turns && ps_sampler_has_constant_power(sampler),
+        .is_homogenized = is_invariant && !turns && sampler->homogenize,
+        .num_realizations = question->num_realizations,
+        .standard_error = question->standard_error,
+        .expected_realizations =
+            ps_sequential_expected(count_fewest(job), question->standard_error),
+        .no_skip = question->no_skip,
+    };
+    job->needs = ps_needs_find(&needs);
+}
+
+/* Without a statistical target. */
+static double strict_tolerance(const ps_power_question *question) {
+    return question->wants_pair_sums ? question->tolerance
+                                     : ps_plan_tolerance(question->tolerance, question->floor);
+}
+
+void ps_power_job_rate_skips(ps_power_job *job) {
+    const ps_candidate *const chosen = job->plan.chosen;
+    ps_frequencies box;
+    ps_plan plan;
+    ps_problem problem = job->problem;
+    const bool is_box_possible =
+        job->frequencies.kind == PS_FREQUENCIES_BALL && chosen != NULL &&
+        ps_frequencies_lattice(&box, job->dimension, job->frequencies.max_frequency, false, NULL) ==
+            PSPEC_OK;
+    problem.frequencies = &box;
+    if (is_box_possible &&
+        ps_plan_make(&plan, &problem, ps_power_job_limits(job), &job->question->constraints,
+                     NULL) == PSPEC_OK &&
+        plan.chosen != NULL) {
+        const double share = 1 - chosen->seconds / plan.chosen->seconds;
+        ps_needs_rate(&job->needs, PS_SKIP_CORNERS, share > 0 ? share : 0);
+    }
+}
+
+/* What the job holds already of what a plan counts: the set that was read, and the engine of a plan before. */
+static uint64_t find_held(const ps_power_job *job) {
+    const ps_point_set *const set = &job->sets.next;
+    const double engine = job->estimator != NULL ? job->plan.chosen->host_bytes : 0;
+    return (set->points_capacity + set->weights_capacity) * sizeof(double) + (uint64_t)engine;
+}
+
+pspec_status ps_power_needs_plan(ps_power_job *job, ps_error *error) {
+    const ps_power_question *question = job->question;
+    ps_plan_constraints constraints = question->constraints;
+    ps_memory_room room;
+    ps_memory_room_find(&room, find_held(job));
+    constraints.room = &room;
+    const ps_needs_strict strict = {
+        question->may_loosen ? strict_tolerance(question) : job->problem.tolerance, 0};
+    return ps_needs_plan(&job->needs, &job->plan, &job->problem, ps_power_job_limits(job),
+                         &constraints, &strict, error);
+}
+
+uint64_t ps_power_needs_realizations(const ps_power_job *job) {
+    const double expected =
+        ps_sequential_expected(count_fewest(job), job->question->standard_error);
+    const bool is_less = job->needs.sequential && expected < (double)job->num_realizations;
+    return is_less ? (uint64_t)expected : job->num_realizations;
+}
+
+double ps_power_needs_tolerance(const ps_power_question *question) {
+    return question->may_loosen && !question->wants_pair_sums && !question->no_skip
+               ? ps_plan_statistical_tolerance(question->standard_error, question->floor)
+               : strict_tolerance(question);
+}

@@ -1,0 +1,152 @@
+#include "jobs/spectrum/power_phases.h"
+
+#include "jobs/parts/point_phases.h"
+#include "jobs/spectrum/power_job_private.h"
+#include "jobs/parts/self_check.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- beginning ----------------------------------------------------------------------------- */
+
+/* Its bit among those whose kernels are loaded. */
+static unsigned bit_of(const ps_engine *engine) {
+    unsigned index = 0;
+    while (ps_engines[index] != engine && ps_engines[index] != NULL) {
+        index++;
+    }
+    return 1U << index;
+}
+
+/* Each once in a process. */
+void ps_phases_start(ps_phases *phases, const ps_candidate *chosen) {
+    static const char name[] = "start";
+    ps_begun first = {false, false, 0};
+    ps_begun *const begun = phases->begun != NULL ? phases->begun : &first;
+    ps_phases_add(phases, name, PS_HOST_START, begun->program ? 0 : 1);
+    begun->program = true;
+    ps_phases_say(phases, name, "libraries");
+    if (chosen != NULL && chosen->engine->needs_device) {
+        const unsigned bit = bit_of(chosen->engine);
+        const bool is_there = (begun->engines & bit) != 0;
+        ps_phases_add(phases, name, PS_HOST_DRIVER, begun->driver ? 0 : 1);
+        ps_phases_add(phases, name, PS_HOST_KERNEL, is_there ? 0 : chosen->kernels);
+        ps_phases_say(phases, name, "driver and kernels, which the driver's cache has");
+        begun->driver = true;
+        begun->engines |= bit;
+    }
+}
+
+/* ---- parts --------------------------------------------------------------------------------- */
+
+/* Realizations, and points of all of them. */
+typedef struct amounts {
+    double sets, points;
+} amounts;
+
+static amounts add_points(const ps_power_job *job, ps_phases *phases) {
+    const ps_power_question *const question = job->question;
+    const double each = job->num_points > 0 ? (double)job->num_points : 1;
+    amounts out;
+    if (question->sampler != NULL) {
+        out.sets = job->problem.num_realizations > 0 ? (double)job->problem.num_realizations : 1;
+        out.points = out.sets * each;
+        ps_phases_sample(phases, &job->request, out.sets);
+    } else {
+        const bool has_weights = job->sets.next.has_weights;
+        out.points =
+            ps_phases_read(phases, question->paths, question->num_paths,
+                           question->point_options.format, job->dimension + (has_weights ? 1 : 0));
+        out.sets = fmax(1, nearbyint(out.points / each));
+        out.points = out.sets * each;
+    }
+    const bool is_checked = question->on_sphere || job->problem.has_weights;
+    ps_phases_add(phases, "points", PS_HOST_CHECK_POINTS, is_checked ? out.points : 0);
+    return out;
+}
+
+static void add_frequencies(const ps_power_job *job, ps_phases *phases) {
+    static const char name[] = "frequencies";
+    const ps_frequencies *const set = &job->frequencies;
+    const double num = (double)set->num;
+    if (set->kind == PS_FREQUENCIES_DEGREES) {
+        return;
+    }
+    ps_phases_add(phases, name,
+                  set->kind == PS_FREQUENCIES_LIST ? PS_HOST_LISTED : PS_HOST_FREQUENCY, num);
+    if (job->question->per_ring >
+        0) { /* rings are counted axis by axis: frequencies/frequency_sample.h */
+        const double k = set->max_frequency;
+        ps_phases_add(phases, name, PS_HOST_COUNT, job->dimension * k * k * k);
+    }
+    ps_phases_say(phases, name, "%.4g of them, and their rings", num);
+}
+
+static void add_check(const ps_power_job *job, ps_phases *phases) {
+    bool is_of_degrees = false;
+    if (job->question->no_self_check) {
+        return;
+    }
+    const double terms = ps_self_check_count(&job->frequencies, job->num_points, &is_of_degrees);
+    ps_phases_add(phases, "self-check", is_of_degrees ? PS_HOST_REFEREE_DEGREE : PS_HOST_REFEREE,
+                  terms);
+    ps_phases_say(phases, "self-check", "%.3g terms in long double", terms);
+}
+
+static void add_averages(const ps_power_job *job, const amounts *all, ps_phases *phases) {
+    const double num = (double)job->frequencies.num;
+    ps_phases_add(phases, "averages", PS_HOST_ACCUMULATE, num * all->sets);
+    if (job->question->wants_pair_sums) {
+        ps_phases_add(phases, "averages", PS_HOST_ZONAL,
+                      all->points * job->frequencies.max_frequency);
+    }
+    ps_phases_say(phases, "averages", "%.4g powers of %.4g realizations", num, all->sets);
+}
+
+/* The whole array has its corners and both signs. */
+static void add_results(const ps_power_job *job, ps_phases *phases) {
+    const ps_power_question *const question = job->question;
+    const double k = job->frequencies.max_frequency;
+    const double side = 2 * k + 1;
+    ps_phases_add(phases, "results", PS_HOST_ROW, k);
+    if (question->wants_full_array && !question->on_sphere) {
+        ps_phases_add(phases, "results", PS_HOST_ARRAY, pow(side, job->dimension));
+    }
+    if (question->harmonics != PS_NO_HARMONICS) {
+        ps_phases_add(phases, "results", PS_HOST_ARRAY, (k + 1) * (k + 2) / 2);
+    }
+    ps_phases_say(phases, "results", "tables and arrays");
+}
+
+/* Engines are measured on sets that stay in caches; these do not, where they lie in no order (measured: 1e6 white points of
+ * the sphere, L = 64 .. 1000; on the torus there is no such difference). */
+static double scattered_points(const ps_power_job *job, const amounts *all) {
+    enum { MANY_POINTS = 1 << 18, MANY_DEGREES = 300 };
+    const bool is_large = job->question->on_sphere && job->num_points >= MANY_POINTS &&
+                          job->frequencies.max_frequency >= MANY_DEGREES;
+    return is_large ? all->points : 0;
+}
+
+double ps_power_job_phases(const ps_power_job *job, ps_phases *phases) {
+    const ps_candidate *const chosen = job->plan.chosen;
+    const bool is_known = job->problem.num_realizations > 0;
+    ps_phases_start(phases, chosen);
+    const amounts all = add_points(job, phases);
+    const double repeats = is_known ? 1 : all.sets;
+    add_frequencies(job, phases);
+    if (chosen != NULL) {
+        const bool is_on_device = chosen->engine->needs_device;
+        ps_phases_add_seconds(
+            phases, "powers",
+            chosen->seconds * repeats *
+                (is_on_device ? 1 : ps_host_referee_scale(phases->host, job->question->on_sphere)));
+        ps_phases_touch(phases, chosen->bytes);
+        ps_phases_add(phases, "powers", PS_HOST_SCATTER, scattered_points(job, &all));
+        ps_phases_say(phases, "powers", "%s in %s precision", chosen->engine->name,
+                      ps_precision_name(chosen->precision));
+    }
+    add_averages(job, &all, phases);
+    add_check(job, phases);
+    add_results(job, phases);
+    return repeats;
+}

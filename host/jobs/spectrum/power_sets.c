@@ -1,0 +1,191 @@
+#include "jobs/spectrum/power_sets.h"
+
+#include "base/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static void free_batch(ps_power_sets *sets) {
+    for (size_t i = 0; i < sets->capacity; i++) {
+        ps_point_set_free(&sets->sets[i]);
+    }
+    free(sets->sets);
+    free(sets->patterns);
+    sets->sets = NULL;
+    sets->patterns = NULL;
+    sets->capacity = 0;
+}
+
+void ps_power_sets_free(ps_power_sets *sets) {
+    ps_source_destroy(sets->source);
+    ps_point_set_free(&sets->next);
+    free_batch(sets);
+    free(sets->weights);
+    *sets = (ps_power_sets){0};
+}
+
+pspec_status ps_power_sets_read_weights(ps_power_sets *sets, const char *path, uint64_t num_points,
+                                        ps_error *error) {
+    sets->weights_path = path;
+    return ps_read_weights(path, num_points, &sets->weights, &sets->num_weights, error);
+}
+
+pspec_status ps_power_sets_allocate(ps_power_sets *sets, size_t capacity, ps_error *error) {
+    void *memory = NULL;
+    free_batch(sets);
+    if (!sets->has_next) { /* of the run before: a job that plans again would have one set more than announced */
+        ps_point_set_free(&sets->next);
+    }
+    PS_TRY(ps_allocate(&memory, capacity, sizeof(pspec_pattern), "patterns", error));
+    sets->patterns = memory;
+    PS_TRY(ps_allocate(&memory, capacity, sizeof(ps_point_set), "patterns", error));
+    sets->sets = memory;
+    sets->capacity = capacity;
+    return PSPEC_OK;
+}
+
+pspec_status ps_power_sets_rewind(ps_power_sets *sets, ps_error *error) {
+    sets->has_next = false;
+    return ps_source_rewind(sets->source, error);
+}
+
+pspec_status ps_power_sets_peek(ps_power_sets *sets, bool *has_set, ps_error *error) {
+    if (!sets->has_next) {
+        sets->used = 0;
+        PS_TRY(ps_source_next(sets->source, &sets->next, &sets->part, &sets->has_next, error));
+    }
+    *has_set = sets->has_next;
+    return PSPEC_OK;
+}
+
+uint64_t ps_power_sets_next_points(const ps_power_sets *sets) {
+    return sets->part.is_whole ? sets->next.num_points : sets->part.count.num_points;
+}
+
+/* ---- sets in memory ---------------------------------------------------------------------- */
+
+static pspec_status check_weights(const ps_power_sets *sets, uint64_t num_points, ps_error *error) {
+    return sets->weights == NULL || sets->num_weights == num_points
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INPUT,
+                         "\"%s\" holds %zu weights, but a set has %llu points", sets->weights_path,
+                         sets->num_weights, (unsigned long long)num_points);
+}
+
+/* Points first .. end - 1 of a set, of which number `first` is that of the whole set's point `position`. */
+static pspec_pattern show(const ps_power_sets *sets, const ps_point_set *set, size_t first,
+                          size_t end, uint64_t position) {
+    const double *const own = set->has_weights ? set->weights + first : NULL;
+    return (pspec_pattern){set->dimension, end - first, set->points + first * set->dimension,
+                           sets->weights != NULL ? sets->weights + position : own};
+}
+
+static void exchange(ps_point_set *a, ps_point_set *b) {
+    const ps_point_set kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
+/* The next set becomes number `at` of the batch. */
+static pspec_status take_next(ps_power_sets *sets, size_t at, ps_error *error) {
+    ps_point_set *const set = &sets->sets[at];
+    exchange(set, &sets->next);
+    sets->has_next = false;
+    sets->patterns[at] = show(sets, set, 0, set->num_points, 0);
+    return check_weights(sets, set->num_points, error);
+}
+
+/* Of a set that is too large, all the same, for engines that want it whole. */
+static pspec_status load_next(ps_power_sets *sets, ps_error *error) {
+    return ps_source_more(sets->source, &sets->next, SIZE_MAX, &sets->part.is_whole, error);
+}
+
+/* A batch, up to the next set that comes in blocks. */
+static pspec_status fill_batch(ps_power_sets *sets, bool can_stream, uint64_t most, size_t *num,
+                               ps_error *error) {
+    for (*num = 0; *num < sets->capacity && *num < most; (*num)++) {
+        bool has_set = false;
+        if (!sets->has_next) { /* read to where it will stay */
+            exchange(&sets->next, &sets->sets[*num]);
+        }
+        PS_TRY(ps_power_sets_peek(sets, &has_set, error));
+        if (!has_set || (!sets->part.is_whole && can_stream)) {
+            return PSPEC_OK;
+        }
+        if (!sets->part.is_whole) {
+            PS_TRY(load_next(sets, error));
+        }
+        PS_TRY(take_next(sets, *num, error));
+    }
+    return PSPEC_OK;
+}
+
+/* ---- sets in blocks ---------------------------------------------------------------------- */
+
+static void drop_points(ps_point_set *set, size_t num) {
+    set->num_points -= num;
+    if (num > 0) {
+        memmove(set->points, set->points + num * set->dimension,
+                set->num_points * set->dimension * sizeof(double));
+    }
+    if (num > 0 && set->has_weights) {
+        memmove(set->weights, set->weights + num, set->num_points * sizeof(double));
+    }
+}
+
+/* What the last block left over comes first. */
+static pspec_status next_block(void *payload, size_t unit, pspec_pattern *block, ps_error *error) {
+    ps_power_sets *const sets = payload;
+    ps_point_set *const set = &sets->next;
+    const size_t room =
+        sets->part.block_points > unit ? sets->part.block_points / unit * unit : unit;
+    const size_t left = set->num_points - sets->used;
+    bool ends = left >= room;
+    drop_points(set, sets->used);
+    if (!ends) {
+        PS_TRY(ps_source_more(sets->source, set, room - left, &ends, error));
+    }
+    sets->used = set->num_points < room ? set->num_points : room;
+    if (sets->num_streamed + sets->used > sets->part.count.num_points) {
+        sets->used = 0; /* more than were counted: the estimator will say so */
+    }
+    *block = show(sets, set, 0, sets->used, sets->num_streamed);
+    sets->num_streamed += sets->used;
+    return PSPEC_OK;
+}
+
+/* The weights of a file of their own are counted here. */
+static pspec_status sum_next(ps_power_sets *sets, pspec_normalization normalization,
+                             ps_pattern_sums *sums, ps_error *error) {
+    ps_pattern_count count = sets->part.count;
+    if (sets->weights != NULL) {
+        count = (ps_pattern_count){.realization = count.realization};
+        PS_TRY(ps_pattern_count_weights(&count, sets->weights, sets->num_weights, error));
+    }
+    return ps_pattern_count_finish(&count, normalization, sums, error);
+}
+
+static pspec_status stream_next(ps_power_sets *sets, ps_estimator *estimator,
+                                pspec_normalization normalization, ps_error *error) {
+    ps_pattern_stream stream = {.dimension = sets->next.dimension,
+                                .num_points = sets->part.count.num_points,
+                                .next = next_block,
+                                .payload = sets};
+    PS_TRY(check_weights(sets, stream.num_points, error));
+    PS_TRY(sum_next(sets, normalization, &stream.sums, error));
+    sets->num_streamed = 0;
+    PS_TRY(ps_estimator_add_stream(estimator, &stream, error));
+    sets->has_next = false;
+    return PSPEC_OK;
+}
+
+pspec_status ps_power_sets_give(ps_power_sets *sets, ps_estimator *estimator,
+                                pspec_normalization normalization, uint64_t most, size_t *num,
+                                ps_error *error) {
+    PS_TRY(fill_batch(sets, ps_estimator_can_stream(estimator), most, num, error));
+    if (*num == 0 && sets->has_next) {
+        *num = 1;
+        return stream_next(sets, estimator, normalization, error);
+    }
+    return ps_estimator_add(estimator, sets->patterns, *num, error);
+}

@@ -1,0 +1,44 @@
+/* The point sets of a power job on their way from the source to the estimator: batches of sets that are in
+ * memory, and sets that are not, in blocks.
+ */
+#ifndef PS_JOBS_SPECTRUM_POWER_SETS_H
+#define PS_JOBS_SPECTRUM_POWER_SETS_H
+
+#include "jobs/parts/estimator.h"
+#include "jobs/parts/source.h"
+
+typedef struct ps_power_sets {
+    ps_source *source;        /* owned */
+    const char *weights_path; /* NULL: none; the same weights for every set */
+    double *weights;
+    size_t num_weights;
+    ps_point_set next; /* read, but not yet taken: a set or the first block of one */
+    ps_source_part part;
+    bool has_next;
+    ps_point_set *sets; /* [capacity] a batch */
+    pspec_pattern *patterns;
+    size_t capacity;
+    size_t used; /* points of next that the estimator has had */
+    uint64_t num_streamed;
+} ps_power_sets;
+
+void ps_power_sets_free(ps_power_sets *sets);
+pspec_status ps_power_sets_read_weights(ps_power_sets *sets, const char *path, uint64_t num_points,
+                                        ps_error *error) PS_MUST_CHECK;
+/* Room for batches of so many. */
+pspec_status ps_power_sets_allocate(ps_power_sets *sets, size_t capacity,
+                                    ps_error *error) PS_MUST_CHECK;
+/* Back to the first set. */
+pspec_status ps_power_sets_rewind(ps_power_sets *sets, ps_error *error) PS_MUST_CHECK;
+
+/* Reads ahead: *has_set tells whether sets->next is a set, which sets->part describes. */
+pspec_status ps_power_sets_peek(ps_power_sets *sets, bool *has_set, ps_error *error) PS_MUST_CHECK;
+uint64_t ps_power_sets_next_points(const ps_power_sets *sets);
+
+/* Gives the estimator the next batch, of `most` sets at most, or the next set if that is too large for one; *num sets
+ * were given, 0 at the end. */
+pspec_status ps_power_sets_give(ps_power_sets *sets, ps_estimator *estimator,
+                                pspec_normalization normalization, uint64_t most, size_t *num,
+                                ps_error *error) PS_MUST_CHECK;
+
+#endif

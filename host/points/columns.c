@@ -1,0 +1,231 @@
+#include "points/columns.h"
+
+#include <string.h>
+
+typedef struct named_layout {
+    const char *name;
+    unsigned columns;
+    ps_angle_order angles;
+    bool has_weight;
+} named_layout;
+
+/* In the order of PS_POINT_COLUMNS. */
+static const named_layout named[] = {
+    {"xy", 2, PS_NO_ANGLES, false},        {"xyw", 3, PS_NO_ANGLES, true},
+    {"xyz", 3, PS_NO_ANGLES, false},       {"xyzw", 4, PS_NO_ANGLES, true},
+    {"theta-phi", 2, PS_THETA_PHI, false}, {"theta-phi-w", 3, PS_THETA_PHI, true},
+    {"phi-theta", 2, PS_PHI_THETA, false}, {"phi-theta-w", 3, PS_PHI_THETA, true},
+    {"lon-lat", 2, PS_LON_LAT, false},     {"lon-lat-w", 3, PS_LON_LAT, true},
+};
+enum { NUM_NAMED = sizeof named / sizeof named[0] };
+
+static const named_layout *find_named(const char *name) {
+    for (size_t i = 0; i < NUM_NAMED; i++) {
+        if (strcmp(named[i].name, name) == 0) {
+            return &named[i];
+        }
+    }
+    return NULL;
+}
+
+unsigned ps_layout_columns(const ps_layout *layout) {
+    const unsigned numbers = layout->angles != PS_NO_ANGLES ? 2 : layout->dimension;
+    return numbers + layout->has_weight_column;
+}
+
+const char *ps_layout_name(const ps_layout *layout) {
+    static const char *const torus[2][PS_MAX_DIMENSION] = {
+        {"x", "xy", "xyz", "x1..x4", "x1..x5", "x1..x6"},
+        {"xw", "xyw", "xyzw", "x1..x4 w", "x1..x5 w", "x1..x6 w"}};
+    if (layout->coordinates == PS_TORUS_COORDINATES) {
+        return torus[layout->has_weight_column][layout->dimension - 1];
+    }
+    if (layout->angles == PS_NO_ANGLES) {
+        return layout->has_weight_column ? "xyzw, unit vectors" : "xyz, unit vectors";
+    }
+    for (size_t i = 0; i < NUM_NAMED; i++) {
+        if (named[i].angles == layout->angles && named[i].has_weight == layout->has_weight_column) {
+            return named[i].name;
+        }
+    }
+    return "";
+}
+
+bool ps_layout_is_plain(const ps_layout *layout) {
+    return !layout->has_weight_column &&
+           (layout->angles == PS_NO_ANGLES ||
+            (layout->coordinates == PS_ANGLES && layout->angles == PS_THETA_PHI));
+}
+
+/* ---- which columns mean what ------------------------------------------------------------- */
+
+static pspec_status set_torus(ps_layout *out, const ps_columns_question *question, bool has_weight,
+                              ps_error *error) {
+    const unsigned asked = question->options->dimension;
+    const unsigned columns = question->columns;
+    if (columns <= has_weight) {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "%s: 1 column; with a weight column there must be at least 2",
+                       question->where);
+    }
+    if (columns - has_weight > PS_MAX_DIMENSION) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s: %u columns%s; at most %d dimensions are read",
+                       question->where, columns, has_weight ? ", one of them the weight" : "",
+                       PS_MAX_DIMENSION);
+    }
+    *out = (ps_layout){.dimension = columns - has_weight, .has_weight_column = has_weight};
+    if (asked != 0 && out->dimension != asked) {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "%s: %u column%s%s, but the dimension asked for is %u%s", question->where,
+                       columns, columns > 1 ? "s" : "",
+                       has_weight ? ", one of them the weight" : "", asked,
+                       columns == asked + 1 && !has_weight ? " (is the last one a weight?)" : "");
+    }
+    return PSPEC_OK;
+}
+
+static void set_sphere(ps_layout *out, ps_angle_order angles, bool has_weight, bool keep_angles) {
+    const bool are_angles = angles != PS_NO_ANGLES && keep_angles;
+    *out = (ps_layout){.coordinates = are_angles ? PS_ANGLES : PS_UNIT_VECTORS,
+                       .dimension = are_angles ? 2 : 3,
+                       .angles = angles,
+                       .has_weight_column = has_weight};
+}
+
+static pspec_status check_named(const ps_columns_question *question, const named_layout *layout,
+                                ps_error *error) {
+    const ps_point_options *options = question->options;
+    if (layout->columns != question->columns) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s: %u column%s, but %s means %u",
+                       question->where, question->columns, question->columns == 1 ? "" : "s",
+                       layout->name, layout->columns);
+    }
+    if (options->weight_column && !layout->has_weight) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s: columns %s have no weight column",
+                       question->where, layout->name);
+    }
+    if (layout->angles != PS_NO_ANGLES && options->domain == PS_DOMAIN_TORUS) {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "%s: columns %s are points of the sphere; this is about the torus",
+                       question->where, layout->name);
+    }
+    if (layout->columns - layout->has_weight == 2 && layout->angles == PS_NO_ANGLES &&
+        options->domain == PS_DOMAIN_SPHERE) {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "%s: columns %s are points of the torus; this is about the sphere",
+                       question->where, layout->name);
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status resolve_named(ps_layout *out, const ps_columns_question *question,
+                                  const named_layout *layout, ps_error *error) {
+    const ps_point_options *options = question->options;
+    PS_TRY(check_named(question, layout, error));
+    const bool may_be_vectors = layout->columns - layout->has_weight == 3 &&
+                                (options->domain == PS_DOMAIN_SPHERE ||
+                                 (options->domain == PS_DOMAIN_ANY && options->dimension == 0));
+    const bool are_vectors =
+        may_be_vectors && (options->domain == PS_DOMAIN_SPHERE || options->normalize_vectors ||
+                           ps_is_unit_vector(question->first));
+    if (layout->angles == PS_NO_ANGLES && !are_vectors) {
+        return set_torus(out, question, layout->has_weight, error);
+    }
+    set_sphere(out, layout->angles, layout->has_weight, options->keep_angles);
+    return PSPEC_OK;
+}
+
+/* Three columns are a vector, four a vector and its weight. */
+static pspec_status resolve_sphere(ps_layout *out, const ps_columns_question *question,
+                                   ps_error *error) {
+    const unsigned columns = question->columns;
+    if (columns == 3U + question->options->weight_column || columns == 4) {
+        set_sphere(out, PS_NO_ANGLES, columns == 4, false);
+        return PSPEC_OK;
+    }
+    if (columns == 2 || columns == 3) {
+        const char *const weight = columns == 3 ? "-w" : "";
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "%s: %u columns; which angles are they? --columns theta-phi%s, phi-theta%s "
+                       "or lon-lat%s",
+                       question->where, columns, weight, weight, weight);
+    }
+    return ps_fail(error, PSPEC_ERROR_INPUT, "%s: %u column%s; points of the sphere have 2 to 4",
+                   question->where, columns, columns == 1 ? "" : "s");
+}
+
+/* Rows of three or four numbers that begin with a unit vector (a random point of the torus does so
+ * once in a million). */
+static bool looks_like_sphere(const ps_columns_question *question) {
+    const ps_point_options *options = question->options;
+    const bool has_vector =
+        question->columns == 3 + (unsigned)options->weight_column || question->columns == 4;
+    return options->dimension == 0 && has_vector && !options->wrap &&
+           (options->normalize_vectors || ps_is_unit_vector(question->first));
+}
+
+/* Directions taken mod 1 would be points of no meaning. */
+static pspec_status check_wrap(const ps_columns_question *question, ps_error *error) {
+    const ps_point_options *options = question->options;
+    const double *const first = question->first;
+    bool is_inside = true;
+    for (unsigned j = 0; j < question->columns && j < 3; j++) {
+        is_inside = is_inside && first[j] >= 0 && first[j] < 1;
+    }
+    return options->wrap && options->dimension == 0 && question->columns >= 3 && !is_inside &&
+                   ps_is_unit_vector(first)
+               ? ps_fail(error, PSPEC_ERROR_INPUT,
+                         "%s: a unit vector? --wrap is about points of the torus; -d %u says that "
+                         "this is one",
+                         question->where, question->columns - options->weight_column)
+               : PSPEC_OK;
+}
+
+pspec_status ps_columns_resolve(ps_layout *out, const ps_columns_question *question,
+                                ps_error *error) {
+    const ps_point_options *options = question->options;
+    const char *name = options->columns != NULL ? options->columns : question->own;
+    if (name != NULL) {
+        const named_layout *layout = find_named(name);
+        if (layout == NULL) {
+            return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                           "columns \"%s\" are none of " PS_POINT_COLUMNS, name);
+        }
+        PS_TRY(resolve_named(out, question, layout, error));
+    } else if (options->domain == PS_DOMAIN_SPHERE ||
+               (options->domain == PS_DOMAIN_ANY && looks_like_sphere(question))) {
+        PS_TRY(resolve_sphere(out, question, error));
+    } else {
+        PS_TRY(check_wrap(question, error));
+        PS_TRY(set_torus(out, question, options->weight_column, error));
+    }
+    out->drops_weight = options->ignore_weights;
+    return PSPEC_OK;
+}
+
+pspec_status ps_columns_for_writing(ps_layout *out, const ps_point_shape *shape, ps_error *error) {
+    *out = (ps_layout){.coordinates = shape->coordinates,
+                       .dimension = shape->dimension,
+                       .angles = shape->coordinates == PS_ANGLES ? PS_THETA_PHI : PS_NO_ANGLES,
+                       .has_weight_column = shape->has_weights};
+    if (shape->columns == NULL) {
+        return PSPEC_OK;
+    }
+    const named_layout *layout = find_named(shape->columns);
+    if (layout == NULL || layout->columns - layout->has_weight + (layout->angles != 0) != 3) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "columns \"%s\" are not a way to write points of the sphere",
+                       shape->columns);
+    }
+    if (shape->coordinates == PS_TORUS_COORDINATES) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "columns %s are for points of the sphere; these are of the torus",
+                       shape->columns);
+    }
+    if (layout->has_weight && !shape->has_weights) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "columns %s need weights, and these points have none", shape->columns);
+    }
+    set_sphere(out, layout->angles, shape->has_weights, true);
+    return PSPEC_OK;
+}

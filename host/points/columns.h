@@ -1,0 +1,70 @@
+/* From the columns of a file to points, and back: which columns are coordinates, which are angles,
+ * which one is the weight. Private to host/io. */
+#ifndef PS_POINTS_COLUMNS_H
+#define PS_POINTS_COLUMNS_H
+
+#include "points/points.h"
+
+enum { PS_MAX_DIMENSION = 6, PS_MAX_COLUMNS = PS_MAX_DIMENSION + 1 };
+
+typedef enum ps_angle_order {
+    PS_NO_ANGLES = 0,
+    PS_THETA_PHI,
+    PS_PHI_THETA,
+    PS_LON_LAT /* degrees */
+} ps_angle_order;
+
+/* Columns of a row: coordinates or angles first, then perhaps the weight. */
+typedef struct ps_layout {
+    ps_coordinates coordinates; /* of the points that come out of the rows, or go into them */
+    unsigned dimension;
+    ps_angle_order angles; /* how the rows hold directions, if not as vectors */
+    bool has_weight_column;
+    bool drops_weight;
+} ps_layout;
+
+/* The facts that decide about the layout of a file. */
+typedef struct ps_columns_question {
+    const char *where;   /* "FILE" or "FILE, line 3" */
+    unsigned columns;    /* of a row */
+    const char *own;     /* layout that the format prescribes, or NULL */
+    const double *first; /* the first row */
+    const ps_point_options *options;
+} ps_columns_question;
+
+pspec_status ps_columns_resolve(ps_layout *out, const ps_columns_question *question,
+                                ps_error *error) PS_MUST_CHECK;
+
+/* The layout of rows to be written; columns NULL: as the coordinates are. */
+pspec_status ps_columns_for_writing(ps_layout *out, const ps_point_shape *shape,
+                                    ps_error *error) PS_MUST_CHECK;
+
+/* Has it length 1, within 1e-6? */
+bool ps_is_unit_vector(const double *vector);
+
+/* Columns of a row in this layout. */
+unsigned ps_layout_columns(const ps_layout *layout);
+/* "xy", "xyzw", "theta-phi", "x1..x4": static storage. */
+const char *ps_layout_name(const ps_layout *layout);
+/* Are rows points as they stand? */
+bool ps_layout_is_plain(const ps_layout *layout);
+
+/* Takes num rows apart: points and weights (weights may be NULL) get num entries. */
+void ps_columns_split(const ps_layout *layout, const double *rows, size_t num, double *points,
+                      double *weights);
+/* The other way round. source: what the points are. */
+void ps_columns_join(const ps_layout *layout, ps_coordinates source, const double *points,
+                     const double *weights, size_t num, double *rows);
+
+/* Checks num points that came out of rows; wraps and normalizes them as options say. Returns the
+ * number of the first bad point, or num. */
+size_t ps_columns_accept(const ps_layout *layout, const ps_point_options *options,
+                         const double *rows, double *points, size_t num);
+/* The same for weights, which must be finite. */
+size_t ps_weights_accept(const double *weights, size_t num);
+
+/* The sentence for a row whose point or weight was not accepted. */
+pspec_status ps_columns_refuse(const ps_layout *layout, const ps_point_options *options,
+                               const char *where, const double *row, ps_error *error);
+
+#endif

@@ -1,0 +1,265 @@
+#include "points/columns.h"
+
+#include "base/wide.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Vectors this near to length 1 are unit vectors that somebody printed with few digits. The square
+ * of the length is compared. */
+static const double UNIT_TOLERANCE = 2e-6;
+/* Angles may exceed their range by what rounding to 7 digits does. */
+static const double ANGLE_SLACK = 1e-6;
+
+static const double PI = 3.14159265358979323846;
+
+static double square_length(const double *vector) {
+    return vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2];
+}
+
+bool ps_is_unit_vector(const double *vector) {
+    return fabs(square_length(vector) - 1) <= UNIT_TOLERANCE;
+}
+
+/* ---- what is accepted -------------------------------------------------------------------- */
+
+/* Reduces *coordinate mod 1 to [0,1); false when it is not finite. */
+static bool wrap(double *coordinate) {
+    if (!isfinite(*coordinate)) {
+        return false;
+    }
+    const double reduced = *coordinate - floor(*coordinate);
+    *coordinate = reduced < 1 ? reduced : 0; /* -1e-20 rounds to 1, which is 0 on the torus */
+    return true;
+}
+
+/* Are all values in [0,1)? In that range bits grow with the number, so the sign of a difference of
+ * whole numbers tells, and compilers make vectors of that; -0 counts as bad here. */
+PS_WIDE_BODY(bool, are_inside, (const double *values, size_t count)) {
+    const uint64_t last_inside = 0x3FEFFFFFFFFFFFFF; /* the largest double below 1 */
+    uint64_t signs = 0;
+    for (size_t i = 0; i < count; i++) {
+        uint64_t bits = 0;
+        memcpy(&bits, values + i, sizeof bits);
+        signs |= bits | (last_inside - bits);
+    }
+    return signs >> 63 == 0;
+}
+PS_WIDE(bool, are_inside, (const double *values, size_t count), (values, count))
+
+/* Nearly always all are good. */
+static size_t accept_torus(unsigned dimension, bool wraps, double *values, size_t num) {
+    const size_t count = num * dimension;
+    const bool are_good = are_inside(values, count);
+    for (size_t i = 0; !are_good && i < count; i++) {
+        const bool is_inside = values[i] >= 0 && values[i] < 1;
+        if (!is_inside && !(wraps && wrap(&values[i]))) {
+            return i / dimension;
+        }
+    }
+    return num;
+}
+
+/* Divides a vector by its length; what is a unit vector to the last bits stays as it is. */
+static bool normalize(double *vector) {
+    const double rounding = 4 * 2.220446049250313e-16;
+    double largest = 0;
+    if (fabs(square_length(vector) - 1) <= rounding) {
+        return true;
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        if (!isfinite(vector[axis])) {
+            return false;
+        }
+        largest = fmax(largest, fabs(vector[axis]));
+    }
+    if (largest == 0) {
+        return false;
+    }
+    int exponent = 0;
+    frexp(largest, &exponent); /* so that no square overflows or vanishes */
+    for (int axis = 0; axis < 3; axis++) {
+        vector[axis] = ldexp(vector[axis], -exponent);
+    }
+    const double length = sqrt(square_length(vector));
+    for (int axis = 0; axis < 3; axis++) {
+        vector[axis] /= length;
+    }
+    return true;
+}
+
+static size_t accept_vectors(bool normalizes, double *vectors, size_t num) {
+    for (size_t i = 0; i < num; i++) {
+        if (normalizes ? !normalize(vectors + 3 * i) : !ps_is_unit_vector(vectors + 3 * i)) {
+            return i;
+        }
+    }
+    return num;
+}
+
+/* theta or the latitude, and phi or the longitude, within their ranges. */
+static bool are_angles(ps_angle_order order, const double *row) {
+    if (order == PS_LON_LAT) {
+        return fabs(row[0]) <= 360 + ANGLE_SLACK && fabs(row[1]) <= 90 + ANGLE_SLACK;
+    }
+    const double theta = row[order == PS_PHI_THETA];
+    const double phi = row[order != PS_PHI_THETA];
+    return theta >= -ANGLE_SLACK && theta <= PI + ANGLE_SLACK && fabs(phi) <= 2 * PI + ANGLE_SLACK;
+}
+
+/* Of a row on the sphere. */
+static bool is_below_horizon(const ps_layout *layout, const double *row) {
+    switch (layout->angles) {
+    case PS_LON_LAT:
+        return row[1] < 0;
+    case PS_THETA_PHI:
+    case PS_PHI_THETA:
+        return cos(row[layout->angles == PS_PHI_THETA]) < 0;
+    case PS_NO_ANGLES:
+        break;
+    }
+    return row[2] < 0;
+}
+
+static size_t accept_sphere(const ps_layout *layout, const ps_point_options *options,
+                            const double *rows, double *points, size_t num) {
+    const unsigned columns = ps_layout_columns(layout);
+    if (layout->angles == PS_NO_ANGLES) {
+        return accept_vectors(options->normalize_vectors, points, num);
+    }
+    for (size_t i = 0; i < num; i++) {
+        if (!are_angles(layout->angles, rows + i * columns)) {
+            return i;
+        }
+    }
+    return num;
+}
+
+size_t ps_columns_accept(const ps_layout *layout, const ps_point_options *options,
+                         const double *rows, double *points, size_t num) {
+    if (layout->coordinates == PS_TORUS_COORDINATES) {
+        return accept_torus(layout->dimension, options->wrap, points, num);
+    }
+    const size_t good = accept_sphere(layout, options, rows, points, num);
+    for (size_t i = 0; options->above_horizon && i < good; i++) {
+        if (is_below_horizon(layout, rows + i * ps_layout_columns(layout))) {
+            return i;
+        }
+    }
+    return good;
+}
+
+size_t ps_weights_accept(const double *weights, size_t num) {
+    size_t i = 0;
+    while (i < num && isfinite(weights[i])) {
+        i++;
+    }
+    return i;
+}
+
+/* ---- what is not ------------------------------------------------------------------------- */
+
+enum { NUMBER_BYTES = 32 };
+
+/* The shortest text that gives the number back. */
+static const char *show_number(char text[NUMBER_BYTES], double value) {
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf(text, NUMBER_BYTES, "%.*g", digits, value);
+        double back = 0;
+        if (sscanf(text, "%lf", &back) == 1 && back == value) {
+            break;
+        }
+    }
+    return text;
+}
+
+/* Within a period of the torus: what lies further out is hardly a point that left it, and reduced it says nothing. */
+static bool is_near(double coordinate) {
+    return coordinate >= -1 && coordinate < 2;
+}
+
+static pspec_status refuse_torus(const ps_layout *layout, const ps_point_options *options,
+                                 const char *where, const double *row, ps_error *error) {
+    char text[NUMBER_BYTES];
+    for (unsigned j = 0; j < layout->dimension; j++) { /* first, for nothing else would help */
+        if (!isfinite(row[j])) {
+            return ps_fail(error, PSPEC_ERROR_INPUT, "%s: coordinate %s is not a finite number",
+                           where, show_number(text, row[j]));
+        }
+    }
+    for (unsigned j = 0; j < layout->dimension; j++) {
+        const bool is_inside = row[j] >= 0 && row[j] < 1;
+        if (!is_inside && !options->wrap) {
+            const bool is_vector = layout->dimension >= 3 && ps_is_unit_vector(row);
+            const bool may_be_weight = j > 0 && j + 1 == layout->dimension &&
+                                       !layout->has_weight_column && options->dimension == 0;
+            return ps_fail(error, PSPEC_ERROR_INPUT, "%s: coordinate %s is outside [0,1); %s%s",
+                           where, show_number(text, row[j]),
+                           is_vector         ? "a unit vector? Points of the torus are meant here"
+                           : is_near(row[j]) ? "--wrap would reduce it mod 1"
+                                             : "in other units? Divide them by the period",
+                           may_be_weight && !is_vector ? " (a weight? --weights column)" : "");
+        }
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status refuse_vector(const ps_point_options *options, const char *where,
+                                  const double *row, ps_error *error) {
+    char text[3][NUMBER_BYTES];
+    for (int axis = 0; axis < 3; axis++) {
+        show_number(text[axis], row[axis]);
+    }
+    double vector[3] = {row[0], row[1], row[2]};
+    const bool has_direction = normalize(vector);
+    return ps_fail(error, PSPEC_ERROR_INPUT, "%s: (%s, %s, %s) %s%s", where, text[0], text[1],
+                   text[2],
+                   has_direction ? "is not a unit vector; --normalize-vectors would divide it by "
+                                   "its length"
+                                 : "has no direction",
+                   has_direction && options->domain == PS_DOMAIN_ANY
+                       ? "; for points of the torus say --domain torus"
+                       : "");
+}
+
+static pspec_status refuse_angles(const ps_layout *layout, const ps_point_options *options,
+                                  const char *where, const double *row, ps_error *error) {
+    char text[2][NUMBER_BYTES];
+    const bool was_guessed = options->format == NULL && options->columns == NULL;
+    return ps_fail(error, PSPEC_ERROR_INPUT, "%s: %s, %s are not %s%s", where,
+                   show_number(text[0], row[0]), show_number(text[1], row[1]),
+                   layout->angles == PS_LON_LAT
+                       ? "longitude and latitude in degrees (up to 360 and 90)"
+                   : layout->angles == PS_THETA_PHI ? "theta (0 to pi) and phi (up to 2 pi)"
+                                                    : "phi (up to 2 pi) and theta (0 to pi)",
+                   was_guessed ? "; an array (2, N) or (3, N) is taken for rows of angles: "
+                                 "transpose it where its rows are x, y, z"
+                               : "");
+}
+
+pspec_status ps_columns_refuse(const ps_layout *layout, const ps_point_options *options,
+                               const char *where, const double *row, ps_error *error) {
+    if (layout->coordinates == PS_TORUS_COORDINATES) {
+        PS_TRY(refuse_torus(layout, options, where, row, error));
+    } else if (layout->angles != PS_NO_ANGLES && !are_angles(layout->angles, row)) {
+        return refuse_angles(layout, options, where, row, error);
+    } else if (layout->angles == PS_NO_ANGLES) {
+        double vector[3] = {row[0], row[1], row[2]};
+        if (accept_vectors(options->normalize_vectors, vector, 1) == 0) {
+            return refuse_vector(options, where, row, error);
+        }
+    }
+    char text[NUMBER_BYTES];
+    if (options->above_horizon && layout->coordinates != PS_TORUS_COORDINATES &&
+        is_below_horizon(layout, row)) {
+        const bool is_vector = layout->angles == PS_NO_ANGLES;
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "%s: %s%s is below the horizon, where this BRDF is 0; "
+                       "--drop-below-horizon leaves such points out",
+                       where, is_vector ? "z = " : "a direction",
+                       is_vector ? show_number(text, row[2]) : "");
+    }
+    return ps_fail(error, PSPEC_ERROR_INPUT, "%s: weight %s is not a finite number", where,
+                   show_number(text, row[ps_layout_columns(layout) - 1]));
+}

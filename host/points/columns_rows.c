@@ -1,0 +1,139 @@
+#include "points/columns.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double PI = 3.14159265358979323846;
+static const double DEGREE = 3.14159265358979323846 / 180;
+
+/* ---- rows to points ---------------------------------------------------------------------- */
+
+/* Sine and cosine of degrees, exact at multiples of 90: reducing degrees is exact, reducing radians
+ * is not. */
+static void turn_degrees(double degrees, double *sine, double *cosine) {
+    int quarters = 0;
+    const double rest = remquo(degrees, 90, &quarters) * DEGREE;
+    const double s = sin(rest);
+    const double c = cos(rest);
+    switch (quarters & 3) {
+    case 0:
+        *sine = s, *cosine = c;
+        break;
+    case 1:
+        *sine = c, *cosine = -s;
+        break;
+    case 2:
+        *sine = -s, *cosine = -c;
+        break;
+    default:
+        *sine = -c, *cosine = s;
+        break;
+    }
+}
+
+static void make_vector(double sin_theta, double cos_theta, double sin_phi, double cos_phi,
+                        double *vector) {
+    vector[0] = sin_theta * cos_phi;
+    vector[1] = sin_theta * sin_phi;
+    vector[2] = cos_theta;
+}
+
+static void angles_to_vector(ps_angle_order order, const double *row, double *vector) {
+    double sin_phi = 0;
+    double cos_phi = 0;
+    if (order == PS_LON_LAT) {
+        double sin_lat = 0;
+        double cos_lat = 0;
+        turn_degrees(row[0], &sin_phi, &cos_phi);
+        turn_degrees(row[1], &sin_lat, &cos_lat);
+        make_vector(cos_lat, sin_lat, sin_phi, cos_phi, vector);
+        return;
+    }
+    const double theta = row[order == PS_PHI_THETA];
+    const double phi = row[order != PS_PHI_THETA];
+    make_vector(sin(theta), cos(theta), sin(phi), cos(phi), vector);
+}
+
+static void angles_to_angles(ps_angle_order order, const double *row, double *angles) {
+    switch (order) {
+    case PS_LON_LAT:
+        angles[0] = (90 - row[1]) * DEGREE;
+        angles[1] = row[0] * DEGREE;
+        break;
+    case PS_PHI_THETA:
+        angles[0] = row[1];
+        angles[1] = row[0];
+        break;
+    case PS_THETA_PHI:
+    case PS_NO_ANGLES:
+        angles[0] = row[0];
+        angles[1] = row[1];
+        break;
+    }
+}
+
+void ps_columns_split(const ps_layout *layout, const double *rows, size_t num, double *points,
+                      double *weights) {
+    const unsigned columns = ps_layout_columns(layout);
+    const unsigned d = layout->dimension;
+    for (size_t i = 0; i < num; i++, rows += columns, points += d) {
+        if (layout->angles == PS_NO_ANGLES) {
+            for (unsigned j = 0; j < d; j++) {
+                points[j] = rows[j];
+            }
+        } else if (layout->coordinates == PS_ANGLES) {
+            angles_to_angles(layout->angles, rows, points);
+        } else {
+            angles_to_vector(layout->angles, rows, points);
+        }
+        if (weights != NULL) {
+            weights[i] = rows[columns - 1];
+        }
+    }
+}
+
+/* ---- points to rows ---------------------------------------------------------------------- */
+
+static void vector_to_angles(const double *vector, double *angles) {
+    angles[0] = atan2(hypot(vector[0], vector[1]), vector[2]);
+    angles[1] = atan2(vector[1], vector[0]);
+    if (angles[1] < 0) {
+        angles[1] += 2 * PI;
+    }
+}
+
+static void write_angles(ps_angle_order order, const double *angles, double *row) {
+    row[order == PS_PHI_THETA] = angles[0];
+    row[order != PS_PHI_THETA] = angles[1];
+    if (order == PS_LON_LAT) {
+        row[0] = angles[1] / DEGREE;
+        row[1] = 90 - angles[0] / DEGREE;
+    }
+}
+
+static void join_point(const ps_layout *layout, ps_coordinates source, const double *point,
+                       double *row) {
+    if (layout->angles == PS_NO_ANGLES && source == PS_ANGLES) {
+        angles_to_vector(PS_THETA_PHI, point, row);
+    } else if (layout->angles == PS_NO_ANGLES) {
+        memcpy(row, point, layout->dimension * sizeof *row);
+    } else if (source == PS_ANGLES) {
+        write_angles(layout->angles, point, row);
+    } else {
+        double angles[2];
+        vector_to_angles(point, angles);
+        write_angles(layout->angles, angles, row);
+    }
+}
+
+void ps_columns_join(const ps_layout *layout, ps_coordinates source, const double *points,
+                     const double *weights, size_t num, double *rows) {
+    const unsigned columns = ps_layout_columns(layout);
+    const unsigned d = source == PS_ANGLES ? 2 : source == PS_UNIT_VECTORS ? 3 : layout->dimension;
+    for (size_t i = 0; i < num; i++) {
+        join_point(layout, source, points + i * d, rows + i * columns);
+        if (layout->has_weight_column) {
+            rows[i * columns + columns - 1] = weights[i];
+        }
+    }
+}

@@ -1,0 +1,176 @@
+/* The table of point formats, and how the format of a file is found. */
+#include "points/points.h"
+
+#include "base/memory.h"
+#include "base/text.h"
+#include "points/points_format.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+/* In the order of PS_POINT_FORMATS. The first is the one that is meant when nothing tells. */
+static const ps_point_format *const formats[] = {
+    &ps_format_utk_text, &ps_format_csv,     &ps_format_psa_text,   &ps_format_gbn,
+    &ps_format_edat,     &ps_format_eps,     &ps_format_utk_binary, &ps_format_rps,
+    &ps_format_npy,      &ps_format_openquad};
+enum { NUM_FORMATS = sizeof formats / sizeof formats[0] };
+
+pspec_status ps_point_format_find(const char *name, const ps_point_format **out, ps_error *error) {
+    for (size_t i = 0; i < NUM_FORMATS; i++) {
+        if (strcmp(formats[i]->name, name) == 0) {
+            *out = formats[i];
+            return PSPEC_OK;
+        }
+    }
+    return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                   "point format \"%s\" is none of " PS_POINT_FORMATS, name);
+}
+
+static bool ends_in(const char *path, const char *ending) {
+    const size_t length = strlen(path);
+    return length > strlen(ending) && strcasecmp(path + length - strlen(ending), ending) == 0;
+}
+
+/* The format whose files end like this; NULL: none. */
+static const ps_point_format *find_ending(const char *path) {
+    for (size_t i = 0; i < NUM_FORMATS; i++) {
+        for (size_t j = 0; j < 3 && formats[i]->endings[j] != NULL; j++) {
+            if (ends_in(path, formats[i]->endings[j])) {
+                return formats[i];
+            }
+        }
+    }
+    return NULL;
+}
+
+const char *ps_points_format_by_ending(const char *path) {
+    const ps_point_format *format = find_ending(path);
+    return format != NULL ? format->name : formats[0]->name;
+}
+
+/* ---- detection --------------------------------------------------------------------------- */
+
+/* How many more bytes must be seen to tell whether the format's magic is there: 0 when they tell. */
+static size_t missing_bytes(const ps_point_format *format, const unsigned char *bytes,
+                            size_t num_bytes, bool *is_it) {
+    const size_t length = format->magic != NULL ? strlen(format->magic) : 0;
+    const size_t there = num_bytes < length ? num_bytes : length;
+    const bool agrees = length > 0 && memcmp(bytes, format->magic, there) == 0;
+    *is_it = agrees && there == length;
+    return agrees ? length - there : 0;
+}
+
+/* Looks no further than needed: a pipe may bring a few bytes and wait. */
+static pspec_status find_magic(ps_point_reader *reader, ps_error *error) {
+    const unsigned char *bytes = NULL;
+    size_t num_bytes = 0;
+    size_t wanted = 1;
+    size_t missing = 1;
+    while (missing > 0) {
+        PS_TRY(ps_input_peek(&reader->input, wanted, &bytes, &num_bytes, error));
+        missing = 0;
+        for (size_t i = 0; i < NUM_FORMATS; i++) {
+            bool is_it = false;
+            const size_t more = missing_bytes(formats[i], bytes, num_bytes, &is_it);
+            if (is_it) {
+                reader->format = formats[i];
+                return PSPEC_OK;
+            }
+            missing = more > missing ? more : missing;
+        }
+        if (num_bytes < wanted) { /* the input is shorter */
+            missing = 0;
+        }
+        wanted = num_bytes + 1;
+    }
+    return PSPEC_OK;
+}
+
+/* Names tell formats without a magic; a compressed file's is the one before ".gz". */
+static pspec_status find_by_name(ps_point_reader *reader, const char *path, ps_error *error) {
+    static const char compressed[] = ".gz";
+    ps_text name = {0};
+    const size_t length = strlen(path) - (ends_in(path, compressed) ? sizeof compressed - 1 : 0);
+    ps_text_append_bytes(&name, path, length);
+    PS_TRY(ps_text_check(&name, error));
+    const ps_point_format *format = find_ending(ps_text_string(&name));
+    ps_text_free(&name);
+    if (format != NULL && format->magic == NULL) {
+        reader->format = format;
+    }
+    if (format != NULL && format->magic != NULL) {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "%s ends in %s, but does not begin like %s; what is it? --input-format "
+                       "NAME tells",
+                       reader->input.name, format->endings[0], format->name);
+    }
+    return PSPEC_OK;
+}
+
+/* Files of these formats have a magic, which is refused here rather than misread as numbers. */
+static pspec_status find_format(ps_point_reader *reader, const char *path, ps_error *error) {
+    if (reader->options.format != NULL) {
+        return ps_point_format_find(reader->options.format, &reader->format, error);
+    }
+    PS_TRY(find_magic(reader, error));
+    if (reader->format == NULL) {
+        PS_TRY(find_by_name(reader, path, error));
+    }
+    return reader->format == NULL ? ps_text_detect(reader, error) : PSPEC_OK;
+}
+
+/* ---- opening and closing ----------------------------------------------------------------- */
+
+static pspec_status check_options(const ps_point_options *options, ps_error *error) {
+    if (options->dimension > PS_MAX_DIMENSION) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "dimension %u is not between 1 and %d",
+                       options->dimension, PS_MAX_DIMENSION);
+    }
+    if (options->sets.last != 0 &&
+        (options->sets.first == 0 || options->sets.first > options->sets.last)) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "sets %llu to %llu: they count from 1, and the first comes first",
+                       (unsigned long long)options->sets.first,
+                       (unsigned long long)options->sets.last);
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_points_open(ps_point_reader **out, const char *path,
+                            const ps_point_options *options, ps_error *error) {
+    *out = NULL;
+    PS_TRY(check_options(options, error));
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_point_reader), "point reader", error));
+    ps_point_reader *reader = memory;
+    reader->options = *options;
+    pspec_status status = PSPEC_OK;
+    PS_TRY_OUT(status, ps_input_open(&reader->input, path, error));
+    PS_TRY_OUT(status, find_format(reader, path, error));
+    PS_TRY_OUT(status, reader->format->open(reader, error));
+    *out = reader;
+    return PSPEC_OK;
+out:
+    ps_points_close(reader);
+    return status;
+}
+
+const char *ps_points_format(const ps_point_reader *reader) {
+    return reader->format->name;
+}
+
+const char *ps_points_columns(const ps_point_reader *reader) {
+    return reader->has_layout ? ps_layout_name(&reader->layout) : "";
+}
+
+void ps_points_close(ps_point_reader *reader) {
+    if (reader != NULL) {
+        if (reader->format != NULL) {
+            reader->format->close(reader);
+        }
+        ps_input_close(&reader->input);
+        free(reader->staging);
+        free(reader);
+    }
+}

@@ -1,0 +1,157 @@
+/* Reading and writing point sets of the torus and of the sphere, in the formats of the field
+ * (docs/formats.md), from files or standard input.
+ *
+ * A reader yields one set (realization) at a time, or one block of a set, and holds no more than
+ * that (up to 64 MiB of sets, or half of the memory limit, for NPY arrays of several sets in Fortran
+ * order, which lie scattered over the file). Sets, rows and lines are counted from 1 in messages. A read that a signal
+ * interrupts is PSPEC_ERROR_CANCELLED; a handler installed with SA_RESTART does not interrupt.
+ * Another format is another row in the table of formats in points.c and another file beside it.
+ */
+#ifndef PS_POINTS_POINTS_H
+#define PS_POINTS_POINTS_H
+
+#include "base/status.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* Where points are meant to lie. */
+typedef enum ps_domain {
+    PS_DOMAIN_TORUS = 0, /* [0,1)^d, d = 1..6 */
+    PS_DOMAIN_SPHERE,    /* unit vectors */
+    PS_DOMAIN_ANY        /* what the file holds; the first row tells vectors from the torus */
+} ps_domain;
+
+/* What the numbers of a point are. */
+typedef enum ps_coordinates {
+    PS_TORUS_COORDINATES = 0, /* each in [0,1) */
+    PS_UNIT_VECTORS,          /* x, y, z */
+    PS_ANGLES /* theta in [0,pi] from the pole, phi: radians; only with keep_angles */
+} ps_coordinates;
+
+/* One point set; {0} is empty. The arrays belong to the set and are reused by the next read. */
+typedef struct ps_point_set {
+    ps_coordinates coordinates;
+    unsigned dimension; /* numbers per point: d, 3 or 2 */
+    size_t num_points;
+    double *points;  /* [num_points][dimension] */
+    double *weights; /* [num_points], meaningful only when has_weights */
+    bool has_weights;
+    size_t points_capacity, weights_capacity; /* in doubles */
+} ps_point_set;
+
+void ps_point_set_free(ps_point_set *set);
+/* Makes room for num_points points (and weights) in all, what is there is kept. */
+pspec_status ps_points_reserve(ps_point_set *set, size_t num_points, ps_error *error) PS_MUST_CHECK;
+
+/* Names of all formats and of all layouts of columns, for options. */
+#define PS_POINT_FORMATS "utk-text|csv|psa-text|gbn|edat|eps|utk-binary|rps|npy|openquad"
+#define PS_SPHERE_COLUMNS "xyz|xyzw|theta-phi|theta-phi-w|phi-theta|phi-theta-w|lon-lat|lon-lat-w"
+#define PS_POINT_COLUMNS "xy|xyw|" PS_SPHERE_COLUMNS
+
+/* Numbers from first to last, counted from 1; {0} means all. What is asked for must be there, but
+ * last may be UINT64_MAX: up to the end. */
+typedef struct ps_point_range {
+    uint64_t first, last;
+} ps_point_range;
+
+typedef struct ps_point_options {
+    const char *format;     /* NULL: detected, else one of PS_POINT_FORMATS */
+    const char *columns;    /* NULL: found out, else one of PS_POINT_COLUMNS */
+    unsigned dimension;     /* of the torus; 0: from the file; otherwise it must agree */
+    size_t points_per_set;  /* of formats that do not say (rps), where 0 means that all is one set;
+                               sets of other formats must have so many, unless 0 */
+    ps_point_range sets;    /* others are passed over */
+    ps_domain domain;       /* what the caller can use */
+    bool weight_column;     /* the last column holds the weight */
+    bool ignore_weights;    /* weights of the file are read and dropped */
+    bool wrap;              /* torus coordinates outside [0,1) are reduced mod 1, not refused */
+    bool normalize_vectors; /* vectors are divided by their length instead of refused when that
+                                differs from 1 by more than 1e-6 */
+    bool above_horizon;     /* points of the sphere with z < 0 are refused */
+    uint64_t memory_limit;  /* bytes that a set may take; 0: half of the memory that is free */
+    bool keep_angles;       /* angles stay angles (theta, phi) instead of becoming vectors */
+} ps_point_options;
+
+typedef struct ps_point_reader ps_point_reader;
+
+/* Opens path, or standard input for "-". The texts of options must outlive the reader. */
+pspec_status ps_points_open(ps_point_reader **out, const char *path,
+                            const ps_point_options *options, ps_error *error) PS_MUST_CHECK;
+/* Reads the next set. *has_set is false at the end of the input; a file without any point is an
+ * error. Errors name file, line (or set and row), value and what would be right. */
+pspec_status ps_points_next(ps_point_reader *reader, ps_point_set *set, bool *has_set,
+                            ps_error *error) PS_MUST_CHECK;
+/* The same in blocks: appends at most max_points of the current set to *set. *ends_set tells that
+ * the set is complete with them; at the end of the input no points come and *has_set is false. */
+pspec_status ps_points_next_block(ps_point_reader *reader, ps_point_set *set, size_t max_points,
+                                  bool *has_set, bool *ends_set, ps_error *error) PS_MUST_CHECK;
+/* Points of every set, when the input tells before they come and they are really there; else 0. */
+size_t ps_points_per_set(const ps_point_reader *reader);
+/* Would another ps_points_open of the same path give the same points? Not of standard input, nor of a pipe. */
+bool ps_points_can_reopen(const ps_point_reader *reader);
+/* Names of the format and of the columns in use, for the header of results; static storage. The
+ * columns are known after the first set. */
+const char *ps_points_format(const ps_point_reader *reader);
+const char *ps_points_columns(const ps_point_reader *reader);
+void ps_points_close(ps_point_reader *reader);
+
+/* ---- writing ----------------------------------------------------------------------------- */
+
+typedef struct ps_point_writer ps_point_writer;
+
+/* What will be written. Counts that are not known in advance are 0: headers that hold them are then
+ * completed at the end. */
+typedef struct ps_point_shape {
+    size_t num_sets, num_points;
+    ps_coordinates coordinates;
+    unsigned dimension;
+    bool has_weights;
+    const char *columns; /* of the sphere: one of PS_POINT_COLUMNS; NULL: as the coordinates are */
+    uint64_t memory_limit; /* bytes of points, where the format keeps a set whole; 0: any */
+} ps_point_shape;
+
+/* The format that a file of this name would get: by its ending, else "utk-text". */
+const char *ps_points_format_by_ending(const char *path);
+
+/* Creates path ("-": standard output). Format by name, or NULL: by ending. Shapes that the format
+ * cannot hold are refused. The file appears under its name only when ps_points_commit succeeds. */
+pspec_status ps_points_create(ps_point_writer **out, const char *path, const char *format,
+                              const ps_point_shape *shape, ps_error *error) PS_MUST_CHECK;
+/* Writes a set, or a block of one. */
+pspec_status ps_points_write(ps_point_writer *writer, const ps_point_set *block, bool ends_set,
+                             ps_error *error) PS_MUST_CHECK;
+/* Appends what the format could not keep ("2034 of 2048 coordinates were rounded to float32 ..."),
+ * or nothing; to be called before commit. */
+void ps_points_describe_loss(const ps_point_writer *writer, char *text, size_t text_bytes);
+pspec_status ps_points_commit(ps_point_writer *writer, ps_error *error) PS_MUST_CHECK;
+/* Frees the writer; what was not committed is removed. NULL is allowed. */
+void ps_points_discard(ps_point_writer *writer);
+
+/* ---- lists beside points ----------------------------------------------------------------- */
+
+/* Reads a list of integer frequency vectors, one per line, columns separated by blanks or commas,
+ * '#' lines skipped; *vectors is [num_vectors][*dimension], freed by the caller. The dimension is
+ * that of the first line (1 to 6). |k| <= 2^30. memory_limit: bytes that the list may take; 0: half of those free. */
+pspec_status ps_read_frequencies(const char *path, uint64_t memory_limit, int **vectors,
+                                 size_t *num_vectors, unsigned *dimension,
+                                 ps_error *error) PS_MUST_CHECK;
+
+/* Reads weights: one number per line or token, or a one-dimensional NPY array. num_wanted: how many the caller can use;
+ * a file that goes on long after them is refused, since it may have no end. */
+pspec_status ps_read_weights(const char *path, uint64_t num_wanted, double **weights,
+                             size_t *num_weights, ps_error *error) PS_MUST_CHECK;
+
+/* Two numbers of a line, and which line it was. */
+typedef struct ps_pair {
+    double first, second;
+    size_t line;
+} ps_pair;
+
+/* Reads lines of two finite numbers separated by blanks or a comma, '#' lines skipped; *pairs is freed by the
+ * caller. */
+pspec_status ps_read_pairs(const char *path, ps_pair **pairs, size_t *num_pairs,
+                           ps_error *error) PS_MUST_CHECK;
+
+#endif

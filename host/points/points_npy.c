@@ -1,0 +1,318 @@
+/* NPY arrays of points: (N,) is one set in one dimension, (N, c) one set of c columns, (M, N, c) M
+ * sets. openquad: (2, N) and (3, N) hold theta, phi and perhaps weights in rows, which is how an
+ * array (N, 2) or (N, 3) in Fortran order lies in the file. Set and row are counted from 1. */
+#include "base/memory.h"
+#include "base/text.h"
+#include "files/npy.h"
+#include "points/points_format.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    BLOCK_ELEMENTS = 1 << 16, /* converted while still in the cache */
+    CACHE_ELEMENTS = 1 << 23  /* sets kept of one pass over an array in Fortran order: 64 MiB */
+};
+
+typedef struct npy_state {
+    ps_npy_header header;
+    size_t num_sets, num_points;
+    bool is_fortran_order;
+    off_t data_position; /* where the array starts; -1: a pipe */
+    double *block;       /* [BLOCK_ELEMENTS], Fortran order only, like the rest */
+    double *cache;       /* sets from first_cached on */
+    size_t cache_capacity, first_cached, num_cached;
+} npy_state;
+
+/* ---- open -------------------------------------------------------------------------------- */
+
+static pspec_status fail_shape(const ps_point_reader *reader, const char *what, ps_error *error) {
+    const ps_npy_header *const header = &((const npy_state *)reader->state)->header;
+    ps_text shape = {0};
+    for (unsigned axis = 0; axis < header->rank; axis++) {
+        ps_text_append(&shape, "%s%zu", axis > 0 ? ", " : "", header->shape[axis]);
+    }
+    ps_fail(error, PSPEC_ERROR_INPUT, "%s: an array of shape (%s): %s", reader->input.name,
+            ps_text_string(&shape), what);
+    ps_text_free(&shape);
+    return PSPEC_ERROR_INPUT;
+}
+
+/* Two or three long rows are angles, as openquad writes them; short ones could be points, too. */
+static pspec_status detect_openquad(ps_point_reader *reader, ps_error *error) {
+    const ps_npy_header *const header = &((const npy_state *)reader->state)->header;
+    const ps_point_options *options = &reader->options;
+    const bool is_told = options->format != NULL || options->columns != NULL ||
+                         options->dimension != 0 || options->domain == PS_DOMAIN_TORUS;
+    if (is_told || header->rank != 2 || header->is_fortran_order ||
+        (header->shape[0] != 2 && header->shape[0] != 3)) {
+        return PSPEC_OK;
+    }
+    if (header->shape[1] <= PS_MAX_COLUMNS && header->shape[1] > 1) {
+        return fail_shape(reader, "points, or rows of angles? --input-format npy or openquad",
+                          error);
+    }
+    if (header->shape[1] > PS_MAX_COLUMNS) {
+        reader->format = &ps_format_openquad;
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status interpret_openquad(ps_point_reader *reader, ps_error *error) {
+    npy_state *const state = reader->state;
+    const ps_npy_header *const header = &state->header;
+    if (header->rank != 2 || header->shape[0] < 2 || header->shape[0] > 3) {
+        return fail_shape(reader, "openquad has (2, N) or (3, N): theta, phi, and perhaps weights",
+                          error);
+    }
+    state->num_sets = 1;
+    state->num_points = header->shape[1];
+    state->is_fortran_order = !header->is_fortran_order;
+    reader->columns = (unsigned)header->shape[0];
+    reader->own_columns = reader->columns == 3 ? "theta-phi-w" : "theta-phi";
+    return PSPEC_OK;
+}
+
+static pspec_status interpret_points(ps_point_reader *reader, ps_error *error) {
+    npy_state *const state = reader->state;
+    const ps_npy_header *const header = &state->header;
+    const size_t *const extent = header->shape;
+    if (header->rank < 1 || header->rank > 3) {
+        return fail_shape(reader, "points are (N, d), (M, N, d) or (N)", error);
+    }
+    const size_t columns = header->rank == 1 ? 1 : extent[header->rank - 1];
+    if (columns > PS_MAX_COLUMNS) {
+        return fail_shape(reader,
+                          header->rank == 2 && extent[0] <= PS_MAX_COLUMNS
+                              ? "points are rows, so transpose it"
+                              : "points are rows of at most 6 dimensions",
+                          error);
+    }
+    state->num_sets = header->rank == 3 ? extent[0] : 1;
+    state->num_points = header->rank == 3 ? extent[1] : extent[0];
+    state->is_fortran_order = header->is_fortran_order && header->rank > 1;
+    reader->columns = (unsigned)columns;
+    return PSPEC_OK;
+}
+
+static pspec_status open_npy(ps_point_reader *reader, ps_error *error) {
+    PS_TRY(ps_allocate(&reader->state, 1, sizeof(npy_state), "NPY reader", error));
+    npy_state *const state = reader->state;
+    PS_TRY(ps_npy_read_header(&reader->input, &state->header, error));
+    if (state->header.num_elements == 0) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s holds no points", reader->input.name);
+    }
+    PS_TRY(detect_openquad(reader, error));
+    PS_TRY(reader->format == &ps_format_openquad ? interpret_openquad(reader, error)
+                                                 : interpret_points(reader, error));
+    state->data_position = reader->input.is_seekable ? ps_input_position(&reader->input) : -1;
+    reader->rows_per_set = state->data_position >= 0 ? state->num_points : 0;
+    if (state->is_fortran_order) {
+        void *memory = NULL;
+        PS_TRY(ps_allocate(&memory, BLOCK_ELEMENTS, sizeof(double), "NPY block", error));
+        state->block = memory;
+    }
+    return PSPEC_OK;
+}
+
+static void close_npy(ps_point_reader *reader) {
+    npy_state *const state = reader->state;
+    if (state != NULL) {
+        free(state->block);
+        free(state->cache);
+        free(state);
+    }
+}
+
+/* ---- Fortran order: set fastest, then point, then column --------------------------------- */
+
+/* Puts num elements of the file, from number first on, where the cache has them: sets from
+ * first_cached on, each in C order. */
+static void scatter_block(const ps_point_reader *reader, size_t first, size_t num) {
+    const npy_state *const state = reader->state;
+    size_t set = first % state->num_sets;
+    size_t point = first / state->num_sets % state->num_points;
+    size_t column = first / state->num_sets / state->num_points;
+    for (size_t i = 0; i < num; i++) {
+        const size_t slot = set - state->first_cached; /* earlier sets wrap around to large ones */
+        if (slot < state->num_cached) {
+            state->cache[(slot * state->num_points + point) * reader->columns + column] =
+                state->block[i];
+        }
+        if (++set == state->num_sets) {
+            set = 0;
+            if (++point == state->num_points) {
+                point = 0;
+                column++;
+            }
+        }
+    }
+}
+
+/* Half of a limit that was typed: the other half is for the points that are handed out. */
+static size_t cache_elements(const ps_point_reader *reader) {
+    const uint64_t limit = reader->options.memory_limit;
+    const uint64_t half = limit / 2 / sizeof(double);
+    return limit > 0 && half < CACHE_ELEMENTS ? (size_t)half : CACHE_ELEMENTS;
+}
+
+static pspec_status check_set(const ps_point_reader *reader, size_t set_elements, ps_error *error) {
+    const uint64_t limit = reader->options.memory_limit;
+    char size[PS_SIZE_TEXT];
+    char most[PS_SIZE_TEXT];
+    return limit == 0 || set_elements <= limit / 2 / sizeof(double)
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_MEMORY,
+                         "%.440s: a set takes %s, and sets in Fortran order half of %s at most, "
+                         "the limit of --memory; save the array in C order",
+                         reader->input.name,
+                         ps_size_show(size, (double)set_elements * (double)sizeof(double)),
+                         ps_size_show(most, (double)limit));
+}
+
+/* One pass over the array fills the cache with as many sets as it is meant to hold, at least the
+ * one that is wanted. */
+static pspec_status fill_cache(ps_point_reader *reader, size_t wanted, ps_error *error) {
+    npy_state *const state = reader->state;
+    const size_t set_elements = state->num_points * reader->columns;
+    const size_t most = cache_elements(reader);
+    const size_t fitting = set_elements < most ? most / set_elements : 1;
+    PS_TRY(check_set(reader, set_elements, error));
+    const size_t left = state->num_sets - wanted;
+    state->first_cached = wanted;
+    state->num_cached = left < fitting ? left : fitting;
+    if (wanted > 0) {
+        PS_TRY(ps_input_seek(&reader->input, state->data_position, error));
+    }
+    void *memory = state->cache;
+    PS_TRY(ps_grow(&memory, &state->cache_capacity, state->num_cached * set_elements,
+                   sizeof(double), "sets in Fortran order", error));
+    state->cache = memory;
+    for (size_t first = 0; first < state->header.num_elements; first += BLOCK_ELEMENTS) {
+        const size_t rest = state->header.num_elements - first;
+        const size_t num = rest < BLOCK_ELEMENTS ? rest : BLOCK_ELEMENTS;
+        PS_TRY(ps_npy_read_elements(&reader->input, &state->header, state->block, num, error));
+        scatter_block(reader, first, num);
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status read_cached(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
+    npy_state *const state = reader->state;
+    const size_t wanted = (size_t)reader->num_sets;
+    if (state->data_position < 0 && state->header.num_elements > cache_elements(reader)) {
+        return ps_fail(
+            error, PSPEC_ERROR_INPUT,
+            "%s: an array in Fortran order of more than %zu elements cannot be read from "
+            "a pipe%s; save it in C order",
+            reader->input.name, cache_elements(reader),
+            cache_elements(reader) < CACHE_ELEMENTS ? " with this --memory" : "");
+    }
+    if (wanted - state->first_cached >= state->num_cached) {
+        PS_TRY(fill_cache(reader, wanted, error));
+    }
+    const size_t row = (wanted - state->first_cached) * state->num_points + reader->rows_in_set;
+    memcpy(out->rows, state->cache + row * reader->columns,
+           out->num * reader->columns * sizeof(double));
+    return PSPEC_OK;
+}
+
+/* One set lies column by column in the file: the rows are gathered from as many places. */
+static pspec_status gather_columns(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
+    const npy_state *const state = reader->state;
+    for (unsigned column = 0; column < reader->columns; column++) {
+        for (size_t first = 0; first < out->num; first += BLOCK_ELEMENTS) {
+            const size_t left = out->num - first;
+            const size_t num = left < BLOCK_ELEMENTS ? left : BLOCK_ELEMENTS;
+            const size_t element = column * state->num_points + reader->rows_in_set + first;
+            PS_TRY(ps_input_seek(
+                &reader->input,
+                state->data_position + (off_t)(element * state->header.type.num_bytes), error));
+            PS_TRY(ps_npy_read_elements(&reader->input, &state->header, state->block, num, error));
+            for (size_t i = 0; i < num; i++) {
+                out->rows[(first + i) * reader->columns + column] = state->block[i];
+            }
+        }
+    }
+    return PSPEC_OK;
+}
+
+/* ---- read -------------------------------------------------------------------------------- */
+
+static pspec_status read_npy(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
+    const npy_state *const state = reader->state;
+    const size_t left = state->num_points - reader->rows_in_set;
+    out->num = left < out->capacity ? left : out->capacity;
+    if (!state->is_fortran_order) {
+        PS_TRY(ps_npy_read_elements(&reader->input, &state->header, out->rows,
+                                    out->num * reader->columns, error));
+    } else if (state->num_sets == 1 && state->data_position >= 0) {
+        PS_TRY(gather_columns(reader, out, error));
+    } else {
+        PS_TRY(read_cached(reader, out, error));
+    }
+    if (out->num < left) {
+        return PSPEC_OK;
+    }
+    const bool is_last = reader->num_sets + 1 == state->num_sets;
+    out->end = is_last ? PS_END_OF_INPUT : PS_END_OF_SET;
+    return is_last && !reader->input.is_seekable ? ps_npy_check_end(&reader->input, error)
+                                                 : PSPEC_OK;
+}
+
+/* ---- write ------------------------------------------------------------------------------- */
+
+static void begin_npy(ps_point_writer *writer) {
+    const size_t shape[] = {writer->shape.num_sets, writer->shape.num_points, writer->columns};
+    ps_npy_write_header(ps_output_stream(writer->file), 3, shape);
+}
+
+static void write_npy(ps_point_writer *writer, const double *rows, size_t num_rows) {
+    ps_output_write(writer->file, rows, sizeof *rows, num_rows * writer->columns);
+}
+
+/* Columns are written one after the other, so the set is kept until it is complete. */
+static void begin_openquad(ps_point_writer *writer) {
+    (void)writer;
+}
+
+static void write_openquad(ps_point_writer *writer, const double *rows, size_t num_rows) {
+    ps_text_append_bytes(&writer->kept, (const char *)rows,
+                         num_rows * writer->columns * sizeof *rows);
+}
+
+static pspec_status finish_openquad(ps_point_writer *writer, ps_error *error) {
+    PS_TRY(ps_text_check(&writer->kept, error));
+    const size_t num = writer->kept.length / sizeof(double) / writer->columns;
+    const size_t shape[] = {writer->columns, num};
+    ps_npy_write_header(ps_output_stream(writer->file), 2, shape);
+    for (unsigned column = 0; column < writer->columns; column++) {
+        for (size_t i = 0; i < num; i++) {
+            ps_output_write(writer->file,
+                            writer->kept.data + (i * writer->columns + column) * sizeof(double),
+                            sizeof(double), 1);
+        }
+    }
+    return PSPEC_OK;
+}
+
+const ps_point_format ps_format_npy = {.name = "npy",
+                                       .endings = {".npy"},
+                                       .magic = "\x93NUMPY",
+                                       .open = open_npy,
+                                       .read = read_npy,
+                                       .close = close_npy,
+                                       .abilities = PS_HOLDS_SETS | PS_HOLDS_WEIGHTS |
+                                                    PS_HOLDS_TORUS | PS_HOLDS_VECTORS |
+                                                    PS_HOLDS_ANGLES | PS_NEEDS_COUNTS,
+                                       .begin = begin_npy,
+                                       .write = write_npy};
+
+const ps_point_format ps_format_openquad = {.name = "openquad",
+                                            .open = open_npy,
+                                            .read = read_npy,
+                                            .close = close_npy,
+                                            .abilities = PS_HOLDS_WEIGHTS | PS_HOLDS_ANGLES,
+                                            .begin = begin_openquad,
+                                            .write = write_openquad,
+                                            .finish = finish_openquad};

@@ -1,0 +1,208 @@
+/* Text that begins with the number of points: psa-text (of PSA, and GBN in the plane), "N" and then N
+ * times "x y" (or "x y w"); gbn, "N d" and then N times d numbers. What follows is ignored, as these
+ * tools do; line breaks mean nothing. One set per file. */
+#include "base/memory.h"
+#include "files/decimal.h"
+#include "points/points_text.h"
+
+#include <math.h>
+#include <string.h>
+
+/* The next number of the input; *length 0: there is none. Numbers may be anywhere in lines. */
+static pspec_status next_number(ps_point_reader *reader, double *value, bool *has_number,
+                                ps_error *error) {
+    ps_lines *const lines = &((ps_text_state *)reader->state)->lines;
+    bool has_line = true;
+    *has_number = false;
+    while (has_line && !*has_number) {
+        PS_TRY(ps_lines_fill(lines, &has_line, error));
+        if (!has_line) {
+            break;
+        }
+        const char *const text = ps_skip_blanks(lines->cursor);
+        if (ps_ends_line(text)) {
+            ps_lines_skip(lines);
+            continue;
+        }
+        const size_t length = ps_token_length(text);
+        if (length == 0 || ps_decimal_parse(text, value) != text + length) {
+            char shown[PS_TOKEN_BYTES];
+            return ps_fail(error, PSPEC_ERROR_INPUT, "%s, line %zu: \"%s\" is not a %snumber",
+                           reader->input.name, lines->line_number,
+                           ps_token_show(shown, text, length > 0 ? length : 1),
+                           ps_token_is_not_finite(text, length) ? "finite " : "");
+        }
+        lines->cursor = text + length;
+        *has_number = true;
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status read_count(ps_point_reader *reader, const char *what, double largest,
+                               size_t *count, ps_error *error) {
+    double value = 0;
+    bool has_number = false;
+    PS_TRY(next_number(reader, &value, &has_number, error));
+    if (!has_number || !(value >= 1 && value <= largest) || value != floor(value)) {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "%s begins with %.17g, which is not a number of %s", reader->input.name,
+                       value, what);
+    }
+    *count = (size_t)value;
+    return PSPEC_OK;
+}
+
+static const double MOST_POINTS = 1e15; /* counts in doubles are exact */
+
+/* Rows of three numbers are points with weights, or something else: that is for the user to say. */
+static pspec_status check_columns(ps_point_reader *reader, ps_error *error) {
+    ps_text_state *const state = reader->state;
+    const ps_lines *const lines = &state->lines;
+    double row[3];
+    ps_line_kind kind = PS_LINE_NONE;
+    PS_TRY(ps_text_next_line(state, &kind, error));
+    if (kind == PS_LINE_POINT && ps_row_parse(lines->cursor, ' ', 3, row) != NULL) {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "%s, line %zu: 3 columns after a count; --columns xyw, if the third one is "
+                       "the weight",
+                       reader->input.name, lines->line_number);
+    }
+    return PSPEC_OK;
+}
+
+static void set_columns(ps_point_reader *reader, unsigned columns, const char *name) {
+    ps_text_state *const state = reader->state;
+    ps_text_set_columns(reader, columns);
+    reader->own_columns = name;
+    state->is_in_line = !ps_ends_line(ps_skip_blanks(state->lines.cursor));
+    if (!state->is_in_line) {
+        ps_lines_skip(&state->lines); /* the rest of the line of the count */
+    }
+}
+
+static pspec_status open_psa(ps_point_reader *reader, ps_error *error) {
+    const ps_point_options *options = &reader->options;
+    const bool says_weights = options->weight_column ||
+                              (options->columns != NULL && strcmp(options->columns, "xyw") == 0);
+    PS_TRY(ps_text_open_lines(reader, ' ', error));
+    ps_text_state *const state = reader->state;
+    PS_TRY(read_count(reader, "points", MOST_POINTS, &state->promised, error));
+    set_columns(reader, says_weights ? 3 : 2, says_weights ? "xyw" : "xy");
+    return says_weights || options->columns != NULL || state->is_in_line
+               ? PSPEC_OK
+               : check_columns(reader, error);
+}
+
+static pspec_status open_gbn(ps_point_reader *reader, ps_error *error) {
+    size_t dimension = 0;
+    PS_TRY(ps_text_open_lines(reader, ' ', error));
+    ps_text_state *const state = reader->state;
+    PS_TRY(read_count(reader, "points", MOST_POINTS, &state->promised, error));
+    PS_TRY(read_count(reader, "dimensions from 1 to 6", PS_MAX_DIMENSION, &dimension, error));
+    set_columns(reader, (unsigned)dimension, NULL);
+    return PSPEC_OK;
+}
+
+static pspec_status fail_short(const ps_point_reader *reader, size_t promised, size_t num_points,
+                               ps_error *error) {
+    return ps_fail(error, PSPEC_ERROR_INPUT,
+                   "%s is truncated: it promises %zu points, and point %zu is not there",
+                   reader->input.name, promised, num_points + 1);
+}
+
+/* One point, wherever its numbers are. */
+static pspec_status read_point(ps_point_reader *reader, double *row, size_t index,
+                               ps_error *error) {
+    ps_text_state *const state = reader->state;
+    for (unsigned j = 0; j < reader->columns; j++) {
+        bool has_number = false;
+        PS_TRY(next_number(reader, &row[j], &has_number, error));
+        if (!has_number) {
+            return fail_short(reader, state->promised, index, error);
+        }
+    }
+    state->is_in_line = !ps_ends_line(ps_skip_blanks(state->lines.cursor));
+    if (!state->is_in_line) {
+        ps_lines_skip(&state->lines);
+    }
+    return PSPEC_OK;
+}
+
+/* Points that stand each on a line of its own, as they mostly do: fast. */
+static pspec_status read_lines(ps_point_reader *reader, double *rows, size_t capacity, size_t *num,
+                               ps_error *error) {
+    ps_text_state *const state = reader->state;
+    ps_lines *const lines = &state->lines;
+    bool has_line = false;
+    *num = 0;
+    if (state->is_in_line) {
+        return PSPEC_OK;
+    }
+    PS_TRY(ps_lines_fill(lines, &has_line, error));
+    if (has_line) {
+        lines->cursor =
+            ps_rows_parse(&state->parser, lines->cursor, lines->lines_end, rows, capacity, num);
+        lines->line_number += *num;
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status read_psa(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
+    const size_t promised = ((ps_text_state *)reader->state)->promised;
+    const size_t left = promised - reader->rows_in_set;
+    const size_t num = left < out->capacity ? left : out->capacity;
+    while (out->num < num) {
+        size_t num_rows = 0;
+        double *const row = out->rows + out->num * reader->columns;
+        PS_TRY(read_lines(reader, row, num - out->num, &num_rows, error));
+        if (num_rows == 0) {
+            const size_t index = reader->rows_in_set + out->num;
+            const pspec_status status = read_point(reader, row, index, error);
+            if (status != PSPEC_OK) { /* which the next call finds again */
+                return out->num > 0 ? PSPEC_OK : status;
+            }
+            num_rows = 1;
+        }
+        out->num += num_rows;
+    }
+    out->end = out->num == left ? PS_END_OF_INPUT : PS_MORE_ROWS;
+    return PSPEC_OK;
+}
+
+/* ---- writing ----------------------------------------------------------------------------- */
+
+/* Counts that become known at the end are written again over blanks of the same length. */
+static void write_count(ps_point_writer *writer, const char *after) {
+    char text[64];
+    const int length = snprintf(text, sizeof text, writer->completes_header ? "%-20zu%s" : "%zu%s",
+                                writer->shape.num_points, after);
+    ps_output_write(writer->file, text, 1, (size_t)length);
+}
+
+static void begin_psa(ps_point_writer *writer) {
+    write_count(writer, "\n");
+}
+
+static void begin_gbn(ps_point_writer *writer) {
+    char after[8];
+    snprintf(after, sizeof after, " %u\n", writer->shape.dimension);
+    write_count(writer, after);
+}
+
+const ps_point_format ps_format_psa_text = {.name = "psa-text",
+                                            .open = open_psa,
+                                            .read = read_psa,
+                                            .close = ps_text_close,
+                                            .abilities =
+                                                PS_HOLDS_WEIGHTS | PS_HOLDS_TORUS | PS_NEEDS_COUNTS,
+                                            .only_dimension = 2,
+                                            .begin = begin_psa,
+                                            .write = ps_text_write_rows};
+
+const ps_point_format ps_format_gbn = {.name = "gbn",
+                                       .open = open_gbn,
+                                       .read = read_psa,
+                                       .close = ps_text_close,
+                                       .abilities = PS_HOLDS_TORUS | PS_NEEDS_COUNTS,
+                                       .begin = begin_gbn,
+                                       .write = ps_text_write_rows};

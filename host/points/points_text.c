@@ -1,0 +1,329 @@
+/* Text with one point per line: utk-text (blanks between coordinates), csv (commas), and edat (like
+ * utk-text, after two lines that hold the corners of the domain). A '#' at the start of a line ends
+ * a set.
+ *
+ * Lenient where nothing can be misunderstood: tabs, CR LF, no '\n' at the end, '#' lines before the
+ * first set, one '#' line after the last, blank lines at the very end. */
+#include "base/memory.h"
+#include "files/decimal.h"
+#include "points/points_text.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Numbers of a read: enough that several threads are worth while, 2 MiB. */
+enum { BLOCK_VALUES = 1 << 18 };
+
+/* ---- lines ------------------------------------------------------------------------------- */
+
+pspec_status ps_text_next_line(ps_text_state *state, ps_line_kind *kind, ps_error *error) {
+    ps_lines *const lines = &state->lines;
+    *kind = PS_LINE_NONE;
+    if (lines->cursor == lines->lines_end) {
+        bool has_line = false;
+        PS_TRY(ps_lines_fill(lines, &has_line, error));
+        if (!has_line) {
+            return PSPEC_OK;
+        }
+    }
+    const char *const text = ps_skip_blanks(lines->cursor);
+    *kind = *text == '#' ? PS_LINE_MARK : ps_ends_line(text) ? PS_LINE_BLANK : PS_LINE_POINT;
+    return PSPEC_OK;
+}
+
+/* After a blank line there may only be more of them. */
+static pspec_status read_blank_end(ps_text_state *state, ps_error *error) {
+    const size_t first = state->lines.line_number;
+    ps_line_kind kind = PS_LINE_BLANK;
+    while (kind == PS_LINE_BLANK) {
+        ps_lines_skip(&state->lines);
+        PS_TRY(ps_text_next_line(state, &kind, error));
+    }
+    return kind == PS_LINE_NONE
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INPUT,
+                         "%s, line %zu: a blank line, and more after it; sets are separated by a "
+                         "'#' line",
+                         state->lines.input->name, first);
+}
+
+/* ---- open -------------------------------------------------------------------------------- */
+
+static pspec_status skip_marks(ps_text_state *state, ps_error *error) {
+    ps_line_kind kind = PS_LINE_NONE;
+    PS_TRY(ps_text_next_line(state, &kind, error));
+    while (kind == PS_LINE_MARK) {
+        ps_lines_skip(&state->lines);
+        PS_TRY(ps_text_next_line(state, &kind, error));
+    }
+    if (kind == PS_LINE_BLANK) {
+        PS_TRY(read_blank_end(state, error));
+    }
+    return kind == PS_LINE_POINT
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INPUT, "%s holds no points", state->lines.input->name);
+}
+
+void ps_text_set_columns(ps_point_reader *reader, unsigned columns) {
+    ps_text_state *const state = reader->state;
+    reader->columns = columns;
+    reader->block_values = BLOCK_VALUES;
+    state->parser.columns = columns;
+    state->parser.separator = state->separator;
+}
+
+/* The first row fixes the number of columns for all sets of the input. */
+static pspec_status fix_columns(ps_point_reader *reader, ps_error *error) {
+    ps_text_state *const state = reader->state;
+    size_t num_columns = 0;
+    PS_TRY(ps_row_count(&state->lines, state->separator, &num_columns, error));
+    if (num_columns > PS_MAX_COLUMNS) {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "%s, line %zu: %zu columns; at most %d dimensions are read",
+                       reader->input.name, state->lines.line_number, num_columns, PS_MAX_DIMENSION);
+    }
+    ps_text_set_columns(reader, (unsigned)num_columns);
+    state->columns_line = state->lines.line_number;
+    return PSPEC_OK;
+}
+
+/* state may be there already: ps_text_detect has looked at the first lines. */
+pspec_status ps_text_open_lines(ps_point_reader *reader, char separator, ps_error *error) {
+    if (reader->state == NULL) {
+        PS_TRY(ps_allocate(&reader->state, 1, sizeof(ps_text_state), "text reader", error));
+        ps_text_state *const state = reader->state;
+        PS_TRY(ps_lines_open(&state->lines, &reader->input, error));
+    }
+    ps_text_state *const state = reader->state;
+    state->separator = separator;
+    return skip_marks(state, error);
+}
+
+static pspec_status open_utk(ps_point_reader *reader, ps_error *error) {
+    PS_TRY(ps_text_open_lines(reader, ' ', error));
+    return fix_columns(reader, error);
+}
+
+static pspec_status open_csv(ps_point_reader *reader, ps_error *error) {
+    PS_TRY(ps_text_open_lines(reader, ',', error));
+    return fix_columns(reader, error);
+}
+
+static pspec_status read_corner(ps_point_reader *reader, double *corner, ps_error *error) {
+    ps_text_state *const state = reader->state;
+    size_t num_columns = 0;
+    PS_TRY(ps_row_count(&state->lines, state->separator, &num_columns, error));
+    if (num_columns > PS_MAX_DIMENSION ||
+        (state->num_corners != 0 && num_columns != state->num_corners) ||
+        ps_row_parse(state->lines.cursor, state->separator, num_columns, corner) == NULL) {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "%s, line %zu: not a corner of the domain, as the first two lines of EDAT "
+                       "files are",
+                       reader->input.name, state->lines.line_number);
+    }
+    state->num_corners = (unsigned)num_columns;
+    ps_lines_skip(&state->lines);
+    return skip_marks(state, error);
+}
+
+static pspec_status open_edat(ps_point_reader *reader, ps_error *error) {
+    double corner[PS_MAX_DIMENSION] = {0};
+    PS_TRY(ps_text_open_lines(reader, ' ', error));
+    ps_text_state *const state = reader->state;
+    PS_TRY(read_corner(reader, state->origin, error));
+    PS_TRY(read_corner(reader, corner, error));
+    for (unsigned j = 0; j < state->num_corners; j++) {
+        state->size[j] = corner[j] - state->origin[j];
+        if (!(state->size[j] > 0 && isfinite(state->size[j]))) {
+            return ps_fail(error, PSPEC_ERROR_INPUT,
+                           "%s: the corners %g and %g of the domain enclose nothing",
+                           reader->input.name, state->origin[j], corner[j]);
+        }
+        state->is_scaled = state->is_scaled || state->origin[j] != 0 || state->size[j] != 1;
+    }
+    PS_TRY(fix_columns(reader, error));
+    if (reader->columns == state->num_corners + 1) {
+        reader->options.weight_column = true; /* the corners tell that it is no coordinate */
+    }
+    return reader->columns == state->num_corners || reader->columns == state->num_corners + 1
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INPUT,
+                         "%s, line %zu: %u columns in a domain of dimension %u", reader->input.name,
+                         state->columns_line, reader->columns, state->num_corners);
+}
+
+void ps_text_close(ps_point_reader *reader) {
+    ps_text_state *const state = reader->state;
+    if (state != NULL) {
+        ps_lines_close(&state->lines);
+        ps_row_parser_free(&state->parser);
+        free(state);
+    }
+}
+
+/* ---- read -------------------------------------------------------------------------------- */
+
+/* The line at the cursor is no row: why not? */
+static pspec_status refuse_line(const ps_point_reader *reader, ps_error *error) {
+    const ps_text_state *const state = reader->state;
+    size_t num_columns = 0;
+    PS_TRY(ps_row_count(&state->lines, state->separator, &num_columns, error));
+    if (num_columns == reader->columns) { /* blanks, in a file of commas */
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s, line %zu: no comma between two columns",
+                       reader->input.name, state->lines.line_number);
+    }
+    return ps_fail(error, PSPEC_ERROR_INPUT, "%s, line %zu: %zu column%s, where line %zu has %u",
+                   reader->input.name, state->lines.line_number, num_columns,
+                   num_columns == 1 ? "" : "s", state->columns_line, reader->columns);
+}
+
+static void scale_row(const ps_text_state *state, double *row) {
+    for (unsigned j = 0; j < state->num_corners; j++) {
+        row[j] = (row[j] - state->origin[j]) / state->size[j];
+    }
+}
+
+/* Reads rows of the whole lines in the buffer, up to the first line that is something else. */
+static void read_rows(const ps_point_reader *reader, ps_rows_read *out) {
+    ps_text_state *const state = reader->state;
+    ps_lines *const lines = &state->lines;
+    double *const rows = out->rows + out->num * reader->columns;
+    size_t num_rows = 0;
+    lines->cursor = ps_rows_parse(&state->parser, lines->cursor, lines->lines_end, rows,
+                                  out->capacity - out->num, &num_rows);
+    lines->line_number += num_rows;
+    out->num += num_rows;
+    for (size_t i = 0; state->is_scaled && i < num_rows; i++) {
+        scale_row(state, rows + i * reader->columns);
+    }
+}
+
+static pspec_status end_set(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
+    ps_text_state *const state = reader->state;
+    if (reader->rows_in_set + out->num == 0) {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "%s, line %zu: set %llu has no points: two '#' lines in a row",
+                       reader->input.name, state->lines.line_number,
+                       (unsigned long long)reader->num_sets + 1);
+    }
+    ps_lines_skip(&state->lines);
+    out->end = PS_END_OF_SET;
+    return PSPEC_OK;
+}
+
+/* Rows before a blank line, which may be an error, are handed out first. */
+static pspec_status end_input(ps_point_reader *reader, ps_rows_read *out, bool is_blank,
+                              ps_error *error) {
+    if (is_blank && out->num > 0) {
+        return PSPEC_OK;
+    }
+    out->end = PS_END_OF_INPUT;
+    return is_blank ? read_blank_end(reader->state, error) : PSPEC_OK;
+}
+
+static pspec_status read_text(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
+    ps_text_state *const state = reader->state;
+    ps_line_kind kind = PS_LINE_POINT;
+    reader->first_line = state->lines.line_number;
+    while (out->num < out->capacity) {
+        PS_TRY(ps_text_next_line(state, &kind, error));
+        if (kind == PS_LINE_MARK) {
+            return end_set(reader, out, error);
+        }
+        if (kind == PS_LINE_NONE || kind == PS_LINE_BLANK) {
+            return end_input(reader, out, kind == PS_LINE_BLANK, error);
+        }
+        const size_t before = out->num;
+        read_rows(reader, out);
+        if (out->num == before) {
+            return out->num > 0 ? PSPEC_OK : refuse_line(reader, error);
+        }
+    }
+    return PSPEC_OK;
+}
+
+/* ---- write ------------------------------------------------------------------------------- */
+
+static void write_rows(ps_point_writer *writer, const double *rows, size_t num_rows,
+                       char separator) {
+    enum { BLOCK_BYTES = 1 << 16, ROW_BYTES = PS_MAX_COLUMNS * PS_DECIMAL_BYTES };
+    char block[BLOCK_BYTES];
+    size_t used = 0;
+    for (size_t i = 0; i < num_rows; i++) {
+        for (unsigned j = 0; j < writer->columns; j++) {
+            used += ps_decimal_format(block + used, rows[i * writer->columns + j]);
+            block[used++] = j + 1 < writer->columns ? separator : '\n';
+        }
+        if (used > BLOCK_BYTES - ROW_BYTES) {
+            ps_output_write(writer->file, block, 1, used);
+            used = 0;
+        }
+    }
+    ps_output_write(writer->file, block, 1, used);
+}
+
+void ps_text_write_rows(ps_point_writer *writer, const double *rows, size_t num_rows) {
+    write_rows(writer, rows, num_rows, ' ');
+}
+
+static void write_csv(ps_point_writer *writer, const double *rows, size_t num_rows) {
+    write_rows(writer, rows, num_rows, ',');
+}
+
+static void begin_set(ps_point_writer *writer) {
+    if (writer->num_sets > 0) {
+        ps_output_write(writer->file, "#\n", 1, 2);
+    }
+}
+
+static void begin_nothing(ps_point_writer *writer) {
+    (void)writer; /* no header */
+}
+
+static void begin_edat(ps_point_writer *writer) {
+    for (int corner = 0; corner < 2; corner++) {
+        for (unsigned j = 0; j < writer->shape.dimension; j++) {
+            const char text[] = {(char)('0' + corner),
+                                 j + 1 < writer->shape.dimension ? ' ' : '\n'};
+            ps_output_write(writer->file, text, 1, sizeof text);
+        }
+    }
+}
+
+/* ---- the formats ------------------------------------------------------------------------- */
+
+enum {
+    ANY_POINTS =
+        PS_HOLDS_SETS | PS_HOLDS_WEIGHTS | PS_HOLDS_TORUS | PS_HOLDS_VECTORS | PS_HOLDS_ANGLES
+};
+
+const ps_point_format ps_format_utk_text = {.name = "utk-text",
+                                            .open = open_utk,
+                                            .read = read_text,
+                                            .close = ps_text_close,
+                                            .abilities = ANY_POINTS,
+                                            .begin = begin_nothing,
+                                            .begin_set = begin_set,
+                                            .write = ps_text_write_rows};
+
+const ps_point_format ps_format_csv = {.name = "csv",
+                                       .endings = {".csv"},
+                                       .open = open_csv,
+                                       .read = read_text,
+                                       .close = ps_text_close,
+                                       .abilities = ANY_POINTS,
+                                       .begin = begin_nothing,
+                                       .begin_set = begin_set,
+                                       .write = write_csv};
+
+const ps_point_format ps_format_edat = {.name = "edat",
+                                        .endings = {".edat"},
+                                        .open = open_edat,
+                                        .read = read_text,
+                                        .close = ps_text_close,
+                                        .abilities =
+                                            PS_HOLDS_SETS | PS_HOLDS_WEIGHTS | PS_HOLDS_TORUS,
+                                        .begin = begin_edat,
+                                        .begin_set = begin_set,
+                                        .write = ps_text_write_rows};

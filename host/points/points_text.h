@@ -1,0 +1,38 @@
+/* What the formats of text share: lines, and rows of numbers in them. Private to host/io. */
+#ifndef PS_POINTS_POINTS_TEXT_H
+#define PS_POINTS_POINTS_TEXT_H
+
+#include "points/points_format.h"
+#include "files/text_rows.h"
+
+typedef struct ps_text_state {
+    ps_lines lines;
+    ps_row_parser parser;
+    char separator;
+    size_t columns_line; /* the line that fixed the columns */
+    size_t promised;     /* points, by a count at the beginning of the file */
+    bool is_in_line;     /* the cursor is not at the beginning of a line (such files only) */
+    /* edat: coordinate j becomes (x - origin[j]) / size[j] */
+    bool is_scaled;
+    unsigned num_corners;
+    double origin[PS_MAX_DIMENSION], size[PS_MAX_DIMENSION];
+} ps_text_state;
+
+typedef enum ps_line_kind { PS_LINE_POINT, PS_LINE_MARK, PS_LINE_BLANK, PS_LINE_NONE } ps_line_kind;
+
+/* Makes the next line available and tells what it is. */
+pspec_status ps_text_next_line(ps_text_state *state, ps_line_kind *kind,
+                               ps_error *error) PS_MUST_CHECK;
+
+/* Makes the state of a text reader, or takes over the one that ps_text_detect has made, and goes to
+ * the first line that is not a '#' line. */
+pspec_status ps_text_open_lines(ps_point_reader *reader, char separator,
+                                ps_error *error) PS_MUST_CHECK;
+/* Fixes the number of columns of all rows. */
+void ps_text_set_columns(ps_point_reader *reader, unsigned columns);
+void ps_text_close(ps_point_reader *reader);
+
+/* Rows of numbers between blanks, 17 digits. */
+void ps_text_write_rows(ps_point_writer *writer, const double *rows, size_t num_rows);
+
+#endif

@@ -1,0 +1,16 @@
+/* The question of `check`: that of the saved spectrum. */
+#ifndef PS_QUESTIONS_CHECK_QUESTION_H
+#define PS_QUESTIONS_CHECK_QUESTION_H
+
+#include "questions/question.h"
+#include "questions/saved_spectrum.h"
+
+/* The question is that of the saved spectrum, but for the seed: realizations must be independent of those
+ * that were saved. */
+ps_request ps_check_request(const ps_request *arguments, const ps_saved_spectrum *saved);
+
+/* One question, of what ps_check_request gave; it borrows from `own`. */
+pspec_status ps_check_question_make(ps_question_list *out, const ps_request *own,
+                                    const ps_saved_spectrum *saved, ps_error *error) PS_MUST_CHECK;
+
+#endif

@@ -1,0 +1,41 @@
+/* The options of all commands, which are the keys of scene files, one row per ps_option_id: parser, usage and
+ * --help come from here.
+ */
+#ifndef PS_QUESTIONS_OPTIONS_H
+#define PS_QUESTIONS_OPTIONS_H
+
+#include "questions/request.h"
+
+typedef struct ps_option ps_option;
+
+/* Stores value (NULL for a flag) in *arguments, or says what is wrong with it. words are the values
+ * that the command at hand admits, "one|two". */
+typedef pspec_status ps_option_setter(const ps_option *option, const char *words, const char *value,
+                                      ps_request *arguments, ps_error *error);
+
+struct ps_option {
+    const char *name;    /* without its dashes */
+    const char *metavar; /* NULL: takes no value */
+    const char *help;
+    ps_option_setter *set;
+    size_t offset; /* of the field of ps_request, for setters that serve several options */
+    uint64_t minimum, maximum;
+    char letter; /* 0: none */
+};
+
+extern const ps_option ps_options[PS_NUM_OPTIONS];
+
+/* An option as it was said, "-n", "--points" or the key "points"; the long form of one that was not. */
+typedef struct ps_shown_option {
+    char text[32];
+} ps_shown_option;
+ps_shown_option ps_option_show(const ps_request *request, ps_option_id id);
+
+/* Is id in the list, which PS_NUM_OPTIONS or NULL ends? */
+bool ps_options_have(const ps_option_id *list, ps_option_id id);
+
+/* How far a name that somebody typed is from a known one. 0: that very name; a beginning of it
+ * counts as one letter. */
+size_t ps_name_distance(const char *typed, const char *known);
+
+#endif

@@ -1,0 +1,116 @@
+#include "questions/quadrature_question.h"
+
+#include "questions/question.h"
+
+#include <string.h>
+
+/* Of E^2: good rules of many points have an E^2 of 1e-7 and less. */
+static const double TOLERANCE = 1e-10;
+
+static pspec_status check_source(const ps_request *arguments, ps_error *error) {
+    if (arguments->brdf == NULL) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "--brdf NAME is needed, as in --brdf diffuse or --brdf glossy:n=30");
+    }
+    if ((arguments->num_samplers > 0) == (arguments->num_files > 0)) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       arguments->num_files > 0
+                           ? "points come from a --sampler or from files, not from both"
+                           : "no rule: name point files (- for standard input) or a --sampler");
+    }
+    const bool is_column = arguments->weights != NULL && strcmp(arguments->weights, "column") == 0;
+    return is_column && arguments->num_samplers > 0
+               ? ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "--weights column does not go with --sampler: samplers make points only")
+               : PSPEC_OK;
+}
+
+/* Points of the hemisphere get the density of the lobe, unless morph= says otherwise. */
+static pspec_status make_request(ps_sampler_request *request, const ps_request *arguments,
+                                 size_t index, const ps_brdf *brdf, ps_error *error) {
+    const char *const name = arguments->samplers[index];
+    PS_TRY(ps_sampler_request_make(request, arguments, index, error));
+    if (!ps_sampler_is_on_sphere(request)) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "--sampler %s makes points of the torus; " PS_LIFT_KEY
+                       "=hemisphere takes them to directions",
+                       name);
+    }
+    const bool on_hemisphere = ps_sampler_is_on_hemisphere(request);
+    if (!on_hemisphere && !arguments->drop_below_horizon && !ps_brdf_is_below_horizon(brdf)) {
+        return ps_fail(
+            error, PSPEC_ERROR_INVALID_ARGUMENT,
+            "--sampler %s makes points of the whole sphere, half of them below the "
+            "horizon, where this BRDF is 0; fibonacci-hemisphere, white-hemisphere and " PS_LIFT_KEY
+            "=hemisphere make none there",
+            name);
+    }
+    if (on_hemisphere && !request->has_morph) {
+        request->morph = ps_brdf_morph(brdf);
+    }
+    return PSPEC_OK;
+}
+
+static ps_rule_weights choose_weights(const ps_request *arguments, const char **path) {
+    const char *const weights = arguments->weights;
+    *path = NULL;
+    if (weights == NULL || strcmp(weights, "column") == 0) {
+        return PS_WEIGHTS_GIVEN; /* those that the files have; else they are equal */
+    }
+    if (strcmp(weights, "equal") == 0) {
+        return PS_WEIGHTS_EQUAL;
+    }
+    if (strcmp(weights, "optimal") == 0) {
+        return PS_WEIGHTS_OPTIMAL;
+    }
+    *path = weights;
+    return PS_WEIGHTS_GIVEN;
+}
+
+static ps_quadrature_question make_question(const ps_request *arguments, const ps_brdf *brdf) {
+    ps_quadrature_question out = {
+        .brdf = brdf,
+        .smoothness = arguments->smoothness,
+        .num_realizations = arguments->num_samplers > 0 ? ps_num_realizations_asked(arguments) : 0,
+        .standard_error = arguments->standard_error,
+        .paths = arguments->files,
+        .num_paths = arguments->num_files,
+        .point_options = ps_point_options_make(arguments),
+        .drops_below_horizon = arguments->drop_below_horizon,
+        .max_degree = (size_t)arguments->max_degree,
+        .tolerance = arguments->is_given[PS_OPTION_TOLERANCE] ? arguments->tolerance : TOLERANCE,
+        .constraints = {.engine = arguments->engine,
+                        .precision = arguments->precision,
+                        .memory_limit = arguments->memory},
+        .no_skip = arguments->no_skip,
+        .device = arguments->device,
+        .figures_folder = arguments->cache_folder,
+        .profile = arguments->profile,
+    };
+    out.weights = choose_weights(arguments, &out.weights_path);
+    out.point_options.domain = PS_DOMAIN_SPHERE;
+    out.point_options.above_horizon =
+        !arguments->drop_below_horizon && !ps_brdf_is_below_horizon(brdf);
+    out.point_options.ignore_weights =
+        arguments->weights != NULL && strcmp(arguments->weights, "column") != 0;
+    return out;
+}
+
+pspec_status ps_quadrature_list_make(ps_quadrature_list *out, const ps_request *arguments,
+                                     ps_error *error) {
+    *out = (ps_quadrature_list){.num = arguments->num_samplers > 0 ? arguments->num_samplers : 1};
+    PS_TRY(check_source(arguments, error));
+    PS_TRY(ps_brdf_parse(&out->brdf, arguments->brdf, error));
+    for (size_t i = 0; i < out->num; i++) {
+        out->questions[i] = make_question(arguments, out->brdf);
+        if (arguments->num_samplers > 0) {
+            PS_TRY(make_request(&out->requests[i], arguments, i, out->brdf, error));
+            out->questions[i].sampler = &out->requests[i];
+        }
+    }
+    return PSPEC_OK;
+}
+
+void ps_quadrature_list_free(ps_quadrature_list *list) {
+    ps_brdf_destroy(list->brdf);
+}

@@ -1,0 +1,21 @@
+/* From a request to what quadrature jobs are asked, for `quadrature` and `plan`. */
+#ifndef PS_QUESTIONS_QUADRATURE_QUESTION_H
+#define PS_QUESTIONS_QUADRATURE_QUESTION_H
+
+#include "questions/request.h"
+#include "jobs/quadrature/quadrature_setup.h"
+
+/* One question per sampler, or one for the files. The questions borrow from the arguments and from here. */
+typedef struct ps_quadrature_list {
+    ps_brdf *brdf;
+    size_t num;
+    ps_quadrature_question questions[PS_MAX_SAMPLERS];
+    ps_sampler_request requests[PS_MAX_SAMPLERS];
+} ps_quadrature_list;
+
+/* Checks that the options fit together. *out must not be moved; freed by ps_quadrature_list_free, also after an error. */
+pspec_status ps_quadrature_list_make(ps_quadrature_list *out, const ps_request *arguments,
+                                     ps_error *error) PS_MUST_CHECK;
+void ps_quadrature_list_free(ps_quadrature_list *list);
+
+#endif

@@ -1,0 +1,253 @@
+#include "questions/question.h"
+
+#include "questions/options.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static pspec_status fail_conflict(const char *a, const char *b, const char *why, ps_error *error) {
+    return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s does not go with %s: %s", a, b, why);
+}
+
+ps_option_source ps_option_source_of(ps_option_id id) {
+    switch (id) {
+    case PS_OPTION_REALIZATIONS:
+    case PS_OPTION_SEED: /* but for --per-ring */
+    case PS_OPTION_HOMOGENIZE:
+        return PS_OF_SAMPLERS;
+    case PS_OPTION_INPUT_FORMAT:
+    case PS_OPTION_COLUMNS:
+    case PS_OPTION_WRAP:
+    case PS_OPTION_NORMALIZE_VECTORS:
+    case PS_OPTION_SELECT_SETS:
+        return PS_OF_FILES;
+    default:
+        return PS_OF_BOTH;
+    }
+}
+
+/* Options that are about the other kind of source. */
+static pspec_status check_other_source(const ps_request *arguments, ps_error *error) {
+    const bool are_files = arguments->num_files > 0;
+    const ps_option_source other = are_files ? PS_OF_SAMPLERS : PS_OF_FILES;
+    for (int id = 0; id < PS_NUM_OPTIONS; id++) {
+        const bool is_of_subset = id == PS_OPTION_SEED && arguments->per_ring > 0;
+        if (!arguments->is_given[id] || ps_option_source_of((ps_option_id)id) != other ||
+            is_of_subset) {
+            continue;
+        }
+        const ps_shown_option shown = ps_option_show(arguments, (ps_option_id)id);
+        return are_files
+                   ? fail_conflict(shown.text, "point files", "it says what samplers make", error)
+                   : fail_conflict(shown.text, ps_option_show(arguments, PS_OPTION_SAMPLER).text,
+                                   "it says how point files are read", error);
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status check_source(const ps_request *arguments, ps_error *error) {
+    if (arguments->num_samplers == 0 && arguments->num_files == 0) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "nothing to take a spectrum of: name point files (- for standard input) or "
+                       "a --sampler");
+    }
+    if (arguments->num_samplers > 0 && arguments->num_files > 0) {
+        return fail_conflict("--sampler", arguments->files[0], "points come from one of them",
+                             error);
+    }
+    PS_TRY(check_other_source(arguments, error));
+    if (arguments->weights != NULL && strcmp(arguments->weights, "column") == 0 &&
+        arguments->num_samplers > 0) {
+        return fail_conflict("--weights column", "--sampler", "samplers make points only", error);
+    }
+    return PSPEC_OK;
+}
+
+/* What does not go together, and why; both are options. */
+typedef struct option_pair {
+    ps_option_id a, b;
+    const char *why;
+} option_pair;
+
+static pspec_status check_results(const ps_request *arguments, ps_error *error) {
+    static const option_pair pairs[] = {
+        {PS_OPTION_FREQUENCIES, PS_OPTION_MAX_FREQUENCY, "the list says it all"},
+        {PS_OPTION_FREQUENCIES, PS_OPTION_SHELLS, "a list is not averaged"},
+        {PS_OPTION_FREQUENCIES, PS_OPTION_FULL, "a list is not an array"},
+        {PS_OPTION_FREQUENCIES, PS_OPTION_PLOT, "only grids are drawn"},
+        {PS_OPTION_FREQUENCIES, PS_OPTION_PER_RING, "the list says it all"},
+        {PS_OPTION_FREQUENCIES, PS_OPTION_STANDARD_ERROR,
+         "it is that of rings, and a list has none"},
+        {PS_OPTION_PER_RING, PS_OPTION_STANDARD_ERROR,
+         "more realizations do not mend the error of the choice"},
+        {PS_OPTION_COEFFICIENTS, PS_OPTION_STANDARD_ERROR, "coefficients are of one set"},
+        {PS_OPTION_FULL, PS_OPTION_PER_RING, "a subset does not fill an array"}};
+    for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
+        if (arguments->is_given[pairs[i].a] && arguments->is_given[pairs[i].b]) {
+            return fail_conflict(ps_option_show(arguments, pairs[i].a).text,
+                                 ps_option_show(arguments, pairs[i].b).text, pairs[i].why, error);
+        }
+    }
+    if (arguments->full != NULL && arguments->num_samplers > 1) {
+        return fail_conflict("--full", "several samplers", "one array has one file", error);
+    }
+    return PSPEC_OK;
+}
+
+/* Weights of the files are used where their columns name them, unless others are given. */
+ps_point_options ps_point_options_make(const ps_request *arguments) {
+    const char *const weights = arguments->weights;
+    const bool is_column = weights != NULL && strcmp(weights, "column") == 0;
+    return (ps_point_options){
+        .format = arguments->input_format,
+        .columns = arguments->columns,
+        .dimension = arguments->is_given[PS_OPTION_DIMENSION] ? arguments->dimension : 0,
+        .points_per_set = arguments->is_given[PS_OPTION_POINTS] ? (size_t)arguments->num_points : 0,
+        .sets = arguments->sets,
+        .domain = arguments->domain,
+        .weight_column = is_column,
+        .ignore_weights = weights != NULL && !is_column,
+        .wrap = arguments->wrap,
+        .normalize_vectors = arguments->normalize_vectors,
+        .memory_limit = arguments->memory,
+    };
+}
+
+static void fill_points(ps_power_question *question, const ps_request *arguments,
+                        ps_domain domain) {
+    const char *const weights = arguments->weights;
+    const bool is_word =
+        weights == NULL || strcmp(weights, "column") == 0 || strcmp(weights, "equal") == 0;
+    question->paths = arguments->files;
+    question->num_paths = arguments->num_files;
+    question->weights_path = is_word ? NULL : weights;
+    question->point_options = ps_point_options_make(arguments);
+    question->point_options.domain = domain;
+}
+
+static ps_harmonics find_harmonics(const ps_request *arguments) {
+    if (arguments->coefficients == NULL) {
+        return PS_NO_HARMONICS;
+    }
+    return arguments->harmonics != NULL && strcmp(arguments->harmonics, "hemispherical") == 0
+               ? PS_HEMISPHERICAL_HARMONICS
+               : PS_SPHERICAL_HARMONICS;
+}
+
+static pspec_normalization choose_normalization(const ps_request *arguments,
+                                                ps_question_kind kind) {
+    if (kind == PS_QUESTION_PAIRS) {
+        return PSPEC_NORMALIZATION_PAIRS;
+    }
+    return arguments->effective ? PSPEC_NORMALIZATION_EFFECTIVE : PSPEC_NORMALIZATION_POWER;
+}
+
+static ps_domain domain_of(ps_question_kind kind) {
+    return kind == PS_QUESTION_POWER ? PS_DOMAIN_TORUS : PS_DOMAIN_SPHERE;
+}
+
+/* A standard error needs a limit, for a sampler may never reach it. */
+uint64_t ps_num_realizations_asked(const ps_request *arguments) {
+    const uint64_t most = 1000000;
+    return arguments->standard_error > 0 && !arguments->is_given[PS_OPTION_REALIZATIONS]
+               ? most
+               : arguments->num_realizations;
+}
+
+/* What else this may be asked of, as check_results has it. */
+static unsigned find_offers(const ps_request *arguments, ps_question_kind kind) {
+    const bool is_whole = arguments->full != NULL || arguments->standard_error > 0;
+    if (kind != PS_QUESTION_POWER || is_whole || arguments->frequencies != NULL ||
+        arguments->per_ring > 0) {
+        return 0;
+    }
+    return PS_OFFER_RINGS |
+           (arguments->plot == NULL && !arguments->shells ? (unsigned)PS_OFFER_LISTS : 0);
+}
+
+static ps_power_question make_question(const ps_request *arguments, ps_question_kind kind) {
+    ps_power_question question = {
+        .on_sphere = domain_of(kind) == PS_DOMAIN_SPHERE,
+        .wants_pair_sums = kind == PS_QUESTION_PAIRS,
+        .on_hemisphere = arguments->hemisphere,
+        .harmonics = find_harmonics(arguments),
+        .max_degree = (int64_t)arguments->max_degree,
+        .num_realizations = ps_num_realizations_asked(arguments),
+        .max_frequency = arguments->max_frequency,
+        .frequencies_path = arguments->frequencies,
+        .per_ring = arguments->per_ring,
+        .per_ring_seed = arguments->seed,
+        .exact_shells = arguments->shells,
+        /* the picture of one spectrum shows the corners; several, and subsets, are curves only */
+        .wants_full_array =
+            arguments->full != NULL || arguments->wants_picture ||
+            (arguments->plot != NULL && arguments->num_samplers <= 1 && arguments->per_ring == 0),
+        .normalization = choose_normalization(arguments, kind),
+        .tolerance = arguments->tolerance,
+        .floor = arguments->floor,
+        .standard_error = arguments->standard_error,
+        .may_loosen = arguments->standard_error > 0 && arguments->floor > 0 &&
+                      !arguments->is_given[PS_OPTION_TOLERANCE],
+        .no_skip = arguments->no_skip,
+        .no_self_check = arguments->no_self_check,
+        .constraints = {.engine = arguments->engine,
+                        .precision = arguments->precision,
+                        .memory_limit = arguments->memory,
+                        .offers = find_offers(arguments, kind)},
+        .device = arguments->device,
+        .figures_folder = arguments->cache_folder,
+        .profile = arguments->profile,
+    };
+    fill_points(&question, arguments, domain_of(kind));
+    return question;
+}
+
+pspec_status ps_sampler_request_make(ps_sampler_request *out, const ps_request *arguments,
+                                     size_t i_sampler, ps_error *error) {
+    *out = (ps_sampler_request){
+        .num_points = arguments->is_given[PS_OPTION_POINTS] ? (size_t)arguments->num_points : 0,
+        .dimension = arguments->is_given[PS_OPTION_DIMENSION] ? arguments->dimension : 0,
+        .seed = arguments->seed,
+        .homogenize = arguments->homogenize};
+    PS_TRY(ps_sampler_parse(out, arguments->samplers[i_sampler], error));
+    return ps_sampler_resolve(out, error);
+}
+
+/* The wrong domain is named before anything else that may be wrong with a sampler. */
+static pspec_status make_request_of_domain(ps_sampler_request *out, const ps_request *arguments,
+                                           size_t i_sampler, ps_domain domain, ps_error *error) {
+    const char *const text = arguments->samplers[i_sampler];
+    PS_TRY(ps_sampler_parse(out, text, error));
+    if (domain == PS_DOMAIN_TORUS && ps_sampler_is_on_sphere(out)) {
+        return ps_fail(
+            error, PSPEC_ERROR_INVALID_ARGUMENT,
+            "--sampler %s makes points of the sphere, and this spectrum is of the torus; "
+            "pointspec angular is for the sphere",
+            text);
+    }
+    if (domain == PS_DOMAIN_SPHERE && !ps_sampler_is_on_sphere(out)) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "--sampler %s makes points of the torus, and this spectrum is of the "
+                       "sphere; " PS_LIFT_KEY "=sphere or " PS_LIFT_KEY
+                       "=hemisphere takes them there",
+                       text);
+    }
+    return ps_sampler_request_make(out, arguments, i_sampler, error);
+}
+
+pspec_status ps_questions_make(ps_question_list *out, const ps_request *arguments,
+                               ps_question_kind kind, ps_error *error) {
+    PS_TRY(check_source(arguments, error));
+    PS_TRY(check_results(arguments, error));
+    out->num = arguments->num_samplers > 0 ? arguments->num_samplers : 1;
+    for (size_t i = 0; i < out->num; i++) {
+        out->questions[i] = make_question(arguments, kind);
+        if (arguments->num_samplers == 0) {
+            continue;
+        }
+        ps_sampler_request *request = &out->requests[i];
+        PS_TRY(make_request_of_domain(request, arguments, i, domain_of(kind), error));
+        out->questions[i].sampler = request;
+    }
+    return PSPEC_OK;
+}

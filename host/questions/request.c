@@ -1,0 +1,13 @@
+#include "questions/request.h"
+
+const ps_request ps_request_default = {.num_points = 1024,
+                                       .num_realizations = 1,
+                                       .dimension = 2,
+                                       .seed = 1,
+                                       .cache_bytes = 1000000000,
+                                       .domain = PS_DOMAIN_ANY,
+                                       .tolerance = 1e-6,
+                                       .false_alarm_rate = 1e-3,
+                                       .smoothness = 1.5,
+                                       .precision = -1,
+                                       .command_line = ""};

@@ -1,0 +1,121 @@
+/* What is asked for, by a command line or in a scene file, after parsing. One struct for all kinds of results
+ * (questions/results.h), each of which lists the options that belong to it.
+ */
+#ifndef PS_QUESTIONS_REQUEST_H
+#define PS_QUESTIONS_REQUEST_H
+
+#include "base/status.h"
+#include "points/points.h"
+#include "samplers/sampler.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum { PS_MAX_SAMPLERS = 16 };
+
+typedef enum ps_option_id {
+    PS_OPTION_POINTS,            /* -n, --points N */
+    PS_OPTION_REALIZATIONS,      /* -m, --realizations M */
+    PS_OPTION_STANDARD_ERROR,    /* --standard-error X */
+    PS_OPTION_DIMENSION,         /* -d, --dimension D */
+    PS_OPTION_SEED,              /* -s, --seed S */
+    PS_OPTION_SAMPLER,           /* --sampler NAME[:key=value,...], repeatable */
+    PS_OPTION_AGAINST,           /* --against FILE */
+    PS_OPTION_FALSE_ALARM_RATE,  /* --false-alarm-rate P */
+    PS_OPTION_BRDF,              /* --brdf NAME[:key=value,...] */
+    PS_OPTION_SMOOTHNESS,        /* --smoothness S */
+    PS_OPTION_MAX_FREQUENCY,     /* -k, --max-frequency K */
+    PS_OPTION_MAX_DEGREE,        /* -l, --max-degree L */
+    PS_OPTION_HEMISPHERE,        /* --hemisphere */
+    PS_OPTION_COEFFICIENTS,      /* --coefficients FILE.npy */
+    PS_OPTION_HARMONICS,         /* --harmonics spherical|hemispherical */
+    PS_OPTION_FREQUENCIES,       /* --frequencies FILE */
+    PS_OPTION_SHELLS,            /* --shells */
+    PS_OPTION_PER_RING,          /* --per-ring S */
+    PS_OPTION_FULL,              /* --full FILE.npy */
+    PS_OPTION_NORMALIZE,         /* --normalize power|effective */
+    PS_OPTION_HOMOGENIZE,        /* --homogenize */
+    PS_OPTION_WEIGHTS,           /* --weights equal|column|FILE */
+    PS_OPTION_INPUT_FORMAT,      /* --input-format NAME */
+    PS_OPTION_COLUMNS,           /* --columns NAME */
+    PS_OPTION_DOMAIN,            /* --domain torus|sphere */
+    PS_OPTION_WRAP,              /* --wrap */
+    PS_OPTION_NORMALIZE_VECTORS, /* --normalize-vectors */
+    PS_OPTION_DROP_BELOW,        /* --drop-below-horizon */
+    PS_OPTION_SELECT_SETS,       /* --select-sets A..B */
+    PS_OPTION_SELECT_POINTS,     /* --select-points A..B */
+    PS_OPTION_MERGE,             /* --merge */
+    PS_OPTION_TO_COLUMNS,        /* --to-columns NAME */
+    PS_OPTION_TOLERANCE,         /* --tol T */
+    PS_OPTION_FLOOR,             /* --floor P */
+    PS_OPTION_PRECISION,         /* --precision auto|single|double|extended */
+    PS_OPTION_ENGINE,            /* --engine NAME */
+    PS_OPTION_CASE,              /* --case NAME */
+    PS_OPTION_CALIBRATE,         /* --calibrate */
+    PS_OPTION_DEVICE,            /* --device SELECTOR */
+    PS_OPTION_MEMORY,            /* --memory SIZE */
+    PS_OPTION_CACHE,             /* --cache BYTES */
+    PS_OPTION_NO_SKIP,           /* --no-skip */
+    PS_OPTION_NO_SELF_CHECK,     /* --no-self-check */
+    PS_OPTION_OUTPUT,            /* -o, --output FILE */
+    PS_OPTION_FORMAT,            /* --format csv|json|npy, or a format of points */
+    PS_OPTION_PLOT,              /* --plot FILE */
+    PS_OPTION_PROFILE,           /* --profile */
+    PS_OPTION_QUIET,             /* --quiet */
+    PS_OPTION_QUICK,             /* --quick */
+    PS_OPTION_SCENES,            /* --scenes */
+    PS_OPTION_VERBOSE,           /* --verbose */
+    PS_OPTION_HELP,              /* -h, --help */
+    PS_NUM_OPTIONS
+} ps_option_id;
+
+/* How an option was said, for sentences that name it. */
+typedef enum ps_option_form {
+    PS_FORM_LONG,   /* --points */
+    PS_FORM_LETTER, /* -n */
+    PS_FORM_KEY     /* points, in a scene */
+} ps_option_form;
+
+typedef struct ps_request {
+    bool is_given[PS_NUM_OPTIONS];        /* which options were said */
+    ps_option_form forms[PS_NUM_OPTIONS]; /* of those */
+    uint64_t num_points;                  /* 1024 unless given */
+    uint64_t num_realizations;            /* 1 unless given */
+    unsigned dimension;                   /* 2 unless given, 1..6 */
+    uint64_t seed;                        /* 1 unless given */
+    size_t num_samplers;
+    const char *samplers[PS_MAX_SAMPLERS];
+    int32_t max_frequency;         /* 0 unless given: the default of design.md 3.1 */
+    uint64_t max_degree;           /* 0 unless given: the default of design.md 3.1 */
+    uint64_t per_ring;             /* 0 unless given: all frequencies */
+    uint64_t memory;               /* that was typed, here or in POINTSPEC_MEMORY; 0: nothing was */
+    bool is_memory_of_environment; /* it stands in POINTSPEC_MEMORY */
+    uint64_t cache_bytes;          /* 1e9 unless given */
+    const char *against;           /* NULL unless given */
+    double false_alarm_rate;       /* 1e-3 unless given */
+    const char *brdf, *coefficients, *harmonics, *frequencies, *full, *weights, *input_format,
+        *columns, *to_columns, *engine, *case_name, *device, *output, *format,
+        *plot;                   /* NULL unless given */
+    const char *cache_folder;    /* of what can be made again; NULL: there is none */
+    ps_domain domain;            /* PS_DOMAIN_ANY unless given */
+    ps_point_range sets, points; /* {0} unless given */
+    bool shells, homogenize, hemisphere, wrap, normalize_vectors, drop_below_horizon, merge,
+        no_skip, no_self_check, profile, calibrate, quick, scenes, quiet, verbose;
+    bool
+        wants_picture; /* of the averaged periodogram on the whole square, which no option asks for */
+    bool effective;    /* --normalize effective */
+    double tolerance;      /* 1e-6 unless given */
+    double standard_error; /* 0 unless given */
+    double floor;          /* 0 unless given */
+    double smoothness;     /* 1.5 unless given */
+    int precision;         /* a ps_precision, -1 for auto */
+    size_t num_files;
+    const char **files;       /* the remaining words; "-" is standard input */
+    const char *command_line; /* the whole line, for headers */
+} ps_request;
+
+/* Nothing was said. */
+extern const ps_request ps_request_default;
+
+#endif

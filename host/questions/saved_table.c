@@ -1,0 +1,265 @@
+/* Tables of pointspec power and angular as JSON, read back. */
+#include "base/memory.h"
+#include "frequencies/frequencies.h"
+#include "questions/saved_spectrum.h"
+
+#include <cJSON.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Whole numbers up to here are exact in a double, which cJSON keeps numbers in. */
+#define MOST_EXACT ((uint64_t)1 << 53)
+
+typedef struct reader {
+    ps_saved_spectrum *out;
+    const cJSON *root, *meta;
+    const char *name;
+    ps_error *error;
+} reader;
+
+static pspec_status fail_damaged(const reader *from, const char *what) {
+    return ps_fail(from->error, PSPEC_ERROR_INPUT, "\"%s\": %s", from->name, what);
+}
+
+/* ---- single values ----------------------------------------------------------------------- */
+
+static bool take_whole(const cJSON *item, uint64_t least, uint64_t most, uint64_t *out) {
+    const bool is_good = cJSON_IsNumber(item) && item->valuedouble >= (double)least &&
+                         item->valuedouble <= (double)most &&
+                         item->valuedouble == floor(item->valuedouble);
+    *out = is_good ? (uint64_t)item->valuedouble : 0;
+    return is_good;
+}
+
+static const cJSON *entry(const reader *from, const char *key) {
+    return cJSON_GetObjectItemCaseSensitive(from->meta, key);
+}
+
+static pspec_status need_whole(const reader *from, const char *key, uint64_t most, uint64_t *out) {
+    return take_whole(entry(from, key), 1, most, out)
+               ? PSPEC_OK
+               : ps_fail(from->error, PSPEC_ERROR_INPUT,
+                         "\"%s\": \"%s\" of \"meta\" is not a whole number from 1 to %llu",
+                         from->name, key, (unsigned long long)most);
+}
+
+static bool begins_with(const cJSON *item, const char *beginning) {
+    return cJSON_IsString(item) && strncmp(item->valuestring, beginning, strlen(beginning)) == 0;
+}
+
+/* ---- header ------------------------------------------------------------------------------ */
+
+/* "mean 1023.5, from 1000 to 1040", or one number. */
+static pspec_status read_points(const reader *from) {
+    const cJSON *const item = entry(from, "points");
+    ps_saved_spectrum *const out = from->out;
+    unsigned long long smallest = 0;
+    unsigned long long largest = 0;
+    if (!cJSON_IsString(item)) {
+        PS_TRY(need_whole(from, "points", MOST_EXACT, &out->smallest_points));
+        out->largest_points = out->smallest_points;
+        out->mean_points = (double)out->smallest_points;
+        return PSPEC_OK;
+    }
+    if (sscanf(item->valuestring, "mean %lf, from %llu to %llu", &out->mean_points, &smallest,
+               &largest) != 3 ||
+        smallest == 0 || smallest > largest || largest > MOST_EXACT ||
+        !(out->mean_points >= (double)smallest && out->mean_points <= (double)largest)) {
+        return fail_damaged(from, "\"points\" of \"meta\" is no range of numbers of points");
+    }
+    out->smallest_points = smallest;
+    out->largest_points = largest;
+    return PSPEC_OK;
+}
+
+static pspec_status read_normalization(const reader *from) {
+    const cJSON *const item = entry(from, "normalization");
+    const bool is_effective = begins_with(item, "effective");
+    from->out->normalization =
+        is_effective ? PSPEC_NORMALIZATION_EFFECTIVE : PSPEC_NORMALIZATION_POWER;
+    return is_effective || begins_with(item, "power")
+               ? PSPEC_OK
+               : fail_damaged(from, "\"normalization\" of \"meta\" is neither power nor effective");
+}
+
+static pspec_status read_domain(const reader *from) {
+    ps_saved_spectrum *const out = from->out;
+    uint64_t number = 0;
+    if (out->on_sphere) {
+        out->on_hemisphere = begins_with(entry(from, "domain"), "hemisphere");
+        out->dimension = PS_SPHERE_DIMENSION;
+        PS_TRY(need_whole(from, "max_degree", PS_MAX_DEGREE, &number));
+    } else {
+        PS_TRY(need_whole(from, "dimension", PS_MAX_TORUS_DIMENSION, &number));
+        out->dimension = (unsigned)number;
+        PS_TRY(need_whole(from, "max_frequency", PS_MAX_FREQUENCY, &number));
+    }
+    out->max_frequency = (int32_t)number;
+    return PSPEC_OK;
+}
+
+/* The same subset is drawn again only with the same seed. */
+static pspec_status read_subset(const reader *from) {
+    ps_saved_spectrum *const out = from->out;
+    out->has_seed = take_whole(entry(from, "seed"), 0, MOST_EXACT, &out->seed);
+    if (entry(from, "per_ring") == NULL) {
+        return PSPEC_OK;
+    }
+    PS_TRY(need_whole(from, "per_ring", PS_MAX_NUM_FREQUENCIES, &out->per_ring));
+    return out->has_seed
+               ? PSPEC_OK
+               : fail_damaged(from, "\"seed\" of \"meta\", which the random subset of every ring "
+                                    "depends on, is not a whole number from 0 to 2^53");
+}
+
+static pspec_status read_header(const reader *from) {
+    const cJSON *const error = entry(from, "predicted_error");
+    PS_TRY(need_whole(from, "realizations", MOST_EXACT, &from->out->num_realizations));
+    PS_TRY(read_points(from));
+    PS_TRY(read_normalization(from));
+    PS_TRY(read_domain(from));
+    if (!cJSON_IsNumber(error) || !(error->valuedouble >= 0 && isfinite(error->valuedouble))) {
+        return fail_damaged(from, "\"predicted_error\" of \"meta\" is not a number from 0 on");
+    }
+    from->out->error = error->valuedouble;
+    return read_subset(from);
+}
+
+/* ---- rows -------------------------------------------------------------------------------- */
+
+/* Where the numbers of a row stand. */
+typedef struct places {
+    int key, frequency, power, standard_error, num;
+} places;
+
+static int find_column(const cJSON *columns, const char *name) {
+    int place = 0;
+    const cJSON *column = NULL;
+    cJSON_ArrayForEach(column, columns) {
+        if (cJSON_IsString(column) && strcmp(column->valuestring, name) == 0) {
+            return place;
+        }
+        place++;
+    }
+    return -1;
+}
+
+static pspec_status find_places(const reader *from, places *at) {
+    const cJSON *const columns = cJSON_GetObjectItemCaseSensitive(from->root, "columns");
+    if (find_column(columns, "sampler") >= 0) {
+        return fail_damaged(from, "this is the table of several samplers; save one of them alone");
+    }
+    if (find_column(columns, "k1") >= 0) {
+        return fail_damaged(from, "this is a list of frequencies, and rings are compared; save one "
+                                  "without --frequencies");
+    }
+    *at = (places){find_column(columns, from->out->on_sphere ? "degree" : "bin"),
+                   find_column(columns, "frequency"), find_column(columns, "power"),
+                   find_column(columns, "standard_error"), cJSON_GetArraySize(columns)};
+    return at->key >= 0 && at->power >= 0 && at->standard_error >= 0 &&
+                   (from->out->on_sphere || at->frequency >= 0)
+               ? PSPEC_OK
+               : fail_damaged(from, "\"columns\" are not those of pointspec power or angular");
+}
+
+/* null where there is one realization, and only there. */
+static bool take_standard_error(const ps_saved_spectrum *out, const cJSON *item, double *value) {
+    *value = cJSON_IsNumber(item) ? item->valuedouble : NAN;
+    return out->num_realizations == 1 || (*value >= 0 && isfinite(*value));
+}
+
+/* cells[at->num]: an array of cJSON is a list. */
+static bool take_row(ps_saved_spectrum *out, const places *at, const cJSON *row,
+                     double *frequency) {
+    ps_saved_bin *const bin = &out->bins[out->num_bins];
+    const uint64_t least = out->num_bins == 0 ? 1 : (uint64_t)out->bins[out->num_bins - 1].key + 1;
+    const cJSON *const power = cJSON_GetArrayItem(row, at->power);
+    const cJSON *const where =
+        cJSON_GetArrayItem(row, at->frequency >= 0 ? at->frequency : at->key);
+    uint64_t key = 0;
+    if (cJSON_GetArraySize(row) != at->num ||
+        !take_whole(cJSON_GetArrayItem(row, at->key), least, MOST_EXACT, &key) ||
+        !cJSON_IsNumber(power) || !(power->valuedouble >= 0 && isfinite(power->valuedouble)) ||
+        !cJSON_IsNumber(where) ||
+        !take_standard_error(out, cJSON_GetArrayItem(row, at->standard_error),
+                             &bin->standard_error)) {
+        return false;
+    }
+    bin->key = (int64_t)key;
+    bin->power = power->valuedouble;
+    *frequency = where->valuedouble;
+    out->num_bins++;
+    return true;
+}
+
+/* The mean |k| of a shell is the root of its key; that of a ring is not, but for single frequencies. */
+static bool is_shell(double frequency, int64_t key) {
+    const double rounding = 1e-9;
+    return fabs(frequency * frequency / (double)key - 1) < rounding;
+}
+
+static pspec_status read_rows(const reader *from) {
+    const cJSON *const rows = cJSON_GetObjectItemCaseSensitive(from->root, "rows");
+    const cJSON *row = NULL;
+    ps_saved_spectrum *const out = from->out;
+    places at = {0};
+    double frequency = 0;
+    void *memory = NULL;
+    PS_TRY(find_places(from, &at));
+    if (!cJSON_IsArray(rows) || rows->child == NULL) {
+        return fail_damaged(from, "there are no \"rows\"");
+    }
+    PS_TRY(ps_allocate(&memory, (size_t)cJSON_GetArraySize(rows), sizeof *out->bins, "saved bins",
+                       from->error));
+    out->bins = memory;
+    cJSON_ArrayForEach(row, rows) {
+        if (!take_row(out, &at, row, &frequency)) {
+            return ps_fail(from->error, PSPEC_ERROR_INPUT,
+                           "\"%s\": row %zu is not what pointspec power or angular writes",
+                           from->name, out->num_bins + 1);
+        }
+    }
+    out->exact_shells = !out->on_sphere && is_shell(frequency, out->bins[out->num_bins - 1].key);
+    return PSPEC_OK;
+}
+
+/* ---- all --------------------------------------------------------------------------------- */
+
+static pspec_status read_root(reader *from) {
+    uint64_t schema = 0;
+    const cJSON *const command = cJSON_GetObjectItemCaseSensitive(from->root, "command");
+    from->meta = cJSON_GetObjectItemCaseSensitive(from->root, "meta");
+    if (!take_whole(cJSON_GetObjectItemCaseSensitive(from->root, "schema"), 1, 1, &schema) ||
+        !cJSON_IsString(command) || !cJSON_IsObject(from->meta)) {
+        return fail_damaged(from, "this is no table of pointspec (\"schema\": 1)");
+    }
+    from->out->on_sphere = strcmp(command->valuestring, "angular") == 0;
+    if (!from->out->on_sphere && strcmp(command->valuestring, "power") != 0) {
+        return fail_damaged(from, "this is the table of another command; those of pointspec power "
+                                  "and angular are compared");
+    }
+    PS_TRY(read_header(from));
+    return read_rows(from);
+}
+
+/* cJSON tells where it stopped, but not why: that may have been a lack of memory, too. */
+static pspec_status fail_parse(const char *text, const char *end, const char *name,
+                               ps_error *error) {
+    return end != NULL ? ps_fail(error, PSPEC_ERROR_INPUT, "\"%s\" is damaged: no JSON at byte %zu",
+                                 name, (size_t)(end - text) + 1)
+                       : ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for \"%s\"", name);
+}
+
+pspec_status ps_saved_table_parse(ps_saved_spectrum *out, const char *text, size_t num_bytes,
+                                  const char *name, ps_error *error) {
+    const char *end = NULL;
+    cJSON *const root = cJSON_ParseWithLengthOpts(text, num_bytes, &end, false);
+    reader from = {.out = out, .root = root, .name = name, .error = error};
+    const pspec_status status =
+        root != NULL ? read_root(&from) : fail_parse(text, end, name, error);
+    cJSON_Delete(root);
+    return status;
+}

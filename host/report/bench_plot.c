@@ -1,0 +1,163 @@
+#include "report/bench_plot.h"
+
+#include "base/memory.h"
+#include "plots/plot.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+pspec_status ps_bench_rows_add(ps_bench_rows *to, const ps_bench_row *rows, size_t num,
+                               ps_error *error) {
+    void *memory = to->rows;
+    PS_TRY(ps_grow(&memory, &to->capacity, to->num + num, sizeof *rows, "rows", error));
+    to->rows = memory;
+    for (size_t i = 0; i < num; i++) {
+        to->rows[to->num++] = rows[i];
+    }
+    return PSPEC_OK;
+}
+
+void ps_bench_rows_free(ps_bench_rows *rows) {
+    free(rows->rows);
+    *rows = (ps_bench_rows){0};
+}
+
+/* ---- panels -------------------------------------------------------------------------------- */
+
+/* An engine in two precisions is a pair of kinds: one colour, filled and hollow marks. The front comes first, below. */
+enum { MOST_SERIES = PS_FIGURES_ENGINES * 2 + 1 };
+
+typedef struct panel {
+    char title[128];
+    char labels[MOST_SERIES][64];
+    ps_plot_series series[MOST_SERIES];
+    double *numbers; /* [MOST_SERIES][2][rows] */
+} panel;
+
+/* The referee has its error from its formula: it is not off from itself. */
+static double error_of(const ps_bench_row *row) {
+    return row->error > 0 ? row->error : row->predicted_error;
+}
+
+static size_t kind_of(const ps_bench_row *row) {
+    size_t engine = 0;
+    while (ps_engines[engine] != row->engine && ps_engines[engine] != NULL) {
+        engine++;
+    }
+    return 2 * engine + (row->precision == PS_DOUBLE ? 1 : 0);
+}
+
+static void add_place(ps_plot_series *series, double *numbers, size_t num_rows,
+                      const ps_bench_row *row) {
+    numbers[series->num] = row->seconds;
+    numbers[num_rows + series->num] = error_of(row);
+    series->x = numbers;
+    series->y = numbers + num_rows;
+    series->num++;
+}
+
+static int compare_seconds(const void *a, const void *b) {
+    const double x = (*(const ps_bench_row *const *)a)->seconds;
+    const double y = (*(const ps_bench_row *const *)b)->seconds;
+    return x < y ? -1 : x > y;
+}
+
+/* Series 0 is the front, by time; then a series for every kind. */
+static void fill_series(panel *out, const ps_bench_row **sorted, size_t num) {
+    for (size_t i = 0; i < num; i++) {
+        const ps_bench_row *row = sorted[i];
+        const size_t kind = kind_of(row);
+        const size_t at = kind + 1 < MOST_SERIES ? kind + 1 : MOST_SERIES - 1;
+        snprintf(out->labels[at], sizeof out->labels[at], "%s, %s", row->engine->name,
+                 ps_precision_name(row->precision));
+        out->series[at].kind = kind;
+        out->series[at].label = out->labels[at];
+        add_place(&out->series[at], out->numbers + at * 2 * num, num, row);
+        if (row->is_pareto) {
+            add_place(&out->series[0], out->numbers, num, row);
+        }
+    }
+}
+
+/* Series without places go. */
+static size_t pack_series(panel *out) {
+    size_t num = 0;
+    for (size_t i = 0; i < MOST_SERIES; i++) {
+        if (out->series[i].num > 0) {
+            out->series[num++] = out->series[i];
+        }
+    }
+    return num;
+}
+
+static pspec_status make_panel(panel *out, ps_plot_panel *plot, const ps_bench_row *rows,
+                               size_t num, ps_error *error) {
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, MOST_SERIES * 2 * num, sizeof(double), "a picture", error));
+    out->numbers = memory;
+    PS_TRY(ps_allocate(&memory, num, sizeof(ps_bench_row *), "a picture", error));
+    const ps_bench_row **sorted = memory;
+    for (size_t i = 0; i < num; i++) {
+        sorted[i] = &rows[i];
+    }
+    qsort(sorted, num, sizeof *sorted, compare_seconds);
+    out->series[0] = (ps_plot_series){.label = "Pareto front", .is_front = true};
+    fill_series(out, sorted, num);
+    free(memory);
+    snprintf(out->title, sizeof out->title, "%s", rows[0].what->what.name);
+    *plot = (ps_plot_panel){out->title, pack_series(out), out->series};
+    return PSPEC_OK;
+}
+
+static size_t count_of_case(const ps_bench_rows *all, size_t first) {
+    size_t num = 1;
+    while (first + num < all->num && all->rows[first + num].what == all->rows[first].what) {
+        num++;
+    }
+    return num;
+}
+
+static size_t count_panels(const ps_bench_rows *all) {
+    size_t num = 0;
+    for (size_t i = 0; i < all->num; i += count_of_case(all, i)) {
+        num++;
+    }
+    return num;
+}
+
+static pspec_status draw(const char *path, const ps_bench_rows *all, const char *device,
+                         panel *panels, ps_plot_panel *plots, ps_error *error) {
+    char title[256];
+    size_t num = 0;
+    for (size_t i = 0; i < all->num; i += count_of_case(all, i)) {
+        PS_TRY(make_panel(&panels[num], &plots[num], all->rows + i, count_of_case(all, i), error));
+        num++;
+    }
+    snprintf(title, sizeof title, "run time against error, %s", device);
+    const ps_panel_plot plot = {.title = title,
+                                .x_label = "seconds per realization",
+                                .y_label = "error",
+                                .num_panels = num,
+                                .panels = plots};
+    return ps_panel_plot_write(path, &plot, error);
+}
+
+pspec_status ps_bench_plot(const char *path, const ps_bench_rows *all, const char *device,
+                           ps_error *error) {
+    const size_t num = count_panels(all);
+    void *memory = NULL;
+    void *plots = NULL;
+    PS_TRY(ps_allocate(&memory, num, sizeof(panel), "a picture", error));
+    panel *panels = memory;
+    pspec_status status = ps_allocate(&plots, num, sizeof(ps_plot_panel), "a picture", error);
+    if (status == PSPEC_OK) {
+        status = draw(path, all, device, panels, plots, error);
+    }
+    for (size_t i = 0; i < num; i++) {
+        free(panels[i].numbers);
+    }
+    free(panels);
+    free(plots);
+    return status;
+}

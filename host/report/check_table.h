@@ -1,0 +1,24 @@
+/* The table of pointspec check: a row for every ring, shell or degree. */
+#ifndef PS_REPORT_CHECK_TABLE_H
+#define PS_REPORT_CHECK_TABLE_H
+
+#include "spectra/compare.h"
+#include "questions/request.h"
+#include "tables/table.h"
+#include "jobs/spectrum/power_job.h"
+#include "questions/saved_spectrum.h"
+
+typedef struct ps_check_results {
+    const ps_saved_spectrum *saved;
+    const ps_power_job *job;   /* has run */
+    const ps_comparison *rows; /* [saved->num_bins] */
+    size_t num_different;
+} ps_check_results;
+
+/* "ring", "shell" or "degree" */
+const char *ps_check_bin_name(const ps_saved_spectrum *saved);
+
+pspec_status ps_check_table(ps_table **out, const ps_request *arguments,
+                            const ps_check_results *results, ps_error *error) PS_MUST_CHECK;
+
+#endif

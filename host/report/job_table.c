@@ -1,0 +1,26 @@
+#include "report/job_table.h"
+
+#include "report/spectrum_header.h"
+
+static pspec_status fill(ps_table *table, const ps_job_table *kind, const ps_request *arguments,
+                         const ps_power_job *const *jobs, size_t num, ps_error *error) {
+    PS_TRY(ps_header_begin(table, arguments, jobs[0], error));
+    for (size_t i = 0; i < num; i++) {
+        const char *sampler = arguments->num_samplers > 1 ? arguments->samplers[i] : NULL;
+        PS_TRY(ps_header_add_job(table, arguments, jobs[i], i, error));
+        PS_TRY(kind->add_rows(table, arguments, jobs[i], sampler, error));
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_job_table_make(ps_table **out, const ps_job_table *kind,
+                               const ps_request *arguments, const ps_power_job *const *jobs,
+                               size_t num, ps_error *error) {
+    PS_TRY(ps_table_create(out, kind->name, kind->columns, kind->num_columns, error));
+    const pspec_status status = fill(*out, kind, arguments, jobs, num, error);
+    if (status != PSPEC_OK) {
+        ps_table_destroy(*out);
+        *out = NULL;
+    }
+    return status;
+}

@@ -1,0 +1,21 @@
+/* Results of power jobs as a table and arrays. */
+#ifndef PS_REPORT_POWER_TABLE_H
+#define PS_REPORT_POWER_TABLE_H
+
+#include "questions/question.h"
+#include "tables/table.h"
+
+/* Header lines and rows of num jobs that have run; the table of several samplers begins with a
+ * column `sampler`. */
+pspec_status ps_power_table(ps_table **out, const ps_request *arguments,
+                            const ps_power_job *const *jobs, size_t num,
+                            ps_error *error) PS_MUST_CHECK;
+
+/* Is the name after --full, if any, one of an NPY file? */
+pspec_status ps_power_check_full(const ps_request *arguments, ps_error *error) PS_MUST_CHECK;
+
+/* --full: FILE.npy and FILE.standard_error.npy. */
+pspec_status ps_power_write_full(const ps_request *arguments, const ps_power_job *job,
+                                 ps_error *error) PS_MUST_CHECK;
+
+#endif

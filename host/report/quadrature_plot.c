@@ -1,0 +1,76 @@
+#include "base/memory.h"
+#include "report/quadrature_table.h"
+#include "plots/plot.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+/* Lines of a job: d_l^2, C_l^2, e_l^2. */
+enum { LINES = 3, MOST_LABEL = 96 };
+
+typedef struct curves {
+    double *numbers; /* [1 + LINES][max_degree + 1] */
+    char labels[LINES][MOST_LABEL];
+} curves;
+
+static pspec_status make_curves(curves *out, ps_plot_line *lines, const char *sampler,
+                                const ps_quadrature_result *result, ps_error *error) {
+    static const char *const names[LINES] = {"d_l^2", "C_l^2", "e_l^2"};
+    const size_t num = result->max_degree + 1;
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, (1 + LINES) * num, sizeof(double), "a picture", error));
+    out->numbers = memory;
+    for (size_t l = 0; l < num; l++) {
+        const ps_quadrature_degree *const degree = &result->degrees[l];
+        out->numbers[l] = (double)l;
+        out->numbers[num + l] = degree->d2.mean;
+        out->numbers[2 * num + l] = degree->c2.mean;
+        out->numbers[3 * num + l] = degree->e2.mean;
+    }
+    for (size_t i = 0; i < LINES; i++) {
+        snprintf(out->labels[i], MOST_LABEL, "%s%s%s", names[i], sampler != NULL ? ", " : "",
+                 sampler != NULL ? sampler : "");
+        lines[i] = (ps_plot_line){out->labels[i], num, out->numbers, out->numbers + (i + 1) * num};
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status write_plot(const ps_request *arguments, const ps_plot_line *lines,
+                               size_t num_lines, const ps_quadrature_result *first,
+                               ps_error *error) {
+    ps_text title = {0};
+    ps_text_append(&title, "%s, smoothness %g, N = %zu, %llu realization%s", arguments->brdf,
+                   arguments->smoothness, first->num_points,
+                   (unsigned long long)first->num_realizations,
+                   first->num_realizations == 1 ? "" : "s");
+    const ps_line_plot plot = {.title = ps_text_string(&title),
+                               .x_label = "degree l",
+                               .y_label = "d_l^2, C_l^2, e_l^2 = a_l (d_l^2 + C_l^2)",
+                               .is_log_x = true,
+                               .is_log_y = true,
+                               .num_lines = num_lines,
+                               .lines = lines};
+    pspec_status status = ps_text_check(&title, error);
+    if (status == PSPEC_OK) {
+        status = ps_line_plot_write(arguments->plot, &plot, error);
+    }
+    ps_text_free(&title);
+    return status;
+}
+
+pspec_status ps_quadrature_plot(const ps_request *arguments, const ps_quadrature_list *list,
+                                const ps_quadrature_result *results, ps_error *error) {
+    curves all[PS_MAX_SAMPLERS] = {{.numbers = NULL}};
+    ps_plot_line lines[LINES * PS_MAX_SAMPLERS];
+    pspec_status status = PSPEC_OK;
+    for (size_t i = 0; i < list->num; i++) {
+        const char *const sampler = list->num > 1 ? arguments->samplers[i] : NULL;
+        PS_TRY_OUT(status, make_curves(&all[i], lines + LINES * i, sampler, &results[i], error));
+    }
+    status = write_plot(arguments, lines, LINES * list->num, &results[0], error);
+out:
+    for (size_t i = 0; i < list->num; i++) {
+        free(all[i].numbers);
+    }
+    return status;
+}

@@ -1,0 +1,18 @@
+/* The table and the picture of quadrature jobs that have run. */
+#ifndef PS_REPORT_QUADRATURE_TABLE_H
+#define PS_REPORT_QUADRATURE_TABLE_H
+
+#include "questions/quadrature_question.h"
+#include "tables/table.h"
+
+/* results[list->num]; with several samplers the first column names them. */
+pspec_status ps_quadrature_table(ps_table **out, const ps_request *arguments,
+                                 const ps_quadrature_list *list,
+                                 const ps_quadrature_result *results,
+                                 ps_error *error) PS_MUST_CHECK;
+
+/* d_l^2, C_l^2 and e_l^2 against the degree, to arguments->plot. */
+pspec_status ps_quadrature_plot(const ps_request *arguments, const ps_quadrature_list *list,
+                                const ps_quadrature_result *results, ps_error *error) PS_MUST_CHECK;
+
+#endif

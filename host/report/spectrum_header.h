@@ -1,0 +1,19 @@
+/* Header lines of a table of powers, on the torus and on the sphere: how every number was made. */
+#ifndef PS_REPORT_SPECTRUM_HEADER_H
+#define PS_REPORT_SPECTRUM_HEADER_H
+
+#include "questions/question.h"
+#include "tables/table.h"
+
+/* What all jobs have in common. */
+pspec_status ps_header_begin(ps_table *table, const ps_request *arguments,
+                             const ps_power_job *first, ps_error *error) PS_MUST_CHECK;
+/* Of job number `index`, which has run. */
+pspec_status ps_header_add_job(ps_table *table, const ps_request *arguments,
+                               const ps_power_job *job, size_t index,
+                               ps_error *error) PS_MUST_CHECK;
+
+/* nan is a missing number. */
+ps_cell ps_number_or_missing(double value);
+
+#endif

@@ -1,0 +1,56 @@
+/* What kernel systems are made of. Private to the files kernel_*.c. */
+#ifndef PS_RULES_KERNEL_PRIVATE_H
+#define PS_RULES_KERNEL_PRIVATE_H
+
+#include "rules/kernel_factor.h"
+#include "rules/kernel_system.h"
+#include "engines/pairs/pairs_product.h"
+
+/* Arrays of N doubles: solution and residual; then numbers in two parts, or the three of conjugate gradients. */
+enum { PS_KERNEL_DENSE_ROWS = 4, PS_KERNEL_GRADIENT_ROWS = 5 };
+
+struct ps_kernel_system {
+    size_t num_points, num; /* num: distinct ones */
+    double smoothness, constant;
+    double *points; /* [num][3] */
+    size_t *group;  /* [num_points]: which distinct point each one is */
+    double *shares; /* [num]: 1 over how many points it is */
+    double *
+        matrix; /* [num][num]: factor in the lower, K in the strict upper triangle; NULL: not dense */
+    double *rows; /* [PS_KERNEL_.._ROWS][num] */
+    double norm;  /* of K, the 1-norm */
+    /* of conjugate gradients */
+    ps_kernel_factor factor;
+    ps_pairs_product *product; /* NULL: on the host */
+    ps_kernel_options options;
+    ps_kernel_facts facts;
+};
+
+/* The sentence for two of the distinct points that are too near each other. */
+pspec_status ps_kernel_system_refuse(const ps_kernel_system *system, size_t i, size_t j,
+                                     double distance, ps_error *error);
+
+/* ---- the matrix in memory ------------------------------------------------------------------ */
+
+/* Both triangles, with the diagonal. */
+pspec_status ps_kernel_matrix_fill(ps_kernel_system *system, ps_error *error) PS_MUST_CHECK;
+/* Sets the norm to the 1-norm of a matrix that was just filled; uses the rows. */
+pspec_status ps_kernel_matrix_norm(ps_kernel_system *system, ps_error *error) PS_MUST_CHECK;
+/* residual = right - K x with sums of 64 bits; K is in the strict upper triangle, and c on the diagonal. x and residual are
+ * the first two rows, or anything else but the next two. */
+pspec_status ps_kernel_matrix_residual(ps_kernel_system *system, const double *right,
+                                       const double *x, double *residual,
+                                       ps_error *error) PS_MUST_CHECK;
+
+/* ---- the matrix on the fly ----------------------------------------------------------------- */
+
+/* Factor, device, norm and what is known of the condition, for a system with points and rows. */
+pspec_status ps_kernel_gradients_prepare(ps_kernel_system *system, ps_error *error) PS_MUST_CHECK;
+/* x and residual: [num] in the first two rows. */
+pspec_status ps_kernel_gradients_solve(ps_kernel_system *system, const double *right, double *x,
+                                       double *residual, ps_error *error) PS_MUST_CHECK;
+
+double ps_kernel_dot(size_t num, const double *a,
+                     const double *b); /* compensated; b NULL: sum of a */
+
+#endif

@@ -1,0 +1,233 @@
+#include "rules/kernel_private.h"
+
+#include "base/memory.h"
+#include "math/linear/cholesky.h"
+#include "math/sobolev.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* eps times this is 1e-4: four digits are left. */
+static const double ILL_CONDITION = 1e-4 / DBL_EPSILON;
+
+/* ---- duplicates ---------------------------------------------------------------------------- */
+
+typedef struct place {
+    double u[3];
+    size_t index;
+} place;
+
+static int compare_vectors(const double *u, const double *v) {
+    for (int i = 0; i < 3; i++) {
+        if (u[i] != v[i]) {
+            return u[i] < v[i] ? -1 : 1;
+        }
+    }
+    return 0;
+}
+
+static int compare_places(const void *a, const void *b) {
+    const place *const p = a;
+    const place *const q = b;
+    const int order = compare_vectors(p->u, q->u);
+    return order != 0 ? order : (p->index > q->index) - (p->index < q->index);
+}
+
+/* group[j] becomes the index of the first point that is the same as point j. */
+static pspec_status find_first_ones(size_t num_points, const double *points, size_t *group,
+                                    ps_error *error) {
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, num_points, sizeof(place), "points in order", error));
+    place *const places = memory;
+    for (size_t j = 0; j < num_points; j++) {
+        memcpy(places[j].u, points + 3 * j, sizeof places[j].u);
+        places[j].index = j;
+    }
+    qsort(places, num_points, sizeof *places, compare_places);
+    size_t first = 0;
+    for (size_t j = 0; j < num_points; j++) {
+        first = j > 0 && compare_vectors(places[j].u, places[first].u) == 0 ? first : j;
+        group[places[j].index] = places[first].index;
+    }
+    free(memory);
+    return PSPEC_OK;
+}
+
+/* Numbers the distinct points in the order of their first ones, which come before all of their duplicates. */
+static pspec_status merge_points(ps_kernel_system *system, const double *points, ps_error *error) {
+    PS_TRY(find_first_ones(system->num_points, points, system->group, error));
+    for (size_t j = 0; j < system->num_points; j++) {
+        const size_t first = system->group[j];
+        if (first == j) {
+            memcpy(system->points + 3 * system->num, points + 3 * j, 3 * sizeof(double));
+            system->group[j] = system->num++;
+        } else {
+            system->group[j] = system->group[first];
+        }
+        system->shares[system->group[j]] += 1;
+    }
+    for (size_t i = 0; i < system->num; i++) {
+        system->shares[i] = 1 / system->shares[i];
+    }
+    return PSPEC_OK;
+}
+
+/* ---- the matrix ---------------------------------------------------------------------------- */
+
+/* The point nearest to one of them: what makes a matrix singular. */
+static size_t find_nearest(const ps_kernel_system *system, size_t i, double *distance) {
+    const double s = 1.5; /* |u-v| itself */
+    size_t nearest = i;
+    *distance = INFINITY;
+    for (size_t j = 0; j < system->num; j++) {
+        const double between =
+            ps_sobolev_distance(s, system->points + 3 * i, system->points + 3 * j);
+        if (j != i && between < *distance) {
+            *distance = between;
+            nearest = j;
+        }
+    }
+    return nearest;
+}
+
+static size_t first_of(const ps_kernel_system *system, size_t group) {
+    size_t j = 0;
+    while (system->group[j] != group) {
+        j++;
+    }
+    return j;
+}
+
+pspec_status ps_kernel_system_refuse(const ps_kernel_system *system, size_t i, size_t j,
+                                     double distance, ps_error *error) {
+    return ps_fail(error, PSPEC_ERROR_INPUT,
+                   "points %zu and %zu are %.3g from each other: for smoothness %g the kernel "
+                   "matrix is singular in double precision; merge them or take less smoothness",
+                   first_of(system, i) + 1, first_of(system, j) + 1, distance, system->smoothness);
+}
+
+static pspec_status factorize(ps_kernel_system *system, ps_error *error) {
+    bool is_definite = false;
+    size_t bad = 0;
+    const ps_watch *const watch = system->options.watch;
+    PS_TRY(ps_kernel_matrix_fill(system, error));
+    PS_TRY(ps_kernel_matrix_norm(system, error));
+    PS_TRY(ps_cholesky(system->num, system->matrix, 0, watch, &is_definite, &bad, error));
+    if (!is_definite) {
+        double distance = 0;
+        const size_t nearest = find_nearest(system, bad, &distance);
+        return ps_kernel_system_refuse(system, bad, nearest, distance, error);
+    }
+    return ps_cholesky_condition(system->num, system->matrix, system->norm, watch,
+                                 &system->facts.condition, error);
+}
+
+/* ---- creation ------------------------------------------------------------------------------ */
+
+uint64_t ps_kernel_system_bytes(size_t num_points, bool is_dense) {
+    const uint64_t num = num_points;
+    const uint64_t rows = is_dense ? PS_KERNEL_DENSE_ROWS : PS_KERNEL_GRADIENT_ROWS;
+    const uint64_t lists = num * ((3 + 1 + rows) * sizeof(double) + sizeof(size_t));
+    return lists + (is_dense ? num * num * sizeof(double) + ps_cholesky_bytes(num_points)
+                             : ps_kernel_factor_bytes(num_points) + ps_pairs_product_bytes(num));
+}
+
+bool ps_kernel_system_is_dense(size_t num_points, uint64_t memory_limit) {
+    return num_points <= PS_KERNEL_MOST_DENSE &&
+           (memory_limit == 0 || ps_kernel_system_bytes(num_points, true) <= memory_limit);
+}
+
+static pspec_status allocate(ps_kernel_system *system, bool is_dense, ps_error *error) {
+    const size_t num = system->num_points;
+    const size_t num_rows = is_dense ? PS_KERNEL_DENSE_ROWS : PS_KERNEL_GRADIENT_ROWS;
+    void *points = NULL;
+    void *group = NULL;
+    void *shares = NULL;
+    void *rows = NULL;
+    pspec_status status = PSPEC_OK;
+    PS_TRY_OUT(status, ps_allocate(&points, num, 3 * sizeof(double), "distinct points", error));
+    PS_TRY_OUT(status, ps_allocate(&group, num, sizeof(size_t), "duplicates", error));
+    PS_TRY_OUT(status, ps_allocate(&shares, num, sizeof(double), "duplicates", error));
+    PS_TRY_OUT(status, ps_allocate(&rows, num, num_rows * sizeof(double), "solutions", error));
+out:
+    system->points = points;
+    system->group = group;
+    system->shares = shares;
+    system->rows = rows;
+    return status;
+}
+
+/* What the machine has free does not choose the way, for weights would depend on it; it may refuse. */
+static pspec_status allocate_matrix(void **matrix, size_t num, ps_error *error) {
+    ps_error refusal = {0};
+    if (ps_allocate(matrix, num, num * sizeof(double), "a kernel matrix", &refusal) == PSPEC_OK) {
+        return PSPEC_OK;
+    }
+    return ps_fail(error, PSPEC_ERROR_MEMORY,
+                   "%s; with a memory limit (--memory) below %llu bytes the weights of %zu points "
+                   "are found without a matrix",
+                   refusal.message, (unsigned long long)ps_kernel_system_bytes(num, true), num);
+}
+
+static pspec_status prepare_dense(ps_kernel_system *system, ps_error *error) {
+    void *matrix = NULL;
+    PS_TRY(allocate_matrix(&matrix, system->num, error));
+    system->matrix = matrix;
+    ps_memory_use_large_pages(matrix, system->num * system->num * sizeof(double));
+    return factorize(system, error);
+}
+
+/* The points given decide which way, not how many are left of them: so says the plan. */
+static pspec_status build(ps_kernel_system *system, const double *points, ps_error *error) {
+    const bool is_dense =
+        ps_kernel_system_is_dense(system->num_points, system->options.memory_limit);
+    PS_TRY(allocate(system, is_dense, error));
+    PS_TRY(merge_points(system, points, error));
+    system->facts = (ps_kernel_facts){.num_distinct = system->num,
+                                      .is_dense = is_dense,
+                                      .bytes = ps_kernel_system_bytes(system->num_points, is_dense),
+                                      .condition = NAN};
+    PS_TRY(is_dense ? prepare_dense(system, error) : ps_kernel_gradients_prepare(system, error));
+    system->facts.is_ill_conditioned = !(system->facts.condition <= ILL_CONDITION);
+    return PSPEC_OK;
+}
+
+pspec_status ps_kernel_system_create(ps_kernel_system **out, size_t num_points,
+                                     const double *points, double smoothness,
+                                     const ps_kernel_options *options, ps_error *error) {
+    void *memory = NULL;
+    *out = NULL;
+    PS_TRY(ps_sobolev_check(smoothness, error));
+    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_kernel_system), "a kernel system", error));
+    ps_kernel_system *const system = memory;
+    system->num_points = num_points;
+    system->smoothness = smoothness;
+    system->constant = ps_sobolev_constant(smoothness);
+    system->options = options != NULL ? *options : (ps_kernel_options){0};
+    const pspec_status status = build(system, points, error);
+    if (status != PSPEC_OK) {
+        ps_kernel_system_destroy(system);
+        return status;
+    }
+    *out = system;
+    return PSPEC_OK;
+}
+
+void ps_kernel_system_destroy(ps_kernel_system *system) {
+    if (system != NULL) {
+        free(system->points);
+        free(system->group);
+        free(system->shares);
+        free(system->matrix);
+        free(system->rows);
+        ps_kernel_factor_free(&system->factor);
+        ps_pairs_product_destroy(system->product);
+        free(system);
+    }
+}
+
+ps_kernel_facts ps_kernel_system_facts(const ps_kernel_system *system) {
+    return system->facts;
+}

@@ -1,0 +1,23 @@
+/* Spherical Fibonacci points: z_j = 1 - (2j+1)/N, phi_j = 2 pi frac(j/Phi) (R. Swinbank, R. J. Purser
+ * 2006; R. Marques et al. 2013). */
+#include "samplers/list.h"
+
+#include "samplers/sphere/spherical_fibonacci.h"
+#include "samplers/values.h"
+
+static pspec_status generate(const ps_sampler_request *request, uint64_t realization,
+                             double *points, ps_error *error) {
+    (void)realization;
+    (void)error;
+    ps_fibonacci_points(request->num_points, request->num_points, points);
+    return PSPEC_OK;
+}
+
+const ps_sampler ps_sampler_fibonacci = {
+    .name = "fibonacci",
+    .summary = "spherical Fibonacci points",
+    .aliases = {"spherical-fibonacci", "sf"},
+    .domain = PS_SAMPLES_SPHERE,
+    .is_deterministic = ps_sampler_always,
+    .generate = generate,
+};

@@ -1,0 +1,22 @@
+/* Spherical Fibonacci points of the hemisphere: z_j = 1 - (2j+1)/(2N), phi_j = 2 pi frac(j/Phi), the
+ * northern half of the 2N points of the sphere (R. Marques et al. 2013). */
+#include "samplers/list.h"
+
+#include "samplers/sphere/spherical_fibonacci.h"
+#include "samplers/values.h"
+
+static pspec_status generate(const ps_sampler_request *request, uint64_t realization,
+                             double *points, ps_error *error) {
+    (void)realization;
+    (void)error;
+    ps_fibonacci_points(request->num_points, 2 * (uint64_t)request->num_points, points);
+    return PSPEC_OK;
+}
+
+const ps_sampler ps_sampler_fibonacci_hemisphere = {
+    .name = "fibonacci-hemisphere",
+    .summary = "northern half of 2N spherical Fibonacci points",
+    .domain = PS_SAMPLES_HEMISPHERE,
+    .is_deterministic = ps_sampler_always,
+    .generate = generate,
+};

@@ -1,0 +1,28 @@
+/* Jittered HEALPix: one uniform point in each of 12 nside^2 pixels of equal area, in RING order. In
+ * expectation P(l) is mathematics.md 2.5 (S2), about (pi/3) l(l+1)/N for small l. */
+#include "samplers/list.h"
+
+#include "math/random/random.h"
+#include "samplers/sphere/healpix_pixels.h"
+#include "samplers/values.h"
+
+static pspec_status generate(const ps_sampler_request *request, uint64_t realization,
+                             double *points, ps_error *error) {
+    uint64_t nside = 0;
+    PS_TRY(ps_healpix_nside(request, &nside, error));
+    ps_random random = ps_random_init(request->seed, PS_STREAM_COORDINATES, realization);
+    ps_random_fill_uniform(&random, points, 2 * request->num_points);
+    ps_healpix_place(nside, points);
+    return PSPEC_OK;
+}
+
+const ps_sampler ps_sampler_healpix_jittered = {
+    .name = "healpix-jittered",
+    .summary = "one uniform point in each pixel of HEALPix, RING order",
+    .domain = PS_SAMPLES_SPHERE,
+    .parameters = {PS_NSIDE_PARAMETER},
+    .is_deterministic = ps_sampler_never,
+    .open_points = ps_healpix_open_points,
+    .check = ps_healpix_check,
+    .generate = generate,
+};

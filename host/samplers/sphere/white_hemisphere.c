@@ -1,0 +1,24 @@
+/* White noise on the hemisphere z >= 0: independent uniform points; P(l) = 1 for every even l >= 2. The
+ * same points as white:lift=hemisphere. */
+#include "samplers/list.h"
+
+#include "math/random/random.h"
+#include "samplers/sphere.h"
+#include "samplers/values.h"
+
+static pspec_status generate(const ps_sampler_request *request, uint64_t realization,
+                             double *points, ps_error *error) {
+    (void)error;
+    ps_random random = ps_random_init(request->seed, PS_STREAM_COORDINATES, realization);
+    ps_random_fill_uniform(&random, points, 2 * request->num_points);
+    ps_sphere_lift(PS_SAMPLES_HEMISPHERE, request->num_points, points);
+    return PSPEC_OK;
+}
+
+const ps_sampler ps_sampler_white_hemisphere = {
+    .name = "white-hemisphere",
+    .summary = "independent uniform points",
+    .domain = PS_SAMPLES_HEMISPHERE,
+    .is_deterministic = ps_sampler_never,
+    .generate = generate,
+};

@@ -1,0 +1,34 @@
+/* Hammersley: j/N, then the radical inverses of j in the first d - 1 primes. In the plane, with
+ * N = 2^m, m > 1, N D* = m/3 + 13/9 - (-1)^m 4/(9 2^m) exactly. */
+#include "samplers/list.h"
+
+#include "samplers/torus/radical_inverse.h"
+#include "samplers/values.h"
+
+static pspec_status check(const ps_sampler_request *request, ps_error *error) {
+    return ps_sampler_limit_points(request, PS_RADICAL_INVERSE_LIMIT, error);
+}
+
+static pspec_status generate(const ps_sampler_request *request, uint64_t realization,
+                             double *points, ps_error *error) {
+    (void)realization;
+    (void)error;
+    for (size_t j = 0; j < request->num_points; j++) {
+        double *point = points + j * request->dimension;
+        point[0] = (double)j / (double)request->num_points;
+        for (unsigned i = 1; i < request->dimension; i++) {
+            point[i] = ps_radical_inverse(i - 1, j);
+        }
+    }
+    return PSPEC_OK;
+}
+
+const ps_sampler ps_sampler_hammersley = {
+    .name = "hammersley",
+    .summary = "j/N and radical inverses",
+    .minimum_dimension = 1,
+    .maximum_dimension = PS_MAX_DIMENSION,
+    .is_deterministic = ps_sampler_always,
+    .check = check,
+    .generate = generate,
+};

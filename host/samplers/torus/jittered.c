@@ -1,0 +1,36 @@
+/* Jittered (stratified): one uniform point in each of m_1 x .. x m_d cells. In expectation
+ * P(k) = 1 - prod_i sinc^2(k_i/m_i), mathematics.md 1.7 (J). */
+#include "samplers/list.h"
+
+#include "math/random/random.h"
+#include "samplers/torus/strata.h"
+#include "samplers/values.h"
+
+enum { STRATA };
+
+static pspec_status check(const ps_sampler_request *request, ps_error *error) {
+    uint64_t counts[PS_MAX_DIMENSION];
+    return ps_strata_resolve(request, STRATA, counts, error);
+}
+
+static pspec_status generate(const ps_sampler_request *request, uint64_t realization,
+                             double *points, ps_error *error) {
+    uint64_t counts[PS_MAX_DIMENSION];
+    PS_TRY(ps_strata_resolve(request, STRATA, counts, error));
+    ps_random random = ps_random_init(request->seed, PS_STREAM_COORDINATES, realization);
+    ps_random_fill_uniform(&random, points, request->num_points * request->dimension);
+    ps_strata_place(request, counts, points);
+    return PSPEC_OK;
+}
+
+const ps_sampler ps_sampler_jittered = {
+    .name = "jittered",
+    .summary = "one uniform point in each cell of a grid",
+    .aliases = {"stratified", "jitter"},
+    .minimum_dimension = 1,
+    .maximum_dimension = PS_MAX_DIMENSION,
+    .parameters = {PS_STRATA_PARAMETER},
+    .is_deterministic = ps_sampler_never,
+    .check = check,
+    .generate = generate,
+};

@@ -1,0 +1,135 @@
+#include "samplers/torus/strata.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static pspec_status fail_strata(const ps_sampler_request *request, unsigned i_parameter,
+                                const char *why, ps_error *error) {
+    return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "sampler %s: strata=%s %s",
+                   request->sampler->name, request->values[i_parameter], why);
+}
+
+/* Reads "A" or "AxBx..": at most PS_MAX_DIMENSION positive whole numbers. */
+static bool parse_counts(const char *text, uint64_t counts[PS_MAX_DIMENSION],
+                         unsigned *num_counts) {
+    enum { MOST_DIGITS = 13 }; /* 2^40, the most points that any request has, has 13 */
+    for (*num_counts = 0; *num_counts < PS_MAX_DIMENSION;) {
+        const size_t num_digits = strspn(text, "0123456789");
+        if (num_digits == 0 || num_digits > MOST_DIGITS) {
+            return false;
+        }
+        counts[(*num_counts)++] = strtoull(text, NULL, 10);
+        text += num_digits;
+        if (*text == '\0') {
+            return counts[*num_counts - 1] > 0;
+        }
+        if (*text++ != 'x' || counts[*num_counts - 1] == 0) {
+            return false;
+        }
+    }
+    return false;
+}
+
+static bool product_is(const uint64_t *counts, unsigned num_counts, uint64_t expected) {
+    uint64_t rest = expected;
+    for (unsigned i = 0; i < num_counts; i++) {
+        if (rest % counts[i] != 0) {
+            return false;
+        }
+        rest /= counts[i];
+    }
+    return rest == 1;
+}
+
+pspec_status ps_strata_read(const ps_sampler_request *request, unsigned i_parameter,
+                            unsigned num_axes, uint64_t counts[PS_MAX_DIMENSION], ps_error *error) {
+    unsigned num_counts = 0;
+    if (!parse_counts(request->values[i_parameter], counts, &num_counts)) {
+        return fail_strata(request, i_parameter,
+                           "is not positive whole numbers joined by x, as in 32x64", error);
+    }
+    if (num_counts != num_axes) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "sampler %s: strata=%s has %u numbers but %s %u", request->sampler->name,
+                       request->values[i_parameter], num_counts,
+                       num_axes == request->dimension ? "the dimension is" : "must have", num_axes);
+    }
+    if (!product_is(counts, num_counts, request->num_points)) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "sampler %s: strata=%s does not make one stratum for each of %zu points",
+                       request->sampler->name, request->values[i_parameter], request->num_points);
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status fail_aspect(const ps_sampler_request *request, ps_error *error) {
+    uint64_t below = 0;
+    uint64_t above = 0;
+    ps_strata_nearest(request->num_points, request->dimension, &below, &above);
+    return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                   "sampler %s: %zu points cannot be laid out in %u dimensions with sides in a "
+                   "ratio of at most 2; use %llu or %llu points, or give strata=",
+                   request->sampler->name, request->num_points, request->dimension,
+                   (unsigned long long)below, (unsigned long long)above);
+}
+
+pspec_status ps_strata_resolve(const ps_sampler_request *request, unsigned i_parameter,
+                               uint64_t counts[PS_MAX_DIMENSION], ps_error *error) {
+    if (strcmp(request->values[i_parameter], PS_STRATA_AUTO) != 0) {
+        return ps_strata_read(request, i_parameter, request->dimension, counts, error);
+    }
+    return ps_strata_factorise(request->num_points, request->dimension, counts)
+               ? PSPEC_OK
+               : fail_aspect(request, error);
+}
+
+/* The few points that rounding could carry over an edge. fma has the exact sign of x m - i. */
+static double point_near_edge(double i, double offset, double m) {
+    double x = (i + offset) / m;
+    while (fma(x, m, -i) < 0) {
+        x = nextafter(x, 1);
+    }
+    while (x * m >= i + 1) {
+        x = nextafter(x, 0);
+    }
+    return x;
+}
+
+double ps_stratum_point(double i, double offset, double m) {
+    /* Sum, quotient and the reader's product are each off by at most m 2^-53 in units of a stratum;
+     * 4 m 2^-53 leaves room to spare. */
+    const double margin = 2 * DBL_EPSILON * m;
+    if (offset > margin && offset < 1 - margin) {
+        return (i + offset) / m;
+    }
+    return point_near_edge(i, offset, m);
+}
+
+/* cell: an odometer whose last axis moves fastest. */
+static void advance(double *cell, const double *counts, unsigned dimension) {
+    for (unsigned i = dimension; i-- > 0;) {
+        cell[i] += 1;
+        if (cell[i] < counts[i]) {
+            return;
+        }
+        cell[i] = 0;
+    }
+}
+
+void ps_strata_place(const ps_sampler_request *request, const uint64_t counts[PS_MAX_DIMENSION],
+                     double *points) {
+    double cell[PS_MAX_DIMENSION] = {0};
+    double m[PS_MAX_DIMENSION] = {0};
+    for (unsigned i = 0; i < request->dimension; i++) {
+        m[i] = (double)counts[i];
+    }
+    for (size_t j = 0; j < request->num_points; j++) {
+        double *point = points + j * request->dimension;
+        for (unsigned i = 0; i < request->dimension; i++) {
+            point[i] = ps_stratum_point(cell[i], point[i], m[i]);
+        }
+        advance(cell, m, request->dimension);
+    }
+}

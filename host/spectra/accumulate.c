@@ -1,0 +1,265 @@
+#include "spectra/accumulate.h"
+
+#include "spectra/accumulate_device.h"
+#include "base/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct ps_accumulator {
+    ps_accumulator_options options;
+    uint32_t *slots;
+    ps_device_accumulator *on_device; /* NULL: rows are on the host */
+    uint64_t num_realizations;
+    ps_bin all;  /* members of all bins in one, */
+    ps_bins one; /* and that alone */
+    const ps_bins
+        *formed; /* bins whose powers are formed for each realization: all of them, or that one */
+    double *bin_powers;  /* [batch][formed->num] */
+    double *mean_powers; /* [batch] */
+    ps_sums *bin_sums; /* [num_bins]; of single members: from the device when they are asked for */
+    ps_sums *frequency_sums; /* [num_frequencies], host rows only */
+};
+
+static pspec_status allocate(ps_accumulator *self, ps_error *error) {
+    void *memory = NULL;
+    const ps_accumulator_options *options = &self->options;
+    size_t num_powers = 0;
+    if (!ps_size_multiply(options->batch, self->formed->num, &num_powers)) {
+        return ps_fail(error, PSPEC_ERROR_MEMORY, "%zu realizations of %zu bins are too many",
+                       options->batch, self->formed->num);
+    }
+    PS_TRY(ps_allocate(&memory, options->num_frequencies, sizeof(uint32_t), "slots", error));
+    self->slots = memory;
+    memcpy(self->slots, options->slots, options->num_frequencies * sizeof(uint32_t));
+    PS_TRY(ps_allocate(&memory, num_powers, sizeof(double), "powers of bins", error));
+    self->bin_powers = memory;
+    PS_TRY(ps_allocate(&memory, options->batch, sizeof(double), "mean powers", error));
+    self->mean_powers = memory;
+    PS_TRY(ps_allocate(&memory, options->bins->num, sizeof(ps_sums), "sums of bins", error));
+    self->bin_sums = memory;
+    if (options->want_frequencies && !options->is_on_device) {
+        PS_TRY(ps_allocate(&memory, options->num_frequencies, sizeof(ps_sums),
+                           "sums of frequencies", error));
+        self->frequency_sums = memory;
+    }
+    return PSPEC_OK;
+}
+
+static void clear(ps_sums *sums, size_t num, bool mean_only) {
+    for (size_t i = 0; i < num; i++) {
+        sums[i] = mean_only ? PS_SUMS_MEAN_ONLY : (ps_sums){0};
+    }
+}
+
+/* Of single frequencies. */
+static bool no_squares(const ps_accumulator_options *options) {
+    return options->mean_only || options->no_frequency_errors;
+}
+
+static void clear_all(ps_accumulator *self) {
+    const ps_accumulator_options *options = &self->options;
+    self->num_realizations = 0;
+    clear(self->bin_sums, options->bins->num, options->mean_only);
+    if (self->frequency_sums != NULL) {
+        clear(self->frequency_sums, options->num_frequencies, no_squares(options));
+    }
+}
+
+/* None is empty (spectra/bins.h). */
+static bool has_single_members(const ps_bins *bins) {
+    return bins->num == bins->num_members;
+}
+
+/* Powers of tens of thousands of bins for each realization would cost as much as their transform (d = 1,
+ * K = 32768: 0.2 ms of 0.7, docs/performance.md). What is still asked of a realization is its mean. */
+static void form_one_bin(ps_accumulator *self) {
+    const ps_bins *bins = self->options.bins;
+    self->all = (ps_bin){.end = bins->num_members};
+    self->one = (ps_bins){.num = bins->num_members > 0 ? 1 : 0,
+                          .bins = &self->all,
+                          .members = bins->members,
+                          .num_members = bins->num_members};
+    self->formed = &self->one;
+    self->options.want_frequencies = true;
+    self->options.no_frequency_errors = false; /* those of bins are theirs */
+}
+
+pspec_status ps_accumulator_create(ps_accumulator **out, const ps_accumulator_options *options,
+                                   ps_device *device, ps_error *error) {
+    void *memory = NULL;
+    *out = NULL;
+    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_accumulator), "an accumulator", error));
+    ps_accumulator *self = memory;
+    self->options = *options;
+    self->formed = options->bins;
+    if (options->is_on_device && has_single_members(options->bins)) {
+        form_one_bin(self);
+    }
+    pspec_status status = allocate(self, error);
+    self->options.slots = self->slots;
+    if (status == PSPEC_OK && options->is_on_device) {
+        ps_accumulator_options on_device = self->options;
+        on_device.bins = self->formed;
+        on_device.mean_only = no_squares(&self->options);
+        status = ps_device_accumulator_create(&self->on_device, &on_device, device, error);
+    }
+    if (status != PSPEC_OK) {
+        ps_accumulator_destroy(self);
+        return status;
+    }
+    clear_all(self);
+    *out = self;
+    return PSPEC_OK;
+}
+
+void ps_accumulator_destroy(ps_accumulator *accumulator) {
+    if (accumulator == NULL) {
+        return;
+    }
+    ps_device_accumulator_destroy(accumulator->on_device);
+    free(accumulator->slots);
+    free(accumulator->bin_powers);
+    free(accumulator->mean_powers);
+    free(accumulator->bin_sums);
+    free(accumulator->frequency_sums);
+    free(accumulator);
+}
+
+static void add(ps_sums *sums, double power, bool mean_only) {
+    if (mean_only) {
+        ps_sums_add_to_mean(sums, power);
+    } else {
+        ps_sums_add(sums, power);
+    }
+}
+
+/* Means over bins of one host row. */
+static void average_bins(const ps_accumulator *self, const double *row, double *bin_powers) {
+    const ps_bins *bins = self->options.bins;
+    for (size_t b = 0; b < bins->num; b++) {
+        long double sum = 0;
+        for (size_t i = bins->bins[b].begin; i < bins->bins[b].end; i++) {
+            sum += row[self->slots[bins->members[i]]];
+        }
+        bin_powers[b] = (double)(sum / (long double)(bins->bins[b].end - bins->bins[b].begin));
+    }
+}
+
+static void add_host_rows(ps_accumulator *self, const ps_rows *rows) {
+    for (size_t r = 0; r < rows->num_rows; r++) {
+        const double *row = rows->host + r * rows->stride;
+        average_bins(self, row, self->bin_powers + r * self->options.bins->num);
+        for (size_t i = 0; self->frequency_sums != NULL && i < self->options.num_frequencies; i++) {
+            add(&self->frequency_sums[i], row[self->slots[i]], no_squares(&self->options));
+        }
+    }
+}
+
+static double mean_power(const ps_bins *bins, const double *bin_powers) {
+    double sum = 0;
+    double num_modes = 0;
+    for (size_t b = 0; b < bins->num; b++) {
+        const double num = (double)ps_bin_num_computed(&bins->bins[b]);
+        sum += bin_powers[b] * num;
+        num_modes += num;
+    }
+    return num_modes > 0 ? sum / num_modes : 0;
+}
+
+static void add_bins(ps_accumulator *self, size_t num_rows) {
+    const ps_bins *bins = self->formed;
+    for (size_t r = 0; r < num_rows; r++) {
+        const double *bin_powers = self->bin_powers + r * bins->num;
+        self->mean_powers[r] = mean_power(bins, bin_powers);
+        for (size_t b = 0; bins == self->options.bins && b < bins->num; b++) {
+            add(&self->bin_sums[b], bin_powers[b], self->options.mean_only);
+        }
+    }
+}
+
+pspec_status ps_accumulator_add(ps_accumulator *accumulator, const ps_rows *rows,
+                                const double **mean_powers, ps_error *error) {
+    if (accumulator->on_device != NULL) {
+        PS_TRY(ps_device_accumulator_add(accumulator->on_device, rows, accumulator->bin_powers,
+                                         error));
+    } else {
+        add_host_rows(accumulator, rows);
+    }
+    add_bins(accumulator, rows->num_rows);
+    accumulator->num_realizations += rows->num_rows;
+    if (mean_powers != NULL) {
+        *mean_powers = accumulator->mean_powers;
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_accumulator_reset(ps_accumulator *accumulator, ps_error *error) {
+    clear_all(accumulator);
+    return accumulator->on_device != NULL
+               ? ps_device_accumulator_reset(accumulator->on_device, error)
+               : PSPEC_OK;
+}
+
+static void pick_bins(const ps_accumulator *self, const ps_sums *frequencies, ps_sums *bins) {
+    const ps_bins *all = self->options.bins;
+    for (size_t b = 0; b < all->num; b++) {
+        bins[b] = frequencies[all->members[all->bins[b].begin]];
+    }
+}
+
+/* Sums of bins that are sums of frequencies come to self->bin_sums. */
+static pspec_status fetch_bins(ps_accumulator *self, ps_error *error) {
+    const size_t num = self->options.num_frequencies;
+    void *frequencies = NULL;
+    if (self->formed == self->options.bins) {
+        return PSPEC_OK;
+    }
+    PS_TRY(ps_allocate(&frequencies, num, sizeof(ps_sums), "sums of frequencies", error));
+    const pspec_status status = ps_device_accumulator_sums(self->on_device, frequencies, error);
+    if (status == PSPEC_OK) {
+        pick_bins(self, frequencies, self->bin_sums);
+    }
+    free(frequencies);
+    return status;
+}
+
+pspec_status ps_accumulator_sums(ps_accumulator *accumulator, ps_sums *bins, ps_sums *frequencies,
+                                 ps_error *error) {
+    const ps_accumulator_options *options = &accumulator->options;
+    if (frequencies == NULL) {
+        PS_TRY(fetch_bins(accumulator, error));
+    } else if (accumulator->on_device != NULL) {
+        PS_TRY(ps_device_accumulator_sums(accumulator->on_device, frequencies, error));
+    } else {
+        memcpy(frequencies, accumulator->frequency_sums,
+               options->num_frequencies * sizeof(ps_sums));
+    }
+    if (frequencies != NULL && accumulator->formed != options->bins) {
+        pick_bins(accumulator, frequencies, accumulator->bin_sums);
+    }
+    memcpy(bins, accumulator->bin_sums, options->bins->num * sizeof(ps_sums));
+    return PSPEC_OK;
+}
+
+pspec_status ps_accumulator_bins(ps_accumulator *accumulator, ps_mean *means, ps_error *error) {
+    PS_TRY(fetch_bins(accumulator, error));
+    for (size_t b = 0; b < accumulator->options.bins->num; b++) {
+        ps_sums_finish(&accumulator->bin_sums[b], accumulator->num_realizations, &means[b].mean,
+                       &means[b].standard_error);
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_accumulator_frequencies(ps_accumulator *accumulator, ps_mean *means,
+                                        ps_error *error) {
+    if (accumulator->on_device != NULL) {
+        return ps_device_accumulator_frequencies(accumulator->on_device,
+                                                 accumulator->num_realizations, means, error);
+    }
+    for (size_t i = 0; i < accumulator->options.num_frequencies; i++) {
+        ps_sums_finish(&accumulator->frequency_sums[i], accumulator->num_realizations,
+                       &means[i].mean, &means[i].standard_error);
+    }
+    return PSPEC_OK;
+}

@@ -1,0 +1,61 @@
+/* Sums over realizations, streamed: memory does not grow with their number.
+ *
+ * Per frequency: sum and sum of squares of the power, in pairs (on the device where the rows are).
+ * Per bin: the mean over the bin is formed for each realization first, then summed in the same way;
+ * so a bin's standard error catches correlations between its frequencies (mathematics.md 1.2).
+ * Realizations are taken one after the other in their order, whatever the batches were.
+ *
+ * Where every bin has one member, as in one dimension, sums of bins are those of frequencies: on a device
+ * only these are formed.
+ */
+#ifndef PS_SPECTRA_ACCUMULATE_H
+#define PS_SPECTRA_ACCUMULATE_H
+
+#include "spectra/bins.h"
+#include "spectra/sums.h"
+#include "engines/engine.h"
+
+typedef struct ps_accumulator ps_accumulator;
+
+/* Mean and standard error of the mean, nan when there was only one realization or with mean_only. */
+typedef struct ps_mean {
+    double mean, standard_error;
+} ps_mean;
+
+typedef struct ps_accumulator_options {
+    const ps_bins *bins; /* kept: must outlive the accumulator */
+    size_t num_frequencies;
+    const uint32_t *slots; /* [num_frequencies] places in a row, copied */
+    size_t stride, batch;  /* of the rows; batch is the largest number of rows at a time */
+    bool is_on_device;
+    ps_precision precision;   /* of the rows */
+    unsigned lanes;           /* of device rows */
+    bool want_frequencies;    /* keep sums per frequency */
+    bool mean_only;           /* no sums of squares: standard errors are nan */
+    bool no_frequency_errors; /* no sums of squares of single frequencies: theirs are nan */
+} ps_accumulator_options;
+
+pspec_status ps_accumulator_create(ps_accumulator **out, const ps_accumulator_options *options,
+                                   ps_device *device, ps_error *error) PS_MUST_CHECK;
+void ps_accumulator_destroy(ps_accumulator *accumulator);
+
+/* Adds the rows of one batch. mean_powers[r], owned by the accumulator until the next call, is the mean
+ * over all members of bins of realization r; may be NULL if nobody asks. */
+pspec_status ps_accumulator_add(ps_accumulator *accumulator, const ps_rows *rows,
+                                const double **mean_powers, ps_error *error) PS_MUST_CHECK;
+
+/* Forgets every realization; allocates nothing. */
+pspec_status ps_accumulator_reset(ps_accumulator *accumulator, ps_error *error) PS_MUST_CHECK;
+
+/* The sums themselves: bins[bins->num], frequencies[num_frequencies] or NULL when nobody asks. With
+ * mean_only their squares are nan. */
+pspec_status ps_accumulator_sums(ps_accumulator *accumulator, ps_sums *bins, ps_sums *frequencies,
+                                 ps_error *error) PS_MUST_CHECK;
+/* means[num_bins] */
+pspec_status ps_accumulator_bins(ps_accumulator *accumulator, ps_mean *means,
+                                 ps_error *error) PS_MUST_CHECK;
+/* means[num_frequencies]; only with want_frequencies. */
+pspec_status ps_accumulator_frequencies(ps_accumulator *accumulator, ps_mean *means,
+                                        ps_error *error) PS_MUST_CHECK;
+
+#endif

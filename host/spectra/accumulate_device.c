@@ -1,0 +1,320 @@
+#include "spectra/accumulate_device.h"
+
+#include "spectra/accumulate_blocks.h"
+#include "base/memory.h"
+#include "base/round.h"
+#include "base/workers.h"
+
+#include <stdlib.h>
+
+/* Sums per frequency, and of squares, in pairs. */
+enum { SUM, SUM_LOW, SQUARE, SQUARE_LOW, NUM_STATES };
+
+struct ps_device_accumulator {
+    ps_device *device;
+    ps_accumulator_options options; /* lanes: those of the accumulator */
+    size_t real_bytes, num_groups, num_blocks, num_pieces, num_members;
+    cl_kernel blocks, fold;
+    ps_buffer first_rings, rings, members, bin_pieces, piece_sums, bin_sums;
+    ps_buffer states[NUM_STATES]; /* a buffer each: none is larger than a row of powers */
+    void *host;                   /* staging for bin sums, and for the state of one part */
+};
+
+static double get_real(const ps_device_accumulator *self, const void *array, size_t i) {
+    return self->real_bytes == sizeof(float) ? (double)((const float *)array)[i]
+                                             : ((const double *)array)[i];
+}
+
+/* ---- create ------------------------------------------------------------------------------ */
+
+static size_t block_bytes(unsigned lanes, size_t real_bytes) {
+    return PS_ACCUMULATE_BLOCK * lanes * real_bytes;
+}
+
+/* Results do not depend on it. Rows are whole vectors, and an engine may have had fewer lanes than suit the
+ * device. For few realizations a vector that they do not fill costs memory and time; one that they fill by
+ * more than a quarter is faster than a shorter one. */
+static unsigned choose_lanes(const ps_accumulator_options *options, size_t real_bytes,
+                             const ps_device_limits *limits) {
+    unsigned lanes = options->lanes;
+    while (lanes > 1 && (options->stride % lanes != 0 || lanes >= 4 * options->batch ||
+                         block_bytes(lanes, real_bytes) > limits->local_bytes)) {
+        lanes /= 2;
+    }
+    return lanes;
+}
+
+static pspec_status upload(ps_device_accumulator *self, ps_buffer *buffer, const void *data,
+                           size_t bytes, ps_error *error) {
+    PS_TRY(ps_buffer_create(self->device, buffer, bytes, "bins", error));
+    return ps_buffer_write(self->device, buffer, 0, data, bytes, error);
+}
+
+static pspec_status upload_blocks(ps_device_accumulator *self, ps_error *error) {
+    ps_accumulate_blocks blocks = {0};
+    pspec_status status = PSPEC_OK;
+    PS_TRY(ps_accumulate_blocks_create(&blocks, self->options.bins, self->options.slots,
+                                       self->options.stride, error));
+    self->num_blocks = blocks.num_blocks;
+    self->num_pieces = blocks.num_pieces;
+    self->num_members = blocks.num_members;
+    PS_TRY_OUT(status, upload(self, &self->first_rings, blocks.first_rings,
+                              (blocks.num_blocks + 1) * sizeof *blocks.first_rings, error));
+    PS_TRY_OUT(status, upload(self, &self->rings, blocks.rings,
+                              blocks.num_pieces * sizeof *blocks.rings, error));
+    PS_TRY_OUT(status, upload(self, &self->members, blocks.members,
+                              blocks.num_members * sizeof *blocks.members, error));
+    PS_TRY_OUT(status, upload(self, &self->bin_pieces, blocks.bin_pieces,
+                              blocks.num_bins * sizeof *blocks.bin_pieces, error));
+out:
+    ps_accumulate_blocks_free(&blocks);
+    return status;
+}
+
+static pspec_status create_kernels(ps_device_accumulator *self, ps_error *error) {
+    ps_text options = {0};
+    pspec_status status = PSPEC_OK;
+    ps_text_append(&options, "-DPRECISION=%zu -DLANES=%u", self->real_bytes * 8,
+                   self->options.lanes);
+    ps_text_append(&options, " -DSQUARES=%d", self->options.mean_only ? 0 : 1);
+    PS_TRY_OUT(status, ps_text_check(&options, error));
+    const char *text = ps_text_string(&options);
+    PS_TRY_OUT(status,
+               ps_kernel_create(self->device, &self->blocks, "accumulate/blocks.cl",
+                                self->options.want_frequencies ? "accumulate_bins_and_frequencies"
+                                                               : "accumulate_bins",
+                                text, error));
+    PS_TRY_OUT(status, ps_kernel_create(self->device, &self->fold, "accumulate/fold.cl",
+                                        "accumulate_fold", text, error));
+out:
+    ps_text_free(&options);
+    return status;
+}
+
+/* Every bin is one piece (none is empty, spectra/bins.h), as in one dimension: nothing to add up. */
+static bool is_whole(const ps_device_accumulator *self) {
+    return self->num_pieces == self->options.bins->num;
+}
+
+/* Without squares where nobody asks for standard errors. */
+static size_t num_states(const ps_device_accumulator *self) {
+    return !self->options.want_frequencies ? 0 : self->options.mean_only ? SQUARE : NUM_STATES;
+}
+
+static size_t state_bytes(const ps_device_accumulator *self) {
+    return self->options.stride * self->real_bytes;
+}
+
+static pspec_status clear_states(ps_device_accumulator *self, ps_error *error) {
+    for (size_t i = 0; i < num_states(self); i++) {
+        PS_TRY(ps_buffer_clear(self->device, &self->states[i], error));
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status create_buffers(ps_device_accumulator *self, ps_error *error) {
+    const ps_accumulator_options *options = &self->options;
+    const size_t pair_bytes = self->num_groups * 2 * options->lanes * self->real_bytes;
+    const size_t bin_entries = self->num_groups * 2 * options->lanes * options->bins->num;
+    size_t staging = bin_entries;
+    PS_TRY(ps_buffer_create(self->device, &self->piece_sums, pair_bytes * self->num_pieces,
+                            "sums of bins", error));
+    if (!is_whole(self)) {
+        PS_TRY(ps_buffer_create(self->device, &self->bin_sums, bin_entries * self->real_bytes,
+                                "sums of bins", error));
+    }
+    for (size_t i = 0; i < num_states(self); i++) {
+        PS_TRY(ps_buffer_create(self->device, &self->states[i], state_bytes(self),
+                                "sums of frequencies", error));
+    }
+    PS_TRY(clear_states(self, error));
+    const size_t entries = num_states(self) * options->stride;
+    staging = staging > entries ? staging : entries;
+    return ps_allocate(&self->host, staging, self->real_bytes, "sums of bins", error);
+}
+
+pspec_status ps_device_accumulator_create(ps_device_accumulator **out,
+                                          const ps_accumulator_options *options, ps_device *device,
+                                          ps_error *error) {
+    void *memory = NULL;
+    *out = NULL;
+    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_device_accumulator), "an accumulator", error));
+    ps_device_accumulator *self = memory;
+    self->device = device;
+    self->options = *options;
+    self->real_bytes = options->precision == PS_SINGLE ? sizeof(float) : sizeof(double);
+    self->options.lanes = choose_lanes(options, self->real_bytes, ps_device_get_limits(device));
+    self->num_groups = ps_divide_up(options->batch, self->options.lanes);
+    pspec_status status = create_kernels(self, error);
+    if (status == PSPEC_OK) {
+        status = upload_blocks(self, error);
+    }
+    if (status == PSPEC_OK) {
+        status = create_buffers(self, error);
+    }
+    if (status != PSPEC_OK) {
+        ps_device_accumulator_destroy(self);
+        return status;
+    }
+    *out = self;
+    return PSPEC_OK;
+}
+
+void ps_device_accumulator_destroy(ps_device_accumulator *accumulator) {
+    if (accumulator == NULL) {
+        return;
+    }
+    cl_kernel *const kernels[] = {&accumulator->blocks, &accumulator->fold};
+    ps_buffer *const buffers[] = {&accumulator->first_rings,    &accumulator->rings,
+                                  &accumulator->members,        &accumulator->bin_pieces,
+                                  &accumulator->piece_sums,     &accumulator->bin_sums,
+                                  &accumulator->states[SUM],    &accumulator->states[SUM_LOW],
+                                  &accumulator->states[SQUARE], &accumulator->states[SQUARE_LOW]};
+    for (size_t i = 0; i < sizeof kernels / sizeof kernels[0]; i++) {
+        if (*kernels[i] != NULL) {
+            clReleaseKernel(*kernels[i]);
+        }
+    }
+    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
+        ps_buffer_release(buffers[i]);
+    }
+    free(accumulator->host);
+    free(accumulator);
+}
+
+/* ---- add --------------------------------------------------------------------------------- */
+
+/* Operations on one power: a sum in a bin, a sum and a sum of squares of a frequency. */
+enum { BIN_FLOPS = 7, SUM_FLOPS = 7, SQUARE_FLOPS = 9, FOLD_FLOPS = 8 };
+
+static double power_flops(const ps_accumulator_options *options) {
+    return BIN_FLOPS + (options->want_frequencies ? SUM_FLOPS : 0) +
+           (options->want_frequencies && !options->mean_only ? SQUARE_FLOPS : 0);
+}
+
+#define BLOCK_ARGUMENTS(self, rows)                                                                \
+    PS_BUFFER((rows)->device), PS_U32((rows)->num_rows), PS_U64((rows)->stride),                   \
+        PS_BUFFER((self)->first_rings), PS_BUFFER((self)->rings), PS_BUFFER((self)->members),      \
+        PS_BUFFER((self)->piece_sums), PS_U64((self)->num_pieces)
+
+/* Kernels want a buffer in every place: without squares, that of the sums, which is not touched there. */
+static const ps_buffer *state_of(const ps_device_accumulator *self, size_t i) {
+    return &self->states[i % num_states(self)];
+}
+
+static pspec_status sum_blocks(ps_device_accumulator *self, const ps_rows *rows, ps_error *error) {
+    const double powers = (double)(rows->num_rows * rows->stride);
+    const ps_range range =
+        ps_range_heavy(self->device, 1, self->num_blocks, 1, power_flops(&self->options) * powers,
+                       powers * (double)self->real_bytes);
+    const ps_argument block = PS_LOCAL(block_bytes(self->options.lanes, self->real_bytes));
+    if (!self->options.want_frequencies) {
+        return PS_LAUNCH(self->device, self->blocks, &range, error, BLOCK_ARGUMENTS(self, rows),
+                         block);
+    }
+    return PS_LAUNCH(self->device, self->blocks, &range, error, BLOCK_ARGUMENTS(self, rows),
+                     PS_BUFFER(*state_of(self, SUM)), PS_BUFFER(*state_of(self, SUM_LOW)),
+                     PS_BUFFER(*state_of(self, SQUARE)), PS_BUFFER(*state_of(self, SQUARE_LOW)),
+                     block);
+}
+
+static pspec_status fold(ps_device_accumulator *self, size_t num_groups, ps_error *error) {
+    const size_t num_bins = self->options.bins->num;
+    const double sums = (double)(num_groups * self->options.lanes * self->num_pieces);
+    const ps_range range = ps_range_light(self->device, num_bins, num_groups, 1, FOLD_FLOPS * sums,
+                                          2 * sums * (double)self->real_bytes);
+    return PS_LAUNCH(self->device, self->fold, &range, error, PS_BUFFER(self->piece_sums),
+                     PS_BUFFER(self->bin_pieces), PS_BUFFER(self->bin_sums), PS_U64(num_bins),
+                     PS_U64(self->num_pieces));
+}
+
+static pspec_status read_bins(ps_device_accumulator *self, const ps_rows *rows, size_t num_groups,
+                              double *bin_powers, ps_error *error) {
+    const ps_bins *bins = self->options.bins;
+    const size_t lanes = self->options.lanes;
+    const ps_buffer *sums = is_whole(self) ? &self->piece_sums : &self->bin_sums;
+    PS_TRY(ps_buffer_read(self->device, sums, 0, self->host,
+                          num_groups * bins->num * 2 * lanes * self->real_bytes, error));
+    for (size_t r = 0; r < rows->num_rows; r++) {
+        for (size_t b = 0; b < bins->num; b++) {
+            const size_t high = ((r / lanes * bins->num + b) * 2) * lanes + r % lanes;
+            const double sum =
+                get_real(self, self->host, high) + get_real(self, self->host, high + lanes);
+            bin_powers[r * bins->num + b] = sum / (double)(bins->bins[b].end - bins->bins[b].begin);
+        }
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_device_accumulator_add(ps_device_accumulator *accumulator, const ps_rows *rows,
+                                       double *bin_powers, ps_error *error) {
+    ps_device_accumulator *self = accumulator;
+    const size_t lanes = self->options.lanes;
+    const size_t num_groups = ps_divide_up(rows->num_rows, lanes);
+    PS_TRY(sum_blocks(self, rows, error));
+    if (!is_whole(self)) {
+        PS_TRY(fold(self, num_groups, error));
+    }
+    return read_bins(self, rows, num_groups, bin_powers, error);
+}
+
+pspec_status ps_device_accumulator_reset(ps_device_accumulator *accumulator, ps_error *error) {
+    return clear_states(accumulator, error);
+}
+
+/* Brings the sums per frequency into the staging memory, one behind the other. */
+static pspec_status read_states(const ps_device_accumulator *self, ps_error *error) {
+    for (size_t i = 0; i < num_states(self); i++) {
+        PS_TRY(ps_buffer_read(self->device, &self->states[i], 0,
+                              (char *)self->host + i * state_bytes(self), state_bytes(self),
+                              error));
+    }
+    return PSPEC_OK;
+}
+
+static ps_sums get_sums(const ps_device_accumulator *self, size_t frequency) {
+    const size_t stride = self->options.stride;
+    const size_t slot = self->options.slots[frequency];
+    ps_sums sums = PS_SUMS_MEAN_ONLY;
+    sums.sum = get_real(self, self->host, SUM * stride + slot);
+    sums.sum_low = get_real(self, self->host, SUM_LOW * stride + slot);
+    if (!self->options.mean_only) {
+        sums.square = get_real(self, self->host, SQUARE * stride + slot);
+        sums.square_low = get_real(self, self->host, SQUARE_LOW * stride + slot);
+    }
+    return sums;
+}
+
+typedef struct state_sums {
+    const ps_device_accumulator *accumulator;
+    ps_sums *sums;
+} state_sums;
+
+static void get_some_sums(void *payload, unsigned index, unsigned count) {
+    const state_sums *all = payload;
+    const size_t num = all->accumulator->options.num_frequencies;
+    const size_t end = ps_share_begin(num, index + 1, count);
+    for (size_t i = ps_share_begin(num, index, count); i < end; i++) {
+        all->sums[i] = get_sums(all->accumulator, i);
+    }
+}
+
+pspec_status ps_device_accumulator_sums(ps_device_accumulator *accumulator, ps_sums *sums,
+                                        ps_error *error) {
+    const size_t num = accumulator->options.num_frequencies;
+    state_sums all = {accumulator, sums};
+    PS_TRY(read_states(accumulator, error));
+    ps_workers_share(num, get_some_sums, &all);
+    return PSPEC_OK;
+}
+
+pspec_status ps_device_accumulator_frequencies(ps_device_accumulator *accumulator,
+                                               uint64_t num_realizations, ps_mean *means,
+                                               ps_error *error) {
+    PS_TRY(read_states(accumulator, error));
+    for (size_t i = 0; i < accumulator->options.num_frequencies; i++) {
+        const ps_sums sums = get_sums(accumulator, i);
+        ps_sums_finish(&sums, num_realizations, &means[i].mean, &means[i].standard_error);
+    }
+    return PSPEC_OK;
+}

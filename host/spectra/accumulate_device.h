@@ -1,0 +1,26 @@
+/* The device half of accumulate.h: sums over rows that stay in device memory. */
+#ifndef PS_SPECTRA_ACCUMULATE_DEVICE_H
+#define PS_SPECTRA_ACCUMULATE_DEVICE_H
+
+#include "spectra/accumulate.h"
+
+typedef struct ps_device_accumulator ps_device_accumulator;
+
+/* options->slots must outlive the accumulator. mean_only is about frequencies here: powers of bins go to the host. */
+pspec_status ps_device_accumulator_create(ps_device_accumulator **out,
+                                          const ps_accumulator_options *options, ps_device *device,
+                                          ps_error *error) PS_MUST_CHECK;
+void ps_device_accumulator_destroy(ps_device_accumulator *accumulator);
+/* Adds the rows; bin_powers[num_rows][num_bins] receives the means over bins. */
+pspec_status ps_device_accumulator_add(ps_device_accumulator *accumulator, const ps_rows *rows,
+                                       double *bin_powers, ps_error *error) PS_MUST_CHECK;
+pspec_status ps_device_accumulator_reset(ps_device_accumulator *accumulator,
+                                         ps_error *error) PS_MUST_CHECK;
+/* Only with want_frequencies: [num_frequencies] */
+pspec_status ps_device_accumulator_sums(ps_device_accumulator *accumulator, ps_sums *sums,
+                                        ps_error *error) PS_MUST_CHECK;
+pspec_status ps_device_accumulator_frequencies(ps_device_accumulator *accumulator,
+                                               uint64_t num_realizations, ps_mean *means,
+                                               ps_error *error) PS_MUST_CHECK;
+
+#endif

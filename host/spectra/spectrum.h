@@ -1,0 +1,60 @@
+/* The averaged power spectrum of a job: per bin and, if kept, per frequency. */
+#ifndef PS_SPECTRA_SPECTRUM_H
+#define PS_SPECTRA_SPECTRUM_H
+
+#include "spectra/accumulate.h"
+#include "spectra/bins.h"
+
+typedef struct ps_spectrum_bin {
+    int64_t key;                  /* ring number, |k|^2 of a shell, or degree */
+    double frequency;             /* mean |k|, or the degree */
+    double normalized_frequency;  /* the same divided by N^(1/d); d = 2 on the sphere */
+    uint64_t count;               /* lattice points of both signs, or orders */
+    uint64_t num_computed;        /* of them; fewer: a random subset */
+    double power, standard_error; /* nan: one realization, all computed */
+    double anisotropy_db;         /* nan: fewer than two half-lattice frequencies, or power 0 */
+} ps_spectrum_bin;
+
+typedef struct ps_spectrum {
+    ps_frequencies frequencies; /* a copy of its own */
+    uint64_t num_realizations;
+    double mean_points;
+    size_t smallest_points, largest_points;
+    double mean_weight_sum;
+    ps_mean
+        sample_size; /* W^2 / V, the effective power at DC; its standard error: nan for one set */
+    size_t num_bins;
+    ps_spectrum_bin *bins;
+    ps_mean *powers; /* [frequencies.num], or NULL */
+} ps_spectrum;
+
+/* What happened to the realizations besides their powers. */
+typedef struct ps_pattern_totals {
+    uint64_t num_realizations;
+    double sum_points, sum_weights;
+    ps_sums sample_sizes; /* of W^2 / V, the effective sample size */
+    size_t smallest_points, largest_points;
+} ps_pattern_totals;
+
+/* factor multiplies every accumulated power (mean N over reference N, see jobs/parts/estimator.h). */
+pspec_status ps_spectrum_create(ps_spectrum *out, const ps_frequencies *frequencies,
+                                const ps_bins *bins, ps_accumulator *accumulator, double factor,
+                                const ps_pattern_totals *totals, bool with_frequencies,
+                                ps_error *error) PS_MUST_CHECK;
+/* The same from means: bin_means[bins->num]; powers[frequencies->num] or NULL, taken over. */
+pspec_status ps_spectrum_from_means(ps_spectrum *out, const ps_frequencies *frequencies,
+                                    const ps_bins *bins, const ps_mean *bin_means, ps_mean *powers,
+                                    double factor, const ps_pattern_totals *totals,
+                                    ps_error *error) PS_MUST_CHECK;
+void ps_spectrum_free(ps_spectrum *spectrum);
+
+/* Marks the spectrum as that of num_realizations equal ones: standard errors become exactly 0, but for
+ * that of the choice of a subset (a deterministic set, whose further realizations were skipped). */
+void ps_spectrum_repeat(ps_spectrum *spectrum, uint64_t num_realizations);
+
+/* The whole box as an array [2K+1]^d in C order, DC in the middle, axis i along x_i; DC, which
+ * is not among the frequencies, is dc. which: 0 power, 1 standard error. *array is freed by the caller. */
+pspec_status ps_spectrum_full(const ps_spectrum *spectrum, int which, ps_mean dc, double **array,
+                              size_t *num_entries, ps_error *error) PS_MUST_CHECK;
+
+#endif

@@ -1,0 +1,33 @@
+/* What writer and reader of spectrum files agree on; see docs/spectrum_file.md. */
+#ifndef PS_SPECTRA_SPECTRUM_FORMAT_H
+#define PS_SPECTRA_SPECTRUM_FORMAT_H
+
+#include <stdint.h>
+
+#define PS_SPECTRUM_MAGIC "pointspec spectrum"
+enum { PS_SPECTRUM_VERSION = 2 };
+
+/* Values of the header lines, by the enumerators that they stand for; frequencies by these. */
+static const char *const ps_spectrum_kinds[] = {"list",   "box",     "ball",
+                                                "sample", "degrees", "even-degrees"};
+static const char *const ps_spectrum_bins[] = {"rings", "shells"};
+static const char *const ps_spectrum_normalizations[] = {"power", "effective", "pairs"};
+
+/* A sample is a list in memory (ps_frequencies.rings), and a kind of its own in files; degrees are two. */
+enum {
+    PS_SPECTRUM_LIST,
+    PS_SPECTRUM_BOX,
+    PS_SPECTRUM_BALL,
+    PS_SPECTRUM_SAMPLE,
+    PS_SPECTRUM_DEGREES,
+    PS_SPECTRUM_EVEN_DEGREES,
+    PS_SPECTRUM_NUM_KINDS
+};
+
+/* Doubles after the header, and of the sums of what follows: effective sample sizes, bins, frequencies. */
+enum { PS_SPECTRUM_TOTALS = 4, PS_SPECTRUM_SUMS = 4 };
+
+/* More realizations than a double counts exactly are no realizations. */
+#define PS_SPECTRUM_MOST_REALIZATIONS ((uint64_t)1 << 53)
+
+#endif

@@ -1,0 +1,207 @@
+#include "spectra/spectrum_sums.h"
+
+#include "base/memory.h"
+#include "base/workers.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static pspec_status allocate(ps_spectrum_sums *out, ps_error *error) {
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, out->num_bins, sizeof(ps_sums), "sums of bins", error));
+    out->bins = memory;
+    PS_TRY(
+        ps_allocate(&memory, out->frequencies.num, sizeof(ps_sums), "sums of frequencies", error));
+    out->powers = memory;
+    return PSPEC_OK;
+}
+
+pspec_status ps_spectrum_sums_create(ps_spectrum_sums *out, const ps_frequencies *frequencies,
+                                     size_t num_bins, ps_error *error) {
+    *out = (ps_spectrum_sums){.reference_points = 1, .num_bins = num_bins};
+    pspec_status status = ps_frequencies_copy(&out->frequencies, frequencies, error);
+    if (status == PSPEC_OK) {
+        status = allocate(out, error);
+    }
+    if (status != PSPEC_OK) {
+        ps_spectrum_sums_free(out);
+    }
+    return status;
+}
+
+pspec_status ps_spectrum_sums_copy(ps_spectrum_sums *out, const ps_spectrum_sums *from,
+                                   ps_error *error) {
+    PS_TRY(ps_spectrum_sums_create(out, &from->frequencies, from->num_bins, error));
+    const ps_spectrum_sums owned = *out;
+    *out = *from;
+    out->frequencies = owned.frequencies;
+    out->bins = owned.bins;
+    out->powers = owned.powers;
+    memcpy(out->bins, from->bins, from->num_bins * sizeof(ps_sums));
+    memcpy(out->powers, from->powers, from->frequencies.num * sizeof(ps_sums));
+    return PSPEC_OK;
+}
+
+void ps_spectrum_sums_free(ps_spectrum_sums *sums) {
+    ps_frequencies_free(&sums->frequencies);
+    free(sums->bins);
+    free(sums->powers);
+    *sums = (ps_spectrum_sums){0};
+}
+
+/* ---- merge ------------------------------------------------------------------------------- */
+
+/* What a double counts exactly, and a file may hold (spectrum_format.h). */
+#define MOST_REALIZATIONS ((uint64_t)1 << 53)
+
+static const char *kind_name(const ps_frequencies *set) {
+    if (set->kind == PS_FREQUENCIES_DEGREES) {
+        return set->degree_step > 1 ? "the even degrees of the hemisphere"
+                                    : "the degrees of the sphere";
+    }
+    return set->rings != NULL                 ? "a random subset of the frequencies of rings"
+           : set->kind == PS_FREQUENCIES_LIST ? "a list of frequencies"
+           : set->kind == PS_FREQUENCIES_BOX  ? "the frequencies of a box"
+                                              : "the frequencies of rings";
+}
+
+/* The same vectors: different only in files that somebody made up. */
+static pspec_status compare_rings(const ps_frequencies *a, const ps_frequencies *b,
+                                  const char *which, ps_error *error) {
+    bool is_same = a->num_rings == b->num_rings && a->per_ring == b->per_ring;
+    for (size_t i = 0; is_same && i < a->num_rings; i++) {
+        is_same = a->rings[i].num_frequencies == b->rings[i].num_frequencies;
+    }
+    return is_same ? PSPEC_OK
+                   : ps_fail(error, PSPEC_ERROR_INPUT,
+                             "%s has a random subset of other rings, or of another size", which);
+}
+
+static pspec_status compare_frequencies(const ps_frequencies *a, const ps_frequencies *b,
+                                        const char *which, ps_error *error) {
+    const unsigned num_components = ps_frequency_components(a);
+    if (a->dimension != b->dimension) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s has dimension %u instead of %u", which,
+                       b->dimension, a->dimension);
+    }
+    if (a->kind != b->kind || a->degree_step != b->degree_step ||
+        (a->rings == NULL) != (b->rings == NULL)) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s has %s instead of %s", which, kind_name(b),
+                       kind_name(a));
+    }
+    if ((a->kind != PS_FREQUENCIES_LIST || a->rings != NULL) &&
+        a->max_frequency != b->max_frequency) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s has max %s %d instead of %d", which,
+                       a->kind == PS_FREQUENCIES_DEGREES ? "degree" : "frequency",
+                       (int)b->max_frequency, (int)a->max_frequency);
+    }
+    if (a->num != b->num) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s has %zu frequencies instead of %zu", which,
+                       b->num, a->num);
+    }
+    for (size_t i = 0; i < a->num * num_components; i++) {
+        if (a->vectors[i] != b->vectors[i]) {
+            return ps_fail(error, PSPEC_ERROR_INPUT, "%s has another frequency %zu in its %s",
+                           which, i / num_components + 1,
+                           a->rings != NULL ? "random subset (another seed?)" : "list");
+        }
+    }
+    return a->rings != NULL ? compare_rings(a, b, which, error) : PSPEC_OK;
+}
+
+pspec_status ps_spectrum_sums_require_same(const ps_spectrum_sums *a, const ps_spectrum_sums *b,
+                                           const char *which, ps_error *error) {
+    static const char *const bins[] = {"rings", "shells"};
+    static const char *const normalizations[] = {"power", "effective", "pairs"};
+    PS_TRY(compare_frequencies(&a->frequencies, &b->frequencies, which, error));
+    if (a->exact_shells != b->exact_shells || a->num_bins != b->num_bins) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s has means over %s instead of %s", which,
+                       bins[b->exact_shells], bins[a->exact_shells]);
+    }
+    if (a->normalization != b->normalization) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s has the normalization %s instead of %s", which,
+                       normalizations[b->normalization], normalizations[a->normalization]);
+    }
+    return PSPEC_OK;
+}
+
+static void add_totals(ps_pattern_totals *totals, const ps_pattern_totals *other) {
+    totals->num_realizations += other->num_realizations;
+    totals->sum_points += other->sum_points;
+    totals->sum_weights += other->sum_weights;
+    ps_sums_merge(&totals->sample_sizes, &other->sample_sizes, 1);
+    if (other->smallest_points < totals->smallest_points) {
+        totals->smallest_points = other->smallest_points;
+    }
+    if (other->largest_points > totals->largest_points) {
+        totals->largest_points = other->largest_points;
+    }
+}
+
+pspec_status ps_spectrum_sums_merge(ps_spectrum_sums *sums, const ps_spectrum_sums *other,
+                                    const char *which, ps_error *error) {
+    PS_TRY(ps_spectrum_sums_require_same(sums, other, which, error));
+    if (other->totals.num_realizations > MOST_REALIZATIONS - sums->totals.num_realizations) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s brings the realizations to more than 2^53",
+                       which);
+    }
+    const double factor = sums->reference_points / other->reference_points;
+    for (size_t b = 0; b < sums->num_bins; b++) {
+        ps_sums_merge(&sums->bins[b], &other->bins[b], factor);
+    }
+    for (size_t i = 0; i < sums->frequencies.num; i++) {
+        ps_sums_merge(&sums->powers[i], &other->powers[i], factor);
+    }
+    add_totals(&sums->totals, &other->totals);
+    if (!(other->error <= sums->error)) { /* nan stays */
+        sums->error = other->error;
+    }
+    return PSPEC_OK;
+}
+
+/* ---- finish ------------------------------------------------------------------------------ */
+
+typedef struct finishing {
+    const ps_sums *sums;
+    size_t num;
+    uint64_t num_realizations;
+    ps_mean *out;
+} finishing;
+
+static void finish_some(void *payload, unsigned index, unsigned count) {
+    const finishing *all = payload;
+    const size_t end = ps_share_begin(all->num, index + 1, count);
+    for (size_t i = ps_share_begin(all->num, index, count); i < end; i++) {
+        ps_sums_finish(&all->sums[i], all->num_realizations, &all->out[i].mean,
+                       &all->out[i].standard_error);
+    }
+}
+
+static void finish_all(const ps_sums *sums, size_t num, uint64_t num_realizations, ps_mean *out) {
+    finishing all = {sums, num, num_realizations, out};
+    ps_workers_share(num, finish_some, &all);
+}
+
+pspec_status ps_spectrum_sums_finish(const ps_spectrum_sums *sums, const ps_bins *bins,
+                                     ps_spectrum *out, ps_error *error) {
+    void *bin_means = NULL;
+    void *powers = NULL;
+    pspec_status status = PSPEC_OK;
+    const uint64_t num = sums->totals.num_realizations;
+    const double factor = sums->normalization == PSPEC_NORMALIZATION_POWER
+                              ? sums->totals.sum_points / (double)num / sums->reference_points
+                              : 1;
+    *out = (ps_spectrum){0};
+    PS_TRY_OUT(status, ps_allocate(&bin_means, bins->num, sizeof(ps_mean), "the bins", error));
+    PS_TRY_OUT(status,
+               ps_allocate(&powers, sums->frequencies.num, sizeof(ps_mean), "the powers", error));
+    finish_all(sums->bins, sums->num_bins, num, bin_means);
+    finish_all(sums->powers, sums->frequencies.num, num, powers);
+    status = ps_spectrum_from_means(out, &sums->frequencies, bins, bin_means, powers, factor,
+                                    &sums->totals, error);
+    powers = NULL;
+out:
+    free(powers);
+    free(bin_means);
+    return status;
+}

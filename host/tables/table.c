@@ -1,0 +1,280 @@
+#include "tables/table.h"
+
+#include "base/memory.h"
+#include "base/text.h"
+#include "files/npy.h"
+#include "files/output_file.h"
+#include "tables/table_rows.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+/* ---- building ---- */
+
+static pspec_status copy_text(char **out, const char *text, ps_error *error) {
+    *out = strdup(text != NULL ? text : "");
+    return *out != NULL ? PSPEC_OK
+                        : ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for text");
+}
+
+static pspec_status copy_cell(ps_cell *out, ps_cell cell, ps_error *error) {
+    *out = cell;
+    out->text = NULL;
+    if (cell.kind == PS_CELL_TEXT) {
+        char *text = NULL;
+        PS_TRY(copy_text(&text, cell.text, error));
+        out->text = text;
+    }
+    if (cell.kind == PS_CELL_NUMBER && isnan(cell.number)) {
+        out->kind = PS_CELL_MISSING;
+    }
+    return PSPEC_OK;
+}
+
+static void free_cell(const ps_cell *cell) {
+    free((void *)(uintptr_t)cell->text); /* const for the callers that pass cells */
+}
+
+static pspec_status copy_columns(ps_table *table, const char *const *columns, size_t num_columns,
+                                 ps_error *error) {
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, num_columns, sizeof *table->columns, "columns", error));
+    table->columns = memory;
+    while (table->num_columns < num_columns) { /* counts those that are to be freed */
+        PS_TRY(copy_text(&table->columns[table->num_columns], columns[table->num_columns], error));
+        table->num_columns++;
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_table_create(ps_table **out, const char *command, const char *const *columns,
+                             size_t num_columns, ps_error *error) {
+    *out = NULL;
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_table), "table", error));
+    ps_table *table = memory;
+    pspec_status status = copy_columns(table, columns, num_columns, error);
+    if (status == PSPEC_OK) {
+        status = copy_text(&table->command, command, error);
+    }
+    if (status != PSPEC_OK) {
+        ps_table_destroy(table);
+        return status;
+    }
+    *out = table;
+    return PSPEC_OK;
+}
+
+pspec_status ps_table_add_meta(ps_table *table, const char *key, ps_cell value, ps_error *error) {
+    void *memory = table->meta;
+    PS_TRY(ps_grow(&memory, &table->meta_capacity, table->num_meta + 1, sizeof(ps_table_entry),
+                   "header of a table", error));
+    table->meta = memory;
+    ps_table_entry *const entry = &table->meta[table->num_meta];
+    *entry = (ps_table_entry){0};
+    PS_TRY(copy_text(&entry->key, key, error));
+    const pspec_status status = copy_cell(&entry->value, value, error);
+    if (status != PSPEC_OK) {
+        free(entry->key);
+        return status;
+    }
+    table->num_meta++;
+    return PSPEC_OK;
+}
+
+pspec_status ps_table_add_metas(ps_table *table, const ps_meta *entries, size_t num,
+                                ps_error *error) {
+    for (size_t i = 0; i < num; i++) {
+        PS_TRY(ps_table_add_meta(table, entries[i].key, entries[i].value, error));
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_table_add_row(ps_table *table, const ps_cell *cells, ps_error *error) {
+    const size_t first = table->num_rows * table->num_columns;
+    void *memory = table->cells;
+    PS_TRY(ps_grow(&memory, &table->cells_capacity, first + table->num_columns, sizeof(ps_cell),
+                   "rows of a table", error));
+    table->cells = memory;
+    for (size_t i = 0; i < table->num_columns; i++) {
+        const pspec_status status = copy_cell(&table->cells[first + i], cells[i], error);
+        if (status != PSPEC_OK) {
+            while (i > 0) {
+                free_cell(&table->cells[first + --i]);
+            }
+            return status;
+        }
+    }
+    table->num_rows++;
+    return PSPEC_OK;
+}
+
+void ps_table_destroy(ps_table *table) {
+    if (table == NULL) {
+        return;
+    }
+    for (size_t i = 0; i < table->num_meta; i++) {
+        free(table->meta[i].key);
+        free_cell(&table->meta[i].value);
+    }
+    for (size_t i = 0; i < table->num_rows * table->num_columns; i++) {
+        free_cell(&table->cells[i]);
+    }
+    for (size_t i = 0; i < table->num_columns; i++) {
+        free(table->columns[i]);
+    }
+    free(table->meta);
+    free(table->cells);
+    free(table->columns);
+    free(table->command);
+    free(table);
+}
+
+/* ---- reading ---- */
+
+const char *ps_table_command(const ps_table *table) {
+    return table->command;
+}
+
+size_t ps_table_num_columns(const ps_table *table) {
+    return table->num_columns;
+}
+
+const char *ps_table_column_name(const ps_table *table, size_t column) {
+    return table->columns[column];
+}
+
+bool ps_table_find_column(const ps_table *table, const char *name, size_t *column) {
+    for (size_t i = 0; i < table->num_columns; i++) {
+        if (strcmp(table->columns[i], name) == 0) {
+            *column = i;
+            return true;
+        }
+    }
+    return false;
+}
+
+size_t ps_table_num_rows(const ps_table *table) {
+    return table->num_rows;
+}
+
+ps_cell ps_table_cell(const ps_table *table, size_t row, size_t column) {
+    return table->cells[row * table->num_columns + column];
+}
+
+size_t ps_table_num_meta(const ps_table *table) {
+    return table->num_meta;
+}
+
+ps_cell ps_table_meta(const ps_table *table, size_t i, const char **key) {
+    *key = table->meta[i].key;
+    return table->meta[i].value;
+}
+
+/* ---- choosing ---- */
+
+static const char *const format_names[] = {
+    [PS_FORMAT_CSV] = "csv", [PS_FORMAT_JSON] = "json", [PS_FORMAT_NPY] = "npy"};
+enum { NUM_FORMATS = sizeof format_names / sizeof format_names[0] };
+
+pspec_status ps_table_choose_format(ps_table_format *out, const char *name, const char *path,
+                                    ps_error *error) {
+    const char *const dot = path != NULL ? strrchr(path, '.') : NULL;
+    *out = PS_FORMAT_CSV;
+    for (size_t i = 0; i < NUM_FORMATS; i++) {
+        if (name != NULL ? strcmp(name, format_names[i]) == 0
+                         : dot != NULL && strcasecmp(dot + 1, format_names[i]) == 0) {
+            *out = (ps_table_format)i;
+            return PSPEC_OK;
+        }
+    }
+    return name == NULL ? PSPEC_OK
+                        : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                                  "format \"%s\" is not known; there are csv, json and npy", name);
+}
+
+/* ---- writing ---- */
+
+static pspec_status to_numbers(const ps_table *table, double **out, ps_error *error) {
+    const size_t num_cells = table->num_rows * table->num_columns;
+    for (size_t i = 0; i < num_cells; i++) {
+        if (table->cells[i].kind == PS_CELL_TEXT) {
+            return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                           "column \"%s\" holds text, which NPY cannot; use CSV or JSON",
+                           table->columns[i % table->num_columns]);
+        }
+    }
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, num_cells, sizeof(double), "table", error));
+    *out = memory;
+    for (size_t i = 0; i < num_cells; i++) {
+        const ps_cell *const cell = &table->cells[i];
+        (*out)[i] = cell->kind == PS_CELL_NUMBER    ? cell->number
+                    : cell->kind == PS_CELL_INTEGER ? (double)cell->integer
+                                                    : (double)NAN;
+    }
+    return PSPEC_OK;
+}
+
+/* out.npy -> out.json */
+static pspec_status open_names(ps_output_file **out, const char *path, ps_error *error) {
+    const size_t length = strlen(path);
+    const size_t ending = length > 4 && strcasecmp(path + length - 4, ".npy") == 0 ? 4 : 0;
+    ps_text name = {0};
+    ps_text_append_bytes(&name, path, length - ending);
+    ps_text_append(&name, ".json");
+    const pspec_status status =
+        name.failed ? ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for a file name")
+                    : ps_output_open(out, ps_text_string(&name), error);
+    ps_text_free(&name);
+    return status;
+}
+
+/* Both files are complete before either gets its name. */
+static pspec_status write_npy(const ps_table *table, const char *path, ps_error *error) {
+    const size_t shape[] = {table->num_rows, table->num_columns};
+    ps_output_file *file = NULL;
+    ps_output_file *names = NULL;
+    double *numbers = NULL;
+    pspec_status status = PSPEC_OK;
+    if (strcmp(path, "-") == 0) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "NPY needs a file name: the column names go to a second file beside it");
+    }
+    PS_TRY_OUT(status, to_numbers(table, &numbers, error));
+    PS_TRY_OUT(status, ps_output_open(&file, path, error));
+    PS_TRY_OUT(status, open_names(&names, path, error));
+    ps_npy_write_header(ps_output_stream(file), 2, shape);
+    ps_output_write(file, numbers, sizeof *numbers, shape[0] * shape[1]);
+    PS_TRY_OUT(status, ps_table_write_json(table, false, ps_output_stream(names), error));
+    PS_TRY_OUT(status, ps_output_check(file, error));
+    PS_TRY_OUT(status, ps_output_check(names, error));
+    PS_TRY_OUT(status, ps_output_commit(&file, error));
+    PS_TRY_OUT(status, ps_output_commit(&names, error));
+out:
+    ps_output_discard(&file);
+    ps_output_discard(&names);
+    free(numbers);
+    return status;
+}
+
+pspec_status ps_table_write(const ps_table *table, const char *path, ps_table_format format,
+                            ps_error *error) {
+    if (format == PS_FORMAT_NPY) {
+        return write_npy(table, path, error);
+    }
+    ps_output_file *file = NULL;
+    pspec_status status = PSPEC_OK;
+    PS_TRY(ps_output_open(&file, path, error));
+    if (format == PS_FORMAT_JSON) {
+        PS_TRY_OUT(status, ps_table_write_json(table, true, ps_output_stream(file), error));
+    } else {
+        ps_table_write_csv(table, ps_output_stream(file));
+    }
+    return ps_output_commit(&file, error);
+out:
+    ps_output_discard(&file);
+    return status;
+}

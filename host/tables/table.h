@@ -1,0 +1,80 @@
+/* Result tables: header lines, named columns, rows; written as CSV, JSON or NPY.
+ *
+ * CSV: "# key: value" header lines, one line of column names, one line per row, 17 digits; a
+ * missing number is an empty field. JSON: {"schema": 1, "command", "meta", "columns", "rows"};
+ * missing is null. NPY: float64 [rows][columns], missing is nan, and a JSON file of the same name
+ * (out.npy: out.json) holds the rest. A number that is nan counts as missing. JSON has no
+ * infinities: null.
+ */
+#ifndef PS_TABLES_TABLE_H
+#define PS_TABLES_TABLE_H
+
+#include "base/status.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef enum ps_cell_kind {
+    PS_CELL_MISSING = 0,
+    PS_CELL_NUMBER,
+    PS_CELL_INTEGER,
+    PS_CELL_TEXT
+} ps_cell_kind;
+
+typedef struct ps_cell {
+    ps_cell_kind kind;
+    double number;
+    int64_t integer;
+    const char *text; /* borrowed while the cell is passed; copied by ps_table_add_row */
+} ps_cell;
+
+#define PS_NUMBER(value) ((ps_cell){PS_CELL_NUMBER, (value), 0, NULL})
+#define PS_INTEGER(value) ((ps_cell){PS_CELL_INTEGER, 0, (int64_t)(value), NULL})
+#define PS_TEXT(value) ((ps_cell){PS_CELL_TEXT, 0, 0, (value)})
+#define PS_MISSING ((ps_cell){PS_CELL_MISSING, 0, 0, NULL})
+
+typedef struct ps_table ps_table;
+
+typedef enum ps_table_format { PS_FORMAT_CSV = 0, PS_FORMAT_JSON, PS_FORMAT_NPY } ps_table_format;
+
+/* The names of the columns are copied. */
+pspec_status ps_table_create(ps_table **out, const char *command, const char *const *columns,
+                             size_t num_columns, ps_error *error) PS_MUST_CHECK;
+/* Header entries, kept in order; the same key may occur several times (CSV: several lines; JSON: an
+ * array). A value of kind missing is written as an empty value / null. */
+pspec_status ps_table_add_meta(ps_table *table, const char *key, ps_cell value,
+                               ps_error *error) PS_MUST_CHECK;
+/* Several of them. */
+typedef struct ps_meta {
+    const char *key;
+    ps_cell value;
+} ps_meta;
+pspec_status ps_table_add_metas(ps_table *table, const ps_meta *entries, size_t num,
+                                ps_error *error) PS_MUST_CHECK;
+pspec_status ps_table_add_row(ps_table *table, const ps_cell *cells, ps_error *error) PS_MUST_CHECK;
+/* Format by its name (csv, json, npy) or, with name NULL, by the ending of path (default CSV). */
+pspec_status ps_table_choose_format(ps_table_format *out, const char *name, const char *path,
+                                    ps_error *error) PS_MUST_CHECK;
+/* Writes to path, "-" for standard output (NPY to standard output is refused: it needs two files).
+ * NPY of a table with text columns is refused, with the column named. */
+pspec_status ps_table_write(const ps_table *table, const char *path, ps_table_format format,
+                            ps_error *error) PS_MUST_CHECK;
+
+/* ---- reading it: texts belong to the table and stay as long as it does; indices must be below the numbers ---- */
+
+const char *ps_table_command(const ps_table *table);
+size_t ps_table_num_columns(const ps_table *table);
+const char *ps_table_column_name(const ps_table *table, size_t column);
+/* The first column of that name; false: there is none. */
+bool ps_table_find_column(const ps_table *table, const char *name, size_t *column);
+size_t ps_table_num_rows(const ps_table *table);
+ps_cell ps_table_cell(const ps_table *table, size_t row, size_t column);
+size_t ps_table_num_meta(const ps_table *table);
+/* Header entry i, in the order in which they were added. */
+ps_cell ps_table_meta(const ps_table *table, size_t i, const char **key);
+
+/* NULL is allowed. */
+void ps_table_destroy(ps_table *table);
+
+#endif

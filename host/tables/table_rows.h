@@ -1,0 +1,33 @@
+/* What a table holds, for the files that build it and write it. Private to host/io. */
+#ifndef PS_TABLES_TABLE_ROWS_H
+#define PS_TABLES_TABLE_ROWS_H
+
+#include "tables/table.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+
+typedef struct ps_table_entry {
+    char *key;
+    ps_cell value; /* its text belongs to the table */
+} ps_table_entry;
+
+struct ps_table {
+    char *command;
+    char **columns; /* names */
+    size_t num_columns;
+    ps_table_entry *meta;
+    size_t num_meta, meta_capacity;
+    ps_cell *cells; /* [num_rows][num_columns], texts belong to the table */
+    size_t num_rows, cells_capacity;
+};
+
+/* Both write to a stream, whose errors the caller checks. */
+/* Header lines and column names; rows from first_row on. */
+void ps_table_write_csv_head(const ps_table *table, FILE *stream);
+void ps_table_write_csv_rows(const ps_table *table, size_t first_row, FILE *stream);
+void ps_table_write_csv(const ps_table *table, FILE *stream);
+pspec_status ps_table_write_json(const ps_table *table, bool with_rows, FILE *stream,
+                                 ps_error *error) PS_MUST_CHECK;
+
+#endif

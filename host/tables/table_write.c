@@ -1,0 +1,235 @@
+/* Tables as CSV (RFC 4180, after "# key: value" lines) and as JSON (RFC 8259), one row per line. */
+#include "files/decimal.h"
+#include "tables/table_rows.h"
+
+#include <cJSON.h>
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void print_number(double number, FILE *stream) {
+    char text[PS_DECIMAL_BYTES];
+    ps_decimal_format(text, number);
+    fputs(text, stream);
+}
+
+/* ---- CSV ---- */
+
+/* Quotes a field that would not be one otherwise. A '#' in front would look like a header line. */
+static void print_csv_text(const char *text, FILE *stream) {
+    if (strpbrk(text, ",\"\r\n") == NULL && text[0] != '#') {
+        fputs(text, stream);
+        return;
+    }
+    putc('"', stream);
+    for (; *text != '\0'; text++) {
+        if (*text == '"') {
+            putc('"', stream);
+        }
+        putc(*text, stream);
+    }
+    putc('"', stream);
+}
+
+/* A header line has no quotes: whatever would end it is written as an escape. */
+static void print_header_text(const char *text, FILE *stream) {
+    for (; *text != '\0'; text++) {
+        if (*text == '\n') {
+            fputs("\\n", stream);
+        } else if (*text == '\r') {
+            fputs("\\r", stream);
+        } else {
+            putc(*text, stream);
+        }
+    }
+}
+
+static void print_csv_cell(const ps_cell *cell, void (*print_text)(const char *, FILE *),
+                           FILE *stream) {
+    switch (cell->kind) {
+    case PS_CELL_MISSING:
+        break;
+    case PS_CELL_NUMBER:
+        print_number(cell->number, stream);
+        break;
+    case PS_CELL_INTEGER:
+        fprintf(stream, "%" PRId64, cell->integer);
+        break;
+    case PS_CELL_TEXT:
+        print_text(cell->text, stream);
+        break;
+    }
+}
+
+void ps_table_write_csv_head(const ps_table *table, FILE *stream) {
+    for (size_t i = 0; i < table->num_meta; i++) {
+        fputs("# ", stream);
+        print_header_text(table->meta[i].key, stream);
+        fputs(": ", stream);
+        print_csv_cell(&table->meta[i].value, print_header_text, stream);
+        putc('\n', stream);
+    }
+    for (size_t i = 0; i < table->num_columns; i++) {
+        print_csv_text(table->columns[i], stream);
+        putc(i + 1 < table->num_columns ? ',' : '\n', stream);
+    }
+}
+
+void ps_table_write_csv_rows(const ps_table *table, size_t first_row, FILE *stream) {
+    for (size_t row = first_row; row < table->num_rows; row++) {
+        for (size_t i = 0; i < table->num_columns; i++) {
+            print_csv_cell(&table->cells[row * table->num_columns + i], print_csv_text, stream);
+            putc(i + 1 < table->num_columns ? ',' : '\n', stream);
+        }
+    }
+}
+
+void ps_table_write_csv(const ps_table *table, FILE *stream) {
+    ps_table_write_csv_head(table, stream);
+    ps_table_write_csv_rows(table, 0, stream);
+}
+
+/* ---- JSON ---- */
+
+/* Length of the UTF-8 character at text, 0 when it is none (RFC 3629, overlong forms included). */
+static size_t utf8_length(const char *text) {
+    const unsigned char *const b = (const unsigned char *)text;
+    const size_t length = b[0] < 0x80   ? 1
+                          : b[0] < 0xC2 ? 0
+                          : b[0] < 0xE0 ? 2
+                          : b[0] < 0xF0 ? 3
+                          : b[0] < 0xF5 ? 4
+                                        : 0;
+    for (size_t i = 1; i < length; i++) {
+        if ((b[i] & 0xC0) != 0x80) {
+            return 0;
+        }
+    }
+    const bool is_overlong = (b[0] == 0xE0 && b[1] < 0xA0) || (b[0] == 0xF0 && b[1] < 0x90);
+    const bool is_no_character = (b[0] == 0xED && b[1] >= 0xA0) || (b[0] == 0xF4 && b[1] >= 0x90);
+    return is_overlong || is_no_character ? 0 : length;
+}
+
+/* File names may hold any bytes, JSON only UTF-8: others become U+FFFD. NULL without memory. */
+static char *to_utf8(const char *text) {
+    static const char replacement[] = "\xEF\xBF\xBD";
+    enum { REPLACEMENT_BYTES = sizeof replacement - 1 };
+    char *const copy = malloc(strlen(text) * REPLACEMENT_BYTES + 1);
+    char *out = copy;
+    while (copy != NULL && *text != '\0') {
+        const size_t length = utf8_length(text);
+        memcpy(out, length > 0 ? text : replacement, length > 0 ? length : REPLACEMENT_BYTES);
+        out += length > 0 ? length : REPLACEMENT_BYTES;
+        text += length > 0 ? length : 1;
+    }
+    if (copy != NULL) {
+        *out = '\0';
+    }
+    return copy;
+}
+
+/* Escaped by cJSON. */
+static bool print_json_text(const char *text, FILE *stream) {
+    char *const valid = to_utf8(text);
+    cJSON *const item = valid != NULL ? cJSON_CreateString(valid) : NULL;
+    char *const printed = item != NULL ? cJSON_PrintUnformatted(item) : NULL;
+    if (printed != NULL) {
+        fputs(printed, stream);
+    }
+    cJSON_free(printed);
+    cJSON_Delete(item);
+    free(valid);
+    return printed != NULL;
+}
+
+/* cJSON prints numbers with 15 digits where that is within one unit in the last place, and holds
+ * integers as doubles; ours are exact. */
+static bool print_json_cell(const ps_cell *cell, FILE *stream) {
+    if (cell->kind == PS_CELL_TEXT) {
+        return print_json_text(cell->text, stream);
+    }
+    if (cell->kind == PS_CELL_INTEGER) {
+        fprintf(stream, "%" PRId64, cell->integer);
+    } else if (cell->kind == PS_CELL_NUMBER && isfinite(cell->number)) {
+        print_number(cell->number, stream);
+    } else {
+        fputs("null", stream);
+    }
+    return true;
+}
+
+/* The entry with the same key that comes next after i, or num_meta. */
+static size_t find_same_key(const ps_table *table, size_t i) {
+    const char *const key = table->meta[i].key;
+    do {
+        i++;
+    } while (i < table->num_meta && strcmp(table->meta[i].key, key) != 0);
+    return i;
+}
+
+static bool is_first_of_key(const ps_table *table, size_t i) {
+    for (size_t j = 0; j < i; j++) {
+        if (strcmp(table->meta[j].key, table->meta[i].key) == 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool print_json_entry(const ps_table *table, size_t i, FILE *stream) {
+    const bool is_array = find_same_key(table, i) < table->num_meta;
+    bool is_good = print_json_text(table->meta[i].key, stream);
+    fputs(is_array ? ": [" : ": ", stream);
+    is_good = print_json_cell(&table->meta[i].value, stream) && is_good;
+    for (size_t j = find_same_key(table, i); j < table->num_meta; j = find_same_key(table, j)) {
+        fputs(", ", stream);
+        is_good = print_json_cell(&table->meta[j].value, stream) && is_good;
+    }
+    fputs(is_array ? "]" : "", stream);
+    return is_good;
+}
+
+static bool print_json_head(const ps_table *table, FILE *stream) {
+    fputs("{\n  \"schema\": 1,\n  \"command\": ", stream);
+    bool is_good = print_json_text(table->command, stream);
+    fputs(",\n  \"meta\": {", stream);
+    for (size_t i = 0; i < table->num_meta; i++) {
+        if (is_first_of_key(table, i)) {
+            fputs(i > 0 ? ",\n    " : "\n    ", stream);
+            is_good = print_json_entry(table, i, stream) && is_good;
+        }
+    }
+    fputs("\n  },\n  \"columns\": [", stream);
+    for (size_t i = 0; i < table->num_columns; i++) {
+        fputs(i > 0 ? ", " : "", stream);
+        is_good = print_json_text(table->columns[i], stream) && is_good;
+    }
+    putc(']', stream);
+    return is_good;
+}
+
+static bool print_json_rows(const ps_table *table, FILE *stream) {
+    bool is_good = true;
+    fputs(",\n  \"rows\": [", stream);
+    for (size_t row = 0; row < table->num_rows; row++) {
+        fputs(row > 0 ? ",\n    [" : "\n    [", stream);
+        for (size_t i = 0; i < table->num_columns; i++) {
+            fputs(i > 0 ? ", " : "", stream);
+            is_good =
+                print_json_cell(&table->cells[row * table->num_columns + i], stream) && is_good;
+        }
+        putc(']', stream);
+    }
+    fputs("\n  ]", stream);
+    return is_good;
+}
+
+pspec_status ps_table_write_json(const ps_table *table, bool with_rows, FILE *stream,
+                                 ps_error *error) {
+    bool is_good = print_json_head(table, stream);
+    is_good = (!with_rows || print_json_rows(table, stream)) && is_good;
+    fputs("\n}\n", stream);
+    return is_good ? PSPEC_OK : ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for JSON");
+}

@@ -1,0 +1,166 @@
+#include "verify/bench/device_peaks.h"
+
+#include "base/clock.h"
+
+#include <math.h>
+
+enum { REPEATS = 5 };
+
+/* ---- arithmetic ---------------------------------------------------------------------------- */
+
+/* CPUs: about ten milliseconds of a core with AVX-512. GPUs: enough work-items to fill any. STEPS and CHAINS are those of
+ * probe/peak.cl. */
+enum { CPU_ITEMS = 1024, GPU_ITEMS = 1 << 17, STEPS = 4096, CHAINS = 16 };
+
+static pspec_status prepare(ps_peak *peak, ps_precision precision, ps_error *error) {
+    const ps_device_limits *limits = ps_device_get_limits(peak->device);
+    const unsigned lanes = ps_engine_lanes(limits, precision);
+    const size_t items = limits->has_dedicated_local_memory ? GPU_ITEMS : CPU_ITEMS;
+    double ignored = 0;
+    ps_text options = {0};
+    ps_text_append(&options, "-DPRECISION=%d -DLANES=%u -DSTEPS=%d",
+                   precision == PS_SINGLE ? 32 : 64, lanes, STEPS);
+    pspec_status status = ps_text_check(&options, error);
+    if (status == PSPEC_OK) {
+        status = ps_kernel_create(peak->device, &peak->kernel, "probe/peak.cl", "probe_peak",
+                                  ps_text_string(&options), error);
+    }
+    ps_text_free(&options);
+    PS_TRY(status);
+    PS_TRY(ps_buffer_create(peak->device, &peak->result, items * lanes * sizeof(double), "results",
+                            error));
+    peak->range =
+        ps_range_light(peak->device, items, 1, 1, 2.0 * (double)items * STEPS * CHAINS * lanes, 0);
+    return ps_peak_run(peak, &ignored, error);
+}
+
+pspec_status ps_peak_create(ps_peak *peak, ps_device *device, ps_precision precision,
+                            ps_error *error) {
+    *peak = (ps_peak){.device = device};
+    return prepare(peak, precision, error);
+}
+
+pspec_status ps_peak_run(const ps_peak *peak, double *flops_per_second, ps_error *error) {
+    const double begin = ps_clock_seconds();
+    PS_TRY(PS_LAUNCH(peak->device, peak->kernel, &peak->range, error, PS_BUFFER(peak->result),
+                     PS_U32(1)));
+    PS_TRY(ps_device_finish(peak->device, error));
+    *flops_per_second = peak->range.flops / (ps_clock_seconds() - begin);
+    return PSPEC_OK;
+}
+
+void ps_peak_destroy(ps_peak *peak) {
+    if (peak->kernel != NULL) {
+        clReleaseKernel(peak->kernel);
+    }
+    ps_buffer_release(&peak->result);
+    peak->kernel = NULL;
+}
+
+/* ---- memory -------------------------------------------------------------------------------- */
+
+/* Two buffers, a kernel, and a number that must arrive at the end. */
+typedef struct copy {
+    ps_device *device;
+    cl_kernel kernel;
+    ps_buffer from, to;
+    size_t bytes;
+    ps_range range;
+} copy;
+
+static const float mark = 0.75F;
+
+/* Much more than any cache, and little of the memory. */
+static size_t copied_bytes(const ps_device_limits *limits) {
+    const size_t most = limits->has_dedicated_local_memory ? (size_t)1 << 30 : (size_t)1 << 27;
+    const size_t unit = 1 << 20;
+    return most < limits->max_allocation_bytes / 2
+               ? most
+               : (size_t)limits->max_allocation_bytes / 2 / unit * unit;
+}
+
+static pspec_status prepare_copy(copy *self, ps_error *error) {
+    const ps_device_limits *limits = ps_device_get_limits(self->device);
+    const unsigned lanes = ps_engine_lanes(limits, PS_SINGLE);
+    ps_text options = {0};
+    ps_text_append(&options, "-DPRECISION=32 -DLANES=%u", lanes);
+    pspec_status status = ps_text_check(&options, error);
+    if (status == PSPEC_OK) {
+        status = ps_kernel_create(self->device, &self->kernel, "probe/copy.cl", "probe_copy",
+                                  ps_text_string(&options), error);
+    }
+    ps_text_free(&options);
+    PS_TRY(status);
+    self->bytes = copied_bytes(limits);
+    self->range = ps_range_light(self->device, self->bytes / (lanes * sizeof(float)), 1, 1, 0, 0);
+    PS_TRY(ps_buffer_create(self->device, &self->from, self->bytes, "a copy", error));
+    PS_TRY(ps_buffer_create(self->device, &self->to, self->bytes, "a copy", error));
+    PS_TRY(ps_buffer_clear(self->device, &self->from, error));
+    return ps_buffer_write(self->device, &self->from, self->bytes - sizeof mark, &mark, sizeof mark,
+                           error);
+}
+
+static pspec_status run_copy(const copy *self, double *seconds, ps_error *error) {
+    const double begin = ps_clock_seconds();
+    PS_TRY(PS_LAUNCH(self->device, self->kernel, &self->range, error, PS_BUFFER(self->from),
+                     PS_BUFFER(self->to)));
+    PS_TRY(ps_device_finish(self->device, error));
+    *seconds = ps_clock_seconds() - begin;
+    return PSPEC_OK;
+}
+
+static pspec_status check_copy(const copy *self, ps_error *error) {
+    float found = 0;
+    PS_TRY(ps_buffer_read(self->device, &self->to, self->bytes - sizeof found, &found, sizeof found,
+                          error));
+    return found == mark ? PSPEC_OK
+                         : ps_fail(error, PSPEC_ERROR_DEVICE,
+                                   "a copy of %zu bytes on the device differs from what was copied",
+                                   self->bytes);
+}
+
+pspec_status ps_bandwidth_measure(ps_device *device, double *bytes_per_second, ps_error *error) {
+    copy self = {.device = device};
+    double best = HUGE_VAL;
+    pspec_status status = prepare_copy(&self, error);
+    for (int i = 0; i <= 2 * REPEATS && status == PSPEC_OK; i++) { /* the first touches memory */
+        double seconds = 0;
+        status = run_copy(&self, &seconds, error);
+        best = fmin(best, seconds);
+    }
+    if (status == PSPEC_OK) {
+        status = check_copy(&self, error);
+        *bytes_per_second = 2 * (double)self.bytes / best;
+    }
+    if (self.kernel != NULL) {
+        clReleaseKernel(self.kernel);
+    }
+    ps_buffer_release(&self.from);
+    ps_buffer_release(&self.to);
+    return status;
+}
+
+/* ---- all ----------------------------------------------------------------------------------- */
+
+static pspec_status measure_flops(ps_device *device, ps_precision precision, double *best,
+                                  ps_error *error) {
+    ps_peak peak;
+    *best = 0;
+    pspec_status status = ps_peak_create(&peak, device, precision, error);
+    for (int i = 0; i < REPEATS && status == PSPEC_OK; i++) {
+        double rate = 0;
+        status = ps_peak_run(&peak, &rate, error);
+        *best = fmax(*best, rate);
+    }
+    ps_peak_destroy(&peak);
+    return status;
+}
+
+pspec_status ps_device_peaks_measure(ps_device *device, ps_device_peaks *peaks, ps_error *error) {
+    *peaks = (ps_device_peaks){{0, 0}, 0};
+    PS_TRY(measure_flops(device, PS_SINGLE, &peaks->flops[PS_SINGLE], error));
+    if (ps_device_get_limits(device)->has_fp64) {
+        PS_TRY(measure_flops(device, PS_DOUBLE, &peaks->flops[PS_DOUBLE], error));
+    }
+    return ps_bandwidth_measure(device, &peaks->copied_bytes, error);
+}

@@ -1,0 +1,221 @@
+/* The public library: the same numbers as the parts below it, errors with sentences, contexts in
+ * threads of their own.
+ */
+#include "harness_public.h"
+
+#include "engines/host/host_direct.h"
+#include "engines/torus/torus_direct.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { NUM_POINTS = 50, REALIZATIONS = 7, K = 6 };
+
+static pspec_power_request make_request(void) {
+    pspec_power_request request = PSPEC_POWER_REQUEST_INIT;
+    request.num_points = NUM_POINTS;
+    request.num_realizations = REALIZATIONS;
+    request.max_frequency = K;
+    return request;
+}
+
+/* A spectrum of the sample in a context of its own. */
+static pspec_spectrum *estimate(const pspec_power_request *request, const test_sample *what) {
+    pspec_context *context = pspec_context_create();
+    pspec_plan *plan = NULL;
+    pspec_spectrum *spectrum = NULL;
+    pspec_context_set_device(context, getenv("POINTSPEC_DEVICE"));
+    if (pspec_plan_create(&plan, context, request) != PSPEC_OK ||
+        pspec_plan_run(plan, what->patterns, what->num) != PSPEC_OK ||
+        pspec_spectrum_create(&spectrum, plan) != PSPEC_OK) {
+        fail_msg("%s", pspec_context_message(context));
+    }
+    pspec_plan_destroy(plan);
+    pspec_context_destroy(context);
+    return spectrum; /* owns what it needs */
+}
+
+static void same_numbers_as_the_estimator(void **state) {
+    (void)state;
+    ps_device *device = test_open_device();
+    test_sample what = test_make_sample(REALIZATIONS, 2, NUM_POINTS, 0, true);
+    ps_frequencies grid = test_make_lattice(2, K, false);
+    const ps_estimator_options options =
+        test_make_options(&grid, &ps_torus_direct, PS_SINGLE, NUM_POINTS, REALIZATIONS);
+    ps_spectrum expected = test_estimate(&options, &what, REALIZATIONS, device);
+    pspec_power_request request = make_request();
+    request.precision = "single";
+    request.engine = "torus_direct";
+    pspec_spectrum *found = estimate(&request, &what);
+    size_t num = 0;
+    const pspec_bin *bins = pspec_spectrum_bins(found, &num);
+    assert_int_equal(num, expected.num_bins);
+    for (size_t b = 0; b < num; b++) {
+        assert_true(bins[b].power == expected.bins[b].power);
+        assert_true(bins[b].standard_error == expected.bins[b].standard_error);
+        assert_int_equal(bins[b].count, expected.bins[b].count);
+        assert_int_equal(bins[b].bin, expected.bins[b].key);
+    }
+    const int32_t *vectors = pspec_spectrum_frequencies(found, &num);
+    assert_int_equal(num, grid.num);
+    assert_memory_equal(vectors, grid.vectors, 2 * num * sizeof *vectors);
+    for (size_t i = 0; i < num; i++) {
+        assert_true(pspec_spectrum_powers(found)[i] == expected.powers[i].mean);
+        assert_true(pspec_spectrum_standard_errors(found)[i] == expected.powers[i].standard_error);
+    }
+    assert_int_equal(pspec_spectrum_num_realizations(found), REALIZATIONS);
+    assert_true(pspec_spectrum_error(found) > 0 && pspec_spectrum_error(found) <= 1e-6);
+    pspec_spectrum_destroy(found);
+    ps_spectrum_free(&expected);
+    ps_frequencies_free(&grid);
+    test_free_sample(&what);
+    ps_device_close(device);
+}
+
+static void lists_and_the_referee(void **state) {
+    (void)state;
+    static const int32_t list[] = {1, 0, 0, 0, -3, 1000000};
+    test_sample what = test_make_sample(2, 2, NUM_POINTS, 0, false);
+    pspec_power_request request = make_request();
+    request.frequencies = list;
+    request.num_frequencies = 3;
+    pspec_spectrum *device = estimate(&request, &what);
+    request.engine = "host_direct";
+    request.normalization = PSPEC_NORMALIZATION_EFFECTIVE; /* the same for unit weights */
+    pspec_spectrum *host = estimate(&request, &what);
+    size_t num = 0;
+    assert_memory_equal(pspec_spectrum_frequencies(host, &num), list, sizeof list);
+    assert_int_equal(num, 3);
+    for (size_t i = 0; i < num; i++) {
+        const double difference =
+            sqrt(pspec_spectrum_powers(device)[i]) - sqrt(pspec_spectrum_powers(host)[i]);
+        assert_true(fabs(difference) < 1e-5);
+    }
+    assert_true(fabs(pspec_spectrum_powers(host)[1] - NUM_POINTS) < 1e-12); /* P(0) = N */
+    pspec_spectrum_bins(host, &num);
+    assert_int_equal(num, 0);
+    pspec_spectrum_destroy(device);
+    pspec_spectrum_destroy(host);
+    test_free_sample(&what);
+}
+
+static void check_refused(pspec_power_request request, pspec_status expected, const char *part) {
+    pspec_context *context = pspec_context_create();
+    pspec_plan *plan = NULL;
+    assert_string_equal(pspec_context_message(context), "");
+    assert_int_equal(pspec_plan_create(&plan, context, &request), expected);
+    assert_null(plan);
+    if (strstr(pspec_context_message(context), part) == NULL) {
+        fail_msg("\"%s\" is not in \"%s\"", part, pspec_context_message(context));
+    }
+    pspec_plan_destroy(plan);
+    pspec_context_destroy(context);
+}
+
+static void bad_requests(void **state) {
+    (void)state;
+    static const int32_t list[] = {1, 2};
+    pspec_power_request request = make_request();
+    request.struct_size = 8;
+    check_refused(request, PSPEC_ERROR_INVALID_ARGUMENT, "PSPEC_POWER_REQUEST_INIT");
+    request = make_request();
+    request.dimension = 7;
+    check_refused(request, PSPEC_ERROR_INVALID_ARGUMENT, "dimension 7");
+    request = make_request();
+    request.max_frequency = 0;
+    check_refused(request, PSPEC_ERROR_INVALID_ARGUMENT, "max frequency 0");
+    request = make_request();
+    request.num_points = 0;
+    check_refused(request, PSPEC_ERROR_INVALID_ARGUMENT, "num_points");
+    request = make_request();
+    request.tolerance = NAN;
+    check_refused(request, PSPEC_ERROR_INVALID_ARGUMENT, "tolerance");
+    request = make_request();
+    request.tolerance = 1e-19;
+    check_refused(request, PSPEC_ERROR_TOLERANCE, "cannot be reached");
+    request = make_request();
+    request.engine = "torus_drect";
+    check_refused(request, PSPEC_ERROR_INVALID_ARGUMENT, "torus_direct");
+    request = make_request();
+    request.precision = "half";
+    check_refused(request, PSPEC_ERROR_INVALID_ARGUMENT, "half");
+    request = make_request();
+    request.frequencies = list;
+    check_refused(request, PSPEC_ERROR_INVALID_ARGUMENT, "empty");
+}
+
+/* Coincident points have power N: single precision cannot promise 1e-6 for them. */
+static void powers_too_large_for_the_tolerance(void **state) {
+    (void)state;
+    double points[2 * NUM_POINTS];
+    for (size_t i = 0; i < sizeof points / sizeof points[0]; i++) {
+        points[i] = 0.3;
+    }
+    const pspec_pattern pattern = {2, NUM_POINTS, points, NULL};
+    pspec_context *context = pspec_context_create();
+    pspec_plan *plan = NULL;
+    pspec_spectrum *spectrum = NULL;
+    pspec_power_request request = make_request();
+    request.precision = "single";
+    pspec_context_set_device(context, getenv("POINTSPEC_DEVICE"));
+    assert_int_equal(pspec_plan_create(&plan, context, &request), PSPEC_OK);
+    assert_int_equal(pspec_spectrum_create(&spectrum, plan), PSPEC_ERROR_INPUT); /* nothing yet */
+    assert_int_equal(pspec_plan_run(plan, &pattern, 1), PSPEC_OK);
+    assert_int_equal(pspec_spectrum_create(&spectrum, plan), PSPEC_ERROR_TOLERANCE);
+    assert_null(spectrum);
+    assert_non_null(strstr(pspec_context_message(context), "higher precision"));
+    pspec_plan_destroy(plan);
+    pspec_context_destroy(context);
+}
+
+static void *estimate_in_thread(void *payload) {
+    const pspec_power_request request = make_request();
+    return estimate(&request, payload);
+}
+
+static void contexts_in_threads(void **state) {
+    (void)state;
+    enum { THREADS = 3 };
+    pthread_t threads[THREADS];
+    test_sample what = test_make_sample(REALIZATIONS, 2, NUM_POINTS, 0, false);
+    void *found[THREADS];
+    size_t num = 0;
+    for (int i = 0; i < THREADS; i++) {
+        assert_int_equal(pthread_create(&threads[i], NULL, estimate_in_thread, &what), 0);
+    }
+    for (int i = 0; i < THREADS; i++) {
+        assert_int_equal(pthread_join(threads[i], &found[i]), 0);
+    }
+    pspec_spectrum_frequencies(found[0], &num);
+    for (int i = 1; i < THREADS; i++) {
+        assert_memory_equal(pspec_spectrum_powers(found[i]), pspec_spectrum_powers(found[0]),
+                            num * sizeof(double));
+        pspec_spectrum_destroy(found[i]);
+    }
+    pspec_spectrum_destroy(found[0]);
+    test_free_sample(&what);
+}
+
+static void destroys_accept_null(void **state) {
+    (void)state;
+    pspec_spectrum_destroy(NULL);
+    pspec_plan_destroy(NULL);
+    pspec_context_destroy(NULL);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(same_numbers_as_the_estimator),
+        cmocka_unit_test(lists_and_the_referee),
+        cmocka_unit_test(bad_requests),
+        cmocka_unit_test(powers_too_large_for_the_tolerance),
+        cmocka_unit_test(contexts_in_threads),
+        cmocka_unit_test(destroys_accept_null),
+        cmocka_unit_test(test_gsl_is_left_alone),
+    };
+    test_watch_gsl();
+    ps_device_close(test_open_device()); /* ends as skipped when there is none */
+    return cmocka_run_group_tests_name("public", tests, NULL, NULL);
+}

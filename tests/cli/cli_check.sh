@@ -1,0 +1,139 @@
+#!/usr/bin/env bash
+# cli_check.sh PROGRAM: pointspec check against saved spectra of all kinds: verdicts, exit codes, header, what it refuses.
+# shellcheck source=tests/harness/harness.sh
+. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/harness.sh" check "$1"
+
+# Small sets: the referee is done before a device is open. The first check is on one.
+host=(--engine host_direct)
+
+column() { # NAME ROW: of the table
+    awk -F, -v name="$1" -v row="$2" '/^#/ { next }
+        !at { for (i = 1; i <= NF; i++) if ($i == name) at = i; next } ++n == row { print $at }' out
+}
+rows() { grep -vc '^#' out; }
+
+# ---- the torus: the question is that of the file ----
+"$program" power "${host[@]}" --sampler jittered -n 64 -m 40 -k 12 -o saved.json
+runs 0 --against saved.json --sampler jittered -m 8
+[[ $(key verdict) == same && $(key different) == "0 of 12 rings" && $(key seed) == 2 ]] || complain "header: $(<out)"
+[[ $(key points) == 64 && $(key realizations) == 8 && $(key saved_realizations) == 40 ]] || complain "question: $(<out)"
+[[ $(key max_frequency) == 12 && $(key false_alarm_rate) == 0.001 && $(rows) == 13 ]] || complain "rows: $(<out)"
+"$program" plan check --against saved.json --sampler jittered >planned.txt 2>err || complain "plan: $(<err)"
+[[ $(grep -c ',chosen,' planned.txt) == 1 && $(<planned.txt) == *'# skip: frequencies -k'* ]] || complain "plan: $(<planned.txt)"
+"$program" plan check --sampler jittered >planned.txt 2>err && complain "plan without --against"
+[[ $(<err) == *'--against FILE is needed'* ]] || complain "plan without --against: $(<err)"
+[[ $(grep '^bin' out) == bin,frequency,saved,saved_error,measured,measured_error,z_score,p_value,adjusted_p_value,detectable_change,verdict ]] ||
+    complain "columns: $(<out)"
+[[ $(column saved 1) == "$(sed -n 's/^ *\[1, 1.2[^,]*, [^,]*, 8, \([^,]*\),.*/\1/p' saved.json)" ]] || complain "saved power: $(<out)"
+runs 0 "${host[@]}" --against saved.json --sampler jittered
+[[ $(key realizations) == 40 ]] || complain "as many realizations as saved: $(<out)"
+# the same realizations: no difference at all, and that is said
+runs 0 "${host[@]}" --against saved.json --sampler jittered --seed 1
+[[ $(key note) == *"not independent"* && $(column z_score 3) == 0 && $(column p_value 12) == 1 ]] || complain "same seed: $(<out)"
+
+# files; one set has no standard error of its own
+"$program" sample --sampler jittered -n 64 -m 6 -s 9 -o sets.txt
+runs 0 "${host[@]}" --against saved.json sets.txt
+runs 0 "${host[@]}" --against saved.json --select-sets 2 sets.txt
+[[ $(key realizations) == 1 && -z $(column measured_error 1) && $(column verdict 1) == same ]] || complain "one set: $(<out)"
+"$program" sample --sampler jittered -n 64 -m 6 -s 9 --quiet -o sets.rps
+runs 0 "${host[@]}" --against saved.json -n 64 sets.rps
+
+# another sampler: exit 3, the table all the same, and the worst rings in the sentence
+runs 3 "${host[@]}" --against saved.json --sampler white -m 8
+says 'not the spectrum of "saved.json"'
+says 'ring 1 (power '
+[[ $(key verdict) == different && $(column verdict 1) == different && $(column z_score 1) != -* && $(rows) == 13 ]] ||
+    complain "white: $(<out)"
+runs 3 "${host[@]}" --against saved.json --sampler white -m 8 -o verdict.json
+[[ ! -s out && $(<verdict.json) == *'"command": "check"'*'"different"'* ]] || complain "json"
+# the rate decides: a p value between the two rates
+runs 0 "${host[@]}" --against saved.json --sampler jittered -m 8 --seed 3 --false-alarm-rate 1e-9
+p=$(key adjusted_p_value)
+awk -v p="$p" 'BEGIN { exit !(p > 0 && p <= 1) }' || complain "adjusted_p_value: $p"
+
+# ---- other kinds of spectra: shells, subsets, normalization, several dimensions, all N ----
+"$program" power "${host[@]}" --sampler halton -d 3 -n 32 -m 2 -k 3 --shells --normalize effective -o shells.json
+runs 0 "${host[@]}" --against shells.json --sampler halton
+[[ $(key different) == "0 of 11 shells" && $(key normalization) == effective* && $(key dimension) == 3 ]] || complain "shells: $(<out)"
+[[ $(column z_score 1) == 0 && $(column saved_error 1) == 0 ]] || complain "a deterministic set is itself: $(<out)"
+runs 3 "${host[@]}" --against shells.json --sampler hammersley
+says 'shell 1 (power '
+"$program" power "${host[@]}" --sampler white -d 4 -n 32 -m 20 -k 5 --per-ring 8 -s 5 -o subset.json
+runs 0 "${host[@]}" --against subset.json --sampler white -m 9
+[[ $(key per_ring) == 8 && $(key seed) == 6 ]] || complain "subset: $(<out)"
+# the subset is that of the saved seed: the same realizations have the same powers
+runs 0 "${host[@]}" --against subset.json --sampler white -m 20 -s 5
+[[ $(column z_score 5) == 0 ]] || complain "another subset: $(<out)"
+printf '0.1 0.2\n0.7 0.4\n0.3 0.9\n#\n0.2 0.2\n0.6 0.5\n' >mixed.txt
+"$program" power "${host[@]}" -k 3 mixed.txt -o mixed.json
+runs 0 "${host[@]}" --against mixed.json mixed.txt
+[[ $(key points) == "mean 2.5, from 2 to 3" ]] || complain "numbers of points: $(<out)"
+
+# ---- the sphere ----
+"$program" angular "${host[@]}" --sampler healpix-jittered:nside=2 -m 40 -l 10 -o sphere.json
+runs 0 "${host[@]}" --against sphere.json --sampler healpix-jittered:nside=2 -m 10
+[[ $(key different) == "0 of 10 degrees" && $(grep '^degree' out) == degree,saved,* && $(column degree 10) == 10 ]] ||
+    complain "degrees: $(<out)"
+runs 3 "${host[@]}" --against sphere.json --sampler white-sphere -m 10
+says 'degree 2 (power '
+"$program" angular "${host[@]}" --sampler white-hemisphere -n 16 --hemisphere -m 20 -l 8 -o even.json
+runs 0 "${host[@]}" --against even.json --sampler white-hemisphere -m 5
+[[ $(key different) == "0 of 4 degrees" && $(key domain) == hemisphere* ]] || complain "hemisphere: $(<out)"
+
+# ---- one realization on both sides: equal or nothing can be said ----
+"$program" power "${host[@]}" --sampler hammersley -n 20 -k 5 -o one.json
+runs 0 "${host[@]}" --against one.json --sampler hammersley
+refuses 'save at least 2 realizations' --against one.json --sampler white
+
+# ---- what is refused ----
+refuses '--against FILE is needed' sets.txt
+refuses 'nothing to take a spectrum of' --against saved.json
+refuses 'one sampler is compared' --against saved.json --sampler white --sampler jittered
+refuses 'not .npy' --against saved.json sets.txt -o x.npy
+refuses '--against "saved.json" are the same file' --against saved.json sets.txt -o saved.json
+refuses 'standard input is none' --against - sets.txt
+runs 1 --against no-such.json sets.txt
+says 'cannot read no-such.json'
+refuses 'is not below 1' --against saved.json sets.txt --false-alarm-rate 1
+refuses 'above 0' --against saved.json sets.txt --false-alarm-rate 0
+refuses 'did you mean --against' --agains saved.json sets.txt
+"$program" sample --sampler white -n 63 -o fewer.txt
+refuses 'these sets have 63 points, those of "saved.json" have 64' --against saved.json fewer.txt
+"$program" sample --sampler white -n 64 -d 3 -o space.txt
+refuses 'the dimension asked for is 2' --against saved.json space.txt
+refuses 'makes points of the sphere' --against saved.json --sampler fibonacci
+refuses 'makes points of the torus' --against sphere.json --sampler halton
+
+damaged() { # PART SED-SCRIPT
+    sed "$2" saved.json >bad.json
+    cmp -s saved.json bad.json && complain "$2 changes nothing"
+    refuses "$1" --against bad.json sets.txt
+}
+refuses 'is no saved spectrum' --against sets.txt sets.txt
+head -c 900 saved.json >bad.json
+refuses 'no JSON at byte' --against bad.json sets.txt
+damaged 'no table of pointspec' 's/"schema": 1,$/"schema": 2,/'
+damaged 'table of another command' 's/^  "command": "power"/  "command": "pairs"/'
+damaged '"realizations"' 's/"realizations": 40/"realizations": 0/'
+damaged '"points"' 's/"points": 64/"points": 64.5/'
+damaged 'no range' 's/"points": 64/"points": "mean 5, from 7 to 9"/'
+damaged '"max_frequency"' '/"max_frequency"/d'
+damaged '"dimension"' 's/"dimension": 2/"dimension": 7/'
+damaged 'neither power nor effective' 's/"normalization": "power/"normalization": "pairs/'
+damaged 'predicted_error' 's/"predicted_error": [^,]*/"predicted_error": 1e999/'
+damaged 'columns' 's/"frequency", //'
+damaged 'several samplers' 's/"columns": \[/&"sampler", /'
+damaged 'list of frequencies' 's/"columns": \["bin"/"columns": ["k1"/'
+damaged 'row 3 is not' 's/^    \[3, /    [3.5, /'
+damaged 'row 3 is not' 's/^    \[3, /    [2, /'
+damaged 'row 1 is not' 's/^    \[1, [^,]*, /    [1, /'
+damaged 'row 12 is not' 's/^    \[12, \([^,]*, [^,]*, [^,]*\), /    [12, \1, -/'
+damaged 'row 2 is not' 's/^    \[2, \(.*, \)[^,]*, \([^,]*\],\)/    [2, \1null, \2/'
+damaged 'no "rows"' '/^    \[/d'
+damaged 'lacks ring 5' '/^    \[5, /d'
+damaged 'lacks ring 12' '/^    \[12, /d; s/^\(    \[11, .*\]\),/\1/'
+damaged 'has 12 rings, but up to 11 there are 11' 's/"max_frequency": 12/"max_frequency": 11/'
+sed 's/"seed": 5/"seed": -1/' subset.json >bad.json
+refuses 'random subset' --against bad.json --sampler white
+finish

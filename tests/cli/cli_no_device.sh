@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# cli_no_device.sh PROGRAM: why there is no device is said as it is; plan and devices work without one.
+# shellcheck source=tests/harness/harness.sh
+. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/harness.sh" power "$1"
+mkdir empty missing
+echo /usr/lib/no-such-driver.so >missing/a.icd
+long=$PWD/$(printf 'x%.0s' {1..100})/$(printf '%0900d' 0)
+power=("$program" power --sampler white -n 16 -k 4)
+
+refused() { # SENTENCE VARIABLE=VALUE...
+    local sentence=$1 code=0
+    shift
+    env "$@" timeout 60 "${power[@]}" >out 2>err || code=$?
+    [[ $code == 1 && $(wc -l <err) == 1 && $(<err) == *"$sentence"* && $(<err) == *host_direct* ]] ||
+        complain "$*: exit $code: $(<err)"
+}
+refused "no OpenCL driver found: OCL_ICD_VENDORS names $PWD/empty, where no file" OCL_ICD_VENDORS="$PWD/empty"
+refused "$PWD/nowhere cannot be read: No such file" OCL_ICD_VENDORS="$PWD/nowhere"
+refused "no OpenCL driver starts: $PWD/missing/a.icd: /usr/lib/no-such-driver.so: cannot open" OCL_ICD_VENDORS="$PWD/missing"
+! grep -q "install" err || complain "install: $(<err)"
+if "$program" devices 2>/dev/null | grep -q ',Portable Computing Language,'; then
+    unset POCL_CACHE_DIR XDG_CACHE_HOME
+    refused "POCL_DEVICES names, \"none\"" POCL_DEVICES=none
+    refused "PoCL cannot keep kernels in /proc/none/.cache/pocl/kcache: /proc/none: No such file" HOME=/proc/none
+    refused "PoCL cannot keep kernels in /proc/none" POCL_CACHE_DIR=/proc/none
+    refused "letters, above its limit" POCL_CACHE_DIR="$long"
+    for kib in 200000 250000 300000 350000; do # PoCL ends the process where its threads get no stacks
+        code=0
+        # Sanitizers map more than that before the program begins.
+        (ulimit -v $kib && "$program" --version) >/dev/null 2>&1 || continue
+        (ulimit -v $kib; timeout -s KILL 60 "${power[@]}" >out 2>err) || code=$?
+        [[ $code == 0 || ($code == 1 && $(wc -l <err) == 1 && $(<err) == *"ulimit -v"*) ]] ||
+            complain "ulimit -v $kib: exit $code: $(<err)"
+        ((kib > 200000)) || [[ $(<err) == *host_direct* ]] || complain "ulimit -v $kib: $(<err)"
+    done
+fi
+
+# A simulator says that it is a GPU, and is listed first; whoever does not name it wants something faster.
+simulator=$(dirname "$(dirname "$(command -v oclgrind || echo /none/none)")")/lib/oclgrind/liboclgrind-rt-icd.so
+if [[ -e $simulator && -e /etc/OpenCL/vendors/pocl.icd ]]; then
+    mkdir both
+    echo "$simulator" >both/a.icd
+    cp /etc/OpenCL/vendors/pocl.icd both/b.icd
+    OCL_ICD_VENDORS=$PWD/both "$program" devices >out 2>err || complain "devices: $(<err)"
+    [[ $(grep -c '^0,0,Oclgrind Simulator,gpu,' out) == 1 && $(grep -c '^1,1,.*,Portable Computing Language,' out) == 1 ]] ||
+        complain "a simulator is the default: $(<out)"
+fi
+
+export OCL_ICD_VENDORS=$PWD/empty
+"$program" plan power --sampler white -n 16 -k 4 >out 2>err || complain "plan: $(<err)"
+[[ $(<out) == *"# no_device: no OpenCL driver found"*$'\nhost_direct:extended,chosen'* &&
+    $(grep -c 'needs an OpenCL device' out) == 4 ]] || complain "plan: $(<out)"
+"$program" plan quadrature --sampler fibonacci-hemisphere -n 16 --brdf diffuse >out 2>err || complain "plan quadrature: $(<err)"
+grep -q '^host_direct:extended,chosen' out || complain "plan quadrature: $(<out)"
+cat >small.yaml <<'SCENE'
+scene: 1
+results:
+  - {result: power, samplers: white, points: 16, max-frequency: 4}
+SCENE
+"$program" plan run small.yaml >out 2>err || complain "plan run: $(<err)"
+grep -q 'host_direct:extended,chosen' out || complain "plan run: $(<out)"
+"$program" devices >out 2>err || complain "devices: exit $?"
+[[ $(grep -vc '^#' out) == 1 && $(<err) == "pointspec devices: no OpenCL driver found"* ]] || complain "devices: $(<out) $(<err)"
+"${power[@]}" --engine host_direct >out 2>err || complain "host_direct: $(<err)"
+finish

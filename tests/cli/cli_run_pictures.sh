@@ -1,0 +1,84 @@
+#!/usr/bin/env bash
+# cli_run_pictures.sh PROGRAM: pictures of scenes: panels for many curves, and pictures that fail, which cost no numbers.
+# shellcheck source=tests/harness/harness.sh
+. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/harness.sh" run "$1"
+
+# Two lobes, five samplers, two weights: 20 curves, of which none was drawn once.
+cat >many.yaml <<'SCENE'
+scene: 1
+results:
+  - result: quadrature
+    name: rules
+    engine: host_direct
+    brdf: [diffuse, "glossy:n=30"]
+    samplers: [fibonacci-hemisphere, "larcher-pillichshammer:lift=hemisphere", "sobol:lift=hemisphere", white-hemisphere,
+      "jittered:lift=hemisphere"]
+    weights: [equal, optimal]
+    points: 16
+    max-degree: 6
+  - result: truncation
+    name: one-key
+    brdf: ["glossy:n=1", "glossy:n=2", "glossy:n=3", "glossy:n=4", "glossy:n=5", "glossy:n=6", "glossy:n=7", "glossy:n=8",
+      "glossy:n=9", "glossy:n=10"]
+    max-degree: 6
+SCENE
+
+mkdir broken none
+printf '#!/bin/sh\necho "no terminal today" >&2\nexit 1\n' >broken/gnuplot
+chmod +x broken/gnuplot
+whole=$PATH
+for path in "$PWD/none" "$PWD/broken:$PATH"; do
+    PATH=$path runs 0 many.yaml -o numbers
+    grep -q '^pointspec: 8 pictures of "numbers" were not drawn: .*gnuplot' err || complain "no warning: $(<err)"
+    [[ -s numbers/rules.csv && -s numbers/rules.summary.csv && -s numbers/one-key.csv && -s numbers/record.json ]] ||
+        complain "numbers are missing: $(ls numbers)"
+    [[ $(grep -c 'not drawn' numbers/index.html) == 8 ]] || complain "the page does not say what is missing"
+    compgen -G 'numbers/*.svg' && complain "pictures without gnuplot"
+    PATH=$path runs 0 --quiet many.yaml -o numbers
+    says 'were not drawn'
+    mv numbers "numbers.$((checked))"
+done
+PATH=$PWD/none runs 0 many.yaml -o early
+head -n 1 err | grep -q 'plots need the program gnuplot' || complain "gnuplot is not looked for before the work: $(<err)"
+PATH=$whole
+
+if command -v gnuplot >/dev/null; then
+    runs 0 many.yaml -o many
+    grep -q 'rules-d2-1.svg: 10 curves are too many for one frame: 2 panels, one for each of weights' err ||
+        complain "panels are not said: $(<err)"
+    grep -q 'rules-e2-2.svg: 10 curves are too many for one frame: 2 panels' many/index.html || complain "nor on the page"
+    cmp -s many/rules.csv numbers.2/rules.csv || complain "numbers differ without pictures"
+    for file in many/{rules-{d2,c2,e2}-{1,2},one-key-{error,points}}.svg; do
+        [[ -s $file ]] || complain "$file is not there: $(ls many)"
+        ! command -v python3 >/dev/null || python3 -c 'import sys, xml.dom.minidom as m; m.parse(sys.argv[1])' "$file" ||
+            complain "$file is no XML"
+    done
+    # every curve of a sampler and a weight: 2 panels with 5 curves, and a key with 5 lines
+    [[ $(grep -c '>equal<\|>optimal<' many/rules-e2-1.svg) == 2 && $(grep -c '<title>' many/rules-e2-1.svg) -ge 11 ]] ||
+        complain "not all curves are drawn: $(grep '<title>' many/rules-e2-1.svg)"
+    for label in white-hemisphere fibonacci-hemisphere jittered:lift=hemisphere; do
+        [[ $(grep -c "<text>$label" many/rules-e2-1.svg) == 1 ]] || complain "$label is not once in the key"
+    done
+    for n in 1 2 3 4 5 6 7 8 9 10; do
+        grep -q "<text>glossy:n=$n<" many/one-key-error.svg || complain "n=$n is not drawn"
+    done
+    # titles of all kinds
+    cat >titles.yaml <<'SCENE'
+scene: 1
+title: "]]> <b> 'x"
+results:
+  - {result: truncation, name: a, title: "''lead ]]> `touch hostile` \\ {x}_y @a %d \u00e9", brdf: [diffuse, "glossy:n=30"], max-degree: 6}
+SCENE
+    runs 0 titles.yaml -o titles
+    for file in titles/*.svg; do
+        # shellcheck disable=SC2016 # Python's text
+        ! command -v python3 >/dev/null || python3 -c 'import sys, xml.dom.minidom as m
+text = "".join(n.data for t in m.parse(sys.argv[1]).getElementsByTagName("text") for n in t.childNodes if n.nodeType == 3)
+sys.exit("\x27\x27lead ]]> `touch hostile` \\ {x}_y @a %d \u00e9" not in text)' "$file" || complain "$file has another title"
+    done
+    [[ -s titles/a-error.svg && -s titles/a-points.svg && ! -e hostile ]] || complain "pictures of hostile titles"
+    # TMPDIR that cannot be written to
+    TMPDIR=$PWD/nowhere runs 0 --cache 0 titles.yaml -o elsewhere
+    grep -q 'were not drawn: .*nowhere.*TMPDIR' err || complain "TMPDIR is not honoured: $(<err)"
+fi
+finish

@@ -1,0 +1,145 @@
+/* What torus_nufft announces to the planner is what it then takes: memory in buffers, launches. */
+#include "harness.h"
+
+#include "engines/torus/nufft/torus_nufft.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static ps_device *device;
+
+/* Linked in the place of clCreateBuffer (tests/CMakeLists.txt). */
+static double bytes_created;
+cl_mem __real_clCreateBuffer(cl_context context, cl_mem_flags flags, size_t bytes, void *host,
+                             cl_int *code);
+cl_mem __wrap_clCreateBuffer(cl_context context, cl_mem_flags flags, size_t bytes, void *host,
+                             cl_int *code);
+cl_mem __wrap_clCreateBuffer(cl_context context, cl_mem_flags flags, size_t bytes, void *host,
+                             cl_int *code) {
+    bytes_created += (double)bytes;
+    return __real_clCreateBuffer(context, flags, bytes, host, code);
+}
+
+static uint64_t count_launches(void) {
+    size_t num_rows = 0;
+    uint64_t launches = 0;
+    const ps_profile_row *rows = ps_device_profile(device, &num_rows);
+    for (size_t i = 0; i < num_rows; i++) {
+        launches += rows[i].launches;
+    }
+    return launches;
+}
+
+typedef struct announced_case {
+    unsigned dimension;
+    int32_t max_frequency;
+    size_t num_points, num_realizations;
+    double tolerance;
+    uint64_t planned_points; /* millions choose a grid */
+} announced_case;
+
+static const announced_case cases[] = {
+    {1, 1, 1, 1, 1e-3, 0},           {1, 3000, 500, 3, 1e-6, 0},
+    {1, 20000, 50000, 20, 1e-3, 0},  {2, 1, 10, 1, 1e-3, 0},
+    {2, 40, 1000, 50, 1e-5, 0},      {2, 200, 300, 2, 1e-6, 0},
+    {2, 9, 70000, 2, 1e-6, 5000000}, {2, 241, 3000, 3, 1e-6, 5000000},
+    {3, 2, 10, 1, 1e-3, 0},          {3, 20, 100, 3, 1e-5, 0},
+    {3, 7, 9000, 2, 1e-5, 5000000},
+};
+
+static void run_case(const ps_problem *problem, ps_precision precision) {
+    const size_t num_realizations = (size_t)problem->num_realizations;
+    const unsigned dimension = problem->frequencies->dimension;
+    pspec_pattern *patterns = calloc(num_realizations, sizeof *patterns);
+    double *points = malloc(problem->num_points * dimension * sizeof *points);
+    uint64_t random = 1;
+    for (size_t i = 0; i < problem->num_points * dimension; i++) {
+        points[i] = test_uniform(&random);
+    }
+    for (size_t r = 0; r < num_realizations; r++) {
+        patterns[r] = (pspec_pattern){
+            .num_points = problem->num_points, .dimension = dimension, .points = points};
+    }
+    free(test_run_problem(&ps_torus_nufft, problem, precision, device, patterns, num_realizations,
+                          num_realizations));
+    free(points);
+    free(patterns);
+}
+
+/* Of three copies of points and weights that are announced two are on the device, and a page for small tables
+ * of each axis. */
+static void check_case(const announced_case *what, ps_precision precision) {
+    const double page = 4096;
+    ps_frequencies set = {0};
+    assert_ok(ps_frequencies_lattice(&set, what->dimension, what->max_frequency, false, error));
+    assert_ok(ps_frequencies_enumerate(&set, error));
+    const ps_problem problem = {.frequencies = &set,
+                                .num_points = what->num_points,
+                                .num_realizations = what->num_realizations,
+                                .tolerance = what->tolerance,
+                                .planned_points = what->planned_points};
+    const ps_work work = ps_torus_nufft.work(&problem, ps_device_get_limits(device), precision);
+    const double announced =
+        work.fixed_bytes + work.bytes_per_realization * (double)what->num_realizations;
+    const uint64_t launches_before = count_launches();
+    bytes_created = 0;
+    run_case(&problem, precision);
+    assert_true(bytes_created <= announced);
+    assert_true(announced <= bytes_created * 3 / 2 + what->dimension * page);
+    assert_true((double)(count_launches() - launches_before) == work.launches);
+    ps_frequencies_free(&set);
+}
+
+static void as_announced(void **state) {
+    (void)state;
+    const int last = ps_device_get_limits(device)->has_fp64 ? PS_DOUBLE : PS_SINGLE;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        for (int precision = PS_SINGLE; precision <= last; precision++) {
+            check_case(&cases[i], (ps_precision)precision);
+        }
+    }
+}
+
+static double created_for(const ps_problem *problem, uint64_t num_realizations) {
+    ps_problem planned = *problem;
+    void *engine = NULL;
+    planned.num_realizations = num_realizations;
+    bytes_created = 0;
+    assert_ok(ps_torus_nufft.create(&engine, &planned, PS_SINGLE, 1, device, error));
+    ps_torus_nufft.destroy(engine);
+    return bytes_created;
+}
+
+/* Memory of a batch is that of its realizations, however many were planned: tiles, rows, whole realizations. */
+static void batches_of_one(void **state) {
+    (void)state;
+    static const announced_case smaller[] = {
+        {2, 200, 300, 100, 1e-3, 0}, {3, 20, 100, 100, 1e-3, 0}, {2, 40, 20000, 100, 1e-3, 0}};
+    for (size_t i = 0; i < sizeof smaller / sizeof smaller[0]; i++) {
+        ps_frequencies set = {0};
+        assert_ok(ps_frequencies_lattice(&set, smaller[i].dimension, smaller[i].max_frequency,
+                                         false, error));
+        const ps_problem problem = {.frequencies = &set,
+                                    .num_points = smaller[i].num_points,
+                                    .tolerance = smaller[i].tolerance};
+        const double one = created_for(&problem, 1);
+        const double many = created_for(&problem, smaller[i].num_realizations);
+        assert_true(many == one);
+        ps_frequencies_free(&set);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(as_announced),
+        cmocka_unit_test(batches_of_one),
+    };
+    ps_error error = {0};
+    if (ps_device_open(&device, getenv("POINTSPEC_DEVICE"), true, &error) != PSPEC_OK) {
+        print_message("skipped: %s\n", error.message);
+        return TEST_SKIPPED;
+    }
+    const int failures = cmocka_run_group_tests_name("nufft_announced", tests, NULL, NULL);
+    ps_device_close(device);
+    return failures;
+}

@@ -1,0 +1,189 @@
+/* Realizations that torus_nufft does whole, each by one work-group, against direct sums in extended precision:
+ * sets of every kind, numbers of points beside whole chunks and vectors, the same bits whatever the batch and the
+ * work-groups.
+ */
+#include "harness_shapes.h"
+
+#include "engines/host/host_direct.h"
+#include "engines/nufft/choice.h"
+#include "engines/nufft/whole_shape.h"
+#include "engines/torus/nufft/torus_nufft.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static ps_device *device;
+
+typedef struct whole_case {
+    unsigned dimension;
+    int32_t k;
+    ps_precision precision;
+    double tolerance;
+    size_t planned_points; /* many, so that it is whole */
+} whole_case;
+
+/* K at and beside whole vectors; grids of one vector of columns and more. */
+static const whole_case cases[] = {
+    {1, 1, PS_SINGLE, 1e-4, 400},     {1, 37, PS_SINGLE, 1e-6, 500},
+    {1, 1000, PS_SINGLE, 1e-3, 3000}, {1, 37, PS_DOUBLE, 1e-12, 500},
+    {1, 800, PS_DOUBLE, 1e-9, 900},   {2, 5, PS_SINGLE, 1e-3, 1000},
+    {2, 15, PS_SINGLE, 1e-6, 4000},   {2, 16, PS_SINGLE, 1e-5, 4000},
+    {2, 33, PS_SINGLE, 1e-2, 9000},   {2, 63, PS_DOUBLE, 1e-9, 20000},
+    {2, 20, PS_DOUBLE, 1e-6, 4000},
+};
+
+enum { NUM_CASES = sizeof cases / sizeof cases[0] };
+
+static ps_problem problem_of(const whole_case *what, const ps_frequencies *grid) {
+    return (ps_problem){.frequencies = grid,
+                        .num_points = what->planned_points,
+                        .num_realizations = 100,
+                        .has_weights = true,
+                        .tolerance = what->tolerance};
+}
+
+static bool can_run(const whole_case *what) {
+    return what->precision == PS_SINGLE || ps_device_get_limits(device)->has_fp64;
+}
+
+static double error_of(const double *found, const double *expected, const ps_frequencies *grid,
+                       const pspec_pattern *pattern, double *power) {
+    double sum = 0;
+    const double squares = test_sum_of_squares(pattern);
+    *power = 0;
+    for (size_t i = 0; i < grid->num; i++) {
+        sum += pow(sqrt(found[i]) - sqrt(expected[i]), 2) / (double)grid->num;
+        *power += expected[i] / squares / (double)grid->num;
+    }
+    return sqrt(2 * sum / squares);
+}
+
+static void check_shape(const whole_case *what, const test_shape *shape, size_t num_points) {
+    ps_frequencies grid = test_make_grid(what->dimension, what->k);
+    pspec_pattern pattern = test_make_pattern(shape, what->dimension, num_points, 5);
+    const ps_problem problem = problem_of(what, &grid);
+    const ps_device_limits *limits = ps_device_get_limits(device);
+    double power = 0;
+    if (!ps_nufft_choose(&problem, limits, what->precision).is_whole) {
+        fail_msg("d=%u K=%d is not whole", what->dimension, (int)what->k);
+    }
+    double *found =
+        test_run_problem(&ps_torus_nufft, &problem, what->precision, device, &pattern, 1, 1);
+    double *expected = test_run_engine(&ps_host_direct, PS_EXTENDED, NULL, &grid, &pattern, 1, 1);
+    const double error = error_of(found, expected, &grid, &pattern, &power);
+    const double bound = ps_torus_nufft.error(&problem, limits, what->precision, power);
+    if (!(error <= bound)) {
+        print_message("d=%u K=%d N=%zu %s %s: error %.1e, bound %.1e\n", what->dimension,
+                      (int)what->k, num_points, ps_precision_name(what->precision), shape->name,
+                      error, bound);
+    }
+    assert_true(error <= bound);
+    free(found);
+    free(expected);
+    test_free_pattern(&pattern);
+    ps_frequencies_free(&grid);
+}
+
+static void agrees_with_direct_sums(void **state) {
+    (void)state;
+    for (size_t i = 0; i < NUM_CASES; i++) {
+        for (size_t s = 0; s < TEST_SHAPES && can_run(&cases[i]); s++) {
+            check_shape(&cases[i], &test_shapes[s], 300);
+        }
+    }
+}
+
+/* The last chunk and the last vector of it are full, or not. */
+static void any_number_of_points(void **state) {
+    (void)state;
+    static const size_t numbers[] = {1, 2, 7, 8, 9, 15, 16, 17, 24, 25, 31, 32, 33};
+    for (size_t i = 0; i < NUM_CASES; i++) {
+        for (size_t j = 0; j < sizeof numbers / sizeof numbers[0] && can_run(&cases[i]); j++) {
+            check_shape(&cases[i], &test_shapes[TEST_SIGNED_WEIGHTS], numbers[j]);
+        }
+    }
+}
+
+enum { REALIZATIONS = 23 };
+
+static double *run_with(const whole_case *what, const ps_frequencies *grid,
+                        const pspec_pattern *patterns, size_t batch, size_t group_size) {
+    const ps_problem problem = problem_of(what, grid);
+    ps_device_set_group_size(device, group_size);
+    double *found = test_run_problem(&ps_torus_nufft, &problem, what->precision, device, patterns,
+                                     REALIZATIONS, batch);
+    ps_device_set_group_size(device, 0);
+    return found;
+}
+
+/* Batches, among them more realizations than work-groups, and work-groups of several items. */
+static void same_bits(void **state) {
+    (void)state;
+    static const size_t ways[][2] = {{1, 0}, {2, 0}, {9, 0}, {REALIZATIONS, 32}, {5, 64}};
+    for (size_t i = 0; i < NUM_CASES; i++) {
+        if (!can_run(&cases[i])) {
+            continue;
+        }
+        ps_frequencies grid = test_make_grid(cases[i].dimension, cases[i].k);
+        pspec_pattern patterns[REALIZATIONS];
+        for (size_t r = 0; r < REALIZATIONS; r++) {
+            patterns[r] =
+                test_make_pattern(&test_shapes[r % TEST_SHAPES], cases[i].dimension, 40 + r, r);
+        }
+        double *expected = run_with(&cases[i], &grid, patterns, REALIZATIONS, 0);
+        for (size_t way = 0; way < sizeof ways / sizeof ways[0]; way++) {
+            double *found = run_with(&cases[i], &grid, patterns, ways[way][0], ways[way][1]);
+            assert_memory_equal(found, expected, REALIZATIONS * grid.num * sizeof(double));
+            free(found);
+        }
+        free(expected);
+        for (size_t r = 0; r < REALIZATIONS; r++) {
+            test_free_pattern(&patterns[r]);
+        }
+        ps_frequencies_free(&grid);
+    }
+}
+
+/* In one dimension the grid is the product of the lengths, both transforms keep less than they have, and every
+ * frequency has a place of its own. */
+static void lengths_of_lines(void **state) {
+    (void)state;
+    for (int32_t k = 1; k < 3000; k += 1 + k / 3) {
+        ps_frequencies grid = test_make_grid(1, k);
+        const ps_problem problem = {.frequencies = &grid, .num_points = 2000, .tolerance = 1e-4};
+        const ps_nufft_choice choice = ps_nufft_choose(&problem, NULL, PS_SINGLE);
+        uint32_t kept[2];
+        assert_true(choice.is_whole);
+        ps_nufft_whole_kept(&choice, kept);
+        assert_int_equal(choice.lengths[0] * choice.lengths[1], choice.axes[0].n);
+        assert_true(2 * kept[0] <= choice.lengths[0] && 2 * kept[1] + 1 <= choice.lengths[1]);
+        assert_true(choice.lengths[0] * kept[1] >= (uint32_t)k);
+        ps_frequencies_free(&grid);
+    }
+}
+
+/* Not where local memory is apart, as on GPUs: there the engine goes another way. */
+static void only_with_caches(void **state) {
+    (void)state;
+    ps_device_limits limits = *ps_device_get_limits(device);
+    ps_frequencies grid = test_make_grid(2, 16);
+    const ps_problem problem = {.frequencies = &grid, .num_points = 4000, .tolerance = 1e-4};
+    limits.has_dedicated_local_memory = true;
+    assert_false(ps_nufft_choose(&problem, &limits, PS_SINGLE).is_whole);
+    ps_frequencies_free(&grid);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lengths_of_lines),
+        cmocka_unit_test(only_with_caches),
+        cmocka_unit_test(any_number_of_points),
+        cmocka_unit_test(agrees_with_direct_sums),
+        cmocka_unit_test(same_bits),
+    };
+    device = test_open_device();
+    const int failures = cmocka_run_group_tests_name("nufft_whole", tests, NULL, NULL);
+    ps_device_close(device);
+    return failures;
+}

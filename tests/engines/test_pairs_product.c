@@ -1,0 +1,100 @@
+/* Products with distances on the device against long double and against the host, sizes around segments. */
+#include "harness.h"
+#include "harness_pairs.h"
+
+#include "engines/pairs/pairs_product.h"
+#include "math/sobolev.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static ps_device *device;
+static uint64_t seed = 3;
+
+static double *make_vector(size_t num, double *size) {
+    double *x = calloc(num, sizeof *x);
+    *size = 0;
+    for (size_t j = 0; j < num; j++) {
+        x[j] = test_uniform(&seed) - 0.4;
+        *size += fabs(x[j]);
+    }
+    return x;
+}
+
+static void against_long_double(void **state) {
+    static const size_t nums[] = {1, 2, 17, 300};
+    static const double powers[] = {0.1, 0.5, 0.9};
+    (void)state;
+    for (size_t k = 0; k < sizeof nums / sizeof nums[0]; k++) {
+        const size_t num = nums[k];
+        double size = 0;
+        double *points = test_sphere_white_set(num, &seed);
+        double *x = make_vector(num, &size);
+        double *out = calloc(num, sizeof *out);
+        for (size_t p = 0; p < sizeof powers / sizeof powers[0]; p++) {
+            ps_pairs_product *product = NULL;
+            assert_ok(ps_pairs_product_create(&product, device, powers[p], num, points, error));
+            assert_ok(ps_pairs_product_apply(product, x, out, NULL, error));
+            ps_pairs_product_destroy(product);
+            for (size_t i = 0; i < num; i++) {
+                long double exact = 0;
+                for (size_t j = 0; j < num; j++) {
+                    long double square = 0;
+                    for (size_t axis = 0; axis < 3; axis++) {
+                        const long double d =
+                            (long double)points[3 * i + axis] - points[3 * j + axis];
+                        square += d * d;
+                    }
+                    exact += x[j] * powl(square, (long double)powers[p]);
+                }
+                assert_true(fabs(out[i] - (double)exact) <= 1e-15 * size);
+            }
+        }
+        free(points);
+        free(x);
+        free(out);
+    }
+}
+
+/* More than one segment; twice the same bits, in other work-groups, too. */
+static void segments(void **state) {
+    enum { NUM = 4096 + 33 };
+    const double s = 1.7;
+    ps_pairs_product *product = NULL;
+    double size = 0;
+    double *points = test_sphere_white_set(NUM, &seed);
+    double *x = make_vector(NUM, &size);
+    double *out = calloc(NUM, sizeof *out);
+    double *again = calloc(NUM, sizeof *again);
+    (void)state;
+    assert_ok(ps_pairs_product_create(&product, device, s - 1, NUM, points, error));
+    assert_ok(ps_pairs_product_apply(product, x, out, NULL, error));
+    ps_device_set_group_size(device, 5);
+    assert_ok(ps_pairs_product_apply(product, x, again, NULL, error));
+    ps_device_set_group_size(device, 0);
+    assert_memory_equal(out, again, NUM * sizeof *out);
+    for (size_t i = 0; i < NUM; i += 41) {
+        const double expected = ps_sobolev_distance_sum(s, points + 3 * i, NUM, points, x);
+        assert_true(fabs(out[i] - expected) <= 2e-15 * size);
+    }
+    ps_pairs_product_destroy(product);
+    free(points);
+    free(x);
+    free(out);
+    free(again);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(against_long_double),
+                                       cmocka_unit_test(segments)};
+    device = test_open_device();
+    if (!ps_pairs_product_is_possible(device)) {
+        print_message("no double precision: skipped\n");
+        ps_device_close(device);
+        return TEST_SKIPPED;
+    }
+    const int failures = cmocka_run_group_tests_name("pairs_product", tests, NULL, NULL);
+    ps_device_close(device);
+    return failures;
+}

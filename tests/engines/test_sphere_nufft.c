@@ -1,0 +1,324 @@
+/* sphere_nufft and sphere_grid against sums in extended precision: sets of every kind, degrees and numbers of points beside whole
+ * vectors, exact values of others, the same bits whatever the batch and the work-groups.
+ */
+#include "harness_sphere.h"
+#include "harness_sphere_shapes.h"
+
+#include "engines/sphere/nufft/sphere_nufft.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static ps_device *device;
+static const ps_engine *engine; /* of the test */
+
+typedef struct sphere_case {
+    int32_t max_degree;
+    ps_precision precision;
+    double tolerance;
+    bool only_even;
+} sphere_case;
+
+/* Degrees at and beside whole vectors and runs of orders_table.h; the smallest there are. */
+static const sphere_case cases[] = {
+    {1, PS_SINGLE, 1e-4, false},  {2, PS_SINGLE, 1e-3, false},   {3, PS_SINGLE, 1e-6, false},
+    {2, PS_SINGLE, 1e-5, true},   {7, PS_SINGLE, 1e-2, false},   {15, PS_SINGLE, 1e-5, false},
+    {32, PS_SINGLE, 1e-5, false}, {33, PS_SINGLE, 1e-4, true},   {61, PS_SINGLE, 1e-6, false},
+    {1, PS_DOUBLE, 1e-12, false}, {16, PS_DOUBLE, 1e-9, false},  {31, PS_DOUBLE, 1e-12, true},
+    {64, PS_DOUBLE, 1e-6, false}, {67, PS_DOUBLE, 1e-13, false}, {130, PS_DOUBLE, 1e-12, false},
+    {150, PS_SINGLE, 1e-5, true}, /* grids in strips */
+};
+
+enum { NUM_CASES = sizeof cases / sizeof cases[0] };
+
+static bool can_run(const sphere_case *what) {
+    (void)what;
+    return ps_device_get_limits(device)->has_fp64; /* needed in single precision, too */
+}
+
+static ps_frequencies degrees_of(const sphere_case *what) {
+    ps_frequencies set;
+    assert_ok(ps_frequencies_degrees(&set, what->max_degree, what->only_even, error));
+    assert_ok(ps_frequencies_enumerate(&set, error));
+    return set;
+}
+
+static ps_problem problem_of(const sphere_case *what, const ps_frequencies *set,
+                             size_t num_points) {
+    return (ps_problem){.frequencies = set,
+                        .num_points = num_points,
+                        .num_realizations = 100,
+                        .has_weights = true,
+                        .tolerance = what->tolerance};
+}
+
+/* ---- against the referee ----------------------------------------------------------------- */
+
+static double *run_coefficients(const ps_problem *problem, ps_precision precision,
+                                const pspec_pattern *pattern) {
+    const size_t L = (size_t)problem->frequencies->max_frequency;
+    double *found = calloc((L + 1) * (L + 2), sizeof(double));
+    void *state = NULL;
+    assert_ok(engine->create(&state, problem, precision, 1, device, error));
+    assert_ok(engine->coefficients(state, &(ps_batch){.num_patterns = 1, .patterns = pattern}, NULL,
+                                   found, error));
+    engine->destroy(state);
+    return found;
+}
+
+static void check_shape(const sphere_case *what, const test_sphere_shape *shape,
+                        size_t num_points) {
+    const int32_t step = what->only_even ? 2 : 1;
+    ps_frequencies set = degrees_of(what);
+    pspec_pattern pattern = test_make_sphere_pattern(shape, num_points, 5);
+    const ps_problem problem = problem_of(what, &set, num_points);
+    double *found = run_coefficients(&problem, what->precision, &pattern);
+    double *expected = test_sphere_coefficients(&pattern, set.max_frequency, step);
+    double power = 0;
+    const double error =
+        test_sphere_error(found, expected, set.max_frequency, step, &pattern, &power);
+    const double bound =
+        engine->error(&problem, ps_device_get_limits(device), what->precision, power);
+    if (!(error <= bound)) {
+        fail_msg("L=%d N=%zu %s tolerance %.0e %s: error %.2e, bound %.2e", (int)what->max_degree,
+                 num_points, ps_precision_name(what->precision), what->tolerance, shape->name,
+                 error, bound);
+    }
+    free(found);
+    free(expected);
+    test_free_sphere_pattern(&pattern);
+    ps_frequencies_free(&set);
+}
+
+static void agrees_with_the_referee(void **state) {
+    engine = *state;
+    for (size_t i = 0; i < NUM_CASES; i++) {
+        for (size_t s = 0; s < TEST_SPHERE_SHAPES && can_run(&cases[i]); s++) {
+            check_shape(&cases[i], &test_sphere_shapes[s], 200);
+        }
+    }
+}
+
+/* The last chunk and the last vector of it are full, or not. */
+static void any_number_of_points(void **state) {
+    engine = *state;
+    static const size_t numbers[] = {1, 2, 7, 8, 9, 15, 16, 17, 31, 33};
+    for (size_t i = 0; i < NUM_CASES; i++) {
+        for (size_t j = 0; j < sizeof numbers / sizeof numbers[0] && can_run(&cases[i]); j++) {
+            check_shape(&cases[i], &test_sphere_shapes[TEST_SPHERE_SHAPES - 2], numbers[j]);
+        }
+    }
+}
+
+/* Only the direction of a vector counts. */
+static void lengths_do_not_count(void **state) {
+    engine = *state;
+    const sphere_case what = {20, PS_DOUBLE, 1e-12, false};
+    if (!can_run(&what)) {
+        skip();
+    }
+    ps_frequencies set = degrees_of(&what);
+    pspec_pattern pattern = test_make_sphere_pattern(&test_sphere_shapes[0], 50, 5);
+    const ps_problem problem = problem_of(&what, &set, 50);
+    double *expected = test_run_problem(engine, &problem, PS_DOUBLE, device, &pattern, 1, 1);
+    double *longer = calloc(3 * pattern.num_points, sizeof(double));
+    for (size_t i = 0; i < 3 * pattern.num_points; i++) {
+        longer[i] = pattern.points[i] * (1 + 1e-6);
+    }
+    const pspec_pattern other = {.num_points = pattern.num_points, .points = longer};
+    double *found = test_run_problem(engine, &problem, PS_DOUBLE, device, &other, 1, 1);
+    for (size_t i = 0; i < set.num; i++) {
+        assert_true(fabs(found[i] - expected[i]) <= 1e-11 * (1 + expected[i]));
+    }
+    free(found);
+    free(expected);
+    free(longer);
+    test_free_sphere_pattern(&pattern);
+    ps_frequencies_free(&set);
+}
+
+/* ---- powers ------------------------------------------------------------------------------ */
+
+static double power_of(const double *coefficients, size_t L, size_t l) {
+    const double four_pi = 12.566370614359172954;
+    double sum = 0;
+    for (size_t m = 0; m <= l; m++) {
+        const double *c = coefficients + 2 * (m * (2 * L + 1 - m) / 2 + l);
+        sum += (m == 0 ? 1 : 2) * (c[0] * c[0] + c[1] * c[1]);
+    }
+    return four_pi / (2 * (double)l + 1) * sum;
+}
+
+static void powers_are_those_of_coefficients(void **state) {
+    engine = *state;
+    for (size_t i = 0; i < NUM_CASES; i++) {
+        const sphere_case *what = &cases[i];
+        if (!can_run(what)) {
+            continue;
+        }
+        ps_frequencies set = degrees_of(what);
+        pspec_pattern pattern = test_make_sphere_pattern(&test_sphere_shapes[8], 77, 5);
+        const ps_problem problem = problem_of(what, &set, 77);
+        double *c = run_coefficients(&problem, what->precision, &pattern);
+        double *q = test_run_problem(engine, &problem, what->precision, device, &pattern, 1, 1);
+        for (size_t j = 0; j < set.num; j++) {
+            const double expected = power_of(c, (size_t)set.max_frequency, (size_t)set.vectors[j]);
+            assert_true(fabs(q[j] - expected) <= 1e-6 * expected);
+        }
+        free(c);
+        free(q);
+        test_free_sphere_pattern(&pattern);
+        ps_frequencies_free(&set);
+    }
+}
+
+/* Even degrees, to the bit, are those of the whole sphere up to the same degree. (Not of sphere_grid, which adds a point
+ * and the one opposite to it for them.) */
+static void hemisphere_is_half_of_the_sphere(void **state) {
+    engine = *state;
+    for (size_t i = 0; i < NUM_CASES; i++) {
+        sphere_case what = cases[i];
+        if (!can_run(&what) || what.max_degree % 2 != 0) {
+            continue;
+        }
+        pspec_pattern pattern = test_make_sphere_pattern(&test_sphere_shapes[0], 60, 5);
+        what.only_even = false;
+        ps_frequencies all = degrees_of(&what);
+        what.only_even = true;
+        ps_frequencies even = degrees_of(&what);
+        const ps_problem whole = problem_of(&what, &all, 60);
+        const ps_problem half = problem_of(&what, &even, 60);
+        double *expected = test_run_problem(engine, &whole, what.precision, device, &pattern, 1, 1);
+        double *found = test_run_problem(engine, &half, what.precision, device, &pattern, 1, 1);
+        for (size_t j = 0; j < even.num; j++) {
+            assert_memory_equal(&found[j], &expected[2 * j + 1], sizeof(double));
+        }
+        free(found);
+        free(expected);
+        test_free_sphere_pattern(&pattern);
+        ps_frequencies_free(&all);
+        ps_frequencies_free(&even);
+    }
+}
+
+/* ---- exact values ------------------------------------------------------------------------ */
+
+/* Q(l) to l = 2000, errors of its root by error(); of one degree, which may be off by more than the mean. */
+static void check_exact(const test_set *set, const sphere_case *what) {
+    const double of_one_degree = 4;
+    ps_frequencies degrees = degrees_of(what);
+    const pspec_pattern pattern = test_pattern(set);
+    const ps_problem problem = problem_of(what, &degrees, set->num_points);
+    const char *why_not = NULL;
+    if (!engine->applicable(&problem, ps_device_get_limits(device), what->precision, &why_not)) {
+        ps_frequencies_free(&degrees);
+        return; /* the table of L = 2000 is too large */
+    }
+    double *found = test_run_problem(engine, &problem, what->precision, device, &pattern, 1, 1);
+    const double bound = of_one_degree * sqrt(set->weight_square_sum) *
+                         engine->error(&problem, ps_device_get_limits(device), what->precision,
+                                       (double)set->num_points);
+    const cJSON *row;
+    cJSON_ArrayForEach(row, cJSON_GetObjectItem(set->json, "pl")) {
+        const int l = cJSON_GetArrayItem(row, 0)->valueint;
+        const double q = fmax(0, test_number(cJSON_GetArrayItem(row, 1)));
+        if (l == 0 || l > what->max_degree) {
+            continue;
+        }
+        const double error = fabs(sqrt(found[l - 1]) - sqrt(q));
+        if (!(error <= bound)) {
+            fail_msg("%s l=%d: Q %.17g instead of %.17g, bound of the root %.2e", set->name, l,
+                     found[l - 1], q, bound);
+        }
+    }
+    free(found);
+    ps_frequencies_free(&degrees);
+}
+
+static void agrees_with_exact_values(void **state) {
+    engine = *state;
+    static const sphere_case exact[] = {{2000, PS_DOUBLE, 1e-11, false},
+                                        {2000, PS_SINGLE, 1e-4, false},
+                                        {64, PS_DOUBLE, 1e-13, false}};
+    cJSON *json = test_read_reference("sphere.json");
+    const cJSON *item;
+    cJSON_ArrayForEach(item, cJSON_GetObjectItem(json, "sets")) {
+        test_set set = test_read_sphere_set(item);
+        for (size_t i = 0; i < sizeof exact / sizeof exact[0] && can_run(&exact[i]); i++) {
+            check_exact(&set, &exact[i]);
+        }
+        free(set.points);
+        free(set.weights);
+    }
+    cJSON_Delete(json);
+}
+
+/* ---- the same bits ----------------------------------------------------------------------- */
+
+enum { REALIZATIONS = 23 };
+
+static double *run_with(const sphere_case *what, const ps_frequencies *set,
+                        const pspec_pattern *patterns, size_t batch, size_t group_size) {
+    const ps_problem problem = problem_of(what, set, 80);
+    ps_device_set_group_size(device, group_size);
+    double *found =
+        test_run_problem(engine, &problem, what->precision, device, patterns, REALIZATIONS, batch);
+    ps_device_set_group_size(device, 0);
+    return found;
+}
+
+/* Batches of odd and even size, realizations alone, and work-groups of several items. */
+static void same_bits(void **state) {
+    engine = *state;
+    static const size_t ways[][2] = {{1, 0}, {2, 0}, {9, 0}, {REALIZATIONS, 32}, {5, 64}};
+    for (size_t i = 0; i < NUM_CASES; i++) {
+        if (!can_run(&cases[i])) {
+            continue;
+        }
+        ps_frequencies set = degrees_of(&cases[i]);
+        pspec_pattern patterns[REALIZATIONS];
+        for (size_t r = 0; r < REALIZATIONS; r++) {
+            patterns[r] =
+                test_make_sphere_pattern(&test_sphere_shapes[r % TEST_SPHERE_SHAPES], 40 + r, r);
+        }
+        double *expected = run_with(&cases[i], &set, patterns, REALIZATIONS, 0);
+        for (size_t way = 0; way < sizeof ways / sizeof ways[0]; way++) {
+            double *found = run_with(&cases[i], &set, patterns, ways[way][0], ways[way][1]);
+            if (memcmp(found, expected, REALIZATIONS * set.num * sizeof(double)) != 0) {
+                fail_msg("case %zu: other bits in batches of %zu, work-groups of %zu", i,
+                         ways[way][0], ways[way][1]);
+            }
+            free(found);
+        }
+        free(expected);
+        for (size_t r = 0; r < REALIZATIONS; r++) {
+            test_free_sphere_pattern(&patterns[r]);
+        }
+        ps_frequencies_free(&set);
+    }
+}
+
+int main(void) {
+    void *const nufft = (void *)(uintptr_t)&ps_sphere_nufft; /* cmocka's states are not constant */
+    void *const grid = (void *)(uintptr_t)&ps_sphere_grid;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_prestate(agrees_with_the_referee, nufft),
+        cmocka_unit_test_prestate(any_number_of_points, nufft),
+        cmocka_unit_test_prestate(lengths_do_not_count, nufft),
+        cmocka_unit_test_prestate(powers_are_those_of_coefficients, nufft),
+        cmocka_unit_test_prestate(hemisphere_is_half_of_the_sphere, nufft),
+        cmocka_unit_test_prestate(agrees_with_exact_values, nufft),
+        cmocka_unit_test_prestate(same_bits, nufft),
+        cmocka_unit_test_prestate(agrees_with_the_referee, grid),
+        cmocka_unit_test_prestate(any_number_of_points, grid),
+        cmocka_unit_test_prestate(lengths_do_not_count, grid),
+        cmocka_unit_test_prestate(powers_are_those_of_coefficients, grid),
+        cmocka_unit_test_prestate(agrees_with_exact_values, grid),
+        cmocka_unit_test_prestate(same_bits, grid),
+    };
+    device = test_open_device();
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    ps_device_close(device);
+    return failed;
+}

@@ -1,0 +1,318 @@
+/* The engine torus_nufft: what must not change a bit of its results, and what its powers must obey. Tolerances
+ * are swept in test_tolerance_sweep.c, small powers are in test_nufft_floor.c.
+ */
+#include "harness_shapes.h"
+
+#include "engines/host/host_direct.h"
+#include "engines/torus/nufft/torus_nufft.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static ps_device *device;
+static const ps_precision precisions[] = {PS_SINGLE, PS_DOUBLE};
+
+static size_t num_precisions(void) {
+    return ps_device_get_limits(device)->has_fp64 ? 2 : 1;
+}
+
+/* Largest K by dimension: small problems. */
+static const int32_t reach[4] = {0, 50, 9, 4};
+
+static double tolerance_of(ps_precision precision) {
+    return precision == PS_SINGLE ? 1e-5 : 1e-11;
+}
+
+/* ---- bits -------------------------------------------------------------------------------- */
+
+enum { REALIZATIONS = 37 };
+
+typedef struct sample {
+    ps_frequencies grid;
+    size_t num;
+    pspec_pattern patterns[REALIZATIONS];
+} sample;
+
+/* Realization r has 1 + (step r) % most points. */
+static sample make_sample(unsigned dimension, size_t num, size_t step, size_t most) {
+    sample self = {.grid = test_make_grid(dimension, reach[dimension]), .num = num};
+    for (size_t r = 0; r < num; r++) {
+        const test_shape *shape = &test_shapes[r % 3 == 1 ? TEST_SIGNED_WEIGHTS : TEST_WHITE];
+        self.patterns[r] = test_make_pattern(shape, dimension, 1 + r * step % most, 100 + r);
+    }
+    return self;
+}
+
+static void free_sample(sample *self) {
+    for (size_t r = 0; r < self->num; r++) {
+        test_free_pattern(&self->patterns[r]);
+    }
+    ps_frequencies_free(&self->grid);
+}
+
+static double *run_sample(const sample *self, ps_precision precision, size_t batch) {
+    return test_run_engine_to(&ps_torus_nufft, precision, tolerance_of(precision), device,
+                              &self->grid, self->patterns, self->num, batch);
+}
+
+static void check_same(const sample *self, double *found, const double *expected) {
+    assert_memory_equal(found, expected, self->num * self->grid.num * sizeof(double));
+    free(found);
+}
+
+static void batches(void **state) {
+    (void)state;
+    static const size_t sizes[] = {1, 2, 3, 7, 16, 36, REALIZATIONS + 1};
+    for (unsigned dimension = 1; dimension <= 3; dimension++) {
+        sample all = make_sample(dimension, REALIZATIONS, 7, 50);
+        for (size_t p = 0; p < num_precisions(); p++) {
+            double *expected = run_sample(&all, precisions[p], REALIZATIONS);
+            for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+                check_same(&all, run_sample(&all, precisions[p], sizes[i]), expected);
+            }
+            free(expected);
+        }
+        free_sample(&all);
+    }
+}
+
+/* One work-item goes from point to point, the items of a group from cell to cell: few and many points in a
+ * cell take different ways. (Not groups of fewer items than lanes: PoCL 3.1 gets them wrong, docs/torus_nufft.md.) */
+static void work_groups(void **state) {
+    (void)state;
+    static const size_t most[] = {20, 150, 1500};
+    static const size_t sizes[2][3] = {{32, 64}, {8}};
+    for (unsigned dimension = 1; dimension <= 3; dimension++) {
+        for (size_t i = 0; i < sizeof most / sizeof most[0]; i++) {
+            sample some = make_sample(dimension, 3, most[i] - 2, most[i]);
+            for (size_t p = 0; p < num_precisions(); p++) {
+                double *expected = run_sample(&some, precisions[p], some.num);
+                for (size_t s = 0; s < 3 && sizes[p][s] > 0; s++) {
+                    ps_device_set_group_size(device, sizes[p][s]);
+                    check_same(&some, run_sample(&some, precisions[p], some.num), expected);
+                    ps_device_set_group_size(device, 0);
+                }
+                free(expected);
+            }
+            free_sample(&some);
+        }
+    }
+}
+
+/* Later growth of a job (room for more points than were planned) leaves what it has alone. */
+static void growth(void **state) {
+    (void)state;
+    for (unsigned dimension = 1; dimension <= 3; dimension++) {
+        sample some = make_sample(dimension, 5, 13, 60);
+        for (size_t p = 0; p < num_precisions(); p++) {
+            ps_problem problem = {.frequencies = &some.grid,
+                                  .num_points = 60,
+                                  .num_realizations = 5,
+                                  .planned_points = 60,
+                                  .tolerance = tolerance_of(precisions[p])};
+            double *expected = test_run_problem(&ps_torus_nufft, &problem, precisions[p], device,
+                                                some.patterns, some.num, 5);
+            problem.num_points = 20000;
+            check_same(&some,
+                       test_run_problem(&ps_torus_nufft, &problem, precisions[p], device,
+                                        some.patterns, some.num, 2),
+                       expected);
+            free(expected);
+        }
+        free_sample(&some);
+    }
+}
+
+/* Ones are no weights, twice the weights four times the power. */
+static void weights(void **state) {
+    (void)state;
+    enum { POINTS = 45 };
+    for (unsigned dimension = 1; dimension <= 3; dimension++) {
+        ps_frequencies grid = test_make_grid(dimension, reach[dimension]);
+        pspec_pattern plain = test_make_pattern(&test_shapes[TEST_WHITE], dimension, POINTS, 3);
+        double ones[POINTS], twos[POINTS];
+        for (size_t j = 0; j < POINTS; j++) {
+            ones[j] = 1;
+            twos[j] = 2;
+        }
+        pspec_pattern patterns[3] = {plain, plain, plain};
+        patterns[1].weights = ones;
+        patterns[2].weights = twos;
+        for (size_t p = 0; p < num_precisions(); p++) {
+            double *found =
+                test_run_engine_to(&ps_torus_nufft, precisions[p], tolerance_of(precisions[p]),
+                                   device, &grid, patterns, 3, 3);
+            for (size_t i = 0; i < grid.num; i++) {
+                assert_true(found[i] == found[grid.num + i]);
+                assert_true(4 * found[i] == found[2 * grid.num + i]);
+            }
+            free(found);
+        }
+        test_free_pattern(&plain);
+        ps_frequencies_free(&grid);
+    }
+}
+
+/* ---- what powers obey -------------------------------------------------------------------- */
+
+/* White noise has mean power 1; the variance of one power is (N - 1) / N (mathematics.md 1.2). */
+static void white_noise(void **state) {
+    (void)state;
+    enum { MANY = 64, POINTS = 64 };
+    ps_frequencies grid = test_make_grid(2, 16);
+    pspec_pattern patterns[MANY];
+    double sum = 0;
+    for (size_t r = 0; r < MANY; r++) {
+        patterns[r] = test_make_pattern(&test_shapes[TEST_WHITE], 2, POINTS, 1000 + r);
+    }
+    double *found =
+        test_run_engine_to(&ps_torus_nufft, PS_SINGLE, 1e-4, device, &grid, patterns, MANY, MANY);
+    for (size_t i = 0; i < MANY * grid.num; i++) {
+        sum += found[i] / POINTS / (double)(MANY * grid.num);
+    }
+    const double deviation = 1 / sqrt((double)(MANY * grid.num));
+    assert_true(fabs(sum - 1) < 4 * deviation);
+    for (size_t r = 0; r < MANY; r++) {
+        test_free_pattern(&patterns[r]);
+    }
+    free(found);
+    ps_frequencies_free(&grid);
+}
+
+/* One frequency may be off by several times the root mean square that tolerances are about. */
+static const double single_frequency = 8;
+
+/* |S| of every frequency as expected, up to the tolerance. */
+static void check_sizes(const ps_frequencies *grid, const pspec_pattern *pattern,
+                        ps_precision precision, const double *expected) {
+    const double tolerance = tolerance_of(precision);
+    const double allowed = single_frequency * tolerance * sqrt(test_sum_of_squares(pattern));
+    double *found =
+        test_run_engine_to(&ps_torus_nufft, precision, tolerance, device, grid, pattern, 1, 1);
+    for (size_t i = 0; i < grid->num; i++) {
+        const double size = sqrt(expected[i]);
+        assert_true(fabs(sqrt(found[i]) - size) <= allowed * fmax(1, size / 8));
+    }
+    free(found);
+}
+
+/* Wherever it is. */
+static void one_point(void **state) {
+    (void)state;
+    for (unsigned dimension = 1; dimension <= 3; dimension++) {
+        ps_frequencies grid = test_make_grid(dimension, reach[dimension]);
+        double *ones = malloc(grid.num * sizeof(double));
+        for (size_t i = 0; i < grid.num; i++) {
+            ones[i] = 1;
+        }
+        for (size_t p = 0; p < num_precisions(); p++) {
+            for (size_t s = 0; s < TEST_SIGNED_WEIGHTS; s++) {
+                pspec_pattern one = test_make_pattern(&test_shapes[s], dimension, 1, 5);
+                check_sizes(&grid, &one, precisions[p], ones);
+                test_free_pattern(&one);
+            }
+        }
+        free(ones);
+        ps_frequencies_free(&grid);
+    }
+}
+
+static void shifts(void **state) {
+    (void)state;
+    enum { POINTS = 77 };
+    static const double by[] = {0.25, 0.6180339887498949, 0.9999999};
+    for (unsigned dimension = 1; dimension <= 3; dimension++) {
+        ps_frequencies grid = test_make_grid(dimension, reach[dimension]);
+        pspec_pattern pattern = test_make_pattern(&test_shapes[TEST_WHITE], dimension, POINTS, 3);
+        double *points = (double *)pattern.points;
+        double *before = test_run_engine(&ps_host_direct, PS_EXTENDED, NULL, &grid, &pattern, 1, 1);
+        for (size_t i = 0; i < POINTS * dimension; i++) {
+            points[i] = fmod(points[i] + by[i % dimension], 1);
+        }
+        for (size_t p = 0; p < num_precisions(); p++) {
+            check_sizes(&grid, &pattern, precisions[p], before);
+        }
+        free(before);
+        test_free_pattern(&pattern);
+        ps_frequencies_free(&grid);
+    }
+}
+
+/* N^2 at the Bragg peaks of the square lattice, nothing between them. */
+static void peaks(void **state) {
+    (void)state;
+    enum { SIDE = 6, POINTS = SIDE * SIDE, K = 20 };
+    ps_frequencies grid = test_make_grid(2, K);
+    double points[2 * POINTS];
+    double *expected = calloc(grid.num, sizeof(double));
+    for (size_t j = 0; j < POINTS; j++) {
+        points[2 * j] = fmod((double)(j / SIDE) / SIDE + 0.0123, 1);
+        points[2 * j + 1] = fmod((double)(j % SIDE) / SIDE + 0.4567, 1);
+    }
+    for (size_t i = 0; i < grid.num; i++) {
+        const int32_t *k = grid.vectors + 2 * i;
+        expected[i] = k[0] % SIDE == 0 && k[1] % SIDE == 0 ? (double)POINTS * POINTS : 0;
+    }
+    const pspec_pattern lattice = {2, POINTS, points, NULL};
+    for (size_t p = 0; p < num_precisions(); p++) {
+        check_sizes(&grid, &lattice, precisions[p], expected);
+    }
+    free(expected);
+    ps_frequencies_free(&grid);
+}
+
+/* A million points in one cell, against the referee; by formula and measured power. */
+static void a_million_in_a_cell(void **state) {
+    (void)state;
+    enum { POINTS = 1000000 };
+    const test_shape *shape = &test_shapes[4];
+    assert_string_equal(shape->name, "one cell");
+    for (unsigned dimension = 1; dimension <= 2; dimension++) {
+        ps_frequencies grid = test_make_grid(dimension, 3 - (int32_t)dimension);
+        pspec_pattern pattern = test_make_pattern(shape, dimension, POINTS, 3);
+        double *expected =
+            test_run_engine(&ps_host_direct, PS_EXTENDED, NULL, &grid, &pattern, 1, 1);
+        for (size_t p = 0; p < num_precisions(); p++) {
+            const double tolerance = tolerance_of(precisions[p]);
+            const ps_problem problem = {
+                .frequencies = &grid, .num_points = POINTS, .tolerance = tolerance};
+            double *found = test_run_engine_to(&ps_torus_nufft, precisions[p], tolerance, device,
+                                               &grid, &pattern, 1, 1);
+            double error = 0;
+            double power = 0;
+            for (size_t i = 0; i < grid.num; i++) {
+                error += pow(sqrt(found[i]) - sqrt(expected[i]), 2) / (double)grid.num;
+                power += expected[i] / POINTS / (double)grid.num;
+            }
+            error = sqrt(2 * error / POINTS);
+            const double formula =
+                ps_torus_nufft.error(&problem, ps_device_get_limits(device), precisions[p], power);
+            print_message("a million in a cell, %s d=%u: error %.2e bound %.2e\n",
+                          ps_precision_name(precisions[p]), dimension, error, formula);
+            assert_true(error <= formula);
+            free(found);
+        }
+        free(expected);
+        test_free_pattern(&pattern);
+        ps_frequencies_free(&grid);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(white_noise),
+        cmocka_unit_test(one_point),
+        cmocka_unit_test(shifts),
+        cmocka_unit_test(peaks),
+        cmocka_unit_test(a_million_in_a_cell),
+        cmocka_unit_test(batches),
+        cmocka_unit_test(weights),
+        cmocka_unit_test(growth),
+        cmocka_unit_test(work_groups),
+    };
+    device = test_open_device();
+    const int failures = cmocka_run_group_tests_name("torus_nufft", tests, NULL, NULL);
+    ps_device_close(device);
+    return failures;
+}

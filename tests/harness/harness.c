@@ -1,0 +1,162 @@
+#include "harness.h"
+
+#include "verify/stress_shapes.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+cJSON *test_read_reference(const char *name) {
+    char path[512];
+    snprintf(path, sizeof path, "%s/reference/%s", TEST_SOURCE_DIR, name);
+    FILE *file = fopen(path, "rb");
+    assert_non_null(file);
+    fseek(file, 0, SEEK_END);
+    const size_t bytes = (size_t)ftell(file);
+    rewind(file);
+    char *text = calloc(bytes + 1, 1);
+    assert_int_equal(fread(text, 1, bytes, file), bytes);
+    fclose(file);
+    cJSON *json = cJSON_Parse(text);
+    assert_non_null(json);
+    free(text);
+    return json;
+}
+
+long double test_long_number(const cJSON *item) {
+    assert_non_null(item);
+    return cJSON_IsString(item) ? strtold(item->valuestring, NULL) : (long double)item->valuedouble;
+}
+
+double test_number(const cJSON *item) {
+    assert_non_null(item);
+    return cJSON_IsString(item) ? strtod(item->valuestring, NULL) : item->valuedouble;
+}
+
+double test_field(const cJSON *object, const char *key) {
+    return test_number(cJSON_GetObjectItem(object, key));
+}
+
+test_set test_read_set(const cJSON *json) {
+    test_set set = {.name = cJSON_GetObjectItem(json, "name")->valuestring,
+                    .dimension = (unsigned)test_field(json, "d"),
+                    .num_points = (size_t)test_field(json, "N"),
+                    .json = json};
+    const cJSON *points = cJSON_GetObjectItem(json, "x");
+    const cJSON *weights = cJSON_GetObjectItem(json, "w");
+    set.points = calloc(set.num_points * set.dimension, sizeof(double));
+    set.weights = cJSON_IsArray(weights) ? calloc(set.num_points, sizeof(double)) : NULL;
+    for (size_t j = 0; j < set.num_points; j++) {
+        const cJSON *point = cJSON_GetArrayItem(points, (int)j);
+        for (unsigned axis = 0; axis < set.dimension; axis++) {
+            set.points[j * set.dimension + axis] =
+                test_number(cJSON_GetArrayItem(point, (int)axis));
+        }
+        const double weight =
+            set.weights != NULL ? test_number(cJSON_GetArrayItem(weights, (int)j)) : 1;
+        if (set.weights != NULL) {
+            set.weights[j] = weight;
+        }
+        set.weight_size_sum += fabs(weight);
+    }
+    set.weight_sum = test_field(json, "sum_w");
+    set.weight_square_sum = test_field(json, "sum_w2");
+    return set;
+}
+
+void test_free_set(test_set *set) {
+    free(set->points);
+    free(set->weights);
+}
+
+pspec_pattern test_pattern(const test_set *set) {
+    return (pspec_pattern){set->dimension, set->num_points, set->points, set->weights};
+}
+
+ps_device *test_open_device(void) {
+    ps_device *device = NULL;
+    ps_error error = {0};
+    const pspec_status status = ps_device_open(&device, getenv("POINTSPEC_DEVICE"), false, &error);
+    if (status == PSPEC_ERROR_NO_DEVICE) {
+        print_message("skipped: %s\n", error.message);
+        exit(TEST_SKIPPED);
+    }
+    if (status != PSPEC_OK) {
+        fail_msg("%s", error.message);
+    }
+    return device;
+}
+
+static double read_power(const ps_rows *rows, const void *data, size_t i) {
+    if (rows->host != NULL) {
+        return rows->host[i];
+    }
+    return rows->precision == PS_SINGLE ? (double)((const float *)data)[i]
+                                        : ((const double *)data)[i];
+}
+
+double *test_run_problem(const ps_engine *engine, const ps_problem *problem, ps_precision precision,
+                         ps_device *device, const pspec_pattern *patterns, size_t num_patterns,
+                         size_t batch) {
+    void *state = NULL;
+    const ps_frequencies *frequencies = problem->frequencies;
+    double *powers = calloc(num_patterns * frequencies->num, sizeof(double));
+    double *scales = calloc(num_patterns, sizeof(double));
+    uint32_t *slots = calloc(frequencies->num, sizeof(uint32_t));
+    for (size_t r = 0; r < num_patterns; r++) {
+        scales[r] = 1;
+    }
+    assert_ok(engine->create(&state, problem, precision, batch, device, error));
+    ps_engine_slots(engine, state, frequencies->num, slots);
+    for (size_t done = 0; done < num_patterns; done += batch) {
+        const size_t count = num_patterns - done < batch ? num_patterns - done : batch;
+        const ps_batch some = {
+            .num_patterns = count, .patterns = patterns + done, .scales = scales + done};
+        ps_rows rows = {0};
+        assert_ok(engine->run(state, &some, &rows, error));
+        const size_t bytes =
+            rows.stride * count * (rows.precision == PS_SINGLE ? sizeof(float) : sizeof(double));
+        void *data = NULL;
+        if (rows.host == NULL) {
+            data = calloc(bytes, 1);
+            assert_ok(ps_buffer_read(device, &rows.device, 0, data, bytes, error));
+        }
+        for (size_t r = 0; r < count; r++) {
+            for (size_t i = 0; i < frequencies->num; i++) {
+                powers[(done + r) * frequencies->num + i] =
+                    read_power(&rows, data, r * rows.stride + slots[i]);
+            }
+        }
+        free(data);
+    }
+    engine->destroy(state);
+    free(scales);
+    free(slots);
+    return powers;
+}
+
+double *test_run_engine_to(const ps_engine *engine, ps_precision precision, double tolerance,
+                           ps_device *device, const ps_frequencies *frequencies,
+                           const pspec_pattern *patterns, size_t num_patterns, size_t batch) {
+    size_t longest = 1;
+    for (size_t r = 0; r < num_patterns; r++) {
+        longest = patterns[r].num_points > longest ? patterns[r].num_points : longest;
+    }
+    const ps_problem problem = {.frequencies = frequencies,
+                                .num_points = longest,
+                                .num_realizations = num_patterns,
+                                .tolerance = tolerance};
+    return test_run_problem(engine, &problem, precision, device, patterns, num_patterns, batch);
+}
+
+double *test_run_engine(const ps_engine *engine, ps_precision precision, ps_device *device,
+                        const ps_frequencies *frequencies, const pspec_pattern *patterns,
+                        size_t num_patterns, size_t batch) {
+    return test_run_engine_to(engine, precision, 1, device, frequencies, patterns, num_patterns,
+                              batch);
+}
+
+double test_uniform(uint64_t *state) {
+    return ps_stress_uniform(state);
+}

@@ -1,0 +1,209 @@
+/* The streaming estimator given bad patterns, engines that are refused memory, and a device that
+ * computes wrongly.
+ */
+#include "harness_estimator.h"
+
+#include "engines/host/host_direct.h"
+#include "engines/torus/torus_direct.h"
+#include "engines/torus/nufft/torus_nufft.h"
+
+#include <math.h>
+#include <string.h>
+
+static ps_device *device;
+
+/* ---- bad input --------------------------------------------------------------------------- */
+
+static pspec_status add_one(pspec_pattern pattern, pspec_normalization normalization,
+                            ps_error *error) {
+    ps_frequencies grid = test_make_lattice(2, 3, true);
+    ps_estimator *estimator = NULL;
+    ps_estimator_options options = test_make_options(&grid, &ps_torus_direct, PS_SINGLE, 4, 1);
+    options.normalization = normalization;
+    assert_int_equal(ps_estimator_create(&estimator, &options, device, error), PSPEC_OK);
+    const pspec_status status = ps_estimator_add(estimator, &pattern, 1, error);
+    ps_estimator_destroy(estimator);
+    ps_frequencies_free(&grid);
+    return status;
+}
+
+static void bad_patterns(void **state) {
+    (void)state;
+    const double good[] = {0.1, 0.2, 0.3, 0.4};
+    const double outside[] = {0.1, 0.2, 1.0, 0.4};
+    const double nan_point[] = {0.1, NAN, 0.3, 0.4};
+    const double zero_sum[] = {1, -1};
+    const double none[] = {0, 0};
+    const double infinite[] = {1, INFINITY};
+    const struct {
+        pspec_pattern pattern;
+        pspec_normalization normalization;
+        const char *part;
+    } cases[] = {
+        {{2, 2, outside, NULL}, 0, "point 2: coordinate 1 "},
+        {{2, 2, nan_point, NULL}, 0, "point 1: coordinate nan"},
+        {{3, 1, good, NULL}, 0, "dimension 3 instead of 2"},
+        {{2, 0, good, NULL}, 0, "no points"},
+        {{2, 2, good, zero_sum}, 0, "--normalize effective"},
+        {{2, 2, good, none}, PSPEC_NORMALIZATION_EFFECTIVE, "all weights are 0"},
+        {{2, 2, good, infinite}, 0, "weight inf is not finite"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        ps_error error = {0};
+        assert_int_equal(add_one(cases[i].pattern, cases[i].normalization, &error),
+                         PSPEC_ERROR_INPUT);
+        if (strstr(error.message, cases[i].part) == NULL) {
+            fail_msg("\"%s\" is not in \"%s\"", cases[i].part, error.message);
+        }
+    }
+    ps_error error = {0};
+    assert_int_equal(
+        add_one((pspec_pattern){2, 2, good, zero_sum}, PSPEC_NORMALIZATION_EFFECTIVE, &error),
+        PSPEC_OK);
+}
+
+/* Engines look at coordinates while they convert them: what is said is what a look at one set after the other
+ * would say, and the batches before stay in the sums. */
+static void check_first_bad(const ps_engine *engine, bool weighted, const char *expected) {
+    enum { SETS = 5, POINTS = 40 };
+    double x[SETS][2 * POINTS];
+    double weights[POINTS];
+    pspec_pattern patterns[SETS];
+    uint64_t random = 3;
+    ps_error error = {0};
+    for (size_t r = 0; r < SETS; r++) {
+        for (size_t i = 0; i < 2 * POINTS; i++) {
+            x[r][i] = test_uniform(&random);
+        }
+        patterns[r] = (pspec_pattern){2, POINTS, x[r], NULL};
+    }
+    for (size_t j = 0; j < POINTS; j++) {
+        weights[j] = INFINITY;
+    }
+    x[3][2 * 30 + 1] = -0.25;
+    x[4][0] = 1;
+    patterns[4].weights = weighted ? weights : NULL;
+    ps_frequencies grid = test_make_lattice(2, 9, false);
+    const ps_precision precision = engine == &ps_host_direct ? PS_EXTENDED : PS_SINGLE;
+    ps_estimator_options options = test_make_options(&grid, engine, precision, POINTS, 3);
+    ps_estimator *estimator = NULL;
+    assert_int_equal(ps_estimator_create(&estimator, &options, device, &error), PSPEC_OK);
+    assert_int_equal(ps_estimator_add(estimator, patterns, SETS, &error), PSPEC_ERROR_INPUT);
+    assert_string_equal(error.message, expected);
+    assert_int_equal(ps_estimator_num_realizations(estimator), 3);
+    assert_int_equal(ps_estimator_add(estimator, patterns, 3, &error), PSPEC_OK);
+    assert_int_equal(ps_estimator_num_realizations(estimator), 6);
+    ps_estimator_destroy(estimator);
+    ps_frequencies_free(&grid);
+}
+
+static void first_bad_pattern(void **state) {
+    (void)state;
+    static const ps_engine *const engines[] = {&ps_torus_direct, &ps_torus_nufft, &ps_host_direct};
+    static const char expected[] = "set 4, point 31: coordinate -0.25 is outside [0,1)";
+    for (size_t i = 0; i < sizeof engines / sizeof engines[0]; i++) {
+        check_first_bad(engines[i], false, expected);
+        check_first_bad(engines[i], true, expected);
+    }
+}
+
+/* ---- engines that misbehave -------------------------------------------------------------- */
+
+enum { MOST_BATCH = 3 };
+
+/* torus_direct on a device that refuses memory for more than MOST_BATCH realizations. */
+static pspec_status create_small(void **state, const ps_problem *problem, ps_precision precision,
+                                 size_t batch, ps_device *on, ps_error *error) {
+    *state = NULL;
+    return batch > MOST_BATCH ? ps_fail(error, PSPEC_ERROR_MEMORY, "refused")
+                              : ps_torus_direct.create(state, problem, precision, batch, on, error);
+}
+
+static pspec_status refuse(void **state, const ps_problem *problem, ps_precision precision,
+                           size_t batch, ps_device *on, ps_error *error) {
+    (void)problem;
+    (void)precision;
+    (void)batch;
+    (void)on;
+    *state = NULL;
+    return ps_fail(error, PSPEC_ERROR_MEMORY, "refused");
+}
+
+static void refused_memory_halves_the_batch(void **state) {
+    (void)state;
+    ps_engine small = ps_torus_direct;
+    small.create = create_small;
+    ps_frequencies grid = test_make_lattice(2, 6, true);
+    test_sample what = test_make_sample(20, 2, 30, 0, false);
+    ps_estimator_options options = test_make_options(&grid, &ps_torus_direct, PS_SINGLE, 30, 20);
+    ps_spectrum expected = test_estimate(&options, &what, 20, device);
+    options.engine = &small;
+    ps_spectrum found = test_estimate(&options, &what, 20, device);
+    assert_true(test_is_same_bits(&expected, &found));
+    small.create = refuse;
+    ps_estimator *estimator = NULL;
+    ps_error error = {0};
+    assert_int_equal(ps_estimator_create(&estimator, &options, device, &error), PSPEC_ERROR_MEMORY);
+    assert_null(estimator);
+    ps_spectrum_free(&expected);
+    ps_spectrum_free(&found);
+    test_free_sample(&what);
+    ps_frequencies_free(&grid);
+}
+
+/* A driver that computes 1 % too much. */
+static pspec_status run_wrongly(void *state, const ps_batch *batch, ps_rows *rows,
+                                ps_error *error) {
+    double scales[8];
+    for (size_t r = 0; r < batch->num_patterns; r++) {
+        scales[r] = batch->scales[r] * 1.01;
+    }
+    ps_batch wrong = *batch;
+    wrong.scales = scales;
+    return ps_torus_direct.run(state, &wrong, rows, error);
+}
+
+static void the_self_check_finds_a_wrong_device(void **state) {
+    (void)state;
+    ps_engine wrong = ps_torus_direct;
+    wrong.run = run_wrongly;
+    ps_frequencies grid = test_make_lattice(2, 6, true);
+    test_sample what = test_make_sample(2, 2, 30, 0, false);
+    ps_estimator_options options = test_make_options(&grid, &wrong, PS_SINGLE, 30, 2);
+    ps_estimator *estimator = NULL;
+    ps_error error = {0};
+    assert_ok(ps_estimator_create(&estimator, &options, device, error));
+    assert_int_equal(ps_estimator_add(estimator, what.patterns, 2, &error), PSPEC_ERROR_CHECK);
+    assert_non_null(strstr(error.message, "self-check failed"));
+    ps_estimator_destroy(estimator);
+    test_free_sample(&what);
+    ps_frequencies_free(&grid);
+}
+
+static void nothing_added(void **state) {
+    (void)state;
+    ps_frequencies grid = test_make_lattice(2, 6, true);
+    const ps_estimator_options options =
+        test_make_options(&grid, &ps_torus_direct, PS_SINGLE, 30, 2);
+    ps_estimator *estimator = NULL;
+    ps_spectrum spectrum = {0};
+    ps_error error = {0};
+    assert_ok(ps_estimator_create(&estimator, &options, device, error));
+    assert_int_equal(ps_estimator_spectrum(estimator, &spectrum, &error), PSPEC_ERROR_INPUT);
+    ps_estimator_destroy(estimator);
+    ps_frequencies_free(&grid);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bad_patterns),
+        cmocka_unit_test(first_bad_pattern),
+        cmocka_unit_test(refused_memory_halves_the_batch),
+        cmocka_unit_test(the_self_check_finds_a_wrong_device),
+        cmocka_unit_test(nothing_added),
+    };
+    device = test_open_device();
+    const int failures = cmocka_run_group_tests_name("estimator_faults", tests, NULL, NULL);
+    ps_device_close(device);
+    return failures;
+}

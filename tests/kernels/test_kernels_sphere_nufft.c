@@ -1,0 +1,130 @@
+/* The kernels of sphere_nufft and of sphere_grid, one after the other as the engines run them, on problems that are small enough for
+ * Oclgrind: a few realizations side by side, weights, poles, both precisions, all degrees and even ones.
+ */
+#include "harness_sphere.h"
+
+#include "engines/sphere/nufft/sphere_nufft.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { REALIZATIONS = 3, NUM_POINTS = 21 };
+
+static ps_device *device;
+static uint64_t seed = 31;
+
+typedef struct sphere_case {
+    int32_t max_degree;
+    ps_precision precision;
+    double tolerance;
+    bool only_even;
+} sphere_case;
+
+static pspec_pattern make_pattern(void) {
+    double *points = test_sphere_white_set(NUM_POINTS, &seed);
+    double *weights = calloc(NUM_POINTS, sizeof(double));
+    assert_non_null(weights);
+    for (size_t j = 0; j < NUM_POINTS; j++) {
+        weights[j] = test_uniform(&seed) - 0.3;
+    }
+    test_sphere_point(points, 0, 0, 1);
+    test_sphere_point(points + 3, 0, 0, -1);
+    test_sphere_point(points + 6, 1e-9, 1, 1);
+    return (pspec_pattern){.num_points = NUM_POINTS, .points = points, .weights = weights};
+}
+
+/* sqrt(V) of the tolerance, V = sum w^2 (2l + 1)/(4 pi) over the degrees. */
+static double white_noise(const pspec_pattern *pattern, const ps_frequencies *degrees) {
+    const double four_pi = 4 * acos(-1.0);
+    double squares = 0;
+    double num = 0;
+    for (size_t j = 0; j < pattern->num_points; j++) {
+        squares += pattern->weights[j] * pattern->weights[j];
+    }
+    for (size_t i = 0; i < degrees->num; i++) {
+        num += 2 * degrees->vectors[i] + 1;
+    }
+    return sqrt(squares * num / four_pi);
+}
+
+/* Q(l) of the rows against the norm of the referee's coefficients, all degrees together. */
+static double row_error(const pspec_pattern *pattern, const ps_frequencies *degrees,
+                        const double *zeros, const double *row) {
+    const double four_pi = 4 * acos(-1.0);
+    double sum = 0;
+    for (size_t i = 0; i < degrees->num; i++) {
+        const int32_t l = degrees->vectors[i];
+        const double exact = sqrt(test_degree_error(zeros, degrees->max_frequency, l, pattern));
+        const double found = sqrt(row[i] * (2 * l + 1) / four_pi);
+        sum += (found - exact) * (found - exact);
+    }
+    return sqrt(sum);
+}
+
+static void check_case(const ps_engine *engine, const sphere_case *what) {
+    if (!ps_device_get_limits(device)->has_fp64) {
+        return; /* needed in single precision, too */
+    }
+    ps_frequencies degrees = test_degrees(what->max_degree, what->only_even);
+    const ps_problem problem = {.frequencies = &degrees,
+                                .num_points = NUM_POINTS,
+                                .num_realizations = REALIZATIONS,
+                                .has_weights = true,
+                                .tolerance = what->tolerance};
+    const size_t L = (size_t)what->max_degree;
+    double *zeros = calloc((L + 1) * (L + 2), sizeof(double));
+    pspec_pattern patterns[REALIZATIONS];
+    double scales[REALIZATIONS];
+    int exponents[REALIZATIONS];
+    void *state = NULL;
+    ps_rows rows = {0};
+    assert_non_null(zeros);
+    for (size_t r = 0; r < REALIZATIONS; r++) {
+        patterns[r] = make_pattern();
+        scales[r] = 1;
+        exponents[r] = 0;
+    }
+    const ps_batch batch = {.num_patterns = REALIZATIONS,
+                            .patterns = patterns,
+                            .scales = scales,
+                            .exponents = exponents};
+    assert_ok(engine->create(&state, &problem, what->precision, REALIZATIONS, device, error));
+    assert_ok(engine->run(state, &batch, &rows, error));
+    for (size_t r = 0; r < REALIZATIONS; r++) {
+        const double limit = what->tolerance * white_noise(&patterns[r], &degrees);
+        const double off =
+            row_error(&patterns[r], &degrees, zeros, (const double *)rows.host + r * rows.stride);
+        if (!(off <= limit)) {
+            fail_msg("L = %d, realization %zu: %g, allowed %g", (int)what->max_degree, r, off,
+                     limit);
+        }
+        free((double *)patterns[r].points);
+        free((double *)patterns[r].weights);
+    }
+    engine->destroy(state);
+    ps_frequencies_free(&degrees);
+    free(zeros);
+}
+
+static void single(void **state) {
+    check_case(*state, &(sphere_case){5, PS_SINGLE, 1e-3, false});
+    check_case(*state, &(sphere_case){6, PS_SINGLE, 1e-5, true});
+}
+
+static void double_precision(void **state) {
+    check_case(*state, &(sphere_case){4, PS_DOUBLE, 1e-9, false});
+    check_case(*state, &(sphere_case){6, PS_DOUBLE, 1e-6, true});
+}
+
+int main(void) {
+    void *const nufft = (void *)(uintptr_t)&ps_sphere_nufft; /* cmocka's states are not constant */
+    void *const grid = (void *)(uintptr_t)&ps_sphere_grid;
+    const struct CMUnitTest tests[] = {cmocka_unit_test_prestate(single, nufft),
+                                       cmocka_unit_test_prestate(double_precision, nufft),
+                                       cmocka_unit_test_prestate(single, grid),
+                                       cmocka_unit_test_prestate(double_precision, grid)};
+    device = test_open_device();
+    const int failures = cmocka_run_group_tests_name("kernels_sphere_nufft", tests, NULL, NULL);
+    ps_device_close(device);
+    return failures;
+}

@@ -1,0 +1,165 @@
+/* What plans take: memory, its limits, time. Planning is a pure function: no device is opened here. */
+#include "harness_plan.h"
+
+#include "engines/nufft/cost.h"
+#include "plan/cost_model.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- memory -------------------------------------------------------------------------------- */
+
+/* Of a large grid by direct sums, on a device where something is only a megabyte. */
+static void plan_on_small_device(ps_plan *plan, uint64_t global_bytes, uint64_t allocation_bytes) {
+    const ps_frequencies set = test_lattice(2, 500);
+    const ps_problem problem = test_problem(&set, 10000, 1e-3);
+    ps_device_limits limits = test_cpu();
+    limits.is_cpu = false; /* memory of its own */
+    limits.global_bytes = global_bytes > 0 ? global_bytes : limits.global_bytes;
+    limits.max_allocation_bytes =
+        allocation_bytes > 0 ? allocation_bytes : limits.max_allocation_bytes;
+    test_make_plan(plan, &problem, &limits, &test_any_plan);
+}
+
+static void device_limits(void **state) {
+    (void)state;
+    ps_plan plan;
+    plan_on_small_device(&plan, 1 << 20, 0);
+    const ps_candidate *candidate = test_candidate(&plan, "torus_direct", PS_SINGLE);
+    assert_true(candidate->is_applicable && !candidate->is_feasible);
+    assert_int_equal(candidate->batch, 1);
+    assert_non_null(strstr(candidate->reason, "above its limit of 1.05e+06"));
+    assert_string_equal(plan.chosen->engine->name, "host_direct"); /* the host is not so small */
+    plan_on_small_device(&plan, 0, 1 << 20);
+    candidate = test_candidate(&plan, "torus_direct", PS_SINGLE);
+    assert_false(candidate->is_applicable);
+    assert_non_null(strstr(candidate->reason, "larger buffer"));
+}
+
+static void limit_of_the_user(void **state) {
+    (void)state;
+    const ps_frequencies set = test_lattice(2, 500);
+    const ps_problem problem = test_problem(&set, 10000, 1e-3);
+    const ps_device_limits limits = test_cpu();
+    const ps_plan_constraints limited = {.precision = -1, .memory_limit = 1000};
+    ps_plan plan;
+    test_make_plan(&plan, &problem, &limits, &limited);
+    assert_null(plan.chosen);
+    for (size_t i = 0; i < plan.num_candidates; i++) {
+        assert_non_null(strstr(plan.candidates[i].reason, "above the limit of 1e+03"));
+    }
+    ps_error said = {0};
+    assert_int_equal(ps_plan_require(&plan, &problem, &said), PSPEC_ERROR_MEMORY);
+    assert_non_null(strstr(said.message, "above the limit of 1e+03"));
+}
+
+/* A batch fits into the budget of the device, and is 1 at least. */
+static void batches(void **state) {
+    (void)state;
+    ps_work work = {.bytes_per_realization = 1e6, .largest_buffer_per_realization = 1e5};
+    ps_device_limits limits = test_cpu(); /* half of 16 MiB of cache */
+    assert_int_equal(ps_cost_batch(&work, &limits, 1000), 8);
+    assert_int_equal(ps_cost_batch(&work, &limits, 5), 5);
+    assert_int_equal(ps_cost_batch(&work, &limits, 0), 8);
+    assert_int_equal(ps_cost_batch(&work, NULL, 1000), 1);
+    limits.max_allocation_bytes = 300000;
+    assert_int_equal(ps_cost_batch(&work, &limits, 1000), 3);
+    limits.max_allocation_bytes = 1;
+    assert_int_equal(ps_cost_batch(&work, &limits, 1000), 1);
+    limits = test_cpu();
+    work.fixed_bytes = 1e12; /* more than there is */
+    assert_int_equal(ps_cost_batch(&work, &limits, 1000), 1);
+}
+
+/* ---- cost ---------------------------------------------------------------------------------- */
+
+/* More points or realizations, or twice the frequency with as many points for each of them, never cost less,
+ * by any engine that applies. (With the points of the smaller grid, peaks of a lattice would do less harm to
+ * the mean over the larger one, and windows could be narrower. Whole tiles make estimates uneven: 2 % here, up to
+ * 20 % from one frequency to the next.) */
+static void check_not_cheaper(const ps_problem *small, const ps_problem *large,
+                              const ps_device_limits *limits, double slack) {
+    ps_plan plans[2];
+    test_make_plan(&plans[0], small, limits, &test_any_plan);
+    test_make_plan(&plans[1], large, limits, &test_any_plan);
+    for (size_t i = 0; i < plans[0].num_candidates; i++) {
+        const ps_candidate *a = &plans[0].candidates[i], *b = &plans[1].candidates[i];
+        if (a->is_applicable && b->is_applicable && !(b->seconds >= (1 - slack) * a->seconds)) {
+            fail_msg("%s %s: %.17g s for d = %u K = %d N = %llu, then %.17g s", a->engine->name,
+                     ps_precision_name(a->precision), a->seconds, small->frequencies->dimension,
+                     (int)small->frequencies->max_frequency, (unsigned long long)small->num_points,
+                     b->seconds);
+        }
+    }
+}
+
+static void cost_grows_with_the_problem(void **state) {
+    (void)state;
+    const ps_device_limits limits[] = {test_cpu(), test_gpu(true)};
+    static const int32_t largest[] = {30000, 1000, 60, 12, 6, 4};
+    for (size_t l = 0; l < 2; l++) {
+        for (unsigned dimension = 1; dimension <= PS_MAX_TORUS_DIMENSION; dimension++) {
+            for (int32_t k = 1; k < largest[dimension - 1]; k += 1 + k / 8) {
+                const ps_frequencies small = test_lattice(dimension, k);
+                const ps_frequencies large = test_lattice(dimension, 2 * k);
+                ps_problem problem = test_problem(&small, 5000, 1e-3);
+                ps_problem other = problem;
+                other.frequencies = &large;
+                other.num_points <<= dimension;
+                check_not_cheaper(&problem, &other, &limits[l], 0.05);
+                other = problem;
+                other.num_points += 1 + (uint64_t)k;
+                check_not_cheaper(&problem, &other, &limits[l], 0);
+                other = problem;
+                other.num_realizations++;
+                check_not_cheaper(&problem, &other, &limits[l], 0);
+            }
+        }
+    }
+}
+
+/* ---- parts of fast transforms -------------------------------------------------------------- */
+
+/* Every part that has cycles is counted somewhere: tiles in two and three dimensions, a large grid, a whole
+ * realization on a small grid and on one beyond the nearest cache. What is not counted is never measured either
+ * (bench/cycles.c). */
+static void every_part_is_counted(void **state) {
+    (void)state;
+    static const struct {
+        unsigned dimension;
+        int32_t max_frequency;
+        uint64_t num_points;
+    } cases[] = {{2, 300, 64}, {3, 10, 100}, {2, 500, 20000000}, {2, 8, 1024}, {2, 64, 16384}};
+    ps_nufft_counts most = {{0}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const ps_frequencies set = test_lattice(cases[i].dimension, cases[i].max_frequency);
+        const ps_problem problem = test_problem(&set, cases[i].num_points, 1e-3);
+        const ps_nufft_choice choice = ps_nufft_choose(&problem, NULL, PS_SINGLE);
+        const double num_points = (double)problem.num_points;
+        const ps_nufft_counts counts = ps_nufft_count(&choice, PS_SINGLE, num_points);
+        double cycles = 0;
+        for (size_t part = 0; part < PS_NUFFT_NUM_PARTS; part++) {
+            most.num[part] += counts.num[part];
+            cycles += counts.num[part] * ps_nufft_cycles[part];
+        }
+        /* two fused operations in a cycle */
+        const double flops = ps_nufft_flops(&choice, PS_SINGLE, num_points);
+        assert_true(fabs(flops - 4 * choice.lanes * cycles) <= 1e-9 * flops);
+    }
+    for (size_t part = 0; part < PS_NUFFT_NUM_PARTS; part++) {
+        if (!(most.num[part] > 0 && ps_nufft_cycles[part] > 0)) {
+            fail_msg("part %zu: %g of %g cycles", part, most.num[part], ps_nufft_cycles[part]);
+        }
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(device_limits),
+        cmocka_unit_test(limit_of_the_user),
+        cmocka_unit_test(batches),
+        cmocka_unit_test(cost_grows_with_the_problem),
+        cmocka_unit_test(every_part_is_counted),
+    };
+    return cmocka_run_group_tests_name("cost", tests, NULL, NULL);
+}

@@ -1,0 +1,120 @@
+/* Mean and standard error from streamed sums, against two passes in long double. */
+#include "harness.h"
+
+#include "spectra/sums.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+static void finish(const double *x, size_t count, double *mean, double *standard_error) {
+    ps_sums sums = {0};
+    for (size_t i = 0; i < count; i++) {
+        ps_sums_add(&sums, x[i]);
+    }
+    ps_sums_finish(&sums, count, mean, standard_error);
+}
+
+/* Relative error of the standard error within tolerance; the mean to the last bit but one. */
+static void check_sums(const double *x, size_t count, double tolerance) {
+    long double sum = 0;
+    long double squares = 0;
+    double mean = 0;
+    double standard_error = 0;
+    finish(x, count, &mean, &standard_error);
+    for (size_t i = 0; i < count; i++) {
+        sum += x[i];
+    }
+    const long double n = (long double)count;
+    for (size_t i = 0; i < count; i++) {
+        squares += (x[i] - sum / n) * (x[i] - sum / n);
+    }
+    const double expected = (double)sqrtl(squares / (n - 1) / n);
+    assert_true(fabs(mean - (double)(sum / n)) <= DBL_EPSILON * fabs(mean));
+    if (!(fabs(standard_error / expected - 1) <= tolerance)) {
+        fail_msg("standard error of %zu numbers is %.17g, expected %.17g", count, standard_error,
+                 expected);
+    }
+}
+
+static void ordinary_numbers(void **state) {
+    (void)state;
+    enum { MOST = 1000 };
+    double x[MOST];
+    uint64_t seed = 7;
+    for (size_t i = 0; i < MOST; i++) {
+        x[i] = -log1p(-test_uniform(&seed)); /* like powers of white noise */
+    }
+    for (size_t count = 2; count <= MOST; count += count < 20 ? 1 : 97) {
+        check_sums(x, count, 4 * DBL_EPSILON);
+    }
+}
+
+/* A variance that is 1e-16 of the mean squared: raw sums in double would have no digit of it. */
+static void small_beside_large(void **state) {
+    (void)state;
+    enum { COUNT = 100000 };
+    double *x = malloc(COUNT * sizeof *x);
+    uint64_t seed = 8;
+    assert_non_null(x);
+    for (size_t i = 0; i < COUNT; i++) {
+        x[i] = 1e8 + test_uniform(&seed);
+    }
+    check_sums(x, COUNT, 1e-12);
+    free(x);
+}
+
+static void two_numbers(void **state) {
+    (void)state;
+    double mean = 0;
+    double standard_error = 0;
+    finish((const double[]){1, 2}, 2, &mean, &standard_error);
+    assert_true(mean == 1.5 && standard_error == 0.5);
+    finish((const double[]){-3, 5}, 2, &mean, &standard_error);
+    assert_true(mean == 1 && standard_error == 4);
+    finish((const double[]){1, 1 + 4 * DBL_EPSILON}, 2, &mean, &standard_error);
+    assert_true(standard_error == 2 * DBL_EPSILON);
+}
+
+static void equal_numbers_have_no_error(void **state) {
+    (void)state;
+    const double values[] = {0, 1, 0.1, 1.0 / 3, 1e-300, 1e8 + 0.1, 3.7e12, 1.2345678901234567e-5};
+    const size_t counts[] = {2, 3, 7, 10, 1000, 100000, 1000000};
+    for (size_t v = 0; v < sizeof values / sizeof values[0]; v++) {
+        for (size_t c = 0; c < sizeof counts / sizeof counts[0]; c++) {
+            ps_sums sums = {0};
+            double mean = -1;
+            double standard_error = -1;
+            for (size_t i = 0; i < counts[c]; i++) {
+                ps_sums_add(&sums, values[v]);
+            }
+            ps_sums_finish(&sums, counts[c], &mean, &standard_error);
+            if (standard_error != 0) {
+                fail_msg("%zu times %.17g has the standard error %.3g", counts[c], values[v],
+                         standard_error);
+            }
+            assert_true(fabs(mean - values[v]) <= DBL_EPSILON * values[v]);
+        }
+    }
+}
+
+static void one_number_has_no_standard_error(void **state) {
+    (void)state;
+    double mean = 0;
+    double standard_error = 0;
+    finish((const double[]){0.3}, 1, &mean, &standard_error);
+    assert_true(mean == 0.3 && isnan(standard_error));
+    finish(NULL, 0, &mean, &standard_error);
+    assert_true(isnan(mean) && isnan(standard_error));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(ordinary_numbers),
+        cmocka_unit_test(small_beside_large),
+        cmocka_unit_test(two_numbers),
+        cmocka_unit_test(equal_numbers_have_no_error),
+        cmocka_unit_test(one_number_has_no_standard_error),
+    };
+    return cmocka_run_group_tests_name("sums", tests, NULL, NULL);
+}

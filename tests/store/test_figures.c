@@ -1,0 +1,385 @@
+/* Measured figures of a device: written, read, refused when anything is wrong with them; and what the planner makes of
+ * them. No device is opened: planning is a function of problem, limits and figures. */
+#include "harness_plan.h"
+
+#include "store/figures_text.h"
+#include "plan/host_cost.h"
+#include "store/host_figures.h"
+
+#include "pointspec_version.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static ps_device_limits some_device(void) {
+    ps_device_limits limits = test_cpu();
+    snprintf(limits.name, sizeof limits.name, "a device\nwith two lines");
+    snprintf(limits.platform, sizeof limits.platform, "a platform");
+    snprintf(limits.driver, sizeof limits.driver, "1.2");
+    return limits;
+}
+
+static ps_figures some_figures(void) {
+    ps_figures figures = {.is_measured = true,
+                          .date = "2026-11-22T10:00:00Z",
+                          .flops = {3.25e11, 1.0 / 3 * 1e12},
+                          .copied_bytes = 5e10};
+    ps_figures_row(&figures, "torus_nufft")->scales[PS_SINGLE] = 1.0 / 3;
+    ps_figures_row(&figures, "torus_nufft")->scales[PS_DOUBLE] = 2;
+    ps_figures_row(&figures, "host_direct")->scales[PS_EXTENDED] = 0.7;
+    return figures;
+}
+
+static ps_text some_text(void) {
+    const ps_device_limits limits = some_device();
+    const ps_figures figures = some_figures();
+    ps_text text = {0};
+    assert_ok(ps_figures_format(&text, &figures, &limits, error));
+    return text;
+}
+
+/* ---- text ---------------------------------------------------------------------------------- */
+
+static void assert_same(const ps_figures *a, const ps_figures *b) {
+    assert_true(a->is_measured && b->is_measured);
+    assert_string_equal(a->date, b->date);
+    assert_memory_equal(a->flops, b->flops, sizeof a->flops);
+    assert_true(a->copied_bytes == b->copied_bytes);
+    assert_int_equal(a->num_engines, b->num_engines);
+    for (size_t i = 0; i < a->num_engines; i++) {
+        assert_string_equal(a->engines[i].engine, b->engines[i].engine);
+        assert_memory_equal(a->engines[i].scales, b->engines[i].scales,
+                            sizeof a->engines[i].scales);
+    }
+}
+
+static void comes_back(void **state) {
+    (void)state;
+    const ps_device_limits limits = some_device();
+    const ps_figures figures = some_figures();
+    ps_text text = some_text();
+    ps_figures back;
+    assert_ok(ps_figures_parse(&back, text.data, text.length, &limits, error));
+    assert_same(&figures, &back);
+    assert_non_null(strstr(back.note, "measured on 2026-11-22T10:00:00Z"));
+    ps_text_free(&text);
+}
+
+/* Nothing of it is taken, and the sentence has the part. */
+static void assert_refused(const char *text, size_t length, const ps_device_limits *limits,
+                           const char *part) {
+    ps_figures back = some_figures();
+    ps_error said = {0};
+    assert_int_equal(ps_figures_parse(&back, text, length, limits, &said), PSPEC_ERROR_INPUT);
+    if (strstr(said.message, part) == NULL) {
+        fail_msg("not \"%s\": %s", part, said.message);
+    }
+    assert_false(back.is_measured);
+    assert_int_equal(back.num_engines, 0);
+    assert_true(back.flops[0] == 0 && back.copied_bytes == 0);
+}
+
+static void any_damage_is_seen(void **state) {
+    (void)state;
+    const ps_device_limits limits = some_device();
+    ps_text text = some_text();
+    for (size_t i = 0; i < text.length; i++) {
+        char *const byte = &text.data[i];
+        *byte = (char)(*byte ^ 1);
+        assert_refused(text.data, text.length, &limits, "checksum");
+        *byte = (char)(*byte ^ 1);
+        assert_refused(text.data, i, &limits, "checksum"); /* cut off there */
+    }
+    ps_text_append(&text, "\n");
+    assert_refused(text.data, text.length, &limits, "checksum");
+    ps_text_free(&text);
+}
+
+static void others_are_refused(void **state) {
+    (void)state;
+    ps_text text = some_text();
+    ps_device_limits other = some_device();
+    snprintf(other.driver, sizeof other.driver, "1.3");
+    assert_refused(text.data, text.length, &other, "another device or driver");
+    other = some_device();
+    snprintf(other.name, sizeof other.name, "a device");
+    assert_refused(text.data, text.length, &other, "another device or driver");
+    ps_text_free(&text);
+    ps_text_append(&text, "pointspec-figures 1 0.0.0\ndevice x\n");
+    ps_figures_add_checksum(&text);
+    assert_refused(text.data, text.length, &other, "another version");
+    ps_text_free(&text);
+}
+
+/* A file of this device with a right checksum, and one line more. */
+static ps_text with_line(const char *line) {
+    ps_text text = {0};
+    ps_text_append(&text,
+                   "pointspec-figures 1 " PS_VERSION
+                   "\ndevice a device?with two lines\nplatform a platform\ndriver 1.2\n"
+                   "date today\n%s",
+                   line);
+    ps_figures_add_checksum(&text);
+    return text;
+}
+
+static void wrong_lines(void **state) {
+    (void)state;
+    static const char *const lines[] = {
+        "scale torus_nufft single nan\n",
+        "scale torus_nufft single inf\n",
+        "scale torus_nufft single 0\n",
+        "scale torus_nufft single -1\n",
+        "scale torus_nufft single 1e4\n",
+        "scale torus_nufft single 1e-4\n",
+        "scale torus_nufft single 1e999\n",
+        "scale torus_nufft single 1 2\n",
+        "scale torus_nufft single \n",
+        "scale torus_nufft half 1\n",
+        "scale torus_nufft\n",
+        "scale  single 1\n",
+        "scale an_engine_of_a_name_that_is_too_long_to_be_kept single 1\n",
+        "flops single 1e2\n",
+        "flops extended 1e9\n",
+        "bytes copied 0\n",
+        "bytes copied 0x1p40\n",
+        "date a day of so many words that they do not fit\n",
+        "speed 3\n",
+        "host pair 0\n",
+        "host pair\n",
+        "host  1\n",
+        "host pair 1 2\n",
+        "\n",
+        "flops single 1e9", /* goes on with the checksum */
+    };
+    const ps_device_limits limits = some_device();
+    ps_figures back;
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
+        ps_text text = with_line(lines[i]);
+        ps_error said = {0};
+        assert_int_equal(ps_figures_parse(&back, text.data, text.length, &limits, &said),
+                         PSPEC_ERROR_INPUT);
+        assert_false(back.is_measured);
+        ps_text_free(&text);
+    }
+    ps_text text = with_line("scale torus_nufft single 1e3\n");
+    assert_ok(ps_figures_parse(&back, text.data, text.length, &limits, error));
+    assert_true(back.engines[0].scales[PS_SINGLE] == 1e3);
+    ps_text_free(&text);
+}
+
+static void too_many_engines(void **state) {
+    (void)state;
+    const ps_device_limits limits = some_device();
+    ps_text lines = {0};
+    for (int i = 0; i <= PS_FIGURES_ENGINES; i++) {
+        ps_text_append(&lines, "scale engine%d single 1\n", i);
+    }
+    ps_text text = with_line(ps_text_string(&lines));
+    assert_refused(text.data, text.length, &limits, "a line");
+    ps_text_free(&text);
+    ps_text_free(&lines);
+}
+
+/* ---- files --------------------------------------------------------------------------------- */
+
+static void write_some(const char *path, const char *content) {
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    assert_true(fputs(content, file) >= 0);
+    assert_int_equal(fclose(file), 0);
+}
+
+static void read_note(const char *folder, const char *part) {
+    const ps_device_limits limits = some_device();
+    ps_figures figures = some_figures();
+    assert_ok(ps_figures_read(&figures, folder, &limits, error));
+    assert_false(figures.is_measured);
+    assert_true(ps_figures_scale(&figures, "torus_nufft", PS_SINGLE) == 1);
+    if (strstr(figures.note, part) == NULL) {
+        fail_msg("not \"%s\": %s", part, figures.note);
+    }
+}
+
+static void files(void **state) {
+    (void)state;
+    char root[] = "/tmp/test_figures.XXXXXX";
+    assert_non_null(mkdtemp(root));
+    ps_text folder = {0};
+    ps_text path = {0};
+    const ps_device_limits limits = some_device();
+    ps_figures figures = some_figures();
+    ps_figures back;
+    ps_text_append(&folder, "%s/new/cache", root);
+    assert_ok(ps_figures_path(&path, folder.data, &limits, error));
+    read_note(NULL, "none were looked for");
+    read_note(folder.data, "was not measured");
+    assert_ok(ps_figures_write(folder.data, &figures, &limits, error));
+    assert_ok(ps_figures_read(&back, folder.data, &limits, error));
+    assert_same(&figures, &back);
+    figures.engines[0].scales[PS_SINGLE] = 3; /* a second time replaces it */
+    assert_ok(ps_figures_write(folder.data, &figures, &limits, error));
+    assert_ok(ps_figures_read(&back, folder.data, &limits, error));
+    assert_same(&figures, &back);
+    ps_device_limits other = some_device();
+    snprintf(other.driver, sizeof other.driver, "1.3");
+    assert_ok(ps_figures_read(&back, folder.data, &other, error)); /* has a file of its own */
+    assert_false(back.is_measured);
+    write_some(path.data, "pointspec-figures 1 \n");
+    read_note(folder.data, "checksum");
+    write_some(path.data, "");
+    read_note(folder.data, "empty");
+    assert_int_equal(remove(path.data), 0);
+    alarm(60); /* instead of for ever */
+    assert_int_equal(mkfifo(path.data, 0600), 0);
+    read_note(folder.data, "is no file");
+    assert_ok(ps_figures_write(folder.data, &figures, &limits, error));
+    alarm(0);
+    assert_ok(ps_figures_read(&back, folder.data, &limits, error));
+    assert_same(&figures, &back);
+    assert_int_equal(chmod(folder.data, 0777), 0); /* others could have written it */
+    read_note(folder.data, "can be written by other users");
+    ps_error refused = {0};
+    assert_int_equal(ps_figures_write(folder.data, &figures, &limits, &refused), PSPEC_ERROR_IO);
+    assert_int_equal(chmod(folder.data, 0700), 0);
+    assert_int_equal(remove(path.data), 0);
+    read_note(folder.data, "was not measured");
+    ps_error said = {0};
+    assert_int_equal(ps_figures_write("/dev/null", &figures, &limits, &said), PSPEC_ERROR_IO);
+    for (size_t length = folder.length; length >= strlen(root);
+         length--) { /* from the inmost out */
+        if (folder.data[length] == '\0' || folder.data[length] == '/') {
+            folder.data[length] = '\0';
+            if (length == folder.length) {
+                ps_text inner = {0};
+                ps_text_append(&inner, "%s/devices", folder.data);
+                assert_int_equal(rmdir(inner.data), 0);
+                ps_text_free(&inner);
+            }
+            assert_int_equal(rmdir(folder.data), 0);
+        }
+    }
+    ps_text_free(&folder);
+    ps_text_free(&path);
+}
+
+/* ---- the planner --------------------------------------------------------------------------- */
+
+static double seconds_of(const ps_device_limits *limits, const char *engine, int precision,
+                         const char **chosen) {
+    const ps_frequencies set = test_lattice(2, 32);
+    const ps_problem problem = test_problem(&set, 256, 1e-3);
+    ps_plan plan;
+    test_make_plan(&plan, &problem, limits, &test_any_plan);
+    *chosen = plan.chosen->engine->name;
+    return test_candidate(&plan, engine, (ps_precision)precision)->seconds;
+}
+
+static void planner_scales_seconds(void **state) {
+    (void)state;
+    ps_device_limits limits = some_device();
+    const char *first = NULL;
+    const char *now = NULL;
+    const double nufft = seconds_of(&limits, "torus_nufft", PS_SINGLE, &first);
+    const double direct = seconds_of(&limits, "torus_direct", PS_SINGLE, &first);
+    const double host = seconds_of(&limits, "host_direct", PS_EXTENDED, &first);
+    ps_figures figures = {.is_measured = false};
+    limits.figures = &figures; /* not measured: as without */
+    ps_figures_row(&figures, "torus_direct")->scales[PS_SINGLE] = 1e-3;
+    assert_true(seconds_of(&limits, "torus_direct", PS_SINGLE, &now) == direct);
+    figures = some_figures();
+    assert_true(seconds_of(&limits, "torus_nufft", PS_SINGLE, &now) == nufft * (1.0 / 3));
+    assert_true(seconds_of(&limits, "host_direct", PS_EXTENDED, &now) == host * 0.7);
+    assert_true(seconds_of(&limits, "torus_direct", PS_SINGLE, &now) == direct);
+}
+
+/* What decides is the built-in model, so that results have the same bits on every machine of a kind, measured or not. */
+static void planner_does_not_choose_by_them(void **state) {
+    (void)state;
+    ps_device_limits limits = some_device();
+    const char *builtin = NULL;
+    const char *chosen = NULL;
+    ps_figures figures = {.is_measured = true};
+    seconds_of(&limits, "torus_direct", PS_SINGLE, &builtin);
+    limits.figures = &figures;
+    for (int p = PS_SINGLE; p <= PS_DOUBLE; p++) {
+        ps_figures_row(&figures, "torus_nufft")->scales[p] = 1e3;
+        ps_figures_row(&figures, "torus_direct")->scales[p] = 1e-3;
+    }
+    seconds_of(&limits, "torus_direct", PS_SINGLE, &chosen);
+    assert_string_equal(chosen, builtin);
+    for (int p = PS_SINGLE; p <= PS_DOUBLE; p++) {
+        ps_figures_row(&figures, "torus_nufft")->scales[p] = 1e-3;
+        ps_figures_row(&figures, "torus_direct")->scales[p] = 1e3;
+    }
+    seconds_of(&limits, "torus_direct", PS_SINGLE, &chosen);
+    assert_string_equal(chosen, builtin);
+}
+
+/* ---- the host ------------------------------------------------------------------------------ */
+
+static void host_figures_scale_its_work(void **state) {
+    (void)state;
+    ps_figures figures = {.is_measured = true};
+    const double built_in = ps_host_seconds(NULL, PS_HOST_PAIR, 1e6);
+    assert_true(built_in > 0);
+    assert_true(ps_host_seconds(&figures, PS_HOST_PAIR, 1e6) == built_in); /* nothing measured */
+    ps_figures_host_row(&figures, "pair")->scale = 4;
+    assert_true(ps_host_seconds(&figures, PS_HOST_PAIR, 1e6) == 4 * built_in);
+    ps_figures_host_row(&figures, "kappa")->scale = 1; /* others: the geometric mean */
+    const double doubled = ps_host_seconds(&figures, PS_HOST_OWEN, 1);
+    assert_true(fabs(doubled / ps_host_seconds(NULL, PS_HOST_OWEN, 1) - 2) < 1e-12);
+}
+
+static void host_figures_come_back(void **state) {
+    (void)state;
+    char root[] = "/tmp/test_figures.XXXXXX";
+    ps_figures figures = {.is_measured = true, .date = "2026-11-23T10:00:00Z"};
+    ps_figures back;
+    ps_device_limits host;
+    ps_text path = {0};
+    assert_non_null(mkdtemp(root));
+    for (int kind = 0; kind < PS_NUM_HOST_KINDS; kind++) { /* all of them find room */
+        ps_host_figure *const row =
+            ps_figures_host_row(&figures, ps_host_kind_name((ps_host_kind)kind));
+        assert_non_null(row);
+        row->scale = 1 + kind / 64.0;
+    }
+    assert_ok(ps_host_figures_write(root, &figures, error));
+    assert_ok(ps_host_figures_read(&back, root, error));
+    assert_int_equal(back.num_host, PS_NUM_HOST_KINDS);
+    for (int kind = 0; kind < PS_NUM_HOST_KINDS; kind++) {
+        assert_true(ps_figures_host_scale(&back, ps_host_kind_name((ps_host_kind)kind)) ==
+                    1 + kind / 64.0);
+    }
+    ps_host_describe(&host);
+    assert_ok(ps_figures_path(&path, root, &host, error));
+    assert_int_equal(remove(path.data), 0);
+    assert_ok(ps_host_figures_read(&back, root, error));
+    assert_false(back.is_measured);
+    ps_text_free(&path);
+    ps_text_append(&path, "%s/devices", root);
+    assert_int_equal(rmdir(path.data), 0);
+    assert_int_equal(rmdir(root), 0);
+    ps_text_free(&path);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(comes_back),
+        cmocka_unit_test(any_damage_is_seen),
+        cmocka_unit_test(others_are_refused),
+        cmocka_unit_test(wrong_lines),
+        cmocka_unit_test(too_many_engines),
+        cmocka_unit_test(files),
+        cmocka_unit_test(planner_scales_seconds),
+        cmocka_unit_test(planner_does_not_choose_by_them),
+        cmocka_unit_test(host_figures_scale_its_work),
+        cmocka_unit_test(host_figures_come_back),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
