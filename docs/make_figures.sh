@@ -64,7 +64,7 @@ awk 'function rounded(x,   e, s) {
      }' points.txt frequencies.txt >naive.csv
 sed -i 1i\\k1,k2,power,standard_error naive.csv
 for name in single double naive; do
-    # Root mean square over a decade, times sqrt(2) as in tests/engines/test_tolerance.c.
+    # Root mean square over a decade, times sqrt(2) as in tests/engines/torus/test_tolerance.c.
     awk -F , 'FNR == 1 { next }
               NR == FNR { expected[FNR] = $3; next }
               {

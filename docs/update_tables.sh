@@ -158,7 +158,7 @@ table_tolerance_summary() {
     }'
 }
 
-# torus_nufft in tests/engines/test_tolerance_sweep.c: error and bound at some tolerances, by kind of set.
+# torus_nufft in tests/engines/torus/test_tolerance_sweep.c: error and bound at some tolerances, by kind of set.
 table_tolerance_nufft() {
     need tests/test_tolerance_sweep || return 1
     "$build/tests/test_tolerance_sweep" 2>&1 | awk '

@@ -1,38 +1,56 @@
 #!/usr/bin/env bash
-# check_layers.sh [ROOT]: every #include "layer/..." in host/ goes down, never up (design: cli ->
-# scene -> job -> analysis -> plan -> engines -> device; samplers, integrands, math, io, base are
-# leaves). A folder may include itself and the layers named after it below.
+# check_layers.sh [ROOT]: every #include "room/..." in host/ goes down, never up, and no folder is a heap.
+# The rooms from the lowest to the highest: a file may include headers of its own room and of those before it.
+# A folder inside a room that is not named here counts as its room.
 set -euo pipefail
-cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}/host"
+cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"
 
-leaves="math io base"
-engines="device $leaves"
-plan="engines integrands $engines"
-analysis="plan $plan"
-job="analysis samplers $analysis"
-scene="job $job"
-declare -A may_include=(
-    [base]="" [math]="base" [io]="math base" [device]="base" [integrands]="math io base"
-    [samplers]="device math base" [engines]=$engines [plan]=$plan [analysis]=$analysis
-    [job]=$job [scene]=$scene [cli]="scene $scene"
+rooms=(
+    base math math/random math/linear device files store points tables plots
+    samplers samplers/torus samplers/sphere integrands frequencies
+    engines engines/host engines/nufft engines/torus engines/torus/nufft engines/sphere engines/sphere/nufft
+    engines/pairs plan spectra rules jobs jobs/parts jobs/spectrum jobs/quadrature verify verify/bench
+    questions report scene api cli cli/run cli/commands
 )
+most_files=25 # of a folder; corpora of the fuzz targets excepted
+
+declare -A rank=()
+for i in "${!rooms[@]}"; do
+    rank[${rooms[i]}]=$i
+done
+
+# The longest room that the path lies in, or nothing.
+room_of() {
+    local folder=$1
+    while [[ $folder == */* ]]; do
+        folder=${folder%/*}
+        [[ -z ${rank[$folder]+known} ]] || { room=$folder && return; }
+    done
+    room=""
+}
 
 bad=0
 while IFS=: read -r file line text; do
-    layer=${file%%/*}
     target=${text#*\"}
-    target=${target%%/*}
-    [[ -n ${may_include[$target]+known} || $target == cli ]] || continue # public, shared/, generated
-    if [[ $target != "$layer" && " ${may_include[$layer]-} " != *" $target "* ]]; then
-        echo "host/$file:$line: $layer may not include $target" >&2
+    target=${target%%\"*}
+    room_of "$target"
+    [[ -n $room ]] || continue # public, shared/, generated
+    to=$room
+    room_of "${file#host/}"
+    if [[ -z $room ]]; then
+        echo "$file is in no room; add its folder to scripts/check_layers.sh" >&2
+        bad=1
+    elif ((rank[$to] > rank[$room])) && [[ $file != */table.c ]]; then # a room's table names what is in its folders
+        echo "$file:$line: $room may not include $to" >&2
         bad=1
     fi
-done < <(grep -rnE --include='*.[ch]' '^[[:space:]]*#[[:space:]]*include[[:space:]]*"[^"]*/' . |
-    sed 's|^\./||')
-for folder in */; do
-    [[ -n ${may_include[${folder%/}]+known} || $folder == include/ ]] || {
-        echo "host/$folder is in no layer; add it to scripts/check_layers.sh" >&2
+done < <(grep -rnE --include='*.[ch]' '^[[:space:]]*#[[:space:]]*include[[:space:]]*"[^"]*/' host)
+
+while IFS= read -r folder; do
+    num=$(find "$folder" -maxdepth 1 -type f | wc -l)
+    if ((num > most_files)); then
+        echo "$folder has $num files, more than $most_files: a prefix that five of them share is a folder" >&2
         bad=1
-    }
-done
+    fi
+done < <(find host kernels tests scripts -type d -not -path 'tests/fuzz/corpus*')
 exit $bad

@@ -5,7 +5,8 @@ target_sources(test_scene PRIVATE
   ${PROJECT_SOURCE_DIR}/host/cli/arguments.c ${PROJECT_SOURCE_DIR}/host/cli/command.c)
 
 function(add_program_test name)
-  add_script_test(${name} unit ${CMAKE_CURRENT_SOURCE_DIR}/${name}.sh
+  file(GLOB_RECURSE script ${CMAKE_CURRENT_SOURCE_DIR}/${name}.sh)
+  add_script_test(${name} unit ${script}
     $<TARGET_FILE:pointspec_program> ${ARGN})
   set_tests_properties(${name} PROPERTIES
     ENVIRONMENT "POCL_CACHE_DIR=${POINTSPEC_TEST_CACHE}")

@@ -5,22 +5,22 @@ function(add_script_test name label)
   set_tests_properties(${name} PROPERTIES LABELS ${label} TIMEOUT 300)
 endfunction()
 
-add_script_test(headers unit ${CMAKE_CURRENT_SOURCE_DIR}/test_headers.sh
+add_script_test(headers unit ${CMAKE_CURRENT_SOURCE_DIR}/project/test_headers.sh
   ${PROJECT_SOURCE_DIR} ${CMAKE_C_COMPILER})
 add_script_test(layers unit ${PROJECT_SOURCE_DIR}/scripts/check_layers.sh)
 add_script_test(library_calls unit ${PROJECT_SOURCE_DIR}/scripts/check_library_calls.sh)
-add_script_test(copied_checkout unit ${CMAKE_CURRENT_SOURCE_DIR}/copied_checkout.sh ${PROJECT_SOURCE_DIR})
-add_script_test(gpu_kernel_tests unit ${CMAKE_CURRENT_SOURCE_DIR}/gpu_kernel_tests.sh
+add_script_test(copied_checkout unit ${CMAKE_CURRENT_SOURCE_DIR}/project/copied_checkout.sh ${PROJECT_SOURCE_DIR})
+add_script_test(gpu_kernel_tests unit ${CMAKE_CURRENT_SOURCE_DIR}/project/gpu_kernel_tests.sh
   ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR})
 # The reference of the header is made without a warning; skipped where there is no doxygen.
 add_script_test(reference unit ${PROJECT_SOURCE_DIR}/scripts/reference.sh
   ${PROJECT_BINARY_DIR}/reference)
 set_tests_properties(reference PROPERTIES SKIP_RETURN_CODE 77)
-add_script_test(no_blas unit ${CMAKE_CURRENT_SOURCE_DIR}/no_blas.sh
+add_script_test(no_blas unit ${CMAKE_CURRENT_SOURCE_DIR}/project/no_blas.sh
   $<TARGET_FILE:pointspec_program> $<TARGET_FILE:pointspec>)
 if(NOT POINTSPEC_SANITIZE)
-  add_script_test(symbols unit ${CMAKE_CURRENT_SOURCE_DIR}/test_symbols.sh
+  add_script_test(symbols unit ${CMAKE_CURRENT_SOURCE_DIR}/project/test_symbols.sh
     $<TARGET_FILE:pointspec> $<TARGET_FILE:pointspec_static> ${PROJECT_BINARY_DIR}/pointspec_joined.o)
-  add_script_test(install install ${CMAKE_CURRENT_SOURCE_DIR}/test_install.sh
+  add_script_test(install install ${CMAKE_CURRENT_SOURCE_DIR}/project/test_install.sh
     ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR} ${CMAKE_C_COMPILER})
 endif()

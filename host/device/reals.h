@@ -2,7 +2,8 @@
 #ifndef PS_DEVICE_REALS_H
 #define PS_DEVICE_REALS_H
 
-#include "engines/engine.h"
+#include "device/device.h"
+#include "device/precision.h"
 
 /* Of one number on the device. */
 size_t ps_real_bytes(ps_precision precision);

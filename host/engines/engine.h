@@ -11,15 +11,8 @@
 #include "base/status.h"
 #include "base/text.h"
 #include "device/device.h"
+#include "device/precision.h"
 #include "frequencies/frequencies.h"
-
-typedef enum ps_precision {
-    PS_SINGLE = 0,  /* float terms, float-pair sums */
-    PS_DOUBLE = 1,  /* double terms, double-pair sums */
-    PS_EXTENDED = 2 /* long double on the host */
-} ps_precision;
-
-const char *ps_precision_name(ps_precision precision);
 
 /* Which harmonics coefficients are of. */
 typedef enum ps_harmonics {

@@ -5,7 +5,7 @@
  *     |dQ(l)| <= (2 x + x^2) (sum |w|)^2,  x = SPREAD e sqrt(s)
  *
  * SPREAD = 2 is how much larger the error of one degree is than the root mean square over all of them
- * (tests/engines/test_pairs_error.c). The other way round there is nothing: a small power drowns in the rounding of a sum over
+ * (tests/engines/pairs/test_pairs_error.c). The other way round there is nothing: a small power drowns in the rounding of a sum over
  * pairs, and sets of a spectrum have small powers.
  */
 #ifndef PS_ENGINES_ERROR_UNITS_H

@@ -73,11 +73,6 @@ double ps_expected_power(const ps_problem *problem) {
     return problem->expected_power > 0 ? problem->expected_power : white_power(problem);
 }
 
-const char *ps_precision_name(ps_precision precision) {
-    static const char *const names[] = {"single", "double", "extended"};
-    return names[precision];
-}
-
 void ps_engine_slots(const ps_engine *engine, const void *state, size_t num, uint32_t *slots) {
     if (engine->get_slots != NULL) {
         engine->get_slots(state, slots);

@@ -48,7 +48,7 @@ typedef struct ps_plan_constraints {
     uint64_t memory_limit; /* bytes that somebody typed, which may change the engine; 0: none */
     /* What is free may shrink batches, or refuse what was chosen, but changes no choice. NULL: nobody looked. */
     const ps_memory_room *room;
-    unsigned offers;     /* PS_OFFER_RINGS, .. (frequencies/frequencies.h), where there is too much */
+    unsigned offers; /* PS_OFFER_RINGS, .. (frequencies/frequencies.h), where there is too much */
     bool prefers_double; /* before any other precision, even where less is within the tolerance */
 } ps_plan_constraints;
 

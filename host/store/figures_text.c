@@ -1,7 +1,7 @@
 #include "store/figures_text.h"
 
 #include "base/memory.h"
-#include "engines/engine.h"
+#include "device/precision.h"
 #include "files/decimal.h"
 #include "files/digest.h"
 

@@ -18,7 +18,8 @@
 static pspec_status measure_chords(ps_device *device, ps_precision precision, double *found,
                                    double *bound, ps_error *error) {
     enum { NUM = 400 };
-    static const double bounds[] = {3e-7, 2e-15}; /* in (sum |w|)^2: tests/engines/test_pairs.c */
+    static const double bounds[] = {3e-7,
+                                    2e-15}; /* in (sum |w|)^2: tests/engines/pairs/test_pairs.c */
     const double power = 0.1;
     pspec_pattern pattern;
     long double truth = 0;

@@ -1,4 +1,4 @@
-/* Sizes that the kernels of the sphere and their host agree on (host/engines/sphere_*.c passes them).
+/* Sizes that the kernels of the sphere and their host agree on (host/engines/sphere/ passes them).
  *
  *   LANES    points side by side
  *   CHUNK    points whose state stays in local memory; their sums are added to a pair

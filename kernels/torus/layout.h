@@ -1,4 +1,4 @@
-/* Sizes that the torus kernels and their host agree on (host/engines/torus_*.c passes them).
+/* Sizes that the torus kernels and their host agree on (host/engines/torus/ passes them).
  *
  *   LANES      frequencies in one vector, and in one tile of a table
  *   DIMENSION  of the points

@@ -2,7 +2,7 @@
 # cli_angular.sh PROGRAM: pointspec angular from files of every kind to tables; what it refuses, and how it says it.
 data=$(realpath -m "${POINTSPEC_TEST_DATA:-../shared/data}")
 # shellcheck source=tests/harness/harness.sh
-. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/harness.sh" angular "$1"
+. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../harness/harness.sh" angular "$1"
 
 powers() { # of the table in out, with 9 decimals
     awk -F, '!/^#/ && !/^degree/ { printf "%s:%.9f ", $1, $3 }' out

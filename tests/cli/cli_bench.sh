@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # cli_bench.sh PROGRAM: pointspec bench: rows, formats, a picture, what it refuses; figures kept per device and who uses them.
 # shellcheck source=tests/harness/harness.sh
-. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/harness.sh" bench "$1"
+. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../harness/harness.sh" bench "$1"
 export POINTSPEC_CACHE_DIR=$PWD/cache
 
 columns=case,engine,tolerance,seconds_per_realization,error,points_per_second,fraction_of_peak,precision

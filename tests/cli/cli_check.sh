@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # cli_check.sh PROGRAM: pointspec check against saved spectra of all kinds: verdicts, exit codes, header, what it refuses.
 # shellcheck source=tests/harness/harness.sh
-. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/harness.sh" check "$1"
+. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../harness/harness.sh" check "$1"
 
 # Small sets: the referee is done before a device is open. The first check is on one.
 host=(--engine host_direct)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # cli_doctor.sh PROGRAM: what the doctor says of a machine that works, and of one where something is wrong.
 # shellcheck source=tests/harness/harness.sh
-. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/harness.sh" doctor "$1"
+. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../harness/harness.sh" doctor "$1"
 mkdir empty missing cache
 echo /usr/lib/no-such-driver.so >missing/a.icd
 line() { # WORD TOPIC PART

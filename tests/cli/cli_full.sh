@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # cli_full.sh PROGRAM: the arrays of --full: their halves, and DC with its standard error under both normalizations.
 # shellcheck source=tests/harness/harness.sh
-. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/harness.sh" power "$1"
+. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../harness/harness.sh" power "$1"
 printf '%s\n' '0.1 0.2 1' '0.3 0.7 1' '0.6 0.4 1' '#' '0.1 0.2 1' '0.35 0.75 3' '0.65 0.45 1' >sets.txt
 printf '0 0\n1 -2\n' >list.txt
 sets=(sets.txt --columns xyw --engine host_direct)

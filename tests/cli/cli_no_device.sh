@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # cli_no_device.sh PROGRAM: why there is no device is said as it is; plan and devices work without one.
 # shellcheck source=tests/harness/harness.sh
-. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/harness.sh" power "$1"
+. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../harness/harness.sh" power "$1"
 mkdir empty missing
 echo /usr/lib/no-such-driver.so >missing/a.icd
 long=$PWD/$(printf 'x%.0s' {1..100})/$(printf '%0900d' 0)

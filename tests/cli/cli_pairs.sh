@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # cli_pairs.sh PROGRAM: pointspec pairs from points to tables by every route; what it refuses, and how it says it.
 # shellcheck source=tests/harness/harness.sh
-. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/harness.sh" pairs "$1"
+. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../harness/harness.sh" pairs "$1"
 
 column() { # NUMBER: of the table in out, with 9 decimals; -0 is 0
     awk -F, -v column="$1" '!/^#/ && !/^degree/ { x = sprintf("%.9f", $column); sub(/^-0\.0*$/, "0.000000000", x)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # cli_picture.sh PROGRAM: --plot: a picture that fails costs a warning, never the numbers; an error where it is all that was asked for.
 # shellcheck source=tests/harness/harness.sh
-. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/harness.sh" picture "$1"
+. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../harness/harness.sh" picture "$1"
 mkdir none broken
 printf '#!/bin/sh\necho "no terminal today" >&2\nexit 1\n' >broken/gnuplot
 chmod +x broken/gnuplot

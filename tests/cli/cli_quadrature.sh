@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # cli_quadrature.sh PROGRAM: pointspec quadrature of samplers and files; what it refuses, and how it says it.
-source_dir=$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")
+source_dir=$(readlink -f "$(dirname "${BASH_SOURCE[0]}")/../..")
 # shellcheck source=tests/harness/harness.sh
-. "$source_dir/tests/harness.sh" quadrature "$1"
+. "$source_dir/tests/harness/harness.sh" quadrature "$1"
 
 near() { # WHAT VALUE EXACT RELATIVE
     awk -v a="$2" -v b="$3" -v r="$4" 'BEGIN { exit !(a - b <= r * b && b - a <= r * b) }' ||

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # cli_stress.sh PROGRAM: pointspec stress: rows, formats, choices, and what it refuses. (Failures: cli_stress_broken.sh.)
 # shellcheck source=tests/harness/harness.sh
-. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/harness.sh" stress "$1"
+. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../harness/harness.sh" stress "$1"
 
 count_rows() { # PATTERN
     grep -cE "$1" <(sed '/^#/d; /^case,/d' out) || true

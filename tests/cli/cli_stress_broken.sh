@@ -3,7 +3,7 @@
 # fails, and names the case. Each breaks as a driver might: maths, double precision, barriers, addresses.
 kernels=$(realpath "$2")
 # shellcheck source=tests/harness/harness.sh
-. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/harness.sh" stress "$1"
+. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../harness/harness.sh" stress "$1"
 
 # FILE OLD NEW CASE ENGINE PRECISION: with OLD, which is one line of FILE, as NEW
 breaks() {

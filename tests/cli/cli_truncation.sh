@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # cli_truncation.sh PROGRAM: pointspec truncation with every lobe and format; what it refuses, and how it says it.
 # shellcheck source=tests/harness/harness.sh
-. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/harness.sh" truncation "$1"
+. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../harness/harness.sh" truncation "$1"
 
 row() { # DEGREE: error and points with 4 digits
     awk -F, -v l="$1" '!/^#/ && $1 == l { printf "%.3e,%.4g", $2, $3 }' out

@@ -2,7 +2,7 @@
 # cli_weights.sh PROGRAM: weights at the ends of the range of doubles, and sums of them that are 0: a right result, or
 # exit 2 and a sentence with the limit.
 # shellcheck source=tests/harness/harness.sh
-. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/harness.sh" weights "$1"
+. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../harness/harness.sh" weights "$1"
 
 # Points of the torus and of the sphere, above the horizon, with these weights.
 make_sets() { # WEIGHT...

@@ -35,7 +35,7 @@ complain "data that can change" "$(objdump -t "$static" | awk '
     }')"
 
 # What the header declares is what the library exports.
-header=$(dirname "${BASH_SOURCE[0]}")/../host/include/pointspec/pointspec.h
+header=$(dirname "${BASH_SOURCE[0]}")/../../host/include/pointspec/pointspec.h
 declared=$(grep -A1 '^PSPEC_EXPORT' "$header" | grep -oE 'pspec_[a-z0-9_]+\(' | tr -d '(' | sort -u)
 complain "declared, but not exported, or exported, but not declared" \
     "$(comm -3 <(sort -u <<<"$exported") - <<<"$declared")"

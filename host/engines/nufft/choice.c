@@ -2,7 +2,7 @@
 
 #include "base/round.h"
 #include "engines/nufft/fft.h"
-#include "engines/torus/nufft/kernels.h"
+#include "engines/nufft/kernels.h"
 #include "engines/nufft/whole_shape.h"
 
 #include <math.h>

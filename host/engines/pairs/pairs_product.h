@@ -4,7 +4,7 @@
  *
  * in double precision. Distances come from differences of coordinates, sums over segments of points are compensated and
  * merged in a fixed order: the same bits whatever the work-groups. In units of sum |x| the error is about 1e-15
- * (tests/engines/test_pairs_product.c).
+ * (tests/engines/pairs/test_pairs_product.c).
  */
 #ifndef PS_ENGINES_PAIRS_PAIRS_PRODUCT_H
 #define PS_ENGINES_PAIRS_PAIRS_PRODUCT_H

@@ -1,6 +1,6 @@
 /* Which fine grid, window and rings sphere_nufft and sphere_grid take: the cheapest that keep the tolerance. */
 #include "engines/nufft/fft.h"
-#include "engines/torus/nufft/kernels.h"
+#include "engines/nufft/kernels.h"
 #include "engines/nufft/plan.h"
 #include "engines/sphere/nufft/shape.h"
 

@@ -4,13 +4,13 @@
 #include "device/reals.h"
 
 /* Of powers, and of coefficients. */
-static const char sums_file[] = "sphere/grid_sums.cl";
+static const char sums_file[] = "sphere/nufft/grid_sums.cl";
 static const char sums_name[] = "sphere_grid_sums";
 
 /* ---- create ------------------------------------------------------------------------------ */
 
 static pspec_status create_kernels(ps_sphere_grid_stages *self, ps_error *error) {
-    PS_TRY(ps_sphere_kernel_create(&self->powers, &self->make, "sphere/grid_values.cl",
+    PS_TRY(ps_sphere_kernel_create(&self->powers, &self->make, "sphere/nufft/grid_values.cl",
                                    "sphere_grid_values", false, error));
     return ps_sphere_kernel_create(&self->powers, &self->sum, sums_file, sums_name, false, error);
 }

@@ -224,11 +224,11 @@ static pspec_status create_kernels(making *self, ps_error *error) {
              "-DTARGET_LANES=%u -DTARGET_VECTORS=%u",
              self->rings.lanes, self->rings.run_vectors, self->is_alone ? 1u : 0u, bits,
              self->shape->lanes, self->shape->run_vectors);
-    PS_TRY(ps_kernel_create(self->device, &self->make, "sphere/grid_table.cl", "sphere_grid_table",
-                            options, error));
+    PS_TRY(ps_kernel_create(self->device, &self->make, "sphere/nufft/grid_table.cl",
+                            "sphere_grid_table", options, error));
     snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u -DRUN_VECTORS=%u", bits,
              self->shape->lanes, self->shape->run_vectors);
-    return ps_kernel_create(self->device, &self->begin, "sphere/grid_begins.cl",
+    return ps_kernel_create(self->device, &self->begin, "sphere/nufft/grid_begins.cl",
                             "sphere_grid_begins", options, error);
 }
 

@@ -4,7 +4,7 @@
 
 #include "engines/sphere/nufft/shape.h"
 
-/* Names of kernels/sphere/grid_table.h and grid_begins.cl. */
+/* Names of kernels/sphere/nufft/grid_table.h and grid_begins.cl. */
 typedef struct ps_sphere_grid_table {
     ps_buffer numbers; /* [shape->table_reals], in the precision of sums */
     ps_buffer offsets, begins;

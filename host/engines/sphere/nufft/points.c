@@ -82,7 +82,8 @@ pspec_status ps_sphere_places_create(ps_sphere_places *out, const ps_sphere_shap
     snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u",
              precision == PS_SINGLE ? 32u : 64u, out->lanes);
     PS_TRY(ps_kernel_create(
-        device, &out->turn, shape->is_sorted ? "sphere/orders_sort.cl" : "sphere/orders_turns.cl",
+        device, &out->turn,
+        shape->is_sorted ? "sphere/nufft/orders_sort.cl" : "sphere/nufft/orders_turns.cl",
         shape->is_sorted ? "sphere_orders_sort" : "sphere_orders_turns", options, error));
     PS_TRY(create_buffers(out, error));
     return upload_unit_weights(out, error);

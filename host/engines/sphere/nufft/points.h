@@ -1,4 +1,4 @@
-/* Directions on their way to the device, where they become places on a torus (kernels/sphere/orders_turns.cl). */
+/* Directions on their way to the device, where they become places on a torus (kernels/sphere/nufft/orders_turns.cl). */
 #ifndef PS_ENGINES_SPHERE_NUFFT_POINTS_H
 #define PS_ENGINES_SPHERE_NUFFT_POINTS_H
 
@@ -17,7 +17,7 @@ typedef struct ps_sphere_places {
     void *host_weights;     /* [most_points] float or double */
     uint64_t *host_offsets; /* [together + 1] */
     ps_buffer vectors, turns, weights, offsets;
-    ps_buffer keys, sorted, heights, starts; /* of kernels/sphere/orders_sort.cl */
+    ps_buffer keys, sorted, heights, starts; /* of kernels/sphere/nufft/orders_sort.cl */
 } ps_sphere_places;
 
 /* shape is borrowed. */

@@ -2,7 +2,7 @@
 
 #include "base/round.h"
 #include "engines/nufft/fft.h"
-#include "engines/torus/nufft/kernels.h"
+#include "engines/nufft/kernels.h"
 #include "engines/nufft/plan.h"
 #include "device/reals.h"
 
@@ -124,7 +124,7 @@ static void measure_sums(ps_sphere_shape *shape, size_t real_bytes) {
         4 * (uint64_t)shape->ring_pitch * ((size_t)shape->max_degree + 1) * real_bytes;
 }
 
-/* As kernels/sphere/grid_table.h lays it out. */
+/* As kernels/sphere/nufft/grid_table.h lays it out. */
 static void measure_table(ps_sphere_shape *shape, size_t real_bytes) {
     const uint64_t num_orders = (uint64_t)shape->max_degree + 1;
     uint64_t vectors = 0;

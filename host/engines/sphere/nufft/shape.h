@@ -8,7 +8,7 @@
 #include "engines/engine.h"
 #include "engines/nufft/choice.h"
 
-/* Of orders, in kernels/sphere/orders_sum.cl, grid_sums.cl and grid_table.cl: each adds up those of its own. A number of its own, whatever the
+/* Of orders, in kernels/sphere/nufft/orders_sum.cl, grid_sums.cl and grid_table.cl: each adds up those of its own. A number of its own, whatever the
  * device, since sums depend on it; enough that all cores have work to the end. */
 enum { PS_SPHERE_GROUPS = 32 };
 
@@ -40,14 +40,14 @@ typedef struct ps_sphere_shape {
     uint32_t half_pitch;                  /* degrees of one parity, and room behind them */
     uint32_t bands, band_rows;            /* of a grid (kernels/sphere/bands.h) */
     uint32_t tiles;                       /* of angles from the pole, of sorted points */
-    uint32_t strip;                       /* columns of a strip (kernels/sphere/orders_strips.h) */
-    bool is_sorted;                       /* one realization at a time, in chunks of points */
-    size_t at_once;                       /* realizations between values on rings and powers */
-    size_t together;                      /* between points and values on rings */
-    size_t slots;                         /* grids */
-    size_t shares;                        /* work-groups for each grid */
-    uint64_t most_points;                 /* on the device at a time */
-    uint64_t set_points;                  /* of a realization that comes in strips, else 0 */
+    uint32_t strip;       /* columns of a strip (kernels/sphere/nufft/orders_strips.h) */
+    bool is_sorted;       /* one realization at a time, in chunks of points */
+    size_t at_once;       /* realizations between values on rings and powers */
+    size_t together;      /* between points and values on rings */
+    size_t slots;         /* grids */
+    size_t shares;        /* work-groups for each grid */
+    uint64_t most_points; /* on the device at a time */
+    uint64_t set_points;  /* of a realization that comes in strips, else 0 */
 
     uint64_t grid_bytes;  /* of a grid, or of a strip */
     uint64_t row_bytes;   /* of the rows of a realization */

@@ -18,8 +18,8 @@ pspec_status ps_sphere_powers_create(ps_sphere_powers *out, const ps_sphere_shap
                               .precision = precision,
                               .is_alone = ps_range_is_alone(device),
                               .shape = shape};
-    PS_TRY(ps_sphere_kernel_create(out, &out->fold, "sphere/orders_fold.cl", "sphere_orders_fold",
-                                   false, error));
+    PS_TRY(ps_sphere_kernel_create(out, &out->fold, "sphere/nufft/orders_fold.cl",
+                                   "sphere_orders_fold", false, error));
     return ps_buffer_create(device, &out->sums, shape->at_once * each, "powers of orders", error);
 }
 

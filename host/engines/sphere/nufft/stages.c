@@ -4,20 +4,20 @@
 #include "engines/nufft/fft.h"
 #include "device/reals.h"
 
-/* Bits of kernels/sphere/orders.cl. */
+/* Bits of kernels/sphere/nufft/orders.cl. */
 enum { STEP_SPREAD = 1, STEP_AROUND = 2, STEP_RINGS = 4 };
 
 /* Of powers, and of coefficients. */
-static const char sums_file[] = "sphere/orders_sum.cl";
+static const char sums_file[] = "sphere/nufft/orders_sum.cl";
 static const char sums_name[] = "sphere_orders_sum";
 
 /* ---- create ------------------------------------------------------------------------------ */
 
 static pspec_status create_kernels(ps_sphere_stages *self, ps_error *error) {
-    PS_TRY(ps_sphere_kernel_create(&self->powers, &self->orders, "sphere/orders.cl",
+    PS_TRY(ps_sphere_kernel_create(&self->powers, &self->orders, "sphere/nufft/orders.cl",
                                    "sphere_orders", false, error));
     if (self->shape->is_sorted) {
-        PS_TRY(ps_sphere_kernel_create(&self->powers, &self->bands, "sphere/orders_bands.cl",
+        PS_TRY(ps_sphere_kernel_create(&self->powers, &self->bands, "sphere/nufft/orders_bands.cl",
                                        "sphere_orders_bands", false, error));
     }
     return ps_sphere_kernel_create(&self->powers, &self->sum, sums_file, sums_name, false, error);

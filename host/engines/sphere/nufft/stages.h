@@ -1,5 +1,5 @@
-/* From points on the device to values on rings (kernels/sphere/orders.cl), and from these to powers or coefficients
- * (kernels/sphere/orders_sum.cl).
+/* From points on the device to values on rings (kernels/sphere/nufft/orders.cl), and from these to powers or coefficients
+ * (kernels/sphere/nufft/orders_sum.cl).
  */
 #ifndef PS_ENGINES_SPHERE_NUFFT_STAGES_H
 #define PS_ENGINES_SPHERE_NUFFT_STAGES_H

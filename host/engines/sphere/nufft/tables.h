@@ -5,13 +5,13 @@
 #include "engines/nufft/plan.h"
 #include "engines/sphere/nufft/shape.h"
 
-/* What Lambda_lm on rings begins with. Names of kernels/sphere/orders_sum.cl. */
+/* What Lambda_lm on rings begins with. Names of kernels/sphere/nufft/orders_sum.cl. */
 typedef struct ps_sphere_starts {
     ps_buffer starts, start_scales, steps, step_scales, ratios;
     ps_buffer cosines, distances, squares;
 } ps_sphere_starts;
 
-/* Names of kernels/sphere/orders.cl. By cells of the grid rings, turns and what belongs to rings are not there. */
+/* Names of kernels/sphere/nufft/orders.cl. By cells of the grid rings, turns and what belongs to rings are not there. */
 typedef struct ps_sphere_tables {
     ps_nufft_plan plan; /* of the grid: its window */
     ps_fft_plan halves; /* transforms of half its length */

@@ -1,7 +1,7 @@
 #include "engines/torus/nufft/layout.h"
 
 #include "base/round.h"
-#include "engines/torus/nufft/kernels.h"
+#include "engines/nufft/kernels.h"
 #include "engines/nufft/plan.h"
 #include "device/reals.h"
 

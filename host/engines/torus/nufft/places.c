@@ -2,7 +2,7 @@
 
 #include "base/memory.h"
 #include "base/round.h"
-#include "engines/torus/nufft/kernels.h"
+#include "engines/nufft/kernels.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 #include "engines/torus/nufft/whole.h"
 
 #include "base/memory.h"
-#include "engines/torus/nufft/kernels.h"
+#include "engines/nufft/kernels.h"
 #include "device/reals.h"
 
 #include <math.h>

@@ -4,8 +4,8 @@
 #ifndef PS_SPHERE_ORDERS_PRODUCT_H
 #define PS_SPHERE_ORDERS_PRODUCT_H
 
-#include "sphere/orders_finish.h"
-#include "sphere/orders_table.h"
+#include "sphere/nufft/orders_finish.h"
+#include "sphere/nufft/orders_table.h"
 
 /* A table [ring][TABLE_ROW], rings first .. end - 1 of it; the sums so far are 0 where these are the first rings, and
  * complete where they are the last. */

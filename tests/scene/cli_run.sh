@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # cli_run.sh PROGRAM: pointspec run: the folder, tables as the commands make them, the cache under every misfortune, records, what it refuses.
 # shellcheck source=tests/harness/harness.sh
-. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/harness.sh" run "$1"
+. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../harness/harness.sh" run "$1"
 export POINTSPEC_CACHE_DIR=$scratch/cache
 unset POINTSPEC_KERNEL_DIR
 

@@ -11,7 +11,7 @@
 #ifndef PS_SPHERE_ORDERS_TABLE_H
 #define PS_SPHERE_ORDERS_TABLE_H
 
-#include "sphere/orders_chains.h"
+#include "sphere/nufft/orders_chains.h"
 
 /* Of the rings of a work-group, between two runs: [even, odd l - m][ring_pitch] each. By differences, the even ones are
  * Lambda_lm and D. */

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # cli_run_pictures.sh PROGRAM: pictures of scenes: panels for many curves, and pictures that fail, which cost no numbers.
 # shellcheck source=tests/harness/harness.sh
-. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/harness.sh" run "$1"
+. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../harness/harness.sh" run "$1"
 
 # Two lobes, five samplers, two weights: 20 curves, of which none was drawn once.
 cat >many.yaml <<'SCENE'

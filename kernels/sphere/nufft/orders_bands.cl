@@ -7,7 +7,7 @@
  *   windows, cells  local, of a chunk: nufft/chunk.h
  */
 #include "sphere/bands.h"
-#include "sphere/orders_grid.h"
+#include "sphere/nufft/orders_grid.h"
 
 __kernel void sphere_orders_bands(
     __global const ulong *restrict sorted, __global const real *restrict heights,

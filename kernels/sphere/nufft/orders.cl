@@ -27,8 +27,8 @@
  *   scratch    [group][n + rings / 2][re, im][LANES]
  *   windows, cells  local, of a chunk: nufft/chunk.h
  */
-#include "sphere/orders_rings.h"
-#include "sphere/orders_strips.h"
+#include "sphere/nufft/orders_rings.h"
+#include "sphere/nufft/orders_strips.h"
 #include "sphere/values.h"
 
 enum { STEP_SPREAD = 1, STEP_AROUND = 2, STEP_RINGS = 4 };

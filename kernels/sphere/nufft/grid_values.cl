@@ -18,8 +18,8 @@
  *   windows, cells  local, of a chunk: nufft/chunk.h
  */
 #include "shared/ahead.h"
-#include "sphere/grid_table.h"
-#include "sphere/orders_grid.h"
+#include "sphere/nufft/grid_table.h"
+#include "sphere/nufft/orders_grid.h"
 #include "sphere/values.h"
 
 #if LANES == 2

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # cli_run_files.sh PROGRAM: files of scenes: what may be read, and what may be written.
 # shellcheck source=tests/harness/harness.sh
-. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/harness.sh" run "$1"
+. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../harness/harness.sh" run "$1"
 
 # ---- what is read --------------------------------------------------------------------------------
 printf '0.1 0.2\n0.3 0.4\n' >a.txt

@@ -10,7 +10,7 @@
 #ifndef PS_SPHERE_ORDERS_RINGS_H
 #define PS_SPHERE_ORDERS_RINGS_H
 
-#include "sphere/orders_grid.h"
+#include "sphere/nufft/orders_grid.h"
 
 /* Cells `pole + i` and `pole - i` of a tile continued behind both poles, i = 0 .. n / 2; sign is its parity. */
 static inline complexv continued(__global const real *tile, const uint pole, const uint n,

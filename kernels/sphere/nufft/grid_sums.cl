@@ -14,8 +14,8 @@
 #include "shared/ahead.h"
 #include "shared/group.h"
 #include "shared/lanes.h"
-#include "sphere/orders_finish.h"
-#include "sphere/grid_table.h"
+#include "sphere/nufft/orders_finish.h"
+#include "sphere/nufft/grid_table.h"
 #include "sphere/values.h"
 
 /* Vectors of degrees in registers: with real and imaginary parts of two realizations half of 32 of them, or 8 of 16. */

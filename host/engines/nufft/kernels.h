@@ -1,6 +1,6 @@
 /* Numbers that kernels/nufft/ and its host code agree on, as the kernels name them. */
-#ifndef PS_ENGINES_TORUS_NUFFT_KERNELS_H
-#define PS_ENGINES_TORUS_NUFFT_KERNELS_H
+#ifndef PS_ENGINES_NUFFT_KERNELS_H
+#define PS_ENGINES_NUFFT_KERNELS_H
 
 enum {
     PS_NUFFT_PLACE_UNIT = 16, /* place.h: a realization fills whole units of places */

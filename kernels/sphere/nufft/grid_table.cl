@@ -12,8 +12,8 @@
  *
  * LANES divides TARGET_LANES, and that RUN_VECTORS LANES: vectors of the table are whole in a run.
  */
-#include "sphere/orders_work.h"
-#include "sphere/grid_table.h"
+#include "sphere/nufft/orders_work.h"
+#include "sphere/nufft/grid_table.h"
 
 #ifndef TARGET_PRECISION
 #define TARGET_PRECISION 32

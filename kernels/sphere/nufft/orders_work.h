@@ -2,7 +2,7 @@
 #ifndef PS_SPHERE_ORDERS_WORK_H
 #define PS_SPHERE_ORDERS_WORK_H
 
-#include "sphere/orders_table.h"
+#include "sphere/nufft/orders_table.h"
 
 /* value 2^(-100 s) with value in [2^-100, 1], from a product of two of them. */
 static inline void normalize(double *value, int *scale) {

@@ -23,8 +23,8 @@
  *   coefficients  local, [COEFFICIENTS]
  *   begins     local, [block / RING_UNIT]
  */
-#include "sphere/orders_product.h"
-#include "sphere/orders_work.h"
+#include "sphere/nufft/orders_product.h"
+#include "sphere/nufft/orders_work.h"
 #include "sphere/values.h"
 
 __kernel void sphere_orders_sum(

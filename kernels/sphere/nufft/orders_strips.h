@@ -6,7 +6,7 @@
 #ifndef PS_SPHERE_ORDERS_STRIPS_H
 #define PS_SPHERE_ORDERS_STRIPS_H
 
-#include "sphere/orders_grid.h"
+#include "sphere/nufft/orders_grid.h"
 
 /* Points of a realization by strips `first` .. end - 1: strip s has points starts[s] .. starts[s + 1]. Counting sort,
  * stable, by one work-item: they are few, and cost little beside their windows. */
