@@ -8,7 +8,7 @@ trap 'rm -rf "$scratch"' EXIT
 fail() { echo "gpu kernel tests: $*" >&2; exit 1; }
 
 names=$("$tool" list "$build_dir")
-for source in "$1"/tests/test_kernels_*.c; do
+for source in "$1"/tests/kernels/test_kernels_*.c; do
     name=${source##*/test_}
     grep -qx "${name%.c}" <<<"$names" || fail "${name%.c} is not found in: $names"
 done
