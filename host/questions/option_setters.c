@@ -3,6 +3,7 @@
 
 #include "base/memory_limit.h"
 #include "base/text.h"
+#include "frequencies/frequencies.h"
 #include "math/sobolev.h"
 
 #include <float.h>
@@ -88,7 +89,7 @@ pspec_status ps_set_range(const ps_option *option, const char *words, const char
     return PSPEC_OK;
 }
 
-/* The largest degree is the job's matter, which knows the reason. */
+/* A kind of result that takes fewer degrees says so itself. */
 pspec_status ps_set_max_degree(const ps_option *option, const char *words, const char *value,
                                ps_request *arguments, ps_error *error) {
     (void)words;
@@ -97,7 +98,12 @@ pspec_status ps_set_max_degree(const ps_option *option, const char *words, const
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "%s: %s leaves no degree, the first is 1", shown.text, value);
     }
-    return ps_parse_count(value, shown.text, 1, INT64_MAX, &arguments->max_degree, error);
+    PS_TRY(ps_parse_count(value, shown.text, 1, INT64_MAX, &arguments->max_degree, error));
+    return arguments->max_degree <= (uint64_t)PS_MAX_DEGREE
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "%s: degree %s is above %d, where the coefficients of one set take 8 GiB",
+                         shown.text, value, (int)PS_MAX_DEGREE);
 }
 
 pspec_status ps_set_dimension(const ps_option *option, const char *words, const char *value,

@@ -45,7 +45,8 @@ refuses 'is not between 1 and 2' --brdf diffuse --smoothness 1
 refuses 'smoothness' --brdf diffuse --smoothness nan
 refuses 'below the horizon' --brdf glossy:n=3,cut=none --harmonics hemispherical
 refuses '600 of hemispherical' --brdf diffuse --harmonics hemispherical -l 600
-refuses 'more than 10000' --brdf diffuse -l 20000
+refuses '-l: degree 20000 is more than 10000' --brdf diffuse -l 20000
+refuses '--max-degree: degree 10001 is more than 10000' --brdf diffuse --max-degree 10001
 refuses 'no file is read' --brdf diffuse points.txt
 refuses 'not "t.gif"' --brdf diffuse --plot t.gif
 refuses '"none" is not one of' --brdf diffuse --harmonics none

@@ -186,6 +186,8 @@ static void numbers_have_limits(void **state) {
         {"-l 0", "-l: 0 leaves no degree, the first is 1"},
         {"-l 2.5", "-l: \"2.5\" is not a whole number"},
         {"--max-degree -1", "--max-degree: -1 leaves no degree, the first is 1"},
+        {"--max-degree 32769",
+         "--max-degree: degree 32769 is above 32768, where the coefficients of one set take 8 GiB"},
         {"--memory 4X", "--memory: \"4X\" is not a size above 0, such as 400M, 1.5G or 2e9"},
         {"--per-ring 1", "--per-ring: 1 is not between 2 and 536870912"},
         {"--smoothness x", "--smoothness: \"x\" is not a finite number"},

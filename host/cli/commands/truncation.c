@@ -6,6 +6,7 @@
 #include "cli/answer.h"
 #include "cli/output_check.h"
 #include "cli/picture.h"
+#include "questions/options.h"
 #include "report/spectrum_header.h"
 #include "plots/plot.h"
 #include "rules/equal_error.h"
@@ -49,7 +50,8 @@ pspec_status ps_truncation_check(const ps_request *arguments, ps_error *error) {
                        "--brdf NAME is needed, as in --brdf diffuse or --brdf glossy:n=30");
     }
     if (arguments->max_degree > MOST_DEGREE) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "max degree %llu is more than %d",
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: degree %llu is more than %d",
+                       ps_option_show(arguments, PS_OPTION_MAX_DEGREE).text,
                        (unsigned long long)arguments->max_degree, MOST_DEGREE);
     }
     return PSPEC_OK;
