@@ -1,79 +1,131 @@
 #include "cli/answer.h"
 
-#include "report/angular_table.h"
-#include "cli/jobs.h"
-#include "report/pairs_table.h"
-#include "report/power_table.h"
+#include "cli/command.h"
+#include "cli/output_check.h"
+#include "cli/picture.h"
 
-#include <stdlib.h>
+#include <stdio.h>
 
-/* ---- spectra ----------------------------------------------------------------------------- */
+/* ---- what is said meanwhile ------------------------------------------------------------------ */
 
-typedef pspec_status make_table(ps_table **, const ps_request *, const ps_power_job *const *,
-                                size_t, ps_error *);
+/* Who hears of the work: a progress line for each sampler. */
+typedef struct listener {
+    const ps_request *arguments;
+    const char *counted;
+    ps_progress *progress;
+} listener;
 
-static pspec_status take_array(ps_answer *out, const ps_spectrum *spectrum, ps_error *error) {
-    size_t num = 0;
-    PS_TRY(ps_spectrum_full(spectrum, 0, (ps_mean){0}, &out->array, &num, error));
-    out->side = 2 * (size_t)spectrum->frequencies.max_frequency + 1;
-    return PSPEC_OK;
+static int tell(const ps_watch_report *report, void *payload) {
+    const listener *const ear = payload;
+    return ps_progress_tell(report, ear->progress);
 }
 
-static pspec_status take_results(ps_answer *out, const ps_request *request, make_table *make,
-                                 const ps_power_job *job, ps_error *error) {
-    const ps_spectrum *const spectrum = ps_power_job_spectrum(job);
-    enum { PLANE = 2 };
-    /* lists, and subsets of rings, fill no array */
-    if (request->wants_picture && spectrum->frequencies.dimension == PLANE &&
-        spectrum->frequencies.kind == PS_FREQUENCIES_BOX) {
-        PS_TRY(take_array(out, spectrum, error));
-    }
-    return make(&out->table, request, &job, 1, error);
+static void begin_line(void *payload) {
+    listener *const ear = payload;
+    ps_progress_end(ear->progress);
+    ear->progress = ps_progress_begin(ear->arguments, ear->counted);
 }
 
-static pspec_status answer_spectrum(ps_answer *out, const ps_request *request,
-                                    ps_question_kind kind, make_table *make,
-                                    const ps_answer_hooks *hooks, ps_error *error) {
-    ps_question_list list;
-    ps_power_job *job = NULL;
-    PS_TRY(ps_questions_make(&list, request, kind, error));
-    pspec_status status = ps_jobs_run_one(request, &list.questions[0], hooks, &job, error);
-    if (status == PSPEC_OK) {
-        status = take_results(out, request, make, job, error);
+static void print_warning(void *payload, const char *sentence) {
+    const listener *const ear = payload;
+    ps_progress_hide(ear->progress);
+    fprintf(stderr, "pointspec: %s\n", sentence);
+}
+
+static void print_plan(void *payload, const ps_plan *plan) {
+    const listener *const ear = payload;
+    ps_progress_hide(ear->progress);
+    for (size_t i = 0; i < plan->num_candidates; i++) {
+        const ps_candidate *candidate = &plan->candidates[i];
+        fprintf(stderr, "%s (%s): %s\n", candidate->engine->name,
+                ps_precision_name(candidate->precision), candidate->reason);
     }
-    ps_power_job_destroy(job);
+}
+
+static void print_profile(void *payload, const ps_profile_row *rows, size_t num_rows) {
+    const listener *const ear = payload;
+    ps_progress_hide(ear->progress);
+    fprintf(stderr, "%-24s %9s %12s %10s %8s\n", "kernel", "launches", "seconds", "GFLOP/s",
+            "GB/s");
+    for (size_t i = 0; i < num_rows; i++) {
+        const double giga = 1e-9;
+        const double seconds = rows[i].seconds > 0 ? rows[i].seconds : giga; /* a clock's tick */
+        fprintf(stderr, "%-24s %9llu %12.6f %10.1f %8.1f\n", rows[i].kernel,
+                (unsigned long long)rows[i].launches, rows[i].seconds,
+                rows[i].flops / seconds * giga, rows[i].bytes / seconds * giga);
+    }
+}
+
+static pspec_status compute_shown(void **computed, const ps_result_kind *kind,
+                                  const ps_request *arguments, ps_error *error) {
+    listener ear = {arguments, kind->counted, NULL};
+    const ps_answer_hooks hooks = {.watch = {tell, &ear},
+                                   .payload = &ear,
+                                   .next = begin_line,
+                                   .warn = arguments->quiet ? NULL : print_warning,
+                                   .tell_plan = arguments->verbose ? print_plan : NULL,
+                                   .tell_profile = arguments->profile ? print_profile : NULL};
+    const pspec_status status = kind->compute(computed, arguments, &hooks, error);
+    ps_progress_end(ear.progress);
     return status;
 }
 
-/* ---- all kinds --------------------------------------------------------------------------- */
+/* ---- before and after ------------------------------------------------------------------------ */
 
-pspec_status ps_answer_make(ps_answer *out, const ps_result_kind *kind, const ps_request *request,
-                            const ps_answer_hooks *hooks, ps_error *error) {
-    *out = (ps_answer){0};
-    if (kind == &ps_result_power) {
-        return answer_spectrum(out, request, PS_QUESTION_POWER, ps_power_table, hooks, error);
+static pspec_status check_outputs(const ps_result_kind *kind, const ps_request *arguments,
+                                  ps_table_format *format, ps_error *error) {
+    PS_TRY(ps_picture_check(arguments, error));
+    PS_TRY(ps_table_choose_format(format, arguments->format, arguments->output, error));
+    if (kind->has_verdict && *format == PS_FORMAT_NPY) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "verdicts are no numbers: .csv and .json, not .npy");
     }
-    if (kind == &ps_result_angular) {
-        return answer_spectrum(out, request, PS_QUESTION_ANGULAR, ps_angular_table, hooks, error);
-    }
-    if (kind == &ps_result_pairs) {
-        return answer_spectrum(out, request, PS_QUESTION_PAIRS, ps_pairs_table, hooks, error);
-    }
-    if (kind == &ps_result_quadrature) {
-        return ps_quadrature_answer(&out->table, request, hooks, error);
-    }
-    return kind == &ps_result_truncation ? ps_truncation_answer(&out->table, request, hooks, error)
-                                         : ps_check_answer(&out->table, request, hooks, error);
+    return ps_outputs_check(arguments, true, error);
 }
 
-pspec_status ps_answer_check(const ps_result_kind *kind, const ps_request *request,
+static pspec_status write_table(const ps_result_kind *kind, const void *computed,
+                                const ps_request *arguments, ps_table_format format,
+                                ps_error *verdict, ps_error *error) {
+    ps_answer answer = {0};
+    pspec_status status = kind->tabulate(&answer, computed, arguments, error);
+    if (status == PSPEC_OK) {
+        status = ps_table_write(answer.table, arguments->output != NULL ? arguments->output : "-",
+                                format, error);
+    }
+    *verdict = answer.verdict;
+    ps_answer_free(&answer);
+    return status;
+}
+
+static pspec_status write_all(const ps_result_kind *kind, const void *computed,
+                              const ps_request *arguments, ps_table_format format,
+                              ps_error *error) {
+    ps_error verdict = {0};
+    if (kind->write_others != NULL) {
+        PS_TRY(kind->write_others(computed, arguments, error));
+    }
+    PS_TRY(write_table(kind, computed, arguments, format, &verdict, error));
+    if (arguments->plot != NULL) {
+        PS_TRY(ps_picture_settle(arguments, kind->draw(computed, arguments, error), error));
+    }
+    if (verdict.status != PSPEC_OK) {
+        *error = verdict;
+    }
+    return verdict.status;
+}
+
+pspec_status ps_answer_print(const ps_result_kind *kind, const ps_request *arguments,
                              ps_error *error) {
-    return kind == &ps_result_truncation ? ps_truncation_check(request, error)
-                                         : ps_check_check(request, error);
-}
-
-void ps_answer_free(ps_answer *answer) {
-    ps_table_destroy(answer->table);
-    free(answer->array);
-    *answer = (ps_answer){0};
+    void *computed = NULL;
+    ps_table_format format = PS_FORMAT_CSV;
+    if (kind->check_arguments != NULL) {
+        PS_TRY(kind->check_arguments(arguments, error));
+    }
+    PS_TRY(check_outputs(kind, arguments, &format, error));
+    pspec_status status = compute_shown(&computed, kind, arguments, error);
+    if (status == PSPEC_OK) {
+        status = write_all(kind, computed, arguments, format, error);
+    }
+    kind->discard(computed);
+    return status;
 }

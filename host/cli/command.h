@@ -1,10 +1,10 @@
-/* The commands: one file each (cmd_NAME.c), one table (commands.c). */
+/* The commands: one file each (commands/NAME.c), one table (commands.c). */
 #ifndef PS_CLI_COMMAND_H
 #define PS_CLI_COMMAND_H
 
 #include "base/watch.h"
 #include "cli/signals.h"
-#include "questions/results.h"
+#include "results/kind.h"
 
 #include <stdio.h>
 
@@ -30,7 +30,7 @@ typedef struct ps_command {
     const char *formats;         /* words of --format, the default first; NULL: csv|json|npy */
     const char *weights; /* words of --weights, where no result says so; NULL: equal|column|FILE */
     ps_domain samples;   /* which samplers it takes, where no result says so, for --help */
-    pspec_status (*run)(const ps_request *, ps_error *);
+    pspec_status (*run)(const ps_request *, ps_error *); /* NULL: it prints its result */
 } ps_command;
 
 /* Ended by NULL. */

@@ -2,6 +2,7 @@
  * its message into one line on standard error. */
 #include "base/memory_limit.h"
 #include "base/text.h"
+#include "cli/answer.h"
 #include "cli/command.h"
 #include "store/cache_trust.h"
 #include "store/result_cache.h"
@@ -99,7 +100,8 @@ static pspec_status run_parsed(const ps_command *command, ps_request *arguments,
         trust_cache(command, arguments, ps_text_string(&folder));
     }
     if (status != PSPEC_ERROR_MEMORY) { /* there need not be one */
-        status = command->run(arguments, error);
+        status = command->run != NULL ? command->run(arguments, error)
+                                      : ps_answer_print(command->result, arguments, error);
     }
     ps_text_free(&folder);
     /* A signal may make anything fail that was going on (a compiler in the driver, a read): what the

@@ -98,14 +98,6 @@ static bool ends_in(const char *path, const char *ending) {
     return length >= strlen(ending) && strcmp(path + length - strlen(ending), ending) == 0;
 }
 
-pspec_status ps_output_check_ending(const char *option, const char *path, const char *ending,
-                                    ps_error *error) {
-    return ends_in(path, ending)
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "%s writes NPY: \"%s\" does not end in %s", option, path, ending);
-}
-
 /* A missing folder or a lacking permission shows when the temporary file is made. */
 static pspec_status check_folder(const char *path, ps_error *error) {
     ps_output_file *file = NULL;

@@ -10,8 +10,4 @@
 pspec_status ps_outputs_check(const ps_request *arguments, bool is_table,
                               ps_error *error) PS_MUST_CHECK;
 
-/* Does the path end so, as the only format that the option writes does? */
-pspec_status ps_output_check_ending(const char *option, const char *path, const char *ending,
-                                    ps_error *error) PS_MUST_CHECK;
-
 #endif

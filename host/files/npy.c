@@ -293,3 +293,12 @@ pspec_status ps_npy_write(const char *path, unsigned rank, const size_t *shape, 
     ps_output_write(file, data, sizeof *data, count);
     return ps_output_commit(&file, error);
 }
+
+pspec_status ps_npy_check_name(const char *option, const char *path, ps_error *error) {
+    static const char ending[] = ".npy";
+    const size_t length = strlen(path);
+    return length >= strlen(ending) && strcmp(path + length - strlen(ending), ending) == 0
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "%s writes NPY: \"%s\" does not end in %s", option, path, ending);
+}

@@ -36,4 +36,7 @@ pspec_status ps_npy_write_complex(const char *path, size_t count, const double *
 pspec_status ps_npy_write(const char *path, unsigned rank, const size_t *shape, const double *data,
                           ps_error *error) PS_MUST_CHECK;
 
+/* Does the path end in .npy, as the only format does that the option writes? */
+pspec_status ps_npy_check_name(const char *option, const char *path, ps_error *error) PS_MUST_CHECK;
+
 #endif

@@ -13,7 +13,7 @@
 #define PS_SCENE_SCENE_H
 
 #include "base/text.h"
-#include "questions/results.h"
+#include "results/kind.h"
 
 /* One value of a key: a text; of `files`, the paths that belong together. */
 typedef struct ps_scene_value {

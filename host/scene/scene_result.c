@@ -124,7 +124,7 @@ static pspec_status take_pair(const ps_scene_reader *from, ps_scene_result *out,
     if (strcmp(key, "plot") == 0) {
         return take_switch(from, value, key, &out->wants_plot);
     }
-    if (strcmp(key, "pictures") == 0 && out->kind == &ps_result_power) {
+    if (strcmp(key, "pictures") == 0 && out->kind->has_images) {
         return take_switch(from, value, key, &out->wants_pictures);
     }
     const int option = find_option(out->kind, key);

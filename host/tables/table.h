@@ -73,6 +73,12 @@ ps_cell ps_table_cell(const ps_table *table, size_t row, size_t column);
 size_t ps_table_num_meta(const ps_table *table);
 /* Header entry i, in the order in which they were added. */
 ps_cell ps_table_meta(const ps_table *table, size_t i, const char **key);
+/* The value of the first header entry of that key; missing: there is none. */
+ps_cell ps_table_find_meta(const ps_table *table, const char *key);
+/* A number, or nan. */
+double ps_cell_number(ps_cell cell);
+/* The column of that name as numbers, nan where there is none; all of them where there is no such column. */
+void ps_table_read_column(const ps_table *table, const char *name, double *out);
 
 /* NULL is allowed. */
 void ps_table_destroy(ps_table *table);

@@ -1,17 +1,10 @@
 /* pointspec pairs: Legendre sums over all pairs of points. */
 #include "cli/command.h"
-#include "cli/jobs.h"
-#include "report/pairs_table.h"
 
 /* Beside those of the question. */
 static const ps_option_id options[] = {PS_OPTION_DEVICE,  PS_OPTION_OUTPUT,  PS_OPTION_FORMAT,
                                        PS_OPTION_PLOT,    PS_OPTION_PROFILE, PS_OPTION_QUIET,
                                        PS_OPTION_VERBOSE, PS_OPTION_HELP,    PS_NUM_OPTIONS};
-
-static pspec_status run(const ps_request *arguments, ps_error *error) {
-    static const ps_jobs_output output = {ps_pairs_table, NULL};
-    return ps_jobs_run(arguments, PS_QUESTION_PAIRS, &output, error);
-}
 
 const ps_command ps_command_pairs = {
     .name = "pairs",
@@ -31,5 +24,4 @@ const ps_command ps_command_pairs = {
     .options = options,
     .examples = {"pointspec pairs --sampler fibonacci -n 256 -l 32",
                  "pointspec pairs --sampler white-hemisphere -n 64 -m 100 -l 16 --tol 1e-10"},
-    .run = run,
 };

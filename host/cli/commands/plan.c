@@ -1,6 +1,6 @@
 /* pointspec plan: what another command would do, by what, what it skips and why. */
 #include "cli/command.h"
-#include "cli/plan_table.h"
+#include "cli/plan_scene.h"
 #include "store/host_figures.h"
 #include "questions/options.h"
 
@@ -60,9 +60,8 @@ static pspec_status fill_jobs(ps_planner *planner, const ps_command *command,
     if (command == &ps_command_sample) {
         return ps_plan_table_add_sample(planner, arguments, error);
     }
-    return command == &ps_command_convert
-               ? ps_plan_table_add_convert(planner, arguments, error)
-               : ps_plan_table_add(planner, command->result, arguments, error);
+    return command == &ps_command_convert ? ps_plan_table_add_convert(planner, arguments, error)
+                                          : command->result->plan(planner, arguments, error);
 }
 
 static pspec_status fill(ps_table *table, const ps_command *command, const ps_request *arguments,

@@ -1,14 +1,14 @@
 /* The plan of a scene: a block for each of its questions. */
-#include "cli/plan_table.h"
+#include "cli/plan_scene.h"
 #include "cli/run/run.h"
 #include "cli/run/pictures.h"
 
 #include <stdio.h>
 
 static pspec_status add_block(ps_run *run, const ps_run_result *result, size_t number,
-                              ps_planner *to, ps_error *error) {
+                              ps_planner *planner, ps_error *error) {
     enum { JOB = 128 };
-    ps_table *const table = to->table;
+    ps_table *const table = planner->table;
     char job[JOB];
     ps_answer answer = {0};
     double seconds = 0;
@@ -21,8 +21,8 @@ static pspec_status add_block(ps_run *run, const ps_run_result *result, size_t n
     PS_TRY(ps_run_fetch(run, question, &answer, &seconds, &is_cached, error));
     ps_answer_free(&answer);
     if (is_cached) {
-        to->job = job;
-        return ps_plan_table_add_cached(to, error);
+        planner->job = job;
+        return ps_plan_table_add_cached(planner, error);
     }
     if (!run->lacks_device) {
         const pspec_status status = ps_run_open_device(run, result, error);
@@ -31,14 +31,14 @@ static pspec_status add_block(ps_run *run, const ps_run_result *result, size_t n
             return status;
         }
     }
-    to->job = job;
-    to->device = run->device;
-    return ps_plan_table_add(to, result->asked->kind, &question->asked.request, error);
+    planner->job = job;
+    planner->device = run->device;
+    return result->asked->kind->plan(planner, &question->asked.request, error);
 }
 
 /* Of all results; those that are in the cache take no time. */
-static pspec_status add_pictures(const ps_run *run, ps_planner *to, ps_error *error) {
-    ps_phases phases = {.host = to->host};
+static pspec_status add_pictures(const ps_run *run, ps_planner *planner, ps_error *error) {
+    ps_phases phases = {.host = planner->host};
     ps_pictures pictures = {0};
     pspec_status status = PSPEC_OK;
     for (size_t i = 0; i < run->num_results && status == PSPEC_OK; i++) {
@@ -47,25 +47,25 @@ static pspec_status add_pictures(const ps_run *run, ps_planner *to, ps_error *er
     ps_phases_add(&phases, "pictures", PS_HOST_PICTURE, (double)pictures.num);
     ps_phases_say(&phases, "pictures", "%zu by gnuplot", pictures.num);
     ps_pictures_free(&pictures);
-    to->job = "pictures";
-    return status == PSPEC_OK ? ps_plan_table_add_phases(to, &phases, error) : status;
+    planner->job = "pictures";
+    return status == PSPEC_OK ? ps_plan_table_add_phases(planner, &phases, error) : status;
 }
 
-static pspec_status add_blocks(ps_run *run, ps_planner *to, ps_error *error) {
+static pspec_status add_blocks(ps_run *run, ps_planner *planner, ps_error *error) {
     PS_TRY(ps_run_ask(run, error));
     PS_TRY(ps_run_open_cache(run, error));
     for (size_t i = 0; i < run->num_results; i++) {
         const ps_run_result *const result = &run->results[i];
         for (size_t q = 0; q < result->num; q++) {
-            if (add_block(run, result, q, to, error) != PSPEC_OK) {
+            if (add_block(run, result, q, planner, error) != PSPEC_OK) {
                 return ps_scene_blame(run->scene, result->asked, error);
             }
         }
     }
-    return add_pictures(run, to, error);
+    return add_pictures(run, planner, error);
 }
 
-pspec_status ps_plan_scene(ps_planner *to, const ps_request *arguments, ps_error *error) {
+pspec_status ps_plan_scene(ps_planner *planner, const ps_request *arguments, ps_error *error) {
     ps_scene scene = {0};
     if (arguments->num_files != 1) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
@@ -75,7 +75,7 @@ pspec_status ps_plan_scene(ps_planner *to, const ps_request *arguments, ps_error
     ps_run run = {.arguments = arguments, .scene = &scene};
     pspec_status status = ps_run_read_scene(&scene, arguments, error);
     if (status == PSPEC_OK) {
-        status = add_blocks(&run, to, error);
+        status = add_blocks(&run, planner, error);
     }
     ps_run_free(&run);
     ps_scene_free(&scene);

@@ -285,7 +285,7 @@ static pspec_status judge(const ps_run *run, ps_error *error) {
     for (size_t i = 0; i < run->num_results; i++) {
         for (size_t q = 0; q < run->results[i].num; q++) {
             const ps_run_question *const question = &run->results[i].questions[q];
-            const ps_cell verdict = ps_run_meta(question->answer.table, "verdict");
+            const ps_cell verdict = ps_table_find_meta(question->answer.table, "verdict");
             if (verdict.kind == PS_CELL_TEXT && strcmp(verdict.text, "different") == 0) {
                 first = num++ == 0 ? question : first;
                 of = num == 1 ? &run->results[i] : of;
@@ -295,7 +295,7 @@ static pspec_status judge(const ps_run *run, ps_error *error) {
     if (num == 0) {
         return PSPEC_OK;
     }
-    const ps_cell different = ps_run_meta(first->answer.table, "different");
+    const ps_cell different = ps_table_find_meta(first->answer.table, "different");
     return ps_fail(error, PSPEC_ERROR_CHECK,
                    "%zu check%s found another spectrum than the saved one: %s differ in %s (%s)",
                    num, num == 1 ? "" : "s",

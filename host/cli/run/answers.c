@@ -3,33 +3,11 @@
 #include "base/memory.h"
 #include "cli/run/run.h"
 #include "store/figures_file.h"
-#include "questions/quadrature_question.h"
-#include "questions/question.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 /* ---- questions --------------------------------------------------------------------------- */
-
-/* What can be refused is refused before the first hour of work. */
-static pspec_status check_question(const ps_result_kind *kind, const ps_request *request,
-                                   ps_error *error) {
-    ps_question_list spectra;
-    ps_quadrature_list rules = {0};
-    if (kind == &ps_result_quadrature) {
-        const pspec_status status = ps_quadrature_list_make(&rules, request, error);
-        ps_quadrature_list_free(&rules);
-        return status;
-    }
-    if (kind == &ps_result_truncation || kind == &ps_result_check) {
-        return ps_answer_check(kind, request, error);
-    }
-    return ps_questions_make(&spectra, request,
-                             kind == &ps_result_power     ? PS_QUESTION_POWER
-                             : kind == &ps_result_angular ? PS_QUESTION_ANGULAR
-                                                          : PS_QUESTION_PAIRS,
-                             error);
-}
 
 static pspec_status ask_one(ps_run *run, ps_run_result *result, size_t number, ps_error *error) {
     ps_scene_question *const asked = &result->questions[number].asked;
@@ -41,7 +19,7 @@ static pspec_status ask_one(ps_run *run, ps_run_result *result, size_t number, p
     asked->request.device = run->arguments->device;
     asked->request.cache_folder = run->arguments->cache_folder;
     if (status == PSPEC_OK) {
-        status = check_question(result->asked->kind, &asked->request, error);
+        status = result->asked->kind->check_question(&asked->request, error);
     }
     return status == PSPEC_OK ? PSPEC_OK : ps_scene_blame(run->scene, result->asked, error);
 }
@@ -99,7 +77,7 @@ static pspec_status digest(const ps_answer *answer, char out[PS_DIGEST_BYTES], p
 
 /* One device for all questions: its programs are built once. */
 pspec_status ps_run_open_device(ps_run *run, const ps_run_result *result, ps_error *error) {
-    return run->device != NULL || result->asked->kind == &ps_result_truncation
+    return run->device != NULL || result->asked->kind->is_of_host
                ? PSPEC_OK
                : ps_figures_open_device(&run->device, run->arguments->device, false,
                                         run->arguments->cache_folder, error);
@@ -112,7 +90,8 @@ static pspec_status answer_one(ps_run *run, ps_run_result *result, ps_run_questi
                         error));
     if (!question->is_cached) {
         PS_TRY(ps_run_open_device(run, result, error));
-        const ps_answer_hooks hooks = {{ps_progress_tell, progress}, run->device};
+        const ps_answer_hooks hooks = {.watch = {ps_progress_tell, progress},
+                                       .device = run->device};
         PS_TRY(ps_answer_make(&question->answer, result->asked->kind, &question->asked.request,
                               &hooks, error));
         question->seconds = ps_clock_seconds() - start;

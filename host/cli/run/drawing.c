@@ -3,19 +3,8 @@
 
 #include "base/memory.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* ---- columns ----------------------------------------------------------------------------- */
-
-void ps_read_column(const ps_table *table, const char *name, double *out) {
-    size_t column = 0;
-    const bool is_there = ps_table_find_column(table, name, &column);
-    for (size_t row = 0; row < ps_table_num_rows(table); row++) {
-        out[row] = is_there ? ps_cell_number(ps_table_cell(table, row, column)) : NAN;
-    }
-}
 
 /* ---- a new picture ----------------------------------------------------------------------- */
 

@@ -11,9 +11,6 @@ typedef struct ps_artist {
     ps_error *error;
 } ps_artist;
 
-/* A column as numbers, nan where there is none; of nan where the table has no such column. */
-void ps_read_column(const ps_table *table, const char *name, double *out);
-
 /* The title of the result, what its questions have in common, what the picture shows. */
 void ps_plot_title(const ps_artist *of, const ps_picture *picture, const char *what, ps_text *out);
 

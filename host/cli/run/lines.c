@@ -97,8 +97,8 @@ static pspec_status take_columns(const ps_artist *of, line_set *set, size_t inde
                                  const ps_line_kind *kind) {
     const ps_table *const table = of->result->questions[question].answer.table;
     PS_TRY(begin_line(set, index, ps_table_num_rows(table), of->error));
-    ps_read_column(table, kind->x, set->numbers[index]);
-    ps_read_column(table, kind->y, set->numbers[index] + ps_table_num_rows(table));
+    ps_table_read_column(table, kind->x, set->numbers[index]);
+    ps_table_read_column(table, kind->y, set->numbers[index] + ps_table_num_rows(table));
     return PSPEC_OK;
 }
 
@@ -122,7 +122,7 @@ static double slope(const double *x, const double *y, size_t num) {
 
 /* Worst-case error of the questions that differ from `first` in the number of points only. */
 static pspec_status take_errors(const ps_artist *of, line_set *set, size_t index, size_t first,
-                                size_t points) {
+                                size_t points, const ps_line_kind *kind) {
     const ps_scene_result *const asked = of->result->asked;
     const size_t num = asked->entries[points].num_values;
     size_t step = 1;
@@ -133,8 +133,8 @@ static pspec_status take_errors(const ps_artist *of, line_set *set, size_t index
     double *const x = set->numbers[index];
     for (size_t i = 0; i < num; i++) {
         const ps_table *const table = of->result->questions[first + i * step].answer.table;
-        x[i] = ps_cell_number(ps_run_meta(table, "points"));
-        x[num + i] = ps_cell_number(ps_run_meta(table, "worst_case_error"));
+        x[i] = ps_cell_number(ps_table_find_meta(table, kind->x));
+        x[num + i] = ps_cell_number(ps_table_find_meta(table, kind->y));
     }
     return PSPEC_OK;
 }
@@ -158,8 +158,9 @@ static pspec_status take_lines(const ps_artist *of, const ps_picture *what,
     PS_TRY(allocate_lines(set, what->num_curves, of->error));
     for (size_t i = 0; i < what->num_curves; i++) {
         const size_t question = what->curves[i];
-        PS_TRY(what->form == PS_PICTURE_ERRORS ? take_errors(of, set, i, question, what->points)
-                                               : take_columns(of, set, i, question, kind));
+        PS_TRY(what->form == PS_PICTURE_ERRORS
+                   ? take_errors(of, set, i, question, what->points, kind)
+                   : take_columns(of, set, i, question, kind));
         label_line(of, what, question, &set->lines[i], &set->labels[i]);
         PS_TRY(ps_text_check(&set->labels[i], of->error));
         set->lines[i].label = ps_text_string(&set->labels[i]);
@@ -249,28 +250,13 @@ out:
 /* ---- all --------------------------------------------------------------------------------- */
 
 static ps_line_kind find_axes(const ps_artist *of, const ps_picture *what) {
-    static const ps_line_kind errors = {NULL, "worst-case error", "", "", "points N", "E", true,
-                                        true};
-    static const ps_line_kind torus = {NULL,
-                                       "",
-                                       "normalized_frequency",
-                                       "power",
-                                       "normalized frequency |k| N^{-1/d}",
-                                       "radial mean power",
-                                       false,
-                                       false};
-    static const ps_line_kind sphere = {
-        NULL, "",  "normalized_degree", "power", "normalized degree l N^{-1/2}", "power",
-        true, true};
-    if (what->form == PS_PICTURE_ERRORS) {
-        return errors;
-    }
-    if (what->form == PS_PICTURE_SPECTRA) {
-        return of->result->asked->kind == &ps_result_power ? torus : sphere;
-    }
     size_t column = 0;
+    if (what->form == PS_PICTURE_SPECTRA) {
+        return *of->result->asked->kind->spectrum;
+    }
     ps_line_kind kind = *what->lines;
-    if (!ps_table_find_column(of->result->questions[0].answer.table, kind.x, &column)) {
+    if (what->form == PS_PICTURE_COLUMNS &&
+        !ps_table_find_column(of->result->questions[0].answer.table, kind.x, &column)) {
         kind.x = kind.x_label = "degree"; /* what was checked is of the sphere */
     }
     return kind;

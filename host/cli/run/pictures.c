@@ -13,35 +13,6 @@ bool ps_run_varies(const ps_scene_entry *entry) {
     return entry->num_values > 1;
 }
 
-/* ---- kinds of lines -------------------------------------------------------------------------- */
-
-/* Ended by a row without a suffix. */
-static const ps_line_kind of_pairs[] = {
-    {"-sums", "Legendre sums", "degree", "legendre_sum", "degree l", "Q(l)", false, true},
-    {"-c2", "part that depends on the azimuth", "degree", "c2", "degree l", "C_l^2", false, true},
-    {.suffix = NULL}};
-static const ps_line_kind of_rules[] = {
-    {"-d2", "zonal part", "degree", "d2", "degree l", "d_l^2", false, true},
-    {"-c2", "part that depends on the azimuth", "degree", "c2", "degree l", "C_l^2", false, true},
-    {"-e2", "share of the squared error", "degree", "e2", "degree l", "e_l^2", false, true},
-    {.suffix = NULL}};
-static const ps_line_kind of_truncation[] = {
-    {"-error", "worst-case error", "degree", "error", "largest degree L", "E(L)", false, true},
-    {"-points", "points with the same error", "degree", "equivalent_points", "largest degree L",
-     "N", false, true},
-    {.suffix = NULL}};
-/* A table of rings has bins, one of degrees has degrees. */
-static const ps_line_kind of_checks[] = {
-    {"-scores", "difference", "bin", "z_score", "ring", "in standard errors", false, false},
-    {.suffix = NULL}};
-
-static const ps_line_kind *find_kinds(const ps_result_kind *kind) {
-    return kind == &ps_result_pairs        ? of_pairs
-           : kind == &ps_result_quadrature ? of_rules
-           : kind == &ps_result_check      ? of_checks
-                                           : of_truncation;
-}
-
 /* ---- which curves go together ------------------------------------------------------------------ */
 
 /* How curves are dealt out: to pictures by the values of entry `group`, to panels by those of `panel`, or in turn, `chunk`
@@ -206,9 +177,7 @@ static pspec_status add_pages(ps_pictures *list, ps_picture *whole, bool is_chun
 /* The picture of one group, or its pages. */
 static pspec_status add_group(ps_pictures *list, const ps_scene_result *asked, ps_picture one,
                               const layout *how, size_t index, ps_error *error) {
-    const char *const stem = one.lines != NULL               ? one.lines->suffix
-                             : one.form == PS_PICTURE_ERRORS ? "-convergence"
-                                                             : "";
+    const char *const stem = one.lines != NULL ? one.lines->suffix : "";
     const bool is_group = how->group < asked->num_entries;
     one.group = how->group;
     one.points = how->points;
@@ -239,17 +208,18 @@ static size_t find_points(const ps_scene_result *asked) {
 static pspec_status list_errors(ps_pictures *out, const ps_scene_result *asked, ps_error *error) {
     const size_t points = find_points(asked);
     const layout how = find_layout(asked, points, false);
-    if (asked->kind != &ps_result_quadrature || points == asked->num_entries) {
+    if (asked->kind->convergence == NULL || points == asked->num_entries) {
         return PSPEC_OK;
     }
+    const ps_picture one = {.form = PS_PICTURE_ERRORS, .lines = asked->kind->convergence};
     for (size_t g = 0; g < count_values(asked, how.group); g++) {
-        PS_TRY(add_group(out, asked, (ps_picture){.form = PS_PICTURE_ERRORS}, &how, g, error));
+        PS_TRY(add_group(out, asked, one, &how, g, error));
     }
     return PSPEC_OK;
 }
 
 static pspec_status list_lines(ps_pictures *out, const ps_scene_result *asked, ps_error *error) {
-    const ps_line_kind *const kinds = find_kinds(asked->kind);
+    const ps_line_kind *const kinds = asked->kind->lines;
     const layout how = find_layout(asked, asked->num_entries, false);
     PS_TRY(list_errors(out, asked, error));
     for (size_t g = 0; g < count_values(asked, how.group); g++) {
@@ -283,9 +253,8 @@ pspec_status ps_pictures_list(ps_pictures *out, const ps_scene_result *asked, ps
     if (!asked->wants_plot) {
         return PSPEC_OK;
     }
-    return asked->kind == &ps_result_power || asked->kind == &ps_result_angular
-               ? list_spectra(out, asked, error)
-               : list_lines(out, asked, error);
+    return asked->kind->spectrum != NULL ? list_spectra(out, asked, error)
+                                         : list_lines(out, asked, error);
 }
 
 void ps_picture_say_panels(const ps_picture *picture, const ps_scene_result *asked, ps_text *out) {

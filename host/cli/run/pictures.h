@@ -7,12 +7,6 @@
 /* More curves than this in one frame cannot be told apart. */
 enum { PS_MOST_CURVES = 8 };
 
-/* Columns against each other, a line for each question. */
-typedef struct ps_line_kind {
-    const char *suffix, *what, *x, *y, *x_label, *y_label;
-    bool is_log_x, is_log_y;
-} ps_line_kind;
-
 typedef enum ps_picture_form {
     PS_PICTURE_SPECTRA, /* powers of a group of questions */
     PS_PICTURE_IMAGE,   /* of one question, with the averaged periodogram */
@@ -25,7 +19,7 @@ enum { PS_SUFFIX_BYTES = 96 };
 typedef struct ps_picture {
     char suffix[PS_SUFFIX_BYTES]; /* of the file: NAME + suffix + .svg */
     ps_picture_form form;
-    const ps_line_kind *lines; /* of columns */
+    const ps_line_kind *lines; /* of columns and of errors */
     const ps_scene_value *
         value; /* what its questions have and those of other pictures do not; NULL: there are no others */
     /* Entries of the result: of that value, of the numbers of points along a line, and of the value that a panel has for

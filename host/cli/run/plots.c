@@ -14,15 +14,15 @@ enum { CURVE_COLUMNS = 4 };
 static pspec_status take_curve(const ps_artist *of, size_t number, ps_plot_curve *out,
                                ps_text *label, double **numbers) {
     const ps_table *const table = of->result->questions[number].answer.table;
-    const bool on_torus = of->result->asked->kind == &ps_result_power;
+    const ps_line_kind *const axes = of->result->asked->kind->spectrum;
     const size_t num = ps_table_num_rows(table);
     void *memory = NULL;
     PS_TRY(ps_allocate(&memory, num, CURVE_COLUMNS * sizeof(double), "a curve", of->error));
     double *const columns = *numbers = memory;
-    ps_read_column(table, on_torus ? "normalized_frequency" : "normalized_degree", columns);
-    ps_read_column(table, "power", columns + num);
-    ps_read_column(table, "standard_error", columns + 2 * num);
-    ps_read_column(table, "anisotropy_db", columns + 3 * num);
+    ps_table_read_column(table, axes->x, columns);
+    ps_table_read_column(table, axes->y, columns + num);
+    ps_table_read_column(table, "standard_error", columns + 2 * num);
+    ps_table_read_column(table, "anisotropy_db", columns + 3 * num);
     ps_run_label(of->result, number, label);
     *out = (ps_plot_curve){ps_text_string(label), num, columns, columns + num, columns + 2 * num,
                            columns + 3 * num};
@@ -31,7 +31,7 @@ static pspec_status take_curve(const ps_artist *of, size_t number, ps_plot_curve
 
 static double noise_level(const ps_artist *of, size_t number) {
     const ps_table *const table = of->result->questions[number].answer.table;
-    return ps_cell_number(ps_run_meta(table, "noise_level_db"));
+    return ps_cell_number(ps_table_find_meta(table, "noise_level_db"));
 }
 
 /* Curves of a picture; with an array, the picture of one spectrum. */
@@ -52,7 +52,7 @@ static pspec_status draw_spectra(const ps_artist *of, const ps_picture *what,
                           curves,
                           image,
                           noise_level(of, what->curves[0]),
-                          of->result->asked->kind != &ps_result_power};
+                          of->result->asked->kind->samples == PS_DOMAIN_SPHERE};
     status = ps_draw(of, &(ps_drawing){.spectra = &plot}, what);
 out:
     for (size_t i = 0; i < PS_MOST_CURVES; i++) {
@@ -66,7 +66,7 @@ out:
 /* Where the array was wanted and is there. */
 static pspec_status draw_image(const ps_artist *of, const ps_picture *what) {
     const ps_answer *const answer = &of->result->questions[what->curves[0]].answer;
-    const double points = ps_cell_number(ps_run_meta(answer->table, "points"));
+    const double points = ps_cell_number(ps_table_find_meta(answer->table, "points"));
     const ps_plot_image image = {answer->side, answer->array, sqrt(points)};
     return answer->array != NULL && points > 0 ? draw_spectra(of, what, &image) : PSPEC_OK;
 }
@@ -74,9 +74,8 @@ static pspec_status draw_image(const ps_artist *of, const ps_picture *what) {
 /* Lists of frequencies have no normalized ones, and no picture. */
 static bool has_bins(const ps_run_result *result) {
     size_t column = 0;
-    const ps_table *const table = result->questions[0].answer.table;
-    return ps_table_find_column(table, "normalized_frequency", &column) ||
-           ps_table_find_column(table, "normalized_degree", &column);
+    return ps_table_find_column(result->questions[0].answer.table, result->asked->kind->spectrum->x,
+                                &column);
 }
 
 static pspec_status draw(const ps_artist *of, const ps_picture *what) {

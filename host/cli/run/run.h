@@ -13,7 +13,7 @@
 #ifndef PS_CLI_RUN_RUN_H
 #define PS_CLI_RUN_RUN_H
 
-#include "cli/answer.h"
+#include "cli/command.h"
 #include "cli/run/files.h"
 #include "cli/run/pictures.h"
 #include "files/digest.h"
@@ -96,9 +96,5 @@ pspec_status ps_run_compare(const ps_run *run, ps_error *error) PS_MUST_CHECK;
 
 /* What tells a question from the others of its result, "jittered, 1024"; the kind where nothing does. */
 void ps_run_label(const ps_run_result *result, size_t number, ps_text *out);
-/* A number, or nan. */
-double ps_cell_number(ps_cell cell);
-/* The first header entry of that key; kind missing: there is none. */
-ps_cell ps_run_meta(const ps_table *table, const char *key);
 
 #endif

@@ -28,23 +28,6 @@ void ps_run_label(const ps_run_result *result, size_t number, ps_text *out) {
     ps_text_append(out, "%s", is_first ? asked->kind->name : "");
 }
 
-double ps_cell_number(ps_cell cell) {
-    return cell.kind == PS_CELL_NUMBER    ? cell.number
-           : cell.kind == PS_CELL_INTEGER ? (double)cell.integer
-                                          : NAN;
-}
-
-ps_cell ps_run_meta(const ps_table *table, const char *key) {
-    for (size_t i = 0; i < ps_table_num_meta(table); i++) {
-        const char *own = NULL;
-        const ps_cell value = ps_table_meta(table, i, &own);
-        if (strcmp(own, key) == 0) {
-            return value;
-        }
-    }
-    return PS_MISSING;
-}
-
 /* ---- what all tables have ---------------------------------------------------------------- */
 
 static pspec_status begin(ps_table **out, const ps_run *run, const ps_run_result *result,
@@ -180,35 +163,9 @@ out:
 
 /* ---- summaries --------------------------------------------------------------------------- */
 
-/* Header entries that are columns of a summary. */
-static const char *const of_spectra[] = {"points",          "realizations", "weight_sum",
-                                         "predicted_error", "self_check",   NULL};
-static const char *const of_rules[] = {"points",
-                                       "realizations",
-                                       "max_degree",
-                                       "weight_sum",
-                                       "worst_case_error",
-                                       "worst_case_error_standard_error",
-                                       "zonal_error",
-                                       "anisotropic_error",
-                                       "tail",
-                                       "predicted_error",
-                                       NULL};
-static const char *const of_truncation[] = {"brdf",    "smoothness",      "harmonics",
-                                            "kappa_0", "predicted_error", NULL};
-static const char *const of_checks[] = {"points",           "realizations", "different",
-                                        "adjusted_p_value", "verdict",      NULL};
-
-static const char *const *summary_keys(const ps_result_kind *kind) {
-    return kind == &ps_result_quadrature   ? of_rules
-           : kind == &ps_result_truncation ? of_truncation
-           : kind == &ps_result_check      ? of_checks
-                                           : of_spectra;
-}
-
 static pspec_status fill_summary(const ps_run *run, ps_run_result *result, const char **names,
                                  ps_cell *cells, ps_error *error) {
-    const char *const *const keys = summary_keys(result->asked->kind);
+    const char *const *const keys = result->asked->kind->summary;
     size_t num = put_names(result, names);
     for (size_t k = 0; keys[k] != NULL; k++) {
         bool is_known = false; /* points may vary, and then come first already */
@@ -223,7 +180,7 @@ static pspec_status fill_summary(const ps_run *run, ps_run_result *result, const
     for (size_t q = 0; q < result->num; q++) {
         const size_t num_values = put_values(result, q, cells);
         for (size_t i = num_values; i < num; i++) {
-            cells[i] = ps_run_meta(result->questions[q].answer.table, names[i]);
+            cells[i] = ps_table_find_meta(result->questions[q].answer.table, names[i]);
         }
         PS_TRY(ps_table_add_row(result->summary, cells, error));
     }

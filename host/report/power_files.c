@@ -1,7 +1,6 @@
 /* --full of power. */
 #include "report/power_table.h"
 
-#include "cli/output_check.h"
 #include "files/npy.h"
 
 #include <stdlib.h>
@@ -38,9 +37,7 @@ static size_t stem_length(const char *path) {
 }
 
 pspec_status ps_power_check_full(const ps_request *arguments, ps_error *error) {
-    return arguments->full == NULL
-               ? PSPEC_OK
-               : ps_output_check_ending("--full", arguments->full, array_ending, error);
+    return arguments->full == NULL ? PSPEC_OK : ps_npy_check_name("--full", arguments->full, error);
 }
 
 pspec_status ps_power_write_full(const ps_request *arguments, const ps_power_job *job,

@@ -1,0 +1,93 @@
+/* The averaged angular power spectrum of sets on the sphere. */
+#include "files/npy.h"
+#include "report/angular_table.h"
+#include "results/compare.h"
+#include "results/spectra.h"
+
+static const ps_option_id options[] = {PS_OPTION_SAMPLER,
+                                       PS_OPTION_POINTS,
+                                       PS_OPTION_REALIZATIONS,
+                                       PS_OPTION_STANDARD_ERROR,
+                                       PS_OPTION_SEED,
+                                       PS_OPTION_HOMOGENIZE,
+                                       PS_OPTION_WEIGHTS,
+                                       PS_OPTION_INPUT_FORMAT,
+                                       PS_OPTION_COLUMNS,
+                                       PS_OPTION_SELECT_SETS,
+                                       PS_OPTION_NORMALIZE_VECTORS,
+                                       PS_OPTION_MAX_DEGREE,
+                                       PS_OPTION_HEMISPHERE,
+                                       PS_OPTION_NORMALIZE,
+                                       PS_OPTION_TOLERANCE,
+                                       PS_OPTION_FLOOR,
+                                       PS_OPTION_PRECISION,
+                                       PS_OPTION_ENGINE,
+                                       PS_OPTION_NO_SKIP,
+                                       PS_OPTION_NO_SELF_CHECK,
+                                       PS_OPTION_MEMORY,
+                                       PS_NUM_OPTIONS};
+
+static pspec_status check_coefficients(const ps_request *request, ps_error *error) {
+    if (request->coefficients == NULL) {
+        return request->harmonics == NULL
+                   ? PSPEC_OK
+                   : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                             "--harmonics is about --coefficients, which was not given");
+    }
+    if (request->num_samplers > 1) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "--coefficients are of one set, but %zu samplers were given",
+                       request->num_samplers);
+    }
+    return ps_npy_check_name("--coefficients", request->coefficients, error);
+}
+
+static pspec_status check_question(const ps_request *request, ps_error *error) {
+    return ps_spectra_check(request, PS_QUESTION_ANGULAR, error);
+}
+
+static pspec_status plan(ps_planner *planner, const ps_request *request, ps_error *error) {
+    return ps_spectra_plan(planner, request, PS_QUESTION_ANGULAR, error);
+}
+
+static pspec_status compute(void **out, const ps_request *request, const ps_answer_hooks *hooks,
+                            ps_error *error) {
+    return ps_spectra_compute(out, request, PS_QUESTION_ANGULAR, hooks, error);
+}
+
+static pspec_status tabulate(ps_answer *out, const void *computed, const ps_request *request,
+                             ps_error *error) {
+    return ps_spectra_tabulate(out, computed, request, ps_angular_table, error);
+}
+
+static pspec_status write_others(const void *computed, const ps_request *request, ps_error *error) {
+    const ps_spectra *const spectra = computed;
+    if (request->coefficients == NULL) {
+        return PSPEC_OK;
+    }
+    const ps_power_job *const job = spectra->jobs[0];
+    const int32_t max_degree = ps_power_job_problem(job)->frequencies->max_frequency;
+    return ps_npy_write_complex(request->coefficients, ps_num_coefficients(max_degree) / 2,
+                                ps_power_job_coefficients(job), error);
+}
+
+static const ps_line_kind axes = {
+    NULL, "", "normalized_degree", "power", "normalized degree l N^{-1/2}", "power", true, true};
+
+const ps_result_kind ps_result_angular = {
+    .name = "angular",
+    .options = options,
+    .samples = PS_DOMAIN_SPHERE,
+    .counted = "realizations",
+    .check_arguments = check_coefficients,
+    .check_question = check_question,
+    .plan = plan,
+    .compute = compute,
+    .tabulate = tabulate,
+    .write_others = write_others,
+    .draw = ps_spectra_draw,
+    .discard = ps_spectra_discard,
+    .summary = ps_spectra_summary,
+    .spectrum = &axes,
+    .compare = ps_compare_powers,
+};

@@ -1,0 +1,43 @@
+#include "results/kind.h"
+
+#include "base/text.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+void ps_answer_begin_next(const ps_answer_hooks *hooks) {
+    if (hooks->next != NULL) {
+        hooks->next(hooks->payload);
+    }
+}
+
+void ps_answer_warn(const ps_answer_hooks *hooks, const char *format, ...) {
+    char sentence[PS_MESSAGE_BYTES];
+    va_list arguments;
+    if (hooks->warn == NULL) {
+        return;
+    }
+    va_start(arguments, format);
+    vsnprintf(sentence, sizeof sentence, format, arguments);
+    va_end(arguments);
+    hooks->warn(hooks->payload, sentence);
+}
+
+pspec_status ps_answer_make(ps_answer *out, const ps_result_kind *kind, const ps_request *request,
+                            const ps_answer_hooks *hooks, ps_error *error) {
+    void *computed = NULL;
+    *out = (ps_answer){0};
+    pspec_status status = kind->compute(&computed, request, hooks, error);
+    if (status == PSPEC_OK) {
+        status = kind->tabulate(out, computed, request, error);
+    }
+    kind->discard(computed);
+    return status;
+}
+
+void ps_answer_free(ps_answer *answer) {
+    ps_table_destroy(answer->table);
+    free(answer->array);
+    *answer = (ps_answer){0};
+}

@@ -1,0 +1,110 @@
+/* The interface of every kind of result, and the table that names them all.
+ *
+ * A kind of result is what can be asked for: a command of the same name prints one, a scene has several, and both go the
+ * same way: check -> compute -> tabulate, with pictures and other files made of what was computed, or of the table. A kind
+ * says which options belong to its question, what planning it comes to, and what its tables mean to who draws, sums up or
+ * compares them. A new kind is a new file and a row in results/table.c.
+ */
+#ifndef PS_RESULTS_KIND_H
+#define PS_RESULTS_KIND_H
+
+#include "base/watch.h"
+#include "device/device.h"
+#include "plan/choose.h"
+#include "questions/request.h"
+#include "report/plan_table.h"
+#include "tables/table.h"
+
+/* Who is told of the work, and what there is already; {0}: nobody, and nothing. Each of the calls may be NULL. */
+typedef struct ps_answer_hooks {
+    ps_watch watch;
+    ps_device
+        *device;   /* borrowed; NULL: the one that the request names is opened where it is needed */
+    void *payload; /* of the calls */
+    /* The work for the next sampler, or for the files, begins. */
+    void (*next)(void *payload);
+    /* A whole sentence that is no error. */
+    void (*warn)(void *payload, const char *sentence);
+    /* Before the work for one sampler, and after it. */
+    void (*tell_plan)(void *payload, const ps_plan *plan);
+    void (*tell_profile)(void *payload, const ps_profile_row *rows, size_t num_rows);
+} ps_answer_hooks;
+
+/* Calls the hook `next`, if there is one. */
+void ps_answer_begin_next(const ps_answer_hooks *hooks);
+/* Calls the hook `warn` with a sentence, if there is somebody to hear it. */
+void ps_answer_warn(const ps_answer_hooks *hooks, const char *format, ...) PS_PRINTF(2, 3);
+
+typedef struct ps_answer {
+    ps_table *table;
+    double *
+        array; /* the averaged periodogram on the whole square, [side][side], where request->wants_picture
+                      and there is one; NULL: none */
+    size_t side;
+    ps_error verdict; /* PSPEC_ERROR_CHECK where differences were found; else status PSPEC_OK */
+} ps_answer;
+
+/* Two columns of a table, or two entries of its header, against each other: a line for each question. */
+typedef struct ps_line_kind {
+    const char *suffix; /* of the file's name; NULL ends a list of them */
+    const char *what, *x, *y, *x_label, *y_label;
+    bool is_log_x, is_log_y;
+} ps_line_kind;
+
+typedef struct ps_result_kind {
+    const char *name;
+
+    /* The question. */
+    const ps_option_id *
+        options; /* that belong to the question, which is the same on every device; ended by PS_NUM_OPTIONS */
+    const char *weights; /* words of --weights; NULL: equal|column|FILE */
+    ps_domain samples;   /* which samplers it takes */
+    const char *counted; /* what its work counts: "realizations" */
+    bool is_of_host;     /* no device is needed, whatever is asked */
+    bool has_images;  /* its answers may have an array, which scenes ask for by the key pictures */
+    bool has_verdict; /* whose rows are words, too: no NPY */
+
+    /* What a command refuses before it looks at its outputs; NULL: nothing. */
+    pspec_status (*check_arguments)(const ps_request *request, ps_error *error);
+    /* What can be refused is refused before the first hour of work: do the options fit together? */
+    pspec_status (*check_question)(const ps_request *request, ps_error *error);
+    /* Adds what computing it would come to. */
+    pspec_status (*plan)(ps_planner *planner, const ps_request *request, ps_error *error);
+
+    /* The answer. All the work: *out is what the following are made of, given to discard, also after an error. It borrows
+     * from the request. */
+    pspec_status (*compute)(void **out, const ps_request *request, const ps_answer_hooks *hooks,
+                            ps_error *error);
+    /* *out is {0} before, and freed by ps_answer_free, also after an error. */
+    pspec_status (*tabulate)(ps_answer *out, const void *computed, const ps_request *request,
+                             ps_error *error);
+    /* Writes the files that options besides --output and --plot ask for; NULL: there are no such options. */
+    pspec_status (*write_others)(const void *computed, const ps_request *request, ps_error *error);
+    /* Draws the picture request->plot; NULL: there is no such option. */
+    pspec_status (*draw)(const void *computed, const ps_request *request, ps_error *error);
+    void (*discard)(void *computed); /* NULL is allowed */
+
+    /* What the tables mean. */
+    const char *const *summary;   /* header entries that are columns of a summary, ended by NULL */
+    const ps_line_kind *spectrum; /* axes of the powers of spectra; NULL: it is none */
+    const ps_line_kind *lines;    /* pictures of columns; NULL for spectra */
+    const ps_line_kind *
+        convergence; /* header entries against each other where numbers of points vary; NULL: none */
+    /* How far answers to questions with the same rows may be apart, and are: 1 is what is allowed, infinite where one has
+     * what the other lacks. */
+    double (*compare)(const ps_table *a, const ps_table *b);
+} ps_result_kind;
+
+extern const ps_result_kind ps_result_power, ps_result_angular, ps_result_pairs,
+    ps_result_quadrature, ps_result_truncation, ps_result_check;
+
+/* Ended by NULL. */
+extern const ps_result_kind *const ps_result_kinds[];
+
+/* Computes and tabulates, and keeps nothing else. *out is freed by ps_answer_free, also after an error. A check that found
+ * differences is no error: the answer has the verdict. */
+pspec_status ps_answer_make(ps_answer *out, const ps_result_kind *kind, const ps_request *request,
+                            const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
+void ps_answer_free(ps_answer *answer);
+
+#endif

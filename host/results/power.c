@@ -1,0 +1,86 @@
+/* The averaged periodogram of sets on the torus. */
+#include "report/power_table.h"
+#include "results/compare.h"
+#include "results/spectra.h"
+
+static const ps_option_id options[] = {PS_OPTION_SAMPLER,       PS_OPTION_POINTS,
+                                       PS_OPTION_REALIZATIONS,  PS_OPTION_STANDARD_ERROR,
+                                       PS_OPTION_DIMENSION,     PS_OPTION_SEED,
+                                       PS_OPTION_HOMOGENIZE,    PS_OPTION_WEIGHTS,
+                                       PS_OPTION_INPUT_FORMAT,  PS_OPTION_COLUMNS,
+                                       PS_OPTION_SELECT_SETS,   PS_OPTION_WRAP,
+                                       PS_OPTION_MAX_FREQUENCY, PS_OPTION_FREQUENCIES,
+                                       PS_OPTION_SHELLS,        PS_OPTION_PER_RING,
+                                       PS_OPTION_NORMALIZE,     PS_OPTION_TOLERANCE,
+                                       PS_OPTION_FLOOR,         PS_OPTION_PRECISION,
+                                       PS_OPTION_ENGINE,        PS_OPTION_NO_SKIP,
+                                       PS_OPTION_NO_SELF_CHECK, PS_OPTION_MEMORY,
+                                       PS_NUM_OPTIONS};
+
+static pspec_status check_question(const ps_request *request, ps_error *error) {
+    return ps_spectra_check(request, PS_QUESTION_POWER, error);
+}
+
+static pspec_status plan(ps_planner *planner, const ps_request *request, ps_error *error) {
+    return ps_spectra_plan(planner, request, PS_QUESTION_POWER, error);
+}
+
+static pspec_status compute(void **out, const ps_request *request, const ps_answer_hooks *hooks,
+                            ps_error *error) {
+    return ps_spectra_compute(out, request, PS_QUESTION_POWER, hooks, error);
+}
+
+/* Lists, and subsets of rings, fill no array. */
+static pspec_status take_array(ps_answer *out, const ps_spectrum *spectrum, ps_error *error) {
+    enum { PLANE = 2 };
+    size_t num = 0;
+    const ps_frequencies *const set = &spectrum->frequencies;
+    if (set->dimension != PLANE || set->kind != PS_FREQUENCIES_BOX) {
+        return PSPEC_OK;
+    }
+    PS_TRY(ps_spectrum_full(spectrum, 0, (ps_mean){0}, &out->array, &num, error));
+    out->side = 2 * (size_t)set->max_frequency + 1;
+    return PSPEC_OK;
+}
+
+static pspec_status tabulate(ps_answer *out, const void *computed, const ps_request *request,
+                             ps_error *error) {
+    const ps_spectra *const spectra = computed;
+    if (request->wants_picture) {
+        PS_TRY(take_array(out, ps_power_job_spectrum(spectra->jobs[0]), error));
+    }
+    return ps_spectra_tabulate(out, computed, request, ps_power_table, error);
+}
+
+static pspec_status write_others(const void *computed, const ps_request *request, ps_error *error) {
+    const ps_spectra *const spectra = computed;
+    return request->full != NULL ? ps_power_write_full(request, spectra->jobs[0], error) : PSPEC_OK;
+}
+
+static const ps_line_kind axes = {NULL,
+                                  "",
+                                  "normalized_frequency",
+                                  "power",
+                                  "normalized frequency |k| N^{-1/d}",
+                                  "radial mean power",
+                                  false,
+                                  false};
+
+const ps_result_kind ps_result_power = {
+    .name = "power",
+    .options = options,
+    .samples = PS_DOMAIN_TORUS,
+    .counted = "realizations",
+    .has_images = true,
+    .check_arguments = ps_power_check_full,
+    .check_question = check_question,
+    .plan = plan,
+    .compute = compute,
+    .tabulate = tabulate,
+    .write_others = write_others,
+    .draw = ps_spectra_draw,
+    .discard = ps_spectra_discard,
+    .summary = ps_spectra_summary,
+    .spectrum = &axes,
+    .compare = ps_compare_powers,
+};

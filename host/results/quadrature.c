@@ -1,0 +1,178 @@
+/* Quadrature spectrum and worst-case error of rules for a BRDF. */
+#include "base/memory.h"
+#include "jobs/quadrature/quadrature_looks.h"
+#include "questions/quadrature_question.h"
+#include "report/quadrature_table.h"
+#include "results/compare.h"
+#include "results/spectra.h"
+
+#include <stdlib.h>
+
+static const ps_option_id options[] = {PS_OPTION_SAMPLER,
+                                       PS_OPTION_POINTS,
+                                       PS_OPTION_REALIZATIONS,
+                                       PS_OPTION_STANDARD_ERROR,
+                                       PS_OPTION_SEED,
+                                       PS_OPTION_HOMOGENIZE,
+                                       PS_OPTION_BRDF,
+                                       PS_OPTION_SMOOTHNESS,
+                                       PS_OPTION_WEIGHTS,
+                                       PS_OPTION_INPUT_FORMAT,
+                                       PS_OPTION_COLUMNS,
+                                       PS_OPTION_SELECT_SETS,
+                                       PS_OPTION_NORMALIZE_VECTORS,
+                                       PS_OPTION_MAX_DEGREE,
+                                       PS_OPTION_TOLERANCE,
+                                       PS_OPTION_PRECISION,
+                                       PS_OPTION_ENGINE,
+                                       PS_OPTION_NO_SKIP,
+                                       PS_OPTION_DROP_BELOW,
+                                       PS_OPTION_MEMORY,
+                                       PS_NUM_OPTIONS};
+
+/* One rule, or one mean over realizations, for each sampler or for the files. */
+typedef struct rules {
+    ps_quadrature_list list;
+    ps_device *device; /* of all of them, where they share one that was opened for them */
+    ps_quadrature_result results[PS_MAX_SAMPLERS];
+} rules;
+
+static pspec_status check_question(const ps_request *request, ps_error *error) {
+    ps_quadrature_list list = {0};
+    const pspec_status status = ps_quadrature_list_make(&list, request, error);
+    ps_quadrature_list_free(&list);
+    return status;
+}
+
+/* ---- plan ---------------------------------------------------------------------------------- */
+
+static pspec_status plan_one(ps_planner *planner, const ps_request *request,
+                             ps_quadrature_question *question, size_t index, ps_error *error) {
+    ps_quadrature_setup setup = {0};
+    question->open_device = planner->device;
+    PS_TRY(ps_plan_table_find_lack(planner, &question->constraints, &question->may_lack_device,
+                                   error));
+    pspec_status status = ps_quadrature_setup_ask(&setup, question, error);
+    if (status == PSPEC_OK) {
+        status = ps_plan_table_add_quadrature(planner, request, question, &setup, index, error);
+    }
+    ps_quadrature_setup_free(&setup);
+    return status;
+}
+
+static pspec_status plan(ps_planner *planner, const ps_request *request, ps_error *error) {
+    ps_quadrature_list list;
+    pspec_status status = ps_quadrature_list_make(&list, request, error);
+    for (size_t i = 0; status == PSPEC_OK && i < list.num; i++) {
+        status = plan_one(planner, request, &list.questions[i], i, error);
+    }
+    ps_quadrature_list_free(&list);
+    return status;
+}
+
+/* ---- work ---------------------------------------------------------------------------------- */
+
+static void warn_of_standard_error(const ps_quadrature_result *result, double standard_error,
+                                   const ps_answer_hooks *hooks) {
+    char where[48];
+    if (result->has_look && !(result->look.corrected <= standard_error)) {
+        ps_quadrature_look_name(where, sizeof where, &result->look);
+        ps_answer_warn(
+            hooks, "the standard error %.3g was not reached in %llu realizations: it is %.3g of %s",
+            standard_error, (unsigned long long)result->num_realizations, result->look.corrected,
+            where);
+    }
+}
+
+static pspec_status run_one(ps_quadrature_result *result, ps_quadrature_question *question,
+                            const ps_answer_hooks *hooks, ps_error *error) {
+    question->watch = hooks->watch;
+    if (hooks->device != NULL) {
+        question->open_device = hooks->device;
+    }
+    question->tell_plan = hooks->tell_plan;
+    question->tell_profile = hooks->tell_profile;
+    question->payload = hooks->payload;
+    ps_answer_begin_next(hooks);
+    PS_TRY(ps_quadrature_run(result, question, error));
+    warn_of_standard_error(result, question->standard_error, hooks);
+    return PSPEC_OK;
+}
+
+static pspec_status compute(void **out, const ps_request *request, const ps_answer_hooks *hooks,
+                            ps_error *error) {
+    PS_TRY(ps_allocate(out, 1, sizeof(rules), "rules", error));
+    rules *const all = *out;
+    ps_quadrature_list *const list = &all->list;
+    PS_TRY(ps_quadrature_list_make(list, request, error));
+    PS_TRY(ps_answer_open_device(&all->device, request, &list->questions[0].constraints, list->num,
+                                 hooks, error));
+    for (size_t i = 0; i < list->num; i++) {
+        list->questions[i].open_device = all->device;
+        PS_TRY(run_one(&all->results[i], &list->questions[i], hooks, error));
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status tabulate(ps_answer *out, const void *computed, const ps_request *request,
+                             ps_error *error) {
+    const rules *const all = computed;
+    return ps_quadrature_table(&out->table, request, &all->list, all->results, error);
+}
+
+static pspec_status draw(const void *computed, const ps_request *request, ps_error *error) {
+    const rules *const all = computed;
+    return ps_quadrature_plot(request, &all->list, all->results, error);
+}
+
+static void discard(void *computed) {
+    rules *const all = computed;
+    if (all == NULL) {
+        return;
+    }
+    for (size_t i = 0; i < PS_MAX_SAMPLERS; i++) {
+        ps_quadrature_free(&all->results[i]);
+    }
+    ps_quadrature_list_free(&all->list);
+    ps_device_close(all->device);
+    free(all);
+}
+
+/* ---- what tables mean ------------------------------------------------------------------------ */
+
+static const char *const summary[] = {"points",
+                                      "realizations",
+                                      "max_degree",
+                                      "weight_sum",
+                                      "worst_case_error",
+                                      "worst_case_error_standard_error",
+                                      "zonal_error",
+                                      "anisotropic_error",
+                                      "tail",
+                                      "predicted_error",
+                                      NULL};
+static const ps_line_kind lines[] = {
+    {"-d2", "zonal part", "degree", "d2", "degree l", "d_l^2", false, true},
+    {"-c2", "part that depends on the azimuth", "degree", "c2", "degree l", "C_l^2", false, true},
+    {"-e2", "share of the squared error", "degree", "e2", "degree l", "e_l^2", false, true},
+    {.suffix = NULL}};
+static const ps_line_kind convergence = {
+    "-convergence", "worst-case error", "points", "worst_case_error", "points N", "E", true, true};
+
+const ps_result_kind ps_result_quadrature = {
+    .name = "quadrature",
+    .options = options,
+    .weights = "equal|column|optimal|FILE",
+    .samples = PS_DOMAIN_SPHERE,
+    .counted = "realizations",
+    .check_question = check_question,
+    .plan = plan,
+    .compute = compute,
+    .tabulate = tabulate,
+    .draw = draw,
+    .discard = discard,
+    .summary = summary,
+    .lines = lines,
+    .convergence = &convergence,
+    .compare = ps_compare_rules,
+};
