@@ -19,7 +19,7 @@
 
 enum { REPEATS = 12 };
 
-/* design.md 3.1 */
+/* As docs/pairs_direct.md counts them. */
 #define FLOPS_PER_PAIR_DEGREE 6
 
 /* Of all threads: on a shared machine it says more than the clock. */

@@ -1,4 +1,4 @@
-/* The public library: kernel interpolation (mathematics.md 4.8). */
+/* The public library: kernel interpolation (docs/mathematics/quadrature.md#interpolation). */
 #include "rules/kernel_system.h"
 #include "base/memory.h"
 #include "jobs/parts/pattern_check.h"

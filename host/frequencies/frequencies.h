@@ -3,11 +3,13 @@
  *
  * Real weights make |S(-k)| = |S(k)|, so a box |k_i| <= K is represented by its half lattice: the k
  * whose first non-zero component is positive, in lexicographic order, DC left out
- * (mathematics.md 1.3). A ball keeps only k with |k|^2 <= K^2 + K: all rings 1..K, no corners.
+ * (docs/mathematics/torus.md#rings). A ball keeps only k with |k|^2 <= K^2 + K: all rings 1..K, no
+ * corners.
  *
- * The power of a degree l is a mean over its 2l + 1 orders (mathematics.md 2.2). Degree 0 is the DC of the
- * sphere and left out like it; on the hemisphere, the projective plane, only even degrees are there
- * (mathematics.md 3).
+ * The power of a degree l is a mean over its 2l + 1 orders
+ * (docs/mathematics/sphere.md#coefficients-and-power). Degree 0 is the DC of the sphere and left
+ * out like it; on the hemisphere, the projective plane, only even degrees are there
+ * (docs/mathematics/sphere.md#hemisphere).
  */
 #ifndef PS_FREQUENCIES_FREQUENCIES_H
 #define PS_FREQUENCIES_FREQUENCIES_H

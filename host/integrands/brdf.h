@@ -1,5 +1,6 @@
 /* Lobes of reflection p(z) around an axis, z the cosine to it, as weights of shading integrals: their zonal
- * coefficients in spherical and hemispherical harmonics (mathematics.md 4.2). One file per lobe, one table.
+ * coefficients in spherical and hemispherical harmonics (docs/mathematics/quadrature.md#lobes). One
+ * file per lobe, one table.
  *
  *     phat = p/(2 pi r_s),  r_s = int p dz,   b_l = int phat Y_l0 dS,   b_0 = 1/(2 sqrt pi) for all of them
  */

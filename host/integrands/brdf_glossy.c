@@ -1,4 +1,5 @@
-/* The Gaussian lobe p = e^{n(z-1)} of glossy surfaces, cut at the horizon or not (mathematics.md 4.2). */
+/* The Gaussian lobe p = e^{n(z-1)} of glossy surfaces, cut at the horizon or not
+ * (docs/mathematics/quadrature.md#lobes). */
 #include "integrands/brdf_kind.h"
 
 #include "base/memory.h"

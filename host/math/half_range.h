@@ -1,4 +1,5 @@
-/* Hemispherical harmonics written in spherical ones (mathematics.md 4.2). */
+/* Hemispherical harmonics written in spherical ones
+ * (docs/mathematics/quadrature.md#hemispherical-harmonics). */
 #ifndef PS_MATH_HALF_RANGE_H
 #define PS_MATH_HALF_RANGE_H
 

@@ -1,5 +1,6 @@
-/* Importance "morphing": heights with equal areas become heights with the density of a lobe (mathematics.md 4.7).
- * All in t = 1 - z, which keeps the digits near the pole, where narrow lobes are. */
+/* Importance "morphing": heights with equal areas become heights with the density of a lobe
+ * (docs/mathematics/quadrature.md#morphing). All in t = 1 - z, which keeps the digits near the
+ * pole, where narrow lobes are. */
 #ifndef PS_MATH_MORPH_H
 #define PS_MATH_MORPH_H
 

@@ -1,4 +1,5 @@
-/* The reproducing kernel of the Sobolev space H^s of the sphere, 1 < s < 2 (mathematics.md 4.1):
+/* The reproducing kernel of the Sobolev space H^s of the sphere, 1 < s < 2
+ * (docs/mathematics/quadrature.md#sobolev-kernel):
  *
  *     K(u,v) = c - |u-v|^(2s-2) = sum_l a_l (2l+1)/(4 pi) P_l(u.v),    c = 2^(2s-1)/s
  */

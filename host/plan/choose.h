@@ -56,8 +56,9 @@ typedef struct ps_plan_constraints {
 bool ps_plan_may_need_device(const ps_plan_constraints *constraints);
 
 /* The tolerance of S that both a tolerance and a floor ask for (floor 0: none): |dS| <= e sqrt(V) with
- * three times e still leaving a power of `floor` right to 10 % (mathematics.md 7.2: the relative
- * error of a power P is 2 e / sqrt(P)). */
+ * three times e still leaving a power of `floor` right to 10 %
+ * (docs/mathematics/statistics.md#tolerance-of-a-floor: the relative error of a power P is 2
+ * e / sqrt(P)). */
 double ps_plan_tolerance(double tolerance, double floor);
 /* The loosest tolerance of S with which a standard error, relative, of powers down to `floor` means what it says: the
  * numerical error of such a power is at most a third of it, three times over, and the powers are right to 10 %. */

@@ -1,5 +1,6 @@
 /* How many points of a good rule have the error of a truncated product: N with E_SF(N) = E(L), E_SF the worst-case error
- * of equal-weight spherical Fibonacci points of the hemisphere morphed to the lobe (mathematics.md 4.5). */
+ * of equal-weight spherical Fibonacci points of the hemisphere morphed to the lobe
+ * (docs/mathematics/quadrature.md#truncation). */
 #ifndef PS_RULES_EQUAL_ERROR_H
 #define PS_RULES_EQUAL_ERROR_H
 

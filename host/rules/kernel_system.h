@@ -1,5 +1,5 @@
 /* Linear systems with the kernel matrix K_ij = c - |u_i-u_j|^(2s-2) of points, for optimal weights and interpolation
- * (mathematics.md 4.6, 4.8).
+ * (docs/mathematics/quadrature.md#optimal-weights, docs/mathematics/quadrature.md#interpolation).
  *
  * By Cholesky in double precision with one step of iterative refinement up to PS_KERNEL_MOST_DENSE points, if no limit of
  * memory forbids N^2 doubles; else by conjugate gradients, which make K on the fly, on the device where there is one with
@@ -61,7 +61,7 @@ pspec_status ps_kernel_system_solve(ps_kernel_system *system, const double *righ
 
 ps_kernel_facts ps_kernel_system_facts(const ps_kernel_system *system);
 
-/* sum_i x_i K(u, u_i) at unit vectors [num][3]: the interpolant of section 4.8. */
+/* sum_i x_i K(u, u_i) at unit vectors [num][3]: docs/mathematics/quadrature.md#interpolation. */
 void ps_kernel_interpolate(size_t num_points, const double *points, double smoothness,
                            const double *x, size_t num, const double *at, double *values);
 

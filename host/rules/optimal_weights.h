@@ -1,5 +1,6 @@
-/* Optimal weights of a quadrature rule (mathematics.md 4.6): K w = kappa makes the worst-case error of points smallest,
- * E^2_min = kappa_0 - w.kappa; with sum w = 1 imposed, w + mu K^-1 1. Weights may be negative. */
+/* Optimal weights of a quadrature rule (docs/mathematics/quadrature.md#optimal-weights): K
+ * w = kappa makes the worst-case error of points smallest, E^2_min = kappa_0 - w.kappa; with sum
+ * w = 1 imposed, w + mu K^-1 1. Weights may be negative. */
 #ifndef PS_RULES_OPTIMAL_WEIGHTS_H
 #define PS_RULES_OPTIMAL_WEIGHTS_H
 

@@ -201,8 +201,9 @@ static inline void add_two(double *sum, double *low, double value) {
     *sum = total;
 }
 
-/* sum_l series_l P_l(1 - t) over even and over odd l, in the difference form of mathematics.md 7.3. Arrays of the
- * function's own let the compiler see that nothing overlaps. */
+/* sum_l series_l P_l(1 - t) over even and over odd l, in the difference form of
+ * docs/mathematics/numerics.md#legendre-sums. Arrays of the function's own let the compiler see
+ * that nothing overlaps. */
 PS_WIDE_BODY(size_t, sum_series,
              (size_t num_degrees, const double *series, const double *factors,
               const double *heights, double *even_sums, double *odd_sums)) {

@@ -1,5 +1,5 @@
 /* What the worst-case error of a shading integral needs that does not depend on points: the representer kappa of
- * f -> int f phat in the Sobolev space H^s (mathematics.md 4.3),
+ * f -> int f phat in the Sobolev space H^s (docs/mathematics/quadrature.md#representer),
  *
  *     kappa(u) = int K(u,v) phat(v) dS(v) = sum_l a_l b_l Y_l0(u),    kappa_0 = sum_l a_l b_l^2
  */

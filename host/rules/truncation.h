@@ -1,5 +1,5 @@
 /* The worst-case error of shading integrals as truncated inner products in spherical or hemispherical harmonics
- * (mathematics.md 4.5):
+ * (docs/mathematics/quadrature.md#truncation):
  *
  *     SH:   E(L)^2 = sum_{l>L} a_l b_l^2
  *     HSH:  E(L)^2 = sum_l a_l (b_l - b'_l)^2,   b'_l = sum_{l'<=L} b~_l' M_{l'l}

@@ -1,5 +1,6 @@
 /* The worst-case error of a quadrature rule for a shading integral over the unit ball of the Sobolev space H^s, in its
- * kernel form and in its spectral form (mathematics.md 4.3, 4.4):
+ * kernel form and in its spectral form (docs/mathematics/quadrature.md#worst-case-error,
+ * docs/mathematics/quadrature.md#spectral-form):
  *
  *     E^2 = c (W-1)^2 - sum_ij w_i w_j |u_i-u_j|^(2s-2) + 2 sum_j w_j D(u_j) - D_0                              (Q2)
  *     E^2 = sum_l a_l (d_l^2 + C_l^2),   d_l = b_l - c_l0,   C_l^2 = 2 sum_{m=1..l} |c_lm|^2

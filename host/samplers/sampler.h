@@ -43,7 +43,7 @@ typedef enum ps_sampler_domain {
     "phi = 2 pi y"
 
 /* The parameters of all samplers of the hemisphere, lifted ones included: points of equal areas take the density of a
- * lobe, keeping their azimuths (mathematics.md 4.7). */
+ * lobe, keeping their azimuths (docs/mathematics/quadrature.md#morphing). */
 #define PS_MORPH_KEY "morph"
 #define PS_MORPH_DEFAULT "none"
 #define PS_MORPH_MEANING                                                                           \
@@ -127,10 +127,11 @@ bool ps_sampler_is_on_sphere(const ps_sampler_request *request);
 bool ps_sampler_is_on_hemisphere(const ps_sampler_request *request);
 
 /* True when all realizations have the same power spectrum: deterministic points, homogenized or not.
- * A shift of the torus and a rotation of the sphere leave P unchanged (mathematics.md 1.1, 2.2), and
- * so does a rotation of the hemisphere with folding for even degrees, the only ones that it has as
- * the projective plane. Its odd degrees, taken as points of the sphere, do change. Morphed points change with the
- * rotation before. */
+ * A shift of the torus and a rotation of the sphere leave P unchanged
+ * (docs/mathematics/torus.md#sums-and-powers, docs/mathematics/sphere.md#coefficients-and-power),
+ * and so does a rotation of the hemisphere with folding for even degrees, the only ones that it has
+ * as the projective plane. Its odd degrees, taken as points of the sphere, do change. Morphed
+ * points change with the rotation before. */
 bool ps_sampler_has_constant_power(const ps_sampler_request *request);
 
 #endif

@@ -2,8 +2,9 @@
  *
  * Per frequency: sum and sum of squares of the power, in pairs (on the device where the rows are).
  * Per bin: the mean over the bin is formed for each realization first, then summed in the same way;
- * so a bin's standard error catches correlations between its frequencies (mathematics.md 1.2).
- * Realizations are taken one after the other in their order, whatever the batches were.
+ * so a bin's standard error catches correlations between its frequencies
+ * (docs/mathematics/statistics.md#standard-errors). Realizations are taken one after the other in
+ * their order, whatever the batches were.
  *
  * Where every bin has one member, as in one dimension, sums of bins are those of frequencies: on a device
  * only these are formed.

@@ -1,10 +1,10 @@
 /* Bins of frequencies: rings of width 1 on the integer lattice, exact shells |k|^2 = n, or single degrees of
  * the sphere.
  *
- * Ring b holds b^2 - b + 1 <= |k|^2 <= b^2 + b (mathematics.md 1.3): integer arithmetic, no ties.
- * What belongs to no reported bin (corners of a box, a list of frequencies that was not drawn from
- * rings) forms one more bin at the end, so that the power of a realization over all frequencies is always
- * known. DC, which only a list can hold, belongs to no bin at all.
+ * Ring b holds b^2 - b + 1 <= |k|^2 <= b^2 + b (docs/mathematics/torus.md#rings): integer
+ * arithmetic, no ties. What belongs to no reported bin (corners of a box, a list of frequencies
+ * that was not drawn from rings) forms one more bin at the end, so that the power of a realization
+ * over all frequencies is always known. DC, which only a list can hold, belongs to no bin at all.
  */
 #ifndef PS_SPECTRA_BINS_H
 #define PS_SPECTRA_BINS_H

@@ -1,6 +1,7 @@
-/* The numerical stability suite (mathematics.md section 7): cases that are hard on arithmetic, each by every engine and
- * precision that can do it, against long double referees, and what the host computes alone against other formulas. The
- * bound is the engine's own error formula with the power that was measured, as the tolerance contract has it.
+/* The numerical stability suite (docs/mathematics/numerics.md): cases that are hard on arithmetic,
+ * each by every engine and precision that can do it, against long double referees, and what the
+ * host computes alone against other formulas. The bound is the engine's own error formula with the
+ * power that was measured, as the tolerance contract has it.
  *
  * On the device of a user it is an acceptance test of its driver: maths, double precision and barriers that are wrong
  * show as failures of cases that have a name.
@@ -28,7 +29,7 @@ typedef struct ps_stress_probe {
 
 typedef struct ps_stress_case {
     const char *name;
-    const char *section; /* of mathematics.md */
+    const char *section; /* a heading of docs/mathematics/numerics.md or quadrature.md */
     const char *summary;
     ps_stress_kind kind;
     bool is_quick;

@@ -14,7 +14,7 @@
 
 /* ---- distances ----------------------------------------------------------------------------- */
 
-/* |u-v|^0.2 with every point twice (mathematics.md 7.7). */
+/* |u-v|^0.2 with every point twice (docs/mathematics/numerics.md#kernel-diagonal). */
 static pspec_status measure_chords(ps_device *device, ps_precision precision, double *found,
                                    double *bound, ps_error *error) {
     enum { NUM = 400 };

@@ -1,4 +1,5 @@
-/* What the host computes alone, against other formulas in long double (mathematics.md 4.1, 4.2, 4.6, 7.6, 7.7). */
+/* What the host computes alone, against other formulas in long double
+ * (docs/mathematics/quadrature.md, docs/mathematics/numerics.md). */
 #include "verify/stress_probes.h"
 
 #include "rules/optimal_weights.h"

@@ -1,4 +1,5 @@
-/* Sums of w_i w_j |u_i - u_j|^(2 power) over pairs: kernels of Sobolev spaces (mathematics.md 4.1).
+/* Sums of w_i w_j |u_i - u_j|^(2 power) over pairs: kernels of Sobolev spaces
+ * (docs/mathematics/quadrature.md#sobolev-kernel).
  *
  * One work-item owns a run of vectors of pairs. Launch: (runs, realizations) in work-groups of any size, runs rounded up;
  * no local memory. Equal points have the chord 0, exactly.

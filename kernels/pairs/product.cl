@@ -1,5 +1,6 @@
 /* Products of a matrix of distances with a vector: sum_j x_j |u_i - u_j|^(2 power) for all i, the kernel of a Sobolev space
- * but for its constant (mathematics.md 4.1, 4.6). Nothing of the matrix is kept.
+ * but for its constant (docs/mathematics/quadrature.md#sobolev-kernel,
+ * docs/mathematics/quadrature.md#optimal-weights). Nothing of the matrix is kept.
  *
  * One work-item owns LANES points i and a segment of points j, BLOCK of which are added up before they join the sum in two
  * parts: the same sums whatever the work-groups. Launch: (vectors of points i, segments) in work-groups of any size, the

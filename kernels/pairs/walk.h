@@ -1,7 +1,8 @@
 /* Up the degrees of Legendre polynomials, many arguments side by side, with sums over all of them: what pairs/sums.cl
  * does with pairs of points, pairs/nodes_sums.cl with nodes of a histogram.
  *
- * With t = 1 - |x| and differences, P_l(1 - t) has no cancellation (mathematics.md 7.3):
+ * With t = 1 - |x| and differences, P_l(1 - t) has no cancellation
+ * (docs/mathematics/numerics.md#legendre-sums):
  *
  *     E_l = l (P_l - P_{l-1}):   E_{l+1} = E_l - (2l + 1) t P_l,   P_{l+1} = P_l + E_{l+1} / (l + 1)
  *

@@ -1,8 +1,9 @@
 /* Cosine and sine of an angle given as a fraction of a turn in fixed point: 2 pi u / 2^PRECISION.
  *
  * k.x mod 1 in fixed point is integer arithmetic that wraps, so the phase is exact for any k
- * (mathematics.md 7.1); here it becomes a cosine and a sine with absolute errors below 1.8e-7 (float,
- * all words; root mean square 5e-8) and 4e-16 (double, 1e8 random words; 1e-16): tests/kernels/shared_cases.h.
+ * (docs/mathematics/numerics.md#phases); here it becomes a cosine and a sine with absolute errors
+ * below 1.8e-7 (float, all words; root mean square 5e-8) and 4e-16 (double, 1e8 random words;
+ * 1e-16): tests/kernels/shared_cases.h.
  */
 #ifndef PS_SHARED_TURN_H
 #define PS_SHARED_TURN_H

@@ -1,5 +1,6 @@
 /* The direction of a vector that is nearly a unit vector: what the sums over spherical harmonics need of it, in
- * double precision without cancellation (mathematics.md 7.5). PRECISION is 64, also in C11.
+ * double precision without cancellation (docs/mathematics/numerics.md#high-order). PRECISION is 64,
+ * also in C11.
  *
  * Measured on the host (tests/kernels/sphere_header_cases.h): relative errors of t and rho below 5e-16, of the azimuth
  * below 7e-17 turns.

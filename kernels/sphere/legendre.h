@@ -1,5 +1,6 @@
-/* The recurrence over degrees at a fixed order m, in the form of differences (mathematics.md 7.5), DEGREES at a
- * time. With t = 1 - |cos theta| and p_mm = 1, D_mm = 0,
+/* The recurrence over degrees at a fixed order m, in the form of differences
+ * (docs/mathematics/numerics.md#high-order), DEGREES at a time. With t = 1 - |cos theta| and
+ * p_mm = 1, D_mm = 0,
  *
  *     D_l = alpha_l D_{l-1} - kappa_l t p_{l-1},   p_l = p_{l-1} + D_l,
  *     alpha_l = (l - m - 1) / (l + m),   kappa_l = (2l - 1) / (l + m),

@@ -1,5 +1,6 @@
 /* Numbers too small for a float or a double: (high + low) 2^(SCALE_BITS scale), in pairs for powers that keep
- * their digits. sin^m(theta) needs them (mathematics.md 7.5). Works in either precision, in C11 too.
+ * their digits. sin^m(theta) needs them (docs/mathematics/numerics.md#high-order). Works in either
+ * precision, in C11 too.
  *
  * A normalised number has SCALED_LOW <= high < SCALED_HIGH, or is 0.
  */

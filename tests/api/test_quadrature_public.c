@@ -22,7 +22,8 @@ static pspec_quadrature *analyse(pspec_context *context, const pspec_quadrature_
     return out;
 }
 
-/* One point at the pole: c_l0 = Y_l0(pole), C_l = 0, and E of mathematics.md 4.3 in closed form. */
+/* One point at the pole: c_l0 = Y_l0(pole), C_l = 0, and E of
+ * docs/mathematics/quadrature.md#worst-case-error in closed form. */
 static void one_point(void **state) {
     (void)state;
     static const double pole[] = {0, 0, 1};

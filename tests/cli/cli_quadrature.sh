@@ -9,7 +9,8 @@ near() { # WHAT VALUE EXACT RELATIVE
         complain "$1: $2, not $3"
 }
 
-# spherical Fibonacci points, equal and optimal weights (mathematics.md 4.5, 4.6)
+# spherical Fibonacci points, equal and optimal weights
+# (docs/mathematics/quadrature.md#reference-errors)
 fibonacci=(--sampler fibonacci-hemisphere -n 256)
 runs 0 "${fibonacci[@]}" --brdf diffuse
 near 'E, diffuse' "$(key worst_case_error)" 1.190e-2 5e-4

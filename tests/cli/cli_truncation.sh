@@ -7,7 +7,7 @@ row() { # DEGREE: error and points with 4 digits
     awk -F, -v l="$1" '!/^#/ && $1 == l { printf "%.3e,%.4g", $2, $3 }' out
 }
 
-# Table 1 of the paper, as mathematics.md 4.5 has it
+# Table 1 of the paper, as docs/mathematics/quadrature.md#truncation has it
 runs 0 --brdf diffuse -l 4
 [[ $(row 4) == 2.656e-03,1843 ]] || complain "diffuse, L = 4: $(row 4)"
 [[ $(grep -c '^[0-9]' out) == 5 ]] || complain "degrees 0..4"

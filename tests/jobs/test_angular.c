@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* mathematics.md 2.2 */
+/* docs/mathematics/sphere.md#coefficients-and-power */
 static void closed_forms(void **state) {
     (void)state;
     static const double one[] = {0.6, 0, 0.8};

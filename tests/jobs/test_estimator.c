@@ -287,7 +287,8 @@ static void different_numbers_of_points(void **state) {
 }
 
 /* White noise, exactly at finite N: <P> = 1, Var P = (N-1)/N, variance of a ring mean of n_b lattice
- * points 2 (N-1) / (N n_b) (mathematics.md 1.2). 4 standard errors of the estimates. */
+ * points 2 (N-1) / (N n_b) (docs/mathematics/torus.md#white-noise). 4 standard errors of the
+ * estimates. */
 static void white_noise(void **state) {
     (void)state;
     enum { M = 4000, N = 5 };

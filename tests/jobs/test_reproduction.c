@@ -65,7 +65,8 @@ static double slope_of(const curve *of) {
     return slope;
 }
 
-/* Ours of samplers-and-experiments.md section 4, but for random points with equal weights, where -1/2 is exact. */
+/* The slopes of docs/mathematics/quadrature.md#reference-errors, but for random points with equal
+ * weights, where -1/2 is exact. */
 static void stochastic_slopes(void **state) {
     static const struct {
         const char *sampler;

@@ -30,7 +30,7 @@ static long double exact_polar(const ps_morph *morph, long double height, long d
     return polar;
 }
 
-/* mathematics.md 4.7. */
+/* docs/mathematics/quadrature.md#morphing. */
 static const double T_ERROR = 4e-16;
 
 static void polar_is_exact(void **state) {

@@ -153,7 +153,7 @@ static void conversion(void **state) {
         worst = fmax(worst, fabs(matrix[i] - cell(row, 2)));
     }
     print_message("M: worst error %.2g\n", worst);
-    assert_true(worst <= 1e-13); /* mathematics.md 4.2 */
+    assert_true(worst <= 1e-13); /* docs/mathematics/quadrature.md#hemispherical-harmonics */
     for (size_t i = 0; i <= FROM; i++) {
         double sum = 0;
         for (size_t l = 0; l <= TO; l++) {

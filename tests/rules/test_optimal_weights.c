@@ -16,7 +16,7 @@ static ps_optimal_weights find(const ps_representer *r, size_t num, const double
     return found;
 }
 
-/* mathematics.md 4.5: OSW of spherical Fibonacci sets. */
+/* docs/mathematics/quadrature.md#reference-errors: optimal weights of spherical Fibonacci sets. */
 static void optimal_golden_values(void **state) {
     static const double golden[4] = {3.299e-2, 1.953e-2, 1.158e-2, 6.870e-3};
     ps_representer r = test_representer("diffuse", 1.5, 1e-13);
@@ -39,8 +39,8 @@ static void optimal_golden_values(void **state) {
     ps_representer_destroy(&r);
 }
 
-/* Fig. 4 of Marques et al.: slopes of log E over log N, N = 64 .. 512, as samplers-and-experiments.md section 4 has
- * them; theirs are the same within 0.04. */
+/* Fig. 4 of Marques et al.: slopes of log E over log N, N = 64 .. 512, as
+ * docs/mathematics/quadrature.md#reference-errors has them; theirs are the same within 0.04. */
 static double find_slope(const ps_representer *r, const char *sampler, bool is_optimal) {
     enum { SIZES = 4 };
     double slope = 0;

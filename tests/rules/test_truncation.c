@@ -1,5 +1,5 @@
-/* Truncated inner products and their equivalent numbers of points: tests/reference, mathematics.md 4.5 and Table 1 of
- * Marques et al. */
+/* Truncated inner products and their equivalent numbers of points: tests/reference,
+ * docs/mathematics/quadrature.md#truncation and Table 1 of Marques et al. */
 #include "harness.h"
 
 #include "rules/truncation.h"
@@ -93,7 +93,7 @@ static void hemispherical_reference(void **state) {
     cJSON_Delete(json);
 }
 
-/* ---- values of mathematics.md 4.5 and of samplers-and-experiments.md 4 --------------------- */
+/* ---- values of docs/mathematics/quadrature.md#truncation ------------------------ */
 
 typedef struct value {
     size_t degree;

@@ -68,7 +68,8 @@ static void closed_form_is_the_series(void **state) {
     }
 }
 
-/* D at the poles (mathematics.md 4.3), and the ring form of the diffuse lobe by the midpoint rule in between. */
+/* D at the poles (docs/mathematics/quadrature.md#representer), and the ring form of the diffuse
+ * lobe by the midpoint rule in between. */
 static void diffuse_distance(void **state) {
     const double poles[6] = {0, 0, 1, 0, 0, -1};
     (void)state;

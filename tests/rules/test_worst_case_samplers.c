@@ -11,7 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What samplers-and-experiments.md section 4 has of spherical Fibonacci sets, four digits. */
+/* What docs/mathematics/quadrature.md#reference-errors has of spherical Fibonacci sets, four
+ * digits. */
 static void golden_values(void **state) {
     static const double golden[2][6] = {{.03451, .0202, .0119, .007017, .004144, .002452},
                                         {.02133, .01253, .00739, .004364, .002578, .001526}};

@@ -143,7 +143,8 @@ static double l2_discrepancy(const double *points, size_t n) {
 
 typedef struct discrepancies {
     const char *text;
-    double star[3], l2[3]; /* N = 64, 256, 1024; samplers-and-experiments.md 2.11 - 2.13; 0: none */
+    /* N = 64, 256, 1024; docs/mathematics/samplers.md#discrepancies; 0: none */
+    double star[3], l2[3];
 } discrepancies;
 
 static const discrepancies DISCREPANCIES[] = {

@@ -134,7 +134,7 @@ static void sobol_agrees_with_joe_and_kuo(void **state) {
     free(points);
 }
 
-/* The plane by the recipe of mathematics.md 5, one point at a time. */
+/* The plane by the recipe of docs/mathematics/samplers.md#digital-nets, one point at a time. */
 static void digital_sets_follow_the_recipe(void **state) {
     (void)state;
     enum { N = 4096 };

@@ -1,4 +1,5 @@
-/* Expected power spectra, mathematics.md 1.7, against direct sums over many realizations. */
+/* Expected power spectra, docs/mathematics/samplers.md#spectra-on-the-torus, against direct sums
+ * over many realizations. */
 #include "test_samplers.h"
 
 #include <math.h>

@@ -4,7 +4,8 @@
  *     sqrt((l + m)(l - m + 1)) Lambda_{m-1} = -2 m cot(theta) Lambda_m - sqrt((l - m)(l + m + 1)) Lambda_{m+1}
  *
  * is stable downwards. It begins with 1 instead of sin^l(theta), which underflows, and is normalised by the
- * addition theorem, Lambda_0^2 + 2 sum_{m > 0} Lambda_m^2 = (2l + 1) / (4 pi) (mathematics.md 2.1, 7.5).
+ * addition theorem, Lambda_0^2 + 2 sum_{m > 0} Lambda_m^2 = (2l + 1) / (4 pi)
+ * (docs/mathematics/sphere.md#harmonics, docs/mathematics/numerics.md#high-order).
  */
 #include "engines/host/host_degree.h"
 

@@ -16,7 +16,8 @@ pspec_status ps_host_degree_create(ps_host_degree *out, int32_t degree,
                                    ps_error *error) PS_MUST_CHECK;
 void ps_host_degree_free(ps_host_degree *self);
 
-/* sums[m] = c_lm = sum w Y_lm(u) of one pattern (mathematics.md 2.2). */
+/* sums[m] = c_lm = sum w Y_lm(u) of one pattern
+ * (docs/mathematics/sphere.md#coefficients-and-power). */
 void ps_host_degree_sum(ps_host_degree *self, const pspec_pattern *pattern);
 
 /* Q(l) = (4 pi / (2l + 1)) sum_m |c_lm|^2 of what was summed last. */

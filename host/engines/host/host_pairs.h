@@ -6,7 +6,7 @@
 #include "engines/engine.h"
 
 /* sums[l] = sum_ij w_i w_j P_l(u_i.u_j), l = 0 .. max_degree, of the directions of the points and weights w 2^-exponent,
- * in the difference form of mathematics.md 7.3. */
+ * in the difference form of docs/mathematics/numerics.md#legendre-sums. */
 pspec_status ps_host_pairs(const pspec_pattern *pattern, int exponent, int32_t max_degree,
                            long double *sums, ps_error *error) PS_MUST_CHECK;
 

@@ -1,10 +1,10 @@
 /* Zonal sums, the part of a pair sum that a turn about the z axis does not change:
  *
  *     Z(l) = sum_j w_j P_l(z_j),   c_l0 = sqrt((2l + 1) / (4 pi)) Z(l),
- *     C_l^2 = 2 sum_{m > 0} |c_lm|^2 = (2l + 1) / (4 pi) (Q(l) - Z(l)^2)         (mathematics.md 4.4)
+ *     C_l^2 = 2 sum_{m > 0} |c_lm|^2 = (2l + 1) / (4 pi) (Q(l) - Z(l)^2)
  *
- * In double precision on the host, in the difference form of kernels/pairs/sums.cl: N L small steps beside the N^2 L / 2
- * or N L^2 / 2 of an engine.
+ * See docs/mathematics/sphere.md#pair-sums. In double precision on the host, in the difference form
+ * of kernels/pairs/sums.cl: N L small steps beside the N^2 L / 2 or N L^2 / 2 of an engine.
  */
 #ifndef PS_ENGINES_PAIRS_PAIRS_ZONAL_H
 #define PS_ENGINES_PAIRS_PAIRS_ZONAL_H

@@ -2,7 +2,8 @@
  *
  * Normalization. Rows hold q = N_ref |S|^2 / W^2 (N_ref fixed for the job: powers of order 1 in
  * float) or |S|^2 / V; a mean over realizations of different N is mean(N) / N_ref mean(q)
- * (mathematics.md 0: average p = |S|^2 / W^2, then P = mean(N) mean(p)).
+ * (docs/mathematics/statistics.md#different-numbers-of-points: average p = |S|^2 / W^2, then
+ * P = mean(N) mean(p)).
  */
 #ifndef PS_JOBS_PARTS_ESTIMATOR_H
 #define PS_JOBS_PARTS_ESTIMATOR_H

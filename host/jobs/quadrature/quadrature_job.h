@@ -1,6 +1,7 @@
 /* Worst-case error and quadrature spectrum of rules for a BRDF, averaged over realizations: source of point sets ->
- * weights -> c_l0 and C_l^2 by an engine of the sphere -> spectral form, and the kernel form beside it (mathematics.md
- * 4). Several rules go in batches; results have the same bits whatever the batch. */
+ * weights -> c_l0 and C_l^2 by an engine of the sphere -> spectral form, and the kernel form beside
+ * it (docs/mathematics/quadrature.md). Several rules go in batches; results have the same bits
+ * whatever the batch. */
 #ifndef PS_JOBS_QUADRATURE_QUADRATURE_JOB_H
 #define PS_JOBS_QUADRATURE_QUADRATURE_JOB_H
 

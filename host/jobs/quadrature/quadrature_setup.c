@@ -17,7 +17,7 @@ static size_t most_degrees(size_t num_points) {
     return (size_t)fmin(ceil(times * sqrt((double)num_points)), PS_MAX_DEGREE);
 }
 
-/* E^2 beyond degree L is at most that, for sum |w| = 1 (mathematics.md 4.4). */
+/* E^2 beyond degree L is at most that, for sum |w| = 1 (docs/mathematics/quadrature.md#tail). */
 static double bound_tail(const ps_representer *of, size_t last) {
     double half_width = 0;
     const double rest = ps_representer_rest(of, last, &half_width);

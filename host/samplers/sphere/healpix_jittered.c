@@ -1,5 +1,6 @@
 /* Jittered HEALPix: one uniform point in each of 12 nside^2 pixels of equal area, in RING order. In
- * expectation P(l) is mathematics.md 2.5 (S2), about (pi/3) l(l+1)/N for small l. */
+ * expectation P(l) is docs/mathematics/samplers.md#spectra-on-the-sphere, about (pi/3) l(l+1)/N for
+ * small l. */
 #include "samplers/list.h"
 
 #include "math/random/random.h"

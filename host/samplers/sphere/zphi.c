@@ -1,6 +1,6 @@
 /* Strata of height and azimuth: one uniform point in each of n_z x n_phi cells of equal area, slices of
  * equal height cut into equal sectors. The same points as jittered:strata=AxB,lift=sphere, but for the
- * automatic counts. In expectation P(l) is mathematics.md 2.5 (S2). */
+ * automatic counts. In expectation P(l) is docs/mathematics/samplers.md#spectra-on-the-sphere. */
 #include "samplers/list.h"
 
 #include "math/random/random.h"

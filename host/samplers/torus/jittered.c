@@ -1,5 +1,5 @@
 /* Jittered (stratified): one uniform point in each of m_1 x .. x m_d cells. In expectation
- * P(k) = 1 - prod_i sinc^2(k_i/m_i), mathematics.md 1.7 (J). */
+ * P(k) = 1 - prod_i sinc^2(k_i/m_i), docs/mathematics/samplers.md#spectra-on-the-torus. */
 #include "samplers/list.h"
 
 #include "math/random/random.h"

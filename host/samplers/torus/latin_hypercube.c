@@ -1,5 +1,6 @@
 /* Latin hypercube (N-rooks): x_ji = (pi_i(j) + xi)/N with independent uniform permutations pi_i, so
- * that every axis has one point in each of N strata. Spectrum: mathematics.md 1.7. */
+ * that every axis has one point in each of N strata. Spectrum:
+ * docs/mathematics/samplers.md#spectra-on-the-torus. */
 #include "samplers/list.h"
 
 #include "math/random/random.h"

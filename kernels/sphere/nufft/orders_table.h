@@ -1,7 +1,8 @@
 /* Lambda_lm over alpha_l (orders_chains.h) of rings, for a run of degrees at a time. Device only.
  *
  * The rings next to the pole and to the equator by differences: with t = 1 - cos(theta) and D = the part of Lambda_lm
- * that is not just Lambda_{l-1,m} normalised anew (mathematics.md 7.5, multiplied by the norm),
+ * that is not just Lambda_{l-1,m} normalised anew (docs/mathematics/numerics.md#high-order,
+ * multiplied by the norm),
  *
  *     D_l = a_l D_{l-1} + b_l t Lambda_{l-1},   Lambda_l = g_l Lambda_{l-1} + D_l
  *     g_l = sqrt((2l+1)(l+m) / ((2l-1)(l-m))),  a_l = g_l (l-m-1)/(l+m),  b_l = -g_l (2l-1)/(l+m)

@@ -262,7 +262,7 @@ static void chord_sums(void **state) {
 }
 
 /* Womersley's design t = 19 with 201 points: no power to degree 19, and 4/3 - mean distance is E^2 of s = 3/2,
- * .8191 N^-3/2 (samplers-and-experiments.md). */
+ * .8191 N^-3/2 (docs/mathematics/samplers.md#lattices-of-the-sphere). */
 static void designs(void **state) {
     (void)state;
     enum { NUM = 201, DEGREE = 19 };

@@ -62,7 +62,8 @@ static void coefficients(void **state) {
     pspec_context_destroy(context);
 }
 
-/* Of one point: the addition theorem, and the first degrees (mathematics.md 4.2). */
+/* Of one point: the addition theorem, and the first degrees
+ * (docs/mathematics/quadrature.md#hemispherical-harmonics). */
 static void hemispherical_harmonics(void **state) {
     (void)state;
     const double two_pi = 6.283185307179586477;

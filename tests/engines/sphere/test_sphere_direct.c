@@ -1,4 +1,5 @@
-/* sphere_direct by what must hold of any spectrum on the sphere (mathematics.md 2.2): no recorded output. */
+/* sphere_direct by what must hold of any spectrum on the sphere
+ * (docs/mathematics/sphere.md#coefficients-and-power): no recorded output. */
 #include "harness_sphere.h"
 
 #include "engines/sphere/sphere_direct.h"

@@ -156,7 +156,8 @@ static void weights(void **state) {
 
 /* ---- what powers obey -------------------------------------------------------------------- */
 
-/* White noise has mean power 1; the variance of one power is (N - 1) / N (mathematics.md 1.2). */
+/* White noise has mean power 1; the variance of one power is (N - 1) / N
+ * (docs/mathematics/torus.md#white-noise). */
 static void white_noise(void **state) {
     (void)state;
     enum { MANY = 64, POINTS = 64 };
