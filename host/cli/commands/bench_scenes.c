@@ -1,6 +1,6 @@
 #include "cli/commands/bench_scenes.h"
 
-#include "cli/run/run.h"
+#include "cli/run_shown.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -30,9 +30,9 @@ typedef struct comparison {
 
 static pspec_status answer(const ps_request *arguments, const ps_scene *scene, ps_run *out,
                            ps_error *error) {
-    *out = (ps_run){.arguments = arguments, .scene = scene};
+    *out = (ps_run){.hooks = ps_run_hooks_make(arguments), .arguments = arguments, .scene = scene};
     PS_TRY(ps_run_ask(out, error));
-    return ps_run_answer(out, error);
+    return ps_run_answer_shown(out, error);
 }
 
 static double seconds_of(const ps_run_result *result) {
@@ -53,61 +53,61 @@ static void keep_fastest(ps_run *run, const ps_run *other) {
 }
 
 /* The first run of each kind is kept for its answers, and compiles what has to be compiled. */
-static pspec_status answer_again(comparison *of, int kind, ps_error *error) {
+static pspec_status answer_again(comparison *both, int kind, ps_error *error) {
     ps_run again;
-    pspec_status status = answer(&of->arguments[kind], of->scene, &again, error);
+    pspec_status status = answer(&both->arguments[kind], both->scene, &again, error);
     if (status == PSPEC_OK) {
-        keep_fastest(&of->runs[kind], &again);
+        keep_fastest(&both->runs[kind], &again);
     }
     ps_run_free(&again);
     return status;
 }
 
-static pspec_status add_rows(ps_table *table, comparison *of, ps_error *error) {
-    for (size_t i = 0; i < of->runs[0].num_results; i++) {
-        const ps_run_result *const skip = &of->runs[0].results[i];
+static pspec_status add_rows(ps_table *table, comparison *both, ps_error *error) {
+    for (size_t i = 0; i < both->runs[0].num_results; i++) {
+        const ps_run_result *const skip = &both->runs[0].results[i];
         const double with = seconds_of(skip);
-        const double without = seconds_of(&of->runs[1].results[i]);
-        const double difference = compare_result(skip, &of->runs[1].results[i]);
+        const double without = seconds_of(&both->runs[1].results[i]);
+        const double difference = compare_result(skip, &both->runs[1].results[i]);
         const ps_cell cells[] = {
-            PS_TEXT(of->scene->path), PS_TEXT(skip->asked->name),
-            PS_INTEGER(skip->num),    PS_NUMBER(with),
-            PS_NUMBER(without),       PS_NUMBER(without / with),
-            PS_NUMBER(difference),    PS_TEXT(difference <= 1 ? "same" : "different")};
-        of->differs = fmax(of->differs, difference);
+            PS_TEXT(both->scene->path), PS_TEXT(skip->asked->name),
+            PS_INTEGER(skip->num),      PS_NUMBER(with),
+            PS_NUMBER(without),         PS_NUMBER(without / with),
+            PS_NUMBER(difference),      PS_TEXT(difference <= 1 ? "same" : "different")};
+        both->differs = fmax(both->differs, difference);
         PS_TRY(ps_table_add_row(table, cells, error));
     }
     return PSPEC_OK;
 }
 
-static pspec_status bench_scene(ps_table *table, comparison *of, ps_error *error) {
+static pspec_status bench_scene(ps_table *table, comparison *both, ps_error *error) {
     for (int run = 0; run < RUNS; run++) {
         for (int kind = 0; kind < 2; kind++) {
-            PS_TRY(run == 0 ? answer(&of->arguments[kind], of->scene, &of->runs[kind], error)
-                            : answer_again(of, kind, error));
+            PS_TRY(run == 0 ? answer(&both->arguments[kind], both->scene, &both->runs[kind], error)
+                            : answer_again(both, kind, error));
         }
     }
-    return add_rows(table, of, error);
+    return add_rows(table, both, error);
 }
 
 static pspec_status bench_file(ps_table *table, const ps_request *arguments, const char *path,
                                ps_error *error) {
     ps_scene scene;
-    comparison of = {.scene = &scene, .arguments = {*arguments, *arguments}};
-    of.arguments[1].no_skip = true;
+    comparison both = {.scene = &scene, .arguments = {*arguments, *arguments}};
+    both.arguments[1].no_skip = true;
     pspec_status status = ps_scene_read(&scene, path, error);
     if (status == PSPEC_OK) {
-        status = bench_scene(table, &of, error);
+        status = bench_scene(table, &both, error);
     }
-    ps_run_free(&of.runs[0]);
-    ps_run_free(&of.runs[1]);
+    ps_run_free(&both.runs[0]);
+    ps_run_free(&both.runs[1]);
     ps_scene_free(&scene);
-    return status != PSPEC_OK || of.differs <= 1
+    return status != PSPEC_OK || both.differs <= 1
                ? status
                : ps_fail(error, PSPEC_ERROR_CHECK,
                          "answers of %s with and without skips are %.3g times as far apart as "
                          "both sides allow",
-                         path, of.differs);
+                         path, both.differs);
 }
 
 static pspec_status add_header(ps_table *table, const ps_request *arguments, ps_error *error) {

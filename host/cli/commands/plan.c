@@ -1,6 +1,6 @@
 /* pointspec plan: what another command would do, by what, what it skips and why. */
 #include "cli/command.h"
-#include "cli/plan_scene.h"
+#include "cli/run_shown.h"
 #include "store/host_figures.h"
 #include "questions/options.h"
 
@@ -55,7 +55,8 @@ static pspec_status add_facts(ps_table *table, const ps_request *arguments, ps_e
 static pspec_status fill_jobs(ps_planner *planner, const ps_command *command,
                               const ps_request *arguments, ps_error *error) {
     if (command == &ps_command_run) {
-        return ps_plan_scene(planner, arguments, error);
+        const ps_run_hooks hooks = ps_run_hooks_make(arguments);
+        return ps_run_plan(planner, arguments, &hooks, error);
     }
     if (command == &ps_command_sample) {
         return ps_plan_table_add_sample(planner, arguments, error);

@@ -1,6 +1,6 @@
 /* Pictures of lines, in one frame or in panels: columns against the degree, worst-case errors against the number of points. */
 #include "base/memory.h"
-#include "cli/run/drawing.h"
+#include "scene/run/drawing.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -93,10 +93,10 @@ static pspec_status begin_line(line_set *set, size_t index, size_t num, ps_error
     return PSPEC_OK;
 }
 
-static pspec_status take_columns(const ps_artist *of, line_set *set, size_t index, size_t question,
-                                 const ps_line_kind *kind) {
-    const ps_table *const table = of->result->questions[question].answer.table;
-    PS_TRY(begin_line(set, index, ps_table_num_rows(table), of->error));
+static pspec_status take_columns(const ps_artist *artist, line_set *set, size_t index,
+                                 size_t question, const ps_line_kind *kind) {
+    const ps_table *const table = artist->result->questions[question].answer.table;
+    PS_TRY(begin_line(set, index, ps_table_num_rows(table), artist->error));
     ps_table_read_column(table, kind->x, set->numbers[index]);
     ps_table_read_column(table, kind->y, set->numbers[index] + ps_table_num_rows(table));
     return PSPEC_OK;
@@ -121,18 +121,18 @@ static double slope(const double *x, const double *y, size_t num) {
 }
 
 /* Worst-case error of the questions that differ from `first` in the number of points only. */
-static pspec_status take_errors(const ps_artist *of, line_set *set, size_t index, size_t first,
+static pspec_status take_errors(const ps_artist *artist, line_set *set, size_t index, size_t first,
                                 size_t points, const ps_line_kind *kind) {
-    const ps_scene_result *const asked = of->result->asked;
+    const ps_scene_result *const asked = artist->result->asked;
     const size_t num = asked->entries[points].num_values;
     size_t step = 1;
     for (size_t i = points + 1; i < asked->num_entries; i++) {
         step *= asked->entries[i].num_values;
     }
-    PS_TRY(begin_line(set, index, num, of->error));
+    PS_TRY(begin_line(set, index, num, artist->error));
     double *const x = set->numbers[index];
     for (size_t i = 0; i < num; i++) {
-        const ps_table *const table = of->result->questions[first + i * step].answer.table;
+        const ps_table *const table = artist->result->questions[first + i * step].answer.table;
         x[i] = ps_cell_number(ps_table_find_meta(table, kind->x));
         x[num + i] = ps_cell_number(ps_table_find_meta(table, kind->y));
     }
@@ -140,12 +140,12 @@ static pspec_status take_errors(const ps_artist *of, line_set *set, size_t index
 }
 
 /* One frame has room for more of a label than the key of many panels. */
-static void label_line(const ps_artist *of, const ps_picture *what, size_t question,
+static void label_line(const ps_artist *artist, const ps_picture *what, size_t question,
                        const ps_plot_line *line, ps_text *out) {
     if (what->num_panels > 1 || what->form == PS_PICTURE_ERRORS) {
-        label_curve(of->result->asked, what, question, out);
+        label_curve(artist->result->asked, what, question, out);
     } else {
-        ps_run_label(of->result, question, out);
+        ps_run_label(artist->result, question, out);
     }
     if (what->num_panels == 1 && what->form == PS_PICTURE_ERRORS) {
         ps_text_append(out, "%sslope %.3f", out->length > 0 ? ": " : "",
@@ -153,16 +153,16 @@ static void label_line(const ps_artist *of, const ps_picture *what, size_t quest
     }
 }
 
-static pspec_status take_lines(const ps_artist *of, const ps_picture *what,
+static pspec_status take_lines(const ps_artist *artist, const ps_picture *what,
                                const ps_line_kind *kind, line_set *set) {
-    PS_TRY(allocate_lines(set, what->num_curves, of->error));
+    PS_TRY(allocate_lines(set, what->num_curves, artist->error));
     for (size_t i = 0; i < what->num_curves; i++) {
         const size_t question = what->curves[i];
         PS_TRY(what->form == PS_PICTURE_ERRORS
-                   ? take_errors(of, set, i, question, what->points, kind)
-                   : take_columns(of, set, i, question, kind));
-        label_line(of, what, question, &set->lines[i], &set->labels[i]);
-        PS_TRY(ps_text_check(&set->labels[i], of->error));
+                   ? take_errors(artist, set, i, question, what->points, kind)
+                   : take_columns(artist, set, i, question, kind));
+        label_line(artist, what, question, &set->lines[i], &set->labels[i]);
+        PS_TRY(ps_text_check(&set->labels[i], artist->error));
         set->lines[i].label = ps_text_string(&set->labels[i]);
     }
     return PSPEC_OK;
@@ -170,7 +170,7 @@ static pspec_status take_lines(const ps_artist *of, const ps_picture *what,
 
 /* ---- one frame --------------------------------------------------------------------------- */
 
-static pspec_status draw_frame(const ps_artist *of, const ps_picture *what,
+static pspec_status draw_frame(const ps_artist *artist, const ps_picture *what,
                                const ps_line_kind *kind, const char *title, const line_set *set) {
     const ps_line_plot plot = {.title = title,
                                .x_label = kind->x_label,
@@ -179,7 +179,7 @@ static pspec_status draw_frame(const ps_artist *of, const ps_picture *what,
                                .is_log_y = kind->is_log_y,
                                .num_lines = set->num,
                                .lines = set->lines};
-    return ps_draw(of, &(ps_drawing){.lines = &plot}, what);
+    return ps_draw(artist, &(ps_drawing){.lines = &plot}, what);
 }
 
 /* ---- panels ------------------------------------------------------------------------------ */
@@ -204,30 +204,32 @@ static void fill_series(ps_plot_series *out, const line_set *set) {
     }
 }
 
-static pspec_status fill_panels(const ps_artist *of, const ps_picture *what, ps_plot_panel *panels,
-                                ps_text *titles, const ps_plot_series *series) {
+static pspec_status fill_panels(const ps_artist *artist, const ps_picture *what,
+                                ps_plot_panel *panels, ps_text *titles,
+                                const ps_plot_series *series) {
     for (size_t i = 0, begin = 0; i < what->num_panels; begin = what->ends[i++]) {
-        label_panel(of->result->asked, what, what->curves[begin], &titles[i]);
-        PS_TRY(ps_text_check(&titles[i], of->error));
+        label_panel(artist->result->asked, what, what->curves[begin], &titles[i]);
+        PS_TRY(ps_text_check(&titles[i], artist->error));
         panels[i] =
             (ps_plot_panel){ps_text_string(&titles[i]), what->ends[i] - begin, series + begin};
     }
     return PSPEC_OK;
 }
 
-static pspec_status draw_panels(const ps_artist *of, const ps_picture *what,
+static pspec_status draw_panels(const ps_artist *artist, const ps_picture *what,
                                 const ps_line_kind *kind, const char *title, const line_set *set) {
     void *series = NULL;
     void *panels = NULL;
     void *titles = NULL;
     pspec_status status = PSPEC_OK;
-    PS_TRY_OUT(status, ps_allocate(&series, set->num, sizeof(ps_plot_series), "panels", of->error));
     PS_TRY_OUT(status,
-               ps_allocate(&panels, what->num_panels, sizeof(ps_plot_panel), "panels", of->error));
+               ps_allocate(&series, set->num, sizeof(ps_plot_series), "panels", artist->error));
+    PS_TRY_OUT(status, ps_allocate(&panels, what->num_panels, sizeof(ps_plot_panel), "panels",
+                                   artist->error));
     PS_TRY_OUT(status,
-               ps_allocate(&titles, what->num_panels, sizeof(ps_text), "panels", of->error));
+               ps_allocate(&titles, what->num_panels, sizeof(ps_text), "panels", artist->error));
     fill_series(series, set);
-    PS_TRY_OUT(status, fill_panels(of, what, panels, titles, series));
+    PS_TRY_OUT(status, fill_panels(artist, what, panels, titles, series));
     const ps_panel_plot plot = {.title = title,
                                 .x_label = kind->x_label,
                                 .y_label = kind->y_label,
@@ -236,7 +238,7 @@ static pspec_status draw_panels(const ps_artist *of, const ps_picture *what,
                                 .is_linear_y = !kind->is_log_y,
                                 .num_panels = what->num_panels,
                                 .panels = panels};
-    status = ps_draw(of, &(ps_drawing){.panels = &plot}, what);
+    status = ps_draw(artist, &(ps_drawing){.panels = &plot}, what);
 out:
     for (size_t i = 0; titles != NULL && i < what->num_panels; i++) {
         ps_text_free((ps_text *)titles + i);
@@ -249,39 +251,39 @@ out:
 
 /* ---- all --------------------------------------------------------------------------------- */
 
-static ps_line_kind find_axes(const ps_artist *of, const ps_picture *what) {
+static ps_line_kind find_axes(const ps_artist *artist, const ps_picture *what) {
     size_t column = 0;
     if (what->form == PS_PICTURE_SPECTRA) {
-        return *of->result->asked->kind->spectrum;
+        return *artist->result->asked->kind->spectrum;
     }
     ps_line_kind kind = *what->lines;
     if (what->form == PS_PICTURE_COLUMNS &&
-        !ps_table_find_column(of->result->questions[0].answer.table, kind.x, &column)) {
+        !ps_table_find_column(artist->result->questions[0].answer.table, kind.x, &column)) {
         kind.x = kind.x_label = "degree"; /* what was checked is of the sphere */
     }
     return kind;
 }
 
 /* Nothing where there are too few degrees for a line. */
-static bool has_lines(const ps_artist *of, const ps_picture *what) {
+static bool has_lines(const ps_artist *artist, const ps_picture *what) {
     enum { FEWEST_ROWS = 4 };
-    const ps_table *const first = of->result->questions[what->curves[0]].answer.table;
+    const ps_table *const first = artist->result->questions[what->curves[0]].answer.table;
     return what->form != PS_PICTURE_COLUMNS || ps_table_num_rows(first) >= FEWEST_ROWS;
 }
 
-pspec_status ps_draw_lines(const ps_artist *of, const ps_picture *what) {
+pspec_status ps_draw_lines(const ps_artist *artist, const ps_picture *what) {
     line_set set = {0};
     ps_text title = {0};
     pspec_status status = PSPEC_OK;
-    const ps_line_kind kind = find_axes(of, what);
-    if (!has_lines(of, what)) {
+    const ps_line_kind kind = find_axes(artist, what);
+    if (!has_lines(artist, what)) {
         return PSPEC_OK;
     }
-    PS_TRY_OUT(status, take_lines(of, what, &kind, &set));
-    ps_plot_title(of, what, kind.what, &title);
-    PS_TRY_OUT(status, ps_text_check(&title, of->error));
-    status = what->num_panels > 1 ? draw_panels(of, what, &kind, ps_text_string(&title), &set)
-                                  : draw_frame(of, what, &kind, ps_text_string(&title), &set);
+    PS_TRY_OUT(status, take_lines(artist, what, &kind, &set));
+    ps_plot_title(artist, what, kind.what, &title);
+    PS_TRY_OUT(status, ps_text_check(&title, artist->error));
+    status = what->num_panels > 1 ? draw_panels(artist, what, &kind, ps_text_string(&title), &set)
+                                  : draw_frame(artist, what, &kind, ps_text_string(&title), &set);
 out:
     free_lines(&set);
     ps_text_free(&title);

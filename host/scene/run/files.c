@@ -1,7 +1,7 @@
-#include "cli/run/files.h"
+#include "scene/run/files.h"
 
 #include "base/memory.h"
-#include "cli/run/run.h"
+#include "scene/run/run.h"
 
 #include <stdint.h>
 #include <stdlib.h>
@@ -13,7 +13,7 @@ const char ps_run_picture_ending[] = ".svg";
 const char ps_run_record_name[] = "record.json";
 const char ps_run_page_name[] = "index.html";
 
-static pspec_status add(ps_run_files *files, const ps_scene_result *of, const char *name,
+static pspec_status add(ps_run_files *files, const ps_scene_result *result, const char *name,
                         const char *suffix, const char *ending, ps_error *error) {
     ps_text text = {0};
     void *all = files->all;
@@ -25,7 +25,7 @@ static pspec_status add(ps_run_files *files, const ps_scene_result *of, const ch
         ps_text_free(&text);
         return status;
     }
-    files->all[files->num++] = (ps_run_file){.name = text.data, .of = of};
+    files->all[files->num++] = (ps_run_file){.name = text.data, .result = result};
     return PSPEC_OK;
 }
 
@@ -46,15 +46,16 @@ static int compare_names(const void *a, const void *b) {
 
 static pspec_status complain(const ps_run *run, const ps_run_file *one, const ps_run_file *other,
                              ps_error *error) {
-    const bool is_first = other->of == NULL || (one->of != NULL && one->of->line > other->of->line);
+    const bool is_first =
+        other->result == NULL || (one->result != NULL && one->result->line > other->result->line);
     const ps_run_file *const late = is_first ? one : other;
     const ps_run_file *const early = is_first ? other : one;
     return ps_fail(error, PSPEC_ERROR_INPUT,
                    "%s:%d: name: \"%s\" and \"%s\" would write the same file %s; another name "
                    "for one of them keeps them apart",
-                   run->scene->path, late->of != NULL ? late->of->line : 0,
-                   early->of != NULL ? early->of->name : "the run",
-                   late->of != NULL ? late->of->name : "the run", late->name);
+                   run->scene->path, late->result != NULL ? late->result->line : 0,
+                   early->result != NULL ? early->result->name : "the run",
+                   late->result != NULL ? late->result->name : "the run", late->name);
 }
 
 pspec_status ps_run_files_list(ps_run_files *out, const ps_run *run, ps_error *error) {

@@ -1,6 +1,6 @@
 /* Which pictures a result has, and under which names: known before any work, and the one list by which they are drawn. */
-#ifndef PS_CLI_RUN_PICTURES_H
-#define PS_CLI_RUN_PICTURES_H
+#ifndef PS_SCENE_RUN_PICTURES_H
+#define PS_SCENE_RUN_PICTURES_H
 
 #include "scene/scene.h"
 

@@ -1,5 +1,5 @@
 /* The page of a run: one file of HTML with its pictures inside, which needs no network. */
-#include "cli/run/run.h"
+#include "scene/run/run.h"
 #include "pointspec_version.h"
 
 #include <math.h>
@@ -221,13 +221,13 @@ static void print_result(const ps_run_result *result, ps_text *out) {
 
 static void print_facts(const ps_run *run, ps_text *out) {
     const ps_run_question *slowest = NULL;
-    const ps_run_result *of = NULL;
+    const ps_run_result *slowest_result = NULL;
     for (size_t i = 0; i < run->num_results; i++) {
         for (size_t q = 0; q < run->results[i].num; q++) {
             const ps_run_question *const question = &run->results[i].questions[q];
             if (slowest == NULL || question->seconds > slowest->seconds) {
                 slowest = question;
-                of = &run->results[i];
+                slowest_result = &run->results[i];
             }
         }
     }
@@ -238,7 +238,8 @@ static void print_facts(const ps_run *run, ps_text *out) {
                    run->num_questions, run->num_questions == 1 ? "" : "s", run->num_cached);
     print_seconds(run->seconds, out);
     if (slowest != NULL) {
-        ps_text_append(out, ", of which the slowest question (%s) took ", of->asked->name);
+        ps_text_append(out, ", of which the slowest question (%s) took ",
+                       slowest_result->asked->name);
         print_seconds(slowest->seconds, out);
     }
     ps_text_append(out, "; <a href=\"record.json\">record.json</a> repeats it: <code>pointspec run "

@@ -1,6 +1,6 @@
 /* Answers in the cache of results: under which key, as which bytes. */
 #include "base/memory.h"
-#include "cli/run/run.h"
+#include "scene/run/run.h"
 #include "tables/table_pack.h"
 #include "store/figures_file.h"
 #include "pointspec_version.h"
@@ -65,8 +65,8 @@ pspec_status ps_run_open_cache(ps_run *run, ps_error *error) {
     if (status == PSPEC_OK) {
         status = ps_cache_open(&run->cache, ps_text_string(&folder), most, &reason);
     }
-    if (status != PSPEC_OK && !run->arguments->quiet) {
-        fprintf(stderr, "pointspec: no cache of results: %s\n", reason.message);
+    if (status != PSPEC_OK) {
+        ps_run_warn(run, "no cache of results: %s", reason.message);
     }
     ps_text_free(&folder);
     return PSPEC_OK;
@@ -161,8 +161,8 @@ static pspec_status unpack(ps_answer *out, double *seconds, const char *bytes, s
 /* ---- to and fro ------------------------------------------------------------------------------ */
 
 void ps_run_warn_of_cache(const ps_run *run, ps_error *reason) {
-    if (ps_cache_first_failure(run->cache) && !run->arguments->quiet) {
-        fprintf(stderr, "pointspec: the cache of results: %s\n", reason->message);
+    if (ps_cache_first_failure(run->cache)) {
+        ps_run_warn(run, "the cache of results: %s", reason->message);
     }
     *reason = (ps_error){0};
 }

@@ -1,5 +1,5 @@
 /* The record of a run: the scene as JSON, which can be run again, with what it gave, by what, and where. */
-#include "cli/run/run.h"
+#include "scene/run/run.h"
 #include "pointspec_version.h"
 
 #include <stdlib.h>
@@ -92,34 +92,4 @@ pspec_status ps_run_record(const ps_run *run, ps_text *out, ps_error *error) {
     print_all(run, true, out);
     ps_text_append(out, "\n    ]\n  }\n}\n");
     return ps_text_check(out, error);
-}
-
-/* ---- a record run again ------------------------------------------------------------------ */
-
-pspec_status ps_run_compare(const ps_run *run, ps_error *error) {
-    const ps_scene *const scene = run->scene;
-    size_t number = 0;
-    if (scene->num_digests == 0) {
-        return PSPEC_OK;
-    }
-    for (size_t i = 0; i < run->num_results; i++) {
-        const ps_run_result *const result = &run->results[i];
-        for (size_t q = 0; q < result->num; q++, number++) {
-            if (number >= scene->num_digests ||
-                strcmp(scene->digests[number], result->questions[q].digest) != 0) {
-                return ps_fail(error, PSPEC_ERROR_CHECK,
-                               "question %zu of result %s has other bits than the record, which is "
-                               "of pointspec %s on %s: %s",
-                               q + 1, result->asked->name,
-                               scene->recorded_version != NULL ? scene->recorded_version : "?",
-                               scene->recorded_device != NULL ? scene->recorded_device : "?",
-                               result->questions[q].asked.request.command_line);
-            }
-        }
-    }
-    return number == scene->num_digests
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_CHECK,
-                         "the record is of %zu questions, but its scene asks %zu",
-                         scene->num_digests, number);
 }

@@ -1,21 +1,25 @@
-/* pointspec run: a scene answered, and what becomes of the answers. cmd_run.c goes through it once:
+/* A scene answered, and what becomes of the answers, in this order: prepare, answer, write, judge. Each file is one part:
  *
- *     run_answers.c   every question from the cache or computed
- *     run_cache.c     keys and bytes of answers in the cache
- *     run_tables.c    tables of the results, and summaries
- *     run_pictures.c  which pictures there are
- *     run_plots.c     those pictures, drawn
- *     run_page.c      the page that shows them
- *     run_record.c    the record that repeats them
- *     run_files.c     names of the files that there will be
- *     run_former.c    files of the former run in the folder
+ *     run.c        the beginning and the end
+ *     answers.c    every question from the cache or computed
+ *     cache.c      keys and bytes of answers in the cache
+ *     tables.c     tables of the results, and summaries
+ *     pictures.c   which pictures there are
+ *     plots.c      those pictures, drawn; lines.c those of lines, drawing.c what they share
+ *     page.c       the page that shows them
+ *     record.c     the record that repeats them
+ *     files.c      names of the files that there will be
+ *     folder.c     the folder for them; former.c: files of the former run in it
+ *     write.c      the files
+ *     verdict.c    what it comes to
+ *     plan.c       what it would do
  */
-#ifndef PS_CLI_RUN_RUN_H
-#define PS_CLI_RUN_RUN_H
+#ifndef PS_SCENE_RUN_RUN_H
+#define PS_SCENE_RUN_RUN_H
 
-#include "cli/command.h"
-#include "cli/run/files.h"
-#include "cli/run/pictures.h"
+#include "results/kind.h"
+#include "scene/run/files.h"
+#include "scene/run/pictures.h"
 #include "files/digest.h"
 #include "store/result_cache.h"
 #include "scene/scene.h"
@@ -44,7 +48,20 @@ typedef struct ps_run_result {
     ps_run_plot *plots;
 } ps_run_result;
 
+/* Who hears of a run; {0}: nobody. Each of the calls may be NULL. */
+typedef struct ps_run_hooks {
+    ps_watch watch; /* of the work for each question */
+    void *payload;  /* of the calls */
+    /* Question `number` (from 1) of num, which is one of the result of that name, begins. */
+    void (*begin_question)(void *payload, const char *result, size_t number, size_t num);
+    /* Asked between two questions, and after a failure: was it an interrupt? */
+    bool (*is_interrupted)(void *payload);
+    /* A whole sentence that is no error. */
+    void (*warn)(void *payload, const char *sentence);
+} ps_run_hooks;
+
 typedef struct ps_run {
+    ps_run_hooks hooks;
     const ps_request *arguments;
     const ps_scene *scene;
     const char *folder; /* for the results */
@@ -66,6 +83,20 @@ typedef struct ps_run {
  * POINTSPEC_MEMORY of today is not for it. */
 pspec_status ps_run_read_scene(ps_scene *out, const ps_request *arguments,
                                ps_error *error) PS_MUST_CHECK;
+/* All that can be found out before the work: questions, folder, former run, cache. */
+pspec_status ps_run_prepare(ps_run *run, ps_error *error) PS_MUST_CHECK;
+/* Writes all files. The record comes first: with it the folder is one of a run, whatever happens next. A picture that
+ * cannot be drawn is no error: run->num_undrawn. */
+pspec_status ps_run_write(ps_run *run, ps_error *error) PS_MUST_CHECK;
+/* PSPEC_ERROR_CHECK where the scene is a record whose digests are others, or a check found another spectrum. */
+pspec_status ps_run_judge(const ps_run *run, ps_error *error) PS_MUST_CHECK;
+
+/* ---- the steps of these ---------------------------------------------------------------------- */
+
+/* Calls the hook with a sentence, if there is somebody to hear it. */
+void ps_run_warn(const ps_run *run, const char *format, ...) PS_PRINTF(2, 3);
+bool ps_run_is_interrupted(const ps_run *run);
+
 /* Makes all questions and looks whether they can be asked, without work. */
 pspec_status ps_run_ask(ps_run *run, ps_error *error) PS_MUST_CHECK;
 pspec_status ps_run_answer(ps_run *run, ps_error *error) PS_MUST_CHECK;
@@ -91,10 +122,15 @@ pspec_status ps_run_make_plots(ps_run *run, ps_run_result *result, ps_error *err
 /* Whole texts: HTML and JSON. */
 pspec_status ps_run_page(const ps_run *run, ps_text *out, ps_error *error) PS_MUST_CHECK;
 pspec_status ps_run_record(const ps_run *run, ps_text *out, ps_error *error) PS_MUST_CHECK;
-/* PSPEC_ERROR_CHECK where the scene is a record whose digests are others. */
-pspec_status ps_run_compare(const ps_run *run, ps_error *error) PS_MUST_CHECK;
+/* A row for each result: how many questions, how many from the cache, seconds. *out is also to be destroyed after an
+ * error. */
+pspec_status ps_run_overview(ps_table **out, const ps_run *run, ps_error *error) PS_MUST_CHECK;
 
 /* What tells a question from the others of its result, "jittered, 1024"; the kind where nothing does. */
 void ps_run_label(const ps_run_result *result, size_t number, ps_text *out);
+
+/* The plan of the scene request->files[0]: one block for every question. */
+pspec_status ps_run_plan(ps_planner *planner, const ps_request *arguments,
+                         const ps_run_hooks *hooks, ps_error *error) PS_MUST_CHECK;
 
 #endif

@@ -1,6 +1,6 @@
 /* The tables of a scene: of every result the rows of all its questions, and a summary with a row for each. */
 #include "base/memory.h"
-#include "cli/run/run.h"
+#include "scene/run/run.h"
 #include "pointspec_version.h"
 
 #include <errno.h>
@@ -80,26 +80,26 @@ static size_t put_names(const ps_run_result *result, const char **columns) {
 /* ---- all rows ---------------------------------------------------------------------------- */
 
 /* The header of every question, after its command line. */
-static pspec_status add_header(ps_table *to, const ps_table *from, ps_error *error) {
-    for (size_t i = 0; i < ps_table_num_meta(from); i++) {
+static pspec_status add_header(ps_table *table, const ps_table *answer, ps_error *error) {
+    for (size_t i = 0; i < ps_table_num_meta(answer); i++) {
         const char *key = NULL;
-        const ps_cell value = ps_table_meta(from, i, &key);
+        const ps_cell value = ps_table_meta(answer, i, &key);
         if (strcmp(key, "pointspec_version") != 0 && strcmp(key, "schema") != 0) {
-            PS_TRY(ps_table_add_meta(to, key, value, error));
+            PS_TRY(ps_table_add_meta(table, key, value, error));
         }
     }
     return PSPEC_OK;
 }
 
-static pspec_status add_rows(ps_table *to, const ps_run_result *result, size_t number,
+static pspec_status add_rows(ps_table *table, const ps_run_result *result, size_t number,
                              ps_cell *cells, ps_error *error) {
-    const ps_table *const from = result->questions[number].answer.table;
+    const ps_table *const answer = result->questions[number].answer.table;
     const size_t num = put_values(result, number, cells);
-    for (size_t row = 0; row < ps_table_num_rows(from); row++) {
-        for (size_t column = 0; column < ps_table_num_columns(from); column++) {
-            cells[num + column] = ps_table_cell(from, row, column);
+    for (size_t row = 0; row < ps_table_num_rows(answer); row++) {
+        for (size_t column = 0; column < ps_table_num_columns(answer); column++) {
+            cells[num + column] = ps_table_cell(answer, row, column);
         }
-        PS_TRY(ps_table_add_row(to, cells, error));
+        PS_TRY(ps_table_add_row(table, cells, error));
     }
     return PSPEC_OK;
 }
@@ -205,4 +205,35 @@ out:
 pspec_status ps_run_make_tables(const ps_run *run, ps_run_result *result, ps_error *error) {
     PS_TRY(make_table(run, result, error));
     return make_summary(run, result, error);
+}
+
+/* ---- overview ---------------------------------------------------------------------------- */
+
+static pspec_status add_result(ps_table *table, const ps_run_result *result, ps_error *error) {
+    double seconds = 0;
+    size_t num_cached = 0;
+    for (size_t q = 0; q < result->num; q++) {
+        seconds += result->questions[q].seconds;
+        num_cached += result->questions[q].is_cached;
+    }
+    const ps_cell cells[] = {PS_TEXT(result->asked->name), PS_TEXT(result->asked->kind->name),
+                             PS_INTEGER(result->num), PS_INTEGER(num_cached), PS_NUMBER(seconds)};
+    return ps_table_add_row(table, cells, error);
+}
+
+pspec_status ps_run_overview(ps_table **out, const ps_run *run, ps_error *error) {
+    static const char *const columns[] = {"result", "kind", "questions", "cached", "seconds"};
+    ps_text page = {0};
+    pspec_status status = PSPEC_OK;
+    PS_TRY(ps_table_create(out, "run", columns, sizeof columns / sizeof columns[0], error));
+    ps_text_append(&page, "%s/index.html", run->folder);
+    PS_TRY_OUT(status, ps_text_check(&page, error));
+    PS_TRY_OUT(status, ps_table_add_meta(*out, "page", PS_TEXT(ps_text_string(&page)), error));
+    PS_TRY_OUT(status, ps_table_add_meta(*out, "seconds", PS_NUMBER(run->seconds), error));
+    for (size_t i = 0; i < run->num_results; i++) {
+        PS_TRY_OUT(status, add_result(*out, &run->results[i], error));
+    }
+out:
+    ps_text_free(&page);
+    return status;
 }

@@ -1,5 +1,5 @@
 /* Pictures from the numbers of tables, or from the cache. */
-#include "cli/run/drawing.h"
+#include "scene/run/drawing.h"
 
 #include "base/memory.h"
 
@@ -8,8 +8,9 @@
 
 /* ---- a new picture ----------------------------------------------------------------------- */
 
-void ps_plot_title(const ps_artist *of, const ps_picture *picture, const char *what, ps_text *out) {
-    const ps_scene_result *const asked = of->result->asked;
+void ps_plot_title(const ps_artist *artist, const ps_picture *picture, const char *what,
+                   ps_text *out) {
+    const ps_scene_result *const asked = artist->result->asked;
     ps_text_append(out, "%s", asked->title != NULL ? asked->title : asked->name);
     if (picture->value != NULL) {
         ps_text_append(out, ", %s", picture->value->originals[0]);
@@ -20,38 +21,38 @@ void ps_plot_title(const ps_artist *of, const ps_picture *picture, const char *w
 }
 
 /* A picture is a function of what is drawn: gnuplot need not run twice for the same. */
-static pspec_status find_svg(const ps_artist *of, const ps_text *key, ps_text *svg,
+static pspec_status find_svg(const ps_artist *artist, const ps_text *key, ps_text *svg,
                              bool *is_found) {
     void *bytes = NULL;
     size_t num = 0;
     ps_error reason = {0};
     *is_found = false;
-    if (of->run->cache != NULL && ps_cache_get(of->run->cache, key->data, key->length, &bytes, &num,
-                                               is_found, &reason) != PSPEC_OK) {
-        ps_run_warn_of_cache(of->run, &reason);
+    if (artist->run->cache != NULL && ps_cache_get(artist->run->cache, key->data, key->length,
+                                                   &bytes, &num, is_found, &reason) != PSPEC_OK) {
+        ps_run_warn_of_cache(artist->run, &reason);
     }
     if (*is_found) {
         ps_text_append_bytes(svg, bytes, num);
     }
     free(bytes);
-    return ps_text_check(svg, of->error);
+    return ps_text_check(svg, artist->error);
 }
 
-static pspec_status keep_svg(const ps_artist *of, const ps_text *key, const ps_text *svg) {
+static pspec_status keep_svg(const ps_artist *artist, const ps_text *key, const ps_text *svg) {
     ps_error reason = {0};
-    if (of->run->cache != NULL && ps_cache_put(of->run->cache, key->data, key->length, svg->data,
-                                               svg->length, &reason) != PSPEC_OK) {
-        ps_run_warn_of_cache(of->run, &reason);
+    if (artist->run->cache != NULL && ps_cache_put(artist->run->cache, key->data, key->length,
+                                                   svg->data, svg->length, &reason) != PSPEC_OK) {
+        ps_run_warn_of_cache(artist->run, &reason);
     }
     return PSPEC_OK;
 }
 
-pspec_status ps_run_add_plot(const ps_artist *of, const ps_picture *picture, ps_text *svg,
+pspec_status ps_run_add_plot(const ps_artist *artist, const ps_picture *picture, ps_text *svg,
                              ps_text *reason) {
-    ps_run_result *const result = of->result;
+    ps_run_result *const result = artist->result;
     void *plots = result->plots;
     PS_TRY(ps_grow(&plots, &result->plot_capacity, result->num_plots + 1, sizeof *result->plots,
-                   "pictures", of->error));
+                   "pictures", artist->error));
     result->plots = plots;
     ps_run_plot *const plot = &result->plots[result->num_plots++];
     *plot = (ps_run_plot){.what = picture};
@@ -125,20 +126,20 @@ static pspec_status draw_new(const ps_drawing *what, ps_text *svg, ps_error *err
                                   : ps_plot_draw_svg(svg, what->spectra, error);
 }
 
-pspec_status ps_draw(const ps_artist *of, const ps_drawing *what, const ps_picture *picture) {
+pspec_status ps_draw(const ps_artist *artist, const ps_drawing *what, const ps_picture *picture) {
     ps_text key = {0};
     ps_text svg = {0};
     bool is_found = false;
     pspec_status status = PSPEC_OK;
-    ps_text_append(&key, "plot\n%s", ps_text_string(&of->run->identity));
+    ps_text_append(&key, "plot\n%s", ps_text_string(&artist->run->identity));
     add_key(&key, what);
-    PS_TRY_OUT(status, ps_text_check(&key, of->error));
-    PS_TRY_OUT(status, find_svg(of, &key, &svg, &is_found));
+    PS_TRY_OUT(status, ps_text_check(&key, artist->error));
+    PS_TRY_OUT(status, find_svg(artist, &key, &svg, &is_found));
     if (!is_found) {
-        PS_TRY_OUT(status, draw_new(what, &svg, of->error));
-        PS_TRY_OUT(status, keep_svg(of, &key, &svg));
+        PS_TRY_OUT(status, draw_new(what, &svg, artist->error));
+        PS_TRY_OUT(status, keep_svg(artist, &key, &svg));
     }
-    status = ps_run_add_plot(of, picture, &svg, NULL);
+    status = ps_run_add_plot(artist, picture, &svg, NULL);
 out:
     ps_text_free(&key);
     ps_text_free(&svg);

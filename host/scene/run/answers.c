@@ -1,7 +1,7 @@
 /* Every question of a scene, from the cache or computed. */
 #include "base/clock.h"
 #include "base/memory.h"
-#include "cli/run/run.h"
+#include "scene/run/run.h"
 #include "store/figures_file.h"
 
 #include <stdlib.h>
@@ -22,14 +22,6 @@ static pspec_status ask_one(ps_run *run, ps_run_result *result, size_t number, p
         status = result->asked->kind->check_question(&asked->request, error);
     }
     return status == PSPEC_OK ? PSPEC_OK : ps_scene_blame(run->scene, result->asked, error);
-}
-
-pspec_status ps_run_read_scene(ps_scene *out, const ps_request *arguments, ps_error *error) {
-    PS_TRY(ps_scene_read(out, arguments->files[0], error));
-    const bool is_repeated = out->num_digests > 0 && arguments->is_memory_of_environment;
-    return arguments->memory > 0 && !is_repeated
-               ? ps_scene_limit_memory(out, arguments->memory, error)
-               : PSPEC_OK;
 }
 
 pspec_status ps_run_ask(ps_run *run, ps_error *error) {
@@ -84,14 +76,13 @@ pspec_status ps_run_open_device(ps_run *run, const ps_run_result *result, ps_err
 }
 
 static pspec_status answer_one(ps_run *run, ps_run_result *result, ps_run_question *question,
-                               ps_progress *progress, ps_error *error) {
+                               ps_error *error) {
     const double start = ps_clock_seconds();
     PS_TRY(ps_run_fetch(run, question, &question->answer, &question->seconds, &question->is_cached,
                         error));
     if (!question->is_cached) {
         PS_TRY(ps_run_open_device(run, result, error));
-        const ps_answer_hooks hooks = {.watch = {ps_progress_tell, progress},
-                                       .device = run->device};
+        const ps_answer_hooks hooks = {.watch = run->hooks.watch, .device = run->device};
         PS_TRY(ps_answer_make(&question->answer, result->asked->kind, &question->asked.request,
                               &hooks, error));
         question->seconds = ps_clock_seconds() - start;
@@ -102,15 +93,17 @@ static pspec_status answer_one(ps_run *run, ps_run_result *result, ps_run_questi
 }
 
 static pspec_status answer_result(ps_run *run, ps_run_result *result, size_t *done,
-                                  ps_progress *progress, ps_error *error) {
+                                  ps_error *error) {
     for (size_t q = 0; q < result->num; q++) {
-        if (ps_interrupted) {
+        if (ps_run_is_interrupted(run)) {
             return ps_fail(error, PSPEC_ERROR_CANCELLED, "interrupted after %zu of %zu questions",
                            *done, run->num_questions);
         }
-        ps_progress_part(progress, "%s, question %zu of %zu: ", result->asked->name, *done + 1,
-                         run->num_questions);
-        if (answer_one(run, result, &result->questions[q], progress, error) != PSPEC_OK) {
+        if (run->hooks.begin_question != NULL) {
+            run->hooks.begin_question(run->hooks.payload, result->asked->name, *done + 1,
+                                      run->num_questions);
+        }
+        if (answer_one(run, result, &result->questions[q], error) != PSPEC_OK) {
             return ps_scene_blame(run->scene, result->asked, error);
         }
         ++*done;
@@ -122,41 +115,9 @@ pspec_status ps_run_answer(ps_run *run, ps_error *error) {
     size_t done = 0;
     pspec_status status = PSPEC_OK;
     const double start = ps_clock_seconds();
-    ps_progress *const progress = ps_progress_begin(run->arguments, "realizations");
     for (size_t i = 0; status == PSPEC_OK && i < run->num_results; i++) {
-        status = answer_result(run, &run->results[i], &done, progress, error);
+        status = answer_result(run, &run->results[i], &done, error);
     }
-    ps_progress_end(progress);
     run->seconds = ps_clock_seconds() - start;
     return status;
-}
-
-/* ---- end --------------------------------------------------------------------------------- */
-
-static void free_result(ps_run_result *result) {
-    for (size_t q = 0; q < result->num; q++) {
-        ps_scene_question_free(&result->questions[q].asked);
-        ps_answer_free(&result->questions[q].answer);
-    }
-    for (size_t p = 0; p < result->num_plots; p++) {
-        free(result->plots[p].svg);
-        free(result->plots[p].reason);
-    }
-    free(result->questions);
-    free(result->plots);
-    ps_pictures_free(&result->pictures);
-    ps_table_destroy(result->table);
-    ps_table_destroy(result->summary);
-}
-
-void ps_run_free(ps_run *run) {
-    for (size_t i = 0; i < run->num_results; i++) {
-        free_result(&run->results[i]);
-    }
-    free(run->results);
-    ps_run_files_free(&run->files);
-    ps_scene_free(&run->former);
-    ps_cache_close(run->cache);
-    ps_device_close(run->device);
-    ps_text_free(&run->identity);
 }

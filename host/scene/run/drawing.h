@@ -1,8 +1,8 @@
-/* What the pictures of a scene's results share. Private to run_*.c. */
-#ifndef PS_CLI_RUN_DRAWING_H
-#define PS_CLI_RUN_DRAWING_H
+/* What the pictures of a scene's results share. Private to this folder. */
+#ifndef PS_SCENE_RUN_DRAWING_H
+#define PS_SCENE_RUN_DRAWING_H
 
-#include "cli/run/run.h"
+#include "scene/run/run.h"
 #include "plots/plot.h"
 
 typedef struct ps_artist {
@@ -12,7 +12,8 @@ typedef struct ps_artist {
 } ps_artist;
 
 /* The title of the result, what its questions have in common, what the picture shows. */
-void ps_plot_title(const ps_artist *of, const ps_picture *picture, const char *what, ps_text *out);
+void ps_plot_title(const ps_artist *artist, const ps_picture *picture, const char *what,
+                   ps_text *out);
 
 /* One of the three kinds of plots; the others are NULL. */
 typedef struct ps_drawing {
@@ -22,14 +23,14 @@ typedef struct ps_drawing {
 } ps_drawing;
 
 /* Draws it, or takes it from the cache, and adds it to the result. */
-pspec_status ps_draw(const ps_artist *of, const ps_drawing *what,
+pspec_status ps_draw(const ps_artist *artist, const ps_drawing *what,
                      const ps_picture *picture) PS_MUST_CHECK;
 
 /* Adds a picture to the result: its text, or else why there is none. Takes the text. */
-pspec_status ps_run_add_plot(const ps_artist *of, const ps_picture *picture, ps_text *svg,
+pspec_status ps_run_add_plot(const ps_artist *artist, const ps_picture *picture, ps_text *svg,
                              ps_text *reason) PS_MUST_CHECK;
 
 /* A picture of lines: columns, errors, and spectra in panels. */
-pspec_status ps_draw_lines(const ps_artist *of, const ps_picture *what) PS_MUST_CHECK;
+pspec_status ps_draw_lines(const ps_artist *artist, const ps_picture *what) PS_MUST_CHECK;
 
 #endif

@@ -1,7 +1,6 @@
-/* Pictures of the results of a scene, made from their tables by the list of run_pictures.c: spectra here, lines in run_lines.c. */
+/* Pictures of the results of a scene, made from their tables by the list of pictures.c: spectra here, lines in lines.c. */
 #include "base/memory.h"
-#include "cli/command.h"
-#include "cli/run/drawing.h"
+#include "scene/run/drawing.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -11,31 +10,31 @@
 
 enum { CURVE_COLUMNS = 4 };
 
-static pspec_status take_curve(const ps_artist *of, size_t number, ps_plot_curve *out,
+static pspec_status take_curve(const ps_artist *artist, size_t number, ps_plot_curve *out,
                                ps_text *label, double **numbers) {
-    const ps_table *const table = of->result->questions[number].answer.table;
-    const ps_line_kind *const axes = of->result->asked->kind->spectrum;
+    const ps_table *const table = artist->result->questions[number].answer.table;
+    const ps_line_kind *const axes = artist->result->asked->kind->spectrum;
     const size_t num = ps_table_num_rows(table);
     void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, num, CURVE_COLUMNS * sizeof(double), "a curve", of->error));
+    PS_TRY(ps_allocate(&memory, num, CURVE_COLUMNS * sizeof(double), "a curve", artist->error));
     double *const columns = *numbers = memory;
     ps_table_read_column(table, axes->x, columns);
     ps_table_read_column(table, axes->y, columns + num);
     ps_table_read_column(table, "standard_error", columns + 2 * num);
     ps_table_read_column(table, "anisotropy_db", columns + 3 * num);
-    ps_run_label(of->result, number, label);
+    ps_run_label(artist->result, number, label);
     *out = (ps_plot_curve){ps_text_string(label), num, columns, columns + num, columns + 2 * num,
                            columns + 3 * num};
-    return ps_text_check(label, of->error);
+    return ps_text_check(label, artist->error);
 }
 
-static double noise_level(const ps_artist *of, size_t number) {
-    const ps_table *const table = of->result->questions[number].answer.table;
+static double noise_level(const ps_artist *artist, size_t number) {
+    const ps_table *const table = artist->result->questions[number].answer.table;
     return ps_cell_number(ps_table_find_meta(table, "noise_level_db"));
 }
 
 /* Curves of a picture; with an array, the picture of one spectrum. */
-static pspec_status draw_spectra(const ps_artist *of, const ps_picture *what,
+static pspec_status draw_spectra(const ps_artist *artist, const ps_picture *what,
                                  const ps_plot_image *image) {
     ps_plot_curve curves[PS_MOST_CURVES];
     ps_text labels[PS_MOST_CURVES] = {{0}};
@@ -43,17 +42,18 @@ static pspec_status draw_spectra(const ps_artist *of, const ps_picture *what,
     ps_text title = {0};
     pspec_status status = PSPEC_OK;
     for (size_t i = 0; i < what->num_curves; i++) {
-        PS_TRY_OUT(status, take_curve(of, what->curves[i], &curves[i], &labels[i], &numbers[i]));
+        PS_TRY_OUT(status,
+                   take_curve(artist, what->curves[i], &curves[i], &labels[i], &numbers[i]));
     }
-    ps_plot_title(of, what, image != NULL ? curves[0].label : "", &title);
-    PS_TRY_OUT(status, ps_text_check(&title, of->error));
+    ps_plot_title(artist, what, image != NULL ? curves[0].label : "", &title);
+    PS_TRY_OUT(status, ps_text_check(&title, artist->error));
     const ps_plot plot = {ps_text_string(&title),
                           what->num_curves,
                           curves,
                           image,
-                          noise_level(of, what->curves[0]),
-                          of->result->asked->kind->samples == PS_DOMAIN_SPHERE};
-    status = ps_draw(of, &(ps_drawing){.spectra = &plot}, what);
+                          noise_level(artist, what->curves[0]),
+                          artist->result->asked->kind->samples == PS_DOMAIN_SPHERE};
+    status = ps_draw(artist, &(ps_drawing){.spectra = &plot}, what);
 out:
     for (size_t i = 0; i < PS_MOST_CURVES; i++) {
         ps_text_free(&labels[i]);
@@ -64,11 +64,11 @@ out:
 }
 
 /* Where the array was wanted and is there. */
-static pspec_status draw_image(const ps_artist *of, const ps_picture *what) {
-    const ps_answer *const answer = &of->result->questions[what->curves[0]].answer;
+static pspec_status draw_image(const ps_artist *artist, const ps_picture *what) {
+    const ps_answer *const answer = &artist->result->questions[what->curves[0]].answer;
     const double points = ps_cell_number(ps_table_find_meta(answer->table, "points"));
     const ps_plot_image image = {answer->side, answer->array, sqrt(points)};
-    return answer->array != NULL && points > 0 ? draw_spectra(of, what, &image) : PSPEC_OK;
+    return answer->array != NULL && points > 0 ? draw_spectra(artist, what, &image) : PSPEC_OK;
 }
 
 /* Lists of frequencies have no normalized ones, and no picture. */
@@ -78,63 +78,63 @@ static bool has_bins(const ps_run_result *result) {
                                 &column);
 }
 
-static pspec_status draw(const ps_artist *of, const ps_picture *what) {
+static pspec_status draw(const ps_artist *artist, const ps_picture *what) {
     const bool is_image = what->form == PS_PICTURE_IMAGE;
     const bool is_spectrum = is_image || what->form == PS_PICTURE_SPECTRA;
-    if (is_spectrum && !has_bins(of->result)) {
+    if (is_spectrum && !has_bins(artist->result)) {
         return PSPEC_OK;
     }
-    return is_image                               ? draw_image(of, what)
-           : is_spectrum && what->num_panels == 1 ? draw_spectra(of, what, NULL)
-                                                  : ps_draw_lines(of, what);
+    return is_image                               ? draw_image(artist, what)
+           : is_spectrum && what->num_panels == 1 ? draw_spectra(artist, what, NULL)
+                                                  : ps_draw_lines(artist, what);
 }
 
 /* What a picture costs is a picture: the numbers are there. */
-static pspec_status note_failure(const ps_artist *of, const ps_picture *what) {
-    ps_run *const run = of->run;
+static pspec_status note_failure(const ps_artist *artist, const ps_picture *what) {
+    ps_run *const run = artist->run;
     ps_text reason = {0};
-    ps_text_append(&reason, "%s", of->error->message);
+    ps_text_append(&reason, "%s", artist->error->message);
     if (run->num_undrawn++ == 0) {
-        run->undrawn = *of->error;
+        run->undrawn = *artist->error;
     }
-    *of->error = (ps_error){0};
-    pspec_status status = ps_text_check(&reason, of->error);
+    *artist->error = (ps_error){0};
+    pspec_status status = ps_text_check(&reason, artist->error);
     if (status == PSPEC_OK) {
-        status = ps_run_add_plot(of, what, NULL, &reason);
+        status = ps_run_add_plot(artist, what, NULL, &reason);
     }
     ps_text_free(&reason);
     return status;
 }
 
 /* Once for a result: its pictures have the same panels. */
-static void say_panels(const ps_artist *of) {
-    const ps_scene_result *const asked = of->result->asked;
-    const ps_pictures *const pictures = &of->result->pictures;
+static void say_panels(const ps_artist *artist) {
+    const ps_scene_result *const asked = artist->result->asked;
+    const ps_pictures *const pictures = &artist->result->pictures;
     size_t i = 0;
     while (i < pictures->num && pictures->all[i].num_panels == 1) {
         i++;
     }
-    if (i == pictures->num || of->run->arguments->quiet) {
+    if (i == pictures->num) {
         return;
     }
     ps_text text = {0};
     ps_picture_say_panels(&pictures->all[i], asked, &text);
-    fprintf(stderr, "pointspec: %s%s.svg: %s\n", asked->name, pictures->all[i].suffix,
-            ps_text_string(&text));
+    ps_run_warn(artist->run, "%s%s.svg: %s", asked->name, pictures->all[i].suffix,
+                ps_text_string(&text));
     ps_text_free(&text);
 }
 
 pspec_status ps_run_make_plots(ps_run *run, ps_run_result *result, ps_error *error) {
-    const ps_artist of = {run, result, error};
-    say_panels(&of);
+    const ps_artist artist = {run, result, error};
+    say_panels(&artist);
     for (size_t i = 0; i < result->pictures.num; i++) {
         const ps_picture *const what = &result->pictures.all[i];
-        const pspec_status status = draw(&of, what);
-        if (status == PSPEC_ERROR_CANCELLED || (status != PSPEC_OK && ps_interrupted)) {
+        const pspec_status status = draw(&artist, what);
+        if (status == PSPEC_ERROR_CANCELLED || (status != PSPEC_OK && ps_run_is_interrupted(run))) {
             return ps_fail(error, PSPEC_ERROR_CANCELLED, "interrupted while pictures were drawn");
         }
         if (status != PSPEC_OK) {
-            PS_TRY(note_failure(&of, what));
+            PS_TRY(note_failure(&artist, what));
         }
     }
     return PSPEC_OK;

@@ -1,5 +1,5 @@
 /* The former run in the folder: what of it goes when another scene takes its place, and what is nobody's to write over. */
-#include "cli/run/run.h"
+#include "scene/run/run.h"
 
 #include <errno.h>
 #include <string.h>
@@ -111,8 +111,9 @@ static pspec_status compare_input(void *payload, const ps_scene *scene, const ps
     return PSPEC_OK;
 }
 
-static pspec_status is_input(const ps_run *run, const struct stat *of, bool *out, ps_error *error) {
-    same_file same = {of, false};
+static pspec_status is_input(const ps_run *run, const struct stat *facts, bool *out,
+                             ps_error *error) {
+    same_file same = {facts, false};
     PS_TRY(ps_scene_visit_inputs(run->scene, compare_input, &same, error));
     PS_TRY(compare_input(&same, NULL, NULL, NULL, run->scene->path, error));
     *out = same.is_found;
@@ -148,12 +149,9 @@ static void say(const ps_run *run, fate what, const char *path) {
         [KEPT_INPUT] = "kept \"%s\" of the former run: this scene reads it",
         [KEPT_CHANGED] = "kept \"%s\": it is not what the former run made",
         [KEPT_IN_VAIN] = "cannot remove \"%s\", which the former run made and this one does not"};
-    ps_text text = {0};
-    if (sentences[what] != NULL && !run->arguments->quiet) {
-        ps_text_append(&text, sentences[what], path);
-        fprintf(stderr, "pointspec: %s\n", ps_text_string(&text));
+    if (sentences[what] != NULL) {
+        ps_run_warn(run, sentences[what], path);
     }
-    ps_text_free(&text);
 }
 
 pspec_status ps_run_remove_former(const ps_run *run, ps_error *error) {

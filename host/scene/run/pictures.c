@@ -1,4 +1,4 @@
-#include "cli/run/pictures.h"
+#include "scene/run/pictures.h"
 
 #include "base/memory.h"
 

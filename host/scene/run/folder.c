@@ -1,0 +1,92 @@
+/* The folder that results go to. */
+#include "scene/run/files.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static pspec_status is_empty_folder(const char *path, bool *is_empty, ps_error *error) {
+    DIR *const folder = opendir(path);
+    if (folder == NULL) {
+        return ps_fail(error, PSPEC_ERROR_IO, "cannot read the folder \"%s\": %s", path,
+                       strerror(errno));
+    }
+    *is_empty = true;
+    errno = 0;
+    for (const struct dirent *entry; (entry = readdir(folder)) != NULL;) {
+        *is_empty =
+            *is_empty && (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0);
+    }
+    const int reason = errno; /* readdir leaves it alone at the end */
+    closedir(folder);
+    return reason == 0 ? PSPEC_OK
+                       : ps_fail(error, PSPEC_ERROR_IO, "cannot read the folder \"%s\": %s", path,
+                                 strerror(reason));
+}
+
+/* Whether files can be made there is found out before the work, which may be long. */
+static pspec_status check_writable(const char *path, const char *results, ps_error *error) {
+    return access(path, W_OK | X_OK) == 0
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_IO, "cannot write the results \"%s\" to \"%s\": %s",
+                         results, path, strerror(errno));
+}
+
+static pspec_status check_parent(const char *path, ps_error *error) {
+    ps_text parent = {0};
+    size_t length = strlen(path);
+    while (length > 1 && path[length - 1] == '/') {
+        length--;
+    }
+    while (length > 0 && path[length - 1] != '/') {
+        length--;
+    }
+    ps_text_append_bytes(&parent, length > 0 ? path : ".", length > 0 ? length : 1);
+    pspec_status status = ps_text_check(&parent, error);
+    if (status == PSPEC_OK) {
+        status = check_writable(ps_text_string(&parent), path, error);
+    }
+    ps_text_free(&parent);
+    return status;
+}
+
+pspec_status ps_run_check_folder(const char *path, ps_error *error) {
+    struct stat facts;
+    bool is_empty = false;
+    ps_text record = {0};
+    if (stat(path, &facts) != 0) {
+        return errno == ENOENT ? check_parent(path, error)
+                               : ps_fail(error, PSPEC_ERROR_IO, "cannot read \"%s\": %s", path,
+                                         strerror(errno));
+    }
+    if (!S_ISDIR(facts.st_mode)) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "\"%s\" is no folder; -o FOLDER says where results go", path);
+    }
+    ps_text_append(&record, "%s/%s", path, ps_run_record_name);
+    pspec_status status = ps_text_check(&record, error);
+    const bool has_record = status == PSPEC_OK && access(ps_text_string(&record), F_OK) == 0;
+    ps_text_free(&record);
+    if (status == PSPEC_OK && !has_record) {
+        status = is_empty_folder(path, &is_empty, error);
+    }
+    if (status == PSPEC_OK && (has_record || is_empty)) {
+        return check_writable(path, path, error);
+    }
+    return status != PSPEC_OK
+               ? status
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "the folder \"%s\" has files that are not of a run; -o FOLDER says where "
+                         "results go",
+                         path);
+}
+
+pspec_status ps_run_make_folder(const char *path, ps_error *error) {
+    const mode_t all = 0777; /* the umask takes its share */
+    return mkdir(path, all) == 0 || errno == EEXIST
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_IO, "cannot make the folder \"%s\": %s", path,
+                         strerror(errno));
+}
