@@ -2,6 +2,7 @@
 
 #include "base/clock.h"
 #include "engines/host/host_direct.h"
+#include "math/pi.h"
 #include "math/random/random.h"
 #include "plan/cost_model.h"
 
@@ -54,12 +55,11 @@ double bench_peak_run(const ps_peak *peak) {
 
 /* Numbers in [0,1) become white points on the sphere: the first is the height, the second the azimuth. */
 static void make_unit_vectors(double *points, size_t num) {
-    const double two_pi = 6.283185307179586;
     for (size_t j = 0; j < num; j++) {
         double *u = points + j * PS_SPHERE_DIMENSION;
         const double z = 2 * u[0] - 1;
         const double rho = sqrt((1 - z) * (1 + z));
-        const double phi = two_pi * u[1];
+        const double phi = PS_TWO_PI * u[1];
         u[0] = rho * cos(phi);
         u[1] = rho * sin(phi);
         u[2] = z;

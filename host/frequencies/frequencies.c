@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "frequencies/frequency_sample.h"
+#include "math/pi.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -38,8 +39,7 @@ static uint64_t half_box_size(unsigned dimension, int64_t max_frequency) {
 /* Half the volume of the ball |k|^2 <= K^2 + K: planning needs no more than this. */
 static size_t approximate_half_ball_size(unsigned dimension, double max_frequency) {
     const double half_dimension = dimension / 2.0;
-    const double pi = 3.14159265358979323846;
-    const double unit_ball = pow(pi, half_dimension) / tgamma(half_dimension + 1);
+    const double unit_ball = pow(PS_PI, half_dimension) / tgamma(half_dimension + 1);
     return (size_t)ceil(unit_ball * pow(max_frequency + 0.5, dimension) / 2);
 }
 

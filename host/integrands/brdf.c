@@ -15,7 +15,7 @@ const ps_brdf_kind *const ps_brdf_kinds[] = {&ps_brdf_diffuse, &ps_brdf_glossy, 
 enum { MOST_LETTERS = 4095 }; /* of a value: a path */
 
 double ps_zonal_at_pole(size_t l) {
-    return sqrt((2 * (double)l + 1) / (4 * PS_PI));
+    return sqrt((2 * (double)l + 1) / PS_FOUR_PI);
 }
 
 pspec_status ps_brdf_read_exponent(ps_brdf *brdf, const char *text, ps_error *error) {
@@ -133,7 +133,7 @@ double ps_brdf_energy(const ps_brdf *brdf) {
 }
 
 double ps_brdf_density(const ps_brdf *brdf, double z) {
-    return brdf->kind->density(brdf, z) / (2 * PS_PI * brdf->kind->norm(brdf));
+    return brdf->kind->density(brdf, z) / (PS_TWO_PI * brdf->kind->norm(brdf));
 }
 
 pspec_status ps_brdf_spherical(const ps_brdf *brdf, size_t max_degree, double *b, ps_error *error) {

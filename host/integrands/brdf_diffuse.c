@@ -39,7 +39,7 @@ static pspec_status hemispherical(const ps_brdf *brdf, size_t max_degree, double
                                   ps_error *error) {
     (void)brdf, (void)error;
     for (size_t l = 0; l <= max_degree; l++) {
-        b[l] = l == 0 ? 1 / sqrt(2 * PS_PI) : l == 1 ? 1 / sqrt(6 * PS_PI) : 0;
+        b[l] = l == 0 ? 1 / sqrt(PS_TWO_PI) : l == 1 ? 1 / sqrt(6 * PS_PI) : 0;
     }
     return PSPEC_OK;
 }

@@ -27,7 +27,7 @@ static double norm(const ps_brdf *brdf) {
 static double energy(const ps_brdf *brdf) {
     const double n = brdf->exponent;
     const double x = n * range(brdf);
-    return n / (4 * PS_PI) * (1 + exp(-x)) / -expm1(-x);
+    return n / PS_FOUR_PI * (1 + exp(-x)) / -expm1(-x);
 }
 
 static double density(const ps_brdf *brdf, double z) {

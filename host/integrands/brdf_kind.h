@@ -3,10 +3,9 @@
 #define PS_INTEGRANDS_BRDF_KIND_H
 
 #include "integrands/brdf.h"
+#include "math/pi.h"
 
 #include <stddef.h>
-
-#define PS_PI 3.14159265358979323846
 
 /* Exponents that the tests cover. */
 #define PS_LEAST_LOBE 1e-3

@@ -9,7 +9,7 @@ static double norm(const ps_brdf *brdf) {
 
 static double energy(const ps_brdf *brdf) {
     const double n = brdf->exponent;
-    return (n + 1) * (n + 1) / (2 * PS_PI * (2 * n + 1));
+    return (n + 1) * (n + 1) / (PS_TWO_PI * (2 * n + 1));
 }
 
 static double density(const ps_brdf *brdf, double z) {

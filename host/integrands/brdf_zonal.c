@@ -24,7 +24,7 @@ static double energy(const ps_brdf *brdf) {
         const double b = brdf->values[i];
         sum += (brdf->nodes[i] - brdf->nodes[i - 1]) * (a * a + a * b + b * b) / 3;
     }
-    return sum / (2 * PS_PI * integral * integral);
+    return sum / (PS_TWO_PI * integral * integral);
 }
 
 static double density(const ps_brdf *brdf, double z) {

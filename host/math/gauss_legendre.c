@@ -1,8 +1,8 @@
 #include "math/gauss_legendre.h"
 
-#include <math.h>
+#include "math/pi.h"
 
-static const long double PI = 3.14159265358979323846264338327950288L;
+#include <math.h>
 
 /* P_num and its derivative at x, |x| < 1. */
 static long double legendre(size_t num, long double x, long double *derivative) {
@@ -22,7 +22,7 @@ static long double legendre(size_t num, long double x, long double *derivative) 
 static long double find_node(size_t num, size_t i, long double *derivative) {
     enum { MOST_STEPS = 12 }; /* four or five are needed */
     const long double n = (long double)num;
-    const long double angle = PI * (4 * (long double)i + 3) / (4 * n + 2);
+    const long double angle = PS_PI_L * (4 * (long double)i + 3) / (4 * n + 2);
     long double x = (1 - (n - 1) / (8 * n * n * n)) * cosl(angle);
     for (int step = 0; step < MOST_STEPS; step++) {
         const long double last = x;

@@ -1,15 +1,15 @@
 #include "math/lattice_rank.h"
 
 #include "base/memory.h"
+#include "math/pi.h"
 
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
 
 ps_lattice_bounds ps_lattice_estimate(unsigned dimension, int64_t max_norm2) {
-    const double pi = 3.14159265358979323846;
     const double half_dimension = dimension / 2.0;
-    const double unit_ball = pow(pi, half_dimension) / tgamma(half_dimension + 1);
+    const double unit_ball = pow(PS_PI, half_dimension) / tgamma(half_dimension + 1);
     const double radius = sqrt((double)max_norm2);
     const double half_diagonal = sqrt((double)dimension) / 2;
     return (ps_lattice_bounds){unit_ball * pow(fmax(radius - half_diagonal, 0), dimension),

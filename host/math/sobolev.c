@@ -2,13 +2,12 @@
 
 #include "base/wide.h"
 #include "math/neumaier.h"
+#include "math/pi.h"
 #include "math/powers.h"
 
 #include <math.h>
 #include <stdbool.h>
 #include <string.h>
-
-static const double PI = 3.14159265358979323846;
 
 pspec_status ps_sobolev_check(double smoothness, ps_error *error) {
     if (smoothness > 1 && smoothness < 2) {
@@ -27,7 +26,7 @@ double ps_sobolev_constant(double smoothness) {
 /* a_0 is of another branch: (K1) goes on from l = 1. */
 void ps_sobolev_eigenvalues(double smoothness, size_t max_degree, double *eigenvalues) {
     const double s = smoothness;
-    eigenvalues[0] = 4 * PI * exp2(2 * s - 2) / s;
+    eigenvalues[0] = PS_FOUR_PI * exp2(2 * s - 2) / s;
     if (max_degree >= 1) {
         eigenvalues[1] = eigenvalues[0] * (s - 1) / (s + 1);
     }
@@ -39,7 +38,7 @@ void ps_sobolev_eigenvalues(double smoothness, size_t max_degree, double *eigenv
 
 double ps_sobolev_tail(double smoothness, size_t max_degree, double next_eigenvalue) {
     const double next = (double)max_degree + 1;
-    return next * (next + smoothness) * next_eigenvalue / (4 * PI * (smoothness - 1));
+    return next * (next + smoothness) * next_eigenvalue / (PS_FOUR_PI * (smoothness - 1));
 }
 
 static double square_distance(const double u[3], const double v[3]) {

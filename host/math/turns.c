@@ -1,9 +1,10 @@
 #include "math/turns.h"
 
+#include "math/pi.h"
+
 #include <math.h>
 
 /* 2 pi as the sum of two doubles. */
-static const double TWO_PI = 6.28318530717958647693;
 static const double TWO_PI_LOW = 2.4492935982947064e-16;
 enum { QUARTERS = 4, QUARTER_BITS = 62 /* 2^62 is a quarter of 2^64 */ };
 static const double FRACTION_STEP = 0x1p-64;
@@ -26,8 +27,8 @@ ps_turns ps_turns_of_fraction(uint64_t fraction) {
 
 /* |rest| <= 1/8. What 2 pi rest lacks of the angle turns cosine and sine a little further. */
 static void cosine_sine_of_rest(double rest, double *cosine, double *sine) {
-    const double angle = TWO_PI * rest;
-    const double low = fma(TWO_PI, rest, -angle) + TWO_PI_LOW * rest;
+    const double angle = PS_TWO_PI * rest;
+    const double low = fma(PS_TWO_PI, rest, -angle) + TWO_PI_LOW * rest;
     const double c = cos(angle);
     const double s = sin(angle);
     *cosine = c - low * s;

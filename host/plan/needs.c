@@ -1,5 +1,7 @@
 #include "plan/needs.h"
 
+#include "math/pi.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -16,10 +18,9 @@ void ps_needs_add(ps_needs *needs, const char *what, const char *why, double sha
 
 /* Share of the box |k_i| <= K that lies outside the ball |k|^2 <= K^2 + K, by volume. */
 static double share_of_corners(unsigned dimension, double max_frequency) {
-    const double pi = 3.14159265358979323846;
     const double half = dimension / 2.0;
     const double radius = max_frequency + 0.5;
-    const double ball = pow(pi, half) / tgamma(half + 1) * pow(radius, dimension);
+    const double ball = pow(PS_PI, half) / tgamma(half + 1) * pow(radius, dimension);
     const double share = 1 - ball / pow(2 * radius, dimension);
     return share > 0 ? share : 0;
 }

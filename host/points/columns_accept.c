@@ -1,6 +1,7 @@
 #include "points/columns.h"
 
 #include "base/wide.h"
+#include "math/pi.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -11,8 +12,6 @@
 static const double UNIT_TOLERANCE = 2e-6;
 /* Angles may exceed their range by what rounding to 7 digits does. */
 static const double ANGLE_SLACK = 1e-6;
-
-static const double PI = 3.14159265358979323846;
 
 static double square_length(const double *vector) {
     return vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2];
@@ -105,7 +104,8 @@ static bool are_angles(ps_angle_order order, const double *row) {
     }
     const double theta = row[order == PS_PHI_THETA];
     const double phi = row[order != PS_PHI_THETA];
-    return theta >= -ANGLE_SLACK && theta <= PI + ANGLE_SLACK && fabs(phi) <= 2 * PI + ANGLE_SLACK;
+    return theta >= -ANGLE_SLACK && theta <= PS_PI + ANGLE_SLACK &&
+           fabs(phi) <= PS_TWO_PI + ANGLE_SLACK;
 }
 
 /* Of a row on the sphere. */

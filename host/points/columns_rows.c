@@ -1,10 +1,11 @@
 #include "points/columns.h"
 
+#include "math/pi.h"
+
 #include <math.h>
 #include <string.h>
 
-static const double PI = 3.14159265358979323846;
-static const double DEGREE = 3.14159265358979323846 / 180;
+static const double DEGREE = PS_PI / 180;
 
 /* ---- rows to points ---------------------------------------------------------------------- */
 
@@ -98,7 +99,7 @@ static void vector_to_angles(const double *vector, double *angles) {
     angles[0] = atan2(hypot(vector[0], vector[1]), vector[2]);
     angles[1] = atan2(vector[1], vector[0]);
     if (angles[1] < 0) {
-        angles[1] += 2 * PI;
+        angles[1] += PS_TWO_PI;
     }
 }
 

@@ -4,14 +4,13 @@
 #include "base/wide.h"
 #include "base/workers.h"
 #include "math/neumaier.h"
+#include "math/pi.h"
 #include "math/sobolev.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const double PI = 3.14159265358979323846;
 
 void ps_representer_destroy(ps_representer *representer) {
     free(representer->a);
@@ -77,7 +76,7 @@ static void fill_series(ps_representer *of) {
     for (size_t l = 0; l <= of->max_degree + 1; l++) {
         const double degree = (double)l;
         const bool is_term = l <= of->max_degree;
-        of->series[l] = is_term ? of->a[l] * of->b[l] * sqrt((2 * degree + 1) / (4 * PI)) : 0;
+        of->series[l] = is_term ? of->a[l] * of->b[l] * sqrt((2 * degree + 1) / PS_FOUR_PI) : 0;
         of->factors[2 * l] = degree / (degree + 1);
         of->factors[2 * l + 1] = (2 * degree + 1) / (degree + 1);
     }

@@ -9,6 +9,7 @@
 #include "integrands/brdf.h"
 #include "verify/stress_shapes.h"
 #include "math/gauss_legendre.h"
+#include "math/pi.h"
 #include "math/sobolev.h"
 
 #include <float.h>
@@ -31,7 +32,7 @@ static pspec_status measure_eigenvalues(ps_device *device, ps_precision precisio
     for (size_t i = 0; i < sizeof smoothnesses / sizeof smoothnesses[0]; i++) {
         const long double s = smoothnesses[i];
         const long double first =
-            16 * atanl(1) * powl(2, 2 * s - 2) / s * (s - 1) / (s + 1); /* a_1 */
+            PS_FOUR_PI_L * powl(2, 2 * s - 2) / s * (s - 1) / (s + 1); /* a_1 */
         ps_sobolev_eigenvalues(smoothnesses[i], LAST, a);
         for (int l = 1; l <= LAST; l++) {
             const long double other = first * expl(lgammal(l + 1 - s) - lgammal(l + 1 + s) +
@@ -79,7 +80,6 @@ static void integrate_lobe(double n, double end, size_t last, long double *ratio
 /* The coefficients of glossy lobes up to where they have fallen to a hundredth. */
 static pspec_status compare_lobe(const char *name, double n, double end, size_t last, double *found,
                                  ps_error *error) {
-    const long double four_pi = 16 * atanl(1);
     ps_brdf *brdf = NULL;
     void *memory = NULL;
     void *others = NULL;
@@ -93,7 +93,7 @@ static pspec_status compare_lobe(const char *name, double n, double end, size_t 
     integrate_lobe(n, end, last, ratios);
     *found = 0;
     for (size_t l = 0; l <= last; l++) {
-        const long double other = sqrtl((2 * (long double)l + 1) / four_pi) * ratios[l];
+        const long double other = sqrtl((2 * (long double)l + 1) / PS_FOUR_PI_L) * ratios[l];
         *found = fmax(*found, fabs((double)(b[l] / other - 1)));
     }
 out:

@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "engines/error_units.h"
+#include "math/pi.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -100,7 +101,6 @@ static double amplitude_error(const measurement *self) {
 }
 
 static double coefficient_error(const measurement *self) {
-    const double four_pi = 12.566370614359172;
     const ps_stress_sample *sample = self->sample;
     const size_t last = (size_t)sample->frequencies.max_frequency;
     const long double(*truth)[2] = (const long double(*)[2])sample->harmonics;
@@ -117,7 +117,7 @@ static double coefficient_error(const measurement *self) {
         truth += l + 1;
         num += 2.0 * (double)l + 1;
     }
-    return sqrt(four_pi * (double)sum / num / sample->sums.weight_square_sum);
+    return sqrt(PS_FOUR_PI * (double)sum / num / sample->sums.weight_square_sum);
 }
 
 static double pairs_error(const measurement *self) {

@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "frequencies/frequencies.h"
+#include "math/pi.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -118,11 +119,9 @@ static double one_weight(size_t point, uint64_t *state) {
 
 /* ---- places on the sphere ------------------------------------------------------------------ */
 
-static const double pi = 3.141592653589793;
-
 /* From the angle to the north pole, or with side -1 to the south pole, and the longitude: exact near the poles. */
 static void set_angles(double u[3], double theta, double phi, double side) {
-    const double rho = theta == pi ? 0 : sin(theta);
+    const double rho = theta == PS_PI ? 0 : sin(theta);
     u[0] = rho * cos(phi);
     u[1] = rho * sin(phi);
     u[2] = side * cos(theta);
@@ -132,14 +131,14 @@ static void white_place(size_t point, size_t num_points, uint64_t *state, double
     const double theta = 2 * asin(sqrt(ps_stress_uniform(state)));
     (void)point;
     (void)num_points;
-    set_angles(u, theta, 2 * pi * ps_stress_uniform(state), 1);
+    set_angles(u, theta, PS_TWO_PI * ps_stress_uniform(state), 1);
 }
 
 static void spiral(size_t point, size_t num_points, uint64_t *state, double u[3]) {
     const double golden_angle = 2.399963229728653;
     (void)state;
     set_angles(u, acos(1 - (2 * (double)point + 1) / (double)num_points),
-               fmod(golden_angle * (double)point, 2 * pi), 1);
+               fmod(golden_angle * (double)point, PS_TWO_PI), 1);
 }
 
 static void near_pole(size_t point, size_t num_points, uint64_t *state, double u[3]) {
@@ -150,7 +149,7 @@ static void near_pole(size_t point, size_t num_points, uint64_t *state, double u
 
 /* So near that their height is 1, at either pole. */
 static void within_1e_8_of_poles(size_t point, size_t num_points, uint64_t *state, double u[3]) {
-    const double phi = 2 * pi * ps_stress_uniform(state);
+    const double phi = PS_TWO_PI * ps_stress_uniform(state);
     (void)num_points;
     set_angles(u, 1e-8 * (0.5 + ps_stress_uniform(state)), phi, point % 2 == 0 ? 1 : -1);
 }
@@ -160,12 +159,12 @@ static void polar_circle(size_t point, size_t num_points, uint64_t *state, doubl
     const double theta = 0.3;
     (void)point;
     (void)num_points;
-    set_angles(u, theta, 2 * pi * ps_stress_uniform(state), 1);
+    set_angles(u, theta, PS_TWO_PI * ps_stress_uniform(state), 1);
 }
 
 static void at_poles(size_t point, size_t num_points, uint64_t *state, double u[3]) {
     (void)num_points;
-    set_angles(u, point % 2 == 0 ? 0 : pi, 2 * pi * ps_stress_uniform(state), 1);
+    set_angles(u, point % 2 == 0 ? 0 : PS_PI, PS_TWO_PI * ps_stress_uniform(state), 1);
 }
 
 static void same_place(size_t point, size_t num_points, uint64_t *state, double u[3]) {
@@ -204,20 +203,20 @@ static void within_1e_5(size_t point, size_t num_points, uint64_t *state, double
 static void rows(size_t point, size_t num_points, uint64_t *state, double u[3]) {
     const size_t side = (size_t)ceil(sqrt((double)num_points));
     (void)state;
-    set_angles(u, pi * ((double)(point / side) + 0.5) / (double)side,
-               2 * pi * (double)(point % side) / (double)side, 1);
+    set_angles(u, PS_PI * ((double)(point / side) + 0.5) / (double)side,
+               PS_TWO_PI * (double)(point % side) / (double)side, 1);
 }
 
 static void meridian(size_t point, size_t num_points, uint64_t *state, double u[3]) {
     (void)state;
-    set_angles(u, pi * ((double)point + 0.5) / (double)num_points, 0, 1);
+    set_angles(u, PS_PI * ((double)point + 0.5) / (double)num_points, 0, 1);
 }
 
 static void equator(size_t point, size_t num_points, uint64_t *state, double u[3]) {
-    const double theta = pi / 2 + 1e-3 * ps_stress_uniform(state);
+    const double theta = PS_PI / 2 + 1e-3 * ps_stress_uniform(state);
     (void)point;
     (void)num_points;
-    set_angles(u, theta, 2 * pi * ps_stress_uniform(state), 1);
+    set_angles(u, theta, PS_TWO_PI * ps_stress_uniform(state), 1);
 }
 
 /* On one line through the centre, but for roundings. */
@@ -257,7 +256,7 @@ static void icosahedron(size_t point, size_t num_points, uint64_t *state, double
         set_angles(u, 0, 0, at == 10 ? 1 : -1);
         return;
     }
-    set_angles(u, pi / 2 - latitude, pi / 5 * (double)at, at % 2 == 0 ? 1 : -1);
+    set_angles(u, PS_PI / 2 - latitude, PS_PI / 5 * (double)at, at % 2 == 0 ? 1 : -1);
 }
 
 /* ---- the tables ---------------------------------------------------------------------------- */

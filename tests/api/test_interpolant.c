@@ -1,6 +1,8 @@
 /* Kernel interpolation through the public library: laws of reproducing kernels, either way of solving, and nonsense. */
 #include "harness.h"
 
+#include "math/pi.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -15,7 +17,7 @@ static double kernel(double s, const double *u, const double *v) {
 
 static void make_points(size_t num, double *points) {
     for (size_t j = 0; j < num; j++) {
-        const double z = 2 * test_uniform(&seed) - 1, phi = 6.283185307179586 * test_uniform(&seed);
+        const double z = 2 * test_uniform(&seed) - 1, phi = PS_TWO_PI * test_uniform(&seed);
         points[3 * j] = sqrt(1 - z * z) * cos(phi);
         points[3 * j + 1] = sqrt(1 - z * z) * sin(phi);
         points[3 * j + 2] = z;

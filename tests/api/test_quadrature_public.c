@@ -2,6 +2,8 @@
 #include "harness_angular.h"
 #include "harness_quadrature.h"
 
+#include "math/pi.h"
+
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -27,7 +29,6 @@ static pspec_quadrature *analyse(pspec_context *context, const pspec_quadrature_
 static void one_point(void **state) {
     (void)state;
     static const double pole[] = {0, 0, 1};
-    const double four_pi = 12.566370614359172;
     pspec_context *context = pspec_context_create();
     pspec_quadrature_request request = make_request();
     request.max_degree = 10;
@@ -47,7 +48,7 @@ static void one_point(void **state) {
     double b[11];
     assert_int_equal(pspec_brdf_coefficients(context, "diffuse", 0, 10, b), PSPEC_OK);
     for (int l = 0; l <= 10; l++) {
-        const double d = b[l] - sqrt((2 * l + 1) / four_pi);
+        const double d = b[l] - sqrt((2 * l + 1) / PS_FOUR_PI);
         assert_int_equal(degrees[l].degree, l);
         assert_true(degrees[l].b == b[l]);
         test_assert_near(degrees[l].d2.mean, d * d, 1e-14);

@@ -1,6 +1,8 @@
 /* Reading all sets of a file in either way, and what must hold of them. */
 #include "points.h"
 
+#include "math/pi.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -145,7 +147,6 @@ void fuzz_reading_free(fuzz_reading *reading) {
 /* ---- what must hold ---------------------------------------------------------------------- */
 
 static bool is_point(const ps_point_set *set, const double *x) {
-    const double pi = 3.14159265358979323846;
     const double slack = 2e-6; /* of angles, and of the square of a length */
     bool is_good = true;
     switch (set->coordinates) {
@@ -157,7 +158,7 @@ static bool is_point(const ps_point_set *set, const double *x) {
     case PS_UNIT_VECTORS:
         return fabs(x[0] * x[0] + x[1] * x[1] + x[2] * x[2] - 1) <= slack;
     case PS_ANGLES:
-        return x[0] >= -slack && x[0] <= pi + slack && fabs(x[1]) <= 2 * pi + slack;
+        return x[0] >= -slack && x[0] <= PS_PI + slack && fabs(x[1]) <= PS_TWO_PI + slack;
     }
     return false;
 }

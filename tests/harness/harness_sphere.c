@@ -1,11 +1,10 @@
 #include "harness_sphere.h"
 
 #include "engines/host/host_degree.h"
+#include "math/pi.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-static const double two_pi = 6.283185307179586;
 
 void test_sphere_point(double *u, double theta, double phi, double pole) {
     u[0] = sin(theta) * cos(phi);
@@ -16,7 +15,7 @@ void test_sphere_point(double *u, double theta, double phi, double pole) {
 void test_sphere_white(double *u, uint64_t *state) {
     const double z = 2 * test_uniform(state) - 1;
     const double rho = sqrt((1 - z) * (1 + z));
-    const double phi = two_pi * test_uniform(state);
+    const double phi = PS_TWO_PI * test_uniform(state);
     u[0] = rho * cos(phi);
     u[1] = rho * sin(phi);
     u[2] = z;

@@ -3,11 +3,10 @@
 #include "harness_sphere.h"
 
 #include "engines/host/host_degree.h"
+#include "math/pi.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-static const double pi = 3.141592653589793;
 
 pspec_pattern test_make_sphere_pattern(const test_sphere_shape *shape, size_t num_points,
                                        uint64_t seed) {
@@ -64,7 +63,7 @@ double test_sphere_error(const double *found, const double *expected, int32_t ma
             num += signs;
         }
     }
-    const double unit = 4 * pi / num / sum_of_squares(pattern);
+    const double unit = PS_FOUR_PI / num / sum_of_squares(pattern);
     *mean_power = power * unit;
     return sqrt(sum * unit);
 }

@@ -4,13 +4,12 @@
 
 #include "integrands/brdf.h"
 #include "math/gauss_legendre.h"
+#include "math/pi.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define PI 3.14159265358979323846
 
 static const double RELATIVE = 3e-12; /* of the reference's README */
 
@@ -73,7 +72,7 @@ static void diffuse(void **state) {
         assert_true(hsh[l] == 0);
         assert_true(l % 2 == 0 || b[l] == 0);
     }
-    assert_close(fabs(b[LAST]) * LAST * (double)LAST, 2 / PI, 1e-3, 0);
+    assert_close(fabs(b[LAST]) * LAST * (double)LAST, 2 / PS_PI, 1e-3, 0);
     free(b);
     free(hsh);
     cJSON_Delete(json);
@@ -138,7 +137,7 @@ static void sums(void **state) {
         }
         const double energy = ps_brdf_energy(brdf);
         print_message("%-24s sum/energy - 1 = %.3g\n", lobes[i], sum / energy - 1);
-        assert_close(b[0], 1 / (2 * sqrt(PI)), 1e-15, 0);
+        assert_close(b[0], 1 / (2 * sqrt(PS_PI)), 1e-15, 0);
         assert_true(sum <= energy * (1 + 1e-12));
         assert_true(sum >= energy * (1 - 5e-5)); /* a jump at the horizon leaves 1/L */
         free(b);
@@ -158,7 +157,7 @@ static void hemispherical_sums(void **state) {
                 sum += b[l] * b[l];
             }
             assert_close(sum, ps_brdf_energy(brdf), 1e-4, 0);
-            assert_close(b[0], 1 / sqrt(2 * PI), 1e-15, 0);
+            assert_close(b[0], 1 / sqrt(PS_TWO_PI), 1e-15, 0);
             free(b);
         }
         ps_brdf_destroy(brdf);
@@ -186,7 +185,7 @@ static void quadrature(void **state) {
                 const double below = ps_brdf_density(brdf, -nodes[j]);
                 sum += weights[j] * (above + sign * below) * legendre(l, nodes[j]);
             }
-            assert_close(b[l], 2 * PI * sqrt((2 * (double)l + 1) / (4 * PI)) * sum, 0, 2e-10);
+            assert_close(b[l], PS_TWO_PI * sqrt((2 * (double)l + 1) / PS_FOUR_PI) * sum, 0, 2e-10);
         }
         free(b);
         ps_brdf_destroy(brdf);
@@ -250,9 +249,9 @@ static void zonal(void **state) {
         free(b);
     }
     ps_brdf *brdf = parse("zonal:file=lobe.txt");
-    assert_close(ps_brdf_energy(brdf), 2 / (3 * PI), 1e-14, 0);
+    assert_close(ps_brdf_energy(brdf), 2 / (3 * PS_PI), 1e-14, 0);
     assert_close(ps_brdf_norm(brdf), 0.5, 1e-15, 0);
-    assert_close(ps_brdf_density(brdf, 0.7), 0.7 / PI, 1e-15, 0);
+    assert_close(ps_brdf_density(brdf, 0.7), 0.7 / PS_PI, 1e-15, 0);
     assert_true(ps_brdf_density(brdf, -0.1) == 0);
     ps_brdf_destroy(brdf);
     write_text("step.txt", "0 2\n60 2\n"); /* a cap: int_{1/2}^1 P_l */
@@ -261,7 +260,7 @@ static void zonal(void **state) {
         const double below = legendre(l - 1, 0.5);
         const double above = legendre(l + 1, 0.5);
         const double exact = (below - above) / (2 * (double)l + 1) / 0.5;
-        assert_close(b[l], sqrt((2 * (double)l + 1) / (4 * PI)) * exact, 0, 1e-14);
+        assert_close(b[l], sqrt((2 * (double)l + 1) / PS_FOUR_PI) * exact, 0, 1e-14);
     }
     free(b);
 }

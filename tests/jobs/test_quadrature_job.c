@@ -3,6 +3,7 @@
 
 #include "jobs/quadrature/quadrature_job.h"
 #include "jobs/quadrature/quadrature_looks.h"
+#include "math/pi.h"
 #include "samplers/sampler.h"
 
 #include <math.h>
@@ -74,7 +75,7 @@ static void batches(void **state) {
 static void near(const ps_quadrature_result *a, const ps_quadrature_result *b, double tolerance) {
     double e = 0;
     for (size_t l = 0; l <= LAST; l++) {
-        const double factor = (2 * (double)l + 1) / 12.566370614359172;
+        const double factor = (2 * (double)l + 1) / PS_FOUR_PI;
         assert_true(fabs(a->degrees[l].c2.mean - b->degrees[l].c2.mean) <= factor * tolerance);
         assert_true(fabs(a->degrees[l].d2.mean - b->degrees[l].d2.mean) <= factor * tolerance);
         e += fabs(a->degrees[l].e2.mean - b->degrees[l].e2.mean);

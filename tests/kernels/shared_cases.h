@@ -10,6 +10,7 @@
 #include <float.h>
 #include <stdlib.h>
 
+#include "math/pi.h"
 #include "shared/pair.h"
 #include "shared/turn.h"
 
@@ -52,8 +53,7 @@ static wide to_wide(long double x, int scale) {
 /* ---- turn.h ------------------------------------------------------------------------------ */
 
 static void check_turn(word u) {
-    const long double two_pi = 6.283185307179586476925286766559L;
-    const long double angle = two_pi * ldexpl((long double)u, -PRECISION);
+    const long double angle = PS_TWO_PI_L * ldexpl((long double)u, -PRECISION);
     real cosine = 0, sine = 0;
     turn_cosine_sine(u, &cosine, &sine);
     const long double cosine_error = fabsl((long double)cosine - cosl(angle));

@@ -9,6 +9,7 @@
 
 #include "engines/host/host_degree.h"
 #include "engines/sphere/sphere_table.h"
+#include "math/pi.h"
 
 #include <float.h>
 #include <stdlib.h>
@@ -80,11 +81,10 @@ static void steps_follow_powers(void **state) {
 
 /* Lambda_lm of an order from its table, from sin^m(theta) = 1 on where that is small: against the referee. */
 static void check_order(int32_t m, int32_t last, double theta) {
-    const long double four_pi = 12.566370614359172953850573533118L;
     const size_t num = ps_sphere_blocks(last, m);
     double *table = calloc(num, PS_SPHERE_BLOCK_REALS * sizeof *table);
     real *block = calloc(num, PS_SPHERE_BLOCK_REALS * sizeof *block);
-    long double constant = sqrtl(1 / four_pi);
+    long double constant = sqrtl(1 / PS_FOUR_PI_L);
     for (int32_t i = 1; i <= m; i++) {
         constant = ps_sphere_next_constant(constant, i);
     }
@@ -131,7 +131,6 @@ static void orders_match_the_referee(void **state) {
 #if PRECISION == 64
 static void directions_keep_their_digits(void **state) {
     (void)state;
-    const long double two_pi = 6.283185307179586476925286766559L;
     long double worst = 0;
     for (int i = 0; i < 200000; i++) {
         double u[PS_SPHERE_DIMENSION];
@@ -147,7 +146,7 @@ static void directions_keep_their_digits(void **state) {
         assert_true(fabsl(to.rho / rho - 1) <= 4e-16L);
         assert_true(fabsl(to.cosine - u[0] / flat) <= 3e-16L &&
                     fabsl(to.sine - u[1] / flat) <= 3e-16L);
-        const long double turn = atan2l(u[1], u[0]) / two_pi;
+        const long double turn = atan2l(u[1], u[0]) / PS_TWO_PI_L;
         const long double off = ldexpl((long double)(int64_t)to.turn, -64) - turn;
         worst = fmaxl(worst, fabsl(off - rintl(off)));
     }

@@ -8,6 +8,7 @@
 #include "harness_kernels.h"
 
 #include "engines/nufft/fft.h"
+#include "math/pi.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -69,11 +70,10 @@ static cl_kernel make_kernel(const build *one) {
 
 /* exp(-2 pi i t / length) */
 static long double *make_roots(uint32_t length) {
-    const long double two_pi = 6.283185307179586476925286766559L;
     long double *roots = malloc((size_t)length * 2 * sizeof *roots);
     for (uint32_t t = 0; t < length; t++) {
-        roots[2 * t] = cosl(two_pi * t / length);
-        roots[2 * t + 1] = -sinl(two_pi * t / length);
+        roots[2 * t] = cosl(PS_TWO_PI_L * t / length);
+        roots[2 * t + 1] = -sinl(PS_TWO_PI_L * t / length);
     }
     return roots;
 }

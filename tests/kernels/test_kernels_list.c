@@ -4,6 +4,7 @@
 #include "harness_kernels.h"
 
 #include "engines/torus/torus_layout.h"
+#include "math/pi.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -141,7 +142,6 @@ static double *run_list(const list_case *one, const list_data *data, size_t grou
 /* cos and sin of 2 pi k.x; *allowed is how far the kernel may be off. */
 static void expected_terms(const list_case *one, const list_data *data, size_t frequency,
                            size_t point, long double terms[2], double *allowed) {
-    const long double two_pi = 6.283185307179586476925286766559L;
     wide turn = 0;
     double sum_k = 0;
     for (unsigned axis = 0; axis < one->dimension; axis++) {
@@ -149,11 +149,11 @@ static void expected_terms(const list_case *one, const list_data *data, size_t f
         turn += (wide)k * (wide)data->points[point * one->dimension + axis];
         sum_k += fabs((double)k);
     }
-    const long double angle = two_pi * ldexpl((long double)(int64_t)(uint64_t)turn, -64);
+    const long double angle = PS_TWO_PI_L * ldexpl((long double)(int64_t)(uint64_t)turn, -64);
     const double units = 2 + (2 + one->dimension) * sum_k * 0x1p-24; /* as in shared_cases.h */
     terms[0] = cosl(angle);
     terms[1] = sinl(angle);
-    *allowed = one->precision == 64 ? 4e-16 : 1.8e-7 + (double)two_pi * units * 0x1p-32;
+    *allowed = one->precision == 64 ? 4e-16 : 1.8e-7 + (double)PS_TWO_PI_L * units * 0x1p-32;
 }
 
 static void check_table(const list_case *one, const list_data *data, const double *table) {

@@ -5,6 +5,7 @@
 #include "engines/host/host_degree.h"
 #include "engines/sphere/sphere_points.h"
 #include "engines/sphere/sphere_table.h"
+#include "math/pi.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -84,12 +85,11 @@ static void prepare(const sphere_case *one, const sphere_data *data, test_memory
 }
 
 static test_memory make_table(const sphere_case *one, test_memory *blocks) {
-    const long double four_pi = 12.566370614359172953850573533118L;
     uint32_t offsets[MAX_DEGREE + 1];
     const size_t num =
         ps_sphere_all_blocks(MAX_DEGREE, (int32_t)one->first_order, one->num_orders, offsets);
     double *table = calloc(num, PS_SPHERE_BLOCK_REALS * sizeof *table);
-    long double constant = sqrtl(1 / four_pi);
+    long double constant = sqrtl(1 / PS_FOUR_PI_L);
     for (size_t m = 0; m < one->first_order + one->num_orders; m++) {
         constant = m > 0 ? ps_sphere_next_constant(constant, (int32_t)m) : constant;
         if (m >= one->first_order) {

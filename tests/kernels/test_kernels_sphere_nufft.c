@@ -4,6 +4,7 @@
 #include "harness_sphere.h"
 
 #include "engines/sphere/nufft/sphere_nufft.h"
+#include "math/pi.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -35,7 +36,6 @@ static pspec_pattern make_pattern(void) {
 
 /* sqrt(V) of the tolerance, V = sum w^2 (2l + 1)/(4 pi) over the degrees. */
 static double white_noise(const pspec_pattern *pattern, const ps_frequencies *degrees) {
-    const double four_pi = 4 * acos(-1.0);
     double squares = 0;
     double num = 0;
     for (size_t j = 0; j < pattern->num_points; j++) {
@@ -44,18 +44,17 @@ static double white_noise(const pspec_pattern *pattern, const ps_frequencies *de
     for (size_t i = 0; i < degrees->num; i++) {
         num += 2 * degrees->vectors[i] + 1;
     }
-    return sqrt(squares * num / four_pi);
+    return sqrt(squares * num / PS_FOUR_PI);
 }
 
 /* Q(l) of the rows against the norm of the referee's coefficients, all degrees together. */
 static double row_error(const pspec_pattern *pattern, const ps_frequencies *degrees,
                         const double *zeros, const double *row) {
-    const double four_pi = 4 * acos(-1.0);
     double sum = 0;
     for (size_t i = 0; i < degrees->num; i++) {
         const int32_t l = degrees->vectors[i];
         const double exact = sqrt(test_degree_error(zeros, degrees->max_frequency, l, pattern));
-        const double found = sqrt(row[i] * (2 * l + 1) / four_pi);
+        const double found = sqrt(row[i] * (2 * l + 1) / PS_FOUR_PI);
         sum += (found - exact) * (found - exact);
     }
     return sqrt(sum);

@@ -1,12 +1,11 @@
 /* Turns and rotations: accuracy, orthogonality, uniformity over SO(3). */
 #include "harness.h"
 
+#include "math/pi.h"
 #include "math/random/rotation.h"
 #include "math/turns.h"
 
 #include <math.h>
-
-static const long double TWO_PI = 6.28318530717958647692528676655900577L;
 
 /* ---- turns --------------------------------------------------------------------------------- */
 
@@ -16,8 +15,8 @@ static void assert_angle(ps_turns angle, long double turns) {
     ps_turns_cosine_sine(angle, &cosine, &sine);
     /* 2^-53 is a unit in the last place of numbers in [1/2, 1]; the largest error of 2e6 was 1.33. */
     const double allowed = 1.4 * 0x1p-53;
-    assert_true(fabsl(cosine - cosl(TWO_PI * turns)) <= allowed);
-    assert_true(fabsl(sine - sinl(TWO_PI * turns)) <= allowed);
+    assert_true(fabsl(cosine - cosl(PS_TWO_PI_L * turns)) <= allowed);
+    assert_true(fabsl(sine - sinl(PS_TWO_PI_L * turns)) <= allowed);
 }
 
 static void turns_have_right_cosines_and_sines(void **state) {
@@ -46,7 +45,7 @@ static void small_angles_keep_their_digits(void **state) {
         double cosine = 0;
         double sine = 0;
         ps_turns_cosine_sine(ps_turns_of_fraction(((uint64_t)quarter << 62) + 3), &cosine, &sine);
-        const double angle = (double)(3 * 0x1p-64L * TWO_PI);
+        const double angle = (double)(3 * 0x1p-64L * PS_TWO_PI_L);
         const double small = quarter % 2 == 0 ? sine : cosine;
         assert_true(fabs(fabs(small) - angle) <= 0x1p-52 * angle);
     }

@@ -4,13 +4,12 @@
 
 #include "math/gauss_legendre.h"
 #include "math/half_range.h"
+#include "math/pi.h"
 #include "math/sobolev.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define PI 3.14159265358979323846
 
 /* Of a_l, tau_l and b_l, from the reference's own README. */
 static const double RELATIVE = 3e-12;
@@ -47,14 +46,14 @@ static void closed_forms(void **state) {
     (void)state;
     ps_sobolev_eigenvalues(1.5, 100, a);
     for (double l = 1; l <= 100; l++) {
-        const double exact = 16 * PI / ((2 * l - 1) * (2 * l + 1) * (2 * l + 3));
+        const double exact = 16 * PS_PI / ((2 * l - 1) * (2 * l + 1) * (2 * l + 3));
         assert_true(fabs(a[(int)l] / exact - 1) <= 1e-13);
     }
     for (double s = 1.05; s < 2; s += 0.1) {
         ps_sobolev_eigenvalues(s, 1, a);
         const double tail = ps_sobolev_tail(s, 0, a[1]);
         assert_true(fabs(tail - exp2(2 * s - 2) / s) <= 1e-14);
-        assert_true(fabs(a[0] / (4 * PI) + tail - ps_sobolev_constant(s)) <= 1e-14);
+        assert_true(fabs(a[0] / PS_FOUR_PI + tail - ps_sobolev_constant(s)) <= 1e-14);
     }
 }
 

@@ -1,6 +1,7 @@
 /* What is skipped, why and what it saves: every skip on and off. */
 #include "harness_plan.h"
 
+#include "math/pi.h"
 #include "plan/needs.h"
 
 #include <math.h>
@@ -61,8 +62,7 @@ static void standard_error(void **state) {
 static void corners(void **state) {
     (void)state;
     ps_needs_question question = ordinary();
-    const double pi = 3.14159265358979323846;
-    const double balls[] = {1, pi / 4, pi / 6, pi * pi / 32};
+    const double balls[] = {1, PS_PI / 4, PS_PI / 6, PS_PI * PS_PI / 32};
     for (unsigned dimension = 2; dimension <= 4; dimension++) {
         question.dimension = dimension;
         const ps_needs needs = ps_needs_find(&question);

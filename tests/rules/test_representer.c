@@ -2,12 +2,11 @@
 #include "harness_quadrature.h"
 
 #include "integrands/brdf.h"
+#include "math/pi.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-static const long double PI = 3.141592653589793238462643383279502884L;
 
 /* ---- quadrature: tanh-sinh, whose error does not mind what happens at the ends --------------- */
 
@@ -21,11 +20,11 @@ static long double integrate(integrand f, const void *payload, long double a, lo
     long double sum = 0;
     for (int k = -NODES; k <= NODES; k++) {
         const long double t = step * k;
-        const long double u = PI / 2 * sinhl(t);
+        const long double u = PS_PI_L / 2 * sinhl(t);
         const long double gap = half * expl(-fabsl(u)) / coshl(u); /* to the nearer end */
         const long double x = k < 0 ? a + gap : b - gap;
         if (x > a && x < b) {
-            sum += PI / 2 * coshl(t) / (coshl(u) * coshl(u)) * f(payload, x);
+            sum += PS_PI_L / 2 * coshl(t) / (coshl(u) * coshl(u)) * f(payload, x);
         }
     }
     return half * step * sum;
@@ -53,7 +52,7 @@ static long double of_ring(const void *payload, long double g) {
     if (of.x <= -of.y) {
         return 0;
     }
-    const long double last = of.x >= of.y ? PI : acosl(-of.x / of.y); /* above the horizon */
+    const long double last = of.x >= of.y ? PS_PI_L : acosl(-of.x / of.y); /* above the horizon */
     const long double mean = integrate(on_ring, &of, 0, last);
     return powl(2 * sinl(g / 2), 2 * of.smoothness - 2) * 2 * mean * sinl(g);
 }
@@ -63,10 +62,10 @@ static long double distance_from(const ps_brdf *brdf, double smoothness, long do
     ring of = {
         .brdf = brdf, .smoothness = smoothness, .cosine = z, .sine = sqrtl((1 - z) * (1 + z))};
     const long double theta = acosl(z);
-    const long double first = fabsl(PI / 2 - theta);
-    const long double second = theta <= PI / 2 ? PI / 2 + theta : 3 * PI / 2 - theta;
+    const long double first = fabsl(PS_PI_L / 2 - theta);
+    const long double second = theta <= PS_PI_L / 2 ? PS_PI_L / 2 + theta : 3 * PS_PI_L / 2 - theta;
     return integrate(of_ring, &of, 0, first) + integrate(of_ring, &of, first, second) +
-           integrate(of_ring, &of, second, PI);
+           integrate(of_ring, &of, second, PS_PI_L);
 }
 
 /* ---- tests ----------------------------------------------------------------------------------- */

@@ -2,10 +2,11 @@
 #include "harness_quadrature.h"
 #include "harness_sphere.h"
 
+#include "engines/host/host_direct.h"
+#include "math/pi.h"
+#include "math/sobolev.h"
 #include "rules/optimal_weights.h"
 #include "rules/worst_case_error.h"
-#include "engines/host/host_direct.h"
-#include "math/sobolev.h"
 #include "samplers/sampler.h"
 
 #include <float.h>
@@ -13,8 +14,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define PI 3.14159265358979323846
 
 /* Of the reference's README. */
 static const double KAPPA = 5e-13;
@@ -89,13 +88,15 @@ static double ring_distance(double s, double theta) {
     enum { STEPS = 200000 };
     double sum = 0;
     for (int i = 0; i < STEPS; i++) {
-        const double g = PI * (i + 0.5) / STEPS;
+        const double g = PS_PI * (i + 0.5) / STEPS;
         const double x = cos(theta) * cos(g);
         const double y = sin(theta) * sin(g);
-        const double r = x >= y ? x : x <= -y ? 0 : (x * acos(-x / y) + sqrt(y * y - x * x)) / PI;
+        const double r = x >= y    ? x
+                         : x <= -y ? 0
+                                   : (x * acos(-x / y) + sqrt(y * y - x * x)) / PS_PI;
         sum += pow(2 * sin(g / 2), 2 * s - 2) * r * 2 * sin(g);
     }
-    return sum * PI / STEPS;
+    return sum * PS_PI / STEPS;
 }
 
 static void diffuse_rings(void **state) {
@@ -130,7 +131,7 @@ static void kappa_is_consistent(void **state) {
         }
         ps_representer_kappa(&r, STEPS, points, kappa);
         for (int j = 0; j < STEPS; j++) {
-            sum += kappa[j] * ps_brdf_density(brdf, points[3 * j + 2]) * 4 * PI / STEPS;
+            sum += kappa[j] * ps_brdf_density(brdf, points[3 * j + 2]) * PS_FOUR_PI / STEPS;
         }
         assert_true(fabs(sum - r.kappa_0) <= 2e-5);
         ps_representer_destroy(&r);

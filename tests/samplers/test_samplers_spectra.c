@@ -2,9 +2,9 @@
  * over many realizations. */
 #include "test_samplers.h"
 
-#include <math.h>
+#include "math/pi.h"
 
-static const double PI = 3.14159265358979323846;
+#include <math.h>
 
 /* 2000 realizations give a standard error of 2 % of the power of white noise. A mean 4 standard
  * errors off comes by chance once in 16000; there are about 200 comparisons, with fixed seeds. */
@@ -20,7 +20,7 @@ typedef struct law {
 } law;
 
 static double sinc(double x) {
-    return x == 0 ? 1 : sin(PI * x) / (PI * x);
+    return x == 0 ? 1 : sin(PS_PI * x) / (PS_PI * x);
 }
 
 static double expect_one(const law *l, const int *k) {
@@ -118,8 +118,8 @@ static double power(const law *l, const double *points, const int *k) {
         for (unsigned i = 0; i < l->dimension; i++) {
             phase += k[i] * points[j * l->dimension + i];
         }
-        re += cos(2 * PI * phase);
-        im += sin(2 * PI * phase);
+        re += cos(PS_TWO_PI * phase);
+        im += sin(PS_TWO_PI * phase);
     }
     return (re * re + im * im) / (double)l->num_points;
 }

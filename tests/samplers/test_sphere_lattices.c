@@ -7,10 +7,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "math/pi.h"
 #include "math/random/random.h"
 #include "samplers/sphere/spherical_fibonacci.h"
-
-static const long double PI = 3.14159265358979323846264338327950288L;
 
 /* Of height, sine, cosine and their product. */
 static const double ROUNDINGS = 3 * 0x1p-53;
@@ -29,7 +28,7 @@ static void assert_near(const double *point, long double z, long double phi, dou
 
 /* Azimuth in [0,1] turns. */
 static long double turns_of(const double *point) {
-    const long double turns = atan2l(point[1], point[0]) / (2 * PI);
+    const long double turns = atan2l(point[1], point[0]) / PS_TWO_PI_L;
     return turns < 0 ? turns + 1 : turns;
 }
 
@@ -44,10 +43,10 @@ static void assert_centre(const double *point, long long nside, long long i, lon
     const long long south = 4 * nside - i;
     const long long pole = i < south ? i : south;
     long double z = 4.0L / 3 - 2.0L * i / (3 * nside);
-    long double phi = PI / (2 * nside) * (k - 1 + ((i - nside + 1) % 2) / 2.0L);
+    long double phi = PS_PI_L / (2 * nside) * (k - 1 + ((i - nside + 1) % 2) / 2.0L);
     if (pole < nside) {
         z = (1 - (long double)(pole * pole) / (3 * nside * nside)) * (i < south ? 1 : -1);
-        phi = PI / (2 * pole) * (k - 0.5L);
+        phi = PS_PI_L / (2 * pole) * (k - 0.5L);
     }
     assert_near(point, z, phi, ROUNDINGS);
 }
@@ -216,7 +215,8 @@ static double squarest(size_t n) {
     double best = HUGE_VAL;
     for (size_t n_z = 1; n_z <= n; n_z++) {
         if (n % n_z == 0) {
-            const double ratio = (2 / (double)n_z) / (2 * (double)PI * (double)n_z / (double)n);
+            const double ratio =
+                (2 / (double)n_z) / (2 * (double)PS_PI_L * (double)n_z / (double)n);
             best = fmin(best, fmax(ratio, 1 / ratio));
         }
     }
@@ -305,7 +305,7 @@ static void fibonacci_points_follow_their_definition(void **state) {
             for (size_t j = 0; j < sizes[s]; j++) {
                 const long double z =
                     1 - (2 * (long double)j + 1) / (long double)(cases[c].heights * sizes[s]);
-                assert_near(points + 3 * j, z, 2 * PI * fraction_by_fibonacci_numbers(j),
+                assert_near(points + 3 * j, z, PS_TWO_PI_L * fraction_by_fibonacci_numbers(j),
                             ROUNDINGS);
             }
             free(points);
@@ -337,7 +337,7 @@ static void the_spiral_follows_its_definition(void **state) {
         for (size_t j = 0; j < sizes[s]; j++) {
             const long double n = (long double)sizes[s];
             const long double z = 1 - (2 * (long double)j + 1) / n;
-            const long double phi = sqrtl(n * PI) * asinl(z);
+            const long double phi = sqrtl(n * PS_PI_L) * asinl(z);
             /* asin itself passes 5e-20/cos on, which is what sqrt(N) makes of it at the poles */
             assert_near(points + 3 * j, z, phi, ROUNDINGS + 1e-19 * (double)n);
         }

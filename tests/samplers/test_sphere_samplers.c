@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "jobs/parts/source.h"
+#include "math/pi.h"
 #include "math/random/random.h"
 #include "math/random/rotation.h"
 
@@ -226,7 +227,6 @@ static void samplers_agree_with_their_lifted_kin(void **state) {
 /* Lambert's map in long double. */
 static void lifts_are_lamberts_map(void **state) {
     (void)state;
-    const long double two_pi = 6.28318530717958647692528676655900577L;
     const char *names[] = {"sobol:scramble=owen", "sobol:scramble=owen,lift=sphere",
                            "sobol:scramble=owen,lift=hemisphere"};
     enum { N = 4096 };
@@ -236,7 +236,7 @@ static void lifts_are_lamberts_map(void **state) {
         double *points = generate_points(&request, 1);
         for (size_t j = 0; i > 0 && j < N; j++) {
             const long double x = plane[2 * j];
-            const long double phi = two_pi * plane[2 * j + 1];
+            const long double phi = PS_TWO_PI_L * plane[2 * j + 1];
             const long double z = i == 1 ? 2 * x - 1 : x;
             const long double s = sqrtl((1 - z) * (1 + z));
             assert_true(fabsl(points[3 * j] - s * cosl(phi)) <= 3.4e-16L * s);

@@ -5,6 +5,7 @@
 #include "harness.h"
 
 #include "spectra/compare.h"
+#include "math/pi.h"
 #include "math/random/random.h"
 
 #include <math.h>
@@ -40,7 +41,7 @@ static double draw_gamma(ps_random *random, unsigned twice) {
     }
     if (twice % 2 != 0) {
         const double radius2 = -2 * log(1 - ps_random_uniform(random));
-        const double cosine = cos(2 * acos(-1) * ps_random_uniform(random));
+        const double cosine = cos(PS_TWO_PI * ps_random_uniform(random));
         sum = radius2 * cosine * cosine / 2;
     }
     return (sum - log(product)) / (twice / 2.0);

@@ -10,12 +10,11 @@
 #include "engines/host/host_degree.h"
 
 #include "base/memory.h"
+#include "math/pi.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
-
-static const long double four_pi = 12.566370614359172953850573533118L;
 
 /* Above 2^this, values are scaled down by as much: half of the exponents there are. */
 enum { LARGEST_EXPONENT = LDBL_MAX_EXP / 2 };
@@ -77,7 +76,7 @@ static void normalize(ps_host_degree *self) {
     for (int32_t m = 1; m <= l; m++) {
         sum += 2 * self->values[m] * self->values[m];
     }
-    scale_values(self, 0, sqrtl((2 * l + 1) / four_pi / sum));
+    scale_values(self, 0, sqrtl((2 * l + 1) / PS_FOUR_PI_L / sum));
 }
 
 static void evaluate(ps_host_degree *self, long double z, long double rho) {
@@ -85,8 +84,8 @@ static void evaluate(ps_host_degree *self, long double z, long double rho) {
         for (int32_t m = 1; m <= self->degree; m++) {
             self->values[m] = 0;
         }
-        self->values[0] =
-            sqrtl((2 * self->degree + 1) / four_pi) * (z < 0 && self->degree % 2 != 0 ? -1 : 1);
+        self->values[0] = sqrtl((2 * self->degree + 1) / PS_FOUR_PI_L) *
+                          (z < 0 && self->degree % 2 != 0 ? -1 : 1);
         return;
     }
     recur(self, z / rho);
@@ -124,5 +123,5 @@ long double ps_host_degree_power(const ps_host_degree *self) {
     for (int32_t m = 1; m <= self->degree; m++) {
         sum += 2 * (self->sums[m][0] * self->sums[m][0] + self->sums[m][1] * self->sums[m][1]);
     }
-    return four_pi / (2 * self->degree + 1) * sum;
+    return PS_FOUR_PI_L / (2 * self->degree + 1) * sum;
 }

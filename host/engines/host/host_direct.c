@@ -5,13 +5,12 @@
 
 #include "base/memory.h"
 #include "engines/host/host_degree.h"
+#include "math/pi.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const long double two_pi = 6.283185307179586476925286766559L;
 
 /* k x mod 1, in [-1/2, 1/2]. x = high + low with high a multiple of 2^-32 (2^-25 where long double is
  * double), so that k high is exact for |k| <= 2^28 and its whole part can be dropped without error;
@@ -45,7 +44,7 @@ void ps_host_sum(const pspec_pattern *pattern, const int32_t *k, long double *re
         for (unsigned axis = 0; axis < pattern->dimension; axis++) {
             turns += reduced_phase(k[axis], x[axis]);
         }
-        const long double angle = two_pi * (turns - rintl(turns));
+        const long double angle = PS_TWO_PI_L * (turns - rintl(turns));
         const long double weight = pattern->weights != NULL ? pattern->weights[j] : 1;
         add(&cosines, weight * cosl(angle));
         add(&sines, weight * sinl(angle));

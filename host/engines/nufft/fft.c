@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "device/reals.h"
+#include "math/pi.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -135,13 +136,12 @@ uint32_t ps_fft_good_length(uint64_t least) {
 /* Cosine and sine of -2 pi t / n, the angle reduced to an eighth of a turn so that symmetric factors
  * are equal to the bit. */
 static void twiddle(uint32_t t, uint32_t n, long double *cosine, long double *sine) {
-    const long double pi = 3.141592653589793238462643383279502884L;
     const uint64_t eighths = 8 * (uint64_t)t;
     const uint64_t octant = eighths / n;
     const uint64_t quarter = (octant + 1) / 2; /* nearest quarter turn */
     const long double rest =
         (long double)(int64_t)(4 * (uint64_t)t - quarter * n); /* quarters / n */
-    const long double angle = pi / 2 * rest / n;
+    const long double angle = PS_PI_L / 2 * rest / n;
     const long double c = cosl(angle);
     const long double s = sinl(angle);
     const long double cosines[4] = {c, -s, -c, s};

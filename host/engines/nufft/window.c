@@ -1,9 +1,9 @@
 #include "engines/nufft/window.h"
 
+#include "math/pi.h"
+
 #include <math.h>
 #include <string.h>
-
-static const double pi = 3.14159265358979323846;
 
 /* sum (x^2/4)^j / j!^2: all terms are positive, and beta stays below 16 pi. */
 static long double bessel_i0(long double x) {
@@ -24,7 +24,7 @@ static long double bessel_i0(long double x) {
 static const double beyond_edge = 2.7;
 
 ps_nufft_window ps_nufft_window_make(unsigned width, int32_t max_frequency, uint32_t n) {
-    const double alias = pi * width * (1 - (double)max_frequency / (double)n);
+    const double alias = PS_PI * width * (1 - (double)max_frequency / (double)n);
     const double beta = sqrt(alias * alias - beyond_edge * beyond_edge);
     return (ps_nufft_window){.width = width, .beta = beta, .peak = bessel_i0(beta)};
 }
@@ -41,7 +41,7 @@ double ps_nufft_window_value(const ps_nufft_window *window, double t) {
 
 /* Without the constant factor w / I_0(beta), for ratios. */
 static double relative_transform(const ps_nufft_window *window, double f) {
-    const double z = pi * window->width * f;
+    const double z = PS_PI * window->width * f;
     const double square = window->beta * window->beta - z * z;
     const double root = sqrt(fabs(square));
     return root == 0 ? 1 : (square > 0 ? sinh(root) : sin(root)) / root;
@@ -49,7 +49,7 @@ static double relative_transform(const ps_nufft_window *window, double f) {
 
 /* Long double: sinh(40) in double is off by 40 roundings of its argument. */
 double ps_nufft_window_transform(const ps_nufft_window *window, long double f) {
-    const long double z = 3.141592653589793238462643383279502884L * window->width * f;
+    const long double z = PS_PI_L * window->width * f;
     const long double square = (long double)window->beta * window->beta - z * z;
     const long double root = sqrtl(fabsl(square));
     const long double ratio = root == 0 ? 1 : (square > 0 ? sinhl(root) : sinl(root)) / root;
@@ -117,17 +117,16 @@ enum { NODES = PS_NUFFT_MAX_DEGREE + 8 };
 
 /* Chebyshev coefficients of bin i in u. */
 static void chebyshev(const ps_nufft_window *window, unsigned bin, long double series[NODES]) {
-    const long double long_pi = 3.141592653589793238462643383279502884L;
     long double values[NODES];
     for (int j = 0; j < NODES; j++) {
-        const long double u = cosl(long_pi * (j + 0.5L) / NODES);
+        const long double u = cosl(PS_PI_L * (j + 0.5L) / NODES);
         const long double t = bin + 1 - window->width / 2.0L - (u + 1) / 2;
         values[j] = value(window, t);
     }
     for (int k = 0; k < NODES; k++) {
         series[k] = 0;
         for (int j = 0; j < NODES; j++) {
-            series[k] += values[j] * cosl(long_pi * k * (j + 0.5L) / NODES);
+            series[k] += values[j] * cosl(PS_PI_L * k * (j + 0.5L) / NODES);
         }
         series[k] *= (k == 0 ? 1.0L : 2.0L) / NODES;
     }

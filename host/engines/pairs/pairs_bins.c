@@ -1,9 +1,10 @@
 #include "engines/pairs/pairs_bins.h"
 
+#include "math/pi.h"
+
 #include <math.h>
 
 static const double sqrt2 = 1.4142135623730951;
-static const double pi = 3.14159265358979323846;
 
 /* moments[k] >= sum_j a_j |max_degree - 2 j|^k for k <= K: see pairs_bins.h. Those of odd k lie between their neighbours. */
 static void find_moments_of_orders(int32_t max_degree, double *moments) {
@@ -70,7 +71,7 @@ size_t ps_pairs_bins_choose(int32_t max_degree, double bound) {
 }
 
 static double node(size_t j) {
-    return cos(pi * ((double)j + 0.5) / PS_PAIRS_MOMENTS);
+    return cos(PS_PI * ((double)j + 0.5) / PS_PAIRS_MOMENTS);
 }
 
 void ps_pairs_bins_nodes(size_t num_bins, double *nodes) {
@@ -89,7 +90,7 @@ void ps_pairs_bins_nodes(size_t num_bins, double *nodes) {
 void ps_pairs_bins_matrix(double *matrix) {
     for (size_t j = 0; j < PS_PAIRS_MOMENTS; j++) {
         for (size_t k = 0; k < PS_PAIRS_MOMENTS; k++) {
-            const double angle = pi * ((double)j + 0.5) / PS_PAIRS_MOMENTS;
+            const double angle = PS_PI * ((double)j + 0.5) / PS_PAIRS_MOMENTS;
             matrix[j * PS_PAIRS_MOMENTS + k] =
                 (k == 0 ? 1.0 : 2.0) / PS_PAIRS_MOMENTS * cos((double)k * angle);
         }

@@ -8,6 +8,7 @@
 #include "engines/sphere/sphere_layout.h"
 #include "engines/sphere/sphere_points.h"
 #include "engines/sphere/sphere_table.h"
+#include "math/pi.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -126,8 +127,7 @@ static pspec_status allocate_on_host(sphere_direct *self, ps_error *error) {
                        "sums of an order", error));
     PS_TRY(ps_allocate(&memory, self->batch, num * sizeof(double), "the powers of a batch", error));
     self->power = memory;
-    const long double four_pi = 12.566370614359172953850573533118L;
-    self->constants[0] = sqrtl(1 / four_pi);
+    self->constants[0] = sqrtl(1 / PS_FOUR_PI_L);
     for (int32_t m = 1; m <= layout->max_degree; m++) {
         self->constants[m] = ps_sphere_next_constant(self->constants[m - 1], m);
     }
@@ -302,7 +302,6 @@ static pspec_status read_order(sphere_direct *self, size_t order, int32_t m, boo
 
 /* Q(l) = (4 pi / (2l + 1)) (|c_l0|^2 + 2 sum_{m > 0} |c_lm|^2). */
 static pspec_status read_powers(sphere_direct *self, const ps_batch *batch, ps_error *error) {
-    const double four_pi = 12.566370614359172;
     const ps_frequencies *set = self->frequencies;
     const size_t stride = self->layout.stride;
     const size_t bytes = PS_SPHERE_POWERS * stride * self->layout.real_bytes;
@@ -313,7 +312,7 @@ static pspec_status read_powers(sphere_direct *self, const ps_batch *batch, ps_e
             const size_t l = (size_t)set->vectors[i];
             const double half = real_at(self, l) + real_at(self, stride + l);
             self->power[r * set->num + i] =
-                2 * four_pi / (2 * (double)l + 1) * half * batch->scales[r];
+                2 * PS_FOUR_PI / (2 * (double)l + 1) * half * batch->scales[r];
         }
     }
     return PSPEC_OK;

@@ -7,8 +7,9 @@
 #include "device/reals.h"
 #include "engines/torus/torus_layout.h"
 #include "engines/torus/torus_points.h"
-#include "engines/torus/torus_sums.h"
 #include "engines/torus/torus_split.h"
+#include "engines/torus/torus_sums.h"
+#include "math/pi.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -107,10 +108,9 @@ static double error_of(const ps_problem *problem, const ps_device_limits *limits
      * turns (coordinates below 2^-11). Uniform errors: standard deviation 1/sqrt(12) of a unit. */
     const double dimension = problem->frequencies->dimension;
     const double sum_k = problem->frequencies->max_frequency * dimension;
-    const double two_pi = 6.283185307179586;
     const double phase = precision == PS_SINGLE
-                             ? two_pi * (2 + (2 + dimension) * ldexp(sum_k, -24)) * ldexp(1, -32)
-                             : two_pi * ldexp(sum_k, -65);
+                             ? PS_TWO_PI * (2 + (2 + dimension) * ldexp(sum_k, -24)) * ldexp(1, -32)
+                             : PS_TWO_PI * ldexp(sum_k, -65);
     const double uniform = sqrt(12.0);
     const double in_step = (coherent_error[precision] + phase / uniform) * sqrt(mean_power);
     return hypot(hypot(random_error[precision], phase / uniform), in_step);

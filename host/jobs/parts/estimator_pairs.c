@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "base/workers.h"
 #include "engines/pairs/pairs_zonal.h"
+#include "math/pi.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -67,12 +68,11 @@ static void sum_some(void *payload, unsigned index, unsigned count) {
 /* C_l^2 of realization r of the batch, whose powers are row. */
 static void find_c2(ps_pair_sums *self, const double *row, const uint32_t *slots,
                     const double *zonal, double scale) {
-    const double four_pi = 12.566370614359172;
     const ps_frequencies *set = self->frequencies;
     for (size_t i = 0; i < set->num; i++) {
         const size_t l = (size_t)set->vectors[i];
         const double rest = row[slots[i]] - zonal[l] * zonal[l] * scale;
-        self->c2[l] = (2 * (double)l + 1) / four_pi * rest;
+        self->c2[l] = (2 * (double)l + 1) / PS_FOUR_PI * rest;
     }
 }
 

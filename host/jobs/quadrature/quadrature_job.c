@@ -1,10 +1,11 @@
 #include "jobs/quadrature/quadrature_job.h"
 
-#include "spectra/sums.h"
 #include "base/memory.h"
 #include "files/input_file.h"
 #include "jobs/quadrature/quadrature_looks.h"
 #include "jobs/quadrature/quadrature_rules.h"
+#include "math/pi.h"
+#include "spectra/sums.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -69,9 +70,8 @@ static pspec_status take_rule(job *of, const double *c_l0, const double *c2, ps_
 /* From sums over pairs. */
 static void hear(void *payload, const double *zonal, const double *c2) {
     job *const of = payload;
-    const double four_pi = 12.566370614359172;
     for (size_t l = 0; l <= of->setup.max_degree; l++) {
-        of->c_l0[l] = sqrt((2 * (double)l + 1) / four_pi) * zonal[l];
+        of->c_l0[l] = sqrt((2 * (double)l + 1) / PS_FOUR_PI) * zonal[l];
     }
     if (of->told_status == PSPEC_OK) {
         of->told_status = take_rule(of, of->c_l0, c2, of->error);

@@ -2,6 +2,7 @@
 
 #include "jobs/quadrature/quadrature_needs.h"
 #include "jobs/quadrature/quadrature_rules.h"
+#include "math/pi.h"
 #include "math/sobolev.h"
 #include "store/figures_file.h"
 
@@ -66,11 +67,10 @@ static void choose_degrees(ps_quadrature_setup *out, double tolerance, size_t mo
 /* N Q(l) of points with the density of the lobe is 1 + (N - 1) 4 pi / (2l + 1) b_l^2: what the errors of engines that
  * sum squares depend on, with a margin. */
 static double expect_power(const ps_representer *of, size_t last, size_t num_points) {
-    const double four_pi = 12.566370614359172;
     const double margin = 2;
     double sum = 0;
     for (size_t l = 1; l <= last; l++) {
-        sum += four_pi / (2 * (double)l + 1) * of->b[l] * of->b[l];
+        sum += PS_FOUR_PI / (2 * (double)l + 1) * of->b[l] * of->b[l];
     }
     return margin * (1 + (double)(num_points - 1) * sum / (double)last);
 }

@@ -2,12 +2,12 @@
  * a sphere with application to star catalogs", J. Guidance Control Dynamics 23, 2000). */
 #include "samplers/list.h"
 
+#include "math/pi.h"
 #include "samplers/sphere.h"
 #include "samplers/values.h"
 
 #include <math.h>
 
-static const long double FOUR_PI = 12.5663706143591729538505735331180115L;
 static const long double FRACTIONS = 0x1p64L; /* of a turn, in ps_turns_of_fraction */
 
 /* Azimuth in turns: sqrt(N/(4 pi)) asin(z) of many turns, of which long double leaves an error of
@@ -17,7 +17,7 @@ static ps_turns azimuth(double num_points, double j) {
     const long double below = 2 * (long double)j + 1;              /* N (1 - z) */
     const long double above = 2 * (long double)num_points - below; /* N (1 + z) */
     const long double latitude = atan2l(num_points - below, sqrtl(below * above));
-    const long double turns = sqrtl(num_points / FOUR_PI) * latitude;
+    const long double turns = sqrtl(num_points / PS_FOUR_PI_L) * latitude;
     const long double fraction = (turns - floorl(turns)) * FRACTIONS;
     return ps_turns_of_fraction(fraction < FRACTIONS ? (uint64_t)fraction : 0);
 }

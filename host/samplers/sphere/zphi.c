@@ -3,6 +3,7 @@
  * automatic counts. In expectation P(l) is docs/mathematics/samplers.md#spectra-on-the-sphere. */
 #include "samplers/list.h"
 
+#include "math/pi.h"
 #include "math/random/random.h"
 #include "samplers/sphere.h"
 #include "samplers/torus/strata.h"
@@ -15,7 +16,7 @@ enum { STRATA };
 enum { HEIGHTS, AZIMUTHS, NUM_AXES };
 
 /* At the equator a cell is 2/n_z high and 2 pi/n_phi wide: square when n_phi/n_z = pi. */
-static const double SQUARE_RATIO = 3.14159265358979323846;
+static const double SQUARE_RATIO = PS_PI;
 static const double MAXIMUM_ASPECT = 2; /* as for jittered */
 
 /* Side over side of a cell at the equator, at least 1. */

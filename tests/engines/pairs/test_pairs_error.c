@@ -7,17 +7,17 @@
 #include "engines/error_units.h"
 #include "engines/pairs/pairs_direct.h"
 #include "engines/pairs/pairs_histogram.h"
-#include "engines/sphere/sphere_direct.h"
 #include "engines/sphere/nufft/sphere_nufft.h"
+#include "engines/sphere/sphere_direct.h"
+#include "math/pi.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-static const double two_pi = 6.283185307179586;
 static ps_device *device;
 
 static void near_pole(double *u, uint64_t *state) {
-    test_sphere_point(u, 0.02 * sqrt(test_uniform(state)), two_pi * test_uniform(state), 1);
+    test_sphere_point(u, 0.02 * sqrt(test_uniform(state)), PS_TWO_PI * test_uniform(state), 1);
 }
 
 /* So near that P_l is near 1 for all degrees, or for most. */

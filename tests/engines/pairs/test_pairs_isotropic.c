@@ -4,6 +4,7 @@
 
 #include "engines/pairs/pairs_chords.h"
 #include "engines/pairs/pairs_isotropic.h"
+#include "math/pi.h"
 #include "math/sobolev.h"
 
 #include <math.h>
@@ -118,7 +119,6 @@ static void zonal_kernels(void **state) {
     (void)state;
     enum { LAST = 80 };
     const double s = 1.9;
-    const double four_pi = 12.566370614359172;
     const double tolerance = limit_of(1e-9);
     double *points = test_sphere_white_set(NUM, &seed);
     double weights[NUM], a[LAST + 2], series[LAST + 1], one[LAST + 1] = {0}, sums[3], bounds[3];
@@ -127,7 +127,7 @@ static void zonal_kernels(void **state) {
     }
     ps_sobolev_eigenvalues(s, LAST + 1, a);
     for (size_t l = 0; l <= LAST; l++) {
-        series[l] = a[l] * (2 * (double)l + 1) / four_pi;
+        series[l] = a[l] * (2 * (double)l + 1) / PS_FOUR_PI;
     }
     one[LAST] = -3;
     const pspec_pattern set = {3, NUM, points, weights};

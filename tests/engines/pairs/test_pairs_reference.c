@@ -6,8 +6,9 @@
 #include "engines/pairs/pairs_direct.h"
 #include "engines/pairs/pairs_histogram.h"
 #include "engines/pairs/pairs_zonal.h"
-#include "engines/sphere/sphere_direct.h"
 #include "engines/sphere/nufft/sphere_nufft.h"
+#include "engines/sphere/sphere_direct.h"
+#include "math/pi.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -104,7 +105,6 @@ static void check_sums(const judge *by, const test_set *set, const cJSON *rows, 
 /* rows: [l, c_l0, C_l^2, ..]. */
 static void check_c2(const judge *by, const test_set *set, const cJSON *rows, const double *q) {
     enum { LAST_ROW = 32 };
-    const double four_pi = 12.566370614359172;
     const double double_limit = 2e-15;
     const cJSON *row = NULL;
     const pspec_pattern pattern = test_pattern(set);
@@ -119,7 +119,7 @@ static void check_c2(const judge *by, const test_set *set, const cJSON *rows, co
             continue;
         }
         assert_true(l <= LAST_ROW);
-        const double unit = (2 * l + 1) / four_pi;
+        const double unit = (2 * l + 1) / PS_FOUR_PI;
         const double c_l0 = sqrt(unit) * zonal[l];
         const double c2 = unit * (q[l - 1] - zonal[l] * zonal[l]);
         assert_true(fabs(c_l0 - test_number(cJSON_GetArrayItem(row, 1))) <=

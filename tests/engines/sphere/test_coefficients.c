@@ -3,6 +3,8 @@
  */
 #include "harness_angular.h"
 
+#include "math/pi.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,7 +24,6 @@ static double sum_orders(const double *c, int l) {
 /* Weights as they are; powers follow; closed forms of low degrees. */
 static void coefficients(void **state) {
     (void)state;
-    const double four_pi = 12.566370614359172954;
     pspec_context *context = pspec_context_create();
     const pspec_angular_request request = test_angular_request();
     pspec_plan *plan = NULL;
@@ -42,18 +43,18 @@ static void coefficients(void **state) {
     pspec_spectrum *spectrum = test_estimate_angular(context, &request, &pattern, 1);
     assert_int_equal(pspec_plan_create_angular(&plan, context, &request), PSPEC_OK);
     assert_int_equal(pspec_plan_coefficients(plan, &pattern, 0, c), PSPEC_OK);
-    test_assert_near(c[0] / sum, 1 / sqrt(four_pi), 1e-15);
-    test_assert_near(c[2] / sum, sqrt(3 / four_pi) * dipole[2] / sum, 1e-15);
+    test_assert_near(c[0] / sum, 1 / sqrt(PS_FOUR_PI), 1e-15);
+    test_assert_near(c[2] / sum, sqrt(3 / PS_FOUR_PI) * dipole[2] / sum, 1e-15);
     const double *c_11 = c + 2 * TEST_MAX_DEGREE + 2; /* -sqrt(3 / (8 pi)) (x + iy) */
-    test_assert_near(c_11[0] / sum, -sqrt(1.5 / four_pi) * dipole[0] / sum, 1e-15);
-    test_assert_near(c_11[1] / sum, -sqrt(1.5 / four_pi) * dipole[1] / sum, 1e-15);
+    test_assert_near(c_11[0] / sum, -sqrt(1.5 / PS_FOUR_PI) * dipole[0] / sum, 1e-15);
+    test_assert_near(c_11[1] / sum, -sqrt(1.5 / PS_FOUR_PI) * dipole[1] / sum, 1e-15);
     size_t num = 0;
     const pspec_bin *bins = pspec_spectrum_bins(spectrum, &num);
     for (int l = 1; l <= TEST_MAX_DEGREE; l++) {
         for (int i = 0; i < NUM_COEFFICIENTS && l == 1; i++) {
             c[i] /= sum; /* squares of 1e200 are none */
         }
-        const double power = TEST_NUM_POINTS * four_pi / (2 * l + 1) * sum_orders(c, l);
+        const double power = TEST_NUM_POINTS * PS_FOUR_PI / (2 * l + 1) * sum_orders(c, l);
         test_assert_near(bins[l - 1].power / power, 1, 1e-13);
     }
     pspec_plan_destroy(plan);
@@ -66,7 +67,6 @@ static void coefficients(void **state) {
  * (docs/mathematics/quadrature.md#hemispherical-harmonics). */
 static void hemispherical_harmonics(void **state) {
     (void)state;
-    const double two_pi = 6.283185307179586477;
     static const double points[][3] = {
         {0.6, 0, 0.8}, {0, 0, 1}, {1, 0, 0}, {0.28, 0.96, 0}, {1e-9, -1e-9, 1}};
     pspec_context *context = pspec_context_create();
@@ -77,10 +77,10 @@ static void hemispherical_harmonics(void **state) {
     for (size_t i = 0; i < sizeof points / sizeof points[0]; i++) {
         const pspec_pattern pattern = test_vectors(points[i], 1);
         assert_int_equal(pspec_plan_coefficients(plan, &pattern, 1, c), PSPEC_OK);
-        test_assert_near(c[0], 1 / sqrt(two_pi), 1e-15);
-        test_assert_near(c[2], sqrt(3 / two_pi) * (2 * points[i][2] - 1), 1e-15);
+        test_assert_near(c[0], 1 / sqrt(PS_TWO_PI), 1e-15);
+        test_assert_near(c[2], sqrt(3 / PS_TWO_PI) * (2 * points[i][2] - 1), 1e-15);
         for (int l = 0; l <= TEST_MAX_DEGREE; l++) {
-            test_assert_near(sum_orders(c, l) * two_pi / (2 * l + 1), 1, 1e-14);
+            test_assert_near(sum_orders(c, l) * PS_TWO_PI / (2 * l + 1), 1, 1e-14);
         }
     }
     static const double below[3] = {0.6, 0, -0.8};

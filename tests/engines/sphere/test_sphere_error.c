@@ -4,23 +4,24 @@
 #include "harness_sphere_shapes.h"
 
 #include "engines/sphere/sphere_direct.h"
+#include "math/pi.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const double two_pi = 6.283185307179586;
 static ps_device *device;
 
 /* Within 0.02 of the north or south pole. */
 static void near_poles(double *u, uint64_t *state) {
     const double theta = 0.02 * sqrt(test_uniform(state));
-    test_sphere_point(u, theta, two_pi * test_uniform(state), test_uniform(state) < 0.5 ? -1 : 1);
+    test_sphere_point(u, theta, PS_TWO_PI * test_uniform(state),
+                      test_uniform(state) < 0.5 ? -1 : 1);
 }
 
 static void near_equator(double *u, uint64_t *state) {
-    const double quarter = two_pi / 4;
-    test_sphere_point(u, quarter + 1e-3 * test_uniform(state), two_pi * test_uniform(state), 1);
+    const double quarter = PS_TWO_PI / 4;
+    test_sphere_point(u, quarter + 1e-3 * test_uniform(state), PS_TWO_PI * test_uniform(state), 1);
 }
 
 static void one_place(double *u, uint64_t *state) {
@@ -43,7 +44,7 @@ typedef struct job {
 /* sqrt(4 pi mean |dc_lm|^2 / V) over some degrees: small ones, middle ones and the last. */
 static double measure(const ps_frequencies *degrees, const double *c, const pspec_pattern *pattern,
                       double squares) {
-    const double four_pi = 2 * two_pi;
+    const double four_pi = 2 * PS_TWO_PI;
     const int32_t last = degrees->max_frequency;
     const int32_t some[] = {last / 8, last / 4, last / 2, 3 * last / 4, last - 1, last};
     double sum = 0;
@@ -56,7 +57,7 @@ static double measure(const ps_frequencies *degrees, const double *c, const pspe
 }
 
 static double mean_power(const ps_frequencies *degrees, const double *c, double squares) {
-    const double four_pi = 2 * two_pi;
+    const double four_pi = 2 * PS_TWO_PI;
     const int32_t last = degrees->max_frequency;
     double sum = 0;
     for (int32_t m = 0; m <= last; m++) {

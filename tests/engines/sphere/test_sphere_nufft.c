@@ -5,6 +5,7 @@
 #include "harness_sphere_shapes.h"
 
 #include "engines/sphere/nufft/sphere_nufft.h"
+#include "math/pi.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -141,13 +142,12 @@ static void lengths_do_not_count(void **state) {
 /* ---- powers ------------------------------------------------------------------------------ */
 
 static double power_of(const double *coefficients, size_t L, size_t l) {
-    const double four_pi = 12.566370614359172954;
     double sum = 0;
     for (size_t m = 0; m <= l; m++) {
         const double *c = coefficients + 2 * (m * (2 * L + 1 - m) / 2 + l);
         sum += (m == 0 ? 1 : 2) * (c[0] * c[0] + c[1] * c[1]);
     }
-    return four_pi / (2 * (double)l + 1) * sum;
+    return PS_FOUR_PI / (2 * (double)l + 1) * sum;
 }
 
 static void powers_are_those_of_coefficients(void **state) {

@@ -3,8 +3,9 @@
  */
 #include "harness_sphere_shapes.h"
 
-#include "engines/sphere/nufft/sphere_nufft.h"
 #include "engines/sphere/nufft/shape.h"
+#include "engines/sphere/nufft/sphere_nufft.h"
+#include "math/pi.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -96,15 +97,14 @@ static void every_tolerance(void **state) {
 static pspec_pattern make_circles(size_t circles, size_t around, bool at_random) {
     double *points = calloc(circles * around, 3 * sizeof(double));
     uint64_t state = 5;
-    const double two_pi = 6.283185307179586;
     double theta = 0;
     for (size_t i = 0; i < circles * around; i++) {
         const size_t circle = i / around;
         if (i % around == 0) {
             theta = at_random ? 2 * asin(sqrt(test_uniform(&state)))
-                              : two_pi * (double)circle / (double)around;
+                              : PS_TWO_PI * (double)circle / (double)around;
         }
-        const double phi = two_pi * (double)(i % around) / (double)around;
+        const double phi = PS_TWO_PI * (double)(i % around) / (double)around;
         points[3 * i] = sin(theta) * cos(phi);
         points[3 * i + 1] = sin(theta) * sin(phi);
         points[3 * i + 2] = cos(theta);

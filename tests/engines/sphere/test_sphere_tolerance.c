@@ -6,6 +6,7 @@
 #include "harness_sphere.h"
 #include "harness_sphere_shapes.h"
 
+#include "math/pi.h"
 #include "plan/choose.h"
 
 #include <math.h>
@@ -30,10 +31,9 @@ enum { DECADES = 10, SHAPES = TEST_SPHERE_SHAPES + 1 };
 
 /* A lattice on one circle of latitude, as many points as the set has. */
 static void circle(size_t point, size_t num_points, uint64_t *state, double u[3]) {
-    const double two_pi = 6.283185307179586;
     (void)state;
     const double theta = 0.8;
-    const double phi = two_pi * (double)point / (double)num_points;
+    const double phi = PS_TWO_PI * (double)point / (double)num_points;
     u[0] = sin(theta) * cos(phi);
     u[1] = sin(theta) * sin(phi);
     u[2] = cos(theta);

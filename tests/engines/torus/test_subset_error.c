@@ -5,15 +5,14 @@
  */
 #include "harness.h"
 
+#include "frequencies/frequency_sample.h"
+#include "math/pi.h"
 #include "spectra/bins.h"
 #include "spectra/ring_statistics.h"
-#include "frequencies/frequency_sample.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const double PI = 3.14159265358979323846;
 
 enum { DIMENSION = 4, RING = 3, NUM_POINTS = 16, MOST_REALIZATIONS = 8, PER_RING = 40 };
 
@@ -30,7 +29,7 @@ static const widths flat = {{0.05, 0.3, 0.4, 1}};
 static double expected_power(const widths *w, const int32_t *k) {
     double product = 1;
     for (unsigned i = 0; i < DIMENSION; i++) {
-        const double x = PI * w->of_axis[i] * k[i];
+        const double x = PS_PI * w->of_axis[i] * k[i];
         product *= k[i] == 0 ? 1 : pow(sin(x) / x, 2);
     }
     return 1 + (NUM_POINTS - 1) * product;
@@ -70,8 +69,8 @@ static double power_of(const double (*points)[DIMENSION], const int32_t *k) {
         for (unsigned i = 0; i < DIMENSION; i++) {
             phase += k[i] * points[j][i];
         }
-        re += cos(2 * PI * phase);
-        im += sin(2 * PI * phase);
+        re += cos(PS_TWO_PI * phase);
+        im += sin(PS_TWO_PI * phase);
     }
     return (re * re + im * im) / NUM_POINTS;
 }

@@ -5,10 +5,11 @@
  */
 #include "harness.h"
 
-#include "spectra/bins.h"
 #include "engines/host/host_direct.h"
-#include "engines/torus/torus_direct.h"
 #include "engines/torus/nufft/torus_nufft.h"
+#include "engines/torus/torus_direct.h"
+#include "math/pi.h"
+#include "spectra/bins.h"
 
 #include <float.h>
 #include <math.h>
@@ -20,12 +21,11 @@ static ps_device *device;
 /* e with |dS| <= e sum|w|. Coordinates below 2^-11 that are not multiples of 2^-64 add their part. */
 static double tolerance_of(ps_precision precision, const int32_t *k, unsigned dimension) {
     const double base = precision == PS_SINGLE ? 4e-7 : precision == PS_DOUBLE ? 4e-15 : 1e-17;
-    const double two_pi = 6.283185307179586;
     double sum_k = 0;
     for (unsigned axis = 0; axis < dimension; axis++) {
         sum_k += fabs((double)k[axis]);
     }
-    return base + (precision == PS_EXTENDED ? 0 : two_pi * sum_k * ldexp(1, -65));
+    return base + (precision == PS_EXTENDED ? 0 : PS_TWO_PI * sum_k * ldexp(1, -65));
 }
 
 /* Asked of engines that can do with less. */

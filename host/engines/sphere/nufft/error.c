@@ -2,10 +2,10 @@
  * sum w^2; constants were measured, and are held, by tests/engines/sphere/test_sphere_nufft_sweep.c. */
 #include "engines/nufft/plan.h"
 #include "engines/sphere/nufft/shape.h"
+#include "math/pi.h"
 
 #include <math.h>
 
-static const double pi = 3.141592653589793;
 static const double unit_roundoff[2] = {0x1p-24, 0x1p-53};
 
 /* A set that is regular along an axis, circles of n - m points or as many circles, may have all its power where
@@ -60,14 +60,14 @@ void ps_sphere_nufft_loss(const ps_nufft_axis *axis, double *aliasing, double *w
     double worst_along = 0;
     *aliasing = 0;
     for (int i = 0; i < STEPS; i++) {
-        const double t = pi / 2 * (i + 0.5) / STEPS;
+        const double t = PS_PI / 2 * (i + 0.5) / STEPS;
         const double around = 2 * (1 - sin(t));
-        const double along = 4 / pi * cos(t);
+        const double along = 4 / PS_PI * cos(t);
         double squares = 0;
         double square = 0;
         aliases_of(axis, fmin(axis->max_frequency, (axis->max_frequency + 1) * sin(t)), &squares,
                    &square);
-        *aliasing += squares * (around + along) * cos(t) * pi / 2 / STEPS;
+        *aliasing += squares * (around + along) * cos(t) * PS_PI / 2 / STEPS;
         worst_around = fmax(worst_around, around * square);
         worst_along = fmax(worst_along, along * square);
     }

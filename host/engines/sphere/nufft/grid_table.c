@@ -2,17 +2,16 @@
 
 #include "base/memory.h"
 #include "base/round.h"
-#include "engines/nufft/window.h"
 #include "device/reals.h"
-#include "engines/sphere/nufft/tables.h"
+#include "engines/nufft/window.h"
 #include "engines/sphere/nufft/sphere_powers.h"
+#include "engines/sphere/nufft/tables.h"
+#include "math/pi.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const long double two_pi = 6.283185307179586476925286766559005768L;
 
 /* What is there only while the table is made. */
 typedef struct making {
@@ -49,7 +48,7 @@ static pspec_status create_turns(double **out, uint32_t length, ps_error *error)
     PS_TRY(ps_allocate(&memory, 2 * num, sizeof(double), "turns", error));
     *out = memory;
     for (size_t i = 0; i < num; i++) {
-        const long double angle = two_pi * (long double)i / (long double)num;
+        const long double angle = PS_TWO_PI_L * (long double)i / (long double)num;
         (*out)[2 * i] = (double)cosl(angle);
         (*out)[2 * i + 1] = (double)sinl(angle);
     }

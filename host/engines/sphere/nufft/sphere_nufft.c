@@ -6,11 +6,10 @@
 #include "device/reals.h"
 #include "engines/sphere/nufft/grid_stages.h"
 #include "engines/sphere/nufft/stages.h"
+#include "math/pi.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-static const double four_pi = 12.566370614359172954;
 
 typedef struct sphere_nufft {
     ps_device *device;
@@ -206,7 +205,7 @@ static void write_rows(sphere_nufft *self, size_t first, const ps_batch *some) {
         for (size_t i = 0; i < set->num; i++) {
             const size_t l = (size_t)set->vectors[i];
             row[i] =
-                some->scales[r] * four_pi / (2 * (double)l + 1) * powers[l % 2 * pitch + l / 2];
+                some->scales[r] * PS_FOUR_PI / (2 * (double)l + 1) * powers[l % 2 * pitch + l / 2];
         }
     }
 }

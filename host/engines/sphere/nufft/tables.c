@@ -2,11 +2,10 @@
 
 #include "base/memory.h"
 #include "device/reals.h"
+#include "math/pi.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-static const long double pi = 3.141592653589793238462643383279502884L;
 
 /* ---- gains and turns ---------------------------------------------------------------------- */
 
@@ -21,7 +20,7 @@ static pspec_status create_gains(ps_sphere_tables *self, const ps_sphere_shape *
     for (size_t k = 0; k < num; k++) {
         const double inverse =
             1 / ps_nufft_window_transform(&axis->window, (long double)k / axis->n);
-        const long double angle = 2 * pi * k / axis->n;
+        const long double angle = PS_TWO_PI_L * k / axis->n;
         around[3 * k] = inverse / 2;
         around[3 * k + 1] = (double)(-inverse / 2 * sinl(angle));
         around[3 * k + 2] = (double)(-inverse / 2 * cosl(angle));
@@ -43,7 +42,7 @@ static pspec_status create_turns(ps_buffer *out, uint32_t n, uint32_t num, ps_pr
     PS_TRY(ps_allocate(&memory, 2 * (size_t)num, sizeof(double), "turns", error));
     double *turns = memory;
     for (uint32_t j = 0; j < num; j++) {
-        const long double angle = 2 * pi * j / n;
+        const long double angle = PS_TWO_PI_L * j / n;
         turns[2 * (size_t)j] = (double)cosl(angle);
         turns[2 * (size_t)j + 1] = (double)-sinl(angle);
     }
@@ -96,11 +95,11 @@ typedef struct host_tables {
 } host_tables;
 
 static void fill_ring(host_tables *to, const ps_sphere_shape *shape, uint32_t ring) {
-    const long double angle = 2 * pi * ring / shape->rings;
+    const long double angle = PS_TWO_PI_L * ring / shape->rings;
     const long double sine = sinl(angle);
     const long double cosine = cosl(angle);
     const long double half = sinl(angle / 2);
-    scaled start = {sqrtl(1 / (4 * pi)), 0};
+    scaled start = {sqrtl(1 / PS_FOUR_PI_L), 0};
     scaled step = {1, 0};
     for (int32_t m = 0; m < PS_SPHERE_GROUPS; m++) {
         start = m > 0 ? multiply(start, ratio(m) * sine) : start;

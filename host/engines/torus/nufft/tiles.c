@@ -2,8 +2,9 @@
 
 #include "base/memory.h"
 #include "base/round.h"
-#include "engines/nufft/kernels.h"
 #include "device/reals.h"
+#include "engines/nufft/kernels.h"
+#include "math/pi.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -35,8 +36,7 @@ static pspec_status create_pattern(ps_nufft_tiles *self, ps_precision precision,
     PS_TRY(ps_allocate(&memory, n, 2 * sizeof(double), "a pattern", error));
     double *pattern = memory;
     for (uint32_t m = 0; m < n; m++) {
-        const double two_pi = 6.283185307179586;
-        const double angle = two_pi * (double)(turns * m % n) / n;
+        const double angle = PS_TWO_PI * (double)(turns * m % n) / n;
         pattern[2 * m] = cos(angle);
         pattern[2 * m + 1] = -sin(angle);
     }

@@ -1,8 +1,9 @@
 #include "engines/torus/nufft/whole.h"
 
 #include "base/memory.h"
-#include "engines/nufft/kernels.h"
 #include "device/reals.h"
+#include "engines/nufft/kernels.h"
+#include "math/pi.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -46,8 +47,7 @@ static pspec_status create_gains(ps_nufft_whole *self, ps_precision precision, p
 
 /* exp(-2 pi i turns / n) */
 static void turn(uint64_t turns, uint64_t n, double *cosine, double *sine) {
-    const long double two_pi = 6.283185307179586476925286766559005768L;
-    const long double angle = two_pi * (long double)(turns % n) / (long double)n;
+    const long double angle = PS_TWO_PI_L * (long double)(turns % n) / (long double)n;
     *cosine = (double)cosl(angle);
     *sine = (double)-sinl(angle);
 }
