@@ -105,7 +105,7 @@ static pspec_status apply(parser *p, ps_option_id id, shown_option shown, const 
     }
     p->arguments->is_given[id] = true;
     p->arguments->forms[id] = shown.text[1] == '-' ? PS_FORM_LONG : PS_FORM_LETTER;
-    return option->set(option, ps_command_words(p->command, id), value, p->arguments, p->error);
+    return ps_option_set(p->arguments, id, ps_command_words(p->command, id), value, p->error);
 }
 
 static bool has_name(ps_option_id id, const char *name, size_t length) {

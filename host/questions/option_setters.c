@@ -12,47 +12,43 @@
 
 /* ---- setters ------------------------------------------------------------------------------- */
 
-static ps_shown_option show(const ps_option *option, const ps_request *arguments) {
-    return ps_option_show(arguments, (ps_option_id)(option - ps_options));
-}
-
 static void *find_field(const ps_option *option, ps_request *arguments) {
     return (char *)arguments + option->offset;
 }
 
-pspec_status ps_set_flag(const ps_option *option, const char *words, const char *value,
-                         ps_request *arguments, ps_error *error) {
-    (void)words, (void)value, (void)error;
+pspec_status ps_set_flag(const ps_option *option, const char *shown, const char *words,
+                         const char *value, ps_request *arguments, ps_error *error) {
+    (void)shown, (void)words, (void)value, (void)error;
     bool *const field = find_field(option, arguments);
     *field = true;
     return PSPEC_OK;
 }
 
-pspec_status ps_set_text(const ps_option *option, const char *words, const char *value,
-                         ps_request *arguments, ps_error *error) {
-    (void)words, (void)error;
+pspec_status ps_set_text(const ps_option *option, const char *shown, const char *words,
+                         const char *value, ps_request *arguments, ps_error *error) {
+    (void)shown, (void)words, (void)error;
     const char **const field = find_field(option, arguments);
     *field = value;
     return PSPEC_OK;
 }
 
-pspec_status ps_set_nothing(const ps_option *option, const char *words, const char *value,
-                            ps_request *arguments, ps_error *error) {
-    (void)option, (void)words, (void)value, (void)arguments, (void)error;
+pspec_status ps_set_nothing(const ps_option *option, const char *shown, const char *words,
+                            const char *value, ps_request *arguments, ps_error *error) {
+    (void)shown, (void)option, (void)words, (void)value, (void)arguments, (void)error;
     return PSPEC_OK;
 }
 
-pspec_status ps_set_count(const ps_option *option, const char *words, const char *value,
-                          ps_request *arguments, ps_error *error) {
+pspec_status ps_set_count(const ps_option *option, const char *shown, const char *words,
+                          const char *value, ps_request *arguments, ps_error *error) {
     (void)words;
-    return ps_parse_count(value, show(option, arguments).text, option->minimum, option->maximum,
+    return ps_parse_count(value, shown, option->minimum, option->maximum,
                           find_field(option, arguments), error);
 }
 
-pspec_status ps_set_size(const ps_option *option, const char *words, const char *value,
-                         ps_request *arguments, ps_error *error) {
+pspec_status ps_set_size(const ps_option *option, const char *shown, const char *words,
+                         const char *value, ps_request *arguments, ps_error *error) {
     (void)words;
-    return ps_parse_size(value, show(option, arguments).text, find_field(option, arguments), error);
+    return ps_parse_size(value, shown, find_field(option, arguments), error);
 }
 
 /* One end of a range; an empty text leaves *out as it is. */
@@ -66,62 +62,58 @@ static pspec_status parse_end(const char *shown, const char *text, size_t length
 }
 
 /* "A..B", "A", "A.." or "..B" */
-pspec_status ps_set_range(const ps_option *option, const char *words, const char *value,
-                          ps_request *arguments, ps_error *error) {
+pspec_status ps_set_range(const ps_option *option, const char *shown, const char *words,
+                          const char *value, ps_request *arguments, ps_error *error) {
     static const char dots[] = "..";
     ps_point_range *const field = find_field(option, arguments);
     ps_point_range range = {1, UINT64_MAX};
-    const ps_shown_option shown = show(option, arguments);
     const char *const middle = strstr(value, dots);
     const char *const last = middle != NULL ? middle + sizeof dots - 1 : value;
     const size_t first_length = middle != NULL ? (size_t)(middle - value) : strlen(value);
     if (first_length + strlen(last) == 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "%s: \"%s\" says neither end: %s, or A, A.., ..B", shown.text, value, words);
+                       "%s: \"%s\" says neither end: %s, or A, A.., ..B", shown, value, words);
     }
-    PS_TRY(parse_end(shown.text, value, first_length, &range.first, error));
-    PS_TRY(parse_end(shown.text, last, strlen(last), &range.last, error));
+    PS_TRY(parse_end(shown, value, first_length, &range.first, error));
+    PS_TRY(parse_end(shown, last, strlen(last), &range.last, error));
     if (range.first > range.last) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "%s: \"%s\": the first number is the larger one", shown.text, value);
+                       "%s: \"%s\": the first number is the larger one", shown, value);
     }
     *field = range;
     return PSPEC_OK;
 }
 
 /* A kind of result that takes fewer degrees says so itself. */
-pspec_status ps_set_max_degree(const ps_option *option, const char *words, const char *value,
-                               ps_request *arguments, ps_error *error) {
-    (void)words;
-    const ps_shown_option shown = show(option, arguments);
+pspec_status ps_set_max_degree(const ps_option *option, const char *shown, const char *words,
+                               const char *value, ps_request *arguments, ps_error *error) {
+    (void)option, (void)words;
     if (value[0] == '-' || strcmp(value, "0") == 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "%s: %s leaves no degree, the first is 1", shown.text, value);
+                       "%s: %s leaves no degree, the first is 1", shown, value);
     }
-    PS_TRY(ps_parse_count(value, shown.text, 1, INT64_MAX, &arguments->max_degree, error));
+    PS_TRY(ps_parse_count(value, shown, 1, INT64_MAX, &arguments->max_degree, error));
     return arguments->max_degree <= (uint64_t)PS_MAX_DEGREE
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                          "%s: degree %s is above %d, where the coefficients of one set take 8 GiB",
-                         shown.text, value, (int)PS_MAX_DEGREE);
+                         shown, value, (int)PS_MAX_DEGREE);
 }
 
-pspec_status ps_set_dimension(const ps_option *option, const char *words, const char *value,
-                              ps_request *arguments, ps_error *error) {
+pspec_status ps_set_dimension(const ps_option *option, const char *shown, const char *words,
+                              const char *value, ps_request *arguments, ps_error *error) {
     uint64_t count = 0;
     (void)words;
-    PS_TRY(ps_parse_count(value, show(option, arguments).text, option->minimum, option->maximum,
-                          &count, error));
+    PS_TRY(ps_parse_count(value, shown, option->minimum, option->maximum, &count, error));
     arguments->dimension = (unsigned)count;
     return PSPEC_OK;
 }
 
-pspec_status ps_set_max_frequency(const ps_option *option, const char *words, const char *value,
-                                  ps_request *arguments, ps_error *error) {
+pspec_status ps_set_max_frequency(const ps_option *option, const char *shown, const char *words,
+                                  const char *value, ps_request *arguments, ps_error *error) {
     uint64_t count = 0;
     (void)words;
-    PS_TRY(ps_parse_count(value, show(option, arguments).text, option->minimum, option->maximum,
-                          &count, error));
+    PS_TRY(ps_parse_count(value, shown, option->minimum, option->maximum, &count, error));
     arguments->max_frequency = (int32_t)count;
     return PSPEC_OK;
 }
@@ -139,54 +131,49 @@ static pspec_status parse_positive(const char *shown, const char *value, double 
     return PSPEC_OK;
 }
 
-pspec_status ps_set_tolerance(const ps_option *option, const char *words, const char *value,
-                              ps_request *arguments, ps_error *error) {
-    (void)words;
-    return parse_positive(show(option, arguments).text, value, 1, &arguments->tolerance, error);
+pspec_status ps_set_tolerance(const ps_option *option, const char *shown, const char *words,
+                              const char *value, ps_request *arguments, ps_error *error) {
+    (void)option, (void)words;
+    return parse_positive(shown, value, 1, &arguments->tolerance, error);
 }
 
-pspec_status ps_set_floor(const ps_option *option, const char *words, const char *value,
-                          ps_request *arguments, ps_error *error) {
-    (void)words;
-    return parse_positive(show(option, arguments).text, value, DBL_MAX, &arguments->floor, error);
+pspec_status ps_set_floor(const ps_option *option, const char *shown, const char *words,
+                          const char *value, ps_request *arguments, ps_error *error) {
+    (void)option, (void)words;
+    return parse_positive(shown, value, DBL_MAX, &arguments->floor, error);
 }
 
-pspec_status ps_set_standard_error(const ps_option *option, const char *words, const char *value,
-                                   ps_request *arguments, ps_error *error) {
-    (void)words;
-    return parse_positive(show(option, arguments).text, value, 1, &arguments->standard_error,
-                          error);
+pspec_status ps_set_standard_error(const ps_option *option, const char *shown, const char *words,
+                                   const char *value, ps_request *arguments, ps_error *error) {
+    (void)option, (void)words;
+    return parse_positive(shown, value, 1, &arguments->standard_error, error);
 }
 
-pspec_status ps_set_false_alarm_rate(const ps_option *option, const char *words, const char *value,
-                                     ps_request *arguments, ps_error *error) {
-    (void)words;
-    PS_TRY(parse_positive(show(option, arguments).text, value, 1, &arguments->false_alarm_rate,
-                          error));
+pspec_status ps_set_false_alarm_rate(const ps_option *option, const char *shown, const char *words,
+                                     const char *value, ps_request *arguments, ps_error *error) {
+    (void)option, (void)words;
+    PS_TRY(parse_positive(shown, value, 1, &arguments->false_alarm_rate, error));
     return arguments->false_alarm_rate < 1
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "%s: %s is not below 1: every check would fail",
-                         show(option, arguments).text, value);
+                         "%s: %s is not below 1: every check would fail", shown, value);
 }
 
-pspec_status ps_set_smoothness(const ps_option *option, const char *words, const char *value,
-                               ps_request *arguments, ps_error *error) {
-    (void)words;
+pspec_status ps_set_smoothness(const ps_option *option, const char *shown, const char *words,
+                               const char *value, ps_request *arguments, ps_error *error) {
+    (void)option, (void)words;
     ps_error reason = {0};
-    const ps_shown_option shown = show(option, arguments);
-    PS_TRY(ps_parse_number(value, shown.text, -DBL_MAX, DBL_MAX, &arguments->smoothness, error));
+    PS_TRY(ps_parse_number(value, shown, -DBL_MAX, DBL_MAX, &arguments->smoothness, error));
     const pspec_status status = ps_sobolev_check(arguments->smoothness, &reason);
-    return status == PSPEC_OK ? PSPEC_OK
-                              : ps_fail(error, status, "%s: %s", shown.text, reason.message);
+    return status == PSPEC_OK ? PSPEC_OK : ps_fail(error, status, "%s: %s", shown, reason.message);
 }
 
-pspec_status ps_add_sampler(const ps_option *option, const char *words, const char *value,
-                            ps_request *arguments, ps_error *error) {
-    (void)words;
+pspec_status ps_add_sampler(const ps_option *option, const char *shown, const char *words,
+                            const char *value, ps_request *arguments, ps_error *error) {
+    (void)option, (void)words;
     if (arguments->num_samplers == PS_MAX_SAMPLERS) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: more than %d samplers",
-                       show(option, arguments).text, PS_MAX_SAMPLERS);
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: more than %d samplers", shown,
+                       PS_MAX_SAMPLERS);
     }
     arguments->samplers[arguments->num_samplers++] = value;
     return PSPEC_OK;
@@ -223,42 +210,46 @@ static pspec_status find_word(const char *shown, const char *words, const char *
     return fail_word(shown, words, value, error);
 }
 
-pspec_status ps_set_word(const ps_option *option, const char *words, const char *value,
-                         ps_request *arguments, ps_error *error) {
+pspec_status ps_set_word(const ps_option *option, const char *shown, const char *words,
+                         const char *value, ps_request *arguments, ps_error *error) {
     int index = 0;
-    PS_TRY(find_word(show(option, arguments).text, words, value, &index, error));
-    return ps_set_text(option, words, value, arguments, error);
+    PS_TRY(find_word(shown, words, value, &index, error));
+    return ps_set_text(option, shown, words, value, arguments, error);
 }
 
 /* One of the words, or the name of a file where FILE is one of them. */
-pspec_status ps_set_weights(const ps_option *option, const char *words, const char *value,
-                            ps_request *arguments, ps_error *error) {
-    return strstr(words, "FILE") != NULL ? ps_set_text(option, words, value, arguments, error)
-                                         : ps_set_word(option, words, value, arguments, error);
+pspec_status ps_set_weights(const ps_option *option, const char *shown, const char *words,
+                            const char *value, ps_request *arguments, ps_error *error) {
+    return strstr(words, "FILE") != NULL
+               ? ps_set_text(option, shown, words, value, arguments, error)
+               : ps_set_word(option, shown, words, value, arguments, error);
 }
 
 /* The words stand in the order of ps_domain. */
-pspec_status ps_set_domain(const ps_option *option, const char *words, const char *value,
-                           ps_request *arguments, ps_error *error) {
+pspec_status ps_set_domain(const ps_option *option, const char *shown, const char *words,
+                           const char *value, ps_request *arguments, ps_error *error) {
+    (void)option;
     int index = 0;
-    PS_TRY(find_word(show(option, arguments).text, words, value, &index, error));
+    PS_TRY(find_word(shown, words, value, &index, error));
     arguments->domain = (ps_domain)index;
     return PSPEC_OK;
 }
 
-pspec_status ps_set_normalize(const ps_option *option, const char *words, const char *value,
-                              ps_request *arguments, ps_error *error) {
+pspec_status ps_set_normalize(const ps_option *option, const char *shown, const char *words,
+                              const char *value, ps_request *arguments, ps_error *error) {
+    (void)option;
     int index = 0;
-    PS_TRY(find_word(show(option, arguments).text, words, value, &index, error));
+    PS_TRY(find_word(shown, words, value, &index, error));
     arguments->effective = index == 1;
     return PSPEC_OK;
 }
 
 /* The words after "auto" stand in the order of ps_precision. */
-pspec_status ps_set_precision(const ps_option *option, const char *words, const char *value,
-                              ps_request *arguments, ps_error *error) {
+pspec_status ps_set_precision(const ps_option *option, const char *shown, const char *words,
+                              const char *value, ps_request *arguments, ps_error *error) {
+    (void)option;
     int index = 0;
-    PS_TRY(find_word(show(option, arguments).text, words, value, &index, error));
+    PS_TRY(find_word(shown, words, value, &index, error));
     arguments->precision = index - 1;
     return PSPEC_OK;
 }

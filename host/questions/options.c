@@ -297,6 +297,13 @@ ps_shown_option ps_option_show(const ps_request *request, ps_option_id id) {
     return out;
 }
 
+pspec_status ps_option_set(ps_request *request, ps_option_id id, const char *words,
+                           const char *value, ps_error *error) {
+    const ps_option *const option = &ps_options[id];
+    const ps_shown_option shown = ps_option_show(request, id);
+    return option->set(option, shown.text, words, value, request, error);
+}
+
 size_t ps_name_distance(const char *typed, const char *known) {
     const size_t length = strlen(typed);
     const bool is_beginning = length > 0 && strncmp(known, typed, length) == 0;

@@ -8,10 +8,10 @@
 
 typedef struct ps_option ps_option;
 
-/* Stores value (NULL for a flag) in *arguments, or says what is wrong with it. words are the values
- * that the command at hand admits, "one|two". */
-typedef pspec_status ps_option_setter(const ps_option *option, const char *words, const char *value,
-                                      ps_request *arguments, ps_error *error);
+/* Stores value (NULL for a flag) in *arguments, or says what is wrong with it. shown is the option as it was said; words
+ * are the values that the command at hand admits, "one|two". */
+typedef pspec_status ps_option_setter(const ps_option *option, const char *shown, const char *words,
+                                      const char *value, ps_request *arguments, ps_error *error);
 
 struct ps_option {
     const char *name;    /* without its dashes */
@@ -30,6 +30,10 @@ typedef struct ps_shown_option {
     char text[32];
 } ps_shown_option;
 ps_shown_option ps_option_show(const ps_request *request, ps_option_id id);
+
+/* Calls the setter of the option, whose form the request has already. */
+pspec_status ps_option_set(ps_request *request, ps_option_id id, const char *words,
+                           const char *value, ps_error *error) PS_MUST_CHECK;
 
 /* Is id in the list, which PS_NUM_OPTIONS or NULL ends? */
 bool ps_options_have(const ps_option_id *list, ps_option_id id);

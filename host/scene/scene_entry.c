@@ -22,7 +22,7 @@ pspec_status ps_scene_apply(ps_request *request, const ps_result_kind *kind, ps_
     }
     request->is_given[option] = true;
     request->forms[option] = PS_FORM_KEY;
-    return row->set(row, words, text, request, error);
+    return ps_option_set(request, option, words, text, error);
 }
 
 /* ---- paths ------------------------------------------------------------------------------- */

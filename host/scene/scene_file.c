@@ -1,32 +1,13 @@
+/* The file of a scene as a document of YAML. */
 #include "scene/scene_file.h"
 
 #include "base/memory.h"
 #include "files/input_file.h"
 
-#include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* Larger than the record of the most questions. */
 enum { MOST_BYTES = 1 << 23 };
-
-int ps_scene_line(const yaml_node_t *node) {
-    return (int)node->start_mark.line + 1;
-}
-
-pspec_status ps_scene_complain(const ps_scene_file *file, int line, const char *key,
-                               const char *format, ...) {
-    char sentence[PS_MESSAGE_BYTES];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(sentence, sizeof sentence, format, arguments);
-    va_end(arguments);
-    return ps_fail(file->error, PSPEC_ERROR_INPUT, "%s:%d: %s%s%s", file->path, line,
-                   key != NULL ? key : "", key != NULL ? ": " : "", sentence);
-}
-
-/* ---- the document ------------------------------------------------------------------------ */
 
 static pspec_status read_all(const char *path, unsigned char *bytes, size_t *num, ps_error *error) {
     ps_input input;
@@ -42,20 +23,6 @@ static pspec_status read_all(const char *path, unsigned char *bytes, size_t *num
     return status;
 }
 
-pspec_status ps_scene_fail_parser(const ps_scene_file *file, const yaml_parser_t *parser) {
-    if (parser->error == YAML_MEMORY_ERROR) {
-        return ps_fail(file->error, PSPEC_ERROR_MEMORY, "no memory for the scene \"%s\"",
-                       file->path);
-    }
-    /* errors of single bytes have an offset, no mark */
-    const int line =
-        (int)(parser->problem_mark.line > 0 ? parser->problem_mark.line : parser->mark.line) + 1;
-    return ps_scene_complain(file, line, NULL, "not YAML: %s%s%s",
-                             parser->context != NULL ? parser->context : "",
-                             parser->context != NULL ? ", " : "",
-                             parser->problem != NULL ? parser->problem : "unknown reason");
-}
-
 /* One document, and nothing after it. */
 static pspec_status load(ps_scene_file *file, yaml_parser_t *parser) {
     yaml_document_t rest;
@@ -66,7 +33,6 @@ static pspec_status load(ps_scene_file *file, yaml_parser_t *parser) {
     if (yaml_document_get_root_node(&file->document) == NULL) {
         return ps_scene_complain(file, 1, NULL, "nothing is asked for: the file has no content");
     }
-    PS_TRY(ps_scene_check_aliases(file, yaml_document_get_root_node(&file->document)));
     if (!yaml_parser_load(parser, &rest)) {
         return ps_scene_fail_parser(file, parser);
     }
@@ -79,21 +45,17 @@ static pspec_status load(ps_scene_file *file, yaml_parser_t *parser) {
     return status;
 }
 
-typedef pspec_status look_at(ps_scene_file *, yaml_parser_t *);
-
-static pspec_status look(ps_scene_file *file, yaml_parser_t *parser) {
-    return ps_scene_check_events(file, parser);
-}
+typedef pspec_status use_parser(ps_scene_file *, yaml_parser_t *);
 
 static pspec_status parse(ps_scene_file *file, const unsigned char *bytes, size_t num,
-                          look_at *how) {
+                          use_parser *use) {
     yaml_parser_t parser;
     if (!yaml_parser_initialize(&parser)) {
         return ps_fail(file->error, PSPEC_ERROR_MEMORY, "no memory for the scene \"%s\"",
                        file->path);
     }
     yaml_parser_set_input_string(&parser, bytes, num);
-    const pspec_status status = how(file, &parser);
+    const pspec_status status = use(file, &parser);
     yaml_parser_delete(&parser);
     return status;
 }
@@ -105,7 +67,7 @@ pspec_status ps_scene_file_open(ps_scene_file *out, const char *path, ps_error *
     PS_TRY(ps_allocate(&bytes, MOST_BYTES + 1, 1, "a scene", error));
     pspec_status status = read_all(path, bytes, &num, error);
     if (status == PSPEC_OK) {
-        status = parse(out, bytes, num, look);
+        status = parse(out, bytes, num, ps_scene_check_events);
     }
     if (status == PSPEC_OK) {
         status = parse(out, bytes, num, load);
@@ -119,100 +81,4 @@ void ps_scene_file_close(ps_scene_file *file) {
         yaml_document_delete(&file->document);
         file->has_document = false;
     }
-}
-
-/* ---- nodes ------------------------------------------------------------------------------- */
-
-pspec_status ps_scene_take_text(const ps_scene_file *file, yaml_node_t *node, const char *key,
-                                const char **out) {
-    if (node->type != YAML_SCALAR_NODE) {
-        return ps_scene_complain(file, ps_scene_line(node), key,
-                                 "one value is wanted here, not a %s",
-                                 node->type == YAML_SEQUENCE_NODE ? "list" : "mapping");
-    }
-    const char *const text = (const char *)node->data.scalar.value;
-    if (strlen(text) != node->data.scalar.length) {
-        return ps_scene_complain(file, ps_scene_line(node), key, "a byte of value 0 in a text");
-    }
-    if (text[0] == '\0') {
-        return ps_scene_complain(file, ps_scene_line(node), key, "no value");
-    }
-    *out = text;
-    return PSPEC_OK;
-}
-
-size_t ps_scene_num_items(const yaml_node_t *node) {
-    return node->type == YAML_SEQUENCE_NODE
-               ? (size_t)(node->data.sequence.items.top - node->data.sequence.items.start)
-               : 1;
-}
-
-/* libyaml does not write to a document that is looked at; its interface has no const. */
-static yaml_node_t *find_node(const ps_scene_file *file, int number) {
-    return yaml_document_get_node((yaml_document_t *)(uintptr_t)&file->document, number);
-}
-
-yaml_node_t *ps_scene_item(const ps_scene_file *file, yaml_node_t *node, size_t index) {
-    return node->type == YAML_SEQUENCE_NODE
-               ? find_node(file, node->data.sequence.items.start[index])
-               : node;
-}
-
-size_t ps_scene_num_pairs(const yaml_node_t *node) {
-    return (size_t)(node->data.mapping.pairs.top - node->data.mapping.pairs.start);
-}
-
-pspec_status ps_scene_pair(const ps_scene_file *file, yaml_node_t *mapping, size_t index,
-                           const char **key, yaml_node_t **value) {
-    const yaml_node_pair_t *const pairs = mapping->data.mapping.pairs.start;
-    yaml_node_t *const node = find_node(file, pairs[index].key);
-    PS_TRY(ps_scene_take_text(file, node, NULL, key));
-    for (size_t i = 0; i < index; i++) {
-        const yaml_node_t *const other = find_node(file, pairs[i].key);
-        if (strcmp((const char *)other->data.scalar.value, *key) == 0) {
-            return ps_scene_complain(file, ps_scene_line(node), *key,
-                                     "this key stands in line %d already", ps_scene_line(other));
-        }
-    }
-    *value = find_node(file, pairs[index].value);
-    return PSPEC_OK;
-}
-
-/* ---- memory ------------------------------------------------------------------------------ */
-
-pspec_status ps_scene_allocate(ps_scene *scene, size_t count, size_t element_bytes, void **out,
-                               ps_error *error) {
-    void *memory = NULL;
-    size_t bytes = 0;
-    if (!ps_size_multiply(count, element_bytes, &bytes)) {
-        return ps_fail(error, PSPEC_ERROR_MEMORY, "%zu values of %zu bytes are too many", count,
-                       element_bytes);
-    }
-    PS_TRY(ps_allocate(&memory, 1, sizeof(struct ps_scene_memory) + bytes, "a scene", error));
-    struct ps_scene_memory *const block = memory;
-    block->next = scene->memory;
-    scene->memory = block;
-    *out = block->bytes;
-    return PSPEC_OK;
-}
-
-pspec_status ps_scene_copy(ps_scene *scene, const char *prefix, const char *text, const char **out,
-                           ps_error *error) {
-    const size_t prefix_bytes = strlen(prefix);
-    const size_t bytes = strlen(text) + 1;
-    void *memory = NULL;
-    PS_TRY(ps_scene_allocate(scene, prefix_bytes + bytes, 1, &memory, error));
-    memcpy(memory, prefix, prefix_bytes);
-    memcpy((char *)memory + prefix_bytes, text, bytes);
-    *out = memory;
-    return PSPEC_OK;
-}
-
-void ps_scene_free(ps_scene *scene) {
-    for (struct ps_scene_memory *block = scene->memory; block != NULL;) {
-        struct ps_scene_memory *const next = block->next;
-        free(block);
-        block = next;
-    }
-    *scene = (ps_scene){0};
 }

@@ -13,10 +13,9 @@ typedef struct ps_scene_file {
     ps_error *error;
 } ps_scene_file;
 
-/* No nest, anchor, mapping or alias beyond what a scene can need; the parser is at its beginning, and is at its end then. */
-pspec_status ps_scene_check_events(const ps_scene_file *file, yaml_parser_t *parser) PS_MUST_CHECK;
-pspec_status ps_scene_check_aliases(const ps_scene_file *file,
-                                    const yaml_node_t *root) PS_MUST_CHECK;
+/* No nest, anchor or mapping beyond what a scene can need, and no alias; the parser is at its beginning, and is at its end
+ * then. */
+pspec_status ps_scene_check_events(ps_scene_file *file, yaml_parser_t *parser) PS_MUST_CHECK;
 /* What the parser objects to. */
 pspec_status ps_scene_fail_parser(const ps_scene_file *file, const yaml_parser_t *parser);
 
@@ -74,13 +73,13 @@ typedef struct ps_scene_reader {
 } ps_scene_reader;
 
 /* The text of a scalar, kept with the scene. */
-pspec_status ps_scene_keep_text(const ps_scene_reader *from, yaml_node_t *node, const char *key,
+pspec_status ps_scene_keep_text(const ps_scene_reader *reader, yaml_node_t *node, const char *key,
                                 const char **out) PS_MUST_CHECK;
 /* Of a scene: pages of more are of no use to anyone, and a record of more could not be read. */
 enum { PS_SCENE_MOST_QUESTIONS = 10000 };
 
 /* One of the results, but for a name that the file does not say. */
-pspec_status ps_scene_take_result(const ps_scene_reader *from, yaml_node_t *node,
+pspec_status ps_scene_take_result(const ps_scene_reader *reader, yaml_node_t *node,
                                   ps_scene_result *out) PS_MUST_CHECK;
 
 /* The word that a complaint may suggest: begins as {0}, and ends as the nearest of those considered. */

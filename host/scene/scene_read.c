@@ -9,93 +9,95 @@
 enum { MOST_RESULTS = 256 };
 
 /* power-1, .. where the file says none. */
-static pspec_status name_result(const ps_scene_reader *from, size_t index) {
+static pspec_status name_result(const ps_scene_reader *reader, size_t index) {
     enum { NAME = 96 };
     char text[NAME];
-    ps_scene_result *const result = &from->scene->results[index];
+    ps_scene_result *const result = &reader->scene->results[index];
     if (result->name == NULL) {
         snprintf(text, sizeof text, "%s-%zu", result->kind->name, index + 1);
-        PS_TRY(ps_scene_copy(from->scene, "", text, &result->name, from->file->error));
+        PS_TRY(ps_scene_copy(reader->scene, "", text, &result->name, reader->file->error));
     }
     for (size_t i = 0; i < index; i++) {
-        if (strcmp(from->scene->results[i].name, result->name) == 0) {
-            return ps_scene_complain(from->file, result->line, "name",
+        if (strcmp(reader->scene->results[i].name, result->name) == 0) {
+            return ps_scene_complain(reader->file, result->line, "name",
                                      "\"%s\" is the name of the result of line %d already",
-                                     result->name, from->scene->results[i].line);
+                                     result->name, reader->scene->results[i].line);
         }
     }
     return PSPEC_OK;
 }
 
-static pspec_status take_results(const ps_scene_reader *from, yaml_node_t *node) {
+static pspec_status take_results(const ps_scene_reader *reader, yaml_node_t *node) {
     void *results = NULL;
     const size_t num = ps_scene_num_items(node);
     if (node->type != YAML_SEQUENCE_NODE || num == 0 || num > MOST_RESULTS) {
-        return ps_scene_complain(from->file, ps_scene_line(node), "results",
+        return ps_scene_complain(reader->file, ps_scene_line(node), "results",
                                  "a list of 1 to %d results is wanted here", MOST_RESULTS);
     }
-    PS_TRY(ps_scene_allocate(from->scene, num, sizeof *from->scene->results, &results,
-                             from->file->error));
-    from->scene->results = results;
+    PS_TRY(ps_scene_allocate(reader->scene, num, sizeof *reader->scene->results, &results,
+                             reader->file->error));
+    reader->scene->results = results;
     size_t num_questions = 0;
     for (size_t i = 0; i < num; i++) {
-        PS_TRY(ps_scene_take_result(from, ps_scene_item(from->file, node, i),
-                                    &from->scene->results[i]));
-        from->scene->num_results++;
-        num_questions += ps_scene_num_questions(&from->scene->results[i]);
+        PS_TRY(ps_scene_take_result(reader, ps_scene_item(reader->file, node, i),
+                                    &reader->scene->results[i]));
+        reader->scene->num_results++;
+        num_questions += ps_scene_num_questions(&reader->scene->results[i]);
         if (num_questions > PS_SCENE_MOST_QUESTIONS) {
-            return ps_scene_complain(from->file, from->scene->results[i].line, "results",
+            return ps_scene_complain(reader->file, reader->scene->results[i].line, "results",
                                      "here the scene asks %zu questions, more than %d",
                                      num_questions, PS_SCENE_MOST_QUESTIONS);
         }
-        PS_TRY(name_result(from, i));
+        PS_TRY(name_result(reader, i));
     }
     return PSPEC_OK;
 }
 
-static pspec_status take_texts(const ps_scene_reader *from, yaml_node_t *node, const char *key,
+static pspec_status take_texts(const ps_scene_reader *reader, yaml_node_t *node, const char *key,
                                const char ***out, size_t *num_out) {
     void *memory = NULL;
     const size_t num = ps_scene_num_items(node);
-    PS_TRY(ps_scene_allocate(from->scene, num, sizeof **out, &memory, from->file->error));
+    PS_TRY(ps_scene_allocate(reader->scene, num, sizeof **out, &memory, reader->file->error));
     *out = memory;
     for (size_t i = 0; i < num; i++) {
-        PS_TRY(ps_scene_keep_text(from, ps_scene_item(from->file, node, i), key, &(*out)[i]));
+        PS_TRY(ps_scene_keep_text(reader, ps_scene_item(reader->file, node, i), key, &(*out)[i]));
     }
     *num_out = num;
     return PSPEC_OK;
 }
 
 /* What a run wrote (docs/scenes.md); other keys are for people. */
-static pspec_status take_record(const ps_scene_reader *from, yaml_node_t *node) {
+static pspec_status take_record(const ps_scene_reader *reader, yaml_node_t *node) {
     if (node->type != YAML_MAPPING_NODE) {
-        return ps_scene_complain(from->file, ps_scene_line(node), "record", "no mapping");
+        return ps_scene_complain(reader->file, ps_scene_line(node), "record", "no mapping");
     }
     for (size_t i = 0; i < ps_scene_num_pairs(node); i++) {
         const char *key = NULL;
         yaml_node_t *value = NULL;
-        PS_TRY(ps_scene_pair(from->file, node, i, &key, &value));
+        PS_TRY(ps_scene_pair(reader->file, node, i, &key, &value));
         if (strcmp(key, "folder") == 0) {
-            PS_TRY(ps_scene_keep_text(from, value, key, &from->scene->folder));
+            PS_TRY(ps_scene_keep_text(reader, value, key, &reader->scene->folder));
         } else if (strcmp(key, "digests") == 0) {
-            PS_TRY(take_texts(from, value, key, &from->scene->digests, &from->scene->num_digests));
+            PS_TRY(take_texts(reader, value, key, &reader->scene->digests,
+                              &reader->scene->num_digests));
         } else if (strcmp(key, "files") == 0) {
-            PS_TRY(take_texts(from, value, key, &from->scene->files, &from->scene->num_files));
+            PS_TRY(
+                take_texts(reader, value, key, &reader->scene->files, &reader->scene->num_files));
         } else if (strcmp(key, "pointspec_version") == 0) {
-            PS_TRY(ps_scene_keep_text(from, value, key, &from->scene->recorded_version));
+            PS_TRY(ps_scene_keep_text(reader, value, key, &reader->scene->recorded_version));
         } else if (strcmp(key, "device") == 0) {
-            PS_TRY(ps_scene_keep_text(from, value, key, &from->scene->recorded_device));
+            PS_TRY(ps_scene_keep_text(reader, value, key, &reader->scene->recorded_device));
         }
     }
     return PSPEC_OK;
 }
 
-static pspec_status check_schema(const ps_scene_reader *from, yaml_node_t *node) {
+static pspec_status check_schema(const ps_scene_reader *reader, yaml_node_t *node) {
     const char *text = NULL;
-    PS_TRY(ps_scene_take_text(from->file, node, "scene", &text));
+    PS_TRY(ps_scene_take_text(reader->file, node, "scene", &text));
     return strcmp(text, "1") == 0
                ? PSPEC_OK
-               : ps_scene_complain(from->file, ps_scene_line(node), "scene",
+               : ps_scene_complain(reader->file, ps_scene_line(node), "scene",
                                    "schema \"%s\" is not known, this version reads schema 1", text);
 }
 
@@ -104,7 +106,7 @@ typedef struct parts {
     yaml_node_t *schema, *title, *description, *defaults, *results, *record;
 } parts;
 
-static pspec_status find_parts(const ps_scene_reader *from, yaml_node_t *root, parts *out) {
+static pspec_status find_parts(const ps_scene_reader *reader, yaml_node_t *root, parts *out) {
     const struct {
         const char *key;
         yaml_node_t **node;
@@ -119,7 +121,7 @@ static pspec_status find_parts(const ps_scene_reader *from, yaml_node_t *root, p
         yaml_node_t *value = NULL;
         ps_scene_nearest best = {NULL, 0};
         bool is_known = false;
-        PS_TRY(ps_scene_pair(from->file, root, i, &key, &value));
+        PS_TRY(ps_scene_pair(reader->file, root, i, &key, &value));
         for (size_t k = 0; k < sizeof known / sizeof known[0]; k++) {
             ps_scene_consider(&best, key, known[k].key);
             if (strcmp(key, known[k].key) == 0) {
@@ -129,57 +131,57 @@ static pspec_status find_parts(const ps_scene_reader *from, yaml_node_t *root, p
         }
         if (!is_known) {
             return ps_scene_complain(
-                from->file, ps_scene_line(value), key, "unknown key%s",
+                reader->file, ps_scene_line(value), key, "unknown key%s",
                 ps_text_suggest(key, best.word, best.distance, "; did you mean ", "?").text);
         }
     }
     return PSPEC_OK;
 }
 
-static pspec_status find_folder(const ps_scene_reader *from) {
-    const char *const slash = strrchr(from->scene->path, '/');
-    if (slash == NULL || strcmp(from->scene->path, "-") == 0) {
-        from->scene->folder = "";
+static pspec_status find_folder(const ps_scene_reader *reader) {
+    const char *const slash = strrchr(reader->scene->path, '/');
+    if (slash == NULL || strcmp(reader->scene->path, "-") == 0) {
+        reader->scene->folder = "";
         return PSPEC_OK;
     }
     void *memory = NULL;
-    const size_t length = (size_t)(slash - from->scene->path) + 1;
-    PS_TRY(ps_scene_allocate(from->scene, length + 1, 1, &memory, from->file->error));
-    memcpy(memory, from->scene->path, length);
-    from->scene->folder = memory;
+    const size_t length = (size_t)(slash - reader->scene->path) + 1;
+    PS_TRY(ps_scene_allocate(reader->scene, length + 1, 1, &memory, reader->file->error));
+    memcpy(memory, reader->scene->path, length);
+    reader->scene->folder = memory;
     return PSPEC_OK;
 }
 
-static pspec_status take_scene(ps_scene_reader *from, yaml_node_t *root) {
+static pspec_status take_scene(ps_scene_reader *reader, yaml_node_t *root) {
     parts found = {0};
     if (root->type != YAML_MAPPING_NODE) {
-        return ps_scene_complain(from->file, ps_scene_line(root), NULL,
+        return ps_scene_complain(reader->file, ps_scene_line(root), NULL,
                                  "a scene is a mapping with the keys scene and results");
     }
-    PS_TRY(find_parts(from, root, &found));
+    PS_TRY(find_parts(reader, root, &found));
     if (found.schema == NULL || found.results == NULL) {
-        return ps_scene_complain(from->file, ps_scene_line(root),
+        return ps_scene_complain(reader->file, ps_scene_line(root),
                                  found.schema == NULL ? "scene" : "results", "is missing%s",
                                  found.schema == NULL ? ": a scene begins with scene: 1" : "");
     }
-    PS_TRY(check_schema(from, found.schema));
-    PS_TRY(find_folder(from));
+    PS_TRY(check_schema(reader, found.schema));
+    PS_TRY(find_folder(reader));
     if (found.record != NULL) {
-        PS_TRY(take_record(from, found.record));
+        PS_TRY(take_record(reader, found.record));
     }
     if (found.title != NULL) {
-        PS_TRY(ps_scene_keep_text(from, found.title, "title", &from->scene->title));
+        PS_TRY(ps_scene_keep_text(reader, found.title, "title", &reader->scene->title));
     }
     if (found.description != NULL) {
-        PS_TRY(
-            ps_scene_keep_text(from, found.description, "description", &from->scene->description));
+        PS_TRY(ps_scene_keep_text(reader, found.description, "description",
+                                  &reader->scene->description));
     }
     if (found.defaults != NULL && found.defaults->type != YAML_MAPPING_NODE) {
-        return ps_scene_complain(from->file, ps_scene_line(found.defaults), "defaults",
+        return ps_scene_complain(reader->file, ps_scene_line(found.defaults), "defaults",
                                  "a mapping of keys is wanted here");
     }
-    from->defaults = found.defaults;
-    return take_results(from, found.results);
+    reader->defaults = found.defaults;
+    return take_results(reader, found.results);
 }
 
 pspec_status ps_scene_read(ps_scene *out, const char *path, ps_error *error) {
@@ -187,8 +189,8 @@ pspec_status ps_scene_read(ps_scene *out, const char *path, ps_error *error) {
     *out = (ps_scene){.path = path};
     pspec_status status = ps_scene_file_open(&file, path, error);
     if (status == PSPEC_OK) {
-        ps_scene_reader from = {out, &file, NULL};
-        status = take_scene(&from, yaml_document_get_root_node(&file.document));
+        ps_scene_reader reader = {out, &file, NULL};
+        status = take_scene(&reader, yaml_document_get_root_node(&file.document));
     }
     ps_scene_file_close(&file);
     return status;

@@ -42,7 +42,7 @@ static bool is_any_option(const char *key) {
     return false;
 }
 
-static pspec_status complain_of_key(const ps_scene_reader *from, const ps_result_kind *kind,
+static pspec_status complain_of_key(const ps_scene_reader *reader, const ps_result_kind *kind,
                                     int line, const char *key) {
     ps_scene_nearest best = {NULL, 0};
     for (size_t i = 0; i < NUM_OWN_KEYS; i++) {
@@ -54,50 +54,50 @@ static pspec_status complain_of_key(const ps_scene_reader *from, const ps_result
         }
     }
     return ps_scene_complain(
-        from->file, line, key, "%s%s",
+        reader->file, line, key, "%s%s",
         is_any_option(key) ? "not a key of this result" : "unknown key",
         ps_text_suggest(key, best.word, best.distance, "; did you mean ", "?").text);
 }
 
 /* ---- one result -------------------------------------------------------------------------- */
 
-static pspec_status take_switch(const ps_scene_reader *from, yaml_node_t *node, const char *key,
+static pspec_status take_switch(const ps_scene_reader *reader, yaml_node_t *node, const char *key,
                                 bool *out) {
     const char *text = NULL;
-    PS_TRY(ps_scene_take_text(from->file, node, key, &text));
+    PS_TRY(ps_scene_take_text(reader->file, node, key, &text));
     *out = strcmp(text, "true") == 0;
     return *out || strcmp(text, "false") == 0
                ? PSPEC_OK
-               : ps_scene_complain(from->file, ps_scene_line(node), key,
+               : ps_scene_complain(reader->file, ps_scene_line(node), key,
                                    "true or false, not \"%s\"", text);
 }
 
-pspec_status ps_scene_keep_text(const ps_scene_reader *from, yaml_node_t *node, const char *key,
+pspec_status ps_scene_keep_text(const ps_scene_reader *reader, yaml_node_t *node, const char *key,
                                 const char **out) {
-    PS_TRY(ps_scene_take_text(from->file, node, key, out));
-    return ps_scene_copy(from->scene, "", *out, out, from->file->error);
+    PS_TRY(ps_scene_take_text(reader->file, node, key, out));
+    return ps_scene_copy(reader->scene, "", *out, out, reader->file->error);
 }
 
 /* It becomes the name of files. */
-static pspec_status take_name(const ps_scene_reader *from, yaml_node_t *node, const char **out) {
+static pspec_status take_name(const ps_scene_reader *reader, yaml_node_t *node, const char **out) {
     enum { MOST_LETTERS = 64 };
-    PS_TRY(ps_scene_keep_text(from, node, "name", out));
+    PS_TRY(ps_scene_keep_text(reader, node, "name", out));
     bool is_good = strlen(*out) <= MOST_LETTERS && (*out)[0] != '-';
     for (const char *c = *out; *c != '\0'; c++) {
         is_good = is_good && (isalnum((unsigned char)*c) || *c == '-' || *c == '_');
     }
     return is_good
                ? PSPEC_OK
-               : ps_scene_complain(from->file, ps_scene_line(node), "name",
+               : ps_scene_complain(reader->file, ps_scene_line(node), "name",
                                    "\"%s\" cannot name files: up to %d letters, digits, - and _",
                                    *out, MOST_LETTERS);
 }
 
-static pspec_status take_kind(const ps_scene_reader *from, yaml_node_t *node,
+static pspec_status take_kind(const ps_scene_reader *reader, yaml_node_t *node,
                               const ps_result_kind **out) {
     const char *text = NULL;
     ps_scene_nearest best = {NULL, 0};
-    PS_TRY(ps_scene_take_text(from->file, node, "result", &text));
+    PS_TRY(ps_scene_take_text(reader->file, node, "result", &text));
     for (size_t i = 0; ps_result_kinds[i] != NULL; i++) {
         ps_scene_consider(&best, text, ps_result_kinds[i]->name);
         if (strcmp(text, ps_result_kinds[i]->name) == 0) {
@@ -106,32 +106,32 @@ static pspec_status take_kind(const ps_scene_reader *from, yaml_node_t *node,
         }
     }
     return ps_scene_complain(
-        from->file, ps_scene_line(node), "result", "\"%s\" is no kind of result%s", text,
+        reader->file, ps_scene_line(node), "result", "\"%s\" is no kind of result%s", text,
         ps_text_suggest(text, best.word, best.distance, "; did you mean ", "?").text);
 }
 
-static pspec_status take_pair(const ps_scene_reader *from, ps_scene_result *out, const char *key,
+static pspec_status take_pair(const ps_scene_reader *reader, ps_scene_result *out, const char *key,
                               int line, yaml_node_t *value) {
     if (strcmp(key, "result") == 0) {
         return PSPEC_OK; /* taken before all others */
     }
     if (strcmp(key, "name") == 0) {
-        return take_name(from, value, &out->name);
+        return take_name(reader, value, &out->name);
     }
     if (strcmp(key, "title") == 0) {
-        return ps_scene_keep_text(from, value, key, &out->title);
+        return ps_scene_keep_text(reader, value, key, &out->title);
     }
     if (strcmp(key, "plot") == 0) {
-        return take_switch(from, value, key, &out->wants_plot);
+        return take_switch(reader, value, key, &out->wants_plot);
     }
     if (strcmp(key, "pictures") == 0 && out->kind->has_images) {
-        return take_switch(from, value, key, &out->wants_pictures);
+        return take_switch(reader, value, key, &out->wants_pictures);
     }
     const int option = find_option(out->kind, key);
     if (option < 0) {
-        return complain_of_key(from, out->kind, line, key);
+        return complain_of_key(reader, out->kind, line, key);
     }
-    return ps_scene_take_entry(from->scene, from->file, out->kind, option, key, value,
+    return ps_scene_take_entry(reader->scene, reader->file, out->kind, option, key, value,
                                &out->entries[out->num_entries++]);
 }
 
@@ -164,20 +164,20 @@ static void drop_of_other_source(ps_scene_result *result, size_t num_own) {
     result->num_entries = num;
 }
 
-static pspec_status take_defaults(const ps_scene_reader *from, ps_scene_result *out) {
+static pspec_status take_defaults(const ps_scene_reader *reader, ps_scene_result *out) {
     const size_t num_own = out->num_entries;
     ps_scene_result own = *out;
-    for (size_t i = 0; from->defaults != NULL && i < ps_scene_num_pairs(from->defaults); i++) {
+    for (size_t i = 0; reader->defaults != NULL && i < ps_scene_num_pairs(reader->defaults); i++) {
         const char *key = NULL;
         yaml_node_t *value = NULL;
-        PS_TRY(ps_scene_pair(from->file, from->defaults, i, &key, &value));
+        PS_TRY(ps_scene_pair(reader->file, reader->defaults, i, &key, &value));
         const int option = find_option(out->kind, key);
         own.num_entries = num_own;
         if (option >= 0 && !is_settled(&own, option)) {
-            PS_TRY(ps_scene_take_entry(from->scene, from->file, out->kind, option, key, value,
+            PS_TRY(ps_scene_take_entry(reader->scene, reader->file, out->kind, option, key, value,
                                        &out->entries[out->num_entries++]));
         } else if (option < 0 && !is_any_option(key)) {
-            return complain_of_key(from, out->kind, ps_scene_line(value), key);
+            return complain_of_key(reader, out->kind, ps_scene_line(value), key);
         }
     }
     drop_of_other_source(out, num_own);
@@ -185,25 +185,25 @@ static pspec_status take_defaults(const ps_scene_reader *from, ps_scene_result *
 }
 
 /* Which result it is says what the other keys may be. */
-static pspec_status find_kind(const ps_scene_reader *from, yaml_node_t *node,
+static pspec_status find_kind(const ps_scene_reader *reader, yaml_node_t *node,
                               ps_scene_result *out) {
     for (size_t i = 0; i < ps_scene_num_pairs(node); i++) {
         const char *key = NULL;
         yaml_node_t *value = NULL;
-        PS_TRY(ps_scene_pair(from->file, node, i, &key, &value));
+        PS_TRY(ps_scene_pair(reader->file, node, i, &key, &value));
         if (strcmp(key, "result") == 0) {
-            return take_kind(from, value, &out->kind);
+            return take_kind(reader, value, &out->kind);
         }
     }
-    return ps_scene_complain(from->file, ps_scene_line(node), "result",
+    return ps_scene_complain(reader->file, ps_scene_line(node), "result",
                              "is missing: power, angular, pairs, quadrature, truncation or check");
 }
 
-static pspec_status check_twice(const ps_scene_reader *from, const ps_scene_result *result) {
+static pspec_status check_twice(const ps_scene_reader *reader, const ps_scene_result *result) {
     for (size_t i = 0; i < result->num_entries; i++) {
         for (size_t j = 0; j < i; j++) {
             if (result->entries[i].option == result->entries[j].option) {
-                return ps_scene_complain(from->file, result->entries[i].line,
+                return ps_scene_complain(reader->file, result->entries[i].line,
                                          ps_scene_key(&result->entries[i]),
                                          "stands in line %d already", result->entries[j].line);
             }
@@ -212,38 +212,39 @@ static pspec_status check_twice(const ps_scene_reader *from, const ps_scene_resu
     return PSPEC_OK;
 }
 
-static pspec_status check_questions(const ps_scene_reader *from, const ps_scene_result *result) {
+static pspec_status check_questions(const ps_scene_reader *reader, const ps_scene_result *result) {
     double num = 1;
     for (size_t i = 0; i < result->num_entries; i++) {
         num *= (double)result->entries[i].num_values;
     }
     return num <= PS_SCENE_MOST_QUESTIONS
                ? PSPEC_OK
-               : ps_scene_complain(from->file, result->line, NULL,
+               : ps_scene_complain(reader->file, result->line, NULL,
                                    "the lists of this result ask %.3g questions, more than %d", num,
                                    PS_SCENE_MOST_QUESTIONS);
 }
 
-pspec_status ps_scene_take_result(const ps_scene_reader *from, yaml_node_t *node,
+pspec_status ps_scene_take_result(const ps_scene_reader *reader, yaml_node_t *node,
                                   ps_scene_result *out) {
     void *entries = NULL;
     *out = (ps_scene_result){.line = ps_scene_line(node), .wants_plot = true};
     if (node->type != YAML_MAPPING_NODE) {
-        return ps_scene_complain(from->file, out->line, "results", "a result is a mapping of keys");
+        return ps_scene_complain(reader->file, out->line, "results",
+                                 "a result is a mapping of keys");
     }
-    PS_TRY(find_kind(from, node, out));
+    PS_TRY(find_kind(reader, node, out));
     /* every option, files, and `sampler` beside `samplers` */
-    PS_TRY(ps_scene_allocate(from->scene, PS_NUM_OPTIONS + 2, sizeof *out->entries, &entries,
-                             from->file->error));
+    PS_TRY(ps_scene_allocate(reader->scene, PS_NUM_OPTIONS + 2, sizeof *out->entries, &entries,
+                             reader->file->error));
     out->entries = entries;
     for (size_t i = 0; i < ps_scene_num_pairs(node); i++) {
         const char *key = NULL;
         yaml_node_t *value = NULL;
-        PS_TRY(ps_scene_pair(from->file, node, i, &key, &value));
-        PS_TRY(take_pair(from, out, key, ps_scene_line(value), value));
+        PS_TRY(ps_scene_pair(reader->file, node, i, &key, &value));
+        PS_TRY(take_pair(reader, out, key, ps_scene_line(value), value));
     }
-    PS_TRY(check_twice(from, out));
-    PS_TRY(take_defaults(from, out));
-    PS_TRY(check_twice(from, out));
-    return check_questions(from, out);
+    PS_TRY(check_twice(reader, out));
+    PS_TRY(take_defaults(reader, out));
+    PS_TRY(check_twice(reader, out));
+    return check_questions(reader, out);
 }

@@ -1,6 +1,7 @@
 /* A scene answered, and what becomes of the answers, in this order: prepare, answer, write, judge. Each file is one part:
  *
  *     run.c        the beginning and the end
+ *     hooks.c      who hears of it
  *     answers.c    every question from the cache or computed
  *     cache.c      keys and bytes of answers in the cache
  *     tables.c     tables of the results, and summaries
