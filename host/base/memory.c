@@ -6,6 +6,7 @@
 
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -57,6 +58,15 @@ pspec_status ps_allocate(void **out, size_t count, size_t element_bytes, const c
         *out = calloc(count > 0 ? count : 1, element_bytes);
     }
     return *out != NULL ? PSPEC_OK : fail_memory(count, element_bytes, what, error);
+}
+
+/* A pointer of another type may not be written as a void *, but its bytes may be copied. */
+pspec_status ps_allocate_for(void *pointer, size_t count, size_t element_bytes, const char *what,
+                             ps_error *error) {
+    void *memory = NULL;
+    const pspec_status status = ps_allocate(&memory, count, element_bytes, what, error);
+    memcpy(pointer, &memory, sizeof memory);
+    return status;
 }
 
 void ps_memory_use_large_pages(void *memory, size_t bytes) {

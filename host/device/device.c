@@ -286,11 +286,10 @@ pspec_status ps_device_open(ps_device **out, const char *selector, bool with_pro
                             ps_error *error) {
     cl_device_id devices[MAX_DEVICES];
     size_t num_devices = 0;
-    void *memory = NULL;
     *out = NULL;
     PS_TRY(find_devices(devices, &num_devices, error));
-    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_device), "a device", error));
-    ps_device *device = memory;
+    ps_device *device = NULL;
+    PS_TRY(PS_NEW(&device, 1, "a device", error));
     device->has_profile = with_profile;
     pspec_status status = choose_among(devices, num_devices, selector, device, error);
     if (status == PSPEC_OK) {

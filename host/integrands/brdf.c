@@ -48,11 +48,11 @@ static pspec_status find_kind(const ps_brdf_kind **kind, const char *name, ps_er
 /* Values as texts of their own, [num] pointers and then their letters in one block. */
 static pspec_status copy_values(char ***out, const ps_parameter *const *parameters, size_t num,
                                 const ps_slice *values, ps_error *error) {
-    void *block = NULL;
     size_t num_bytes = num * sizeof(char *) + 1;
     for (size_t i = 0; i < num; i++) {
         num_bytes += values[i].length + strlen(parameters[i]->default_value) + 1;
     }
+    void *block = NULL;
     PS_TRY(ps_allocate(&block, num_bytes, 1, "a BRDF", error));
     char **const texts = block;
     char *letters = (char *)(texts + num);
@@ -94,12 +94,11 @@ static pspec_status read_values(ps_brdf *brdf, const char *rest, ps_error *error
 pspec_status ps_brdf_parse(ps_brdf **out, const char *text, ps_error *error) {
     char name[PS_GRAMMAR_WORD];
     const ps_brdf_kind *kind = NULL;
-    void *memory = NULL;
     *out = NULL;
     const char *const rest = ps_grammar_name(text, name);
     PS_TRY(find_kind(&kind, name, error));
-    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_brdf), "a BRDF", error));
-    ps_brdf *const brdf = memory;
+    ps_brdf *brdf = NULL;
+    PS_TRY(PS_NEW(&brdf, 1, "a BRDF", error));
     brdf->kind = kind;
     const pspec_status status = read_values(brdf, rest, error);
     if (status != PSPEC_OK) {

@@ -77,14 +77,13 @@ static void solve_cut(double n, size_t last, double *g, double *pivots) {
 
 static pspec_status fill_cut(double n, size_t max_degree, double *b, ps_error *error) {
     const size_t last = max_degree + 60 + (size_t)(9 * sqrt(n)); /* measured, as above */
-    void *block = NULL;
-    PS_TRY(ps_allocate(&block, 2 * (last + 1), sizeof(double), "coefficients", error));
-    double *const g = block;
+    double *g = NULL;
+    PS_TRY(PS_NEW(&g, 2 * (last + 1), "coefficients", error));
     solve_cut(n, last, g, g + last + 1);
     for (size_t l = 0; l <= max_degree; l++) {
         b[l] = ps_zonal_at_pole(l) * (g[l] / g[0]);
     }
-    free(block);
+    free(g);
     return PSPEC_OK;
 }
 

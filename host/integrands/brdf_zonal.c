@@ -149,12 +149,8 @@ static void reverse(double *values, size_t num) {
 
 static pspec_status fill_nodes(ps_brdf *brdf, const char *path, const char *unit,
                                const ps_pair *rows, size_t num, ps_error *error) {
-    void *nodes = NULL;
-    void *values = NULL;
-    PS_TRY(ps_allocate(&nodes, num, sizeof(double), "a lobe", error));
-    brdf->nodes = nodes;
-    PS_TRY(ps_allocate(&values, num, sizeof(double), "a lobe", error));
-    brdf->values = values;
+    PS_TRY(PS_NEW(&brdf->nodes, num, "a lobe", error));
+    PS_TRY(PS_NEW(&brdf->values, num, "a lobe", error));
     brdf->num_nodes = num;
     for (size_t i = 0; i < num; i++) {
         brdf->nodes[i] = height_of(unit, rows[i].first);

@@ -33,10 +33,8 @@ static void add_node(size_t max_from, size_t max_to, double factor, const double
 
 pspec_status ps_half_range_matrix(size_t max_from, size_t max_to, double *matrix, ps_error *error) {
     const size_t num_nodes = (max_from + max_to) / 2 + 1;
-    void *block = NULL;
-    PS_TRY(ps_allocate(&block, 2 * num_nodes + max_from + max_to + 2, sizeof(double),
-                       "hemispherical harmonics", error));
-    double *const nodes = block;
+    double *nodes = NULL;
+    PS_TRY(PS_NEW(&nodes, 2 * num_nodes + max_from + max_to + 2, "hemispherical harmonics", error));
     double *const weights = nodes + num_nodes;
     double *const from = weights + num_nodes;
     double *const to = from + max_from + 1;
@@ -47,6 +45,6 @@ pspec_status ps_half_range_matrix(size_t max_from, size_t max_to, double *matrix
         fill_legendre(max_to, nodes[i], to);
         add_node(max_from, max_to, weights[i] * sqrt(0.5), from, to, matrix);
     }
-    free(block);
+    free(nodes);
     return PSPEC_OK;
 }

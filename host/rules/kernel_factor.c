@@ -185,13 +185,9 @@ static pspec_status allocate(ps_kernel_factor *factor, search *of, ps_error *err
     factor->values = memory;
     PS_TRY(ps_allocate(&memory, num, MOST * sizeof(uint32_t), "an approximate inverse", error));
     factor->columns = memory;
-    PS_TRY(ps_allocate(&memory, num, sizeof(uint32_t), "an order of points", error));
-    of->order = memory;
-    PS_TRY(ps_allocate(&memory, num, sizeof(double), "distances of points", error));
-    of->nearest = memory;
-    PS_TRY(
-        ps_allocate(&memory, num / CHUNK + 1, sizeof(ps_sobolev_chunk), "points in order", error));
-    of->chunks = memory;
+    PS_TRY(PS_NEW(&of->order, num, "an order of points", error));
+    PS_TRY(PS_NEW(&of->nearest, num, "distances of points", error));
+    PS_TRY(PS_NEW(&of->chunks, num / CHUNK + 1, "points in order", error));
     return PSPEC_OK;
 }
 

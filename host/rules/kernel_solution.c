@@ -30,9 +30,8 @@ pspec_status ps_kernel_system_solve(ps_kernel_system *system, const double *righ
     const size_t n = system->num;
     double *const solution = system->rows;
     double *const residual = system->rows + n;
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, n, sizeof(double), "a right side", error));
-    double *const distinct = memory;
+    double *distinct = NULL;
+    PS_TRY(PS_NEW(&distinct, n, "a right side", error));
     pspec_status status = PSPEC_OK;
     for (size_t j = system->num_points; j-- > 0;) { /* the first one of a group is written last */
         distinct[system->group[j]] = right[j];
@@ -49,7 +48,7 @@ pspec_status ps_kernel_system_solve(ps_kernel_system *system, const double *righ
         *defect = ps_kernel_dot(n, solution, residual);
     }
 out:
-    free(memory);
+    free(distinct);
     return status;
 }
 

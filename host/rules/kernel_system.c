@@ -38,9 +38,8 @@ static int compare_places(const void *a, const void *b) {
 /* group[j] becomes the index of the first point that is the same as point j. */
 static pspec_status find_first_ones(size_t num_points, const double *points, size_t *group,
                                     ps_error *error) {
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, num_points, sizeof(place), "points in order", error));
-    place *const places = memory;
+    place *places = NULL;
+    PS_TRY(PS_NEW(&places, num_points, "points in order", error));
     for (size_t j = 0; j < num_points; j++) {
         memcpy(places[j].u, points + 3 * j, sizeof places[j].u);
         places[j].index = j;
@@ -51,7 +50,7 @@ static pspec_status find_first_ones(size_t num_points, const double *points, siz
         first = j > 0 && compare_vectors(places[j].u, places[first].u) == 0 ? first : j;
         group[places[j].index] = places[first].index;
     }
-    free(memory);
+    free(places);
     return PSPEC_OK;
 }
 
@@ -197,11 +196,10 @@ static pspec_status build(ps_kernel_system *system, const double *points, ps_err
 pspec_status ps_kernel_system_create(ps_kernel_system **out, size_t num_points,
                                      const double *points, double smoothness,
                                      const ps_kernel_options *options, ps_error *error) {
-    void *memory = NULL;
     *out = NULL;
     PS_TRY(ps_sobolev_check(smoothness, error));
-    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_kernel_system), "a kernel system", error));
-    ps_kernel_system *const system = memory;
+    ps_kernel_system *system = NULL;
+    PS_TRY(PS_NEW(&system, 1, "a kernel system", error));
     system->num_points = num_points;
     system->smoothness = smoothness;
     system->constant = ps_sobolev_constant(smoothness);

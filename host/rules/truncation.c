@@ -45,11 +45,9 @@ static pspec_status prepare(conversion *of, const ps_brdf *brdf, ps_error *error
         BEYOND = 400
     }; /* degrees after L whose energy is added up; of the rest, the closed sum */
     const size_t num_sh = of->sh_degree + 2;
-    void *block = NULL;
     of->num_hsh = of->max_degree + BEYOND;
-    PS_TRY(ps_allocate(&block, 3 * num_sh + of->num_hsh + (of->max_degree + 1) * num_sh,
-                       sizeof(double), "a conversion of harmonics", error));
-    of->a = block;
+    PS_TRY(PS_NEW(&of->a, 3 * num_sh + of->num_hsh + (of->max_degree + 1) * num_sh,
+                  "a conversion of harmonics", error));
     of->b = of->a + num_sh;
     of->difference = of->b + num_sh;
     of->hsh = of->difference + num_sh;

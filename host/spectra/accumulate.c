@@ -22,26 +22,20 @@ struct ps_accumulator {
 };
 
 static pspec_status allocate(ps_accumulator *self, ps_error *error) {
-    void *memory = NULL;
     const ps_accumulator_options *options = &self->options;
     size_t num_powers = 0;
     if (!ps_size_multiply(options->batch, self->formed->num, &num_powers)) {
         return ps_fail(error, PSPEC_ERROR_MEMORY, "%zu realizations of %zu bins are too many",
                        options->batch, self->formed->num);
     }
-    PS_TRY(ps_allocate(&memory, options->num_frequencies, sizeof(uint32_t), "slots", error));
-    self->slots = memory;
+    PS_TRY(PS_NEW(&self->slots, options->num_frequencies, "slots", error));
     memcpy(self->slots, options->slots, options->num_frequencies * sizeof(uint32_t));
-    PS_TRY(ps_allocate(&memory, num_powers, sizeof(double), "powers of bins", error));
-    self->bin_powers = memory;
-    PS_TRY(ps_allocate(&memory, options->batch, sizeof(double), "mean powers", error));
-    self->mean_powers = memory;
-    PS_TRY(ps_allocate(&memory, options->bins->num, sizeof(ps_sums), "sums of bins", error));
-    self->bin_sums = memory;
+    PS_TRY(PS_NEW(&self->bin_powers, num_powers, "powers of bins", error));
+    PS_TRY(PS_NEW(&self->mean_powers, options->batch, "mean powers", error));
+    PS_TRY(PS_NEW(&self->bin_sums, options->bins->num, "sums of bins", error));
     if (options->want_frequencies && !options->is_on_device) {
-        PS_TRY(ps_allocate(&memory, options->num_frequencies, sizeof(ps_sums),
-                           "sums of frequencies", error));
-        self->frequency_sums = memory;
+        PS_TRY(
+            PS_NEW(&self->frequency_sums, options->num_frequencies, "sums of frequencies", error));
     }
     return PSPEC_OK;
 }
@@ -87,10 +81,9 @@ static void form_one_bin(ps_accumulator *self) {
 
 pspec_status ps_accumulator_create(ps_accumulator **out, const ps_accumulator_options *options,
                                    ps_device *device, ps_error *error) {
-    void *memory = NULL;
     *out = NULL;
-    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_accumulator), "an accumulator", error));
-    ps_accumulator *self = memory;
+    ps_accumulator *self = NULL;
+    PS_TRY(PS_NEW(&self, 1, "an accumulator", error));
     self->options = *options;
     self->formed = options->bins;
     if (options->is_on_device && has_single_members(options->bins)) {

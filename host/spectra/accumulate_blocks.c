@@ -76,25 +76,19 @@ static int compare_rings(const void *left, const void *right) {
 }
 
 static pspec_status allocate(ps_accumulate_blocks *self, ps_error *error) {
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, self->num_pieces, sizeof *self->rings, "bins", error));
-    self->rings = memory;
-    PS_TRY(ps_allocate(&memory, self->num_members, sizeof *self->members, "bins", error));
-    self->members = memory;
-    PS_TRY(ps_allocate(&memory, self->num_bins, sizeof *self->bin_pieces, "bins", error));
-    self->bin_pieces = memory;
-    PS_TRY(ps_allocate(&memory, self->num_blocks + 1, sizeof *self->first_rings, "bins", error));
-    self->first_rings = memory;
+    PS_TRY(PS_NEW(&self->rings, self->num_pieces, "bins", error));
+    PS_TRY(PS_NEW(&self->members, self->num_members, "bins", error));
+    PS_TRY(PS_NEW(&self->bin_pieces, self->num_bins, "bins", error));
+    PS_TRY(PS_NEW(&self->first_rings, self->num_blocks + 1, "bins", error));
     return PSPEC_OK;
 }
 
 pspec_status ps_accumulate_blocks_create(ps_accumulate_blocks *out, const ps_bins *bins,
                                          const uint32_t *slots, size_t stride, ps_error *error) {
-    void *memory = NULL;
     *out = (ps_accumulate_blocks){.num_bins = bins->num,
                                   .num_blocks = ps_divide_up(stride, PS_ACCUMULATE_BLOCK)};
-    PS_TRY(ps_allocate(&memory, out->num_blocks, sizeof(cursor), "bins", error));
-    cursor *cursors = memory;
+    cursor *cursors = NULL;
+    PS_TRY(PS_NEW(&cursors, out->num_blocks, "bins", error));
     count(out, bins, slots, cursors);
     const pspec_status status = allocate(out, error);
     if (status == PSPEC_OK) {

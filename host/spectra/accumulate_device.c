@@ -136,10 +136,9 @@ static pspec_status create_buffers(ps_device_accumulator *self, ps_error *error)
 pspec_status ps_device_accumulator_create(ps_device_accumulator **out,
                                           const ps_accumulator_options *options, ps_device *device,
                                           ps_error *error) {
-    void *memory = NULL;
     *out = NULL;
-    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_device_accumulator), "an accumulator", error));
-    ps_device_accumulator *self = memory;
+    ps_device_accumulator *self = NULL;
+    PS_TRY(PS_NEW(&self, 1, "an accumulator", error));
     self->device = device;
     self->options = *options;
     self->real_bytes = options->precision == PS_SINGLE ? sizeof(float) : sizeof(double);

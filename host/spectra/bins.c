@@ -98,13 +98,11 @@ static pspec_status check_rings(const ps_bins *bins, const ps_frequencies *set, 
 
 pspec_status ps_bins_create(ps_bins *out, const ps_frequencies *frequencies, bool exact_shells,
                             ps_error *error) {
-    void *memory = NULL;
     keyed *keys = NULL;
     pspec_status status = PSPEC_OK;
     const unsigned num_components = ps_frequency_components(frequencies);
     *out = (ps_bins){0};
-    PS_TRY_OUT(status, ps_allocate(&memory, frequencies->num, sizeof *keys, "bins", error));
-    keys = memory;
+    PS_TRY_OUT(status, PS_NEW(&keys, frequencies->num, "bins", error));
     for (size_t i = 0; i < frequencies->num; i++) {
         const int32_t *k = frequencies->vectors + i * num_components;
         if (ps_frequency_norm2(k, num_components) > 0) {
@@ -114,10 +112,8 @@ pspec_status ps_bins_create(ps_bins *out, const ps_frequencies *frequencies, boo
     qsort(keys, out->num_members, sizeof *keys, compare_keys);
     out->num = count_bins(keys, out->num_members);
     PS_TRY_OUT(status, check_rings(out, frequencies, error));
-    PS_TRY_OUT(status, ps_allocate(&memory, out->num, sizeof *out->bins, "bins", error));
-    out->bins = memory;
-    PS_TRY_OUT(status, ps_allocate(&memory, out->num_members, sizeof *out->members, "bins", error));
-    out->members = memory;
+    PS_TRY_OUT(status, PS_NEW(&out->bins, out->num, "bins", error));
+    PS_TRY_OUT(status, PS_NEW(&out->members, out->num_members, "bins", error));
     fill_bins(out, frequencies, keys);
 out:
     free(keys);

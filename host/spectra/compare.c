@@ -109,10 +109,9 @@ static int by_p_value(const void *a, const void *b) {
  * before it do. */
 static pspec_status adjust(ps_comparison *out, size_t num, double false_alarm_rate,
                            ps_error *error) {
-    void *memory = NULL;
     double largest = 0;
-    PS_TRY(ps_allocate(&memory, num, sizeof(ps_comparison *), "bins in order", error));
-    ps_comparison **const order = memory;
+    ps_comparison **order = NULL;
+    PS_TRY(PS_NEW(&order, num, "bins in order", error));
     for (size_t b = 0; b < num; b++) {
         order[b] = &out[b];
     }

@@ -53,14 +53,12 @@ static void fill_bins(ps_spectrum *out, const ps_bins *bins, const ps_mean *mean
 
 static pspec_status fill(ps_spectrum *out, const ps_frequencies *frequencies, const ps_bins *bins,
                          const ps_mean *bin_means, double factor, ps_error *error) {
-    void *memory = NULL;
     PS_TRY(ps_frequencies_copy(&out->frequencies, frequencies, error));
     for (size_t i = 0; out->powers != NULL && i < frequencies->num; i++) {
         out->powers[i].mean *= factor;
         out->powers[i].standard_error *= factor;
     }
-    PS_TRY(ps_allocate(&memory, bins->num_reported, sizeof *out->bins, "the bins", error));
-    out->bins = memory;
+    PS_TRY(PS_NEW(&out->bins, bins->num_reported, "the bins", error));
     out->num_bins = bins->num_reported;
     fill_bins(out, bins, bin_means, factor);
     return PSPEC_OK;
@@ -134,13 +132,11 @@ pspec_status ps_spectrum_full(const ps_spectrum *spectrum, int which, ps_mean dc
                               size_t *num_entries, ps_error *error) {
     const ps_frequencies *set = &spectrum->frequencies;
     const size_t width = 2 * (size_t)set->max_frequency + 1;
-    void *memory = NULL;
     *num_entries = 1;
     for (unsigned axis = 0; axis < set->dimension; axis++) {
         *num_entries *= width; /* fits: ps_frequencies_lattice checked the size of the box */
     }
-    PS_TRY(ps_allocate(&memory, *num_entries, sizeof(double), "the full spectrum", error));
-    *array = memory;
+    PS_TRY(PS_NEW(array, *num_entries, "the full spectrum", error));
     (*array)[*num_entries / 2] = which == 0 ? dc.mean : dc.standard_error;
     for (size_t i = 0; i < set->num; i++) {
         size_t place = 0;

@@ -217,10 +217,9 @@ static pspec_status check_size(const reader *in, const header *from) {
 /* ---- arrays ------------------------------------------------------------------------------ */
 
 static pspec_status read_list(reader *in, const header *from, ps_frequencies *out) {
-    void *memory = NULL;
     const size_t num = (size_t)from->num_frequencies * (size_t)from->dimension;
-    PS_TRY(ps_allocate(&memory, num, sizeof(int32_t), "frequencies", in->error));
-    int32_t *vectors = memory;
+    int32_t *vectors = NULL;
+    PS_TRY(PS_NEW(&vectors, num, "frequencies", in->error));
     *out = (ps_frequencies){.kind = PS_FREQUENCIES_LIST, .vectors = vectors}; /* to be freed */
     for (size_t i = 0; i < num; i++) {
         uint64_t bits = 0;
@@ -237,10 +236,8 @@ static pspec_status read_list(reader *in, const header *from, ps_frequencies *ou
 
 /* What a list was drawn from. */
 static pspec_status read_rings(reader *in, const header *from, ps_frequencies *set) {
-    void *memory = NULL;
     uint64_t sum = 0;
-    PS_TRY(ps_allocate(&memory, from->num_bins, sizeof *set->rings, "rings", in->error));
-    set->rings = memory;
+    PS_TRY(PS_NEW(&set->rings, from->num_bins, "rings", in->error));
     set->num_rings = (size_t)from->num_bins;
     set->per_ring = from->per_ring;
     if (set->max_frequency > (int64_t)from->max_frequency) {

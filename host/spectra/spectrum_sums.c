@@ -7,12 +7,8 @@
 #include <string.h>
 
 static pspec_status allocate(ps_spectrum_sums *out, ps_error *error) {
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, out->num_bins, sizeof(ps_sums), "sums of bins", error));
-    out->bins = memory;
-    PS_TRY(
-        ps_allocate(&memory, out->frequencies.num, sizeof(ps_sums), "sums of frequencies", error));
-    out->powers = memory;
+    PS_TRY(PS_NEW(&out->bins, out->num_bins, "sums of bins", error));
+    PS_TRY(PS_NEW(&out->powers, out->frequencies.num, "sums of frequencies", error));
     return PSPEC_OK;
 }
 

@@ -65,11 +65,9 @@ static void free_averages(averages *self) {
 }
 
 static pspec_status make_averages(averages *self, ps_error *error) {
-    void *memory = NULL;
     PS_TRY(ps_frequencies_lattice(&self->set, 2, REACH, true, error));
     PS_TRY(ps_frequencies_enumerate(&self->set, error));
-    PS_TRY(ps_allocate(&memory, REALIZATIONS * self->set.num, sizeof(double), "powers", error));
-    self->powers = memory;
+    PS_TRY(PS_NEW(&self->powers, REALIZATIONS * self->set.num, "powers", error));
     for (size_t r = 0; r < REALIZATIONS; r++) {
         PS_TRY(ps_torus_shape_make(&ps_torus_shapes[0], 2, POINTS, r, &self->patterns[r], error));
         for (size_t i = 0; i < self->set.num; i++) {

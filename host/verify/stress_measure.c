@@ -71,13 +71,10 @@ static pspec_status run_engine(measurement *self, ps_error *error) {
 
 static pspec_status prepare(measurement *self, ps_error *error) {
     const ps_stress_sample *sample = self->sample;
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, sample->frequencies.num, sizeof(double), "powers", error));
-    self->powers = memory;
+    PS_TRY(PS_NEW(&self->powers, sample->frequencies.num, "powers", error));
     if (sample->what->kind == PS_STRESS_SPHERE && self->engine->coefficients != NULL) {
-        PS_TRY(ps_allocate(&memory, ps_num_coefficients(sample->frequencies.max_frequency),
-                           sizeof(double), "coefficients", error));
-        self->coefficients = memory;
+        PS_TRY(PS_NEW(&self->coefficients, ps_num_coefficients(sample->frequencies.max_frequency),
+                      "coefficients", error));
     }
     return self->engine->create(&self->state, &self->own, self->precision, 1, self->device, error);
 }

@@ -24,9 +24,8 @@ static pspec_status make_list(ps_stress_sample *self, ps_error *error) {
     const ps_stress_case *what = self->what;
     const size_t num = what->num_listed;
     uint64_t state = list_seed;
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, num * what->dimension, sizeof(int32_t), "frequencies", error));
-    int32_t *vectors = memory;
+    int32_t *vectors = NULL;
+    PS_TRY(PS_NEW(&vectors, num * what->dimension, "frequencies", error));
     for (size_t i = 0; i < num * what->dimension; i++) {
         vectors[i] = (int32_t)((2 * ps_stress_uniform(&state) - 1) * what->reach);
     }
@@ -50,10 +49,8 @@ static pspec_status make_frequencies(ps_stress_sample *self, ps_error *error) {
 static pspec_status choose_checked(ps_stress_sample *self, ps_error *error) {
     const size_t num = self->frequencies.num;
     const size_t wanted = self->what->num_checked;
-    void *memory = NULL;
     self->num_checked = wanted > 0 && wanted < num ? wanted : num;
-    PS_TRY(ps_allocate(&memory, self->num_checked, sizeof(uint32_t), "frequencies", error));
-    self->checked = memory;
+    PS_TRY(PS_NEW(&self->checked, self->num_checked, "frequencies", error));
     for (size_t i = 0; i < self->num_checked; i++) {
         self->checked[i] = (uint32_t)((i + 1) * num / self->num_checked - 1);
     }
@@ -227,9 +224,8 @@ static pspec_status ask_all(ps_stress_sample *self, bool (*should_stop)(void *pa
 
 static pspec_status ask_pairs(ps_stress_sample *self, ps_error *error) {
     const int32_t last = self->frequencies.max_frequency;
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, (size_t)last + 1, sizeof(long double), "degrees", error));
-    long double *sums = memory;
+    long double *sums = NULL;
+    PS_TRY(PS_NEW(&sums, (size_t)last + 1, "degrees", error));
     const pspec_status status =
         ps_host_pairs(&self->pattern, self->sums.exponent, last, sums, error);
     for (size_t i = 0; status == PSPEC_OK && i < self->num_checked; i++) {
@@ -254,16 +250,13 @@ static double measure_power(const ps_stress_sample *self) {
 
 pspec_status ps_stress_sample_judge(ps_stress_sample *sample, bool (*should_stop)(void *payload),
                                     void *payload, ps_error *error) {
-    void *memory = NULL;
     if (sample->truth != NULL) {
         return PSPEC_OK;
     }
-    PS_TRY(ps_allocate(&memory, sample->num_checked, sizeof(long double), "degrees", error));
-    sample->truth = memory;
+    PS_TRY(PS_NEW(&sample->truth, sample->num_checked, "degrees", error));
     if (sample->what->kind == PS_STRESS_SPHERE) {
-        PS_TRY(ps_allocate(&memory, first_order(sample, sample->num_checked),
-                           sizeof *sample->harmonics, "orders", error));
-        sample->harmonics = memory;
+        PS_TRY(
+            PS_NEW(&sample->harmonics, first_order(sample, sample->num_checked), "orders", error));
     }
     const bool is_whole = sample->num_checked == sample->frequencies.num;
     PS_TRY(is_whole && sample->what->kind == PS_STRESS_PAIRS

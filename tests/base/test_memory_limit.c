@@ -258,6 +258,15 @@ static void arrays_are_refused(void **state) {
     ps_memory_room_find(&room, 0);
     const size_t too_many = (size_t)(room.bytes / 8 + room.bytes / 64);
     assert_int_equal(ps_allocate(&array, too_many, 8, "points", &said), PSPEC_ERROR_MEMORY);
+    double numbers[1];
+    double *typed = numbers;
+    ps_error again = {0};
+    assert_int_equal(PS_NEW(&typed, too_many, "points", &again), PSPEC_ERROR_MEMORY);
+    assert_null(typed);
+    assert_string_equal(again.message, said.message);
+    assert_ok(PS_NEW(&typed, 3, "points", error));
+    assert_true(typed[0] == 0 && typed[2] == 0);
+    free(typed);
     assert_null(array);
     assert_non_null(strstr(said.message, "not enough memory for points: they take "));
     assert_non_null(strstr(said.message, room.by));

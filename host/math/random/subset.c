@@ -12,7 +12,6 @@ typedef struct number_set {
 } number_set;
 
 static pspec_status create_set(number_set *set, size_t count, ps_error *error) {
-    void *memory = NULL;
     set->num_slots = 2;
     while (set->num_slots / 2 < count) {
         if (set->num_slots > SIZE_MAX / 2) {
@@ -21,8 +20,7 @@ static pspec_status create_set(number_set *set, size_t count, ps_error *error) {
         }
         set->num_slots *= 2;
     }
-    PS_TRY(ps_allocate(&memory, set->num_slots, sizeof(uint64_t), "a random subset", error));
-    set->slots = memory;
+    PS_TRY(PS_NEW(&set->slots, set->num_slots, "a random subset", error));
     return PSPEC_OK;
 }
 

@@ -20,8 +20,7 @@ pspec_status ps_bench_sets_create(ps_bench_sets *out, const ps_bench_case *what,
                                   ps_error *error) {
     void *memory = NULL;
     *out = (ps_bench_sets){.what = what, .capacity = (size_t)num};
-    PS_TRY(ps_allocate(&memory, out->capacity, sizeof *out->patterns, "realizations", error));
-    out->patterns = memory;
+    PS_TRY(PS_NEW(&out->patterns, out->capacity, "realizations", error));
     pspec_status status =
         ps_allocate(&memory, out->capacity, sizeof *out->scales, "realizations", error);
     if (status != PSPEC_OK) {
