@@ -3,7 +3,7 @@
  * With L = w (cos, sin)(2 pi l.x) and R = (cos, sin)(2 pi r.x), the four real sums of products
  *     cc, sc, cs, ss = sum_j L_{cos|sin} R_{cos|sin}
  * give S(l + r) = (cc - ss) - i (sc + cs) and S(l - r) = (cc + ss) - i (sc - cs): 4 fused
- * operations per point for two frequencies and their conjugates (algorithms.md T7).
+ * operations per point for two frequencies and their conjugates.
  *
  * One work-item owns one pair of tiles (LANES left times LANES right frequencies) of one
  * realization, and works through it in strips of STRIP left frequencies: 4 STRIP accumulators, one

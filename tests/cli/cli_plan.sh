@@ -64,5 +64,5 @@ plan run scene.yaml
 grep -q '^# phase: pictures; .*; 1 by gnuplot' plan.csv || complain "scene: $(<plan.csv)"
 grep -q '^a:2,,phase,' plan.csv || complain "rows of phases: $(<plan.csv)"
 
-"$bench" --quick "$program" >table.md 2>&1 || complain "seconds: $(<table.md)"
+"$bench" --quick "$program" >table.txt 2>&1 || complain "seconds: $(<table.txt)"
 exit $bad
