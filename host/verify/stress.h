@@ -29,7 +29,7 @@ typedef struct ps_stress_probe {
 
 typedef struct ps_stress_case {
     const char *name;
-    const char *section; /* a heading of docs/mathematics/numerics.md or docs/mathematics/quadrature.md */
+    const char *section; /* a heading of docs/mathematics: of the numerics, or of quadrature */
     const char *summary;
     ps_stress_kind kind;
     bool is_quick;
