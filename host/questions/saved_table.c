@@ -20,8 +20,8 @@ typedef struct reader {
     ps_error *error;
 } reader;
 
-static pspec_status fail_damaged(const reader *from, const char *what) {
-    return ps_fail(from->error, PSPEC_ERROR_INPUT, "\"%s\": %s", from->name, what);
+static pspec_status fail_damaged(const reader *source, const char *what) {
+    return ps_fail(source->error, PSPEC_ERROR_INPUT, "\"%s\": %s", source->name, what);
 }
 
 /* ---- single values ----------------------------------------------------------------------- */
@@ -34,16 +34,17 @@ static bool take_whole(const cJSON *item, uint64_t least, uint64_t most, uint64_
     return is_good;
 }
 
-static const cJSON *entry(const reader *from, const char *key) {
-    return cJSON_GetObjectItemCaseSensitive(from->meta, key);
+static const cJSON *entry(const reader *source, const char *key) {
+    return cJSON_GetObjectItemCaseSensitive(source->meta, key);
 }
 
-static pspec_status need_whole(const reader *from, const char *key, uint64_t most, uint64_t *out) {
-    return take_whole(entry(from, key), 1, most, out)
+static pspec_status need_whole(const reader *source, const char *key, uint64_t most,
+                               uint64_t *out) {
+    return take_whole(entry(source, key), 1, most, out)
                ? PSPEC_OK
-               : ps_fail(from->error, PSPEC_ERROR_INPUT,
+               : ps_fail(source->error, PSPEC_ERROR_INPUT,
                          "\"%s\": \"%s\" of \"meta\" is not a whole number from 1 to %llu",
-                         from->name, key, (unsigned long long)most);
+                         source->name, key, (unsigned long long)most);
 }
 
 static bool begins_with(const cJSON *item, const char *beginning) {
@@ -53,13 +54,13 @@ static bool begins_with(const cJSON *item, const char *beginning) {
 /* ---- header ------------------------------------------------------------------------------ */
 
 /* "mean 1023.5, from 1000 to 1040", or one number. */
-static pspec_status read_points(const reader *from) {
-    const cJSON *const item = entry(from, "points");
-    ps_saved_spectrum *const out = from->out;
+static pspec_status read_points(const reader *source) {
+    const cJSON *const item = entry(source, "points");
+    ps_saved_spectrum *const out = source->out;
     unsigned long long smallest = 0;
     unsigned long long largest = 0;
     if (!cJSON_IsString(item)) {
-        PS_TRY(need_whole(from, "points", MOST_EXACT, &out->smallest_points));
+        PS_TRY(need_whole(source, "points", MOST_EXACT, &out->smallest_points));
         out->largest_points = out->smallest_points;
         out->mean_points = (double)out->smallest_points;
         return PSPEC_OK;
@@ -68,64 +69,65 @@ static pspec_status read_points(const reader *from) {
                &largest) != 3 ||
         smallest == 0 || smallest > largest || largest > MOST_EXACT ||
         !(out->mean_points >= (double)smallest && out->mean_points <= (double)largest)) {
-        return fail_damaged(from, "\"points\" of \"meta\" is no range of numbers of points");
+        return fail_damaged(source, "\"points\" of \"meta\" is no range of numbers of points");
     }
     out->smallest_points = smallest;
     out->largest_points = largest;
     return PSPEC_OK;
 }
 
-static pspec_status read_normalization(const reader *from) {
-    const cJSON *const item = entry(from, "normalization");
+static pspec_status read_normalization(const reader *source) {
+    const cJSON *const item = entry(source, "normalization");
     const bool is_effective = begins_with(item, "effective");
-    from->out->normalization =
+    source->out->normalization =
         is_effective ? PSPEC_NORMALIZATION_EFFECTIVE : PSPEC_NORMALIZATION_POWER;
     return is_effective || begins_with(item, "power")
                ? PSPEC_OK
-               : fail_damaged(from, "\"normalization\" of \"meta\" is neither power nor effective");
+               : fail_damaged(source,
+                              "\"normalization\" of \"meta\" is neither power nor effective");
 }
 
-static pspec_status read_domain(const reader *from) {
-    ps_saved_spectrum *const out = from->out;
+static pspec_status read_domain(const reader *source) {
+    ps_saved_spectrum *const out = source->out;
     uint64_t number = 0;
     if (out->on_sphere) {
-        out->on_hemisphere = begins_with(entry(from, "domain"), "hemisphere");
+        out->on_hemisphere = begins_with(entry(source, "domain"), "hemisphere");
         out->dimension = PS_SPHERE_DIMENSION;
-        PS_TRY(need_whole(from, "max_degree", PS_MAX_DEGREE, &number));
+        PS_TRY(need_whole(source, "max_degree", PS_MAX_DEGREE, &number));
     } else {
-        PS_TRY(need_whole(from, "dimension", PS_MAX_TORUS_DIMENSION, &number));
+        PS_TRY(need_whole(source, "dimension", PS_MAX_TORUS_DIMENSION, &number));
         out->dimension = (unsigned)number;
-        PS_TRY(need_whole(from, "max_frequency", PS_MAX_FREQUENCY, &number));
+        PS_TRY(need_whole(source, "max_frequency", PS_MAX_FREQUENCY, &number));
     }
     out->max_frequency = (int32_t)number;
     return PSPEC_OK;
 }
 
 /* The same subset is drawn again only with the same seed. */
-static pspec_status read_subset(const reader *from) {
-    ps_saved_spectrum *const out = from->out;
-    out->has_seed = take_whole(entry(from, "seed"), 0, MOST_EXACT, &out->seed);
-    if (entry(from, "per_ring") == NULL) {
+static pspec_status read_subset(const reader *source) {
+    ps_saved_spectrum *const out = source->out;
+    out->has_seed = take_whole(entry(source, "seed"), 0, MOST_EXACT, &out->seed);
+    if (entry(source, "per_ring") == NULL) {
         return PSPEC_OK;
     }
-    PS_TRY(need_whole(from, "per_ring", PS_MAX_NUM_FREQUENCIES, &out->per_ring));
+    PS_TRY(need_whole(source, "per_ring", PS_MAX_NUM_FREQUENCIES, &out->per_ring));
     return out->has_seed
                ? PSPEC_OK
-               : fail_damaged(from, "\"seed\" of \"meta\", which the random subset of every ring "
-                                    "depends on, is not a whole number from 0 to 2^53");
+               : fail_damaged(source, "\"seed\" of \"meta\", which the random subset of every ring "
+                                      "depends on, is not a whole number from 0 to 2^53");
 }
 
-static pspec_status read_header(const reader *from) {
-    const cJSON *const error = entry(from, "predicted_error");
-    PS_TRY(need_whole(from, "realizations", MOST_EXACT, &from->out->num_realizations));
-    PS_TRY(read_points(from));
-    PS_TRY(read_normalization(from));
-    PS_TRY(read_domain(from));
+static pspec_status read_header(const reader *source) {
+    const cJSON *const error = entry(source, "predicted_error");
+    PS_TRY(need_whole(source, "realizations", MOST_EXACT, &source->out->num_realizations));
+    PS_TRY(read_points(source));
+    PS_TRY(read_normalization(source));
+    PS_TRY(read_domain(source));
     if (!cJSON_IsNumber(error) || !(error->valuedouble >= 0 && isfinite(error->valuedouble))) {
-        return fail_damaged(from, "\"predicted_error\" of \"meta\" is not a number from 0 on");
+        return fail_damaged(source, "\"predicted_error\" of \"meta\" is not a number from 0 on");
     }
-    from->out->error = error->valuedouble;
-    return read_subset(from);
+    source->out->error = error->valuedouble;
+    return read_subset(source);
 }
 
 /* ---- rows -------------------------------------------------------------------------------- */
@@ -147,22 +149,24 @@ static int find_column(const cJSON *columns, const char *name) {
     return -1;
 }
 
-static pspec_status find_places(const reader *from, places *at) {
-    const cJSON *const columns = cJSON_GetObjectItemCaseSensitive(from->root, "columns");
+static pspec_status find_places(const reader *source, places *at) {
+    const cJSON *const columns = cJSON_GetObjectItemCaseSensitive(source->root, "columns");
     if (find_column(columns, "sampler") >= 0) {
-        return fail_damaged(from, "this is the table of several samplers; save one of them alone");
+        return fail_damaged(source,
+                            "this is the table of several samplers; save one of them alone");
     }
     if (find_column(columns, "k1") >= 0) {
-        return fail_damaged(from, "this is a list of frequencies, and rings are compared; save one "
-                                  "without --frequencies");
+        return fail_damaged(source,
+                            "this is a list of frequencies, and rings are compared; save one "
+                            "without --frequencies");
     }
-    *at = (places){find_column(columns, from->out->on_sphere ? "degree" : "bin"),
+    *at = (places){find_column(columns, source->out->on_sphere ? "degree" : "bin"),
                    find_column(columns, "frequency"), find_column(columns, "power"),
                    find_column(columns, "standard_error"), cJSON_GetArraySize(columns)};
     return at->key >= 0 && at->power >= 0 && at->standard_error >= 0 &&
-                   (from->out->on_sphere || at->frequency >= 0)
+                   (source->out->on_sphere || at->frequency >= 0)
                ? PSPEC_OK
-               : fail_damaged(from, "\"columns\" are not those of pointspec power or angular");
+               : fail_damaged(source, "\"columns\" are not those of pointspec power or angular");
 }
 
 /* null where there is one realization, and only there. */
@@ -201,25 +205,25 @@ static bool is_shell(double frequency, int64_t key) {
     return fabs(frequency * frequency / (double)key - 1) < rounding;
 }
 
-static pspec_status read_rows(const reader *from) {
-    const cJSON *const rows = cJSON_GetObjectItemCaseSensitive(from->root, "rows");
+static pspec_status read_rows(const reader *source) {
+    const cJSON *const rows = cJSON_GetObjectItemCaseSensitive(source->root, "rows");
     const cJSON *row = NULL;
-    ps_saved_spectrum *const out = from->out;
+    ps_saved_spectrum *const out = source->out;
     places at = {0};
     double frequency = 0;
     void *memory = NULL;
-    PS_TRY(find_places(from, &at));
+    PS_TRY(find_places(source, &at));
     if (!cJSON_IsArray(rows) || rows->child == NULL) {
-        return fail_damaged(from, "there are no \"rows\"");
+        return fail_damaged(source, "there are no \"rows\"");
     }
     PS_TRY(ps_allocate(&memory, (size_t)cJSON_GetArraySize(rows), sizeof *out->bins, "saved bins",
-                       from->error));
+                       source->error));
     out->bins = memory;
     cJSON_ArrayForEach(row, rows) {
         if (!take_row(out, &at, row, &frequency)) {
-            return ps_fail(from->error, PSPEC_ERROR_INPUT,
+            return ps_fail(source->error, PSPEC_ERROR_INPUT,
                            "\"%s\": row %zu is not what pointspec power or angular writes",
-                           from->name, out->num_bins + 1);
+                           source->name, out->num_bins + 1);
         }
     }
     out->exact_shells = !out->on_sphere && is_shell(frequency, out->bins[out->num_bins - 1].key);
@@ -228,21 +232,22 @@ static pspec_status read_rows(const reader *from) {
 
 /* ---- all --------------------------------------------------------------------------------- */
 
-static pspec_status read_root(reader *from) {
+static pspec_status read_root(reader *source) {
     uint64_t schema = 0;
-    const cJSON *const command = cJSON_GetObjectItemCaseSensitive(from->root, "command");
-    from->meta = cJSON_GetObjectItemCaseSensitive(from->root, "meta");
-    if (!take_whole(cJSON_GetObjectItemCaseSensitive(from->root, "schema"), 1, 1, &schema) ||
-        !cJSON_IsString(command) || !cJSON_IsObject(from->meta)) {
-        return fail_damaged(from, "this is no table of pointspec (\"schema\": 1)");
+    const cJSON *const command = cJSON_GetObjectItemCaseSensitive(source->root, "command");
+    source->meta = cJSON_GetObjectItemCaseSensitive(source->root, "meta");
+    if (!take_whole(cJSON_GetObjectItemCaseSensitive(source->root, "schema"), 1, 1, &schema) ||
+        !cJSON_IsString(command) || !cJSON_IsObject(source->meta)) {
+        return fail_damaged(source, "this is no table of pointspec (\"schema\": 1)");
     }
-    from->out->on_sphere = strcmp(command->valuestring, "angular") == 0;
-    if (!from->out->on_sphere && strcmp(command->valuestring, "power") != 0) {
-        return fail_damaged(from, "this is the table of another command; those of pointspec power "
-                                  "and angular are compared");
+    source->out->on_sphere = strcmp(command->valuestring, "angular") == 0;
+    if (!source->out->on_sphere && strcmp(command->valuestring, "power") != 0) {
+        return fail_damaged(source,
+                            "this is the table of another command; those of pointspec power "
+                            "and angular are compared");
     }
-    PS_TRY(read_header(from));
-    return read_rows(from);
+    PS_TRY(read_header(source));
+    return read_rows(source);
 }
 
 /* cJSON tells where it stopped, but not why: that may have been a lack of memory, too. */
@@ -257,9 +262,9 @@ pspec_status ps_saved_table_parse(ps_saved_spectrum *out, const char *text, size
                                   const char *name, ps_error *error) {
     const char *end = NULL;
     cJSON *const root = cJSON_ParseWithLengthOpts(text, num_bytes, &end, false);
-    reader from = {.out = out, .root = root, .name = name, .error = error};
+    reader source = {.out = out, .root = root, .name = name, .error = error};
     const pspec_status status =
-        root != NULL ? read_root(&from) : fail_parse(text, end, name, error);
+        root != NULL ? read_root(&source) : fail_parse(text, end, name, error);
     cJSON_Delete(root);
     return status;
 }

@@ -7,13 +7,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-pspec_status ps_bench_rows_add(ps_bench_rows *to, const ps_bench_row *rows, size_t num,
+pspec_status ps_bench_rows_add(ps_bench_rows *list, const ps_bench_row *rows, size_t num,
                                ps_error *error) {
-    void *memory = to->rows;
-    PS_TRY(ps_grow(&memory, &to->capacity, to->num + num, sizeof *rows, "rows", error));
-    to->rows = memory;
+    void *memory = list->rows;
+    PS_TRY(ps_grow(&memory, &list->capacity, list->num + num, sizeof *rows, "rows", error));
+    list->rows = memory;
     for (size_t i = 0; i < num; i++) {
-        to->rows[to->num++] = rows[i];
+        list->rows[list->num++] = rows[i];
     }
     return PSPEC_OK;
 }
@@ -110,28 +110,30 @@ static pspec_status make_panel(panel *out, ps_plot_panel *plot, const ps_bench_r
     return PSPEC_OK;
 }
 
-static size_t count_of_case(const ps_bench_rows *all, size_t first) {
+static size_t count_of_case(const ps_bench_rows *measured, size_t first) {
     size_t num = 1;
-    while (first + num < all->num && all->rows[first + num].what == all->rows[first].what) {
+    while (first + num < measured->num &&
+           measured->rows[first + num].what == measured->rows[first].what) {
         num++;
     }
     return num;
 }
 
-static size_t count_panels(const ps_bench_rows *all) {
+static size_t count_panels(const ps_bench_rows *measured) {
     size_t num = 0;
-    for (size_t i = 0; i < all->num; i += count_of_case(all, i)) {
+    for (size_t i = 0; i < measured->num; i += count_of_case(measured, i)) {
         num++;
     }
     return num;
 }
 
-static pspec_status draw(const char *path, const ps_bench_rows *all, const char *device,
+static pspec_status draw(const char *path, const ps_bench_rows *measured, const char *device,
                          panel *panels, ps_plot_panel *plots, ps_error *error) {
     char title[256];
     size_t num = 0;
-    for (size_t i = 0; i < all->num; i += count_of_case(all, i)) {
-        PS_TRY(make_panel(&panels[num], &plots[num], all->rows + i, count_of_case(all, i), error));
+    for (size_t i = 0; i < measured->num; i += count_of_case(measured, i)) {
+        PS_TRY(make_panel(&panels[num], &plots[num], measured->rows + i, count_of_case(measured, i),
+                          error));
         num++;
     }
     snprintf(title, sizeof title, "run time against error, %s", device);
@@ -143,16 +145,16 @@ static pspec_status draw(const char *path, const ps_bench_rows *all, const char 
     return ps_panel_plot_write(path, &plot, error);
 }
 
-pspec_status ps_bench_plot(const char *path, const ps_bench_rows *all, const char *device,
+pspec_status ps_bench_plot(const char *path, const ps_bench_rows *measured, const char *device,
                            ps_error *error) {
-    const size_t num = count_panels(all);
+    const size_t num = count_panels(measured);
     void *memory = NULL;
     void *plots = NULL;
     PS_TRY(ps_allocate(&memory, num, sizeof(panel), "a picture", error));
     panel *panels = memory;
     pspec_status status = ps_allocate(&plots, num, sizeof(ps_plot_panel), "a picture", error);
     if (status == PSPEC_OK) {
-        status = draw(path, all, device, panels, plots, error);
+        status = draw(path, measured, device, panels, plots, error);
     }
     for (size_t i = 0; i < num; i++) {
         free(panels[i].numbers);

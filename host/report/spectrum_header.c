@@ -19,9 +19,9 @@ typedef struct header {
     pspec_status status; /* the first failure; later entries do nothing */
 } header;
 
-static void put(header *to, const char *key, ps_cell value) {
-    if (to->status == PSPEC_OK) {
-        to->status = ps_table_add_meta(to->table, key, value, to->error);
+static void put(header *head, const char *key, ps_cell value) {
+    if (head->status == PSPEC_OK) {
+        head->status = ps_table_add_meta(head->table, key, value, head->error);
     }
 }
 
@@ -37,93 +37,93 @@ static const char *name_normalization(const ps_request *arguments, const ps_prob
     return arguments->effective ? "effective: |S|^2 / sum w^2" : "power: N |S|^2 / (sum w)^2";
 }
 
-static void put_common(header *to, const ps_request *arguments, const ps_problem *problem) {
-    put(to, "pointspec_version", PS_TEXT(PS_VERSION));
-    put(to, "schema", PS_INTEGER(1));
-    put(to, "command", PS_TEXT(arguments->command_line));
-    put(to, "normalization", PS_TEXT(name_normalization(arguments, problem)));
+static void put_common(header *head, const ps_request *arguments, const ps_problem *problem) {
+    put(head, "pointspec_version", PS_TEXT(PS_VERSION));
+    put(head, "schema", PS_INTEGER(1));
+    put(head, "command", PS_TEXT(arguments->command_line));
+    put(head, "normalization", PS_TEXT(name_normalization(arguments, problem)));
     if (arguments->num_samplers > 0 || arguments->per_ring > 0) {
-        put(to, "seed", PS_INTEGER(arguments->seed));
+        put(head, "seed", PS_INTEGER(arguments->seed));
     }
     if (arguments->num_samplers > 0) {
-        put(to, "homogenize", PS_TEXT(arguments->homogenize ? "yes" : "no"));
+        put(head, "homogenize", PS_TEXT(arguments->homogenize ? "yes" : "no"));
     }
 }
 
-static void put_points(header *to, const ps_spectrum *spectrum, const ps_needs *needs) {
+static void put_points(header *head, const ps_spectrum *spectrum, const ps_needs *needs) {
     char range[96];
     if (spectrum->smallest_points == spectrum->largest_points) {
-        put(to, "points", PS_INTEGER(spectrum->largest_points));
+        put(head, "points", PS_INTEGER(spectrum->largest_points));
     } else {
         snprintf(range, sizeof range, "mean %.17g, from %zu to %zu", spectrum->mean_points,
                  spectrum->smallest_points, spectrum->largest_points);
-        put(to, "points", PS_TEXT(range));
+        put(head, "points", PS_TEXT(range));
     }
-    put(to, "realizations", PS_INTEGER(spectrum->num_realizations));
+    put(head, "realizations", PS_INTEGER(spectrum->num_realizations));
     if (spectrum->num_realizations == 1) {
-        put(to, "standard_error",
+        put(head, "standard_error",
             PS_TEXT(spectrum->frequencies.rings != NULL
                         ? "one realization: that of the choice of frequencies, none for complete "
                           "rings"
                         : "none: one realization"));
     } else if (!needs->one_realization && !is_on_sphere(&spectrum->frequencies)) {
-        put(to, "noise_level_db", PS_NUMBER(-10 * log10((double)spectrum->num_realizations)));
+        put(head, "noise_level_db", PS_NUMBER(-10 * log10((double)spectrum->num_realizations)));
     }
-    put(to, "weight_sum", PS_NUMBER(spectrum->mean_weight_sum));
+    put(head, "weight_sum", PS_NUMBER(spectrum->mean_weight_sum));
 }
 
 /* Both signs, as in the table. */
-static void put_subset(header *to, const ps_request *arguments, const ps_frequencies *set) {
+static void put_subset(header *head, const ps_request *arguments, const ps_frequencies *set) {
     char text[128];
     if (arguments->per_ring == 0) {
         return;
     }
-    put(to, "per_ring", PS_INTEGER(arguments->per_ring));
+    put(head, "per_ring", PS_INTEGER(arguments->per_ring));
     snprintf(text, sizeof text, "%llu of %llu frequencies of the rings, both signs",
              2 * (unsigned long long)set->num,
              2 * (unsigned long long)ps_frequencies_population(set));
-    put(to, "computed", PS_TEXT(text));
+    put(head, "computed", PS_TEXT(text));
 }
 
-static void put_frequencies(header *to, const ps_request *arguments, const ps_frequencies *set) {
+static void put_frequencies(header *head, const ps_request *arguments, const ps_frequencies *set) {
     if (is_on_sphere(set)) {
-        put(to, "domain", PS_TEXT(set->degree_step > 1 ? "hemisphere, even degrees" : "sphere"));
-        put(to, "max_degree", PS_INTEGER(set->max_frequency));
+        put(head, "domain", PS_TEXT(set->degree_step > 1 ? "hemisphere, even degrees" : "sphere"));
+        put(head, "max_degree", PS_INTEGER(set->max_frequency));
         return;
     }
-    put(to, "dimension", PS_INTEGER(set->dimension));
-    put(to, "max_frequency", PS_INTEGER(set->max_frequency));
-    put_subset(to, arguments, set);
+    put(head, "dimension", PS_INTEGER(set->dimension));
+    put(head, "max_frequency", PS_INTEGER(set->max_frequency));
+    put_subset(head, arguments, set);
 }
 
-static void put_self_check(header *to, const ps_accuracy *accuracy, const ps_problem *problem) {
+static void put_self_check(header *head, const ps_accuracy *accuracy, const ps_problem *problem) {
     const bool on_sphere = is_on_sphere(problem->frequencies);
     char text[96];
     if (accuracy->was_checked && problem->measure == PS_OF_PAIR_SUMS) {
         snprintf(text, sizeof text, "%.2g (sum |w|)^2, largest deviation of Q(l) from host_direct",
                  accuracy->self_check);
-        put(to, "self_check", PS_TEXT(text));
+        put(head, "self_check", PS_TEXT(text));
     } else if (accuracy->was_checked) {
         snprintf(text, sizeof text, "%.2g sqrt(sum w^2), largest deviation of %s from host_direct",
                  accuracy->self_check, on_sphere ? "sqrt(Q(l))" : "|S|");
-        put(to, "self_check", PS_TEXT(text));
+        put(head, "self_check", PS_TEXT(text));
     } else {
-        put(to, "self_check", PS_TEXT("none"));
+        put(head, "self_check", PS_TEXT("none"));
     }
 }
 
 /* Rounding of coordinates in double precision is not worth a line. */
-static void put_lengths(header *to, const ps_accuracy *accuracy) {
+static void put_lengths(header *head, const ps_accuracy *accuracy) {
     const double rounding = 1e-15;
     char text[96];
     if (accuracy->length_error > rounding) {
         snprintf(text, sizeof text, "divided by their lengths, which differ from 1 by up to %.2g",
                  accuracy->length_error);
-        put(to, "vectors", PS_TEXT(text));
+        put(head, "vectors", PS_TEXT(text));
     }
 }
 
-static void put_look(header *to, const ps_request *arguments, const ps_power_job *job) {
+static void put_look(header *head, const ps_request *arguments, const ps_power_job *job) {
     const ps_sequential_look *look = ps_power_job_look(job);
     char text[160];
     if (look == NULL) {
@@ -135,56 +135,56 @@ static void put_look(header *to, const ps_request *arguments, const ps_power_job
              look->relative_error,
              is_on_sphere(ps_power_job_problem(job)->frequencies) ? "degree" : "bin",
              (long long)look->bin, look->corrected);
-    put(to, "relative_standard_error", PS_TEXT(text));
+    put(head, "relative_standard_error", PS_TEXT(text));
 }
 
-static void put_job(header *to, const ps_request *arguments, const ps_power_job *job,
+static void put_job(header *head, const ps_request *arguments, const ps_power_job *job,
                     size_t index) {
     const ps_device_limits *limits = ps_power_job_limits(job);
     const ps_candidate *chosen = ps_power_job_plan(job)->chosen;
     ps_text skipped = {0};
     if (arguments->num_samplers > 0) {
         const char *note = ps_sampler_note(ps_power_job_sampler(job));
-        put(to, "sampler", PS_TEXT(arguments->samplers[index]));
+        put(head, "sampler", PS_TEXT(arguments->samplers[index]));
         if (note != NULL) {
-            put(to, "sampler_note", PS_TEXT(note));
+            put(head, "sampler_note", PS_TEXT(note));
         }
     } else {
-        put(to, "input_format", PS_TEXT(ps_power_job_source_format(job)));
-        put(to, "input_columns", PS_TEXT(ps_power_job_source_columns(job)));
+        put(head, "input_format", PS_TEXT(ps_power_job_source_format(job)));
+        put(head, "input_columns", PS_TEXT(ps_power_job_source_columns(job)));
     }
-    put_points(to, ps_power_job_spectrum(job), ps_power_job_needs(job));
-    put_look(to, arguments, job);
-    put_lengths(to, ps_power_job_accuracy(job));
-    put_frequencies(to, arguments, ps_power_job_problem(job)->frequencies);
-    put(to, "device",
+    put_points(head, ps_power_job_spectrum(job), ps_power_job_needs(job));
+    put_look(head, arguments, job);
+    put_lengths(head, ps_power_job_accuracy(job));
+    put_frequencies(head, arguments, ps_power_job_problem(job)->frequencies);
+    put(head, "device",
         PS_TEXT(limits != NULL && chosen->engine->needs_device ? limits->name : "host"));
-    put(to, "engine", PS_TEXT(ps_power_job_description(job)));
-    put(to, "precision", PS_TEXT(ps_precision_name(chosen->precision)));
-    put(to, "tolerance", PS_NUMBER(ps_power_job_problem(job)->tolerance));
-    put(to, "predicted_error", PS_NUMBER(ps_power_job_accuracy(job)->error));
+    put(head, "engine", PS_TEXT(ps_power_job_description(job)));
+    put(head, "precision", PS_TEXT(ps_precision_name(chosen->precision)));
+    put(head, "tolerance", PS_NUMBER(ps_power_job_problem(job)->tolerance));
+    put(head, "predicted_error", PS_NUMBER(ps_power_job_accuracy(job)->error));
     if (ps_power_job_was_replanned(job)) {
-        put(to, "planned_twice", PS_TEXT("the powers measured needed a more exact engine"));
+        put(head, "planned_twice", PS_TEXT("the powers measured needed a more exact engine"));
     }
-    put_self_check(to, ps_power_job_accuracy(job), ps_power_job_problem(job));
+    put_self_check(head, ps_power_job_accuracy(job), ps_power_job_problem(job));
     ps_needs_describe(ps_power_job_needs(job), &skipped);
-    if (to->status == PSPEC_OK) {
-        to->status = ps_text_check(&skipped, to->error);
+    if (head->status == PSPEC_OK) {
+        head->status = ps_text_check(&skipped, head->error);
     }
-    put(to, "skipped", PS_TEXT(ps_text_string(&skipped)));
+    put(head, "skipped", PS_TEXT(ps_text_string(&skipped)));
     ps_text_free(&skipped);
 }
 
 pspec_status ps_header_begin(ps_table *table, const ps_request *arguments,
                              const ps_power_job *first, ps_error *error) {
-    header to = {table, error, PSPEC_OK};
-    put_common(&to, arguments, ps_power_job_problem(first));
-    return to.status;
+    header head = {table, error, PSPEC_OK};
+    put_common(&head, arguments, ps_power_job_problem(first));
+    return head.status;
 }
 
 pspec_status ps_header_add_job(ps_table *table, const ps_request *arguments,
                                const ps_power_job *job, size_t index, ps_error *error) {
-    header to = {table, error, PSPEC_OK};
-    put_job(&to, arguments, job, index);
-    return to.status;
+    header head = {table, error, PSPEC_OK};
+    put_job(&head, arguments, job, index);
+    return head.status;
 }

@@ -102,40 +102,40 @@ static pspec_status run_one(ps_quadrature_result *result, ps_quadrature_question
 static pspec_status compute(void **out, const ps_request *request, const ps_answer_hooks *hooks,
                             ps_error *error) {
     PS_TRY(ps_allocate(out, 1, sizeof(rules), "rules", error));
-    rules *const all = *out;
-    ps_quadrature_list *const list = &all->list;
+    rules *const work = *out;
+    ps_quadrature_list *const list = &work->list;
     PS_TRY(ps_quadrature_list_make(list, request, error));
-    PS_TRY(ps_answer_open_device(&all->device, request, &list->questions[0].constraints, list->num,
+    PS_TRY(ps_answer_open_device(&work->device, request, &list->questions[0].constraints, list->num,
                                  hooks, error));
     for (size_t i = 0; i < list->num; i++) {
-        list->questions[i].open_device = all->device;
-        PS_TRY(run_one(&all->results[i], &list->questions[i], hooks, error));
+        list->questions[i].open_device = work->device;
+        PS_TRY(run_one(&work->results[i], &list->questions[i], hooks, error));
     }
     return PSPEC_OK;
 }
 
 static pspec_status tabulate(ps_answer *out, const void *computed, const ps_request *request,
                              ps_error *error) {
-    const rules *const all = computed;
-    return ps_quadrature_table(&out->table, request, &all->list, all->results, error);
+    const rules *const work = computed;
+    return ps_quadrature_table(&out->table, request, &work->list, work->results, error);
 }
 
 static pspec_status draw(const void *computed, const ps_request *request, ps_error *error) {
-    const rules *const all = computed;
-    return ps_quadrature_plot(request, &all->list, all->results, error);
+    const rules *const work = computed;
+    return ps_quadrature_plot(request, &work->list, work->results, error);
 }
 
 static void discard(void *computed) {
-    rules *const all = computed;
-    if (all == NULL) {
+    rules *const work = computed;
+    if (work == NULL) {
         return;
     }
     for (size_t i = 0; i < PS_MAX_SAMPLERS; i++) {
-        ps_quadrature_free(&all->results[i]);
+        ps_quadrature_free(&work->results[i]);
     }
-    ps_quadrature_list_free(&all->list);
-    ps_device_close(all->device);
-    free(all);
+    ps_quadrature_list_free(&work->list);
+    ps_device_close(work->device);
+    free(work);
 }
 
 /* ---- what tables mean ------------------------------------------------------------------------ */

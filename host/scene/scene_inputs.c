@@ -34,25 +34,25 @@ static bool is_passing(const char *path) {
     return false;
 }
 
-static pspec_status check_path(const input *of, const char *path) {
+static pspec_status check_path(const input *place, const char *path) {
     struct stat facts;
     if (stat(path, &facts) != 0) {
-        (void)ps_scene_complain(of->file, of->line, of->key, "cannot read \"%s\": %s", path,
-                                strerror(errno));
-        return of->file->error->status = PSPEC_ERROR_IO; /* the scene may be right */
+        (void)ps_scene_complain(place->file, place->line, place->key, "cannot read \"%s\": %s",
+                                path, strerror(errno));
+        return place->file->error->status = PSPEC_ERROR_IO; /* the scene may be right */
     }
     if (!S_ISREG(facts.st_mode) || is_passing(path)) {
         return ps_scene_complain(
-            of->file, of->line, of->key,
+            place->file, place->line, place->key,
             "\"%s\" is %s: a scene can be run again, and reads regular files only", path,
             S_ISREG(facts.st_mode) ? "made up by the system" : name_kind(facts.st_mode));
     }
     if (facts.st_size == 0) {
-        return ps_scene_complain(of->file, of->line, of->key, "\"%s\" is empty", path);
+        return ps_scene_complain(place->file, place->line, place->key, "\"%s\" is empty", path);
     }
     return (uint64_t)facts.st_size <= MOST_BYTES
                ? PSPEC_OK
-               : ps_scene_complain(of->file, of->line, of->key,
+               : ps_scene_complain(place->file, place->line, place->key,
                                    "\"%s\" has %lld bytes, more than %llu", path,
                                    (long long)facts.st_size, (unsigned long long)MOST_BYTES);
 }

@@ -45,18 +45,18 @@ static pspec_status add_row(ps_table *table, const ps_bench_row *row, ps_error *
 }
 
 static pspec_status report(void *payload, const ps_bench_row *rows, size_t num, ps_error *error) {
-    answer *const of = payload;
+    answer *const shown = payload;
     for (size_t i = 0; i < num; i++) {
-        PS_TRY(add_row(of->table, &rows[i], error));
+        PS_TRY(add_row(shown->table, &rows[i], error));
     }
-    PS_TRY(ps_bench_rows_add(&of->rows, rows, num, error));
-    ps_progress_hide(of->progress);
-    return ps_table_stream_update(of->stream, error);
+    PS_TRY(ps_bench_rows_add(&shown->rows, rows, num, error));
+    ps_progress_hide(shown->progress);
+    return ps_table_stream_update(shown->stream, error);
 }
 
 static void advance(void *payload, size_t done, size_t total) {
-    const answer *const of = payload;
-    ps_progress_update(of->progress, done, total);
+    const answer *const shown = payload;
+    ps_progress_update(shown->progress, done, total);
 }
 
 static bool should_stop(void *payload) {
@@ -70,12 +70,12 @@ static ps_cell rate(double value) {
     return value > 0 ? PS_NUMBER(value) : PS_MISSING;
 }
 
-static pspec_status add_device(const answer *of, const ps_device_peaks *peaks, ps_error *error) {
-    const ps_device_limits *const limits = ps_device_get_limits(of->device);
+static pspec_status add_device(const answer *shown, const ps_device_peaks *peaks, ps_error *error) {
+    const ps_device_limits *const limits = ps_device_get_limits(shown->device);
     const ps_meta entries[] = {
         {"pointspec_version", PS_TEXT(pspec_version())},
         {"schema", PS_INTEGER(1)},
-        {"command", PS_TEXT(of->arguments->command_line)},
+        {"command", PS_TEXT(shown->arguments->command_line)},
         {"device", PS_TEXT(limits->name)},
         {"platform", PS_TEXT(limits->platform)},
         {"driver", PS_TEXT(limits->driver)},
@@ -84,12 +84,12 @@ static pspec_status add_device(const answer *of, const ps_device_peaks *peaks, p
         {"peak_flops_double", rate(peaks->flops[PS_DOUBLE])},
         {"copied_bytes_per_second", rate(peaks->copied_bytes)},
     };
-    return ps_table_add_metas(of->table, entries, sizeof entries / sizeof entries[0], error);
+    return ps_table_add_metas(shown->table, entries, sizeof entries / sizeof entries[0], error);
 }
 
-static pspec_status add_explanation(const answer *of, ps_error *error) {
+static pspec_status add_explanation(const answer *shown, ps_error *error) {
     const ps_meta entries[] = {
-        {"figures", PS_TEXT(ps_device_get_limits(of->device)->figures->note)},
+        {"figures", PS_TEXT(ps_device_get_limits(shown->device)->figures->note)},
         {"time", PS_TEXT("of a realization, from points in host memory to powers on the device: "
                          "median of nine runs, three at a time in turn with other rows, with "
                          "--quick of three; setup is not counted")},
@@ -102,12 +102,12 @@ static pspec_status add_explanation(const answer *of, ps_error *error) {
                  "beside it; fraction_of_bandwidth: points read and powers written "
                  "once, of a copy")},
     };
-    return ps_table_add_metas(of->table, entries, sizeof entries / sizeof entries[0], error);
+    return ps_table_add_metas(shown->table, entries, sizeof entries / sizeof entries[0], error);
 }
 
 /* ---- the table ----------------------------------------------------------------------------- */
 
-static pspec_status make_table(answer *of, ps_table_format format, const char *path,
+static pspec_status make_table(answer *shown, ps_table_format format, const char *path,
                                ps_error *error) {
     static const char *const columns[] = {"case",
                                           "engine",
@@ -121,42 +121,43 @@ static pspec_status make_table(answer *of, ps_table_format format, const char *p
                                           "predicted_seconds",
                                           "predicted_error",
                                           "pareto"};
-    PS_TRY(
-        ps_table_create(&of->table, "bench", columns, sizeof columns / sizeof columns[0], error));
-    PS_TRY(add_device(of, &of->peaks, error));
-    PS_TRY(add_explanation(of, error));
-    return ps_table_stream_open(&of->stream, of->table, path, format, error);
+    PS_TRY(ps_table_create(&shown->table, "bench", columns, sizeof columns / sizeof columns[0],
+                           error));
+    PS_TRY(add_device(shown, &shown->peaks, error));
+    PS_TRY(add_explanation(shown, error));
+    return ps_table_stream_open(&shown->stream, shown->table, path, format, error);
 }
 
-static pspec_status run_cases(answer *of, const ps_bench_options *options, ps_table_format format,
-                              const char *path, ps_error *error) {
-    const ps_request *arguments = of->arguments;
-    PS_TRY(ps_device_peaks_measure(of->device, &of->peaks, error));
-    PS_TRY(make_table(of, format, path, error));
-    of->progress = ps_progress_begin(arguments, "cases");
-    const pspec_status status = ps_bench_run(options, of->device, of->peaks.copied_bytes, error);
-    ps_progress_end(of->progress);
+static pspec_status run_cases(answer *shown, const ps_bench_options *options,
+                              ps_table_format format, const char *path, ps_error *error) {
+    const ps_request *arguments = shown->arguments;
+    PS_TRY(ps_device_peaks_measure(shown->device, &shown->peaks, error));
+    PS_TRY(make_table(shown, format, path, error));
+    shown->progress = ps_progress_begin(arguments, "cases");
+    const pspec_status status =
+        ps_bench_run(options, shown->device, shown->peaks.copied_bytes, error);
+    ps_progress_end(shown->progress);
     PS_TRY(status);
-    PS_TRY(ps_table_stream_close(&of->stream, error));
+    PS_TRY(ps_table_stream_close(&shown->stream, error));
     return arguments->plot == NULL
                ? PSPEC_OK
                : ps_picture_settle(arguments,
-                                   ps_bench_plot(arguments->plot, &of->rows,
-                                                 ps_device_get_limits(of->device)->name, error),
+                                   ps_bench_plot(arguments->plot, &shown->rows,
+                                                 ps_device_get_limits(shown->device)->name, error),
                                    error);
 }
 
 /* ---- calibration --------------------------------------------------------------------------- */
 
-static pspec_status add_figures(answer *of, const ps_figures *figures, const char *path,
+static pspec_status add_figures(answer *shown, const ps_figures *figures, const char *path,
                                 ps_error *error) {
     static const char *const columns[] = {"engine", "precision", "seconds_over_predicted"};
     const ps_device_peaks peaks = {{figures->flops[0], figures->flops[1]}, figures->copied_bytes};
-    PS_TRY(
-        ps_table_create(&of->table, "bench", columns, sizeof columns / sizeof columns[0], error));
-    PS_TRY(add_device(of, &peaks, error));
-    PS_TRY(ps_table_add_meta(of->table, "date", PS_TEXT(figures->date), error));
-    PS_TRY(ps_table_add_meta(of->table, "file", PS_TEXT(path), error));
+    PS_TRY(ps_table_create(&shown->table, "bench", columns, sizeof columns / sizeof columns[0],
+                           error));
+    PS_TRY(add_device(shown, &peaks, error));
+    PS_TRY(ps_table_add_meta(shown->table, "date", PS_TEXT(figures->date), error));
+    PS_TRY(ps_table_add_meta(shown->table, "file", PS_TEXT(path), error));
     for (size_t i = 0; i < figures->num_engines; i++) {
         const ps_engine_figure *row = &figures->engines[i];
         for (int precision = PS_SINGLE; precision <= PS_EXTENDED; precision++) {
@@ -164,19 +165,19 @@ static pspec_status add_figures(answer *of, const ps_figures *figures, const cha
                                      PS_TEXT(ps_precision_name((ps_precision)precision)),
                                      PS_NUMBER(row->scales[precision])};
             if (row->scales[precision] > 0) {
-                PS_TRY(ps_table_add_row(of->table, cells, error));
+                PS_TRY(ps_table_add_row(shown->table, cells, error));
             }
         }
     }
     return PSPEC_OK;
 }
 
-static pspec_status add_host_figures(answer *of, const ps_figures *host, ps_error *error) {
+static pspec_status add_host_figures(answer *shown, const ps_figures *host, ps_error *error) {
     for (size_t i = 0; i < host->num_host; i++) {
         char name[64];
         snprintf(name, sizeof name, "host %s", host->host[i].kind);
         const ps_cell cells[] = {PS_TEXT(name), PS_MISSING, PS_NUMBER(host->host[i].scale)};
-        PS_TRY(ps_table_add_row(of->table, cells, error));
+        PS_TRY(ps_table_add_row(shown->table, cells, error));
     }
     return PSPEC_OK;
 }
@@ -191,29 +192,29 @@ static void say_date(ps_figures *figures) {
 }
 
 /* Measures, keeps, and shows what was kept. */
-static pspec_status calibrate(answer *of, const ps_bench_options *options, ps_table_format format,
-                              const char *path, ps_error *error) {
-    const char *const folder = of->arguments->cache_folder;
-    const ps_device_limits *const limits = ps_device_get_limits(of->device);
+static pspec_status calibrate(answer *shown, const ps_bench_options *options,
+                              ps_table_format format, const char *path, ps_error *error) {
+    const char *const folder = shown->arguments->cache_folder;
+    const ps_device_limits *const limits = ps_device_get_limits(shown->device);
     ps_figures figures;
     ps_figures host;
     ps_text file = {0};
     PS_TRY(ps_figures_make_folder(folder, error)); /* before the work */
-    of->progress = ps_progress_begin(of->arguments, "cases");
-    pspec_status status = ps_bench_calibrate(options, of->device, &figures, error);
+    shown->progress = ps_progress_begin(shown->arguments, "cases");
+    pspec_status status = ps_bench_calibrate(options, shown->device, &figures, error);
     if (status == PSPEC_OK) {
         status = ps_bench_calibrate_host(options, folder, &host, error);
     }
-    ps_progress_end(of->progress);
+    ps_progress_end(shown->progress);
     PS_TRY(status);
     say_date(&figures);
     say_date(&host);
     PS_TRY(ps_figures_write(folder, &figures, limits, error));
     PS_TRY(ps_host_figures_write(folder, &host, error));
     PS_TRY_OUT(status, ps_figures_path(&file, folder, limits, error));
-    PS_TRY_OUT(status, add_figures(of, &figures, ps_text_string(&file), error));
-    PS_TRY_OUT(status, add_host_figures(of, &host, error));
-    status = ps_table_write(of->table, path, format, error);
+    PS_TRY_OUT(status, add_figures(shown, &figures, ps_text_string(&file), error));
+    PS_TRY_OUT(status, add_host_figures(shown, &host, error));
+    status = ps_table_write(shown->table, path, format, error);
 out:
     ps_text_free(&file);
     return status;
@@ -291,7 +292,7 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
         return run_scenes(arguments, error);
     }
     const char *const path = arguments->output != NULL ? arguments->output : "-";
-    answer of = {.arguments = arguments};
+    answer shown = {.arguments = arguments};
     const ps_bench_options options = {.case_name = arguments->case_name,
                                       .engine = arguments->engine,
                                       .precision = arguments->precision,
@@ -301,20 +302,20 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
                                       .should_stop = should_stop,
                                       .report = report,
                                       .advance = advance,
-                                      .payload = &of};
+                                      .payload = &shown};
     ps_table_format format = PS_FORMAT_CSV;
     PS_TRY(check_words(arguments, &options, error));
     PS_TRY(ps_table_choose_format(&format, arguments->format, path, error));
     PS_TRY(ps_outputs_check(arguments, true, error));
-    PS_TRY(ps_figures_open_device(&of.device, arguments->device, false, arguments->cache_folder,
+    PS_TRY(ps_figures_open_device(&shown.device, arguments->device, false, arguments->cache_folder,
                                   error));
     const pspec_status status = arguments->calibrate
-                                    ? calibrate(&of, &options, format, path, error)
-                                    : run_cases(&of, &options, format, path, error);
-    ps_table_stream_discard(&of.stream);
-    ps_table_destroy(of.table);
-    ps_bench_rows_free(&of.rows);
-    ps_device_close(of.device);
+                                    ? calibrate(&shown, &options, format, path, error)
+                                    : run_cases(&shown, &options, format, path, error);
+    ps_table_stream_discard(&shown.stream);
+    ps_table_destroy(shown.table);
+    ps_bench_rows_free(&shown.rows);
+    ps_device_close(shown.device);
     return status;
 }
 

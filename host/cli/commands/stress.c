@@ -17,20 +17,20 @@ typedef struct answer {
 /* ---- rows ---------------------------------------------------------------------------------- */
 
 static pspec_status report(void *payload, const ps_stress_row *row, ps_error *error) {
-    answer *const of = payload;
+    answer *const shown = payload;
     char verdict[sizeof row->reason + 32];
     ps_stress_verdict_text(row, verdict, sizeof verdict);
     const ps_cell cells[] = {
         PS_TEXT(row->what->name), PS_TEXT(row->engine),  PS_TEXT(ps_precision_name(row->precision)),
         PS_NUMBER(row->error),    PS_NUMBER(row->bound), PS_TEXT(verdict)};
-    PS_TRY(ps_table_add_row(of->table, cells, error));
-    ps_progress_hide(of->progress);
-    return ps_table_stream_update(of->stream, error);
+    PS_TRY(ps_table_add_row(shown->table, cells, error));
+    ps_progress_hide(shown->progress);
+    return ps_table_stream_update(shown->stream, error);
 }
 
 static void advance(void *payload, size_t done, size_t total) {
-    const answer *const of = payload;
-    ps_progress_update(of->progress, done, total);
+    const answer *const shown = payload;
+    ps_progress_update(shown->progress, done, total);
 }
 
 static bool should_stop(void *payload) {
@@ -40,10 +40,10 @@ static bool should_stop(void *payload) {
 
 /* ---- the table ----------------------------------------------------------------------------- */
 
-static pspec_status add_header(const answer *of, ps_error *error) {
-    const ps_request *const arguments = of->arguments;
+static pspec_status add_header(const answer *shown, ps_error *error) {
+    const ps_request *const arguments = shown->arguments;
     const ps_device_limits *const limits =
-        of->device != NULL ? ps_device_get_limits(of->device) : NULL;
+        shown->device != NULL ? ps_device_get_limits(shown->device) : NULL;
     const struct {
         const char *key;
         ps_cell value;
@@ -58,19 +58,19 @@ static pspec_status add_header(const answer *of, ps_error *error) {
                                 "|w|)^2; of the host: as its bound")},
     };
     for (size_t i = 0; i < sizeof entries / sizeof entries[0]; i++) {
-        PS_TRY(ps_table_add_meta(of->table, entries[i].key, entries[i].value, error));
+        PS_TRY(ps_table_add_meta(shown->table, entries[i].key, entries[i].value, error));
     }
     return PSPEC_OK;
 }
 
-static pspec_status make_table(answer *of, ps_table_format format, const char *path,
+static pspec_status make_table(answer *shown, ps_table_format format, const char *path,
                                ps_error *error) {
     static const char *const columns[] = {"case",  "engine", "precision",
                                           "error", "bound",  "verdict"};
     enum { NUM_COLUMNS = sizeof columns / sizeof columns[0] };
-    PS_TRY(ps_table_create(&of->table, "stress", columns, NUM_COLUMNS, error));
-    PS_TRY(add_header(of, error));
-    return ps_table_stream_open(&of->stream, of->table, path, format, error);
+    PS_TRY(ps_table_create(&shown->table, "stress", columns, NUM_COLUMNS, error));
+    PS_TRY(add_header(shown, error));
+    return ps_table_stream_open(&shown->stream, shown->table, path, format, error);
 }
 
 /* ---- the command --------------------------------------------------------------------------- */
@@ -100,7 +100,7 @@ static pspec_status check_words(const ps_request *arguments, const ps_stress_opt
 
 static pspec_status run(const ps_request *arguments, ps_error *error) {
     const char *const path = arguments->output != NULL ? arguments->output : "-";
-    answer of = {.arguments = arguments};
+    answer shown = {.arguments = arguments};
     const ps_stress_options options = {.case_name = arguments->case_name,
                                        .engine = arguments->engine,
                                        .precision = arguments->precision,
@@ -108,7 +108,7 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
                                        .should_stop = should_stop,
                                        .report = report,
                                        .advance = advance,
-                                       .payload = &of};
+                                       .payload = &shown};
     ps_table_format format = PS_FORMAT_CSV;
     ps_stress_totals totals;
     pspec_status status = PSPEC_OK;
@@ -116,20 +116,20 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
     PS_TRY(ps_table_choose_format(&format, arguments->format, path, error));
     PS_TRY(ps_outputs_check(arguments, true, error));
     if (ps_stress_needs_device(&options)) {
-        PS_TRY(ps_device_open(&of.device, arguments->device, false, error));
+        PS_TRY(ps_device_open(&shown.device, arguments->device, false, error));
     }
-    PS_TRY_OUT(status, make_table(&of, format, path, error));
-    of.progress = ps_progress_begin(arguments, "cases");
-    status = ps_stress_run(&options, of.device, &totals, error);
-    ps_progress_end(of.progress);
+    PS_TRY_OUT(status, make_table(&shown, format, path, error));
+    shown.progress = ps_progress_begin(arguments, "cases");
+    status = ps_stress_run(&options, shown.device, &totals, error);
+    ps_progress_end(shown.progress);
     if (status == PSPEC_OK) {
-        PS_TRY_OUT(status, ps_table_stream_close(&of.stream, error));
+        PS_TRY_OUT(status, ps_table_stream_close(&shown.stream, error));
         status = conclude(&totals, error);
     }
 out:
-    ps_table_stream_discard(&of.stream);
-    ps_table_destroy(of.table);
-    ps_device_close(of.device);
+    ps_table_stream_discard(&shown.stream);
+    ps_table_destroy(shown.table);
+    ps_device_close(shown.device);
     return status;
 }
 

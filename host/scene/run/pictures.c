@@ -83,23 +83,23 @@ static bool has_value(const ps_scene_result *asked, size_t question, size_t entr
 }
 
 /* Appends the questions of a picture with one value of the entry of panels. */
-static void take_questions(ps_picture *to, const ps_scene_result *asked, const layout *how,
+static void take_questions(ps_picture *picture, const ps_scene_result *asked, const layout *how,
                            size_t group_index, size_t panel_index) {
     const size_t num = ps_scene_num_questions(asked);
     for (size_t q = 0; q < num; q++) {
         if (has_value(asked, q, how->group, group_index) && has_value(asked, q, how->points, 0) &&
             has_value(asked, q, how->panel, panel_index)) {
-            to->curves[to->num_curves++] = q;
+            picture->curves[picture->num_curves++] = q;
         }
     }
 }
 
 /* All curves of a picture, and where its panels end. */
-static void fill(ps_picture *to, const ps_scene_result *asked, const layout *how,
+static void fill(ps_picture *picture, const ps_scene_result *asked, const layout *how,
                  size_t group_index) {
     for (size_t i = 0; i < count_values(asked, how->panel); i++) {
-        take_questions(to, asked, how, group_index, i);
-        to->ends[to->num_panels++] = to->num_curves;
+        take_questions(picture, asked, how, group_index, i);
+        picture->ends[picture->num_panels++] = picture->num_curves;
     }
     if (how->chunk > 0) {
         size_t fastest = asked->num_entries - 1; /* some entry is free: there are chunks of it */
@@ -107,33 +107,33 @@ static void fill(ps_picture *to, const ps_scene_result *asked, const layout *how
             fastest--;
         }
         const size_t run = asked->entries[fastest].num_values;
-        to->num_panels = 0;
-        for (size_t at = 0; at < to->num_curves;) {
+        picture->num_panels = 0;
+        for (size_t at = 0; at < picture->num_curves;) {
             const size_t left = run - at % run;
             at += left < how->chunk ? left : how->chunk;
-            to->ends[to->num_panels++] = at;
+            picture->ends[picture->num_panels++] = at;
         }
     }
 }
 
 /* ---- the list -------------------------------------------------------------------------------- */
 
-static pspec_status allocate_curves(ps_picture *to, size_t num, ps_error *error) {
+static pspec_status allocate_curves(ps_picture *picture, size_t num, ps_error *error) {
     void *memory = NULL;
     PS_TRY(ps_allocate(&memory, 2 * num, sizeof(size_t), "a picture", error));
-    to->curves = memory;
-    to->ends = to->curves + num;
+    picture->curves = memory;
+    picture->ends = picture->curves + num;
     return PSPEC_OK;
 }
 
 static pspec_status add(ps_pictures *list, const ps_picture *one, size_t num_curves,
                         ps_error *error) {
-    void *all = list->all;
-    PS_TRY(ps_grow(&all, &list->capacity, list->num + 1, sizeof *list->all, "pictures", error));
-    list->all = all;
-    ps_picture *const to = &list->all[list->num];
-    *to = *one;
-    PS_TRY(allocate_curves(to, num_curves, error));
+    void *memory = list->all;
+    PS_TRY(ps_grow(&memory, &list->capacity, list->num + 1, sizeof *list->all, "pictures", error));
+    list->all = memory;
+    ps_picture *const picture = &list->all[list->num];
+    *picture = *one;
+    PS_TRY(allocate_curves(picture, num_curves, error));
     list->num++;
     return PSPEC_OK;
 }
@@ -144,14 +144,14 @@ static pspec_status add_page(ps_pictures *list, const ps_picture *whole, size_t 
     const size_t begin = first > 0 ? whole->ends[first - 1] : 0;
     const size_t num_curves = whole->ends[first + num - 1] - begin;
     PS_TRY(add(list, whole, num_curves, error));
-    ps_picture *const to = &list->all[list->num - 1];
-    to->num_curves = num_curves;
-    to->num_panels = num;
+    ps_picture *const picture = &list->all[list->num - 1];
+    picture->num_curves = num_curves;
+    picture->num_panels = num;
     for (size_t i = 0; i < num_curves; i++) {
-        to->curves[i] = whole->curves[begin + i];
+        picture->curves[i] = whole->curves[begin + i];
     }
     for (size_t i = 0; i < num; i++) {
-        to->ends[i] = whole->ends[first + i] - begin;
+        picture->ends[i] = whole->ends[first + i] - begin;
     }
     return PSPEC_OK;
 }
@@ -242,9 +242,9 @@ static pspec_status list_spectra(ps_pictures *out, const ps_scene_result *asked,
         ps_picture one = {.form = PS_PICTURE_IMAGE, .group = none, .points = none, .panel = none};
         snprintf(one.suffix, sizeof one.suffix, "-picture-%zu", q + 1);
         PS_TRY(add(out, &one, 1, error));
-        ps_picture *const to = &out->all[out->num - 1];
-        to->num_curves = to->num_panels = to->ends[0] = 1;
-        to->curves[0] = q;
+        ps_picture *const picture = &out->all[out->num - 1];
+        picture->num_curves = picture->num_panels = picture->ends[0] = 1;
+        picture->curves[0] = q;
     }
     return PSPEC_OK;
 }
