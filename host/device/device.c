@@ -209,7 +209,8 @@ static size_t find_match(const ps_device_limits *limits, size_t num_devices, con
     return simulator;
 }
 
-/* A simulator calls itself GPU and CPU at once, and is slower than either by a factor of thousands: the last choice. */
+/* A simulator calls itself GPU and CPU at once, and is slower than either by a factor of thousands:
+ * the last choice. */
 static size_t choose_default(const ps_device_limits *limits, size_t num_devices) {
     static const char *const kinds[] = {"gpu", "cpu", ""}; /* any name contains the last */
     size_t index = 0;

@@ -1,7 +1,7 @@
 /* An OpenCL device: choice, limits, buffers, programs, launches, profile.
  *
- * A ps_device owns its context, one in-order queue and every program built through it. One thread at
- * a time. Nothing here knows what the kernels compute.
+ * A ps_device owns its context, one in-order queue and every program built through it. One thread
+ * at a time. Nothing here knows what the kernels compute.
  */
 #ifndef PS_DEVICE_DEVICE_H
 #define PS_DEVICE_DEVICE_H
@@ -26,8 +26,8 @@ typedef struct ps_device_limits {
     unsigned native_float_lanes, native_double_lanes;
     size_t max_work_group_size;
     uint64_t global_bytes, max_allocation_bytes, local_bytes, cache_bytes;
-    const ps_figures
-        *figures; /* what was measured of it, owned by the open device; NULL: nothing */
+    /* what was measured of it, owned by the open device; NULL: nothing */
+    const ps_figures *figures;
 } ps_device_limits;
 
 /* Limits of every device of every driver, in the order of their indices; *limits is freed by the
@@ -35,12 +35,14 @@ typedef struct ps_device_limits {
 pspec_status ps_device_list(ps_device_limits **limits, size_t *num_devices,
                             ps_error *error) PS_MUST_CHECK;
 
-/* Whether it is a simulator such as Oclgrind, which calls itself a GPU and is for looking at kernels. */
+/* Whether it is a simulator such as Oclgrind, which calls itself a GPU and is for looking at
+ * kernels. */
 bool ps_device_is_simulator(const ps_device_limits *limits);
 
 /* Index of the device that selector means: an index, "cpu", "gpu", "accelerator" or a part of a
- * name (case does not matter); NULL or "" is the first GPU, else the first CPU, else the first. Simulators
- * come after all others of their kind, and are the default only where there is nothing else. */
+ * name (case does not matter); NULL or "" is the first GPU, else the first CPU, else the first.
+ * Simulators come after all others of their kind, and are the default only where there is nothing
+ * else. */
 pspec_status ps_device_choose(const ps_device_limits *limits, size_t num_devices,
                               const char *selector, size_t *index, ps_error *error) PS_MUST_CHECK;
 
@@ -87,9 +89,9 @@ pspec_status ps_buffer_write(ps_device *device, const ps_buffer *buffer, size_t 
                              const void *data, size_t bytes, ps_error *error) PS_MUST_CHECK;
 pspec_status ps_buffer_read(ps_device *device, const ps_buffer *buffer, size_t offset_bytes,
                             void *data, size_t bytes, ps_error *error) PS_MUST_CHECK;
-/* The buffer's memory for the host to fill; what was in it is lost. Waits until everything enqueued is done that
- * was enqueued before `begin`, so that filling one buffer goes on while the device reads another: begin, launch,
- * wait, fill, end. A copy where has_unified_memory is false. */
+/* The buffer's memory for the host to fill; what was in it is lost. Waits until everything enqueued
+ * is done that was enqueued before `begin`, so that filling one buffer goes on while the device
+ * reads another: begin, launch, wait, fill, end. A copy where has_unified_memory is false. */
 pspec_status ps_mapping_begin(ps_device *device, ps_mapping *out, const ps_buffer *buffer,
                               ps_error *error) PS_MUST_CHECK;
 pspec_status ps_mapping_wait(ps_mapping *mapping, ps_error *error) PS_MUST_CHECK;
@@ -112,11 +114,12 @@ pspec_status ps_buffer_copy_rectangle(ps_device *device, const ps_buffer *from, 
 /* The most bytes that buffers of the device have had at a time. */
 uint64_t ps_device_most_buffer_bytes(const ps_device *device);
 
-/* Whether host and device are taken to have one memory, if they do. For tests: results do not depend on it. */
+/* Whether host and device are taken to have one memory, if they do. For tests: results do not
+ * depend on it. */
 void ps_device_set_unified_memory(ps_device *device, bool is_wanted);
 
-/* The largest allocation from now on, at most what the device allows; 0 restores that. For tests, too: results
- * do not depend on it. */
+/* The largest allocation from now on, at most what the device allows; 0 restores that. For tests,
+ * too: results do not depend on it. */
 void ps_device_set_max_allocation(ps_device *device, uint64_t bytes);
 
 /* ---- programs and kernels -------------------------------------------------------------------- */
@@ -155,8 +158,9 @@ ps_range ps_range_heavy(const ps_device *device, size_t first, size_t second, si
                         double flops, double bytes);
 ps_range ps_range_light(const ps_device *device, size_t first, size_t second, size_t third,
                         double flops, double bytes);
-/* Whether heavy ranges with a first extent of 1 have work-groups of one item: their kernels may be compiled with
- * -DALONE=1 (kernels/shared/group.h) then, and launched on ps_range_alone, whatever changes in between. */
+/* Whether heavy ranges with a first extent of 1 have work-groups of one item: their kernels may be
+ * compiled with -DALONE=1 (kernels/shared/group.h) then, and launched on ps_range_alone, whatever
+ * changes in between. */
 bool ps_range_is_alone(const ps_device *device);
 ps_range ps_range_alone(size_t second, size_t third, double flops, double bytes);
 /* Work-items in a light work-group, and in a heavy one on devices with local memory of their own; 0

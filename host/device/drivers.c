@@ -25,9 +25,10 @@ static pspec_status copy(char **out, const char *text, ps_error *error) {
                         : ps_fail(error, PSPEC_ERROR_MEMORY, "no memory for the name of a driver");
 }
 
-/* ---- one driver -------------------------------------------------------------------------------- */
+/* ---- one driver ----------------------------------------------------------------------------- */
 
-/* The first line of the file, without blanks at its end; false: there is none, for the reason in errno. */
+/* The first line of the file, without blanks at its end; false: there is none, for the reason in
+ * errno. */
 static bool read_line(const char *path, char line[LINE_BYTES]) {
     FILE *const file = fopen(path, "re");
     if (file == NULL) {
@@ -71,7 +72,7 @@ static pspec_status add(ps_drivers *out, const char *file, ps_error *error) {
     return load(driver, error);
 }
 
-/* ---- all of them ------------------------------------------------------------------------------- */
+/* ---- all of them ---------------------------------------------------------------------------- */
 
 static pspec_status add_folder(ps_drivers *out, DIR *folder, ps_error *error) {
     const struct dirent *found = NULL;

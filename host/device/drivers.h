@@ -1,5 +1,5 @@
-/* The drivers that the OpenCL loader is told of, and why none of them has a device. Looks at files, limits and variables of
- * the environment, as the loader and PoCL do; it asks no driver.
+/* The drivers that the OpenCL loader is told of, and why none of them has a device. Looks at files,
+ * limits and variables of the environment, as the loader and PoCL do; it asks no driver.
  */
 #ifndef PS_DEVICE_DRIVERS_H
 #define PS_DEVICE_DRIVERS_H
@@ -27,25 +27,28 @@ typedef struct ps_drivers {
     ps_driver drivers[PS_MOST_DRIVERS];
 } ps_drivers;
 
-/* Looks for drivers, loading the library of each. To be freed also after an error, which is only for memory. */
+/* Looks for drivers, loading the library of each. To be freed also after an error, which is only
+ * for memory. */
 pspec_status ps_drivers_look(ps_drivers *out, ps_error *error) PS_MUST_CHECK;
 void ps_drivers_free(ps_drivers *drivers);
 
-/* Why there is no device, as one sentence: no driver, a library that is missing, a variable, a folder that cannot be written,
- * too little address space. Always fails, with PSPEC_ERROR_NO_DEVICE. */
+/* Why there is no device, as one sentence: no driver, a library that is missing, a variable, a
+ * folder that cannot be written, too little address space. Always fails, with
+ * PSPEC_ERROR_NO_DEVICE. */
 pspec_status ps_drivers_fail(ps_error *error);
 
-/* Drivers make threads and end the process when these cannot have their stacks: fails, as above, when the limit of address
- * space leaves less than they take. */
+/* Drivers make threads and end the process when these cannot have their stacks: fails, as above,
+ * when the limit of address space leaves less than they take. */
 pspec_status ps_drivers_check_room(ps_error *error) PS_MUST_CHECK;
 
 /* Where PoCL keeps compiled kernels; empty where it chooses a folder itself. */
 pspec_status ps_drivers_pocl_cache(ps_text *out, ps_error *error) PS_MUST_CHECK;
-/* Why PoCL cannot keep kernels there, appended as a sentence without its end; nothing where it can. */
+/* Why PoCL cannot keep kernels there, appended as a sentence without its end; nothing where it
+ * can. */
 void ps_drivers_pocl_cache_problem(const char *path, ps_text *out);
 
-/* PoCL ends the process where the name of that folder is too long, and compiles nothing where it cannot write: fails, as
- * above, in its place. */
+/* PoCL ends the process where the name of that folder is too long, and compiles nothing where it
+ * cannot write: fails, as above, in its place. */
 pspec_status ps_drivers_check_pocl(ps_error *error) PS_MUST_CHECK;
 
 #endif

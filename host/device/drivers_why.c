@@ -15,7 +15,7 @@
 
 static const char no_device_needed[] = "; --engine host_direct needs no device";
 
-/* ---- PoCL's cache ------------------------------------------------------------------------------ */
+/* ---- PoCL's cache --------------------------------------------------------------------------- */
 
 /* NULL: not set, or empty */
 static const char *variable(const char *name) {
@@ -37,8 +37,8 @@ pspec_status ps_drivers_pocl_cache(ps_text *out, ps_error *error) {
     return ps_text_check(out, error);
 }
 
-/* Whether the first folder of path that is missing can be made, or path be written into; 0, or errno. Cuts path after the
- * folder that it is about. */
+/* Whether the first folder of path that is missing can be made, or path be written into; 0, or
+ * errno. Cuts path after the folder that it is about. */
 static int try_folder(char *path) {
     for (char *slash = strchr(path + 1, '/');; slash = strchr(slash + 1, '/')) {
         if (slash != NULL) {
@@ -91,10 +91,10 @@ static bool has_pocl(const ps_drivers *drivers) {
     return false;
 }
 
-/* ---- address space ----------------------------------------------------------------------------- */
+/* ---- address space -------------------------------------------------------------------------- */
 
-/* What PoCL 3.1 with LLVM 14 maps, and of each of its threads the stack and the arena of malloc: measured with
- * (ulimit -v N; pointspec devices) and VmPeak in /proc/PID/status, and rounded up. */
+/* What PoCL 3.1 with LLVM 14 maps, and of each of its threads the stack and the arena of malloc:
+ * measured with (ulimit -v N; pointspec devices) and VmPeak in /proc/PID/status, and rounded up. */
 static const uint64_t driver_bytes = UINT64_C(240) << 20;
 static const uint64_t thread_bytes = UINT64_C(16) << 20;
 
@@ -126,7 +126,7 @@ pspec_status ps_drivers_check_room(ps_error *error) {
                    needed, limit, no_device_needed);
 }
 
-/* ---- the sentence ------------------------------------------------------------------------------ */
+/* ---- the sentence --------------------------------------------------------------------------- */
 
 /* Nothing is listed, or not where it is looked for. */
 static void explain_list(const ps_drivers *drivers, ps_text *out) {

@@ -1,6 +1,7 @@
-/* What was measured of a device: its peaks, and how long engines take there against the built-in cost model; of the host,
- * how long its own work takes. Plain data: written and read by store/figures_file.h, measured by verify/bench/bench.h, looked at by
- * the planner and by nobody else.
+/* What was measured of a device: its peaks, and how long engines take there against the built-in
+ * cost model; of the host, how long its own work takes. Plain data: written and read by
+ * store/figures_file.h, measured by verify/bench/bench.h, looked at by the planner and by nobody
+ * else.
  */
 #ifndef PS_DEVICE_FIGURES_H
 #define PS_DEVICE_FIGURES_H
@@ -37,7 +38,8 @@ typedef struct ps_figures {
 /* The factor of an engine's seconds: 1 unless it was measured here. figures may be NULL. */
 double ps_figures_scale(const ps_figures *figures, const char *engine, unsigned precision);
 
-/* That of a kind of the host's work; where it was not measured, the geometric mean of those that were. figures may be NULL. */
+/* That of a kind of the host's work; where it was not measured, the geometric mean of those that
+ * were. figures may be NULL. */
 double ps_figures_host_scale(const ps_figures *figures, const char *kind);
 
 /* Its row, made if there is none yet; NULL when the table is full or the name too long. */

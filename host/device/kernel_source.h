@@ -1,4 +1,5 @@
-/* Where kernel text comes from: POINTSPEC_KERNEL_DIR when set, else the table made at build time. */
+/* Where kernel text comes from: POINTSPEC_KERNEL_DIR when set, else the table made at build
+ * time. */
 #ifndef PS_DEVICE_KERNEL_SOURCE_H
 #define PS_DEVICE_KERNEL_SOURCE_H
 

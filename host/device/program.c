@@ -9,8 +9,8 @@
 #include <string.h>
 
 /* No relaxed maths: the error formulas count on IEEE arithmetic. */
-/* Warnings are those of the machine (vectors wider than its registers), which PoCL counts on standard error; ours are
- * found by the tests. */
+/* Warnings are those of the machine (vectors wider than its registers), which PoCL counts on
+ * standard error; ours are found by the tests. */
 static const char common_options[] = "-cl-std=CL1.2 -w";
 
 /* Only a program at fault has a log to show; a driver may fail without looking at it. */

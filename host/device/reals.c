@@ -7,10 +7,10 @@ size_t ps_real_bytes(ps_precision precision) {
     return precision == PS_SINGLE ? sizeof(float) : sizeof(double);
 }
 
-pspec_status ps_reals_write(ps_device *device, const ps_buffer *to, ps_precision precision,
+pspec_status ps_reals_write(ps_device *device, const ps_buffer *buffer, ps_precision precision,
                             const double *numbers, size_t num, ps_error *error) {
     if (precision != PS_SINGLE) {
-        return ps_buffer_write(device, to, 0, numbers, num * sizeof(double), error);
+        return ps_buffer_write(device, buffer, 0, numbers, num * sizeof(double), error);
     }
     for (size_t first = 0; first < num; first += PIECE) {
         float piece[PIECE];
@@ -18,7 +18,7 @@ pspec_status ps_reals_write(ps_device *device, const ps_buffer *to, ps_precision
         for (size_t i = 0; i < length; i++) {
             piece[i] = (float)numbers[first + i];
         }
-        PS_TRY(ps_buffer_write(device, to, first * sizeof(float), piece, length * sizeof(float),
+        PS_TRY(ps_buffer_write(device, buffer, first * sizeof(float), piece, length * sizeof(float),
                                error));
     }
     return PSPEC_OK;

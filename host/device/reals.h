@@ -5,11 +5,11 @@
 #include "device/device.h"
 #include "device/precision.h"
 
-/* Of one number on the device. */
+/* Returns the bytes that one number takes on the device. */
 size_t ps_real_bytes(ps_precision precision);
 
 /* Numbers to the beginning of a buffer; nothing is allocated. */
-pspec_status ps_reals_write(ps_device *device, const ps_buffer *to, ps_precision precision,
+pspec_status ps_reals_write(ps_device *device, const ps_buffer *buffer, ps_precision precision,
                             const double *numbers, size_t num, ps_error *error) PS_MUST_CHECK;
 /* A buffer made of them; what names it in the message. */
 pspec_status ps_reals_upload(ps_device *device, ps_buffer *out, ps_precision precision,

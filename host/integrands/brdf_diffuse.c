@@ -18,7 +18,8 @@ static double density(const ps_brdf *brdf, double z) {
     return fmax(z, 0);
 }
 
-/* Odd degrees above 1 are 0; g = binom(l, l/2)/2^l of even ones by its recurrence, which cannot overflow. */
+/* Odd degrees above 1 are 0; g = binom(l, l/2)/2^l of even ones by its recurrence, which cannot
+ * overflow. */
 static pspec_status spherical(const ps_brdf *brdf, size_t max_degree, double *b, ps_error *error) {
     (void)brdf, (void)error;
     double g = 0.5; /* of l = 2 */

@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* From here on the cut is below the last place (e^-40 = 4e-18), and the boundary value problem of the cut lobe
- * loses n eps/6. */
+/* From here on the cut is below the last place (e^-40 = 4e-18), and the boundary value problem of
+ * the cut lobe loses n eps/6. */
 static const double NO_CUT = 40;
 
 /* The cut changes coefficients by e^-n: above this more than the paper's figures show. */
@@ -34,8 +34,8 @@ static double density(const ps_brdf *brdf, double z) {
     return z < 0 && !brdf->is_whole_sphere ? 0 : exp(brdf->exponent * (z - 1));
 }
 
-/* lambda_l(n) = I_{l+1/2}(n)/I_{1/2}(n), l <= max_degree, from the continued fraction of the ratios, downward;
- * relative error 2e-15. */
+/* lambda_l(n) = I_{l+1/2}(n)/I_{1/2}(n), l <= max_degree, from the continued fraction of the
+ * ratios, downward; relative error 2e-15. */
 static void fill_lambda(double n, size_t max_degree, double *lambda) {
     const size_t start =
         max_degree + 40 + (size_t)(6 * sqrt(n)); /* measured: no last place changes beyond */
@@ -53,8 +53,9 @@ static void fill_lambda(double n, size_t max_degree, double *lambda) {
     }
 }
 
-/* G_0 .. G_X of the cut lobe: the three-term recurrence is unstable both ways, so it is solved as a boundary
- * value problem, by elimination without pivoting (pivots are sums of positive numbers). pivots: [X + 1]. */
+/* G_0 .. G_X of the cut lobe: the three-term recurrence is unstable both ways, so it is solved as a
+ * boundary value problem, by elimination without pivoting (pivots are sums of positive numbers).
+ * pivots: [X + 1]. */
 static void solve_cut(double n, size_t last, double *g, double *pivots) {
     double legendre = 1; /* P_{l-1}(0) for odd l */
     g[0] = -expm1(-n) / n;

@@ -1,4 +1,5 @@
-/* A lobe from a file: values at heights, linear in z between them, 0 outside. Everything is integrated exactly. */
+/* A lobe from a file: values at heights, linear in z between them, 0 outside. Everything is
+ * integrated exactly. */
 #include "integrands/brdf_kind.h"
 
 #include "base/memory.h"
@@ -53,9 +54,9 @@ static void find_jumps(const ps_brdf *brdf, size_t i, double *value, double *slo
     *slopes = (i < last ? slope(brdf, i) : 0) - (i > 0 ? slope(brdf, i - 1) : 0);
 }
 
-/* Adds what node i gives to int p P_l, l = 1 .. max_degree: with S' = P_l and T' = S,
- * int p P_l = -sum jump(p) S + sum jump(p') T, S = (P_{l+1} - P_{l-1})/(2l+1) and T the same of S. x: the height
- * as the argument of P_l; scale: d height/dx. */
+/* Adds what node i gives to int p P_l, l = 1 .. max_degree: with S' = P_l and T' = S, int p P_l =
+ * -sum jump(p) S + sum jump(p') T, S = (P_{l+1} - P_{l-1})/(2l+1) and T the same of S. x: the
+ * height as the argument of P_l; scale: d height/dx. */
 static void add_node(double x, double scale, double value, double slopes, size_t max_degree,
                      double *sums) {
     double p[5] = {0, 0, 1, x, (3 * x * x - 1) / 2}; /* P_{l-3} .. P_{l+1} for l = 1 */

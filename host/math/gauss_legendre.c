@@ -18,7 +18,8 @@ static long double legendre(size_t num, long double x, long double *derivative) 
     return value;
 }
 
-/* Node i from the right end, by Newton's method from Tricomi's approximation, which is near enough for every i. */
+/* Node i from the right end, by Newton's method from Tricomi's approximation, which is near enough
+ * for every i. */
 static long double find_node(size_t num, size_t i, long double *derivative) {
     enum { MOST_STEPS = 12 }; /* four or five are needed */
     const long double n = (long double)num;

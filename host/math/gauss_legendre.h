@@ -4,8 +4,9 @@
 
 #include <stddef.h>
 
-/* The rule with num >= 1 nodes on [0,1], exact for polynomials of degree 2 num - 1: nodes [num] in rising order and
- * weights [num], whose sum is 1, right to the last places. Takes about num^2 steps. */
+/* The rule with num >= 1 nodes on [0,1], exact for polynomials of degree 2 num - 1: nodes [num] in
+ * rising order and weights [num], whose sum is 1, right to the last places. Takes about num^2
+ * steps. */
 void ps_gauss_legendre(size_t num, double *nodes, double *weights);
 
 #endif

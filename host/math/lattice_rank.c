@@ -29,8 +29,8 @@ static bool largest_fits(const uint64_t *in, int64_t max_norm2) {
     return true;
 }
 
-/* One axis more: out[n] = sum of in[n - x^2] over all integers x. This is the product with the theta
- * series 1 + 2 q + 2 q^4 + ..., of sums of coefficients. */
+/* One axis more: out[n] = sum of in[n - x^2] over all integers x. This is the product with the
+ * theta series 1 + 2 q + 2 q^4 + ..., of sums of coefficients. */
 static void add_axis(uint64_t *out, const uint64_t *in, int64_t max_norm2) {
     for (int64_t n = 0; n <= max_norm2; n++) {
         out[n] = in[n];
@@ -88,7 +88,8 @@ void ps_lattice_free(ps_lattice *lattice) {
     *lattice = (ps_lattice){0};
 }
 
-/* Points of Z^j with low <= |k|^2 <= high; low may be negative, and high, too: then there are none. */
+/* Points of Z^j with low <= |k|^2 <= high; low may be negative, and high, too: then there are
+ * none. */
 static uint64_t count(const uint64_t *within, int64_t low, int64_t high) {
     if (high < 0) {
         return 0;
@@ -114,9 +115,9 @@ void ps_lattice_unrank(const ps_lattice *lattice, int64_t low, int64_t high, uin
                        int32_t *k) {
     int32_t sign = 1;
     for (unsigned axis = 0; axis < lattice->dimension; axis++) {
-        const uint64_t *const all = lattice->within[lattice->dimension - axis];
+        const uint64_t *const within = lattice->within[lattice->dimension - axis];
         const uint64_t *const rest = lattice->within[lattice->dimension - axis - 1];
-        const uint64_t total = count(all, low, high);
+        const uint64_t total = count(within, low, high);
         uint64_t here = count(rest, low, high);
         const uint64_t num_negative = (total - here) / 2;
         int64_t x = 0;

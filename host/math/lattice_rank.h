@@ -1,9 +1,9 @@
-/* Points of the integer lattice Z^d counted by their norm, and numbered: from a rank to the point that
- * has it, without listing the others.
+/* Points of the integer lattice Z^d counted by their norm, and numbered: from a rank to the point
+ * that has it, without listing the others.
  *
- * A shell holds the points with low <= |k|^2 <= high; its points are ranked in lexicographic order. k ->
- * -k reverses that order, so that of the T points of a shell without the origin, the ranks T/2 .. T-1
- * are exactly those whose first non-zero component is positive: the half lattice.
+ * A shell holds the points with low <= |k|^2 <= high; its points are ranked in lexicographic order.
+ * k -> -k reverses that order, so that of the T points of a shell without the origin, the ranks T/2
+ * .. T-1 are exactly those whose first non-zero component is positive: the half lattice.
  */
 #ifndef PS_MATH_LATTICE_RANK_H
 #define PS_MATH_LATTICE_RANK_H
@@ -21,8 +21,9 @@ typedef struct ps_lattice {
     uint64_t *within[PS_LATTICE_MAX_DIMENSION + 1];
 } ps_lattice;
 
-/* Between which numbers the points of Z^d with |k|^2 <= max_norm2 are, without counting them: the unit cubes around them
- * cover the ball whose radius is half a diagonal less, and lie in the one whose radius is half a diagonal more. */
+/* Between which numbers the points of Z^d with |k|^2 <= max_norm2 are, without counting them: the
+ * unit cubes around them cover the ball whose radius is half a diagonal less, and lie in the one
+ * whose radius is half a diagonal more. */
 typedef struct ps_lattice_bounds {
     double least, most;
 } ps_lattice_bounds;

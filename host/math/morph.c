@@ -2,7 +2,8 @@
 
 #include <math.h>
 
-/* The inverse of the distribution of e^{n(z-1)} with t up to most: t = -ln(1 - (1-z')(1 - e^{-n most}))/n. */
+/* The inverse of the distribution of e^{n(z-1)} with t up to most: t = -ln(1 - (1-z')(1 - e^{-n
+ * most}))/n. */
 static double polar_of_lobe(double n, double most, double height, double polar) {
     const double v = polar * -expm1(-n * most);
     const double t = v < 0.5 ? -log1p(-v) / n : -log(height + polar * exp(-n * most)) / n;

@@ -19,8 +19,8 @@ typedef struct ps_morph {
     double exponent; /* n */
 } ps_morph;
 
-/* z' and 1 - z' in [0,1], each with all its digits -> t = 1 - z of the height with the same share of points above
- * it; relative error of t at most 4e-16 for n = 1 .. 1e5. */
+/* z' and 1 - z' in [0,1], each with all its digits -> t = 1 - z of the height with the same share
+ * of points above it; relative error of t at most 4e-16 for n = 1 .. 1e5. */
 double ps_morph_polar(const ps_morph *morph, double height, double polar);
 
 /* The height z itself, where it is small: t alone would lose its digits. */

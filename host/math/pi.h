@@ -1,4 +1,5 @@
-/* Pi and its multiples, once. Doubling is exact, so that a multiple has the same bits as its own literal. The _L are of long double. */
+/* Pi and its multiples, once. Doubling is exact, so that a multiple has the same bits as its own
+ * literal. The _L are of long double. */
 #ifndef PS_MATH_PI_H
 #define PS_MATH_PI_H
 

@@ -23,8 +23,8 @@ void ps_sobolev_eigenvalues(double smoothness, size_t max_degree, double *eigenv
 /* tau_L = sum_{l>L} a_l (2l+1)/(4 pi) from a_{L+1} (K2). */
 double ps_sobolev_tail(double smoothness, size_t max_degree, double next_eigenvalue);
 
-/* |u-v|^(2s-2) from |u-v|^2 by coordinate differences, which keeps the digits of near points and makes it 0 for equal
- * ones. */
+/* |u-v|^(2s-2) from |u-v|^2 by coordinate differences, which keeps the digits of near points and
+ * makes it 0 for equal ones. */
 double ps_sobolev_distance(double smoothness, const double u[3], const double v[3]);
 
 /* Up to so many points in columns, for sums over them that go side by side. */
@@ -39,7 +39,8 @@ typedef struct ps_sobolev_chunk {
 void ps_sobolev_chunk_fill(ps_sobolev_chunk *chunk, size_t num, const double *points,
                            const double *weights);
 
-/* |u-v_j|^(2s-2), whatever the weights; 1 beyond num or anything else. The same bits whichever of both is u. */
+/* |u-v_j|^(2s-2), whatever the weights; 1 beyond num or anything else. The same bits whichever of
+ * both is u. */
 void ps_sobolev_chunk_distances(double smoothness, const double u[3], const ps_sobolev_chunk *chunk,
                                 double values[PS_SOBOLEV_CHUNK]);
 

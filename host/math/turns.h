@@ -1,5 +1,5 @@
-/* Angles as fractions of a turn, so that quadrants are exact and only an eighth of a turn is left to
- * cosine and sine, whose results are then right to about one unit in the last place of each.
+/* Angles as fractions of a turn, so that quadrants are exact and only an eighth of a turn is left
+ * to cosine and sine, whose results are then right to about one unit in the last place of each.
  */
 #ifndef PS_MATH_TURNS_H
 #define PS_MATH_TURNS_H

@@ -62,8 +62,8 @@ static double kernels_of_averages(const ps_engine *engine) {
     return engine->needs_device && !engine->rows_on_host ? 2 : 0;
 }
 
-/* Seconds, bytes and error of a candidate that applies. A realization of a batch is kept on the host,
- * too, as coordinates and weights. Limits make batches smaller. */
+/* Seconds, bytes and error of a candidate that applies. A realization of a batch is kept on the
+ * host, too, as coordinates and weights. Limits make batches smaller. */
 static void estimate(ps_candidate *candidate, const ps_problem *asked, const ps_survey *survey,
                      const ps_device_limits *limits, const ps_plan_constraints *constraints) {
     const ps_problem own = ps_engine_problem(candidate->engine, asked);
@@ -126,8 +126,8 @@ static bool exclude(ps_candidate *candidate, const ps_plan_constraints *constrai
     return false;
 }
 
-/* The user's limit is for all of it; buffers must fit into a device that has memory of its own. Writes the reason where it
- * does not fit. */
+/* The user's limit is for all of it; buffers must fit into a device that has memory of its own.
+ * Writes the reason where it does not fit. */
 static bool fits_memory(ps_candidate *candidate, const ps_device_limits *limits,
                         const ps_plan_constraints *constraints) {
     const double limit = (double)constraints->memory_limit;
@@ -207,7 +207,8 @@ static void choose_cheapest(ps_plan *plan, bool prefers_double) {
     plan->chosen = best;
 }
 
-/* Nothing is feasible, or there is room for nothing, and it is not the tolerance that stands in the way. */
+/* Nothing is feasible, or there is room for nothing, and it is not the tolerance that stands in the
+ * way. */
 static bool is_too_large(const ps_plan *plan, const ps_problem *problem) {
     bool has_exact = false;
     bool has_any = false;
@@ -220,7 +221,7 @@ static bool is_too_large(const ps_plan *plan, const ps_problem *problem) {
     return ps_plan_fitting(plan) == NULL && (has_exact || !has_any);
 }
 
-/* Of these frequencies instead of the problem's. */
+/* Would the problem fit with these frequencies instead of its own? */
 static bool would_do(const ps_problem *problem, const ps_frequencies *frequencies,
                      const ps_device_limits *limits, const ps_plan_constraints *constraints) {
     ps_problem smaller = *problem;
@@ -249,25 +250,26 @@ static bool would_do_to(const ps_problem *problem, int32_t max_degree,
            would_do(problem, &degrees, limits, constraints);
 }
 
-/* With the smallest subset of every ring, or as many other frequencies up to K: points may be what there is too much of. */
+/* With the smallest subset of every ring, or as many other frequencies up to K: points may be what
+ * there is too much of. */
 static bool would_do_of_rings(const ps_problem *problem, const ps_device_limits *limits,
                               const ps_plan_constraints *constraints) {
-    const ps_frequencies *const all = problem->frequencies;
-    const size_t num = (size_t)PS_MIN_PER_RING * (size_t)all->max_frequency;
+    const ps_frequencies *const whole = problem->frequencies;
+    const size_t num = (size_t)PS_MIN_PER_RING * (size_t)whole->max_frequency;
     ps_frequencies subset = {0};
     void *memory = NULL;
     if ((constraints->offers & PS_OFFER_RINGS) == 0 ||
-        !ps_frequencies_can_sample(all->dimension, all->max_frequency) ||
-        ps_allocate(&memory, num * all->dimension, sizeof(int32_t), "frequencies", NULL) !=
+        !ps_frequencies_can_sample(whole->dimension, whole->max_frequency) ||
+        ps_allocate(&memory, num * whole->dimension, sizeof(int32_t), "frequencies", NULL) !=
             PSPEC_OK) {
         return false;
     }
     int32_t *const vectors = memory;
     for (size_t i = 0; i < num; i++) {
-        vectors[i * all->dimension] = (int32_t)(i / PS_MIN_PER_RING) + 1;
+        vectors[i * whole->dimension] = (int32_t)(i / PS_MIN_PER_RING) + 1;
     }
     const bool would_fit =
-        ps_frequencies_list(&subset, all->dimension, num, vectors, NULL) == PSPEC_OK &&
+        ps_frequencies_list(&subset, whole->dimension, num, vectors, NULL) == PSPEC_OK &&
         would_do(problem, &subset, limits, constraints);
     ps_frequencies_free(&subset);
     return would_fit;

@@ -10,7 +10,8 @@ static const struct {
     double product_share;   /* share of the nominal peak that torus/product.cl reaches */
     double transform_share; /* share of its cycles that nufft/ takes */
     double harmonics_per_flop; /* (point, degree, order) triples per nominal flop: sphere/sums.cl */
-    /* pairs/sums.cl and histogram.cl, per nominal flop: on 2 cores of a EPYC with AVX2, bench_pairs, 2026-11 */
+    /* pairs/sums.cl and histogram.cl, per nominal flop: on 2 cores of a EPYC with AVX2,
+     * bench_pairs, 2026-11 */
     double pair_degrees_per_flop; /* (pair, degree) */
     double pairs_per_flop;        /* pairs into a histogram */
 } device_rates[2] = {
@@ -21,8 +22,9 @@ static const struct {
 /* Long double cosine and sine of one (point, frequency) pair on one core, same machine. */
 static const double host_seconds_per_phase = 190e-9;
 
-/* rules/worst_case_error.c and representer.c on one core, same machine: perf record pointspec quadrature --brdf diffuse
- * --sampler white-hemisphere -n 1024 -m 3000. For the shares of skips only. */
+/* rules/worst_case_error.c and representer.c on one core, same machine: perf record pointspec
+ * quadrature --brdf diffuse --sampler white-hemisphere -n 1024 -m 3000. For the shares of skips
+ * only. */
 static const double host_seconds_per_rule_pair = 1.1e-9;
 static const double host_seconds_per_kappa_term = 0.4e-9;
 

@@ -4,8 +4,9 @@
 
 #include <stdbool.h>
 
-/* Seconds of a unit on one core. Machine: 2 cores of a Zen 5 EPYC (AVX-512) at a nominal 2.6 GHz, Debian 12, 2026-11; the
- * machine is shared. `pointspec bench --calibrate` measures them on the machine at hand as multiples of these, as usual as its runs are. */
+/* Seconds of a unit on one core. Machine: 2 cores of a Zen 5 EPYC (AVX-512) at a nominal 2.6 GHz,
+ * Debian 12, 2026-11; the machine is shared. `pointspec bench --calibrate` measures them on the
+ * machine at hand as multiples of these, as usual as its runs are. */
 static const struct {
     const char *name;
     double seconds;

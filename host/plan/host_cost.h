@@ -1,5 +1,5 @@
-/* Seconds of what the host does beside the engines, from counts of work: the host's part of the cost model. Nothing is chosen
- * by it: it is for the seconds that plan prints. */
+/* Seconds of what the host does beside the engines, from counts of work: the host's part of the
+ * cost model. Nothing is chosen by it: it is for the seconds that plan prints. */
 #ifndef PS_PLAN_HOST_COST_H
 #define PS_PLAN_HOST_COST_H
 
@@ -72,16 +72,17 @@ typedef enum ps_host_kind {
 /* "white", for files of figures and tables. */
 const char *ps_host_kind_name(ps_host_kind kind);
 
-/* Of so many units; figures: what was measured of this host, NULL: nothing. Work that is shared out among threads is divided
- * by the processors of this machine. */
+/* Estimates the seconds of so many units; figures: what was measured of this host, NULL: nothing.
+ * Work that is shared out among threads is divided by the processors of this machine. */
 double ps_host_seconds(const ps_figures *figures, ps_host_kind kind, double units);
 
-/* The same for sets of so many units each, which are shared out one set at a time: few units are left to one thread, and for
- * many the threads are started for every set (ps_workers_share). */
+/* The same for sets of so many units each, which are shared out one set at a time: few units are
+ * left to one thread, and for many the threads are started for every set (ps_workers_share). */
 double ps_host_seconds_of_sets(const ps_figures *figures, ps_host_kind kind, double units,
                                double sets);
 
-/* How many times longer than built in a referee's sum takes on this host, in the engine host_direct as in the self-check. */
+/* How many times longer than built in a referee's sum takes on this host, in the engine host_direct
+ * as in the self-check. */
 double ps_host_referee_scale(const ps_figures *figures, bool is_of_degrees);
 
 #endif

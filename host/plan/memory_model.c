@@ -4,8 +4,8 @@
 
 #include <math.h>
 
-/* Realizations side by side in sums of pieces of bins: whole vectors, shorter ones where most lanes would be empty
- * (analysis/accumulate_device). */
+/* Realizations side by side in sums of pieces of bins: whole vectors, shorter ones where most lanes
+ * would be empty (analysis/accumulate_device). */
 static double padded_rows(const ps_device_limits *limits, ps_precision precision, size_t batch) {
     unsigned lanes = ps_engine_lanes(limits, precision);
     while (lanes > 1 && lanes >= 4 * batch) {
@@ -14,9 +14,10 @@ static double padded_rows(const ps_device_limits *limits, ps_precision precision
     return (double)ps_round_up(batch, lanes);
 }
 
-/* Of rows of powers on the device: their sums and sums of squares in pairs, also read back; members of bins, and
- * the pieces of bins in the blocks of 512 slots of a row: 3 numbers for each, and its sum in pairs. In one dimension
- * all frequencies of a block are one piece; else rings cross a block in about 36. */
+/* Adds what rows of powers on the device bring: their sums and sums of squares in pairs, also read
+ * back; members of bins, and the pieces of bins in the blocks of 512 slots of a row: 3 numbers for
+ * each, and its sum in pairs. In one dimension all frequencies of a block are one piece; else rings
+ * cross a block in about 36. */
 static void add_accumulator(ps_memory *sum, const ps_work *work, const ps_problem *problem,
                             double rows, double real_bytes) {
     const double block = 512;
@@ -53,7 +54,8 @@ ps_memory ps_memory_count(const ps_engine *engine, ps_precision precision,
     const unsigned dimension = problem->frequencies->dimension;
     const double num = (double)problem->frequencies->num;
     const double moved = limits != NULL && limits->has_unified_memory ? work->coordinate_bytes : 0;
-    /* of every frequency twice its vector and its slot, its place in a bin, mean and standard error */
+    /* of every frequency twice its vector and its slot, its place in a bin, mean and standard
+     * error */
     ps_memory sum = {
         .device = work->fixed_bytes - work->host_bytes +
                   (work->bytes_per_realization + work->point_bytes + moved) * (double)batch,

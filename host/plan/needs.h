@@ -48,7 +48,8 @@ ps_needs ps_needs_find(const ps_needs_question *question);
 /* One more skip of the question, before a plan is made. */
 void ps_needs_add(ps_needs *needs, const char *what, const char *why, double share);
 
-/* The share of a skip, once the plan tells more of it than the question does; nothing where there is no such skip. */
+/* The share of a skip, once the plan tells more of it than the question does; nothing where there
+ * is no such skip. */
 void ps_needs_rate(ps_needs *needs, const char *what, double share);
 #define PS_SKIP_CORNERS "corners of the box"
 
@@ -58,9 +59,10 @@ typedef struct ps_needs_strict {
     double other_seconds; /* of the job beside its engine */
 } ps_needs_strict;
 
-/* Makes the plan, and finds what of its precision and of the machine nobody needs. With needs->no_skip it is a plan in
- * double precision, where engines and device have it; that, at strict->tolerance, is what shares are of. May be called
- * again for the same needs, when powers were measured: what it had found is found anew. */
+/* Makes the plan, and finds what of its precision and of the machine nobody needs. With
+ * needs->no_skip it is a plan in double precision, where engines and device have it; that, at
+ * strict->tolerance, is what shares are of. May be called again for the same needs, when powers
+ * were measured: what it had found is found anew. */
 pspec_status ps_needs_plan(ps_needs *needs, ps_plan *plan, const ps_problem *problem,
                            const ps_device_limits *limits, const ps_plan_constraints *constraints,
                            const ps_needs_strict *strict, ps_error *error) PS_MUST_CHECK;

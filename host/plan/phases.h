@@ -1,4 +1,5 @@
-/* What a job is made of besides the sums of its engine, and how long each part of it takes: what plan prints. */
+/* What a job is made of besides the sums of its engine, and how long each part of it takes: what
+ * plan prints. */
 #ifndef PS_PLAN_PHASES_H
 #define PS_PLAN_PHASES_H
 
@@ -27,14 +28,17 @@ typedef struct ps_phases {
     ps_phase_cost list[PS_MAX_PHASES];
 } ps_phases;
 
-/* Units of the kind become a phase, or more of the phase of that name, whose `what` stays; nothing for no units. */
+/* Units of the kind become a phase, or more of the phase of that name, whose `what` stays; nothing
+ * for no units. */
 void ps_phases_add(ps_phases *phases, const char *name, ps_host_kind kind, double units);
-/* The same of so many sets that are shared out among threads one by one (ps_host_seconds_of_sets). */
+/* The same of so many sets that are shared out among threads one by one
+ * (ps_host_seconds_of_sets). */
 void ps_phases_add_sets(ps_phases *phases, const char *name, ps_host_kind kind, double units,
                         double sets);
 /* The same of seconds that are known already. */
 void ps_phases_add_seconds(ps_phases *phases, const char *name, double seconds);
-/* Adds the time that the system takes for memory of so many bytes, when they are touched for the first time. */
+/* Adds the time that the system takes for memory of so many bytes, when they are touched for the
+ * first time. */
 void ps_phases_touch(ps_phases *phases, double bytes);
 /* Describes the phase of that name, if there is one; longer texts are cut. */
 void ps_phases_say(ps_phases *phases, const char *name, const char *format, ...) PS_PRINTF(3, 4);

@@ -50,8 +50,8 @@ static void say_what_fits(char *out, size_t out_bytes, const ps_plan *plan,
     }
 }
 
-/* What else there is room for, as the end of a sentence: a limit that chooses it, or its name where it is not memory
- * that tells it from the chosen one. */
+/* What else there is room for, as the end of a sentence: a limit that chooses it, or its name where
+ * it is not memory that tells it from the chosen one. */
 static void say_what_is_smaller(char *out, size_t out_bytes, const ps_plan *plan) {
     const uint64_t megabyte = (uint64_t)1 << 20;
     const ps_candidate *const fitting = ps_plan_fitting(plan);

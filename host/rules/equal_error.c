@@ -28,8 +28,8 @@ static double interpolate(const double num[2], const double errors[2], double ta
 }
 
 /* Between a rung that is too small and one that is not: two more errors near the answer. */
-static pspec_status refine(const ps_equal_error *of, double num[2], double errors[2], double target,
-                           double *out, ps_error *error) {
+static pspec_status refine(const ps_equal_error *equal_error, double num[2], double errors[2],
+                           double target, double *out, ps_error *error) {
     enum { STEPS = 2 };
     *out = interpolate(num, errors, target);
     for (int step = 0; step < STEPS; step++) {
@@ -38,7 +38,8 @@ static pspec_status refine(const ps_equal_error *of, double num[2], double error
         if (!(middle > num[0] && middle < num[1])) {
             break;
         }
-        PS_TRY(ps_fibonacci_error(of->representer, &of->morph, (size_t)middle, &found, error));
+        PS_TRY(ps_fibonacci_error(equal_error->representer, &equal_error->morph, (size_t)middle,
+                                  &found, error));
         const int end = found <= target;
         num[end] = middle;
         errors[end] = found;
@@ -47,19 +48,19 @@ static pspec_status refine(const ps_equal_error *of, double num[2], double error
     return PSPEC_OK;
 }
 
-pspec_status ps_equal_error_points(ps_equal_error *of, double target, double *num_points,
+pspec_status ps_equal_error_points(ps_equal_error *equal_error, double target, double *num_points,
                                    ps_error *error) {
     *num_points = NAN;
     for (int i = 0; i < PS_EQUAL_ERROR_RUNGS; i++) {
-        if (of->ladder[i] == 0) {
-            PS_TRY(ps_fibonacci_error(of->representer, &of->morph, (size_t)1 << i, &of->ladder[i],
-                                      error));
+        if (equal_error->ladder[i] == 0) {
+            PS_TRY(ps_fibonacci_error(equal_error->representer, &equal_error->morph, (size_t)1 << i,
+                                      &equal_error->ladder[i], error));
         }
-        if (of->ladder[i] <= target) {
+        if (equal_error->ladder[i] <= target) {
             double num[2] = {exp2(i - 1), exp2(i)};
-            double errors[2] = {i > 0 ? of->ladder[i - 1] : 0, of->ladder[i]};
+            double errors[2] = {i > 0 ? equal_error->ladder[i - 1] : 0, equal_error->ladder[i]};
             *num_points = 1;
-            return i > 0 ? refine(of, num, errors, target, num_points, error) : PSPEC_OK;
+            return i > 0 ? refine(equal_error, num, errors, target, num_points, error) : PSPEC_OK;
         }
     }
     return PSPEC_OK;

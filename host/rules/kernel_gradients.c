@@ -1,5 +1,5 @@
-/* Kernel systems by conjugate gradients, with the matrix made on the fly, by a device or in threads, and the sparse inverse
- * of kernel_factor.h as preconditioner. */
+/* Kernel systems by conjugate gradients, with the matrix made on the fly, by a device or in
+ * threads, and the sparse inverse of kernel_factor.h as preconditioner. */
 #include "rules/kernel_private.h"
 
 #include "base/memory.h"
@@ -52,7 +52,8 @@ static void multiply_row(void *payload, size_t i) {
                                            system->points, work->x);
 }
 
-/* A product may take longer than people wait. It is a part of a step, as who listens hears again and again. */
+/* A product may take longer than people wait. It is a part of a step, as who listens hears again
+ * and again. */
 static int tell_step(const ps_watch_report *report, void *payload) {
     const ps_kernel_system *const system = payload;
     (void)report;
@@ -143,79 +144,80 @@ static double length_of(size_t num, const double *a) {
     return sqrt(ps_kernel_dot(num, a, a));
 }
 
-static pspec_status check_step(const gradients *of, double residual, ps_error *error) {
-    const ps_kernel_options *const options = &of->system->options;
-    const size_t step = of->system->facts.num_steps;
+static pspec_status check_step(const gradients *solution, double residual, ps_error *error) {
+    const ps_kernel_options *const options = &solution->system->options;
+    const size_t step = solution->system->facts.num_steps;
     const size_t most = options->most_steps > 0 ? options->most_steps : DEFAULT_STEPS;
-    of->system->facts.residual = residual;
-    PS_TRY(tell_steps(of->system, error));
+    solution->system->facts.residual = residual;
+    PS_TRY(tell_steps(solution->system, error));
     if (step >= most) {
         return ps_fail(error, PSPEC_ERROR_TOLERANCE,
                        "conjugate gradients reached a residual of %.3g in %zu steps, not the %.3g "
                        "asked for; the two nearest points are %.3g from each other",
-                       residual, step, of->target / of->size, of->system->factor.nearest);
+                       residual, step, solution->target / solution->size,
+                       solution->system->factor.nearest);
     }
     return PSPEC_OK;
 }
 
-static void add_scaled(size_t num, double *to, double factor, const double *from) {
+static void add_scaled(size_t num, double *sum, double factor, const double *term) {
     for (size_t i = 0; i < num; i++) {
-        to[i] += factor * from[i];
+        sum[i] += factor * term[i];
     }
 }
 
 /* From the residual of x on until the recurrence says that the target is met. */
-static pspec_status descend(const gradients *of, ps_error *error) {
-    ps_kernel_system *const system = of->system;
+static pspec_status descend(const gradients *solution, ps_error *error) {
+    ps_kernel_system *const system = solution->system;
     const size_t n = system->num;
-    ps_kernel_factor_apply(&system->factor, of->residual, of->direction);
-    double square = ps_kernel_dot(n, of->residual, of->direction);
-    double left = length_of(n, of->residual);
-    while (left > of->target) {
-        PS_TRY(check_step(of, left / of->size, error));
-        PS_TRY(multiply(system, of->direction, of->image, error));
-        const double curvature = ps_kernel_dot(n, of->direction, of->image);
+    ps_kernel_factor_apply(&system->factor, solution->residual, solution->direction);
+    double square = ps_kernel_dot(n, solution->residual, solution->direction);
+    double left = length_of(n, solution->residual);
+    while (left > solution->target) {
+        PS_TRY(check_step(solution, left / solution->size, error));
+        PS_TRY(multiply(system, solution->direction, solution->image, error));
+        const double curvature = ps_kernel_dot(n, solution->direction, solution->image);
         if (!(curvature > 0)) {
             return refuse(system, error);
         }
-        add_scaled(n, of->x, square / curvature, of->direction);
-        add_scaled(n, of->residual, -square / curvature, of->image);
-        ps_kernel_factor_apply(&system->factor, of->residual, of->better);
-        const double next = ps_kernel_dot(n, of->residual, of->better);
+        add_scaled(n, solution->x, square / curvature, solution->direction);
+        add_scaled(n, solution->residual, -square / curvature, solution->image);
+        ps_kernel_factor_apply(&system->factor, solution->residual, solution->better);
+        const double next = ps_kernel_dot(n, solution->residual, solution->better);
         for (size_t i = 0; i < n; i++) {
-            of->direction[i] = of->better[i] + next / square * of->direction[i];
+            solution->direction[i] = solution->better[i] + next / square * solution->direction[i];
         }
         square = next;
-        left = length_of(n, of->residual);
+        left = length_of(n, solution->residual);
         system->facts.num_steps++;
     }
     return PSPEC_OK;
 }
 
-/* The residual itself is not that of the recurrence: where it is larger the descent begins again with it, until rounding
- * lets nothing more be gained. */
-static pspec_status descend_again(const gradients *of, const double *right, ps_error *error) {
+/* The residual itself is not that of the recurrence: where it is larger the descent begins again
+ * with it, until rounding lets nothing more be gained. */
+static pspec_status descend_again(const gradients *solution, const double *right, ps_error *error) {
     enum { MOST_TIMES = 4 };
     const double slack = 2; /* of the residual itself over the recurrence's */
-    ps_kernel_system *const system = of->system;
+    ps_kernel_system *const system = solution->system;
     const size_t n = system->num;
-    double left = length_of(n, of->residual);
-    for (int i = 0; i < MOST_TIMES && left > slack * of->target; i++) {
-        PS_TRY(descend(of, error));
-        PS_TRY(find_residual(system, right, of->x, of->residual, error));
-        left = length_of(n, of->residual);
-        if (left <= ROUNDINGS * DBL_EPSILON * system->norm * length_of(n, of->x)) {
+    double left = length_of(n, solution->residual);
+    for (int i = 0; i < MOST_TIMES && left > slack * solution->target; i++) {
+        PS_TRY(descend(solution, error));
+        PS_TRY(find_residual(system, right, solution->x, solution->residual, error));
+        left = length_of(n, solution->residual);
+        if (left <= ROUNDINGS * DBL_EPSILON * system->norm * length_of(n, solution->x)) {
             break;
         }
     }
-    system->facts.residual = of->size > 0 ? left / of->size : 0;
-    const double floor = ROUNDINGS * DBL_EPSILON * system->norm * length_of(n, of->x);
-    return left <= fmax(slack * of->target, floor)
+    system->facts.residual = solution->size > 0 ? left / solution->size : 0;
+    const double floor = ROUNDINGS * DBL_EPSILON * system->norm * length_of(n, solution->x);
+    return left <= fmax(slack * solution->target, floor)
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_TOLERANCE,
                          "conjugate gradients end at a residual of %.3g, not the %.3g asked for: "
                          "rounding lets no more be gained",
-                         left / of->size, of->target / of->size);
+                         left / solution->size, solution->target / solution->size);
 }
 
 pspec_status ps_kernel_gradients_solve(ps_kernel_system *system, const double *right, double *x,
@@ -224,17 +226,17 @@ pspec_status ps_kernel_gradients_solve(ps_kernel_system *system, const double *r
     const double wanted =
         system->options.residual > 0 ? system->options.residual : DEFAULT_RESIDUAL;
     const double size = length_of(n, right);
-    const gradients of = {.system = system,
-                          .x = x,
-                          .residual = residual,
-                          .direction = system->rows + 2 * n,
-                          .image = system->rows + 3 * n,
-                          .better = system->rows + 4 * n,
-                          .target = wanted * size,
-                          .size = size};
+    const gradients solution = {.system = system,
+                                .x = x,
+                                .residual = residual,
+                                .direction = system->rows + 2 * n,
+                                .image = system->rows + 3 * n,
+                                .better = system->rows + 4 * n,
+                                .target = wanted * size,
+                                .size = size};
     memset(x, 0, n * sizeof *x);
     memcpy(residual, right, n * sizeof *x);
     system->facts.num_steps = 0;
     system->facts.residual = 1;
-    return descend_again(&of, right, error);
+    return descend_again(&solution, right, error);
 }

@@ -9,15 +9,17 @@
 
 /* ---- filling ------------------------------------------------------------------------------- */
 
-/* A tile is all distances of COLUMNS points from a chunk of points. It is written to both triangles, where either way runs
- * along memory: one number at a time into columns 8 n bytes apart took five times as long. */
+/* A tile is all distances of COLUMNS points from a chunk of points. It is written to both
+ * triangles, where either way runs along memory: one number at a time into columns 8 n bytes apart
+ * took five times as long. */
 enum { ROWS = PS_SOBOLEV_CHUNK, COLUMNS = 32 };
 
 static size_t count_of(size_t n, size_t begin, size_t most) {
     return n - begin < most ? n - begin : most;
 }
 
-/* The tile of a chunk of rows and of columns that are not beyond it; entries of the chunk with itself come twice. */
+/* The tile of a chunk of rows and of columns that are not beyond it; entries of the chunk with
+ * itself come twice. */
 static void fill_tile(const ps_kernel_system *system, const ps_sobolev_chunk *chunk, size_t row,
                       size_t column) {
     const size_t n = system->num;
@@ -40,7 +42,8 @@ static void fill_tile(const ps_kernel_system *system, const ps_sobolev_chunk *ch
     }
 }
 
-/* Chunks of rows dealt out from the last one on, which has the most columns; tiles of several rows never meet. */
+/* Chunks of rows dealt out from the last one on, which has the most columns; tiles of several rows
+ * never meet. */
 static void fill_rows(void *payload, size_t i) {
     const ps_kernel_system *const system = payload;
     const size_t num_chunks = (system->num + ROWS - 1) / ROWS;
@@ -108,9 +111,10 @@ pspec_status ps_kernel_matrix_norm(ps_kernel_system *system, ps_error *error) {
 
 /* ---- residuals ----------------------------------------------------------------------------- */
 
-/* Sums of K_ij x_j to some 70 bits without a rounding that matters: K = k + K', k a multiple of 2^-18, and x = h + l, h a
- * multiple of 2^-20 of a power of two above max |x|. Products k h are whole numbers of 40 bits: MOST_EXACT of them add up
- * without any rounding, and what is left, k l + K' x, is a millionth of it. All of it in vectors, which long double is not.
+/* Sums of K_ij x_j to some 70 bits without a rounding that matters: K = k + K', k a multiple of
+ * 2^-18, and x = h + l, h a multiple of 2^-20 of a power of two above max |x|. Products k h are
+ * whole numbers of 40 bits: MOST_EXACT of them add up without any rounding, and what is left, k l +
+ * K' x, is a millionth of it. All of it in vectors, which long double is not.
  */
 enum { MOST_EXACT = 4096 };
 static const double ROUND_ENTRY = 0x1.8p34;  /* 1.5 2^52 2^-18 */
@@ -222,8 +226,8 @@ static void take_columns(const residual_work *work, size_t begin, long double *s
     }
 }
 
-/* K is in the strict upper triangle only: its column i is the part of row i before the diagonal, and what is behind it
- * comes from later columns. */
+/* K is in the strict upper triangle only: its column i is the part of row i before the diagonal,
+ * and what is behind it comes from later columns. */
 static void residual_of_block(void *payload, size_t block) {
     const residual_work *const work = payload;
     const ps_kernel_system *const system = work->system;

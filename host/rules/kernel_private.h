@@ -6,7 +6,8 @@
 #include "rules/kernel_system.h"
 #include "engines/pairs/pairs_product.h"
 
-/* Arrays of N doubles: solution and residual; then numbers in two parts, or the three of conjugate gradients. */
+/* Arrays of N doubles: solution and residual; then numbers in two parts, or the three of conjugate
+ * gradients. */
 enum { PS_KERNEL_DENSE_ROWS = 4, PS_KERNEL_GRADIENT_ROWS = 5 };
 
 struct ps_kernel_system {
@@ -15,8 +16,8 @@ struct ps_kernel_system {
     double *points; /* [num][3] */
     size_t *group;  /* [num_points]: which distinct point each one is */
     double *shares; /* [num]: 1 over how many points it is */
-    double *
-        matrix; /* [num][num]: factor in the lower, K in the strict upper triangle; NULL: not dense */
+    /* [num][num]: factor in the lower, K in the strict upper triangle; NULL: not dense */
+    double *matrix;
     double *rows; /* [PS_KERNEL_.._ROWS][num] */
     double norm;  /* of K, the 1-norm */
     /* of conjugate gradients */
@@ -36,8 +37,8 @@ pspec_status ps_kernel_system_refuse(const ps_kernel_system *system, size_t i, s
 pspec_status ps_kernel_matrix_fill(ps_kernel_system *system, ps_error *error) PS_MUST_CHECK;
 /* Sets the norm to the 1-norm of a matrix that was just filled; uses the rows. */
 pspec_status ps_kernel_matrix_norm(ps_kernel_system *system, ps_error *error) PS_MUST_CHECK;
-/* residual = right - K x with sums of 64 bits; K is in the strict upper triangle, and c on the diagonal. x and residual are
- * the first two rows, or anything else but the next two. */
+/* residual = right - K x with sums of 64 bits; K is in the strict upper triangle, and c on the
+ * diagonal. x and residual are the first two rows, or anything else but the next two. */
 pspec_status ps_kernel_matrix_residual(ps_kernel_system *system, const double *right,
                                        const double *x, double *residual,
                                        ps_error *error) PS_MUST_CHECK;

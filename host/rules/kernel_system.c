@@ -54,7 +54,8 @@ static pspec_status find_first_ones(size_t num_points, const double *points, siz
     return PSPEC_OK;
 }
 
-/* Numbers the distinct points in the order of their first ones, which come before all of their duplicates. */
+/* Numbers the distinct points in the order of their first ones, which come before all of their
+ * duplicates. */
 static pspec_status merge_points(ps_kernel_system *system, const double *points, ps_error *error) {
     PS_TRY(find_first_ones(system->num_points, points, system->group, error));
     for (size_t j = 0; j < system->num_points; j++) {
@@ -158,7 +159,8 @@ out:
     return status;
 }
 
-/* What the machine has free does not choose the way, for weights would depend on it; it may refuse. */
+/* What the machine has free does not choose the way, for weights would depend on it; it may
+ * refuse. */
 static pspec_status allocate_matrix(void **matrix, size_t num, ps_error *error) {
     ps_error refusal = {0};
     if (ps_allocate(matrix, num, num * sizeof(double), "a kernel matrix", &refusal) == PSPEC_OK) {

@@ -1,9 +1,11 @@
-/* Linear systems with the kernel matrix K_ij = c - |u_i-u_j|^(2s-2) of points, for optimal weights and interpolation
- * (docs/mathematics/quadrature.md#optimal-weights, docs/mathematics/quadrature.md#interpolation).
+/* Linear systems with the kernel matrix K_ij = c - |u_i-u_j|^(2s-2) of points, for optimal weights
+ * and interpolation (docs/mathematics/quadrature.md#optimal-weights,
+ * docs/mathematics/quadrature.md#interpolation).
  *
- * By Cholesky in double precision with one step of iterative refinement up to PS_KERNEL_MOST_DENSE points, if no limit of
- * memory forbids N^2 doubles; else by conjugate gradients, which make K on the fly, on the device where there is one with
- * double precision. Exact duplicates are one point: K is singular with them.
+ * By Cholesky in double precision with one step of iterative refinement up to PS_KERNEL_MOST_DENSE
+ * points, if no limit of memory forbids N^2 doubles; else by conjugate gradients, which make K on
+ * the fly, on the device where there is one with double precision. Exact duplicates are one point:
+ * K is singular with them.
  */
 #ifndef PS_RULES_KERNEL_SYSTEM_H
 #define PS_RULES_KERNEL_SYSTEM_H
@@ -29,33 +31,36 @@ typedef struct ps_kernel_facts {
     size_t num_distinct; /* points that are left when duplicates are one */
     bool is_dense;       /* Cholesky, or else conjugate gradients */
     uint64_t bytes;      /* of the arrays */
-    /* Cholesky: an estimate, in the 1-norm. Conjugate gradients: no less than this, of the two nearest points */
+    /* Cholesky: an estimate, in the 1-norm. Conjugate gradients: no less than this, of the two
+     * nearest points */
     double condition;
     bool is_ill_conditioned; /* solutions have fewer than about four digits: near duplicates */
     size_t num_steps;        /* of conjugate gradients in the last solution */
     double residual;         /* |r|/|right side| that they ended with, computed anew */
 } ps_kernel_facts;
 
-/* Bytes that a system of so many points takes, by Cholesky or by conjugate gradients on a device: for announcing them. */
+/* Bytes that a system of so many points takes, by Cholesky or by conjugate gradients on a device:
+ * for announcing them. */
 uint64_t ps_kernel_system_bytes(size_t num_points, bool is_dense);
-/* The most points whose matrix is stored, 3.2 GB, on every machine: the weights must not depend on how much memory it has.
- * Conjugate gradients are quicker from some 10000 points on (docs/quadrature.md), a factor is exact in more cases. */
+/* The most points whose matrix is stored, 3.2 GB, on every machine: the weights must not depend on
+ * how much memory it has. Conjugate gradients are quicker from some 10000 points on
+ * (docs/quadrature.md), a factor is exact in more cases. */
 enum { PS_KERNEL_MOST_DENSE = 20000 };
 
 /* Is it Cholesky? memory_limit as in the options. */
 bool ps_kernel_system_is_dense(size_t num_points, uint64_t memory_limit);
 
-/* points: unit vectors [num_points][3], copied. options NULL: the defaults. Points so near each other that K is not
- * positive definite in double precision are PSPEC_ERROR_INPUT and named. */
+/* points: unit vectors [num_points][3], copied. options NULL: the defaults. Points so near each
+ * other that K is not positive definite in double precision are PSPEC_ERROR_INPUT and named. */
 pspec_status ps_kernel_system_create(ps_kernel_system **out, size_t num_points,
                                      const double *points, double smoothness,
                                      const ps_kernel_options *options,
                                      ps_error *error) PS_MUST_CHECK;
 void ps_kernel_system_destroy(ps_kernel_system *system); /* NULL is allowed */
 
-/* K x = right, both [num_points]; duplicates share what their one point gets in equal parts, and must have equal
- * right sides (the first one counts). *defect (NULL: not wanted) becomes x . (right - K x), the part of a quadratic
- * form that rounding leaves over. */
+/* K x = right, both [num_points]; duplicates share what their one point gets in equal parts, and
+ * must have equal right sides (the first one counts). *defect (NULL: not wanted) becomes x . (right
+ * - K x), the part of a quadratic form that rounding leaves over. */
 pspec_status ps_kernel_system_solve(ps_kernel_system *system, const double *right, double *x,
                                     double *defect, ps_error *error) PS_MUST_CHECK;
 

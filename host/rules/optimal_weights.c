@@ -14,7 +14,8 @@ static double sum_products(size_t num, const double *a, const double *b) {
     return ps_neumaier_value(&sum);
 }
 
-/* w = w0 + mu K^-1 1, mu = (1 - W0)/(1.K^-1 1); E^2 grows by (1 - W0)^2/(1.K^-1 1). ones, flat: [num] each. */
+/* w = w0 + mu K^-1 1, mu = (1 - W0)/(1.K^-1 1); E^2 grows by (1 - W0)^2/(1.K^-1 1). ones, flat:
+ * [num] each. */
 static pspec_status impose_sum(ps_kernel_system *system, size_t num, double *ones, double *flat,
                                double *weights, double *squared, ps_error *error) {
     for (size_t j = 0; j < num; j++) {

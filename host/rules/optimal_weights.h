@@ -14,8 +14,8 @@ typedef struct ps_optimal_weights {
     ps_kernel_facts facts; /* condition, memory, duplicates */
 } ps_optimal_weights;
 
-/* Writes weights [num_points] for unit vectors [num_points][3]. kappa: of the points, or NULL to have it made here.
- * sum_to_one: impose sum w = 1. */
+/* Writes weights [num_points] for unit vectors [num_points][3]. kappa: of the points, or NULL to
+ * have it made here. sum_to_one: impose sum w = 1. */
 pspec_status ps_optimal_weights_find(const ps_representer *representer, size_t num_points,
                                      const double *points, const double *kappa, bool sum_to_one,
                                      const ps_kernel_options *options, double *weights,

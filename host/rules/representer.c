@@ -28,12 +28,12 @@ pspec_status ps_representer_check(const ps_representer *representer, size_t max_
 
 /* ---- how many degrees ---------------------------------------------------------------------- */
 
-/* The terms of kappa at the pole have changing signs: what is left is about as large as the largest of the last ones.
- * At the horizon, where lobes begin, even ones have one sign and add up: the second half of them falls like a power of
- * more than 2s + 1, so that what is left is less than 1 / (2^(2s) - 1) of it. tests/rules/test_representer.c compares both
- * with integrals. */
-static double estimate_truncation(const ps_representer *of) {
-    const size_t last = of->max_degree;
+/* The terms of kappa at the pole have changing signs: what is left is about as large as the largest
+ * of the last ones. At the horizon, where lobes begin, even ones have one sign and add up: the
+ * second half of them falls like a power of more than 2s + 1, so that what is left is less than 1 /
+ * (2^(2s) - 1) of it. tests/rules/test_representer.c compares both with integrals. */
+static double estimate_truncation(const ps_representer *representer) {
+    const size_t last = representer->max_degree;
     double pole = 0;
     double horizon = 0;
     double legendre = 1; /* P_l(0) for even l */
@@ -41,25 +41,26 @@ static double estimate_truncation(const ps_representer *of) {
         const double degree = (double)l;
         if (l % 2 == 0) {
             legendre *= l > 0 ? -(degree - 1) / degree : 1;
-            horizon += l > last / 2 ? of->series[l] * legendre : 0;
+            horizon += l > last / 2 ? representer->series[l] * legendre : 0;
         }
-        pole = l >= last - last / 16 ? fmax(pole, fabs(of->series[l])) : pole;
+        pole = l >= last - last / 16 ? fmax(pole, fabs(representer->series[l])) : pole;
     }
-    return fmax(pole, fabs(horizon) / (exp2(2 * of->smoothness) - 1));
+    return fmax(pole, fabs(horizon) / (exp2(2 * representer->smoothness) - 1));
 }
 
 /* sum b_l^2 beyond the arrays, by subtraction. */
-static double energy_left(const ps_representer *of) {
-    ps_neumaier sum = {of->energy, 0};
-    for (size_t l = 0; l <= of->max_degree; l++) {
-        ps_neumaier_add(&sum, -of->b[l] * of->b[l]);
+static double energy_left(const ps_representer *representer) {
+    ps_neumaier sum = {representer->energy, 0};
+    for (size_t l = 0; l <= representer->max_degree; l++) {
+        ps_neumaier_add(&sum, -representer->b[l] * representer->b[l]);
     }
     return ps_neumaier_value(&sum);
 }
 
 double ps_representer_rest(const ps_representer *representer, size_t max_degree,
                            double *half_width) {
-    /* Less than this is what rounding of the coefficients leaves: a smooth lobe has nothing there. */
+    /* Less than this is what rounding of the coefficients leaves: a smooth lobe has nothing
+     * there. */
     const double rounding = 16 * DBL_EPSILON * representer->energy;
     const size_t last = representer->max_degree;
     const double left = energy_left(representer);
@@ -72,34 +73,37 @@ double ps_representer_rest(const ps_representer *representer, size_t max_degree,
     return ps_neumaier_value(&sum);
 }
 
-static void fill_series(ps_representer *of) {
-    for (size_t l = 0; l <= of->max_degree + 1; l++) {
+static void fill_series(ps_representer *representer) {
+    for (size_t l = 0; l <= representer->max_degree + 1; l++) {
         const double degree = (double)l;
-        const bool is_term = l <= of->max_degree;
-        of->series[l] = is_term ? of->a[l] * of->b[l] * sqrt((2 * degree + 1) / PS_FOUR_PI) : 0;
-        of->factors[2 * l] = degree / (degree + 1);
-        of->factors[2 * l + 1] = (2 * degree + 1) / (degree + 1);
+        const bool is_term = l <= representer->max_degree;
+        representer->series[l] =
+            is_term ? representer->a[l] * representer->b[l] * sqrt((2 * degree + 1) / PS_FOUR_PI)
+                    : 0;
+        representer->factors[2 * l] = degree / (degree + 1);
+        representer->factors[2 * l + 1] = (2 * degree + 1) / (degree + 1);
     }
 }
 
-static pspec_status fill(ps_representer *of, const ps_brdf *brdf, size_t max_degree,
+static pspec_status fill(ps_representer *representer, const ps_brdf *brdf, size_t max_degree,
                          ps_error *error) {
     enum { ARRAYS = 5 };
     void *block = NULL;
     PS_TRY(ps_allocate(&block, ARRAYS * (max_degree + 2), sizeof(double), "coefficients of a BRDF",
                        error));
-    free(of->a);
-    of->a = block;
-    of->b = of->a + max_degree + 2;
-    of->series = of->b + max_degree + 2;
-    of->factors = of->series + max_degree + 2;
-    of->max_degree = max_degree;
-    of->num_terms = max_degree + 1;
-    ps_sobolev_eigenvalues(of->smoothness, max_degree + 1, of->a);
-    PS_TRY(ps_brdf_spherical(brdf, max_degree, of->b, error));
-    fill_series(of);
-    of->kappa_estimate = estimate_truncation(of);
-    of->kappa_0 = of->a[0] * of->b[0] * of->b[0] + ps_representer_rest(of, 0, &of->kappa_0_error);
+    free(representer->a);
+    representer->a = block;
+    representer->b = representer->a + max_degree + 2;
+    representer->series = representer->b + max_degree + 2;
+    representer->factors = representer->series + max_degree + 2;
+    representer->max_degree = max_degree;
+    representer->num_terms = max_degree + 1;
+    ps_sobolev_eigenvalues(representer->smoothness, max_degree + 1, representer->a);
+    PS_TRY(ps_brdf_spherical(brdf, max_degree, representer->b, error));
+    fill_series(representer);
+    representer->kappa_estimate = estimate_truncation(representer);
+    representer->kappa_0 = representer->a[0] * representer->b[0] * representer->b[0] +
+                           ps_representer_rest(representer, 0, &representer->kappa_0_error);
     return PSPEC_OK;
 }
 
@@ -145,30 +149,30 @@ static size_t count_needed(const double *series, size_t num, double error, doubl
     return num;
 }
 
-static bool is_even_above_1(const ps_representer *of) {
+static bool is_even_above_1(const ps_representer *representer) {
     bool is_even = true;
-    for (size_t l = 3; l <= of->max_degree; l += 2) {
-        is_even = is_even && of->b[l] == 0;
+    for (size_t l = 3; l <= representer->max_degree; l += 2) {
+        is_even = is_even && representer->b[l] == 0;
     }
     return is_even;
 }
 
-/* P_2k(z) is the Jacobi polynomial P_k^(0,-1/2)(2 z^2 - 1), whose recurrence of differences has the form of that of
- * P_l, with 2 (1 - z^2) for 1 - z: half as many steps. */
-static void keep_even(ps_representer *of) {
-    const size_t num = of->max_degree / 2 + 1;
-    of->only_even = true;
-    of->first = of->series[1];
+/* P_2k(z) is the Jacobi polynomial P_k^(0,-1/2)(2 z^2 - 1), whose recurrence of differences has the
+ * form of that of P_l, with 2 (1 - z^2) for 1 - z: half as many steps. */
+static void keep_even(ps_representer *representer) {
+    const size_t num = representer->max_degree / 2 + 1;
+    representer->only_even = true;
+    representer->first = representer->series[1];
     for (size_t k = 0; k < num; k++) {
         const double n = (double)k;
         const double up = (n + 1) * (2 * n + 1) / ((2 * n + 0.5) * (2 * n + 1.5));
         const double down = k > 0 ? n * (2 * n - 1) / ((2 * n - 0.5) * (2 * n + 0.5)) : 0;
-        of->series[k] = of->series[2 * k];
-        of->factors[2 * k] = down / up;
-        of->factors[2 * k + 1] = 1 / up;
+        representer->series[k] = representer->series[2 * k];
+        representer->factors[2 * k] = down / up;
+        representer->factors[2 * k + 1] = 1 / up;
     }
-    of->series[num] = 0; /* steps are taken in twos */
-    of->num_terms = num;
+    representer->series[num] = 0; /* steps are taken in twos */
+    representer->num_terms = num;
 }
 
 void ps_representer_skip(ps_representer *representer, double error) {
@@ -188,8 +192,8 @@ void ps_representer_skip(ps_representer *representer, double error) {
 /* Points that go through the recurrence side by side. */
 enum { LANES = 16 };
 
-/* Degrees that are added up before they meet the sum: at the horizon thousands of small terms of one sign would be
- * rounded away one by one. Even. */
+/* Degrees that are added up before they meet the sum: at the horizon thousands of small terms of
+ * one sign would be rounded away one by one. Even. */
 enum { RUN_DEGREES = 64 };
 
 /* *sum += value, with what is rounded away in *low. */
@@ -258,7 +262,7 @@ typedef struct kappa_work {
 } kappa_work;
 
 static void do_block(const kappa_work *work, size_t first) {
-    const ps_representer *const of = work->representer;
+    const ps_representer *const representer = work->representer;
     double t[LANES] = {0};
     double even[LANES];
     double odd[LANES];
@@ -266,14 +270,14 @@ static void do_block(const kappa_work *work, size_t first) {
     for (size_t i = 0; i < num; i++) {
         const double *const u = work->points + 3 * (first + i);
         const double square = u[0] * u[0] + u[1] * u[1];
-        t[i] = of->only_even ? 2 * square : square / (1 + fabs(u[2]));
+        t[i] = representer->only_even ? 2 * square : square / (1 + fabs(u[2]));
     }
-    sum_series(of->num_terms, of->series, of->factors, t, even, odd);
+    sum_series(representer->num_terms, representer->series, representer->factors, t, even, odd);
     for (size_t i = 0; i < num; i++) {
         const double z = work->points[3 * (first + i) + 2];
-        work->kappa[first + i] = of->only_even ? even[i] + odd[i] + of->first * z
-                                 : z < 0       ? even[i] - odd[i]
-                                               : even[i] + odd[i];
+        work->kappa[first + i] = representer->only_even ? even[i] + odd[i] + representer->first * z
+                                 : z < 0                ? even[i] - odd[i]
+                                                        : even[i] + odd[i];
     }
 }
 

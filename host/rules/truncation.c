@@ -29,7 +29,7 @@ pspec_status ps_truncation_spherical(const ps_representer *representer, size_t m
 /* ---- hemispherical harmonics --------------------------------------------------------------- */
 
 /* Everything up to spherical degree X and hemispherical degree L. */
-typedef struct conversion {
+typedef struct harmonic_conversion {
     size_t max_degree, sh_degree;
     double *a, *b; /* [X + 2], [X + 1] */
     double *hsh;   /* [num_hsh], num_hsh > L + 1 */
@@ -38,68 +38,73 @@ typedef struct conversion {
     double *matrix;     /* [L + 1][X + 1] */
     double energy;
     double smoothness;
-} conversion;
+} harmonic_conversion;
 
-static pspec_status prepare(conversion *of, const ps_brdf *brdf, ps_error *error) {
+static pspec_status prepare(harmonic_conversion *conversion, const ps_brdf *brdf, ps_error *error) {
     enum {
         BEYOND = 400
     }; /* degrees after L whose energy is added up; of the rest, the closed sum */
-    const size_t num_sh = of->sh_degree + 2;
-    of->num_hsh = of->max_degree + BEYOND;
-    PS_TRY(PS_NEW(&of->a, 3 * num_sh + of->num_hsh + (of->max_degree + 1) * num_sh,
+    const size_t num_sh = conversion->sh_degree + 2;
+    conversion->num_hsh = conversion->max_degree + BEYOND;
+    PS_TRY(PS_NEW(&conversion->a,
+                  3 * num_sh + conversion->num_hsh + (conversion->max_degree + 1) * num_sh,
                   "a conversion of harmonics", error));
-    of->b = of->a + num_sh;
-    of->difference = of->b + num_sh;
-    of->hsh = of->difference + num_sh;
-    of->matrix = of->hsh + of->num_hsh;
-    of->energy = ps_brdf_energy(brdf);
-    ps_sobolev_eigenvalues(of->smoothness, of->sh_degree + 1, of->a);
-    PS_TRY(ps_brdf_spherical(brdf, of->sh_degree, of->b, error));
-    PS_TRY(ps_brdf_hemispherical(brdf, of->num_hsh - 1, of->hsh, error));
-    return ps_half_range_matrix(of->max_degree, of->sh_degree, of->matrix, error);
+    conversion->b = conversion->a + num_sh;
+    conversion->difference = conversion->b + num_sh;
+    conversion->hsh = conversion->difference + num_sh;
+    conversion->matrix = conversion->hsh + conversion->num_hsh;
+    conversion->energy = ps_brdf_energy(brdf);
+    ps_sobolev_eigenvalues(conversion->smoothness, conversion->sh_degree + 1, conversion->a);
+    PS_TRY(ps_brdf_spherical(brdf, conversion->sh_degree, conversion->b, error));
+    PS_TRY(ps_brdf_hemispherical(brdf, conversion->num_hsh - 1, conversion->hsh, error));
+    return ps_half_range_matrix(conversion->max_degree, conversion->sh_degree, conversion->matrix,
+                                error);
 }
 
 /* sum of b~_l^2 beyond L: exactly 0 where all of them are (the diffuse lobe). */
-static double energy_beyond(const conversion *of, size_t degree) {
-    double all = 0;
+static double energy_beyond(const harmonic_conversion *conversion, size_t degree) {
+    double energy = 0;
     double beyond = 0;
-    for (size_t l = of->num_hsh; l-- > 0;) {
-        all += of->hsh[l] * of->hsh[l];
-        beyond = l > degree ? all : beyond;
+    for (size_t l = conversion->num_hsh; l-- > 0;) {
+        energy += conversion->hsh[l] * conversion->hsh[l];
+        beyond = l > degree ? energy : beyond;
     }
-    const double missing = of->energy - all;
-    return beyond + (beyond > 0 && missing > 8 * DBL_EPSILON * of->energy ? missing : 0);
+    const double missing = conversion->energy - energy;
+    return beyond + (beyond > 0 && missing > 8 * DBL_EPSILON * conversion->energy ? missing : 0);
 }
 
-/* What is left beyond X is a_{X+1} R at most, R the energy of the difference there. The truncated lobe jumps at the
- * horizon, its coefficients fall like 1/l, and then the rest is a_{X+1} R/(2s + 1). */
-static void find_error(const conversion *of, size_t degree, double *root, double *bound) {
+/* What is left beyond X is a_{X+1} R at most, R the energy of the difference there. The truncated
+ * lobe jumps at the horizon, its coefficients fall like 1/l, and then the rest is a_{X+1} R/(2s +
+ * 1). */
+static void find_error(const harmonic_conversion *conversion, size_t degree, double *root,
+                       double *bound) {
     double sum = 0;
-    double energy = energy_beyond(of, degree);
+    double energy = energy_beyond(conversion, degree);
     if (energy == 0) {
         *root = 0;
         *bound = 0;
         return;
     }
-    for (size_t l = of->sh_degree + 1; l-- > 0;) {
-        const double square = of->difference[l] * of->difference[l];
-        sum += of->a[l] * square;
+    for (size_t l = conversion->sh_degree + 1; l-- > 0;) {
+        const double square = conversion->difference[l] * conversion->difference[l];
+        sum += conversion->a[l] * square;
         energy -= square;
     }
-    const double most = of->a[of->sh_degree + 1] * fmax(energy, DBL_EPSILON * of->energy);
-    take_root(sum + most / (2 * of->smoothness + 1), most, root, bound);
+    const double most =
+        conversion->a[conversion->sh_degree + 1] * fmax(energy, DBL_EPSILON * conversion->energy);
+    take_root(sum + most / (2 * conversion->smoothness + 1), most, root, bound);
 }
 
-static void find_errors(conversion *of, double *errors, double *bounds) {
-    for (size_t l = 0; l <= of->sh_degree; l++) {
-        of->difference[l] = of->b[l];
+static void find_errors(harmonic_conversion *conversion, double *errors, double *bounds) {
+    for (size_t l = 0; l <= conversion->sh_degree; l++) {
+        conversion->difference[l] = conversion->b[l];
     }
-    for (size_t degree = 0; degree <= of->max_degree; degree++) {
-        const double *const row = of->matrix + degree * (of->sh_degree + 1);
-        for (size_t l = degree; l <= of->sh_degree; l++) {
-            of->difference[l] -= of->hsh[degree] * row[l];
+    for (size_t degree = 0; degree <= conversion->max_degree; degree++) {
+        const double *const row = conversion->matrix + degree * (conversion->sh_degree + 1);
+        for (size_t l = degree; l <= conversion->sh_degree; l++) {
+            conversion->difference[l] -= conversion->hsh[degree] * row[l];
         }
-        find_error(of, degree, &errors[degree], &bounds[degree]);
+        find_error(conversion, degree, &errors[degree], &bounds[degree]);
     }
 }
 
@@ -126,12 +131,13 @@ pspec_status ps_truncation_hemispherical(const ps_brdf *brdf, double smoothness,
     }
     size_t degree = FIRST > 4 * max_degree ? FIRST : 4 * max_degree;
     for (bool is_done = false; !is_done; degree = 2 * degree < LAST ? 2 * degree : LAST) {
-        conversion of = {.max_degree = max_degree, .sh_degree = degree, .smoothness = smoothness};
-        const pspec_status status = prepare(&of, brdf, error);
+        harmonic_conversion conversion = {
+            .max_degree = max_degree, .sh_degree = degree, .smoothness = smoothness};
+        const pspec_status status = prepare(&conversion, brdf, error);
         if (status == PSPEC_OK) {
-            find_errors(&of, errors, bounds);
+            find_errors(&conversion, errors, bounds);
         }
-        free(of.a);
+        free(conversion.a);
         PS_TRY(status);
         *sh_degree = degree;
         is_done = degree >= LAST || are_good(max_degree, tolerance, errors, bounds);

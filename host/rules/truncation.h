@@ -1,5 +1,5 @@
-/* The worst-case error of shading integrals as truncated inner products in spherical or hemispherical harmonics
- * (docs/mathematics/quadrature.md#truncation):
+/* The worst-case error of shading integrals as truncated inner products in spherical or
+ * hemispherical harmonics (docs/mathematics/quadrature.md#truncation):
  *
  *     SH:   E(L)^2 = sum_{l>L} a_l b_l^2
  *     HSH:  E(L)^2 = sum_l a_l (b_l - b'_l)^2,   b'_l = sum_{l'<=L} b~_l' M_{l'l}
@@ -9,17 +9,19 @@
 
 #include "rules/representer.h"
 
-/* Most degrees L of hemispherical harmonics: the conversion to spherical ones takes L X^2 steps, X > 4 L. */
+/* Most degrees L of hemispherical harmonics: the conversion to spherical ones takes L X^2 steps, X
+ * > 4 L. */
 enum { PS_MOST_HEMISPHERICAL_DEGREE = 500 };
 
-/* E(L) for L = 0 .. max_degree and a bound on what truncation adds to or takes off it, [max_degree + 1] each.
- * max_degree > representer->max_degree is an error; best it is less than half of that. */
+/* E(L) for L = 0 .. max_degree and a bound on what truncation adds to or takes off it, [max_degree
+ * + 1] each. max_degree > representer->max_degree is an error; best it is less than half of
+ * that. */
 pspec_status ps_truncation_spherical(const ps_representer *representer, size_t max_degree,
                                      double *errors, double *bounds, ps_error *error) PS_MUST_CHECK;
 
-/* The same for hemispherical harmonics, max_degree <= PS_MOST_HEMISPHERICAL_DEGREE. *sh_degree becomes X, the last
- * spherical degree of the sum, which grows until the bounds are below tolerance times the errors, or it is 3000.
- * Lobes that go below the horizon are refused. */
+/* The same for hemispherical harmonics, max_degree <= PS_MOST_HEMISPHERICAL_DEGREE. *sh_degree
+ * becomes X, the last spherical degree of the sum, which grows until the bounds are below tolerance
+ * times the errors, or it is 3000. Lobes that go below the horizon are refused. */
 pspec_status ps_truncation_hemispherical(const ps_brdf *brdf, double smoothness, size_t max_degree,
                                          double tolerance, double *errors, double *bounds,
                                          size_t *sh_degree, ps_error *error) PS_MUST_CHECK;

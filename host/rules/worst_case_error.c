@@ -75,11 +75,12 @@ static double sum_two_blocks(const pair_work *work, size_t rows, size_t columns)
     return ps_neumaier_value(&sum);
 }
 
-/* Blocks with which the sums of all blocks grow before anyone is told: with one of them a block has some hundredths of
- * a second to do. */
+/* Blocks with which the sums of all blocks grow before anyone is told: with one of them a block has
+ * some hundredths of a second to do. */
 enum { BLOCKS_AT_A_TIME = (1 << 22) / BLOCK / BLOCK };
 
-/* Pairs of the block with itself, and twice those with all later ones: as far as the blocks before `end`. */
+/* Pairs of the block with itself, and twice those with all later ones: as far as the blocks before
+ * `end`. */
 static void grow_sum(void *payload, size_t block) {
     const pair_work *const work = payload;
     ps_neumaier *const sum = &work->sums[block];
@@ -93,8 +94,8 @@ static void grow_sum(void *payload, size_t block) {
     }
 }
 
-/* Strip after strip of later blocks, so that no thread is away for long; the order of a sum's terms is that of the
- * blocks in any case. */
+/* Strip after strip of later blocks, so that no thread is away for long; the order of a sum's terms
+ * is that of the blocks in any case. */
 static pspec_status sum_pairs(pair_work *work, ps_pieces *pieces, ps_error *error) {
     const size_t num_blocks = count_blocks(work->rule);
     for (size_t begin = 0; begin < num_blocks; begin += BLOCKS_AT_A_TIME) {

@@ -1,6 +1,6 @@
-/* The worst-case error of a quadrature rule for a shading integral over the unit ball of the Sobolev space H^s, in its
- * kernel form and in its spectral form (docs/mathematics/quadrature.md#worst-case-error,
- * docs/mathematics/quadrature.md#spectral-form):
+/* The worst-case error of a quadrature rule for a shading integral over the unit ball of the
+ * Sobolev space H^s, in its kernel form and in its spectral form
+ * (docs/mathematics/quadrature.md#worst-case-error, docs/mathematics/quadrature.md#spectral-form):
  *
  *     E^2 = c (W-1)^2 - sum_ij w_i w_j |u_i-u_j|^(2s-2) + 2 sum_j w_j D(u_j) - D_0                              (Q2)
  *     E^2 = sum_l a_l (d_l^2 + C_l^2),   d_l = b_l - c_l0,   C_l^2 = 2 sum_{m=1..l} |c_lm|^2
@@ -31,8 +31,8 @@ typedef struct ps_kernel_error {
     double kappa;    /* sum_j w_j kappa(u_j) */
 } ps_kernel_error;
 
-/* sum_ij w_i w_j |u_i-u_j|^(2s-2), O(N^2), compensated, over fixed blocks that are merged in a fixed order: the same
- * bits on any number of threads. watch: told how far it is; NULL: nobody. */
+/* sum_ij w_i w_j |u_i-u_j|^(2s-2), O(N^2), compensated, over fixed blocks that are merged in a
+ * fixed order: the same bits on any number of threads. watch: told how far it is; NULL: nobody. */
 pspec_status ps_rule_distance(const ps_rule *rule, double smoothness, const ps_watch *watch,
                               double *sum, ps_error *error) PS_MUST_CHECK;
 
@@ -54,15 +54,15 @@ typedef struct ps_degree_error {
 /* E^2 in its parts up to degree L, and what is beyond. */
 typedef struct ps_spectral_error {
     double zonal, anisotropic; /* E_Z^2 and E_A^2: sums over l <= L */
-    /* What independent points of the lobe's density have beyond L in the mean: V (tau_L - r_L) + (1-W)^2 r_L, where
-     * r_L is the rest of sum a_l b_l^2; for their c_lm have the mean W b_l and the variance V ((2l+1)/(4 pi) - b_l^2),
-     * summed over m. */
+    /* What independent points of the lobe's density have beyond L in the mean: V (tau_L - r_L) +
+     * (1-W)^2 r_L, where r_L is the rest of sum a_l b_l^2; for their c_lm have the mean W b_l and
+     * the variance V ((2l+1)/(4 pi) - b_l^2), summed over m. */
     double tail_model;
     double tail_bound; /* rigorous: ((sum|w|) sqrt(tau_L) + sqrt(r_L))^2 */
 } ps_spectral_error;
 
-/* c_l0 and C_l^2 for l = 0 .. max_degree (c2[0] is ignored: C_0 = 0); degrees [max_degree + 1] or NULL.
- * More degrees than the representer has are an error. */
+/* c_l0 and C_l^2 for l = 0 .. max_degree (c2[0] is ignored: C_0 = 0); degrees [max_degree + 1] or
+ * NULL. More degrees than the representer has are an error. */
 pspec_status ps_spectral_error_of(const ps_representer *representer, size_t max_degree,
                                   const double *c_l0, const double *c2,
                                   const ps_weight_sums *weights, ps_degree_error *degrees,

@@ -1,13 +1,13 @@
-/* Samplers of the unit torus [0,1)^d, of the sphere and of the hemisphere z >= 0: one table, one file
- * per sampler. Every sampler of the torus makes points of the other two, too, by lift=.
+/* Samplers of the unit torus [0,1)^d, of the sphere and of the hemisphere z >= 0: one table, one
+ * file per sampler. Every sampler of the torus makes points of the other two, too, by lift=.
  *
  * A sampler writes one realization at a time. Realization r depends on nothing but
  * (sampler, parameters, number of points, dimension, seed, r), through the counter-based generator
  * of math/random/random.h; so any batch, thread or rank makes the same points.
  *
- * A request is parsed, gets its number of points, dimension and seed, is resolved (what was left open
- * is filled in, and all of it is checked), and then makes points.
- * This layer is a leaf: it may use math/ and base/ only.
+ * A request is parsed, gets its number of points, dimension and seed, is resolved (what was left
+ * open is filled in, and all of it is checked), and then makes points. This layer is a leaf: it may
+ * use math/ and base/ only.
  */
 #ifndef PS_SAMPLERS_SAMPLER_H
 #define PS_SAMPLERS_SAMPLER_H
@@ -42,8 +42,8 @@ typedef enum ps_sampler_domain {
     "none|sphere|hemisphere, points (x,y) of the plane by Lambert's map to z = 2x - 1 or z = x, "  \
     "phi = 2 pi y"
 
-/* The parameters of all samplers of the hemisphere, lifted ones included: points of equal areas take the density of a
- * lobe, keeping their azimuths (docs/mathematics/quadrature.md#morphing). */
+/* The parameters of all samplers of the hemisphere, lifted ones included: points of equal areas
+ * take the density of a lobe, keeping their azimuths (docs/mathematics/quadrature.md#morphing). */
 #define PS_MORPH_KEY "morph"
 #define PS_MORPH_DEFAULT "none"
 #define PS_MORPH_MEANING                                                                           \
@@ -126,8 +126,8 @@ ps_sampler_domain ps_sampler_where(const ps_sampler_request *request);
 bool ps_sampler_is_on_sphere(const ps_sampler_request *request);
 bool ps_sampler_is_on_hemisphere(const ps_sampler_request *request);
 
-/* True when all realizations have the same power spectrum: deterministic points, homogenized or not.
- * A shift of the torus and a rotation of the sphere leave P unchanged
+/* True when all realizations have the same power spectrum: deterministic points, homogenized or
+ * not. A shift of the torus and a rotation of the sphere leave P unchanged
  * (docs/mathematics/torus.md#sums-and-powers, docs/mathematics/sphere.md#coefficients-and-power),
  * and so does a rotation of the hemisphere with folding for even degrees, the only ones that it has
  * as the projective plane. Its odd degrees, taken as points of the sphere, do change. Morphed

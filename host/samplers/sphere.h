@@ -6,23 +6,25 @@
 #include "math/turns.h"
 #include "samplers/sampler.h"
 
-/* A height z in [-1,1] and its distance to the nearer pole, t = 1 - |z|, each with all its digits: t
- * cannot be had from a rounded z, nor the sine of the polar angle, sqrt(t (2 - t)). */
+/* A height z in [-1,1] and its distance to the nearer pole, t = 1 - |z|, each with all its digits:
+ * t cannot be had from a rounded z, nor the sine of the polar angle, sqrt(t (2 - t)). */
 typedef struct ps_height {
     double z, t;
 } ps_height;
 
-/* z = numerator/denominator, best of whole numbers (below 2^53): nothing is lost before the division. */
+/* z = numerator/denominator, best of whole numbers (below 2^53): nothing is lost before the
+ * division. */
 ps_height ps_height_of_ratio(double numerator, double denominator);
-/* Height x of the hemisphere, 2x - 1 of the sphere: equal areas in equal intervals of x in [0,1]. */
+/* Height x of the hemisphere, 2x - 1 of the sphere: equal areas in equal intervals of x in
+ * [0,1]. */
 ps_height ps_height_of_area(ps_sampler_domain domain, double x);
 
 /* The unit vector (x, y, z). No coordinate is -0. */
 void ps_sphere_point(ps_height height, ps_turns azimuth, double point[PS_VECTOR_DIMENSION]);
 
-/* Lambert's cylindrical equal-area map: points (x, y) of the plane, [num_points][2] at the beginning
- * of the array, become unit vectors [num_points][3] with height by ps_height_of_area(x) and azimuth y
- * turns. */
+/* Lambert's cylindrical equal-area map: points (x, y) of the plane, [num_points][2] at the
+ * beginning of the array, become unit vectors [num_points][3] with height by ps_height_of_area(x)
+ * and azimuth y turns. */
 void ps_sphere_lift(ps_sampler_domain domain, size_t num_points, double *points);
 
 /* Turns every point z < 0 into its antipode: the hemisphere as the projective plane. */

@@ -1,6 +1,7 @@
 #include "samplers/list.h"
 
-/* In the order of the help text: torus, sphere, hemisphere. A new sampler is a file, a line in list.h and a row here. */
+/* In the order of the help text: torus, sphere, hemisphere. A new sampler is a file, a line in
+ * list.h and a row here. */
 const ps_sampler *const ps_samplers[] = {
     &ps_sampler_white,
     &ps_sampler_regular,

@@ -13,8 +13,8 @@ struct ps_accumulator {
     uint64_t num_realizations;
     ps_bin all;  /* members of all bins in one, */
     ps_bins one; /* and that alone */
-    const ps_bins
-        *formed; /* bins whose powers are formed for each realization: all of them, or that one */
+    /* bins whose powers are formed for each realization: all of them, or that one */
+    const ps_bins *formed;
     double *bin_powers;  /* [batch][formed->num] */
     double *mean_powers; /* [batch] */
     ps_sums *bin_sums; /* [num_bins]; of single members: from the device when they are asked for */
@@ -46,7 +46,7 @@ static void clear(ps_sums *sums, size_t num, bool mean_only) {
     }
 }
 
-/* Of single frequencies. */
+/* Single frequencies need no squares where only means are wanted, or no errors of theirs. */
 static bool no_squares(const ps_accumulator_options *options) {
     return options->mean_only || options->no_frequency_errors;
 }
@@ -65,8 +65,9 @@ static bool has_single_members(const ps_bins *bins) {
     return bins->num == bins->num_members;
 }
 
-/* Powers of tens of thousands of bins for each realization would cost as much as their transform (d = 1,
- * K = 32768: 0.2 ms of 0.7, docs/performance.md). What is still asked of a realization is its mean. */
+/* Powers of tens of thousands of bins for each realization would cost as much as their transform (d
+ * = 1, K = 32768: 0.2 ms of 0.7, docs/performance.md). What is still asked of a realization is its
+ * mean. */
 static void form_one_bin(ps_accumulator *self) {
     const ps_bins *bins = self->options.bins;
     self->all = (ps_bin){.end = bins->num_members};
@@ -195,9 +196,9 @@ pspec_status ps_accumulator_reset(ps_accumulator *accumulator, ps_error *error) 
 }
 
 static void pick_bins(const ps_accumulator *self, const ps_sums *frequencies, ps_sums *bins) {
-    const ps_bins *all = self->options.bins;
-    for (size_t b = 0; b < all->num; b++) {
-        bins[b] = frequencies[all->members[all->bins[b].begin]];
+    const ps_bins *formed = self->options.bins;
+    for (size_t b = 0; b < formed->num; b++) {
+        bins[b] = frequencies[formed->members[formed->bins[b].begin]];
     }
 }
 

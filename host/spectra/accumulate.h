@@ -6,8 +6,8 @@
  * (docs/mathematics/statistics.md#standard-errors). Realizations are taken one after the other in
  * their order, whatever the batches were.
  *
- * Where every bin has one member, as in one dimension, sums of bins are those of frequencies: on a device
- * only these are formed.
+ * Where every bin has one member, as in one dimension, sums of bins are those of frequencies: on a
+ * device only these are formed.
  */
 #ifndef PS_SPECTRA_ACCUMULATE_H
 #define PS_SPECTRA_ACCUMULATE_H
@@ -18,7 +18,8 @@
 
 typedef struct ps_accumulator ps_accumulator;
 
-/* Mean and standard error of the mean, nan when there was only one realization or with mean_only. */
+/* Mean and standard error of the mean, nan when there was only one realization or with
+ * mean_only. */
 typedef struct ps_mean {
     double mean, standard_error;
 } ps_mean;
@@ -40,8 +41,8 @@ pspec_status ps_accumulator_create(ps_accumulator **out, const ps_accumulator_op
                                    ps_device *device, ps_error *error) PS_MUST_CHECK;
 void ps_accumulator_destroy(ps_accumulator *accumulator);
 
-/* Adds the rows of one batch. mean_powers[r], owned by the accumulator until the next call, is the mean
- * over all members of bins of realization r; may be NULL if nobody asks. */
+/* Adds the rows of one batch. mean_powers[r], owned by the accumulator until the next call, is the
+ * mean over all members of bins of realization r; may be NULL if nobody asks. */
 pspec_status ps_accumulator_add(ps_accumulator *accumulator, const ps_rows *rows,
                                 const double **mean_powers, ps_error *error) PS_MUST_CHECK;
 

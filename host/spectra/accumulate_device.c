@@ -31,9 +31,9 @@ static size_t block_bytes(unsigned lanes, size_t real_bytes) {
     return PS_ACCUMULATE_BLOCK * lanes * real_bytes;
 }
 
-/* Results do not depend on it. Rows are whole vectors, and an engine may have had fewer lanes than suit the
- * device. For few realizations a vector that they do not fill costs memory and time; one that they fill by
- * more than a quarter is faster than a shorter one. */
+/* Results do not depend on it. Rows are whole vectors, and an engine may have had fewer lanes than
+ * suit the device. For few realizations a vector that they do not fill costs memory and time; one
+ * that they fill by more than a quarter is faster than a shorter one. */
 static unsigned choose_lanes(const ps_accumulator_options *options, size_t real_bytes,
                              const ps_device_limits *limits) {
     unsigned lanes = options->lanes;
@@ -91,7 +91,8 @@ out:
     return status;
 }
 
-/* Every bin is one piece (none is empty, spectra/bins.h), as in one dimension: nothing to add up. */
+/* Every bin is one piece (none is empty, spectra/bins.h), as in one dimension: nothing to add
+ * up. */
 static bool is_whole(const ps_device_accumulator *self) {
     return self->num_pieces == self->options.bins->num;
 }
@@ -196,7 +197,8 @@ static double power_flops(const ps_accumulator_options *options) {
         PS_BUFFER((self)->first_rings), PS_BUFFER((self)->rings), PS_BUFFER((self)->members),      \
         PS_BUFFER((self)->piece_sums), PS_U64((self)->num_pieces)
 
-/* Kernels want a buffer in every place: without squares, that of the sums, which is not touched there. */
+/* Kernels want a buffer in every place: without squares, that of the sums, which is not touched
+ * there. */
 static const ps_buffer *state_of(const ps_device_accumulator *self, size_t i) {
     return &self->states[i % num_states(self)];
 }
@@ -290,20 +292,20 @@ typedef struct state_sums {
 } state_sums;
 
 static void get_some_sums(void *payload, unsigned index, unsigned count) {
-    const state_sums *all = payload;
-    const size_t num = all->accumulator->options.num_frequencies;
+    const state_sums *work = payload;
+    const size_t num = work->accumulator->options.num_frequencies;
     const size_t end = ps_share_begin(num, index + 1, count);
     for (size_t i = ps_share_begin(num, index, count); i < end; i++) {
-        all->sums[i] = get_sums(all->accumulator, i);
+        work->sums[i] = get_sums(work->accumulator, i);
     }
 }
 
 pspec_status ps_device_accumulator_sums(ps_device_accumulator *accumulator, ps_sums *sums,
                                         ps_error *error) {
     const size_t num = accumulator->options.num_frequencies;
-    state_sums all = {accumulator, sums};
+    state_sums work = {accumulator, sums};
     PS_TRY(read_states(accumulator, error));
-    ps_workers_share(num, get_some_sums, &all);
+    ps_workers_share(num, get_some_sums, &work);
     return PSPEC_OK;
 }
 

@@ -6,7 +6,8 @@
 
 typedef struct ps_device_accumulator ps_device_accumulator;
 
-/* options->slots must outlive the accumulator. mean_only is about frequencies here: powers of bins go to the host. */
+/* options->slots must outlive the accumulator. mean_only is about frequencies here: powers of bins
+ * go to the host. */
 pspec_status ps_device_accumulator_create(ps_device_accumulator **out,
                                           const ps_accumulator_options *options, ps_device *device,
                                           ps_error *error) PS_MUST_CHECK;

@@ -54,7 +54,8 @@ static size_t count_bins(const keyed *keys, size_t num) {
     return count;
 }
 
-/* mean_frequency is the sum over the members. Of a subset, what is said of the bin is said of the ring. */
+/* mean_frequency is the sum over the members. Of a subset, what is said of the bin is said of the
+ * ring. */
 static void finish_bin(ps_bin *bin, const ps_frequencies *set, const ps_sampled_ring *ring) {
     bin->num_frequencies = bin->end - bin->begin;
     bin->mean_frequency /= (double)bin->num_frequencies;

@@ -40,8 +40,8 @@ static double relative(double variance, double mean) {
 }
 
 /* cv^2 of both sides together. Relative to the mean of each, which tells blue noise from white with
- * few realizations; but not less than the scatter of both relative to the mean of both: where powers are rare
- * events, a side without any has too small a mean and too small a scatter. */
+ * few realizations; but not less than the scatter of both relative to the mean of both: where
+ * powers are rare events, a side without any has too small a mean and too small a scatter. */
 static double find_scatter(const sides *both, size_t b) {
     const double m = both->num_saved;
     const double n = both->num_measured;
@@ -54,14 +54,14 @@ static double find_scatter(const sides *both, size_t b) {
     return fmax(own, relative(v + w, mean) / both->freedom);
 }
 
-/* The variance of log cv^2 is (2 + 2 cv^2) / M for gamma variables, 2 / M for normal ones: that many
- * realizations less to learn it from. */
+/* The variance of log cv^2 is (2 + 2 cv^2) / M for gamma variables, 2 / M for normal ones: that
+ * many realizations less to learn it from. */
 static double freedom_of(const sides *both, double scatter) {
     return both->freedom / (1 + scatter);
 }
 
-/* On the logarithm of the ratio, as if it were normal: what has probability 0.9 to be beyond the critical
- * score, and comes on top of the numerical errors. */
+/* On the logarithm of the ratio, as if it were normal: what has probability 0.9 to be beyond the
+ * critical score, and comes on top of the numerical errors. */
 static double find_detectable(const sides *both, size_t b, double scatter) {
     const double score_of_power = 1.2815515655446004; /* Phi(it) = 0.9 */
     const double sigma = sqrt(scatter * (1 / both->num_saved + 1 / both->num_measured));
@@ -105,8 +105,8 @@ static int by_p_value(const void *a, const void *b) {
     return (x->p_value > y->p_value) - (x->p_value < y->p_value);
 }
 
-/* Holm: the smallest of R probabilities counts R times, the next R - 1 times, and no bin differs unless those
- * before it do. */
+/* Holm: the smallest of R probabilities counts R times, the next R - 1 times, and no bin differs
+ * unless those before it do. */
 static pspec_status adjust(ps_comparison *out, size_t num, double false_alarm_rate,
                            ps_error *error) {
     double largest = 0;

@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-/* Mean of the averaged periodogram over the members, its sample variance, and the mean square of the
- * standard errors over the realizations (nan when there was one). */
+/* Mean of the averaged periodogram over the members, its sample variance, and the mean square of
+ * the standard errors over the realizations (nan when there was one). */
 typedef struct moments {
     long double mean;
     double variance, noise;
@@ -48,8 +48,8 @@ double ps_subset_standard_error(const ps_mean *powers, const uint32_t *members, 
     if (isnan(standard_error)) {
         return sqrt(left_out * ring.variance / num);
     }
-    /* The variance over the subset holds that of the spectrum over the ring, and the noise of single
-     * frequencies as far as it is not common to them. */
+    /* The variance over the subset holds that of the spectrum over the ring, and the noise of
+     * single frequencies as far as it is not common to them. */
     const double square = standard_error * standard_error;
     const double own_noise = num / (num - 1) * (ring.noise - square);
     return sqrt(square + left_out / num * fmax(ring.variance - own_noise, 0));

@@ -2,7 +2,8 @@
 
 #include <math.h>
 
-/* Of the standard error itself, see sequential.h. Measured by tests/spectra/test_sequential.c: with 1, 4 % stop too soon, with 2,
+/* The estimate of the standard error has an error of its own, of which so many are added
+ * (sequential.h). Measured by tests/spectra/test_sequential.c: with 1, 4 % stop too soon, with 2,
  * 0.1 %, after 7 % more realizations than with this. */
 static const double deviations = 1.5;
 
@@ -15,7 +16,8 @@ uint64_t ps_sequential_next_look(uint64_t done) {
     return look;
 }
 
-/* Frequencies of a bin that are independent: k and -k are not, nor are the orders m and -m of a degree. */
+/* Frequencies of a bin that are independent: k and -k are not, nor are the orders m and -m of a
+ * degree. */
 static double count_independent(const ps_bins *bins, size_t i) {
     const double modes = (double)ps_bin_num_computed(&bins->bins[i]);
     return modes > 2 ? modes / 2 : 1;

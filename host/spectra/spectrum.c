@@ -22,10 +22,11 @@ typedef struct rings {
 
 /* In turns, since rings grow. */
 static void describe_some(void *payload, unsigned index, unsigned count) {
-    const rings *all = payload;
-    for (size_t b = index; b < all->bins->num_reported; b += count) {
-        const ps_bin *bin = &all->bins->bins[b];
-        describe_ring(&all->out->bins[b], all->out->powers, all->bins->members + bin->begin, bin);
+    const rings *work = payload;
+    for (size_t b = index; b < work->bins->num_reported; b += count) {
+        const ps_bin *bin = &work->bins->bins[b];
+        describe_ring(&work->out->bins[b], work->out->powers, work->bins->members + bin->begin,
+                      bin);
     }
 }
 
@@ -46,8 +47,8 @@ static void fill_bins(ps_spectrum *out, const ps_bins *bins, const ps_mean *mean
         };
     }
     if (out->powers != NULL) {
-        rings all = {out, bins};
-        ps_workers_share(bins->num_members, describe_some, &all);
+        rings work = {out, bins};
+        ps_workers_share(bins->num_members, describe_some, &work);
     }
 }
 

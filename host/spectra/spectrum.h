@@ -21,8 +21,8 @@ typedef struct ps_spectrum {
     double mean_points;
     size_t smallest_points, largest_points;
     double mean_weight_sum;
-    ps_mean
-        sample_size; /* W^2 / V, the effective power at DC; its standard error: nan for one set */
+    /* W^2 / V, the effective power at DC; its standard error: nan for one set */
+    ps_mean sample_size;
     size_t num_bins;
     ps_spectrum_bin *bins;
     ps_mean *powers; /* [frequencies.num], or NULL */
@@ -36,7 +36,8 @@ typedef struct ps_pattern_totals {
     size_t smallest_points, largest_points;
 } ps_pattern_totals;
 
-/* factor multiplies every accumulated power (mean N over reference N, see jobs/parts/estimator.h). */
+/* factor multiplies every accumulated power (mean N over reference N, see
+ * jobs/parts/estimator.h). */
 pspec_status ps_spectrum_create(ps_spectrum *out, const ps_frequencies *frequencies,
                                 const ps_bins *bins, ps_accumulator *accumulator, double factor,
                                 const ps_pattern_totals *totals, bool with_frequencies,
@@ -48,12 +49,14 @@ pspec_status ps_spectrum_from_means(ps_spectrum *out, const ps_frequencies *freq
                                     ps_error *error) PS_MUST_CHECK;
 void ps_spectrum_free(ps_spectrum *spectrum);
 
-/* Marks the spectrum as that of num_realizations equal ones: standard errors become exactly 0, but for
- * that of the choice of a subset (a deterministic set, whose further realizations were skipped). */
+/* Marks the spectrum as that of num_realizations equal ones: standard errors become exactly 0, but
+ * for that of the choice of a subset (a deterministic set, whose further realizations were
+ * skipped). */
 void ps_spectrum_repeat(ps_spectrum *spectrum, uint64_t num_realizations);
 
-/* The whole box as an array [2K+1]^d in C order, DC in the middle, axis i along x_i; DC, which
- * is not among the frequencies, is dc. which: 0 power, 1 standard error. *array is freed by the caller. */
+/* The whole box as an array [2K+1]^d in C order, DC in the middle, axis i along x_i; DC, which is
+ * not among the frequencies, is dc. which: 0 power, 1 standard error. *array is freed by the
+ * caller. */
 pspec_status ps_spectrum_full(const ps_spectrum *spectrum, int which, ps_mean dc, double **array,
                               size_t *num_entries, ps_error *error) PS_MUST_CHECK;
 

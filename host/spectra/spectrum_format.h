@@ -13,7 +13,8 @@ static const char *const ps_spectrum_kinds[] = {"list",   "box",     "ball",
 static const char *const ps_spectrum_bins[] = {"rings", "shells"};
 static const char *const ps_spectrum_normalizations[] = {"power", "effective", "pairs"};
 
-/* A sample is a list in memory (ps_frequencies.rings), and a kind of its own in files; degrees are two. */
+/* A sample is a list in memory (ps_frequencies.rings), and a kind of its own in files; degrees are
+ * two. */
 enum {
     PS_SPECTRUM_LIST,
     PS_SPECTRUM_BOX,
@@ -24,7 +25,8 @@ enum {
     PS_SPECTRUM_NUM_KINDS
 };
 
-/* Doubles after the header, and of the sums of what follows: effective sample sizes, bins, frequencies. */
+/* Doubles after the header, and of the sums of what follows: effective sample sizes, bins,
+ * frequencies. */
 enum { PS_SPECTRUM_TOTALS = 4, PS_SPECTRUM_SUMS = 4 };
 
 /* More realizations than a double counts exactly are no realizations. */

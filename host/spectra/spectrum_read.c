@@ -191,20 +191,20 @@ static pspec_status read_header(reader *in, header *out) {
     return line[0] == '\0' ? PSPEC_OK : fail(in, "its header does not end where it should");
 }
 
-static bool is_list(const header *from) {
-    return from->kind == PS_SPECTRUM_LIST || from->kind == PS_SPECTRUM_SAMPLE;
+static bool is_list(const header *head) {
+    return head->kind == PS_SPECTRUM_LIST || head->kind == PS_SPECTRUM_SAMPLE;
 }
 
-/* Everything after the header has a size that follows from it: nothing is allocated that the file does
- * not have. The numbers are below 2^32, so no product overflows. */
-static pspec_status check_size(const reader *in, const header *from) {
+/* Everything after the header has a size that follows from it: nothing is allocated that the file
+ * does not have. The numbers are below 2^32, so no product overflows. */
+static pspec_status check_size(const reader *in, const header *head) {
     const uint64_t sum_bytes = PS_SPECTRUM_SUMS * sizeof(double);
     const uint64_t list_bytes =
-        is_list(from) ? from->num_frequencies * from->dimension * sizeof(int32_t) : 0;
+        is_list(head) ? head->num_frequencies * head->dimension * sizeof(int32_t) : 0;
     const uint64_t ring_bytes =
-        from->kind == PS_SPECTRUM_SAMPLE ? from->num_bins * 2 * sizeof(uint64_t) : 0;
+        head->kind == PS_SPECTRUM_SAMPLE ? head->num_bins * 2 * sizeof(uint64_t) : 0;
     const uint64_t expected = PS_SPECTRUM_TOTALS * sizeof(double) + list_bytes + ring_bytes +
-                              sum_bytes * (1 + from->num_bins + from->num_frequencies) +
+                              sum_bytes * (1 + head->num_bins + head->num_frequencies) +
                               sizeof(uint32_t);
     if (in->rest != expected) {
         return fail(in, in->rest < expected ? "it is truncated"
@@ -216,8 +216,8 @@ static pspec_status check_size(const reader *in, const header *from) {
 
 /* ---- arrays ------------------------------------------------------------------------------ */
 
-static pspec_status read_list(reader *in, const header *from, ps_frequencies *out) {
-    const size_t num = (size_t)from->num_frequencies * (size_t)from->dimension;
+static pspec_status read_list(reader *in, const header *head, ps_frequencies *out) {
+    const size_t num = (size_t)head->num_frequencies * (size_t)head->dimension;
     int32_t *vectors = NULL;
     PS_TRY(PS_NEW(&vectors, num, "frequencies", in->error));
     *out = (ps_frequencies){.kind = PS_FREQUENCIES_LIST, .vectors = vectors}; /* to be freed */
@@ -230,20 +230,20 @@ static pspec_status read_list(reader *in, const header *from, ps_frequencies *ou
         }
         vectors[i] = (int32_t)value;
     }
-    return ps_frequencies_list(out, (unsigned)from->dimension, (size_t)from->num_frequencies,
+    return ps_frequencies_list(out, (unsigned)head->dimension, (size_t)head->num_frequencies,
                                vectors, in->error);
 }
 
 /* What a list was drawn from. */
-static pspec_status read_rings(reader *in, const header *from, ps_frequencies *set) {
+static pspec_status read_rings(reader *in, const header *head, ps_frequencies *set) {
     uint64_t sum = 0;
-    PS_TRY(PS_NEW(&set->rings, from->num_bins, "rings", in->error));
-    set->num_rings = (size_t)from->num_bins;
-    set->per_ring = from->per_ring;
-    if (set->max_frequency > (int64_t)from->max_frequency) {
+    PS_TRY(PS_NEW(&set->rings, head->num_bins, "rings", in->error));
+    set->num_rings = (size_t)head->num_bins;
+    set->per_ring = head->per_ring;
+    if (set->max_frequency > (int64_t)head->max_frequency) {
         return fail(in, "its frequencies are beyond its max_frequency");
     }
-    set->max_frequency = (int32_t)from->max_frequency;
+    set->max_frequency = (int32_t)head->max_frequency;
     for (size_t i = 0; i < set->num_rings; i++) {
         ps_sampled_ring *const ring = &set->rings[i];
         PS_TRY(read_integer(in, sizeof ring->num_frequencies, &ring->num_frequencies));
@@ -257,14 +257,14 @@ static pspec_status read_rings(reader *in, const header *from, ps_frequencies *s
 }
 
 /* Every ring has as many of its frequencies in the list as were to be drawn. */
-static pspec_status make_bins(const reader *in, const header *from, const ps_frequencies *set,
+static pspec_status make_bins(const reader *in, const header *head, const ps_frequencies *set,
                               bool exact_shells, ps_bins *bins) {
     ps_error inner = {0};
     const pspec_status status = ps_bins_create(bins, set, exact_shells, &inner);
     if (status == PSPEC_ERROR_MEMORY) {
         return ps_fail(in->error, status, "%s", inner.message);
     }
-    if (status != PSPEC_OK || bins->num != from->num_bins) {
+    if (status != PSPEC_OK || bins->num != head->num_bins) {
         return fail(in, "its num_bins does not fit its frequencies");
     }
     for (size_t b = 0; set->rings != NULL && b < bins->num; b++) {
@@ -278,47 +278,47 @@ static pspec_status make_bins(const reader *in, const header *from, const ps_fre
     return PSPEC_OK;
 }
 
-/* The number of a ball is known only approximately before it is enumerated: what is off by more than
- * this factor is not tried, however large the box around it. */
-static pspec_status make_grid(const header *from, ps_frequencies *out) {
-    return ps_frequencies_lattice(out, (unsigned)from->dimension, (int32_t)from->max_frequency,
-                                  from->kind == PS_SPECTRUM_BALL, NULL);
+/* The number of a ball is known only approximately before it is enumerated: what is off by more
+ * than this factor is not tried, however large the box around it. */
+static pspec_status make_grid(const header *head, ps_frequencies *out) {
+    return ps_frequencies_lattice(out, (unsigned)head->dimension, (int32_t)head->max_frequency,
+                                  head->kind == PS_SPECTRUM_BALL, NULL);
 }
 
-static pspec_status make_degrees(const header *from, ps_frequencies *out) {
-    PS_TRY(ps_frequencies_degrees(out, (int64_t)from->max_frequency,
-                                  from->kind == PS_SPECTRUM_EVEN_DEGREES, NULL));
-    return out->dimension == from->dimension && out->max_frequency == (int64_t)from->max_frequency
+static pspec_status make_degrees(const header *head, ps_frequencies *out) {
+    PS_TRY(ps_frequencies_degrees(out, (int64_t)head->max_frequency,
+                                  head->kind == PS_SPECTRUM_EVEN_DEGREES, NULL));
+    return out->dimension == head->dimension && out->max_frequency == (int64_t)head->max_frequency
                ? PSPEC_OK
                : PSPEC_ERROR_INPUT;
 }
 
-static pspec_status make_lattice(const reader *in, const header *from, ps_frequencies *out) {
+static pspec_status make_lattice(const reader *in, const header *head, ps_frequencies *out) {
     const double factor = 4;
     const bool are_degrees =
-        from->kind == PS_SPECTRUM_DEGREES || from->kind == PS_SPECTRUM_EVEN_DEGREES;
-    const double num = (double)from->num_frequencies;
-    if ((are_degrees ? make_degrees(from, out) : make_grid(from, out)) != PSPEC_OK ||
+        head->kind == PS_SPECTRUM_DEGREES || head->kind == PS_SPECTRUM_EVEN_DEGREES;
+    const double num = (double)head->num_frequencies;
+    if ((are_degrees ? make_degrees(head, out) : make_grid(head, out)) != PSPEC_OK ||
         (double)out->num > factor * num) {
         return fail(in, "its max_frequency does not fit its num_frequencies");
     }
     PS_TRY(ps_frequencies_enumerate(out, in->error));
-    return out->num == from->num_frequencies
+    return out->num == head->num_frequencies
                ? PSPEC_OK
                : fail(in, "its max_frequency does not fit its num_frequencies");
 }
 
-static pspec_status read_totals(reader *in, const header *from, ps_spectrum_sums *out) {
+static pspec_status read_totals(reader *in, const header *head, ps_spectrum_sums *out) {
     double totals[PS_SPECTRUM_TOTALS];
     PS_TRY(read_doubles(in, totals, PS_SPECTRUM_TOTALS));
-    out->exact_shells = from->bins != 0;
-    out->normalization = (pspec_normalization)from->normalization;
+    out->exact_shells = head->bins != 0;
+    out->normalization = (pspec_normalization)head->normalization;
     out->reference_points = totals[0];
-    out->totals = (ps_pattern_totals){.num_realizations = from->realizations,
+    out->totals = (ps_pattern_totals){.num_realizations = head->realizations,
                                       .sum_points = totals[1],
                                       .sum_weights = totals[2],
-                                      .smallest_points = (size_t)from->smallest_points,
-                                      .largest_points = (size_t)from->largest_points};
+                                      .smallest_points = (size_t)head->smallest_points,
+                                      .largest_points = (size_t)head->largest_points};
     out->error = totals[3];
     const bool is_possible = totals[0] > 0 && isfinite(totals[0]) && totals[1] > 0 &&
                              isfinite(totals[1]) && isfinite(totals[2]) && totals[3] >= 0;
@@ -333,15 +333,15 @@ static pspec_status check_sum(reader *in) {
     return stored == found ? PSPEC_OK : fail(in, "it is damaged, its checksum is wrong");
 }
 
-static pspec_status read_body(reader *in, const header *from, ps_frequencies *set,
+static pspec_status read_body(reader *in, const header *head, ps_frequencies *set,
                               ps_spectrum_sums *out, ps_bins *bins) {
     ps_spectrum_sums totals = {0};
-    PS_TRY(read_totals(in, from, &totals));
-    PS_TRY(is_list(from) ? read_list(in, from, set) : make_lattice(in, from, set));
-    if (from->kind == PS_SPECTRUM_SAMPLE) {
-        PS_TRY(read_rings(in, from, set));
+    PS_TRY(read_totals(in, head, &totals));
+    PS_TRY(is_list(head) ? read_list(in, head, set) : make_lattice(in, head, set));
+    if (head->kind == PS_SPECTRUM_SAMPLE) {
+        PS_TRY(read_rings(in, head, set));
     }
-    PS_TRY(make_bins(in, from, set, totals.exact_shells, bins));
+    PS_TRY(make_bins(in, head, set, totals.exact_shells, bins));
     PS_TRY(ps_spectrum_sums_create(out, set, bins->num, in->error));
     out->exact_shells = totals.exact_shells;
     out->normalization = totals.normalization;
@@ -369,15 +369,15 @@ static pspec_status open_reader(reader *in) {
 pspec_status ps_spectrum_read(ps_spectrum_sums *out, ps_bins *bins, const char *path,
                               ps_error *error) {
     reader in = {.path = path, .checksum = crc32(0, NULL, 0), .error = error};
-    header from = {0};
+    header head = {0};
     ps_frequencies set = {0};
     pspec_status status = PSPEC_OK;
     *out = (ps_spectrum_sums){0};
     *bins = (ps_bins){0};
     PS_TRY_OUT(status, open_reader(&in));
-    PS_TRY_OUT(status, read_header(&in, &from));
-    PS_TRY_OUT(status, check_size(&in, &from));
-    PS_TRY_OUT(status, read_body(&in, &from, &set, out, bins));
+    PS_TRY_OUT(status, read_header(&in, &head));
+    PS_TRY_OUT(status, check_size(&in, &head));
+    PS_TRY_OUT(status, read_body(&in, &head, &set, out, bins));
 out:
     if (in.stream != NULL) {
         fclose(in.stream);

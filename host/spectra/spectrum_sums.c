@@ -25,16 +25,16 @@ pspec_status ps_spectrum_sums_create(ps_spectrum_sums *out, const ps_frequencies
     return status;
 }
 
-pspec_status ps_spectrum_sums_copy(ps_spectrum_sums *out, const ps_spectrum_sums *from,
+pspec_status ps_spectrum_sums_copy(ps_spectrum_sums *out, const ps_spectrum_sums *original,
                                    ps_error *error) {
-    PS_TRY(ps_spectrum_sums_create(out, &from->frequencies, from->num_bins, error));
+    PS_TRY(ps_spectrum_sums_create(out, &original->frequencies, original->num_bins, error));
     const ps_spectrum_sums owned = *out;
-    *out = *from;
+    *out = *original;
     out->frequencies = owned.frequencies;
     out->bins = owned.bins;
     out->powers = owned.powers;
-    memcpy(out->bins, from->bins, from->num_bins * sizeof(ps_sums));
-    memcpy(out->powers, from->powers, from->frequencies.num * sizeof(ps_sums));
+    memcpy(out->bins, original->bins, original->num_bins * sizeof(ps_sums));
+    memcpy(out->powers, original->powers, original->frequencies.num * sizeof(ps_sums));
     return PSPEC_OK;
 }
 
@@ -165,17 +165,17 @@ typedef struct finishing {
 } finishing;
 
 static void finish_some(void *payload, unsigned index, unsigned count) {
-    const finishing *all = payload;
-    const size_t end = ps_share_begin(all->num, index + 1, count);
-    for (size_t i = ps_share_begin(all->num, index, count); i < end; i++) {
-        ps_sums_finish(&all->sums[i], all->num_realizations, &all->out[i].mean,
-                       &all->out[i].standard_error);
+    const finishing *work = payload;
+    const size_t end = ps_share_begin(work->num, index + 1, count);
+    for (size_t i = ps_share_begin(work->num, index, count); i < end; i++) {
+        ps_sums_finish(&work->sums[i], work->num_realizations, &work->out[i].mean,
+                       &work->out[i].standard_error);
     }
 }
 
 static void finish_all(const ps_sums *sums, size_t num, uint64_t num_realizations, ps_mean *out) {
-    finishing all = {sums, num, num_realizations, out};
-    ps_workers_share(num, finish_some, &all);
+    finishing work = {sums, num, num_realizations, out};
+    ps_workers_share(num, finish_some, &work);
 }
 
 pspec_status ps_spectrum_sums_finish(const ps_spectrum_sums *sums, const ps_bins *bins,

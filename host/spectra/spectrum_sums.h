@@ -1,8 +1,9 @@
-/* What a spectrum is made of: sums over realizations, not means, so that spectra of parts of a job can
- * be added up to the spectrum of the whole.
+/* What a spectrum is made of: sums over realizations, not means, so that spectra of parts of a job
+ * can be added up to the spectrum of the whole.
  *
- * Under the default normalization the sums are of q = N_ref |S|^2 / W^2, N_ref being a number of points
- * that was fixed when summing began (jobs/parts/estimator.h); sums of another N_ref are rescaled.
+ * Under the default normalization the sums are of q = N_ref |S|^2 / W^2, N_ref being a number of
+ * points that was fixed when summing began (jobs/parts/estimator.h); sums of another N_ref are
+ * rescaled.
  */
 #ifndef PS_SPECTRA_SPECTRUM_SUMS_H
 #define PS_SPECTRA_SPECTRUM_SUMS_H
@@ -24,17 +25,17 @@ typedef struct ps_spectrum_sums {
 /* Copies the frequencies; all sums are 0. */
 pspec_status ps_spectrum_sums_create(ps_spectrum_sums *out, const ps_frequencies *frequencies,
                                      size_t num_bins, ps_error *error) PS_MUST_CHECK;
-pspec_status ps_spectrum_sums_copy(ps_spectrum_sums *out, const ps_spectrum_sums *from,
+pspec_status ps_spectrum_sums_copy(ps_spectrum_sums *out, const ps_spectrum_sums *original,
                                    ps_error *error) PS_MUST_CHECK;
 void ps_spectrum_sums_free(ps_spectrum_sums *sums);
 
-/* Are both answers to the same question? If not, PSPEC_ERROR_INPUT with the difference; which names b in
- * the sentence. */
+/* Are both answers to the same question? If not, PSPEC_ERROR_INPUT with the difference; which names
+ * b in the sentence. */
 pspec_status ps_spectrum_sums_require_same(const ps_spectrum_sums *a, const ps_spectrum_sums *b,
                                            const char *which, ps_error *error) PS_MUST_CHECK;
 
-/* Adds the realizations of other after those of sums. Different questions are PSPEC_ERROR_INPUT with the
- * difference; which names other in the sentence. */
+/* Adds the realizations of other after those of sums. Different questions are PSPEC_ERROR_INPUT
+ * with the difference; which names other in the sentence. */
 pspec_status ps_spectrum_sums_merge(ps_spectrum_sums *sums, const ps_spectrum_sums *other,
                                     const char *which, ps_error *error) PS_MUST_CHECK;
 

@@ -1,4 +1,5 @@
-/* Sum and sum of squares in double pairs: enough digits that a variance from raw sums loses nothing. */
+/* Sum and sum of squares in double pairs: enough digits that a variance from raw sums loses
+ * nothing. */
 #ifndef PS_SPECTRA_SUMS_H
 #define PS_SPECTRA_SUMS_H
 
@@ -10,12 +11,12 @@ typedef struct ps_sums {
 } ps_sums;
 
 void ps_sums_add(ps_sums *sums, double x);
-/* For means alone: the squares stay as they are. Begun as PS_SUMS_MEAN_ONLY, sums have a standard error of
- * nan, and so have those that they are merged with. */
+/* For means alone: the squares stay as they are. Begun as PS_SUMS_MEAN_ONLY, sums have a standard
+ * error of nan, and so have those that they are merged with. */
 #define PS_SUMS_MEAN_ONLY ((ps_sums){.square = NAN, .square_low = NAN})
 void ps_sums_add_to_mean(ps_sums *sums, double x);
-/* Adds the sums of factor * x: those of other realizations whose powers had another unit. With factor 1
- * (or a power of two), to the pair's last digit what adding the x one by one gives. */
+/* Adds the sums of factor * x: those of other realizations whose powers had another unit. With
+ * factor 1 (or a power of two), to the pair's last digit what adding the x one by one gives. */
 void ps_sums_merge(ps_sums *sums, const ps_sums *other, double factor);
 /* Mean and standard error s / sqrt(count) with s^2 = sum (x - mean)^2 / (count - 1); nan when
  * count < 2. Numbers that differ by no more than rounding give exactly 0: a standard error below

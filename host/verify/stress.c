@@ -150,7 +150,8 @@ static pspec_status skip(const run *self, ps_stress_row *row, const char *why, p
     return report(self, row, error);
 }
 
-/* The row of a measurement that came to status. What a device or its compiler refuses is a verdict on them. */
+/* The row of a measurement that came to status. What a device or its compiler refuses is a verdict
+ * on them. */
 static pspec_status judge(const run *self, ps_stress_row *row, pspec_status status,
                           ps_error *error) {
     if (status == PSPEC_OK) {
@@ -267,7 +268,8 @@ static pspec_status run_probe(const run *self, const ps_stress_case *what, ps_er
     return PSPEC_OK;
 }
 
-/* CPUs like groups of one work-item, in which barriers do nothing; those of GPUs are tried there, too. */
+/* CPUs like groups of one work-item, in which barriers do nothing; those of GPUs are tried there,
+ * too. */
 static pspec_status run_case(const run *self, const ps_stress_case *what, ps_error *error) {
     if (self->device != NULL) {
         ps_device_set_group_size(self->device, what->group_size);

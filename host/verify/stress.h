@@ -3,8 +3,8 @@
  * host computes alone against other formulas. The bound is the engine's own error formula with the
  * power that was measured, as the tolerance contract has it.
  *
- * On the device of a user it is an acceptance test of its driver: maths, double precision and barriers that are wrong
- * show as failures of cases that have a name.
+ * On the device of a user it is an acceptance test of its driver: maths, double precision and
+ * barriers that are wrong show as failures of cases that have a name.
  */
 #ifndef PS_VERIFY_STRESS_H
 #define PS_VERIFY_STRESS_H
@@ -78,12 +78,13 @@ typedef struct ps_stress_totals {
     ps_stress_row first_failure; /* if there is one */
 } ps_stress_totals;
 
-/* Is it the name of a case, and of something that cases try? Else PSPEC_ERROR_INVALID_ARGUMENT with the nearest. */
+/* Is it the name of a case, and of something that cases try? Else PSPEC_ERROR_INVALID_ARGUMENT with
+ * the nearest. */
 pspec_status ps_stress_check(const ps_stress_options *options, ps_error *error) PS_MUST_CHECK;
 bool ps_stress_needs_device(const ps_stress_options *options);
 
-/* device NULL: for options that need none. Wrong results and failures of the device are rows; that memory is short, or
- * that somebody wants it stopped, ends the run. */
+/* device NULL: for options that need none. Wrong results and failures of the device are rows; that
+ * memory is short, or that somebody wants it stopped, ends the run. */
 pspec_status ps_stress_run(const ps_stress_options *options, ps_device *device,
                            ps_stress_totals *totals, ps_error *error) PS_MUST_CHECK;
 

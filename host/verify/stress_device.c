@@ -1,4 +1,5 @@
-/* Kernels of the device that belong to no engine: averages over realizations, and sums of distances. */
+/* Kernels of the device that belong to no engine: averages over realizations, and sums of
+ * distances. */
 #include "verify/stress_probes.h"
 
 #include "base/memory.h"
@@ -117,8 +118,9 @@ static ps_mean average_ring(const averages *self, int64_t ring) {
     return (ps_mean){mean, sqrt(variance / REALIZATIONS)};
 }
 
-/* Roots of mean powers are off by no more than S is, in the mean over all of them. Standard errors are lengths of vectors
- * of M ring powers over M: an error e of S, which is one of 2 e sqrt(P) of a power, is less than that in them. */
+/* Roots of mean powers are off by no more than S is, in the mean over all of them. Standard errors
+ * are lengths of vectors of M ring powers over M: an error e of S, which is one of 2 e sqrt(P) of a
+ * power, is less than that in them. */
 static double compare_rings(const averages *self) {
     double sum = 0;
     double num = 0;

@@ -18,7 +18,8 @@
 
 /* ---- eigenvalues --------------------------------------------------------------------------- */
 
-/* a_l = a_1 G(l + 1 - s) G(2 + s) / (G(2 - s) G(l + 1 + s)): Gamma itself would overflow at l = 170. */
+/* a_l = a_1 G(l + 1 - s) G(2 + s) / (G(2 - s) G(l + 1 + s)): Gamma itself would overflow at l =
+ * 170. */
 static pspec_status measure_eigenvalues(ps_device *device, ps_precision precision, double *found,
                                         double *bound, ps_error *error) {
     enum { LAST = 10000 };
@@ -49,8 +50,8 @@ const ps_stress_probe ps_probe_eigenvalues = {
 
 /* ---- lobes --------------------------------------------------------------------------------- */
 
-/* int e^-t P_l(1 - t/n) dt over int e^-t dt for l <= last, 0 <= t <= end, by Gauss-Legendre rules in panels; P_l from
- * differences, which keep the digits of small t. */
+/* int e^-t P_l(1 - t/n) dt over int e^-t dt for l <= last, 0 <= t <= end, by Gauss-Legendre rules
+ * in panels; P_l from differences, which keep the digits of small t. */
 static void integrate_lobe(double n, double end, size_t last, long double *ratios) {
     enum { NODES = 32, PANELS = 64 };
     double nodes[NODES];
@@ -159,8 +160,9 @@ const ps_stress_probe ps_probe_diagonal = {
 
 /* ---- optimal weights ----------------------------------------------------------------------- */
 
-/* Pairs of points a thousandth apart: K is nearly singular. E^2 from the system that was solved against the kernel form
- * with its weights, which knows nothing of the system; and no rule may be better. */
+/* Pairs of points a thousandth apart: K is nearly singular. E^2 from the system that was solved
+ * against the kernel form with its weights, which knows nothing of the system; and no rule may be
+ * better. */
 static pspec_status compare_weights(const ps_representer *representer, const double *points,
                                     size_t num, double *weights, double *found, double *bound,
                                     ps_error *error) {

@@ -1,7 +1,8 @@
 /* The error of an engine for the points of a case, in the units of its formula (engines/engine.h).
  *
- * Powers show | |S| - |S_ref| |, the part of dS along S. Rounding errors have no preferred direction, so sqrt(2) times its
- * root mean square stands for |dS|. On the sphere coefficients show all of it, and powers must not be worse.
+ * Powers show | |S| - |S_ref| |, the part of dS along S. Rounding errors have no preferred
+ * direction, so sqrt(2) times its root mean square stands for |dS|. On the sphere coefficients show
+ * all of it, and powers must not be worse.
  */
 #include "verify/stress_sample.h"
 
@@ -81,7 +82,8 @@ static pspec_status prepare(measurement *self, ps_error *error) {
 
 /* ---- comparing ----------------------------------------------------------------------------- */
 
-/* In sqrt(V), mean over the modes that were checked; on the sphere sqrt(V / (4 pi)) is one of c_lm. */
+/* In sqrt(V), mean over the modes that were checked; on the sphere sqrt(V / (4 pi)) is one of
+ * c_lm. */
 static double amplitude_error(const measurement *self) {
     const ps_stress_sample *sample = self->sample;
     const bool has_phases = self->coefficients != NULL;
@@ -129,7 +131,7 @@ static double pairs_error(const measurement *self) {
     return worst;
 }
 
-/* Of the referee where it has looked at everything, else of the engine itself. */
+/* The mean is the referee's where it has looked at everything, else the engine's own. */
 static double mean_power(const measurement *self) {
     const ps_stress_sample *sample = self->sample;
     double sum = 0;

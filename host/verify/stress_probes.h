@@ -1,5 +1,5 @@
-/* Cases of the stability suite that are no engine's: sums and averages on the device, and special functions, kernels and
- * weights on the host. */
+/* Cases of the stability suite that are no engine's: sums and averages on the device, and special
+ * functions, kernels and weights on the host. */
 #ifndef PS_VERIFY_STRESS_PROBES_H
 #define PS_VERIFY_STRESS_PROBES_H
 

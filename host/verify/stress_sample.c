@@ -10,12 +10,13 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Of points, and of listed frequencies. */
+/* Points and listed frequencies are drawn from these. */
 static const uint64_t points_seed = 7, list_seed = 3;
 
-/* What engines that work as exactly as they are asked to are asked for, by precision: near the best that they can. */
+/* What engines that work as exactly as they are asked to are asked for, by precision: near the best
+ * that they can. */
 static const double tolerances[] = {1e-5, 1e-12};
-/* Of pair sums, whose errors are smaller by about sqrt(N). */
+/* Pair sums are asked for more, since their errors are smaller by about sqrt(N). */
 static const double pair_tolerances[] = {1e-6, 1e-13};
 
 /* ---- making -------------------------------------------------------------------------------- */
@@ -176,7 +177,7 @@ static pspec_status ask_sphere(ps_stress_sample *self, size_t i) {
     return PSPEC_OK;
 }
 
-/* Of some degrees only: much less than all pairs. */
+/* The host sums one degree at a time, which costs much less than all pairs. */
 static pspec_status ask_pairs_degree(ps_stress_sample *self, size_t i) {
     ps_host_degree degree;
     PS_TRY(ps_host_degree_create(&degree, self->frequencies.vectors[self->checked[i]], NULL));

@@ -36,7 +36,8 @@ pspec_status ps_stress_points_make(const ps_stress_case *what, uint64_t realizat
 /* What `pointspec stress` asks an engine for; frequencies belong to the sample. */
 ps_problem ps_stress_problem(const ps_stress_sample *sample, ps_precision precision);
 
-/* The error of an engine that is asked for the problem, and its formula with the power that was measured. */
+/* The error of an engine that is asked for the problem, and its formula with the power that was
+ * measured. */
 pspec_status ps_stress_measure(const ps_stress_sample *sample, const ps_problem *problem,
                                const ps_engine *engine, ps_precision precision, ps_device *device,
                                double *found, double *bound, ps_error *error) PS_MUST_CHECK;

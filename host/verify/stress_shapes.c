@@ -88,7 +88,7 @@ static double signed_weight(size_t point, uint64_t *state) {
     return 2 * ps_stress_uniform(state) - 0.9;
 }
 
-/* Of either sign, over twelve decades. */
+/* Weights have either sign and spread over twelve decades. */
 static double wild_weight(size_t point, uint64_t *state) {
     const double decades = 12;
     return (point % 2 == 0 ? 1 : -1) * pow(10, decades * (ps_stress_uniform(state) - 0.5));
@@ -119,7 +119,8 @@ static double one_weight(size_t point, uint64_t *state) {
 
 /* ---- places on the sphere ------------------------------------------------------------------ */
 
-/* From the angle to the north pole, or with side -1 to the south pole, and the longitude: exact near the poles. */
+/* From the angle to the north pole, or with side -1 to the south pole, and the longitude: exact
+ * near the poles. */
 static void set_angles(double u[3], double theta, double phi, double side) {
     const double rho = theta == PS_PI ? 0 : sin(theta);
     u[0] = rho * cos(phi);
@@ -154,7 +155,8 @@ static void within_1e_8_of_poles(size_t point, size_t num_points, uint64_t *stat
     set_angles(u, 1e-8 * (0.5 + ps_stress_uniform(state)), phi, point % 2 == 0 ? 1 : -1);
 }
 
-/* A circle where sin^m of the angle underflows from degree 243 on in single precision, 1970 in double. */
+/* A circle where sin^m of the angle underflows from degree 243 on in single precision, 1970 in
+ * double. */
 static void polar_circle(size_t point, size_t num_points, uint64_t *state, double u[3]) {
     const double theta = 0.3;
     (void)point;

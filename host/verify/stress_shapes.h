@@ -1,4 +1,5 @@
-/* Point sets that are hard on arithmetic: what `pointspec stress` and the tests of tolerances try engines with.
+/* Point sets that are hard on arithmetic: what `pointspec stress` and the tests of tolerances try
+ * engines with.
  *
  * A set depends on nothing but shape, number of points, dimension and seed.
  */
@@ -16,14 +17,14 @@ double ps_stress_uniform(uint64_t *state);
 /* Weights; `point` is its number in the set. */
 typedef double ps_stress_weight(size_t point, uint64_t *state);
 
-/* Of the torus: one coordinate after the other. */
+/* A shape on the torus gives one coordinate after the other. */
 typedef struct ps_torus_shape {
     const char *name;
     double (*coordinate)(size_t point, size_t num_points, unsigned axis, uint64_t *state);
     ps_stress_weight *weight; /* NULL: unit weights */
 } ps_torus_shape;
 
-/* Of the sphere: unit vectors. */
+/* A shape on the sphere gives unit vectors. */
 typedef struct ps_vector_shape {
     const char *name;
     void (*place)(size_t point, size_t num_points, uint64_t *state, double u[3]);

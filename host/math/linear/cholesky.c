@@ -7,18 +7,20 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Rows of a tile, and columns of a step: ten panels, whose 460 KB stay in the cache of one core while a tile is updated. */
+/* Rows of a tile, and columns of a step: ten panels, whose 460 KB stay in the cache of one core
+ * while a tile is updated. */
 enum { ROWS = PS_TILE_ROWS, COLUMNS = PS_TILE_COLUMNS, PANELS = 10, TILE = PANELS * ROWS };
 static const size_t ALIGNMENT = 64; /* of a line of the cache, which is 8 columns of a panel */
 
-/* A step makes TILE columns of the factor, from `begin` on, and takes their products off all that is to the right of them.
- * Its rows lie packed as panels [TILE][ROWS], the first one at row begin. */
-typedef struct step {
+/* A step makes TILE columns of the factor, from `begin` on, and takes their products off all that
+ * is to the right of them. Its rows lie packed as panels [TILE][ROWS], the first one at row
+ * begin. */
+typedef struct factor_step {
     size_t n, begin, width; /* width: columns of the step, TILE but for the last */
     size_t num_tiles;       /* of rows below those of the step */
     double *matrix, *panels;
     ps_tile_product take;
-} step;
+} factor_step;
 
 static size_t least(size_t a, size_t b) {
     return a < b ? a : b;
@@ -28,46 +30,50 @@ static size_t count_tiles(size_t n) {
     return n / TILE + (n % TILE != 0);
 }
 
-static double *at(const step *of, size_t row, size_t column) {
-    return of->matrix + column * of->n + row;
+static double *at(const factor_step *step, size_t row, size_t column) {
+    return step->matrix + column * step->n + row;
 }
 
-static double *panel_at(const step *of, size_t panel) {
-    return of->panels + panel * ROWS * TILE;
+static double *panel_at(const factor_step *step, size_t panel) {
+    return step->panels + panel * ROWS * TILE;
 }
 
-/* The first of the COLUMNS rows of panels that are the columns from `column` on, counted from begin. */
-static const double *rows_at(const step *of, size_t column) {
-    return panel_at(of, column / ROWS) + column % ROWS;
+/* The first of the COLUMNS rows of panels that are the columns from `column` on, counted from
+ * begin. */
+static const double *rows_at(const factor_step *step, size_t column) {
+    return panel_at(step, column / ROWS) + column % ROWS;
 }
 
 /* ---- the columns of a step ------------------------------------------------------------------- */
 
 /* Zeros above the diagonal and beyond the matrix. */
-static void load_panel(const step *of, size_t panel) {
-    double *const to = panel_at(of, panel);
+static void load_panel(const factor_step *step, size_t panel) {
+    double *const packed = panel_at(step, panel);
     const size_t first = panel * ROWS;
     for (size_t k = 0; k < TILE; k++) {
         for (size_t i = 0; i < ROWS; i++) {
-            const bool is_there = k < of->width && k <= first + i && of->begin + first + i < of->n;
-            to[k * ROWS + i] = is_there ? *at(of, of->begin + first + i, of->begin + k) : 0;
+            const bool is_there =
+                k < step->width && k <= first + i && step->begin + first + i < step->n;
+            packed[k * ROWS + i] =
+                is_there ? *at(step, step->begin + first + i, step->begin + k) : 0;
         }
     }
 }
 
-static void store_panel(const step *of, size_t panel) {
-    const double *const from = panel_at(of, panel);
+static void store_panel(const factor_step *step, size_t panel) {
+    const double *const packed = panel_at(step, panel);
     const size_t first = panel * ROWS;
-    const size_t end = least(ROWS, of->n - of->begin - first);
-    for (size_t k = 0; k < of->width; k++) {
+    const size_t end = least(ROWS, step->n - step->begin - first);
+    for (size_t k = 0; k < step->width; k++) {
         for (size_t i = k > first ? k - first : 0; i < end; i++) {
-            *at(of, of->begin + first + i, of->begin + k) = from[k * ROWS + i];
+            *at(step, step->begin + first + i, step->begin + k) = packed[k * ROWS + i];
         }
     }
 }
 
-/* Column k of a group by its diagonal entry; the next ones of the group lose their products with it. factors[j]: of the
- * factor's row group + j in this column. Rows of a panel above the diagonal hold nothing that anyone reads. */
+/* Column k of a group by its diagonal entry; the next ones of the group lose their products with
+ * it. factors[j]: of the factor's row group + j in this column. Rows of a panel above the diagonal
+ * hold nothing that anyone reads. */
 static void finish_column(double *columns, size_t k, const double *factors) {
     double *const column = columns + k * ROWS;
     const double pivot = factors[k];
@@ -83,25 +89,26 @@ static void finish_column(double *columns, size_t k, const double *factors) {
 }
 
 /* Columns group .. group + COLUMNS - 1 of a panel whose rows are all below them. */
-static void solve_group(const step *of, size_t panel, size_t group) {
-    double *const rows = panel_at(of, panel);
+static void solve_group(const factor_step *step, size_t panel, size_t group) {
+    double *const rows = panel_at(step, panel);
     double *const columns = rows + group * ROWS;
-    of->take(group, rows, rows_at(of, group), columns, ROWS);
-    for (size_t k = 0; k < COLUMNS && group + k < of->width; k++) {
-        finish_column(columns, k, rows_at(of, group) + (group + k) * ROWS);
+    step->take(group, rows, rows_at(step, group), columns, ROWS);
+    for (size_t k = 0; k < COLUMNS && group + k < step->width; k++) {
+        finish_column(columns, k, rows_at(step, group) + (group + k) * ROWS);
     }
 }
 
-/* The same where the rows of the columns are among those of the panel. False at a pivot that is not above 0. */
-static bool factorize_group(const step *of, size_t panel, size_t group, size_t *bad) {
-    double *const rows = panel_at(of, panel);
+/* The same where the rows of the columns are among those of the panel. False at a pivot that is not
+ * above 0. */
+static bool factorize_group(const factor_step *step, size_t panel, size_t group, size_t *bad) {
+    double *const rows = panel_at(step, panel);
     double *const columns = rows + group * ROWS;
-    of->take(group, rows, rows_at(of, group), columns, ROWS);
-    for (size_t k = 0; k < COLUMNS && group + k < of->width; k++) {
+    step->take(group, rows, rows_at(step, group), columns, ROWS);
+    for (size_t k = 0; k < COLUMNS && group + k < step->width; k++) {
         double *const factors = columns + k * ROWS + group % ROWS;
         const double pivot = factors[k];
         if (!(pivot > 0) || isinf(pivot)) {
-            *bad = of->begin + group + k;
+            *bad = step->begin + group + k;
             return false;
         }
         factors[k] = sqrt(pivot);
@@ -111,79 +118,80 @@ static bool factorize_group(const step *of, size_t panel, size_t group, size_t *
     return true;
 }
 
-static bool factorize_tile(const step *of, size_t *bad) {
-    for (size_t panel = 0; panel * ROWS < of->width; panel++) {
-        load_panel(of, panel);
+static bool factorize_tile(const factor_step *step, size_t *bad) {
+    for (size_t panel = 0; panel * ROWS < step->width; panel++) {
+        load_panel(step, panel);
         for (size_t group = 0; group < panel * ROWS; group += COLUMNS) {
-            solve_group(of, panel, group);
+            solve_group(step, panel, group);
         }
-        const size_t end = least(of->width, (panel + 1) * ROWS);
+        const size_t end = least(step->width, (panel + 1) * ROWS);
         for (size_t group = panel * ROWS; group < end; group += COLUMNS) {
-            if (!factorize_group(of, panel, group, bad)) {
+            if (!factorize_group(step, panel, group, bad)) {
                 return false;
             }
         }
-        store_panel(of, panel);
+        store_panel(step, panel);
     }
     return true;
 }
 
 /* A tile of the rows below. */
 static void solve_tile(void *payload, size_t i) {
-    const step *const of = payload;
+    const factor_step *const step = payload;
     const size_t end = (i + 2) * PANELS;
-    for (size_t panel = (i + 1) * PANELS; panel < end && of->begin + panel * ROWS < of->n;
+    for (size_t panel = (i + 1) * PANELS; panel < end && step->begin + panel * ROWS < step->n;
          panel++) {
-        load_panel(of, panel);
-        for (size_t group = 0; group < of->width; group += COLUMNS) {
-            solve_group(of, panel, group);
+        load_panel(step, panel);
+        for (size_t group = 0; group < step->width; group += COLUMNS) {
+            solve_group(step, panel, group);
         }
-        store_panel(of, panel);
+        store_panel(step, panel);
     }
 }
 
 /* ---- what is to the right of them ------------------------------------------------------------ */
 
-/* Rows of a panel by COLUMNS columns, both counted from begin, where they meet the diagonal or the end of the matrix. */
-static void update_edge(const step *of, size_t panel, size_t column) {
+/* Rows of a panel by COLUMNS columns, both counted from begin, where they meet the diagonal or the
+ * end of the matrix. */
+static void update_edge(const factor_step *step, size_t panel, size_t column) {
     double sums[COLUMNS * ROWS] = {0};
-    of->take(TILE, panel_at(of, panel), rows_at(of, column), sums, ROWS);
-    for (size_t j = 0; j < COLUMNS && of->begin + column + j < of->n; j++) {
+    step->take(TILE, panel_at(step, panel), rows_at(step, column), sums, ROWS);
+    for (size_t j = 0; j < COLUMNS && step->begin + column + j < step->n; j++) {
         for (size_t i = 0; i < ROWS; i++) {
             const size_t row = panel * ROWS + i;
-            if (row >= column + j && of->begin + row < of->n) {
-                *at(of, of->begin + row, of->begin + column + j) += sums[j * ROWS + i];
+            if (row >= column + j && step->begin + row < step->n) {
+                *at(step, step->begin + row, step->begin + column + j) += sums[j * ROWS + i];
             }
         }
     }
 }
 
-static void update_columns(const step *of, size_t column, size_t first, size_t end) {
-    for (size_t panel = first; panel < end && of->begin + panel * ROWS < of->n; panel++) {
+static void update_columns(const factor_step *step, size_t column, size_t first, size_t end) {
+    for (size_t panel = first; panel < end && step->begin + panel * ROWS < step->n; panel++) {
         const size_t row = panel * ROWS;
         if (row + ROWS <= column) {
             continue; /* above the diagonal */
         }
-        if (row + 1 >= column + COLUMNS && of->begin + row + ROWS <= of->n) {
-            of->take(TILE, panel_at(of, panel), rows_at(of, column),
-                     at(of, of->begin + row, of->begin + column), of->n);
+        if (row + 1 >= column + COLUMNS && step->begin + row + ROWS <= step->n) {
+            step->take(TILE, panel_at(step, panel), rows_at(step, column),
+                       at(step, step->begin + row, step->begin + column), step->n);
         } else {
-            update_edge(of, panel, column);
+            update_edge(step, panel, column);
         }
     }
 }
 
 /* Tile i of the lower triangle, counted down one column of tiles after the other. */
 static void update_tile(void *payload, size_t i) {
-    const step *const of = payload;
+    const factor_step *const step = payload;
     size_t left = 0;
-    for (; i >= of->num_tiles - left; left++) {
-        i -= of->num_tiles - left;
+    for (; i >= step->num_tiles - left; left++) {
+        i -= step->num_tiles - left;
     }
     const size_t first = (left + 1 + i) * PANELS;
-    const size_t end = least((left + 2) * TILE, of->n - of->begin);
+    const size_t end = least((left + 2) * TILE, step->n - step->begin);
     for (size_t column = (left + 1) * TILE; column < end; column += COLUMNS) {
-        update_columns(of, column, first, first + PANELS);
+        update_columns(step, column, first, first + PANELS);
     }
 }
 
@@ -201,19 +209,19 @@ static uint64_t count_all(size_t n) {
     return total;
 }
 
-static pspec_status factorize(step *of, ps_pieces *pieces, bool *is_definite, size_t *bad,
+static pspec_status factorize(factor_step *step, ps_pieces *pieces, bool *is_definite, size_t *bad,
                               ps_error *error) {
     *is_definite = true;
-    for (of->begin = 0; of->begin < of->n; of->begin += TILE) {
-        of->width = least(TILE, of->n - of->begin);
-        of->num_tiles = count_tiles(of->n - of->begin) - 1;
-        if (!factorize_tile(of, bad)) {
+    for (step->begin = 0; step->begin < step->n; step->begin += TILE) {
+        step->width = least(TILE, step->n - step->begin);
+        step->num_tiles = count_tiles(step->n - step->begin) - 1;
+        if (!factorize_tile(step, bad)) {
             *is_definite = false;
             return PSPEC_OK;
         }
         pieces->done++;
-        PS_TRY(ps_pieces_do(pieces, of->num_tiles, solve_tile, of, error));
-        PS_TRY(ps_pieces_do(pieces, count_updates(of->num_tiles), update_tile, of, error));
+        PS_TRY(ps_pieces_do(pieces, step->num_tiles, solve_tile, step, error));
+        PS_TRY(ps_pieces_do(pieces, count_updates(step->num_tiles), update_tile, step, error));
     }
     return PSPEC_OK;
 }
@@ -225,7 +233,8 @@ uint64_t ps_cholesky_bytes(size_t n) {
 pspec_status ps_cholesky(size_t n, double *matrix, unsigned most_threads, const ps_watch *watch,
                          bool *is_definite, size_t *bad, ps_error *error) {
     enum { MOST_THREADS = 64, WORTH_THREADS = 2 * TILE };
-    /* Of 28 million operations: 10 ms where vectors have 512 bits, 0.2 s with those of 128. */
+    /* A piece has 28 million operations: 10 ms where vectors have 512 bits, 0.2 s with those of
+     * 128. */
     enum { TILES_AT_A_TIME = 16 };
     void *memory = NULL;
     PS_TRY(ps_allocate(&memory, ps_cholesky_bytes(n), 1, "columns of a Cholesky factor", error));
@@ -233,16 +242,17 @@ pspec_status ps_cholesky(size_t n, double *matrix, unsigned most_threads, const 
     ps_workers *const workers =
         n >= WORTH_THREADS ? ps_workers_create(most_threads > 0 ? most_threads : MOST_THREADS)
                            : NULL;
-    step of = {.n = n,
-               .matrix = matrix,
-               .panels = (double *)(void *)((char *)memory + (behind > 0 ? ALIGNMENT - behind : 0)),
-               .take = ps_tile_product_best()};
+    factor_step step = {
+        .n = n,
+        .matrix = matrix,
+        .panels = (double *)(void *)((char *)memory + (behind > 0 ? ALIGNMENT - behind : 0)),
+        .take = ps_tile_product_best()};
     ps_pieces pieces = {.workers = workers,
                         .each = TILES_AT_A_TIME,
                         .watch = watch,
                         .phase = "tiles of the Cholesky factor",
                         .total = count_all(n)};
-    const pspec_status status = factorize(&of, &pieces, is_definite, bad, error);
+    const pspec_status status = factorize(&step, &pieces, is_definite, bad, error);
     ps_workers_destroy(workers);
     free(memory);
     return status;

@@ -8,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Columns taken together, so that the vector is read once for all of them, and numbers side by side. */
+/* Columns taken together, so that the vector is read once for all of them, and numbers side by
+ * side. */
 enum { COLUMNS = 4, LANES = 8 };
 /* Numbers of the factor read between two tellings, some ten milliseconds. */
 static const size_t NUMBERS_AT_A_TIME = (size_t)1 << 22;
@@ -69,21 +70,21 @@ typedef struct telling {
     size_t n, silent, done;
 } telling;
 
-static pspec_status tell(telling *of, size_t num_columns, ps_error *error) {
-    of->done += num_columns;
-    of->silent += num_columns * of->n;
-    if (of->silent < NUMBERS_AT_A_TIME) {
+static pspec_status tell(telling *progress, size_t num_columns, ps_error *error) {
+    progress->done += num_columns;
+    progress->silent += num_columns * progress->n;
+    if (progress->silent < NUMBERS_AT_A_TIME) {
         return PSPEC_OK;
     }
-    of->silent = 0;
-    return ps_watch_tell(of->watch, "columns of a solution by the Cholesky factor", of->done,
-                         2 * of->n, NULL, error);
+    progress->silent = 0;
+    return ps_watch_tell(progress->watch, "columns of a solution by the Cholesky factor",
+                         progress->done, 2 * progress->n, NULL, error);
 }
 
 /* L y = vector: whole groups of columns, and then the rest, one by one. */
-static pspec_status solve_forward(telling *of, const double *matrix, double *vector,
+static pspec_status solve_forward(telling *progress, const double *matrix, double *vector,
                                   ps_error *error) {
-    const size_t n = of->n;
+    const size_t n = progress->n;
     for (size_t j = 0; j < n;) {
         const size_t end = n - j >= COLUMNS ? j + COLUMNS : n;
         for (size_t k = j; k < end; k++) {
@@ -95,16 +96,16 @@ static pspec_status solve_forward(telling *of, const double *matrix, double *vec
         if (end - j == COLUMNS) {
             take_columns(n - end, n, matrix + j * n + end, vector + j, vector + end);
         }
-        PS_TRY(tell(of, end - j, error));
+        PS_TRY(tell(progress, end - j, error));
         j = end;
     }
     return PSPEC_OK;
 }
 
 /* L^T x = vector, by the same groups from the last one on. */
-static pspec_status solve_backward(telling *of, const double *matrix, double *vector,
+static pspec_status solve_backward(telling *progress, const double *matrix, double *vector,
                                    ps_error *error) {
-    const size_t n = of->n;
+    const size_t n = progress->n;
     for (size_t end = n; end > 0;) {
         const size_t num = end % COLUMNS != 0 ? end % COLUMNS : COLUMNS;
         const size_t begin = end - num;
@@ -119,7 +120,7 @@ static pspec_status solve_backward(telling *of, const double *matrix, double *ve
             }
             vector[k] = left / matrix[k * n + k];
         }
-        PS_TRY(tell(of, num, error));
+        PS_TRY(tell(progress, num, error));
         end = begin;
     }
     return PSPEC_OK;
@@ -127,14 +128,15 @@ static pspec_status solve_backward(telling *of, const double *matrix, double *ve
 
 pspec_status ps_cholesky_solve(size_t n, const double *matrix, double *vector,
                                const ps_watch *watch, ps_error *error) {
-    telling of = {.watch = watch, .n = n};
-    PS_TRY(solve_forward(&of, matrix, vector, error));
-    return solve_backward(&of, matrix, vector, error);
+    telling progress = {.watch = watch, .n = n};
+    PS_TRY(solve_forward(&progress, matrix, vector, error));
+    return solve_backward(&progress, matrix, vector, error);
 }
 
 /* ---- condition ------------------------------------------------------------------------------- */
 
-/* The 1-norm of the inverse from below by N. J. Higham (1988), as LAPACK estimates it: some five solutions. */
+/* The 1-norm of the inverse from below by N. J. Higham (1988), as LAPACK estimates it: some five
+ * solutions. */
 typedef struct estimate {
     size_t n;
     const double *matrix;
@@ -144,56 +146,57 @@ typedef struct estimate {
     double norm;
 } estimate;
 
-static double sum_sizes(const estimate *of) {
+static double sum_sizes(const estimate *inverse) {
     double sum = 0;
-    for (size_t i = 0; i < of->n; i++) {
-        sum += fabs(of->x[i]);
+    for (size_t i = 0; i < inverse->n; i++) {
+        sum += fabs(inverse->x[i]);
     }
     return sum;
 }
 
-static size_t find_largest(const estimate *of) {
+static size_t find_largest(const estimate *inverse) {
     size_t largest = 0;
-    for (size_t i = 1; i < of->n; i++) {
-        largest = fabs(of->x[i]) > fabs(of->x[largest]) ? i : largest;
+    for (size_t i = 1; i < inverse->n; i++) {
+        largest = fabs(inverse->x[i]) > fabs(inverse->x[largest]) ? i : largest;
     }
     return largest;
 }
 
 /* x becomes its own signs. Returns whether they are those of the last time. */
-static bool take_signs(estimate *of) {
+static bool take_signs(estimate *inverse) {
     bool are_same = true;
-    for (size_t i = 0; i < of->n; i++) {
-        const signed char sign = of->x[i] >= 0 ? 1 : -1;
-        are_same = are_same && sign == of->sign[i];
-        of->sign[i] = sign;
-        of->x[i] = sign;
+    for (size_t i = 0; i < inverse->n; i++) {
+        const signed char sign = inverse->x[i] >= 0 ? 1 : -1;
+        are_same = are_same && sign == inverse->sign[i];
+        inverse->sign[i] = sign;
+        inverse->x[i] = sign;
     }
     return are_same;
 }
 
-static pspec_status solve(const estimate *of, ps_error *error) {
-    return ps_cholesky_solve(of->n, of->matrix, of->x, of->watch, error);
+static pspec_status solve(const estimate *inverse, ps_error *error) {
+    return ps_cholesky_solve(inverse->n, inverse->matrix, inverse->x, inverse->watch, error);
 }
 
-/* Goes from a column of the inverse to the one that its signs point to, while they become larger. */
-static pspec_status climb(estimate *of, ps_error *error) {
+/* Goes from a column of the inverse to the one that its signs point to, while they become
+ * larger. */
+static pspec_status climb(estimate *inverse, ps_error *error) {
     enum { MOST_STEPS = 4 };
-    size_t column = of->n;
+    size_t column = inverse->n;
     for (int i = 0; i < MOST_STEPS; i++) {
-        PS_TRY(solve(of, error));
-        const size_t next = find_largest(of);
-        if (column < of->n && fabs(of->x[next]) <= fabs(of->x[column])) {
+        PS_TRY(solve(inverse, error));
+        const size_t next = find_largest(inverse);
+        if (column < inverse->n && fabs(inverse->x[next]) <= fabs(inverse->x[column])) {
             return PSPEC_OK;
         }
         column = next;
-        memset(of->x, 0, of->n * sizeof *of->x);
-        of->x[column] = 1;
-        PS_TRY(solve(of, error));
-        const double norm = sum_sizes(of);
-        const bool is_better = norm > of->norm;
-        of->norm = fmax(of->norm, norm);
-        if (take_signs(of) || !is_better) {
+        memset(inverse->x, 0, inverse->n * sizeof *inverse->x);
+        inverse->x[column] = 1;
+        PS_TRY(solve(inverse, error));
+        const double norm = sum_sizes(inverse);
+        const bool is_better = norm > inverse->norm;
+        inverse->norm = fmax(inverse->norm, norm);
+        if (take_signs(inverse) || !is_better) {
             return PSPEC_OK;
         }
     }
@@ -201,28 +204,28 @@ static pspec_status climb(estimate *of, ps_error *error) {
 }
 
 /* A vector of alternating signs finds what the climb may have missed. */
-static pspec_status try_alternating(estimate *of, ps_error *error) {
-    const double steps = of->n > 1 ? (double)(of->n - 1) : 1;
-    for (size_t i = 0; i < of->n; i++) {
-        of->x[i] = (i % 2 == 0 ? 1 : -1) * (1 + (double)i / steps);
+static pspec_status try_alternating(estimate *inverse, ps_error *error) {
+    const double steps = inverse->n > 1 ? (double)(inverse->n - 1) : 1;
+    for (size_t i = 0; i < inverse->n; i++) {
+        inverse->x[i] = (i % 2 == 0 ? 1 : -1) * (1 + (double)i / steps);
     }
-    PS_TRY(solve(of, error));
-    of->norm = fmax(of->norm, 2 * sum_sizes(of) / (3 * (double)of->n));
+    PS_TRY(solve(inverse, error));
+    inverse->norm = fmax(inverse->norm, 2 * sum_sizes(inverse) / (3 * (double)inverse->n));
     return PSPEC_OK;
 }
 
-static pspec_status estimate_inverse(estimate *of, ps_error *error) {
-    for (size_t i = 0; i < of->n; i++) {
-        of->x[i] = 1 / (double)of->n;
+static pspec_status estimate_inverse(estimate *inverse, ps_error *error) {
+    for (size_t i = 0; i < inverse->n; i++) {
+        inverse->x[i] = 1 / (double)inverse->n;
     }
-    PS_TRY(solve(of, error));
-    of->norm = sum_sizes(of);
-    if (of->n == 1) {
+    PS_TRY(solve(inverse, error));
+    inverse->norm = sum_sizes(inverse);
+    if (inverse->n == 1) {
         return PSPEC_OK;
     }
-    take_signs(of);
-    PS_TRY(climb(of, error));
-    return try_alternating(of, error);
+    take_signs(inverse);
+    PS_TRY(climb(inverse, error));
+    return try_alternating(inverse, error);
 }
 
 pspec_status ps_cholesky_condition(size_t n, const double *matrix, double norm,
@@ -232,9 +235,9 @@ pspec_status ps_cholesky_condition(size_t n, const double *matrix, double norm,
     pspec_status status = PSPEC_OK;
     PS_TRY_OUT(status, ps_allocate(&x, n, sizeof(double), "a condition number", error));
     PS_TRY_OUT(status, ps_allocate(&sign, n, 1, "a condition number", error));
-    estimate of = {.n = n, .matrix = matrix, .watch = watch, .x = x, .sign = sign};
-    PS_TRY_OUT(status, estimate_inverse(&of, error));
-    *condition = norm * of.norm;
+    estimate inverse = {.n = n, .matrix = matrix, .watch = watch, .x = x, .sign = sign};
+    PS_TRY_OUT(status, estimate_inverse(&inverse, error));
+    *condition = norm * inverse.norm;
 out:
     free(x);
     free(sign);

@@ -25,7 +25,7 @@ static inline double multiply_add(double a, double b, double c) {
 /* Rows and columns whose sums fit the registers of 128 bits of most processors. */
 enum { FEW_ROWS = 4, FEW_COLUMNS = 4 };
 
-static void take_few(size_t num, const double *left, const double *right, double *to,
+static void take_few(size_t num, const double *left, const double *right, double *target,
                      size_t stride) {
     double sums[FEW_COLUMNS][FEW_ROWS] = {{0}};
     for (size_t k = 0; k < num; k++) {
@@ -37,16 +37,16 @@ static void take_few(size_t num, const double *left, const double *right, double
     }
     for (size_t j = 0; j < FEW_COLUMNS; j++) {
         for (size_t i = 0; i < FEW_ROWS; i++) {
-            to[j * stride + i] -= sums[j][i];
+            target[j * stride + i] -= sums[j][i];
         }
     }
 }
 
-static void take_anywhere(size_t num, const double *left, const double *right, double *to,
+static void take_anywhere(size_t num, const double *left, const double *right, double *target,
                           size_t stride) {
     for (size_t j = 0; j < COLUMNS; j += FEW_COLUMNS) {
         for (size_t i = 0; i < ROWS; i += FEW_ROWS) {
-            take_few(num, left + i, right + j, to + j * stride + i, stride);
+            take_few(num, left + i, right + j, target + j * stride + i, stride);
         }
     }
 }
@@ -54,16 +54,16 @@ static void take_anywhere(size_t num, const double *left, const double *right, d
 /* ---- x86-64 ---------------------------------------------------------------------------------- */
 
 #if HAS_X86_VECTORS
-/* A function for three vectors of rows and some columns. Every sum stays in a register: the loops of constant length are
- * unrolled, and what is written is fetched while the sums are made. */
+/* A function for three vectors of rows and some columns. Every sum stays in a register: the loops
+ * of constant length are unrolled, and what is written is fetched while the sums are made. */
 enum { VECTORS = 3 };
 #define TAKE(name, features, vector, lanes, columns, prefix)                                       \
     __attribute__((target(features))) static void name(                                            \
-        size_t num, const double *left, const double *right, double *to, size_t stride) {          \
+        size_t num, const double *left, const double *right, double *target, size_t stride) {      \
         vector sums[columns][VECTORS];                                                             \
         _Pragma("GCC unroll 8") for (size_t j = 0; j < (columns); j++) {                           \
-            __builtin_prefetch(to + j * stride, 1);                                                \
-            __builtin_prefetch(to + j * stride + (lanes)*VECTORS - 1, 1);                          \
+            __builtin_prefetch(target + j * stride, 1);                                            \
+            __builtin_prefetch(target + j * stride + (lanes)*VECTORS - 1, 1);                      \
             _Pragma("GCC unroll 3") for (size_t v = 0; v < VECTORS; v++) {                         \
                 sums[j][v] = prefix##setzero_pd();                                                 \
             }                                                                                      \
@@ -81,7 +81,7 @@ enum { VECTORS = 3 };
         }                                                                                          \
         _Pragma("GCC unroll 8") for (size_t j = 0; j < (columns); j++) {                           \
             _Pragma("GCC unroll 3") for (size_t v = 0; v < VECTORS; v++) {                         \
-                double *const place = to + j * stride + v * (lanes);                               \
+                double *const place = target + j * stride + v * (lanes);                           \
                 prefix##storeu_pd(place, prefix##sub_pd(prefix##loadu_pd(place), sums[j][v]));     \
             }                                                                                      \
         }                                                                                          \
@@ -90,12 +90,12 @@ enum { VECTORS = 3 };
 TAKE(take_512, "avx512f", __m512d, 8, 8, _mm512_)
 TAKE(take_quarter, "avx2,fma", __m256d, 4, 4, _mm256_)
 
-static void take_256(size_t num, const double *left, const double *right, double *to,
+static void take_256(size_t num, const double *left, const double *right, double *target,
                      size_t stride) {
     enum { HALF_ROWS = ROWS / 2, HALF_COLUMNS = COLUMNS / 2 };
     for (size_t i = 0; i < ROWS; i += HALF_ROWS) {
         for (size_t j = 0; j < COLUMNS; j += HALF_COLUMNS) {
-            take_quarter(num, left + i, right + j, to + j * stride + i, stride);
+            take_quarter(num, left + i, right + j, target + j * stride + i, stride);
         }
     }
 }

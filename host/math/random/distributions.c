@@ -12,10 +12,10 @@ static double excess_of_log(double t) {
     return t * t * (1.0 / 2 - t * (1.0 / 3 - t * (1.0 / 4 - t * (1.0 / 5 - t / 6))));
 }
 
-/* With t = a X / (a X + b Y) the density of log(t / (1 - t)) is proportional to exp(-r^2 / 2), r^2 / 2
- * being the sum below, which is 0 at X = Y; u is the derivative of the exponent there over its width.
- * The probability of r is then that of a normal variable but for u / r, which is nearly 1 (Barndorff-Nielsen's
- * r*). */
+/* With t = a X / (a X + b Y) the density of log(t / (1 - t)) is proportional to exp(-r^2 / 2), r^2
+ * / 2 being the sum below, which is 0 at X = Y; u is the derivative of the exponent there over its
+ * width. The probability of r is then that of a normal variable but for u / r, which is nearly 1
+ * (Barndorff-Nielsen's r*). */
 double ps_gamma_ratio_score(double x, double a, double y, double b) {
     const double middle = 1e-4; /* closer to the middle log(u / r) / r has lost its digits */
     const double both = a * x + b * y;
@@ -29,8 +29,9 @@ double ps_gamma_ratio_score(double x, double a, double y, double b) {
     return fabs(r) < middle ? r : r + log(u / r) / r;
 }
 
-/* What GSL is asked lies where it never calls its error handler, which would abort the program: tests
- * look at that. Below the least number of degrees of freedom all scores have the probability 1. */
+/* What GSL is asked lies where it never calls its error handler, which would abort the program:
+ * tests look at that. Below the least number of degrees of freedom all scores have the probability
+ * 1. */
 double ps_student_two_sided(double score, double degrees_of_freedom) {
     const double least = 1e-6;
     const double most = 1e18;

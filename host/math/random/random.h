@@ -14,7 +14,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Ten rounds of Philox 4x32; counter and key are not changed. Known answers: tests/math/test_random.c.
+/* Ten rounds of Philox 4x32; counter and key are not changed. Known answers:
+ * tests/math/test_random.c.
  */
 void ps_philox_4x32_10(const uint32_t counter[4], const uint32_t key[2], uint32_t out[4]);
 

@@ -1,6 +1,6 @@
-/* K. Shoemake, "Uniform random rotations", Graphics Gems III, 1992: two independent angles, and radii
- * whose squares are u and 1 - u, make a uniform point of the unit sphere in four dimensions; a uniform
- * unit quaternion is a uniform rotation. */
+/* K. Shoemake, "Uniform random rotations", Graphics Gems III, 1992: two independent angles, and
+ * radii whose squares are u and 1 - u, make a uniform point of the unit sphere in four dimensions;
+ * a uniform unit quaternion is a uniform rotation. */
 #include "math/random/rotation.h"
 
 #include "math/turns.h"

@@ -5,10 +5,11 @@
 #include "base/status.h"
 #include "math/random/random.h"
 
-/* count different integers below population, in ascending order; every subset of that size has the same
- * probability. 1 <= count <= population < 2^64 - 1. R. Floyd's algorithm (Bentley, "Programming pearls: a
- * sample of brilliance", 1987): for each j from population - count up, t uniform in 0..j is taken, or j when
- * t was taken before. Takes the random numbers of count calls of ps_random_below. */
+/* count different integers below population, in ascending order; every subset of that size has the
+ * same probability. 1 <= count <= population < 2^64 - 1. R. Floyd's algorithm (Bentley,
+ * "Programming pearls: a sample of brilliance", 1987): for each j from population - count up, t
+ * uniform in 0..j is taken, or j when t was taken before. Takes the random numbers of count calls
+ * of ps_random_below. */
 pspec_status ps_random_subset(uint64_t *out, size_t count, uint64_t population, ps_random *random,
                               ps_error *error) PS_MUST_CHECK;
 

@@ -1,5 +1,5 @@
-/* Spherical Fibonacci points: z_j = 1 - (2j+1)/N, phi_j = 2 pi frac(j/Phi) (R. Swinbank, R. J. Purser
- * 2006; R. Marques et al. 2013). */
+/* Spherical Fibonacci points: z_j = 1 - (2j+1)/N, phi_j = 2 pi frac(j/Phi) (R. Swinbank, R. J.
+ * Purser 2006; R. Marques et al. 2013). */
 #include "samplers/list.h"
 
 #include "samplers/sphere/spherical_fibonacci.h"

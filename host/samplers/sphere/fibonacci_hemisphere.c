@@ -1,5 +1,5 @@
-/* Spherical Fibonacci points of the hemisphere: z_j = 1 - (2j+1)/(2N), phi_j = 2 pi frac(j/Phi), the
- * northern half of the 2N points of the sphere (R. Marques et al. 2013). */
+/* Spherical Fibonacci points of the hemisphere: z_j = 1 - (2j+1)/(2N), phi_j = 2 pi frac(j/Phi),
+ * the northern half of the 2N points of the sphere (R. Marques et al. 2013). */
 #include "samplers/list.h"
 
 #include "samplers/sphere/spherical_fibonacci.h"

@@ -1,5 +1,6 @@
-/* The twelve faces are squares whose diagonals point north. In face f a position (x, y) of [0,1]^2 has
- * the distance j = JR[f] - x - y from the north pole along a meridian, in units of a diagonal's half:
+/* The twelve faces are squares whose diagonals point north. In face f a position (x, y) of [0,1]^2
+ * has the distance j = JR[f] - x - y from the north pole along a meridian, in units of a diagonal's
+ * half:
  *
  *   j < 1:  nr = j,      1 - z = nr^2/3            north cap
  *   else:   nr = 1,      z = (2 - j) 2/3           belt
@@ -113,11 +114,11 @@ static int64_t floor_divide(int64_t a, int64_t b) {
     return (a - ((a % b) + b) % b) / b;
 }
 
-/* From the belt, ring i = nside .. 3 nside counted from the north, position k = 0 .. 4 nside - 1. The
- * definition above, solved for ix and iy:
+/* From the belt, ring i = nside .. 3 nside counted from the north, position k = 0 .. 4 nside - 1.
+ * The definition above, solved for ix and iy:
  *     2 ix = c - i - 1 + (JR - JP) nside,  2 iy = -c - i - 1 + (JR + JP) nside,  c the azimuth in units of
- * pixels. JR - JP = 2m + 1 and JR + JP = 2n + 1 are always odd, and 0 <= ix, iy < nside leaves one choice
- * of each. */
+ * pixels. JR - JP = 2m + 1 and JR + JP = 2n + 1 are always odd, and 0 <= ix, iy < nside leaves one
+ * choice of each. */
 static pixel pixel_of_belt(int64_t nside, int64_t ring, int64_t k) {
     const int64_t c = 2 * k + (ring - nside + 1) % 2;
     const int64_t a = (c - ring - 1 + nside) / 2;  /* the numerators are even, */
@@ -129,7 +130,8 @@ static pixel pixel_of_belt(int64_t nside, int64_t ring, int64_t k) {
 
 /* ---- points -------------------------------------------------------------------------------- */
 
-/* difference/(8 nr) of a turn from the meridian at JP eighths, which are quarters when JP is even. */
+/* difference/(8 nr) of a turn from the meridian at JP eighths, which are quarters when JP is
+ * even. */
 static ps_turns azimuth(int64_t jp, double difference, double nr) {
     const double eighth = 0.125;
     const double rest = nr > 0 ? difference / (EIGHTHS * nr) : 0;
@@ -137,8 +139,8 @@ static ps_turns azimuth(int64_t jp, double difference, double nr) {
     return (ps_turns){quarters, jp % 2 == 0 ? rest : rest + eighth};
 }
 
-/* The offset (ox, oy) of a pixel. nr is formed from the corner that lies at the pole, so that it keeps its
- * digits there; centres are exact up to the last division. */
+/* The offset (ox, oy) of a pixel. nr is formed from the corner that lies at the pole, so that it
+ * keeps its digits there; centres are exact up to the last division. */
 static void place(int64_t nside, const pixel *p, double ox, double oy, double *point) {
     const double side = (double)nside;
     const double difference = (double)(p->ix - p->iy) + (ox - oy);
@@ -158,7 +160,8 @@ static void place(int64_t nside, const pixel *p, double ox, double oy, double *p
                     point);
 }
 
-/* Rings 1 .. 4 nside - 1 from the north. Backwards, since a vector takes more room than its offset. */
+/* Rings 1 .. 4 nside - 1 from the north. Backwards, since a vector takes more room than its
+ * offset. */
 void ps_healpix_place(uint64_t num_side, double *points) {
     const int64_t nside = (int64_t)num_side;
     size_t j = (size_t)points_of(num_side);

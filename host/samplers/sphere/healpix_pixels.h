@@ -1,5 +1,5 @@
-/* The pixels of HEALPix (K. M. Gorski et al. 2005), which healpix and healpix-jittered share: 12 nside^2
- * cells of equal area, in RING order, for any nside >= 1.
+/* The pixels of HEALPix (K. M. Gorski et al. 2005), which healpix and healpix-jittered share: 12
+ * nside^2 cells of equal area, in RING order, for any nside >= 1.
  */
 #ifndef PS_SAMPLERS_SPHERE_HEALPIX_PIXELS_H
 #define PS_SAMPLERS_SPHERE_HEALPIX_PIXELS_H
@@ -18,9 +18,9 @@ pspec_status ps_healpix_open_points(const ps_sampler_request *request, size_t *n
                                     ps_error *error) PS_MUST_CHECK;
 pspec_status ps_healpix_check(const ps_sampler_request *request, ps_error *error) PS_MUST_CHECK;
 
-/* Turns offsets in the pixels, [num_points][2] in [0,1) at the beginning of the array, into unit vectors
- * [num_points][3]. The map from offsets to the sphere preserves area, (1/2, 1/2) is the centre of a
- * pixel; the axes of offsets go north-east and north-west. */
+/* Turns offsets in the pixels, [num_points][2] in [0,1) at the beginning of the array, into unit
+ * vectors [num_points][3]. The map from offsets to the sphere preserves area, (1/2, 1/2) is the
+ * centre of a pixel; the axes of offsets go north-east and north-west. */
 void ps_healpix_place(uint64_t nside, double *points);
 
 #endif

@@ -2,8 +2,8 @@
 
 #include "samplers/sphere.h"
 
-/* 2^128/Phi to the nearest whole number: j times its error stays below one unit of 2^-64 for any j of 64
- * bits, where a constant of 64 bits is off by 2.5e-14 of a turn at j = 1e7 already. */
+/* 2^128/Phi to the nearest whole number: j times its error stays below one unit of 2^-64 for any j
+ * of 64 bits, where a constant of 64 bits is off by 2.5e-14 of a turn at j = 1e7 already. */
 static const uint64_t INVERSE_PHI_HIGH = 0x9E3779B97F4A7C15;
 static const uint64_t INVERSE_PHI_LOW = 0xF39CC0605CEDC834;
 

@@ -1,5 +1,5 @@
-/* Bauer's spiral: z_j = 1 - (2j+1)/N, phi_j = sqrt(N pi) asin(z_j) (R. Bauer, "Distribution of points on
- * a sphere with application to star catalogs", J. Guidance Control Dynamics 23, 2000). */
+/* Bauer's spiral: z_j = 1 - (2j+1)/N, phi_j = sqrt(N pi) asin(z_j) (R. Bauer, "Distribution of
+ * points on a sphere with application to star catalogs", J. Guidance Control Dynamics 23, 2000). */
 #include "samplers/list.h"
 
 #include "math/pi.h"
@@ -11,8 +11,8 @@
 static const long double FRACTIONS = 0x1p64L; /* of a turn, in ps_turns_of_fraction */
 
 /* Azimuth in turns: sqrt(N/(4 pi)) asin(z) of many turns, of which long double leaves an error of
- * 1e-19 sqrt(N). The numerator of z and the square root are cosine and sine of the polar angle, times
- * N: so asin does not lose digits towards the poles. */
+ * 1e-19 sqrt(N). The numerator of z and the square root are cosine and sine of the polar angle,
+ * times N: so asin does not lose digits towards the poles. */
 static ps_turns azimuth(double num_points, double j) {
     const long double below = 2 * (long double)j + 1;              /* N (1 - z) */
     const long double above = 2 * (long double)num_points - below; /* N (1 + z) */

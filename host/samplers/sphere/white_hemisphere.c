@@ -1,5 +1,5 @@
-/* White noise on the hemisphere z >= 0: independent uniform points; P(l) = 1 for every even l >= 2. The
- * same points as white:lift=hemisphere. */
+/* White noise on the hemisphere z >= 0: independent uniform points; P(l) = 1 for every even l >= 2.
+ * The same points as white:lift=hemisphere. */
 #include "samplers/list.h"
 
 #include "math/random/random.h"

@@ -1,5 +1,5 @@
-/* White noise on the sphere: independent uniform points; P(l) = 1 for every l >= 1. The same points as
- * white:lift=sphere. */
+/* White noise on the sphere: independent uniform points; P(l) = 1 for every l >= 1. The same points
+ * as white:lift=sphere. */
 #include "samplers/list.h"
 
 #include "math/random/random.h"

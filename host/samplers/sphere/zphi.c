@@ -1,6 +1,7 @@
-/* Strata of height and azimuth: one uniform point in each of n_z x n_phi cells of equal area, slices of
- * equal height cut into equal sectors. The same points as jittered:strata=AxB,lift=sphere, but for the
- * automatic counts. In expectation P(l) is docs/mathematics/samplers.md#spectra-on-the-sphere. */
+/* Strata of height and azimuth: one uniform point in each of n_z x n_phi cells of equal area,
+ * slices of equal height cut into equal sectors. The same points as
+ * jittered:strata=AxB,lift=sphere, but for the automatic counts. In expectation P(l) is
+ * docs/mathematics/samplers.md#spectra-on-the-sphere. */
 #include "samplers/list.h"
 
 #include "math/pi.h"
@@ -25,8 +26,8 @@ static double aspect(uint64_t num_heights, uint64_t num_azimuths) {
     return ratio < 1 ? 1 / ratio : ratio;
 }
 
-/* Counts n_z from *first to *last include all that make cells square enough: n_z^2 lies within a factor
- * MAXIMUM_ASPECT of N/pi. */
+/* Counts n_z from *first to *last include all that make cells square enough: n_z^2 lies within a
+ * factor MAXIMUM_ASPECT of N/pi. */
 static void range_of_heights(uint64_t num_points, uint64_t *first, uint64_t *last) {
     const double square = sqrt((double)num_points / SQUARE_RATIO);
     *first = (uint64_t)(square / sqrt(MAXIMUM_ASPECT));

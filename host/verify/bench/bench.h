@@ -1,10 +1,11 @@
-/* Run time against error: every engine in every precision at tolerances from loose to tight, on cases that stand for what
- * people ask. The error is measured against the long double referee, in the units of the tolerance
- * contract (docs/conventions.md#tolerance), on the first realization; where everything would take
- * minutes on frequencies or degrees evenly spread over all.
+/* Run time against error: every engine in every precision at tolerances from loose to tight, on
+ * cases that stand for what people ask. The error is measured against the long double referee, in
+ * the units of the tolerance contract (docs/conventions.md#tolerance), on the first realization;
+ * where everything would take minutes on frequencies or degrees evenly spread over all.
  *
- * The time is that of a realization, from points in host memory to powers on the device: the median of nine runs of many
- * realizations each, three at a time, in turn with the other rows of the case; without what is done once per job.
+ * The time is that of a realization, from points in host memory to powers on the device: the median
+ * of nine runs of many realizations each, three at a time, in turn with the other rows of the case;
+ * without what is done once per job.
  */
 #ifndef PS_VERIFY_BENCH_BENCH_H
 #define PS_VERIFY_BENCH_BENCH_H
@@ -27,44 +28,48 @@ typedef struct ps_bench_row {
     double tolerance; /* the tightest of those tried that leads to this computation */
     double seconds, predicted_seconds; /* of a realization */
     double error, predicted_error;     /* as the tolerance counts */
-    double
-        fraction_of_peak; /* measured beside it, of arithmetic that the launches count; nan: no device */
-    double
-        fraction_of_bandwidth; /* of a copy, by points read and powers written once; nan: no device */
-    bool is_pareto;            /* no other row of the case is as fast and as exact */
+    /* measured beside it, of arithmetic that the launches count; nan: no device */
+    double fraction_of_peak;
+    /* of a copy, by points read and powers written once; nan: no device */
+    double fraction_of_bandwidth;
+    bool is_pareto; /* no other row of the case is as fast and as exact */
 } ps_bench_row;
 
 typedef struct ps_bench_options {
     const char *case_name, *engine; /* NULL: all */
     int precision;                  /* a ps_precision, or -1: all */
-    const char
-        *program; /* for ps_bench_calibrate_host: a path to pointspec itself, which is started, */
+    /* for ps_bench_calibrate_host: a path to pointspec itself, which is started, */
+    const char *program;
     const char *device; /* on the device of that --device; NULL: the usual one */
     bool quick;         /* the quick cases only, unless one is named, and shorter runs */
     bool (*should_stop)(void *payload);
-    /* Told of the rows of a case when it is done, tightest tolerance first; and of cases done and to be done. */
+    /* Told of the rows of a case when it is done, tightest tolerance first; and of cases done and
+     * to be done. */
     pspec_status (*report)(void *payload, const ps_bench_row *rows, size_t num, ps_error *error);
     void (*advance)(void *payload, size_t done, size_t total);
     void *payload;
 } ps_bench_options;
 
-/* Names a case and an engine that tries one of those left, or PSPEC_ERROR_INVALID_ARGUMENT with the nearest. */
+/* Names a case and an engine that tries one of those left, or PSPEC_ERROR_INVALID_ARGUMENT with the
+ * nearest. */
 pspec_status ps_bench_check(const ps_bench_options *options, ps_error *error) PS_MUST_CHECK;
 
 /* copied_bytes per second is what fractions of bandwidth are of. */
 pspec_status ps_bench_run(const ps_bench_options *options, ps_device *device, double copied_bytes,
                           ps_error *error) PS_MUST_CHECK;
 
-/* Marks the rows that no other one of the same case is at once no slower and no less exact than, and better in one of both. */
+/* Marks the rows that no other one of the same case is at once no slower and no less exact than,
+ * and better in one of both. */
 void ps_bench_mark_pareto(ps_bench_row *rows, size_t num);
 
-/* Peaks of the device, and how long every engine takes against the built-in cost model: the best run of each case, as
- * nothing but disturbance makes runs slower, and the geometric mean over the cases; options.engine and .precision are not looked at. figures->date is left to the caller. */
+/* Peaks of the device, and how long every engine takes against the built-in cost model: the best
+ * run of each case, as nothing but disturbance makes runs slower, and the geometric mean over the
+ * cases; options.engine and .precision are not looked at. figures->date is left to the caller. */
 pspec_status ps_bench_calibrate(const ps_bench_options *options, ps_device *device,
                                 ps_figures *figures, ps_error *error) PS_MUST_CHECK;
 
-/* The same of the host's own work (plan/host_cost.h), with a file below `folder` that is written, read and removed.
- * After ps_bench_calibrate, whose kernels the driver has kept. */
+/* The same of the host's own work (plan/host_cost.h), with a file below `folder` that is written,
+ * read and removed. After ps_bench_calibrate, whose kernels the driver has kept. */
 pspec_status ps_bench_calibrate_host(const ps_bench_options *options, const char *folder,
                                      ps_figures *figures, ps_error *error) PS_MUST_CHECK;
 

@@ -11,7 +11,8 @@ static const double least_scale = 1e-3, most_scale = 1e3;
 
 enum { MOST_CASES = 32 };
 
-/* Seconds over predicted ones, the middle of the runs of every round: what a job usually takes here. 0: not measured. */
+/* Seconds over predicted ones, the middle of the runs of every round: what a job usually takes
+ * here. 0: not measured. */
 typedef double ratios[MOST_CASES][PS_FIGURES_ENGINES][PS_FIGURES_PRECISIONS][PS_BENCH_ROUNDS];
 
 typedef struct calibration {

@@ -1,4 +1,5 @@
-/* The cases of `pointspec bench`. Frequencies are what the program takes where nothing is said, or what makes the case. */
+/* The cases of `pointspec bench`. Frequencies are what the program takes where nothing is said, or
+ * what makes the case. */
 #include "verify/bench/bench.h"
 
 #define TORUS .kind = PS_STRESS_TORUS

@@ -23,8 +23,8 @@ void ps_bench_sets_free(ps_bench_sets *sets);
 ps_problem ps_bench_problem(const ps_bench_case *what, const ps_stress_sample *sample,
                             const ps_device_limits *limits);
 
-/* Neighbours of a machine come and go within seconds: every row of a case has a round before the next one begins, so that
- * they fall upon all of them. */
+/* Neighbours of a machine come and go within seconds: every row of a case has a round before the
+ * next one begins, so that they fall upon all of them. */
 enum { PS_BENCH_ROUNDS = 3, PS_BENCH_RUNS = 3 };
 static inline size_t ps_bench_num_rounds(const ps_bench_options *options) {
     return options->quick ? 1 : PS_BENCH_ROUNDS;
@@ -36,7 +36,7 @@ typedef struct ps_bench_time {
     double flops;                                    /* of a realization, as the launches count */
 } ps_bench_time;
 
-/* Of num numbers, which are sorted. */
+/* Returns the median of num numbers, and leaves them sorted. */
 double ps_bench_median(double *numbers, size_t num);
 
 /* Would a realization take so long that the row is left out? */

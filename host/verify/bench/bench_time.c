@@ -9,7 +9,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* A run lasts so long, if one realization is not longer: enough for the clock and for batches to weigh little. */
+/* A run lasts so long, if one realization is not longer: enough for the clock and for batches to
+ * weigh little. */
 static const double run_seconds = 0.04, quick_run_seconds = 0.03;
 /* A realization that takes longer than this is not timed: of the device, and of the referee. */
 static const double most_device_seconds = 2, most_host_seconds = 0.5, quick_most_host_seconds = 0.1;

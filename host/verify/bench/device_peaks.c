@@ -8,8 +8,8 @@ enum { REPEATS = 5 };
 
 /* ---- arithmetic ---------------------------------------------------------------------------- */
 
-/* CPUs: about ten milliseconds of a core with AVX-512. GPUs: enough work-items to fill any. STEPS and CHAINS are those of
- * probe/peak.cl. */
+/* CPUs: about ten milliseconds of a core with AVX-512. GPUs: enough work-items to fill any. STEPS
+ * and CHAINS are those of probe/peak.cl. */
 enum { CPU_ITEMS = 1024, GPU_ITEMS = 1 << 17, STEPS = 4096, CHAINS = 16 };
 
 static pspec_status prepare(ps_peak *peak, ps_precision precision, ps_error *error) {

@@ -1,12 +1,12 @@
-/* The peaks of a device, measured by small kernels of ours (kernels/probe): fused operations and copied bytes. Nothing but
- * disturbance makes these slower, so the best of some runs is taken. */
+/* The peaks of a device, measured by small kernels of ours (kernels/probe): fused operations and
+ * copied bytes. Nothing but disturbance makes these slower, so the best of some runs is taken. */
 #ifndef PS_VERIFY_BENCH_DEVICE_PEAKS_H
 #define PS_VERIFY_BENCH_DEVICE_PEAKS_H
 
 #include "engines/engine.h"
 
-/* The peak of fused multiply-adds. On a shared machine it changes from second to second, so that whoever compares may
- * measure it again beside every run. */
+/* The peak of fused multiply-adds. On a shared machine it changes from second to second, so that
+ * whoever compares may measure it again beside every run. */
 typedef struct ps_peak {
     ps_device *device;
     cl_kernel kernel;
@@ -22,7 +22,8 @@ pspec_status ps_peak_run(const ps_peak *peak, double *flops_per_second,
                          ps_error *error) PS_MUST_CHECK;
 void ps_peak_destroy(ps_peak *peak);
 
-/* Bytes per second, read and written, of a copy much larger than any cache. A copy that differs is PSPEC_ERROR_DEVICE. */
+/* Bytes per second, read and written, of a copy much larger than any cache. A copy that differs is
+ * PSPEC_ERROR_DEVICE. */
 pspec_status ps_bandwidth_measure(ps_device *device, double *bytes_per_second,
                                   ps_error *error) PS_MUST_CHECK;
 

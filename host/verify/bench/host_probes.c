@@ -25,7 +25,7 @@ static double predict(const ps_probe *what, double units) {
 
 /* ---- points -------------------------------------------------------------------------------- */
 
-static pspec_status sample(ps_probe_data *of, const ps_probe *what, double *predicted,
+static pspec_status sample(ps_probe_data *data, const ps_probe *what, double *predicted,
                            ps_error *error) {
     ps_sampler_request request = {0};
     PS_TRY(ps_sampler_parse(&request, what->argument, error));
@@ -36,20 +36,20 @@ static pspec_status sample(ps_probe_data *of, const ps_probe *what, double *pred
     PS_TRY(ps_sampler_resolve(&request, error));
     const bool is_on_sphere = ps_sampler_is_on_sphere(&request);
     *predicted = predict(what, (double)request.num_points * (is_on_sphere ? 1 : request.dimension));
-    return ps_sampler_generate(&request, 0, of->numbers, error);
+    return ps_sampler_generate(&request, 0, data->numbers, error);
 }
 
-static pspec_status write_points(ps_probe_data *of, const ps_probe *what, double *predicted,
+static pspec_status write_points(ps_probe_data *data, const ps_probe *what, double *predicted,
                                  ps_error *error) {
     enum { AXES = 2, SETS = 5 }; /* so many that making the file weighs little */
     ps_point_writer *writer = NULL;
     const size_t num = PS_PROBE_POINTS;
     const ps_point_shape shape = {.num_sets = SETS, .num_points = num, .dimension = AXES};
-    const ps_point_set set = {.dimension = AXES, .num_points = num, .points = of->numbers};
+    const ps_point_set set = {.dimension = AXES, .num_points = num, .points = data->numbers};
     for (size_t i = 0; i < AXES * num; i++) { /* what was sampled last may be vectors */
-        of->numbers[i] = fabs(of->points[i]) / 2;
+        data->numbers[i] = fabs(data->points[i]) / 2;
     }
-    PS_TRY(ps_points_create(&writer, of->file, what->argument, &shape, error));
+    PS_TRY(ps_points_create(&writer, data->file, what->argument, &shape, error));
     pspec_status status = PSPEC_OK;
     for (int i = 0; i < SETS && status == PSPEC_OK; i++) {
         status = ps_points_write(writer, &set, true, error);
@@ -63,13 +63,13 @@ static pspec_status write_points(ps_probe_data *of, const ps_probe *what, double
 }
 
 /* The file that was written last. */
-static pspec_status read_points(ps_probe_data *of, const ps_probe *what, double *predicted,
+static pspec_status read_points(ps_probe_data *data, const ps_probe *what, double *predicted,
                                 ps_error *error) {
     const ps_point_options options = {.format = what->argument};
     ps_point_reader *reader = NULL;
     ps_point_set set = {0};
     bool has_set = false;
-    PS_TRY(ps_points_open(&reader, of->file, &options, error));
+    PS_TRY(ps_points_open(&reader, data->file, &options, error));
     pspec_status status = PSPEC_OK;
     do {
         status = ps_points_next(reader, &set, &has_set, error);
@@ -77,7 +77,7 @@ static pspec_status read_points(ps_probe_data *of, const ps_probe *what, double 
     ps_points_close(reader);
     ps_point_set_free(&set);
     struct stat found;
-    if (stat(of->file, &found) == 0) {
+    if (stat(data->file, &found) == 0) {
         *predicted = predict(what, (double)found.st_size);
     }
     return status;
@@ -85,10 +85,10 @@ static pspec_status read_points(ps_probe_data *of, const ps_probe *what, double 
 
 /* ---- sums ---------------------------------------------------------------------------------- */
 
-static pspec_status refer(ps_probe_data *of, const ps_probe *what, double *predicted,
+static pspec_status refer(ps_probe_data *data, const ps_probe *what, double *predicted,
                           ps_error *error) {
     enum { NUM = 20000 };
-    const pspec_pattern pattern = {2, NUM, of->points, NULL};
+    const pspec_pattern pattern = {2, NUM, data->points, NULL};
     const int32_t k[2] = {17, -5};
     long double re = 0;
     long double im = 0;
@@ -98,10 +98,10 @@ static pspec_status refer(ps_probe_data *of, const ps_probe *what, double *predi
     return PSPEC_OK;
 }
 
-static pspec_status refer_degree(ps_probe_data *of, const ps_probe *what, double *predicted,
+static pspec_status refer_degree(ps_probe_data *data, const ps_probe *what, double *predicted,
                                  ps_error *error) {
     enum { NUM = 1000, DEGREE = 200 };
-    const pspec_pattern pattern = {3, NUM, of->points, NULL};
+    const pspec_pattern pattern = {3, NUM, data->points, NULL};
     ps_frequencies degrees = {0};
     long double power = 0;
     PS_TRY(ps_frequencies_degrees(&degrees, DEGREE, false, error));
@@ -114,44 +114,44 @@ static pspec_status refer_degree(ps_probe_data *of, const ps_probe *what, double
     return status;
 }
 
-static pspec_status sum_zonal(ps_probe_data *of, const ps_probe *what, double *predicted,
+static pspec_status sum_zonal(ps_probe_data *data, const ps_probe *what, double *predicted,
                               ps_error *error) {
     enum { NUM = 8192, DEGREE = 256 };
-    const pspec_pattern pattern = {3, NUM, of->points, NULL};
+    const pspec_pattern pattern = {3, NUM, data->points, NULL};
     (void)error;
-    ps_zonal_sums(&pattern, 0, DEGREE, of->numbers, of->numbers + ps_zonal_scratch(DEGREE));
+    ps_zonal_sums(&pattern, 0, DEGREE, data->numbers, data->numbers + ps_zonal_scratch(DEGREE));
     *predicted = predict(what, (double)NUM * DEGREE * ps_workers_most()); /* by one thread */
     return PSPEC_OK;
 }
 
 /* ---- quadrature ---------------------------------------------------------------------------- */
 
-static pspec_status make_lobe(ps_probe_data *of, const ps_probe *what, double *predicted,
+static pspec_status make_lobe(ps_probe_data *data, const ps_probe *what, double *predicted,
                               ps_error *error) {
     enum { DEGREES = 2000 };
     ps_brdf *brdf = NULL;
     PS_TRY(ps_brdf_parse(&brdf, what->argument, error));
-    ps_representer_destroy(&of->representer);
+    ps_representer_destroy(&data->representer);
     const pspec_status status =
-        ps_representer_create(&of->representer, brdf, 1.5, 1, DEGREES, error);
+        ps_representer_create(&data->representer, brdf, 1.5, 1, DEGREES, error);
     ps_brdf_destroy(brdf);
-    *predicted = predict(what, (double)of->representer.max_degree);
+    *predicted = predict(what, (double)data->representer.max_degree);
     return status;
 }
 
-static pspec_status make_kappa(ps_probe_data *of, const ps_probe *what, double *predicted,
+static pspec_status make_kappa(ps_probe_data *data, const ps_probe *what, double *predicted,
                                ps_error *error) {
     enum { NUM = 8192 };
     (void)error;
-    ps_representer_kappa(&of->representer, NUM, of->points, of->numbers);
-    *predicted = predict(what, (double)NUM * (double)of->representer.num_terms);
+    ps_representer_kappa(&data->representer, NUM, data->points, data->numbers);
+    *predicted = predict(what, (double)NUM * (double)data->representer.num_terms);
     return PSPEC_OK;
 }
 
-static pspec_status sum_distances(ps_probe_data *of, const ps_probe *what, double *predicted,
+static pspec_status sum_distances(ps_probe_data *data, const ps_probe *what, double *predicted,
                                   ps_error *error) {
     enum { NUM = 6000 };
-    const ps_rule rule = {NUM, of->points, NULL};
+    const ps_rule rule = {NUM, data->points, NULL};
     const double smoothness = strcmp(what->argument, "power") == 0 ? 1.7 : 1.5;
     double sum = 0;
     *predicted = predict(what, (double)NUM * NUM / 2);
@@ -159,17 +159,17 @@ static pspec_status sum_distances(ps_probe_data *of, const ps_probe *what, doubl
 }
 
 /* A whole system: mostly the factor where it is large, mostly the entries where it is small. */
-static pspec_status solve_system(ps_probe_data *of, const ps_probe *what, double *predicted,
+static pspec_status solve_system(ps_probe_data *data, const ps_probe *what, double *predicted,
                                  ps_error *error) {
     ps_kernel_system *system = NULL;
     const size_t num = what->kind == PS_HOST_CHOLESKY ? 1600 : 400;
     const double square = (double)(num * num);
-    double *const right = of->numbers;
-    double *const x = of->numbers + num;
+    double *const right = data->numbers;
+    double *const x = data->numbers + num;
     for (size_t i = 0; i < num; i++) {
         right[i] = 1;
     }
-    PS_TRY(ps_kernel_system_create(&system, num, of->points, 1.5, NULL, error));
+    PS_TRY(ps_kernel_system_create(&system, num, data->points, 1.5, NULL, error));
     const pspec_status status = ps_kernel_system_solve(system, right, x, NULL, error);
     ps_kernel_system_destroy(system);
     *predicted = ps_host_seconds(NULL, PS_HOST_CHOLESKY, square * (double)num / 3) +
@@ -178,12 +178,12 @@ static pspec_status solve_system(ps_probe_data *of, const ps_probe *what, double
     return status;
 }
 
-static pspec_status find_neighbours(ps_probe_data *of, const ps_probe *what, double *predicted,
+static pspec_status find_neighbours(ps_probe_data *data, const ps_probe *what, double *predicted,
                                     ps_error *error) {
     const double num = what->kind == PS_HOST_NEIGHBOURS ? 20000 : 1000;
     ps_kernel_factor factor;
     const pspec_status status =
-        ps_kernel_factor_create(&factor, 1.5, (size_t)num, of->points, NULL, error);
+        ps_kernel_factor_create(&factor, 1.5, (size_t)num, data->points, NULL, error);
     ps_kernel_factor_free(&factor);
     *predicted = ps_host_seconds(NULL, PS_HOST_NEIGHBOURS, num * num / 2) +
                  ps_host_seconds(NULL, PS_HOST_INVERSE, num);
@@ -193,11 +193,11 @@ static pspec_status find_neighbours(ps_probe_data *of, const ps_probe *what, dou
 /* ---- memory -------------------------------------------------------------------------------- */
 
 /* So much at once comes from the system and goes back to it. */
-static pspec_status touch_memory(ps_probe_data *of, const ps_probe *what, double *predicted,
+static pspec_status touch_memory(ps_probe_data *data, const ps_probe *what, double *predicted,
                                  ps_error *error) {
     enum { BYTES = 1 << 26, PAGE = 4096 };
     void *memory = NULL;
-    (void)of;
+    (void)data;
     PS_TRY(ps_allocate(&memory, BYTES, 1, "memory to touch", error));
     for (size_t i = 0; i < BYTES; i += PAGE) {
         ((volatile char *)memory)[i] = 1;
@@ -209,12 +209,12 @@ static pspec_status touch_memory(ps_probe_data *of, const ps_probe *what, double
 
 /* ---- frequencies --------------------------------------------------------------------------- */
 
-static pspec_status enumerate(ps_probe_data *of, const ps_probe *what, double *predicted,
+static pspec_status enumerate(ps_probe_data *data, const ps_probe *what, double *predicted,
                               ps_error *error) {
     enum { K = 300 };
     ps_frequencies grid = {0};
     ps_bins bins = {0};
-    (void)of;
+    (void)data;
     PS_TRY(ps_frequencies_lattice(&grid, 2, K, true, error));
     pspec_status status = ps_frequencies_enumerate(&grid, error);
     if (status == PSPEC_OK) {

@@ -1,4 +1,5 @@
-/* The host's own work in small: inputs of some milliseconds for every kind of work that can be timed alone. */
+/* The host's own work in small: inputs of some milliseconds for every kind of work that can be
+ * timed alone. */
 #ifndef PS_VERIFY_BENCH_HOST_PROBES_H
 #define PS_VERIFY_BENCH_HOST_PROBES_H
 
@@ -23,7 +24,7 @@ typedef struct ps_probe {
     ps_host_kind kind;
     const char *argument;
     /* Does some of it, for which the built-in model has *predicted seconds. */
-    pspec_status (*run)(ps_probe_data *of, const struct ps_probe *what, double *predicted,
+    pspec_status (*run)(ps_probe_data *data, const struct ps_probe *what, double *predicted,
                         ps_error *error);
 } ps_probe;
 

@@ -45,7 +45,8 @@ static pspec_status wait_for(pid_t child, const char *command, ps_error *error) 
                          command);
 }
 
-/* A command line of next to no work, and the kernels that it loads (engines' work, host/engines/engine.h). */
+/* A command line of next to no work, and the kernels that it loads (engines' work,
+ * host/engines/engine.h). */
 typedef struct start {
     const char *words[MOST_WORDS];
     bool takes_device;
