@@ -1,6 +1,6 @@
 /* Pair sums of white sets: (pair, degree) per second at 6 flop each as a share of the peak, which is measured in turn
  * with it; pairs per second into a histogram; the ways to the same sums side by side, and against error and number of
- * points, for docs/make_figures.sh.
+ * points, for docs/scripts/make_figures.sh.
  */
 #include "bench.h"
 
@@ -19,7 +19,7 @@
 
 enum { REPEATS = 12 };
 
-/* As docs/pairs_direct.md counts them. */
+/* As docs/engines/pairs_direct.md counts them. */
 #define FLOPS_PER_PAIR_DEGREE 6
 
 /* Of all threads: on a shared machine it says more than the clock. */

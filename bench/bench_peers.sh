@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # bench_peers.sh [OPTIONS]: averaged periodograms and angular power spectra by pointspec and by libraries of
-# others, at equal measured error (docs/peers.md; --help lists the options). The libraries are installed into
+# others, at equal measured error (docs/developer/peers.md; --help lists the options). The libraries are installed into
 # build/peers.
 set -euo pipefail
 bench=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")

@@ -108,7 +108,7 @@ static double plain_loop(const bench_job *job, double *error_out) {
     return seconds / ((double)num * (double)n);
 }
 
-/* Arithmetic as docs/performance.md counts it: 8 (K+1)^2 per point in two dimensions, 4 per
+/* Arithmetic as docs/developer/performance.md counts it: 8 (K+1)^2 per point in two dimensions, 4 per
  * half-lattice frequency in others; a list by what its kernel does. */
 static double counted_flops(const bench_case *what, const bench_job *job) {
     const double points = (double)what->num_points * (double)what->num_realizations;

@@ -1,5 +1,5 @@
 """pointspec beside the libraries of others, on the torus, on the sphere and for pairs; bench_peers.sh calls this,
-docs/peers.md explains it."""
+docs/developer/peers.md explains it."""
 
 import argparse
 import os

@@ -8,7 +8,7 @@
 
 #include <stdio.h>
 
-/* Exit codes of the program (docs/conventions.md#exit-codes). */
+/* Exit codes of the program (docs/user/conventions.md#exit-codes). */
 enum {
     PS_EXIT_DONE = 0,
     PS_EXIT_FAILED = 1,

@@ -1,5 +1,5 @@
 /* Reading and writing point sets of the torus and of the sphere, in the formats of the field
- * (docs/formats.md), from files or standard input.
+ * (docs/user/formats.md), from files or standard input.
  *
  * A reader yields one set (realization) at a time, or one block of a set, and holds no more than
  * that (up to 64 MiB of sets, or half of the memory limit, for NPY arrays of several sets in Fortran

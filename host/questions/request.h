@@ -86,7 +86,7 @@ typedef struct ps_request {
     uint64_t seed;                        /* 1 unless given */
     size_t num_samplers;
     const char *samplers[PS_MAX_SAMPLERS];
-    int32_t max_frequency;         /* 0 unless given: the default of docs/conventions.md */
+    int32_t max_frequency;         /* 0 unless given: the default of docs/user/conventions.md */
     uint64_t max_degree;           /* the same */
     uint64_t per_ring;             /* 0 unless given: all frequencies */
     uint64_t memory;               /* that was typed, here or in POINTSPEC_MEMORY; 0: nothing was */

@@ -21,7 +21,7 @@ typedef struct ps_kernel_factor {
     size_t near[2];    /* which ones */
 } ps_kernel_factor;
 
-/* Entries of a row: see docs/quadrature.md for steps against this. */
+/* Entries of a row: see docs/user/quadrature.md for steps against this. */
 enum { PS_KERNEL_NEIGHBOURS = 32 };
 
 /* Bytes while it is made; it keeps less. */

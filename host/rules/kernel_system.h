@@ -44,7 +44,7 @@ typedef struct ps_kernel_facts {
 uint64_t ps_kernel_system_bytes(size_t num_points, bool is_dense);
 /* The most points whose matrix is stored, 3.2 GB, on every machine: the weights must not depend on
  * how much memory it has. Conjugate gradients are quicker from some 10000 points on
- * (docs/quadrature.md), a factor is exact in more cases. */
+ * (docs/user/quadrature.md), a factor is exact in more cases. */
 enum { PS_KERNEL_MOST_DENSE = 20000 };
 
 /* Is it Cholesky? memory_limit as in the options. */

@@ -1,4 +1,4 @@
-/* A scene: a YAML file that asks for several results (docs/scenes.md has the schema).
+/* A scene: a YAML file that asks for several results (docs/user/scenes.md has the schema).
  *
  *     scene: 1
  *     results:

@@ -66,7 +66,7 @@ static pspec_status take_texts(const ps_scene_reader *reader, yaml_node_t *node,
     return PSPEC_OK;
 }
 
-/* What a run wrote (docs/scenes.md); other keys are for people. */
+/* What a run wrote (docs/user/scenes.md); other keys are for people. */
 static pspec_status take_record(const ps_scene_reader *reader, yaml_node_t *node) {
     if (node->type != YAML_MAPPING_NODE) {
         return ps_scene_complain(reader->file, ps_scene_line(node), "record", "no mapping");

@@ -8,7 +8,7 @@
  * may be a single realization; the uncertainty of the estimate is that of Student's distribution.
  * Welch's test, which takes the scatter of each side from that side, gives 40 to 250 times too many
  * false alarms where few realizations of low rings are compared with many, for small samples of
- * skewed variables have small means and small standard errors together. docs/gate.md has the
+ * skewed variables have small means and small standard errors together. docs/user/gate.md has the
  * formulas and what was measured.
  *
  * Probabilities of all bins are judged together by Holm's method, which needs no independence. */

@@ -15,7 +15,7 @@ double ps_anisotropy_db(const ps_mean *powers, const uint32_t *members, size_t n
  * num_frequencies half-lattice frequencies: standard_error, that over the realizations, and the
  * error of the choice. With one realization (standard_error nan) the second alone, about the mean
  * over the ring of this realization. A complete ring has standard_error. The formula and why:
- * docs/conventions.md. */
+ * docs/user/conventions.md. */
 double ps_subset_standard_error(const ps_mean *powers, const uint32_t *members, size_t num_members,
                                 uint64_t num_frequencies, double standard_error);
 

@@ -1,5 +1,5 @@
 /* Spectra in files: the sums, bit by bit, with a checksum. The format is in
- * docs/spectrum_file.md. */
+ * docs/user/spectrum_file.md. */
 #ifndef PS_SPECTRA_SPECTRUM_FILE_H
 #define PS_SPECTRA_SPECTRUM_FILE_H
 

@@ -1,4 +1,4 @@
-/* What writer and reader of spectrum files agree on; see docs/spectrum_file.md. */
+/* What writer and reader of spectrum files agree on; see docs/user/spectrum_file.md. */
 #ifndef PS_SPECTRA_SPECTRUM_FORMAT_H
 #define PS_SPECTRA_SPECTRUM_FORMAT_H
 

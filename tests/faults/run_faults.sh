@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # run_faults.sh PROGRAM [--sample N] [--only NAME[,NAME...]] [--table]: makes the allocations, file calls and OpenCL calls
 # of every command line of commands.txt fail one by one, and judges what the program does then (see
-# docs/reliability.md). PROGRAM is pointspec_faults. --sample takes about N faults, evenly; --table prints
-# the table of docs/reliability.md.
+# docs/developer/reliability.md). PROGRAM is pointspec_faults. --sample takes about N faults, evenly; --table prints
+# the table of docs/developer/reliability.md.
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 program=$(realpath "$1")

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # run_limits.sh PROGRAM [the options of run_faults.sh]: starts every command line of commands.txt under limits of
 # address space, open files, sizes of files and processor time, and of a memory cgroup where one can be made. Each must
-# end, with a known exit code, one sentence where it is not 0, and nothing left behind (see docs/reliability.md).
+# end, with a known exit code, one sentence where it is not 0, and nothing left behind (see docs/developer/reliability.md).
 # --sample takes about N/12 of them, evenly, for a start takes as long as a dozen faults.
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")

@@ -45,7 +45,7 @@ static ps_power_job *run_power(ps_power_question *question, bool no_skip) {
     return job;
 }
 
-/* sqrt(P) of a bin is within e / sqrt(its share of the modes) (docs/conventions.md), on both sides. */
+/* sqrt(P) of a bin is within e / sqrt(its share of the modes) (docs/user/conventions.md), on both sides. */
 static double allowed(const ps_spectrum_bin *bin, double modes, double tolerance) {
     const double e = 2 * tolerance * sqrt(modes / (double)bin->num_computed);
     return 2 * sqrt(bin->power) * e + e * e;

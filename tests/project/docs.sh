@@ -56,10 +56,10 @@ check_links() { # PAGE
     done < <(grep -o '](\([^) ]*\))' "$1" | sed 's/^](//; s/)$//')
 }
 
-for page in README.md docs/tutorial.md docs/conventions.md docs/formats.md docs/quadrature.md docs/gate.md docs/needs.md docs/scenes.md; do
+for page in README.md docs/user/tutorial.md docs/user/conventions.md docs/user/formats.md docs/user/quadrature.md docs/user/gate.md docs/user/needs.md docs/user/scenes.md; do
     run_page "$page"
 done
-for page in "$source_dir"/*.md "$source_dir"/docs/*.md; do
+for page in "$source_dir"/*.md "$source_dir"/docs/*/*.md; do
     check_links "$page"
 done
 exit $bad

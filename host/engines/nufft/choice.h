@@ -1,6 +1,6 @@
 /* How torus_nufft treats a problem: which frequencies are summed by direct phases, on which axes points are
  * spread, the fine grid and the window of each. A function of the problem, the precision and the kind of device
- * alone, so that results depend on nothing else. docs/torus_nufft.md.
+ * alone, so that results depend on nothing else. docs/engines/torus_nufft.md.
  *
  * A tile is `lanes` neighbouring frequencies of axis 0, by direct phases; a fast transform makes all
  * frequencies of the other axes. Where axis 0 itself needs one (one dimension, very many points), its

@@ -16,7 +16,7 @@ enum { PS_PAIRS_PARTS = 2 };
 /* Rounding of pair sums in units of (sum |w|)^2: hypot(begin, step sqrt(L)) for one pair, which is the worst there is,
  * since errors of many average out: that of t grows like the slope of the polynomials. And drift L for the share of
  * (sum |w|)^2 that is in pairs so close that P_l stays near 1: its steps are then all rounded alike. That share is the mean
- * of Q(l) / (sum |w|)^2. Measured, with slack, by tests/engines/pairs/test_pairs_error.c; docs/pairs_direct.md. */
+ * of Q(l) / (sum |w|)^2. Measured, with slack, by tests/engines/pairs/test_pairs_error.c; docs/engines/pairs_direct.md. */
 typedef struct ps_pairs_error_law {
     double begin, step, drift;
 } ps_pairs_error_law;

@@ -155,7 +155,7 @@ static size_t get_stride(const void *state) {
 static pspec_status add_slab(pairs_direct *self, size_t num_patterns, uint64_t first,
                              size_t num_runs, ps_error *error) {
     const run_layout *layout = &self->layout;
-    const double flops_per_degree = 6; /* as they are counted: docs/pairs_direct.md */
+    const double flops_per_degree = 6; /* as they are counted: docs/engines/pairs_direct.md */
     const double pairs = (double)num_runs * PS_PAIRS_RUN * layout->lanes * (double)num_patterns;
     const ps_range range = {.rank = 3,
                             .global = {num_runs, num_patterns, 1},

@@ -1,4 +1,4 @@
-/* The engine pairs_histogram: the chords of all pairs of points in a histogram, docs/pairs_histogram.md. */
+/* The engine pairs_histogram: the chords of all pairs of points in a histogram, docs/engines/pairs_histogram.md. */
 #ifndef PS_ENGINES_PAIRS_PAIRS_HISTOGRAM_H
 #define PS_ENGINES_PAIRS_PAIRS_HISTOGRAM_H
 

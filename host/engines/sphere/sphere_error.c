@@ -10,7 +10,7 @@
  *            places, where a place may have several times the mean.
  *  leak:     the constants of the recurrence are rounded, so the sphere as a whole, sqrt(N) of it, shows in every
  *            degree: measured up to 1.9e-9 and 3.4e-17. A set of weights has less of it.
- * Measured, with slack, by tests/engines/sphere/test_sphere_error.c; docs/sphere_direct.md. */
+ * Measured, with slack, by tests/engines/sphere/test_sphere_error.c; docs/engines/sphere_direct.md. */
 typedef struct error_law {
     double random_begin, random_step, coherent_begin, coherent_step, leak;
 } error_law;

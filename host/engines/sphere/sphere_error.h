@@ -1,4 +1,4 @@
-/* The error law of sphere_direct: docs/sphere_direct.md. */
+/* The error law of sphere_direct: docs/engines/sphere_direct.md. */
 #ifndef PS_ENGINES_SPHERE_SPHERE_ERROR_H
 #define PS_ENGINES_SPHERE_SPHERE_ERROR_H
 

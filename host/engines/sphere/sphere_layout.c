@@ -16,7 +16,7 @@ static const double pass_bytes = 64.0 * 1024 * 1024;
 enum { SLAB_CHUNKS = 256 };
 
 /* Harmonics of a slab and a pass, as far as a slab has several chunks: nothing stops a kernel, and these take two cores
- * about a second (3e9 to 9e9 in a second, docs/sphere_direct.md). */
+ * about a second (3e9 to 9e9 in a second, docs/engines/sphere_direct.md). */
 static const double launch_harmonics = 4e9;
 
 /* Numbers of a point on the device: of its direction and its weight; besides, its azimuth and coordinates, which the

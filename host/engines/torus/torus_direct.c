@@ -34,7 +34,7 @@ typedef struct torus_direct {
  * and runs of L = PS_TORUS_RUN terms in a far-apart order (torus_points.h) like sums of white noise:
  * together random_error, measured up to 1.8e-7 and 3e-16. Terms that are all equal (coincident points,
  * lattices at their peaks) round the same way and add up to L u / 4 of S itself (u = 2^-24, 2^-53):
- * coherent_error. Measured, with slack, in tests/engines/torus/test_tolerance.c; docs/torus_direct.md. */
+ * coherent_error. Measured, with slack, in tests/engines/torus/test_tolerance.c; docs/engines/torus_direct.md. */
 static const double random_error[2] = {2.2e-7, 4.0e-16};
 static const double coherent_error[2] = {4.8e-7, 9.0e-16};
 

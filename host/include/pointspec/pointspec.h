@@ -342,7 +342,7 @@ PSPEC_EXPORT pspec_status pspec_spectrum_create(pspec_spectrum **out, pspec_plan
 PSPEC_EXPORT void pspec_spectrum_destroy(pspec_spectrum *spectrum);
 
 /** Writes the sums over realizations, from which every number of the spectrum follows, into a file that
- * appears when it is complete. The format is in the documentation (docs/spectrum_file.md). The context is for
+ * appears when it is complete. The format is in the documentation (docs/user/spectrum_file.md). The context is for
  * the sentence of an error. */
 PSPEC_EXPORT pspec_status pspec_spectrum_save(const pspec_spectrum *spectrum,
                                               pspec_context *context, const char *path);
@@ -390,7 +390,7 @@ typedef struct pspec_bin_comparison {
  * or from those of the mean of both powers if that is more, and the score z_score is judged by Student's distribution with
  * (M_1 + M_2 - 2) / (1 + cv^2) degrees of freedom. Bins that agree within the numerical errors of both are
  * equal; others are compared as if the errors had driven them apart. So deterministic sets (standard
- * error 0) are compared exactly. docs/gate.md has measured rates.
+ * error 0) are compared exactly. The documentation (docs/user/gate.md) has measured rates.
  *
  * bins: [number of bins of saved], or NULL; *num_different, unless NULL: how many differ. That some differ is no
  * error.

@@ -1,7 +1,7 @@
 /* The averaged power spectrum, on the torus or on the sphere, as one job: source of realizations -> plan -> batches -> spectrum.
  *
  * The tolerance is a contract. The plan predicts the error for sets like white noise; afterwards the
- * error formula is evaluated again with the powers that were measured (docs/conventions.md). When it
+ * error formula is evaluated again with the powers that were measured (docs/user/conventions.md). When it
  * then exceeds the tolerance, the job runs once more with what the plan chooses for those powers, or
  * fails with PSPEC_ERROR_TOLERANCE when nothing reaches it or the input cannot be read twice.
  */

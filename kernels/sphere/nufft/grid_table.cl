@@ -1,4 +1,4 @@
-/* The table of sphere_grid: what a cell of the grid counts in c_lm (docs/sphere_grid.md). Lambda_lm on rings, as
+/* The table of sphere_grid: what a cell of the grid counts in c_lm (docs/engines/sphere_grid.md). Lambda_lm on rings, as
  * orders_sum.cl makes it, times filters from rings to angles of the grid, which undo the window. In double precision
  * whatever the precision of the table, so that its
  * numbers are rounded once, or once for each block of rings.

@@ -1,4 +1,4 @@
-/* The table of sphere_grid: what a cell of the grid counts in c_lm (docs/sphere_grid.md). Numbers of the precision
+/* The table of sphere_grid: what a cell of the grid counts in c_lm (docs/engines/sphere_grid.md). Numbers of the precision
  * that is summed, [order][even, odd l - m][run][angle][vector of degrees][TARGET_LANES]; a run is at most
  * TARGET_VECTORS vectors. Device only.
  */

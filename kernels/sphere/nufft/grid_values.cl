@@ -1,5 +1,5 @@
 /* Realizations on the sphere, from points to values on the angles of the grid itself: sums over points of
- * w exp(-i m phi), spread over theta. What a cell counts in c_lm is in a table (docs/sphere_grid.md). Points are spread
+ * w exp(-i m phi), spread over theta. What a cell counts in c_lm is in a table (docs/engines/sphere_grid.md). Points are spread
  * on a grid of real numbers, longitude across rows, theta along them.
  *
  * Launch: (work-items of one group, slots). LANES is 2 at least. A slot does the realizations slot, slot + slots, ...

@@ -1,5 +1,5 @@
 /* Realizations on the sphere, from points to values on rings: sums over points of w exp(-i m phi) spread over theta
- * are transformed to and fro, so that c_lm is a sum over rings (docs/sphere_nufft.md). Points are spread on a grid of
+ * are transformed to and fro, so that c_lm is a sum over rings (docs/engines/sphere_nufft.md). Points are spread on a grid of
  * real numbers, longitude across rows, theta along them, in any order; the transform around the axis makes tiles of
  * orders; orders_rings.h does the rest. For CPUs: one work-group can do a realization whole, in the cache of its core.
  *

@@ -1,5 +1,5 @@
 /* sphere_nufft at high degree: of one point all Q(l) are 1, by the addition theorem, wherever it is. At the pole, at the
- * equator and between them Lambda_lm comes from recurrences of different form (docs/sphere_nufft.md).
+ * equator and between them Lambda_lm comes from recurrences of different form (docs/engines/sphere_nufft.md).
  */
 #include "harness_sphere.h"
 

@@ -22,7 +22,7 @@ typedef struct problem_case {
     int32_t k;
     size_t num_points;
     double steps_per_decade;
-    bool is_shown; /* errors at some tolerances, for docs/accuracy.md */
+    bool is_shown; /* errors at some tolerances, for docs/developer/accuracy.md */
 } problem_case;
 
 /* Few and many points in a cell, K below, at and beside multiples of vectors. */

@@ -78,7 +78,7 @@ static void batches(void **state) {
 }
 
 /* One work-item goes from point to point, the items of a group from cell to cell: few and many points in a
- * cell take different ways. (Not groups of fewer items than lanes: PoCL 3.1 gets them wrong, docs/torus_nufft.md.) */
+ * cell take different ways. (Not groups of fewer items than lanes: PoCL 3.1 gets them wrong, docs/engines/torus_nufft.md.) */
 static void work_groups(void **state) {
     (void)state;
     static const size_t most[] = {20, 150, 1500};

@@ -1,6 +1,6 @@
 /* How sphere_nufft and sphere_grid treat a problem: the fine grid of longitude and angle from the pole, rings, sizes of what is
- * in memory, error and cost. A function of the problem, the precision and the device. docs/sphere_nufft.md and
- * docs/sphere_grid.md.
+ * in memory, error and cost. A function of the problem, the precision and the device. docs/engines/sphere_nufft.md and
+ * docs/engines/sphere_grid.md.
  */
 #ifndef PS_ENGINES_SPHERE_NUFFT_SHAPE_H
 #define PS_ENGINES_SPHERE_NUFFT_SHAPE_H

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# update_tables.sh BUILD_DIR [TABLE...]: fills the tables of README.md and docs/*.md with what the
+# update_tables.sh BUILD_DIR [TABLE...]: fills the tables of README.md and docs/*/*.md with what the
 # programs of BUILD_DIR print (build/release has benchmarks and tests alike). A table stands between a
 # line "<!-- table: NAME -->" and a line "<!-- end -->"; NAME is a function table_NAME below. Times want
 # a quiet machine. Without TABLE all are made; a program that is not built leaves its table alone.
 set -euo pipefail
-docs=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
-pages=("$docs/../README.md" "$docs"/*.md)
+docs=$(readlink -f "$(dirname "${BASH_SOURCE[0]}")/..")
+pages=("$docs/../README.md" "$docs"/*/*.md)
 (($# >= 1)) || { sed -n '2,5s/^# //p' "$0" >&2; exit 2; }
 build=$(realpath "$1")
 shift
@@ -51,10 +51,10 @@ table_bench_pairs_ways() { bench_pairs ways; }
 table_pairs_routes() {
     mkdir -p "$docs/../bench-output"
     bench_pairs routes >"$docs/../bench-output/pairs_routes.txt" &&
-        "$docs/pairs_routes.sh" table "$docs/../bench-output/pairs_routes.txt"
+        "$docs/scripts/pairs_routes.sh" table "$docs/../bench-output/pairs_routes.txt"
 }
 table_bench_weights() { bench weights; }
-table_needs_times() { need pointspec && "$docs/needs_times.sh" "$build/pointspec"; }
+table_needs_times() { need pointspec && "$docs/scripts/needs_times.sh" "$build/pointspec"; }
 
 # Rows on the Pareto fronts of pointspec bench. Also for the picture of make_figures.sh, which wants the same run.
 table_bench_fronts() {
@@ -130,7 +130,7 @@ table_plan() {
 }
 
 # What Marques et al. print beside what the program computes.
-table_reproduction() { need pointspec && "$docs/reproduction.sh" "$build/pointspec" table; }
+table_reproduction() { need pointspec && "$docs/scripts/reproduction.sh" "$build/pointspec" table; }
 
 # The lines of the tolerance test. Its frequencies are, in the order of the lines of one shape, a grid
 # with K = 12, 100 of |k_i| <= 1e6 and 100 of |k_i| <= 2^28.
@@ -299,7 +299,7 @@ table_faults() {
         --table ${FAULTS_ONLY:+--only "$FAULTS_ONLY"} >"$scratch/rows" || return 1
     [[ -n ${FAULTS_ONLY-} ]] || { cat "$scratch/rows"; return; }
     # New rows hide old ones, in the order of the command lines; the last row is their sum.
-    sed -n '/^<!-- table: faults -->$/,/^<!-- end -->$/p' "$docs/reliability.md" | cat - "$scratch/rows" |
+    sed -n '/^<!-- table: faults -->$/,/^<!-- end -->$/p' "$docs/developer/reliability.md" | cat - "$scratch/rows" |
         awk -v list="$docs/../tests/faults/commands.txt" '
             $1 == "command" { head = $0 }
             NF == 7 && $1 != "all" { row[$1] = $0 }

@@ -3,7 +3,7 @@
 # compute (default: build/release of this checkout; needs pointspec and bench/bench_torus there).
 # Under two minutes on two cores; the times in torus_direct_time.png want a quiet machine.
 set -euo pipefail
-docs=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
+docs=$(readlink -f "$(dirname "${BASH_SOURCE[0]}")/..")
 build=$(realpath "${1:-$docs/../build/release}")
 images=$docs/images
 pointspec=$build/pointspec
@@ -130,20 +130,20 @@ plot "grid-single.txt" with linespoints pointtype 7 linecolor "#0072b2" \
         title "list of 4096 frequencies, single"
 GNUPLOT
 
-# Run time against error, for performance.md: the picture of the last update_tables.sh, whose numbers the page has.
+# Run time against error, for docs/developer/performance.md: the picture of the last update_tables.sh, whose numbers the page has.
 echo "figures: bench.png" >&2
 bench=$docs/../bench-output/bench.png
 [[ -s $bench ]] || { mkdir -p "${bench%/*}" && "$pointspec" bench --quiet -o bench.csv --plot "$bench"; }
 cp "$bench" "$images/bench.png"
 
-# Ways to pair sums, for pairs_direct.md: some minutes, unless the last update_tables.sh left its numbers.
+# Ways to pair sums, for docs/engines/pairs_direct.md: some minutes, unless the last update_tables.sh left its numbers.
 echo "figures: pairs_routes.png" >&2
 routes=$docs/../bench-output/pairs_routes.txt
 [[ -s $routes ]] || { mkdir -p "${routes%/*}" && "$build/bench/bench_pairs" routes >"$routes"; }
-"$docs/pairs_routes.sh" figure "$routes" "$images/pairs_routes.png"
+"$docs/scripts/pairs_routes.sh" figure "$routes" "$images/pairs_routes.png"
 
-# Figures 1 to 5 of Marques et al., for quadrature.md.
-"$docs/reproduction.sh" "$pointspec" figures "$images"
+# Figures 1 to 5 of Marques et al., for docs/user/quadrature.md.
+"$docs/scripts/reproduction.sh" "$pointspec" figures "$images"
 
 # Time against error, pointspec and the libraries of others, from the last ./dev bench peers.
 for name in peers peers_sphere peers_pairs; do
