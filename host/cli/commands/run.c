@@ -86,7 +86,8 @@ const ps_command ps_command_run = {
     .summary = "all results that a scene file asks for, into a folder with a page that shows them",
     .usage = "run [options] SCENE.yaml",
     .description =
-        "Reads a scene (docs/user/scenes.md): results of the kinds power, angular, pairs, quadrature, "
+        "Reads a scene (docs/user/scenes.md): results of the kinds power, angular, pairs, "
+        "quadrature, "
         "truncation and check, each with the options of the command of that name, where lists ask "
         "for every combination. Writes a folder (-o; else named like the scene) with a table and a "
         "summary of each result, pictures, index.html, which shows all of it, and record.json, "
