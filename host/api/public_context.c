@@ -2,6 +2,8 @@
 #include "api/public_objects.h"
 
 #include "pointspec_version.h"
+#include "store/figures_file.h"
+#include "store/result_cache.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -62,11 +64,18 @@ void pspec_context_set_log(pspec_context *context, pspec_log log, void *payload)
     }
 }
 
+/* With what `pointspec bench` has measured of it; without a folder for that, with the built-in figures. */
 pspec_status ps_context_open_device(pspec_context *context) {
     if (context->device != NULL) {
         return PSPEC_OK;
     }
-    PS_TRY(ps_device_open(&context->device, context->selector, false, &context->error));
+    ps_text folder = {0};
+    const char *const path =
+        ps_cache_default_directory(&folder, NULL) == PSPEC_OK ? ps_text_string(&folder) : NULL;
+    const pspec_status status =
+        ps_figures_open_device(&context->device, context->selector, false, path, &context->error);
+    ps_text_free(&folder);
+    PS_TRY(status);
     const ps_device_limits *limits = ps_device_get_limits(context->device);
     ps_log_say(&context->log, "opened the device \"%s\" of %s", limits->name, limits->platform);
     return PSPEC_OK;

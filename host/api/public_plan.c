@@ -1,22 +1,28 @@
-/* The public library: plans over the estimator, and the callbacks of their context. */
+/* The public library: plans over the runner of jobs, and the callbacks of their context. */
 #include "base/clock.h"
 #include "base/memory.h"
 #include "jobs/parts/gather.h"
+#include "jobs/parts/kept_patterns.h"
+#include "jobs/parts/runner.h"
 #include "api/public_objects.h"
 #include "api/public_request.h"
 #include "plan/memory_model.h"
+#include "plan/needs.h"
 
 #include <stdlib.h>
 
 struct pspec_plan {
     pspec_context *context;
-    ps_frequencies frequencies;
+    ps_public_request request; /* checked; its frequencies are the plan's, its texts the caller's */
+    ps_text engine_name;       /* what the request pointed to; "" is any */
     ps_problem problem;
     ps_plan choice;
-    ps_estimator *estimator;
+    ps_needs needs;
+    ps_runner runner;
     ps_gather *gather;
+    ps_kept_patterns kept; /* for a second plan */
+    size_t num_again;      /* of them, that the second plan has had */
     ps_text text;
-    bool has_c2;
     bool has_failed;   /* its sums may hold a part of a batch */
     double last_asked; /* seconds: when progress was called last */
 };
@@ -25,7 +31,7 @@ struct pspec_plan {
 
 static bool ask_to_stop(pspec_plan *plan) {
     return ps_watch_tell(&plan->context->watch, "realizations",
-                         ps_estimator_num_realizations(plan->estimator),
+                         ps_estimator_num_realizations(plan->runner.estimator),
                          plan->problem.num_realizations, NULL, NULL) != PSPEC_OK;
 }
 
@@ -62,60 +68,108 @@ static void log_choice(const pspec_plan *plan) {
     }
 }
 
-static pspec_status choose_engine(pspec_plan *plan, const ps_public_request *request,
-                                  ps_error *error) {
-    pspec_context *context = plan->context;
+static pspec_status choose_engine(void *payload, ps_error *error) {
+    pspec_plan *const plan = payload;
+    const pspec_context *const context = plan->context;
+    const bool any_engine = plan->engine_name.length == 0;
     ps_memory_room room;
-    const ps_plan_constraints constraints = {.engine = request->engine,
-                                             .precision = request->precision,
-                                             .memory_limit = context->memory_limit,
-                                             .offers = PS_OFFER_RINGS,
-                                             .room = &room};
-    ps_memory_room_find(&room, 0);
-    if (ps_plan_may_need_device(&constraints)) {
-        PS_TRY(ps_context_open_device(context));
-    }
+    const ps_plan_constraints constraints = {
+        .engine = any_engine ? NULL : ps_text_string(&plan->engine_name),
+        .precision = plan->request.precision,
+        .memory_limit = context->memory_limit,
+        .offers = PS_OFFER_RINGS,
+        .room = &room};
+    const ps_needs_strict strict = {.tolerance = plan->problem.tolerance};
     const ps_device_limits *limits =
         context->device != NULL ? ps_device_get_limits(context->device) : NULL;
-    PS_TRY(ps_plan_make(&plan->choice, &plan->problem, limits, &constraints, error));
+    ps_memory_room_find(&room, ps_runner_held(&plan->runner));
+    PS_TRY(ps_needs_plan(&plan->needs, &plan->choice, &plan->problem, limits, &constraints, &strict,
+                         error));
     log_choice(plan);
-    return ps_plan_require(&plan->choice, &plan->problem, error);
+    return PSPEC_OK;
 }
 
-static pspec_status create_estimator(pspec_plan *plan, const ps_public_request *request,
-                                     ps_error *error) {
-    const ps_estimator_options options = {
-        .problem = plan->problem,
-        .engine = plan->choice.chosen->engine,
-        .precision = plan->choice.chosen->precision,
-        .batch = plan->choice.chosen->batch,
-        .exact_shells = request->exact_shells,
+static ps_estimator_options choose_options(void *payload) {
+    const pspec_plan *const plan = payload;
+    return (ps_estimator_options){
+        .exact_shells = plan->request.exact_shells,
         .want_frequencies = true,
-        .want_c2 = request->want_c2,
-        .self_check = !request->no_self_check,
-        .normalization = request->normalization,
+        .want_c2 = plan->request.want_c2,
+        .self_check = !plan->request.no_self_check,
+        .normalization = plan->request.normalization,
         .should_stop = should_stop,
-        .payload = plan,
+        .payload = payload,
         .log = plan->context->log,
     };
-    PS_TRY(ps_estimator_create(&plan->estimator, &options, plan->context->device, error));
-    ps_estimator_describe(plan->estimator, &plan->text);
-    PS_TRY(ps_text_check(&plan->text, error));
-    ps_log_say(&plan->context->log, "plan: %s, %zu realizations at a time",
-               ps_text_string(&plan->text), ps_estimator_batch(plan->estimator));
-    const ps_gather_options gather = {.estimator = plan->estimator,
-                                      .dimension = plan->frequencies.dimension,
-                                      .num_points = request->num_points,
+}
+
+/* There is another estimator. */
+static pspec_status begin(void *payload, ps_error *error) {
+    pspec_plan *const plan = payload;
+    const ps_gather_options gather = {.estimator = plan->runner.estimator,
+                                      .dimension = plan->request.frequencies.dimension,
+                                      .num_points = plan->request.num_points,
                                       .after_batch = after_batch,
                                       .payload = plan};
+    ps_text_free(&plan->text);
+    ps_estimator_describe(plan->runner.estimator, &plan->text);
+    PS_TRY(ps_text_check(&plan->text, error));
+    ps_log_say(&plan->context->log, "plan: %s, %zu realizations at a time",
+               ps_text_string(&plan->text), ps_estimator_batch(plan->runner.estimator));
+    ps_gather_destroy(plan->gather);
+    plan->gather = NULL;
     return ps_gather_create(&plan->gather, &gather, error);
 }
 
-static pspec_status fill_plan(pspec_plan *plan, const ps_public_request *request, ps_error *error) {
-    PS_TRY(ps_frequencies_enumerate(&plan->frequencies, error));
+/* The next of the patterns that were kept. */
+static pspec_status give_kept(void *payload, uint64_t most, size_t *num, ps_error *error) {
+    pspec_plan *const plan = payload;
+    const size_t batch = ps_estimator_batch(plan->runner.estimator);
+    const size_t rest = plan->kept.num - plan->num_again;
+    *num = rest < batch ? rest : batch;
+    *num = *num < most ? *num : (size_t)most;
+    PS_TRY(ps_estimator_add(plan->runner.estimator, plan->kept.patterns + plan->num_again, *num,
+                            error));
+    plan->num_again += *num;
+    return PSPEC_OK;
+}
+
+static pspec_status rewind_kept(void *payload, ps_error *error) {
+    pspec_plan *const plan = payload;
+    plan->num_again = 0;
+    return plan->kept.is_partial
+               ? ps_fail(error, PSPEC_ERROR_TOLERANCE, "the patterns were too many to be kept")
+               : PSPEC_OK;
+}
+
+static const ps_runner_kind kind = {.plan = choose_engine,
+                                    .options = choose_options,
+                                    .begin = begin,
+                                    .tell = after_batch,
+                                    .give = give_kept,
+                                    .rewind = rewind_kept};
+
+/* What a caller of the library needs: every frequency of the request, with its standard error. */
+static ps_needs find_needs(const ps_public_request *request) {
+    const ps_frequencies *const frequencies = &request->frequencies;
+    const bool is_grid = frequencies->kind != PS_FREQUENCIES_LIST && !request->is_on_sphere;
+    const ps_needs_question needs = {
+        .dimension = frequencies->dimension,
+        .max_frequency = is_grid ? frequencies->max_frequency : 0,
+        .on_sphere = request->is_on_sphere,
+        .on_hemisphere = request->is_on_sphere && frequencies->degree_step > 1,
+        .wants_full_array = frequencies->kind != PS_FREQUENCIES_BALL,
+        .wants_frequency_errors = true,
+        .share_not_drawn =
+            1 - (double)frequencies->num / (double)ps_frequencies_population(frequencies),
+        .num_realizations = request->num_realizations};
+    return ps_needs_find(&needs);
+}
+
+static ps_problem make_problem(const ps_public_request *request) {
     const bool is_pairs = request->normalization == PSPEC_NORMALIZATION_PAIRS;
-    plan->problem = (ps_problem){
-        .frequencies = &plan->frequencies,
+    return (ps_problem){
+        .frequencies = &request->frequencies,
         .num_points = request->num_points,
         .planned_points = request->num_points,
         .num_realizations = request->num_realizations,
@@ -124,8 +178,39 @@ static pspec_status fill_plan(pspec_plan *plan, const ps_public_request *request
         .floor = is_pairs ? request->floor : 0,
         .tolerance = ps_plan_tolerance(request->tolerance, is_pairs ? 0 : request->floor),
     };
-    PS_TRY(choose_engine(plan, request, error));
-    return create_estimator(plan, request, error);
+}
+
+/* As for files in the program, a quarter of a limit that was set leaves room for what computes with the patterns. */
+static pspec_status make_room_to_keep(pspec_plan *plan, ps_error *error) {
+    const ps_kept_shape shape = {.dimension = plan->request.frequencies.dimension,
+                                 .num_points = plan->request.num_points,
+                                 .num_realizations = plan->request.num_realizations,
+                                 .most_bytes = plan->context->memory_limit / 4};
+    return ps_kept_patterns_create(&plan->kept, &shape, error);
+}
+
+static pspec_status fill_plan(pspec_plan *plan, ps_error *error) {
+    pspec_context *const context = plan->context;
+    const ps_plan_constraints constraints = {.engine = plan->request.engine,
+                                             .precision = plan->request.precision};
+    if (plan->request.engine != NULL) {
+        ps_text_append(&plan->engine_name, "%s", plan->request.engine);
+        PS_TRY(ps_text_check(&plan->engine_name, error));
+    }
+    PS_TRY(ps_frequencies_enumerate(&plan->request.frequencies, error));
+    if (ps_plan_may_need_device(&constraints)) {
+        PS_TRY(ps_context_open_device(context));
+    }
+    plan->problem = make_problem(&plan->request);
+    plan->needs = find_needs(&plan->request);
+    plan->runner = (ps_runner){.kind = &kind,
+                               .job = plan,
+                               .problem = &plan->problem,
+                               .plan = &plan->choice,
+                               .device = context->device};
+    PS_TRY(choose_engine(plan, error));
+    PS_TRY(ps_runner_start(&plan->runner, error));
+    return make_room_to_keep(plan, error);
 }
 
 /* Takes over the frequencies of the request. */
@@ -139,9 +224,8 @@ static pspec_status create_plan(pspec_plan **out, pspec_context *context,
     }
     pspec_plan *plan = memory;
     plan->context = context;
-    plan->frequencies = request->frequencies;
-    plan->has_c2 = request->want_c2;
-    status = fill_plan(plan, request, &context->error);
+    plan->request = *request;
+    status = fill_plan(plan, &context->error);
     if (status != PSPEC_OK) {
         pspec_plan_destroy(plan);
         return status;
@@ -175,8 +259,10 @@ pspec_status pspec_plan_create_angular(pspec_plan **out, pspec_context *context,
 void pspec_plan_destroy(pspec_plan *plan) {
     if (plan != NULL) {
         ps_gather_destroy(plan->gather);
-        ps_estimator_destroy(plan->estimator);
-        ps_frequencies_free(&plan->frequencies);
+        ps_runner_free(&plan->runner);
+        ps_kept_patterns_free(&plan->kept);
+        ps_text_free(&plan->engine_name);
+        ps_frequencies_free(&plan->request.frequencies);
         ps_text_free(&plan->text);
         free(plan);
     }
@@ -200,7 +286,7 @@ static pspec_status require_sound(const pspec_plan *plan) {
 static pspec_status fail_cancelled(pspec_plan *plan) {
     return ps_fail(&plan->context->error, PSPEC_ERROR_CANCELLED,
                    "cancelled by the progress callback after %llu realizations",
-                   (unsigned long long)ps_estimator_num_realizations(plan->estimator));
+                   (unsigned long long)ps_estimator_num_realizations(plan->runner.estimator));
 }
 
 /* Remembers a failure. */
@@ -218,7 +304,9 @@ pspec_status pspec_plan_run(pspec_plan *plan, const pspec_pattern *patterns, siz
         return ps_fail(&plan->context->error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "%zu patterns at the address NULL", num_patterns);
     }
-    return note(plan, ps_gather_add(plan->gather, patterns, num_patterns, &plan->context->error));
+    PS_TRY(note(plan, ps_gather_add(plan->gather, patterns, num_patterns, &plan->context->error)));
+    ps_kept_patterns_add(&plan->kept, patterns, num_patterns);
+    return PSPEC_OK;
 }
 
 /* Are coefficients within the limit that the caller has set, together with what the plan has? The array that they are
@@ -238,7 +326,7 @@ static pspec_status require_memory(const pspec_plan *plan, ps_harmonics harmonic
                : ps_fail(&context->error, PSPEC_ERROR_MEMORY,
                          "coefficients to degree %d take %.3g bytes; with the %.3g of the plan "
                          "that is above the memory limit of %.3g",
-                         (int)plan->frequencies.max_frequency, bytes, chosen->bytes, limit);
+                         (int)plan->request.frequencies.max_frequency, bytes, chosen->bytes, limit);
 }
 
 pspec_status pspec_plan_coefficients(pspec_plan *plan, const pspec_pattern *pattern,
@@ -253,35 +341,55 @@ pspec_status pspec_plan_coefficients(pspec_plan *plan, const pspec_pattern *patt
     const ps_harmonics harmonics =
         hemispherical != 0 ? PS_HEMISPHERICAL_HARMONICS : PS_SPHERICAL_HARMONICS;
     PS_TRY(require_memory(plan, harmonics));
-    const pspec_status status = ps_estimator_coefficients(plan->estimator, pattern, harmonics,
-                                                          coefficients, &plan->context->error);
+    const pspec_status status = ps_estimator_coefficients(
+        plan->runner.estimator, pattern, harmonics, coefficients, &plan->context->error);
     return status == PSPEC_ERROR_CANCELLED ? fail_cancelled(plan) : status;
+}
+
+/* The plan for powers that nobody has measured. */
+static pspec_status begin_anew(pspec_plan *plan, ps_error *error) {
+    plan->runner.was_replanned = false;
+    plan->problem = make_problem(&plan->request);
+    PS_TRY(choose_engine(plan, error));
+    return ps_runner_start(&plan->runner, error);
 }
 
 pspec_status pspec_plan_reset(pspec_plan *plan) {
     if (plan == NULL) {
         return PSPEC_ERROR_INVALID_ARGUMENT;
     }
+    ps_kept_patterns_reset(&plan->kept);
+    if (plan->runner.was_replanned) {
+        return note(plan, begin_anew(plan, &plan->context->error));
+    }
     ps_gather_reset(plan->gather);
-    return note(plan, ps_estimator_reset(plan->estimator, &plan->context->error));
+    return note(plan, ps_estimator_reset(plan->runner.estimator, &plan->context->error));
+}
+
+/* All that were run are in the averages, out of an engine that is within the tolerance of their powers. */
+static pspec_status settle(pspec_plan *plan, ps_error *error) {
+    if (ps_estimator_num_realizations(plan->runner.estimator) == 0) {
+        return PSPEC_OK;
+    }
+    const pspec_status status = ps_runner_settle(&plan->runner, error);
+    if (status != PSPEC_ERROR_TOLERANCE) {
+        return note(plan, status);
+    }
+    const ps_accuracy *const accuracy = &plan->runner.accuracy;
+    return ps_fail(error, PSPEC_ERROR_TOLERANCE,
+                   "these patterns have a mean power of %.3g, so %s precision has an error of "
+                   "%.2g, above the tolerance %g: make a plan of higher precision",
+                   accuracy->largest_mean_power, ps_precision_name(plan->choice.chosen->precision),
+                   accuracy->error, plan->problem.tolerance);
 }
 
 pspec_status ps_plan_sums(pspec_plan *plan, ps_spectrum_sums *out, const ps_bins **bins) {
     ps_error *error = &plan->context->error;
     PS_TRY(require_sound(plan));
     PS_TRY(note(plan, ps_gather_flush(plan->gather, error)));
-    const ps_accuracy accuracy = ps_estimator_accuracy(plan->estimator);
-    *bins = ps_estimator_bins(plan->estimator);
-    if (ps_estimator_num_realizations(plan->estimator) > 0 &&
-        !(accuracy.error <= plan->problem.tolerance)) {
-        return ps_fail(error, PSPEC_ERROR_TOLERANCE,
-                       "these patterns have a mean power of %.3g, so %s precision has an error of "
-                       "%.2g, above the tolerance %g: make a plan of higher precision",
-                       accuracy.largest_mean_power,
-                       ps_precision_name(plan->choice.chosen->precision), accuracy.error,
-                       plan->problem.tolerance);
-    }
-    return ps_estimator_sums(plan->estimator, out, error);
+    PS_TRY(settle(plan, error));
+    *bins = ps_estimator_bins(plan->runner.estimator);
+    return ps_estimator_sums(plan->runner.estimator, out, error);
 }
 
 pspec_status pspec_plan_c2(pspec_plan *plan, pspec_mean *c2) {
@@ -292,17 +400,18 @@ pspec_status pspec_plan_c2(pspec_plan *plan, pspec_mean *c2) {
         return PSPEC_ERROR_INVALID_ARGUMENT;
     }
     ps_error *error = &plan->context->error;
-    const size_t num = plan->frequencies.num;
-    if (!plan->has_c2 || c2 == NULL) {
+    const size_t num = plan->request.frequencies.num;
+    if (!plan->request.want_c2 || c2 == NULL) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       plan->has_c2 ? "there is no room for C_l^2"
-                                    : "this plan does not have C_l^2: its request lacks want_c2");
+                       plan->request.want_c2
+                           ? "there is no room for C_l^2"
+                           : "this plan does not have C_l^2: its request lacks want_c2");
     }
     PS_TRY(ps_plan_sums(plan, &sums, &bins)); /* runs what waits, and checks the tolerance */
     ps_spectrum_sums_free(&sums);
     PS_TRY(ps_allocate(&memory, num, sizeof(ps_mean), "C_l^2", error));
     const ps_mean *const means = memory;
-    ps_estimator_c2(plan->estimator, memory);
+    ps_estimator_c2(plan->runner.estimator, memory);
     for (size_t i = 0; i < num; i++) {
         c2[i] = (pspec_mean){means[i].mean, means[i].standard_error};
     }

@@ -190,7 +190,12 @@ typedef struct pspec_power_request {
  *
  * The engine's error e satisfies sqrt(mean over k != 0 of |dS(k)|^2) = e sqrt(V) <= tolerance sqrt(V).
  * #PSPEC_ERROR_TOLERANCE: no engine reaches it. #PSPEC_ERROR_MEMORY: none fits the memory. The choice
- * depends on the request, the device and the limit alone; nothing is timed. */
+ * depends on the request, the device and the limit alone; nothing is timed. It is the choice of the program for the same
+ * question, and so are the bits of the averages.
+ *
+ * Powers are known only once they are measured. When they are so large that e exceeds the tolerance, the plan chooses
+ * once more, for these powers, and runs the patterns again, of which it keeps copies for that: at most 64 MiB, and at
+ * most a quarter of a memory limit. That happens when a spectrum is asked for; later patterns go to the new engine. */
 PSPEC_EXPORT pspec_status pspec_plan_create(pspec_plan **out, pspec_context *context,
                                             const pspec_power_request *request);
 /** What to compute on the sphere. Begin with #PSPEC_ANGULAR_REQUEST_INIT and set what differs. */
@@ -228,15 +233,15 @@ PSPEC_EXPORT pspec_status pspec_plan_create_angular(pspec_plan **out, pspec_cont
 /** NULL is allowed. */
 PSPEC_EXPORT void pspec_plan_destroy(pspec_plan *plan);
 
-/** "(torus_direct precision=single ...)"; belongs to the plan. */
+/** "(torus_direct precision=single ...)"; belongs to the plan, until it chooses another engine or is reset. */
 PSPEC_EXPORT const char *pspec_plan_text(const pspec_plan *plan);
 
 /** Adds realizations, in order. Averages depend, to the bit, on the realizations and their order alone,
  * not on how they were divided into calls.
  *
  * Small calls cost little: patterns are checked at once and copied (at most 64 MiB), and the engine runs
- * when there is a batch of them or a spectrum is asked for. A call that brings whole batches has them
- * run without copying. Nothing is borrowed after the call, and nothing allocated, unless a pattern has
+ * when there is a batch of them or a spectrum is asked for; whole batches of a call run at once. Nothing is
+ * borrowed after the call, and nothing allocated, unless a pattern has
  * more points than the request said.
  *
  * #PSPEC_ERROR_INPUT names the pattern (sets count from 1, since the plan began) and the point. After
@@ -274,7 +279,8 @@ typedef struct pspec_mean {
 PSPEC_EXPORT pspec_status pspec_plan_c2(pspec_plan *plan, pspec_mean *c2);
 
 /** Forgets all realizations, and a failure: the plan is as good as new, for another average. Allocates
- * nothing and takes microseconds. */
+ * nothing and takes microseconds, unless large powers had made the plan choose another engine: then the first is made
+ * anew. */
 PSPEC_EXPORT pspec_status pspec_plan_reset(pspec_plan *plan);
 
 /** @} */
@@ -335,8 +341,11 @@ typedef struct pspec_bin {
 } pspec_bin;
 
 /** A snapshot of the averages; the plan goes on. #PSPEC_ERROR_INPUT when there are no realizations yet.
- * #PSPEC_ERROR_TOLERANCE when the powers that were measured make the numerical error larger than the
- * plan's tolerance: make a plan of higher precision then. Neither harms the plan. */
+ * Where the powers that were measured make the numerical error larger than the plan's tolerance, another engine runs the
+ * patterns again (see pspec_plan_create()), which takes as long as they took; a failure in between is as one of
+ * pspec_plan_run(). #PSPEC_ERROR_TOLERANCE when no engine that the request leaves reaches it, or the patterns were too
+ * many to be kept: make a plan of higher precision then. #PSPEC_ERROR_CHECK when the powers are not finite numbers. The first
+ * two do not harm the plan. */
 PSPEC_EXPORT pspec_status pspec_spectrum_create(pspec_spectrum **out, pspec_plan *plan);
 /** NULL is allowed. */
 PSPEC_EXPORT void pspec_spectrum_destroy(pspec_spectrum *spectrum);

@@ -22,7 +22,7 @@ static pspec_status open_sampler(ps_power_job *job, ps_error *error) {
 }
 
 static pspec_status report_progress(const ps_power_job *job, ps_error *error) {
-    return ps_watch_tell(&job->question->watch, "realizations", job->num_done,
+    return ps_watch_tell(&job->question->watch, "realizations", job->runner.num_done,
                          job->num_realizations, NULL, error);
 }
 
@@ -150,7 +150,7 @@ void ps_power_job_destroy(ps_power_job *job) {
     if (job == NULL) {
         return;
     }
-    ps_estimator_destroy(job->estimator);
+    ps_runner_free(&job->runner);
     ps_spectrum_free(&job->spectrum);
     ps_text_free(&job->description);
     free(job->coefficients);
@@ -166,14 +166,10 @@ void ps_power_job_destroy(ps_power_job *job) {
 
 /* ---- run --------------------------------------------------------------------------------- */
 
-static pspec_status create_estimator(ps_power_job *job, ps_error *error) {
-    const ps_power_question *question = job->question;
-    const ps_candidate *chosen = job->plan.chosen;
-    const ps_estimator_options options = {
-        .problem = job->problem,
-        .engine = chosen->engine,
-        .precision = chosen->precision,
-        .batch = chosen->batch,
+static ps_estimator_options choose_options(void *payload) {
+    const ps_power_job *const job = payload;
+    const ps_power_question *const question = job->question;
+    return (ps_estimator_options){
         .exact_shells = question->exact_shells,
         .want_frequencies = !question->on_sphere, /* anisotropy needs them, too */
         .no_frequency_errors = job->needs.no_frequency_errors,
@@ -182,11 +178,8 @@ static pspec_status create_estimator(ps_power_job *job, ps_error *error) {
         .coefficients = job->coefficients,
         .want_c2 = question->wants_pair_sums,
         .should_stop = should_stop,
-        .payload = job,
+        .payload = payload,
     };
-    ps_estimator_destroy(job->estimator);
-    job->estimator = NULL;
-    return ps_estimator_create(&job->estimator, &options, job->device, error);
 }
 
 /* What can be refused is refused before the work. */
@@ -203,79 +196,73 @@ static pspec_status make_room_for_coefficients(ps_power_job *job, ps_error *erro
     return PSPEC_OK;
 }
 
-static pspec_status require_one_set(const ps_power_job *job, ps_error *error) {
-    return job->coefficients == NULL || job->num_done <= 1
+static pspec_status require_one_set(const ps_power_job *job, uint64_t num_sets, ps_error *error) {
+    return job->coefficients == NULL || num_sets <= 1
                ? PSPEC_OK
                : ps_fail(
                      error, PSPEC_ERROR_INVALID_ARGUMENT,
                      "coefficients are of one set, but there are more; --select-sets chooses one");
 }
 
-static pspec_status look_at_errors(ps_power_job *job, ps_error *error) {
-    const ps_bins *bins = ps_estimator_bins(job->estimator);
+static pspec_status look_at_errors(void *payload, double *largest, ps_error *error) {
+    ps_power_job *const job = payload;
+    const ps_bins *bins = ps_estimator_bins(job->runner.estimator);
     void *memory = NULL;
     if (job->means == NULL) {
         PS_TRY(ps_allocate(&memory, bins->num, sizeof *job->means, "means of bins", error));
         job->means = memory;
     }
-    PS_TRY(ps_estimator_bin_means(job->estimator, job->means, error));
-    job->look = ps_sequential_find(bins, job->means, job->question->floor, job->num_done);
+    PS_TRY(ps_estimator_bin_means(job->runner.estimator, job->means, error));
+    job->look = ps_sequential_find(bins, job->means, job->question->floor, job->runner.num_done);
+    *largest = job->look.corrected;
     return PSPEC_OK;
 }
 
-/* All sets, or as many as the standard error needs. */
-static pspec_status add_sets(ps_power_job *job, ps_error *error) {
-    size_t num = 1;
-    bool is_enough = false;
-    while (num > 0 && !is_enough) {
-        const uint64_t next =
-            job->needs.sequential ? ps_sequential_next_look(job->num_done) : UINT64_MAX;
-        PS_TRY(report_progress(job, error));
-        PS_TRY(ps_power_sets_give(&job->sets, job->estimator, job->question->normalization,
-                                  next - job->num_done, &num, error));
-        job->num_done += num;
-        PS_TRY(require_one_set(job, error));
-        if (job->num_done == next) {
-            PS_TRY(look_at_errors(job, error));
-            is_enough = job->look.corrected <= job->question->standard_error;
-        }
-    }
-    const bool is_asked = job->question->standard_error > 0 && job->num_done > 1;
-    return is_asked && !is_enough ? look_at_errors(job, error) : PSPEC_OK;
+static pspec_status plan(void *payload, ps_error *error) {
+    return ps_power_needs_plan(payload, error);
 }
 
-static pspec_status run_once(ps_power_job *job, ps_error *error) {
-    job->num_done = 0;
-    PS_TRY(create_estimator(job, error));
-    PS_TRY(ps_power_sets_allocate(&job->sets, ps_estimator_batch(job->estimator), error));
-    PS_TRY(add_sets(job, error));
-    job->accuracy = ps_estimator_accuracy(job->estimator);
-    return isfinite(job->accuracy.error)
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_CHECK, "the powers are not finite numbers");
+static pspec_status begin(void *payload, ps_error *error) {
+    ps_power_job *const job = payload;
+    return ps_power_sets_allocate(&job->sets, ps_estimator_batch(job->runner.estimator), error);
 }
 
-/* The measured powers make the error larger than the tolerance: plan again with them. */
-static pspec_status run_again(ps_power_job *job, ps_error *error) {
-    job->problem.expected_power = job->accuracy.largest_mean_power;
-    job->problem.weight_share = job->accuracy.largest_share;
-    PS_TRY(ps_power_needs_plan(job, error));
-    PS_TRY(ps_plan_require(&job->plan, &job->problem, error));
+static pspec_status tell(void *payload, ps_error *error) {
+    return report_progress(payload, error);
+}
+
+static pspec_status give(void *payload, uint64_t most, size_t *num, ps_error *error) {
+    ps_power_job *const job = payload;
+    PS_TRY(ps_power_sets_give(&job->sets, job->runner.estimator, job->question->normalization, most,
+                              num, error));
+    return require_one_set(job, job->runner.num_done + *num, error);
+}
+
+/* The measured powers make the error larger than the tolerance, and there is a plan for them. */
+static pspec_status rewind_sets(void *payload, ps_error *error) {
+    ps_power_job *const job = payload;
     const ps_precision precision = job->plan.chosen->precision;
+    const ps_accuracy *const accuracy = &job->runner.accuracy;
     if (!ps_source_can_rewind(job->sets.source)) {
         return ps_fail(
             error, PSPEC_ERROR_TOLERANCE,
             "these sets have a mean power of %.3g, so what was planned has an error of "
             "%.2g, above the tolerance %g, and standard input cannot be read twice: give a "
             "file%s%s",
-            job->accuracy.largest_mean_power, job->accuracy.error, job->problem.tolerance,
+            accuracy->largest_mean_power, accuracy->error, job->problem.tolerance,
             precision == PS_SINGLE ? "" : ", or --precision ",
             precision == PS_SINGLE ? "" : ps_precision_name(precision));
     }
-    job->was_replanned = true;
-    PS_TRY(ps_power_sets_rewind(&job->sets, error));
-    return run_once(job, error);
+    return ps_power_sets_rewind(&job->sets, error);
 }
+
+static const ps_runner_kind kind = {.plan = plan,
+                                    .options = choose_options,
+                                    .begin = begin,
+                                    .tell = tell,
+                                    .give = give,
+                                    .look = look_at_errors,
+                                    .rewind = rewind_sets};
 
 static pspec_status find_c2(ps_power_job *job, ps_error *error) {
     const size_t num = job->frequencies.num;
@@ -285,7 +272,7 @@ static pspec_status find_c2(ps_power_job *job, ps_error *error) {
     }
     PS_TRY(ps_allocate(&memory, num, sizeof *job->c2, "C_l^2", error));
     job->c2 = memory;
-    ps_estimator_c2(job->estimator, job->c2);
+    ps_estimator_c2(job->runner.estimator, job->c2);
     for (size_t i = 0; job->needs.one_realization && i < num; i++) {
         job->c2[i].standard_error = 0;
     }
@@ -300,9 +287,9 @@ static uint64_t count_repeats(const ps_power_question *question) {
 }
 
 static pspec_status finish(ps_power_job *job, ps_error *error) {
-    ps_estimator_describe(job->estimator, &job->description);
+    ps_estimator_describe(job->runner.estimator, &job->description);
     PS_TRY(ps_text_check(&job->description, error));
-    PS_TRY(ps_estimator_spectrum(job->estimator, &job->spectrum, error));
+    PS_TRY(ps_estimator_spectrum(job->runner.estimator, &job->spectrum, error));
     PS_TRY(find_c2(job, error));
     if (job->needs.one_realization) {
         ps_spectrum_repeat(&job->spectrum, count_repeats(job->question));
@@ -316,9 +303,13 @@ pspec_status ps_power_job_run(ps_power_job *job, ps_error *error) {
         PS_TRY(make_room_for_coefficients(job, error));
     }
     PS_TRY(ps_frequencies_enumerate(&job->frequencies, error));
-    PS_TRY(run_once(job, error));
-    if (!(job->accuracy.error <= job->problem.tolerance)) {
-        PS_TRY(run_again(job, error));
-    }
+    job->runner = (ps_runner){.kind = &kind,
+                              .job = job,
+                              .problem = &job->problem,
+                              .plan = &job->plan,
+                              .device = job->device,
+                              .standard_error = job->question->standard_error,
+                              .is_sequential = job->needs.sequential};
+    PS_TRY(ps_runner_run(&job->runner, error));
     return finish(job, error);
 }

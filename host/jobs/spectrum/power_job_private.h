@@ -2,6 +2,7 @@
 #ifndef PS_JOBS_SPECTRUM_POWER_JOB_PRIVATE_H
 #define PS_JOBS_SPECTRUM_POWER_JOB_PRIVATE_H
 
+#include "jobs/parts/runner.h"
 #include "jobs/spectrum/power_job.h"
 #include "jobs/spectrum/power_sets.h"
 
@@ -14,20 +15,17 @@ struct ps_power_job {
     ps_needs needs;
     ps_sampler_request request; /* what is really sampled: without a shift nobody needs */
     uint64_t num_realizations;  /* that are computed; 0: unknown */
-    uint64_t num_done;
     ps_problem problem;
     ps_device *device;
     bool owns_device;
     ps_plan plan;
-    ps_estimator *estimator;
+    ps_runner runner;
     ps_spectrum spectrum;
-    ps_accuracy accuracy;
     double *coefficients;
     ps_mean *c2;
     ps_text description;
     ps_mean *means; /* [all bins] for looks at the standard error */
     ps_sequential_look look;
-    bool was_replanned;
 };
 
 #endif

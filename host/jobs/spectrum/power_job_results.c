@@ -34,7 +34,7 @@ const ps_spectrum *ps_power_job_spectrum(const ps_power_job *job) {
 }
 
 const ps_accuracy *ps_power_job_accuracy(const ps_power_job *job) {
-    return &job->accuracy;
+    return &job->runner.accuracy;
 }
 
 const char *ps_power_job_description(const ps_power_job *job) {
@@ -46,7 +46,7 @@ const double *ps_power_job_coefficients(const ps_power_job *job) {
 }
 
 const ps_sequential_look *ps_power_job_look(const ps_power_job *job) {
-    return job->question->standard_error > 0 && job->num_done > 1 ? &job->look : NULL;
+    return job->question->standard_error > 0 && job->runner.num_done > 1 ? &job->look : NULL;
 }
 
 const ps_mean *ps_power_job_c2(const ps_power_job *job) {
@@ -54,7 +54,7 @@ const ps_mean *ps_power_job_c2(const ps_power_job *job) {
 }
 
 bool ps_power_job_was_replanned(const ps_power_job *job) {
-    return job->was_replanned;
+    return job->runner.was_replanned;
 }
 
 uint64_t ps_power_job_buffer_bytes(const ps_power_job *job) {

@@ -74,8 +74,8 @@ void ps_power_job_rate_skips(ps_power_job *job) {
 /* What the job holds already of what a plan counts: the set that was read, and the engine of a plan before. */
 static uint64_t find_held(const ps_power_job *job) {
     const ps_point_set *const set = &job->sets.next;
-    const double engine = job->estimator != NULL ? job->plan.chosen->host_bytes : 0;
-    return (set->points_capacity + set->weights_capacity) * sizeof(double) + (uint64_t)engine;
+    return (set->points_capacity + set->weights_capacity) * sizeof(double) +
+           ps_runner_held(&job->runner);
 }
 
 pspec_status ps_power_needs_plan(ps_power_job *job, ps_error *error) {
