@@ -1,33 +1,12 @@
 #!/usr/bin/env bash
 # check_layers.sh [ROOT]: every #include "room/..." in host/ goes down, never up, and no folder is a heap.
-# The rooms from the lowest to the highest: a file may include headers of its own room and of those before it.
-# A folder inside a room that is not named here counts as its room.
+# The rooms are those of rooms.sh: a file may include headers of its own room and of those before it.
 set -euo pipefail
 cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"
 
-rooms=(
-    base math math/random math/linear device files store points tables plots
-    samplers samplers/torus samplers/sphere integrands frequencies
-    engines engines/host engines/nufft engines/torus engines/torus/nufft engines/sphere engines/sphere/nufft
-    engines/pairs plan spectra rules jobs jobs/parts jobs/spectrum jobs/quadrature verify verify/bench
-    questions report results scene scene/run api cli cli/commands
-)
+# shellcheck source=scripts/rooms.sh
+. scripts/rooms.sh
 most_files=25 # of a folder; corpora of the fuzz targets excepted
-
-declare -A rank=()
-for i in "${!rooms[@]}"; do
-    rank[${rooms[i]}]=$i
-done
-
-# The longest room that the path lies in, or nothing.
-room_of() {
-    local folder=$1
-    while [[ $folder == */* ]]; do
-        folder=${folder%/*}
-        [[ -z ${rank[$folder]+known} ]] || { room=$folder && return; }
-    done
-    room=""
-}
 
 bad=0
 while IFS=: read -r file line text; do

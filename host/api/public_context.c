@@ -1,16 +1,11 @@
 /* The public library: contexts. */
 #include "api/public_objects.h"
 
-#include "pointspec_version.h"
 #include "store/figures_file.h"
 #include "store/result_cache.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-const char *pspec_version(void) {
-    return PS_VERSION;
-}
 
 pspec_context *pspec_context_create(void) {
     return calloc(1, sizeof(pspec_context));

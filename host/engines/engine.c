@@ -1,0 +1,72 @@
+#include "engines/engine.h"
+
+#include <math.h>
+
+/* Four right frequencies per work-item give 64 accumulators and 6.4 fused operations per number
+ * loaded in torus/product.cl; not yet measured on a GPU. */
+enum { GPU_LANES = 4, LARGEST_LANES = 16 };
+
+unsigned ps_engine_lanes(const ps_device_limits *limits, ps_precision precision) {
+    const unsigned native =
+        precision == PS_SINGLE ? limits->native_float_lanes : limits->native_double_lanes;
+    if (native <= 1 || limits->has_dedicated_local_memory) {
+        return GPU_LANES;
+    }
+    unsigned lanes = 1;
+    while (lanes * 2 <= native && lanes * 2 <= LARGEST_LANES) {
+        lanes *= 2;
+    }
+    return lanes;
+}
+
+bool ps_engine_on_device(const ps_device_limits *limits, ps_precision precision,
+                         const char **why_not) {
+    if (limits == NULL) {
+        *why_not = "needs an OpenCL device";
+    } else if (precision == PS_EXTENDED) {
+        *why_not = "single and double precision only";
+    } else if (precision == PS_DOUBLE && !limits->has_fp64) {
+        *why_not = "the device has no double precision";
+    } else {
+        return true;
+    }
+    return false;
+}
+
+pspec_status ps_batch_go_on(const ps_batch *batch, ps_error *error) {
+    return batch->should_stop != NULL && batch->should_stop(batch->payload)
+               ? ps_fail(error, PSPEC_ERROR_CANCELLED, "cancelled")
+               : PSPEC_OK;
+}
+
+size_t ps_num_coefficients(int32_t max_degree) {
+    const size_t last = (size_t)max_degree;
+    return (last + 1) * (last + 2);
+}
+
+unsigned ps_problem_domain(const ps_problem *problem) {
+    return problem->frequencies->kind == PS_FREQUENCIES_DEGREES ? PS_ON_SPHERE : PS_ON_TORUS;
+}
+
+/* On the sphere white sets are planned for with a margin, since what is above 1 counts there by its square root: the
+ * mean of (L + 1)^2 modes, half of them independent, stays within four standard deviations. (torus_nufft has a
+ * margin of its own; the other engines of the torus hardly feel it.) */
+static double white_power(const ps_problem *problem) {
+    const double most = 1.5;
+    const double num_modes = pow(problem->frequencies->max_frequency + 1.0, 2);
+    return ps_problem_domain(problem) == PS_ON_SPHERE ? fmin(most, 1 + 4 * sqrt(2 / num_modes)) : 1;
+}
+
+double ps_expected_power(const ps_problem *problem) {
+    return problem->expected_power > 0 ? problem->expected_power : white_power(problem);
+}
+
+void ps_engine_slots(const ps_engine *engine, const void *state, size_t num, uint32_t *slots) {
+    if (engine->get_slots != NULL) {
+        engine->get_slots(state, slots);
+        return;
+    }
+    for (size_t i = 0; i < num; i++) {
+        slots[i] = (uint32_t)i;
+    }
+}

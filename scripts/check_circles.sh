@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# check_circles.sh BUILD: by the symbols of that build's object files, no file of host/ needs one that needs it, directly or
+# through others, and none needs a file of a higher room (rooms.sh). A room's table.c names what is in its folders, and
+# cli/commands.c and cli/main.c are above all.
+set -euo pipefail
+build=$(realpath "$1")
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+# shellcheck source=scripts/rooms.sh
+. scripts/rooms.sh
+
+exceptions=scripts/circles.txt # FROM TO of edges that are still to be cut
+
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+for folder in pointspec_objects pointspec_program; do
+    root=$build/CMakeFiles/$folder.dir/host
+    find "$root" -name '*.c.o' -printf '%P\n' | sed 's/\.o$//' | while IFS= read -r file; do
+        [[ -f host/$file ]] || continue # an object of a file that is gone
+        nm "$root/$file.o" | awk -v file="$file" '
+            NF == 2 && $1 == "U" { print "needs", file, $2 }
+            NF == 3 && $2 ~ /^[TDBRV]$/ { print "has", file, $3 }'
+    done
+done >"$scratch/symbols"
+awk '$1 == "has" { owner[$3] = $2 }
+     $1 == "needs" { from[++num] = $2; symbol[num] = $3 }
+     END { for (i = 1; i <= num; i++)
+               if (symbol[i] in owner && owner[symbol[i]] != from[i]) print from[i], owner[symbol[i]] }' \
+    "$scratch/symbols" | sort -u >"$scratch/edges"
+[[ -s $scratch/edges ]] || { echo "check_circles: no object files in $build" >&2; exit 1; }
+
+bad=0
+while read -r from to; do
+    case $from in */table.c | cli/commands.c | cli/main.c) continue ;; esac
+    room_of "$from" && mine=$room
+    room_of "$to"
+    if ((rank[$room] > rank[$mine])); then
+        echo "host/$from: $mine needs host/$to of the higher room $room" >&2
+        bad=1
+    fi
+done <"$scratch/edges"
+
+# An edge is part of a circle where its end needs its beginning.
+sort "$exceptions" | sed '/^#/d; /^$/d' | comm -23 "$scratch/edges" - |
+    awk '{ from[++num] = $1; to[num] = $2; needs[$1] = needs[$1] " " $2 }
+         function reaches(begin, end,   queue, seen, list, first, last, i, n) {
+             queue[last = 1] = begin
+             for (first = 1; first <= last; first++) {
+                 n = split(needs[queue[first]], list, " ")
+                 for (i = 1; i <= n; i++) {
+                     if (list[i] == end) return 1
+                     if (!(list[i] in seen)) { seen[list[i]] = 1; queue[++last] = list[i] }
+                 }
+             }
+             return 0
+         }
+         END { for (i = 1; i <= num; i++) if (reaches(to[i], from[i])) print "    host/" from[i] " -> host/" to[i] }' \
+        >"$scratch/circles"
+if [[ -s $scratch/circles ]]; then
+    echo "files that need each other in a circle:" >&2
+    cat "$scratch/circles" >&2
+    bad=1
+fi
+exit $bad

@@ -1,0 +1,25 @@
+# The rooms of host/ from the lowest to the highest, for check_layers.sh and check_circles.sh, which source this.
+# shellcheck shell=bash disable=SC2034 # what sources it uses them
+# A folder inside a room that is not named here counts as its room.
+rooms=(
+    base math math/random math/linear device files store points tables plots
+    samplers samplers/torus samplers/sphere integrands frequencies
+    engines engines/host engines/nufft engines/torus engines/torus/nufft engines/sphere engines/sphere/nufft
+    engines/pairs plan spectra rules jobs jobs/parts jobs/spectrum jobs/quadrature verify verify/bench
+    questions report results scene scene/run api cli cli/commands
+)
+
+declare -A rank=()
+for i in "${!rooms[@]}"; do
+    rank[${rooms[i]}]=$i
+done
+
+# The longest room that the path lies in, or nothing.
+room_of() {
+    local folder=$1
+    while [[ $folder == */* ]]; do
+        folder=${folder%/*}
+        [[ -z ${rank[$folder]+known} ]] || { room=$folder && return; }
+    done
+    room=""
+}
