@@ -9,8 +9,8 @@
 
 #include "engines/host/host_direct.h"
 #include "engines/sphere/sphere_direct.h"
-#include "engines/torus/torus_direct.h"
 #include "engines/torus/nufft/torus_nufft.h"
+#include "engines/torus/torus_direct.h"
 #include "plan/cost_model.h"
 
 #include <math.h>

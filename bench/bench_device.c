@@ -11,8 +11,8 @@
 
 #include "engines/nufft/fft.h"
 #include "engines/torus/nufft/layout.h"
-#include "engines/torus/torus_direct.h"
 #include "engines/torus/nufft/torus_nufft.h"
+#include "engines/torus/torus_direct.h"
 
 #include <math.h>
 #include <stdio.h>

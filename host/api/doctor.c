@@ -3,8 +3,8 @@
 #include "base/memory_limit.h"
 #include "base/text.h"
 #include "device/drivers.h"
-#include "store/cache_trust.h"
 #include "plots/plot.h"
+#include "store/cache_trust.h"
 
 #include <errno.h>
 #include <inttypes.h>

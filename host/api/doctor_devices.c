@@ -1,8 +1,8 @@
 /* The doctor: devices, and whether they compute what is known. */
+#include "api/doctor.h"
 #include "base/text.h"
 #include "device/device.h"
 #include "device/drivers.h"
-#include "api/doctor.h"
 
 #include <math.h>
 #include <pointspec/pointspec.h>

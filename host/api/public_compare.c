@@ -1,7 +1,7 @@
 /* The public library: are two spectra of the same sampler? */
-#include "spectra/compare.h"
-#include "base/memory.h"
 #include "api/public_objects.h"
+#include "base/memory.h"
+#include "spectra/compare.h"
 
 #include <stdlib.h>
 

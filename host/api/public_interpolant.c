@@ -1,9 +1,9 @@
 /* The public library: kernel interpolation (docs/mathematics/quadrature.md#interpolation). */
-#include "rules/kernel_system.h"
+#include "api/public_objects.h"
 #include "base/memory.h"
 #include "jobs/parts/pattern_check.h"
-#include "api/public_objects.h"
 #include "math/sobolev.h"
+#include "rules/kernel_system.h"
 
 #include <math.h>
 #include <stdlib.h>

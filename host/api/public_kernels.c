@@ -1,8 +1,8 @@
 /* The public library: sums of isotropic kernels over pairs of points. */
+#include "api/public_objects.h"
 #include "base/memory.h"
 #include "engines/pairs/pairs_isotropic.h"
 #include "jobs/parts/pattern_check.h"
-#include "api/public_objects.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* The public library: coefficients of lobes, and truncated products. */
-#include "rules/truncation.h"
-#include "rules/equal_error.h"
 #include "api/public_objects.h"
+#include "rules/equal_error.h"
+#include "rules/truncation.h"
 
 #include <math.h>
 

@@ -2,10 +2,10 @@
 #ifndef PS_API_PUBLIC_OBJECTS_H
 #define PS_API_PUBLIC_OBJECTS_H
 
-#include "spectra/spectrum_sums.h"
 #include "base/log.h"
 #include "base/watch.h"
 #include "device/device.h"
+#include "spectra/spectrum_sums.h"
 
 struct pspec_context {
     ps_error error;

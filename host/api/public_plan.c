@@ -1,11 +1,11 @@
 /* The public library: plans over the runner of jobs, and the callbacks of their context. */
+#include "api/public_objects.h"
+#include "api/public_request.h"
 #include "base/clock.h"
 #include "base/memory.h"
 #include "jobs/parts/gather.h"
 #include "jobs/parts/kept_patterns.h"
 #include "jobs/parts/runner.h"
-#include "api/public_objects.h"
-#include "api/public_request.h"
 #include "plan/memory_model.h"
 #include "plan/needs.h"
 

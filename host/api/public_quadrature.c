@@ -1,7 +1,7 @@
 /* The public library: analyses of quadrature rules over the quadrature job. */
-#include "base/memory.h"
 #include "api/public_objects.h"
 #include "api/public_request.h"
+#include "base/memory.h"
 #include "jobs/quadrature/quadrature_job.h"
 
 #include <stdio.h>

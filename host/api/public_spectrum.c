@@ -1,8 +1,8 @@
 /* The public library: spectra, from plans, files and other spectra. */
-#include "spectra/spectrum_file.h"
+#include "api/public_objects.h"
 #include "base/memory.h"
 #include "base/workers.h"
-#include "api/public_objects.h"
+#include "spectra/spectrum_file.h"
 
 #include <stdio.h>
 #include <stdlib.h>

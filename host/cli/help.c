@@ -1,7 +1,7 @@
 /* --help: everything comes from the tables of commands, options and samplers. */
 #include "cli/command.h"
-#include "questions/options.h"
 #include "integrands/brdf.h"
+#include "questions/options.h"
 #include "samplers/sampler.h"
 
 #include <stdio.h>

@@ -4,9 +4,9 @@
 #include "base/text.h"
 #include "cli/answer.h"
 #include "cli/command.h"
+#include "questions/options.h"
 #include "store/cache_trust.h"
 #include "store/result_cache.h"
-#include "questions/options.h"
 
 #include <errno.h>
 #include <fcntl.h>

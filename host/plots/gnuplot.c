@@ -1,8 +1,8 @@
 #include "plots/gnuplot.h"
 
-#include "plots/plot.h"
 #include "files/temporary_file.h"
 #include "files/text_lines.h"
+#include "plots/plot.h"
 
 #include <errno.h>
 #include <fcntl.h>

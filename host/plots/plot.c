@@ -2,10 +2,10 @@
 #include "plots/plot.h"
 
 #include "base/text.h"
-#include "plots/gnuplot.h"
 #include "files/output_file.h"
-#include "plots/plot_script.h"
 #include "files/temporary_file.h"
+#include "plots/gnuplot.h"
+#include "plots/plot_script.h"
 
 #include <errno.h>
 #include <string.h>

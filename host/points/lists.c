@@ -3,8 +3,8 @@
 #include "base/memory_limit.h"
 #include "files/decimal.h"
 #include "files/npy.h"
-#include "points/points_format.h"
 #include "files/text_lines.h"
+#include "points/points_format.h"
 
 #include <math.h>
 #include <stdio.h>

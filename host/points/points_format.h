@@ -2,11 +2,11 @@
 #ifndef PS_POINTS_POINTS_FORMAT_H
 #define PS_POINTS_POINTS_FORMAT_H
 
-#include "base/text.h"
 #include "base/memory_limit.h"
-#include "points/columns.h"
+#include "base/text.h"
 #include "files/input_file.h"
 #include "files/output_file.h"
+#include "points/columns.h"
 #include "points/points.h"
 
 #include <stdio.h>

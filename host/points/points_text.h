@@ -2,8 +2,8 @@
 #ifndef PS_POINTS_POINTS_TEXT_H
 #define PS_POINTS_POINTS_TEXT_H
 
-#include "points/points_format.h"
 #include "files/text_rows.h"
+#include "points/points_format.h"
 
 typedef struct ps_text_state {
     ps_lines lines;

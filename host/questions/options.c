@@ -1,9 +1,9 @@
 #include "questions/options.h"
 
 #include "base/text.h"
-#include "questions/option_setters.h"
 #include "frequencies/frequency_sample.h"
 #include "points/points.h"
+#include "questions/option_setters.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -2,8 +2,8 @@
 #ifndef PS_QUESTIONS_QUADRATURE_QUESTION_H
 #define PS_QUESTIONS_QUADRATURE_QUESTION_H
 
-#include "questions/request.h"
 #include "jobs/quadrature/quadrature_setup.h"
+#include "questions/request.h"
 
 /* One question per sampler, or one for the files. The questions borrow from the arguments and from here. */
 typedef struct ps_quadrature_list {

@@ -3,8 +3,8 @@
 #ifndef PS_QUESTIONS_QUESTION_H
 #define PS_QUESTIONS_QUESTION_H
 
-#include "questions/request.h"
 #include "jobs/spectrum/power_job.h"
+#include "questions/request.h"
 
 /* One question per sampler, or one for the files. The questions borrow from the arguments. */
 typedef struct ps_question_list {

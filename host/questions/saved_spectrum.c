@@ -1,9 +1,9 @@
 #include "questions/saved_spectrum.h"
 
-#include "spectra/spectrum_file.h"
-#include "spectra/spectrum_format.h"
 #include "base/memory.h"
 #include "files/input_file.h"
+#include "spectra/spectrum_file.h"
+#include "spectra/spectrum_format.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -2,11 +2,11 @@
 #ifndef PS_REPORT_CHECK_TABLE_H
 #define PS_REPORT_CHECK_TABLE_H
 
-#include "spectra/compare.h"
-#include "questions/request.h"
-#include "tables/table.h"
 #include "jobs/spectrum/power_job.h"
+#include "questions/request.h"
 #include "questions/saved_spectrum.h"
+#include "spectra/compare.h"
+#include "tables/table.h"
 
 typedef struct ps_check_results {
     const ps_saved_spectrum *saved;

@@ -2,8 +2,8 @@
 #include "report/plan_table.h"
 
 #include "jobs/parts/point_phases.h"
-#include "jobs/spectrum/power_phases.h"
 #include "jobs/quadrature/quadrature_phases.h"
+#include "jobs/spectrum/power_phases.h"
 #include "questions/question.h"
 
 #include <stdio.h>

@@ -2,11 +2,11 @@
 #ifndef PS_REPORT_PLAN_TABLE_H
 #define PS_REPORT_PLAN_TABLE_H
 
-#include "tables/table.h"
 #include "device/device.h"
 #include "plan/phases.h"
 #include "questions/quadrature_question.h"
 #include "questions/question.h"
+#include "tables/table.h"
 
 typedef struct ps_planner {
     ps_table *table;

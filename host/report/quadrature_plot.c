@@ -1,6 +1,6 @@
 #include "base/memory.h"
-#include "report/quadrature_table.h"
 #include "plots/plot.h"
+#include "report/quadrature_table.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 #include "report/quadrature_table.h"
 
-#include "report/spectrum_header.h"
 #include "jobs/quadrature/quadrature_looks.h"
+#include "report/spectrum_header.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 #include "rules/equal_error.h"
 
-#include "rules/worst_case_error.h"
 #include "base/memory.h"
+#include "rules/worst_case_error.h"
 #include "samplers/sphere/spherical_fibonacci.h"
 
 #include <math.h>

@@ -2,9 +2,9 @@
 #ifndef PS_RULES_KERNEL_PRIVATE_H
 #define PS_RULES_KERNEL_PRIVATE_H
 
+#include "engines/pairs/pairs_product.h"
 #include "rules/kernel_factor.h"
 #include "rules/kernel_system.h"
-#include "engines/pairs/pairs_product.h"
 
 /* Arrays of N doubles: solution and residual; then numbers in two parts, or the three of conjugate
  * gradients. */

@@ -8,8 +8,8 @@
 #ifndef PS_RULES_WORST_CASE_ERROR_H
 #define PS_RULES_WORST_CASE_ERROR_H
 
-#include "rules/representer.h"
 #include "base/watch.h"
+#include "rules/representer.h"
 
 /* Unit vectors [num_points][3] and their weights; weights NULL: 1/N each. Borrowed. */
 typedef struct ps_rule {

@@ -1,7 +1,7 @@
 #include "spectra/accumulate.h"
 
-#include "spectra/accumulate_device.h"
 #include "base/memory.h"
+#include "spectra/accumulate_device.h"
 
 #include <stdlib.h>
 #include <string.h>

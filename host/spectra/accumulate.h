@@ -12,9 +12,9 @@
 #ifndef PS_SPECTRA_ACCUMULATE_H
 #define PS_SPECTRA_ACCUMULATE_H
 
+#include "engines/engine.h"
 #include "spectra/bins.h"
 #include "spectra/sums.h"
-#include "engines/engine.h"
 
 typedef struct ps_accumulator ps_accumulator;
 

@@ -1,9 +1,9 @@
 #include "spectra/accumulate_device.h"
 
-#include "spectra/accumulate_blocks.h"
 #include "base/memory.h"
 #include "base/round.h"
 #include "base/workers.h"
+#include "spectra/accumulate_blocks.h"
 
 #include <stdlib.h>
 

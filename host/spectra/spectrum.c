@@ -1,8 +1,8 @@
 #include "spectra/spectrum.h"
 
-#include "spectra/ring_statistics.h"
 #include "base/memory.h"
 #include "base/workers.h"
+#include "spectra/ring_statistics.h"
 
 #include <math.h>
 #include <stdlib.h>

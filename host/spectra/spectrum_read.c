@@ -1,7 +1,7 @@
-#include "spectra/spectrum_file.h"
-#include "spectra/spectrum_format.h"
 #include "base/memory.h"
 #include "frequencies/frequency_sample.h"
+#include "spectra/spectrum_file.h"
+#include "spectra/spectrum_format.h"
 
 #include <errno.h>
 #include <inttypes.h>

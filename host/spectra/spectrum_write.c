@@ -1,7 +1,7 @@
-#include "spectra/spectrum_file.h"
-#include "spectra/spectrum_format.h"
 #include "base/text.h"
 #include "files/output_file.h"
+#include "spectra/spectrum_file.h"
+#include "spectra/spectrum_format.h"
 
 #include "pointspec_version.h"
 

@@ -1,9 +1,9 @@
 #include "store/cache_entry.h"
 
 #include "base/memory.h"
-#include "store/cache_trust.h"
 #include "files/input_file.h"
 #include "files/output_file.h"
+#include "store/cache_trust.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,11 +1,11 @@
 #include "store/figures_file.h"
 
 #include "base/memory.h"
-#include "store/cache_folder.h"
-#include "store/cache_trust.h"
 #include "files/digest.h"
 #include "files/input_file.h"
 #include "files/output_file.h"
+#include "store/cache_folder.h"
+#include "store/cache_trust.h"
 #include "store/figures_text.h"
 
 #include <stdio.h>

@@ -1,8 +1,8 @@
 #include "verify/stress.h"
 
 #include "base/text.h"
-#include "verify/stress_sample.h"
 #include "plan/choose.h"
+#include "verify/stress_sample.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -2,15 +2,15 @@
  * (docs/mathematics/quadrature.md, docs/mathematics/numerics.md). */
 #include "verify/stress_probes.h"
 
-#include "rules/optimal_weights.h"
-#include "rules/worst_case_error.h"
 #include "base/memory.h"
 #include "engines/host/host_pairs.h"
 #include "integrands/brdf.h"
-#include "verify/stress_shapes.h"
 #include "math/gauss_legendre.h"
 #include "math/pi.h"
 #include "math/sobolev.h"
+#include "rules/optimal_weights.h"
+#include "rules/worst_case_error.h"
+#include "verify/stress_shapes.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,7 +1,7 @@
 /* Inputs: files, pipes, gzip; and rows of numbers parsed by several threads. */
 #include "base/workers.h"
-#include "harness_points.h"
 #include "files/text_rows.h"
+#include "harness_points.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,9 +1,9 @@
 /* Random subsets of rings and shells: what is in them, how often, and what they depend on. */
 #include "harness.h"
 
-#include "spectra/bins.h"
 #include "frequencies/frequency_sample.h"
 #include "math/random/subset.h"
+#include "spectra/bins.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,10 +1,10 @@
 /* What people type: samplers with their parameters, and the words of commands. */
 #include "base/text.h"
 #include "cli/command.h"
-#include "questions/options.h"
-#include "questions/question.h"
 #include "fuzz.h"
 #include "integrands/brdf.h"
+#include "questions/options.h"
+#include "questions/question.h"
 #include "samplers/sampler.h"
 
 #include <math.h>

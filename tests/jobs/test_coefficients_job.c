@@ -5,8 +5,8 @@
 #include "harness_sphere_shapes.h"
 
 #include "engines/host/host_direct.h"
-#include "engines/sphere/sphere_direct.h"
 #include "engines/sphere/nufft/sphere_nufft.h"
+#include "engines/sphere/sphere_direct.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -4,8 +4,8 @@
 #include "harness_quadrature.h"
 #include "harness_sphere.h"
 
-#include "rules/optimal_weights.h"
 #include "engines/host/host_direct.h"
+#include "rules/optimal_weights.h"
 
 #include <math.h>
 #include <stdio.h>

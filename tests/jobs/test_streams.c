@@ -5,8 +5,8 @@
 
 #include "engines/torus/nufft/torus_nufft.h"
 #include "files/npy.h"
-#include "points/points.h"
 #include "jobs/spectrum/power_job.h"
+#include "points/points.h"
 
 #include "test_folder.h"
 

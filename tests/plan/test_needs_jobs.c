@@ -3,8 +3,8 @@
 
 #include "engines/host/host_direct.h"
 #include "engines/torus/torus_direct.h"
-#include "jobs/spectrum/power_job.h"
 #include "jobs/quadrature/quadrature_job.h"
+#include "jobs/spectrum/power_job.h"
 
 #include <math.h>
 

@@ -2,8 +2,8 @@
  * docs/mathematics/quadrature.md#truncation and Table 1 of Marques et al. */
 #include "harness.h"
 
-#include "rules/truncation.h"
 #include "rules/equal_error.h"
+#include "rules/truncation.h"
 
 #include <math.h>
 #include <stdlib.h>

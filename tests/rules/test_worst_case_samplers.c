@@ -2,9 +2,9 @@
 #include "harness_quadrature.h"
 #include "harness_sphere.h"
 
+#include "engines/host/host_direct.h"
 #include "rules/truncation.h"
 #include "rules/worst_case_error.h"
-#include "engines/host/host_direct.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,9 +4,9 @@
  * always. */
 #include "harness.h"
 
-#include "spectra/compare.h"
 #include "math/pi.h"
 #include "math/random/random.h"
+#include "spectra/compare.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,8 +1,8 @@
 /* When a job stops at a standard error: the looks, the rule, and how often the rule is wrong. */
 #include "harness.h"
 
-#include "spectra/sequential.h"
 #include "jobs/spectrum/power_job.h"
+#include "spectra/sequential.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,8 +2,8 @@
  * them. No device is opened: planning is a function of problem, limits and figures. */
 #include "harness_plan.h"
 
-#include "store/figures_text.h"
 #include "plan/host_cost.h"
+#include "store/figures_text.h"
 #include "store/host_figures.h"
 
 #include "pointspec_version.h"

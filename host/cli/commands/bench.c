@@ -1,12 +1,12 @@
 /* pointspec bench: run time against error on this device, and its figures for the planner. */
-#include "report/bench_plot.h"
-#include "cli/commands/bench_scenes.h"
 #include "cli/command.h"
+#include "cli/commands/bench_scenes.h"
 #include "cli/output_check.h"
 #include "cli/picture.h"
-#include "tables/table_stream.h"
-#include "store/host_figures.h"
 #include "questions/options.h"
+#include "report/bench_plot.h"
+#include "store/host_figures.h"
+#include "tables/table_stream.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -2,8 +2,8 @@
 #ifndef PS_CLI_COMMANDS_BENCH_SCENES_H
 #define PS_CLI_COMMANDS_BENCH_SCENES_H
 
-#include "tables/table.h"
 #include "questions/request.h"
+#include "tables/table.h"
 
 /* Answers the scenes arguments->files with and without skips, in turn, without the cache, and compares the answers of every
  * question. A row for each result; PSPEC_ERROR_CHECK, after the table is made, when answers differ by more than both sides

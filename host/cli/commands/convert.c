@@ -1,8 +1,8 @@
 /* pointspec convert: point files into another format, block by block. */
 #include "cli/command.h"
 #include "cli/output_check.h"
-#include "questions/question.h"
 #include "jobs/convert.h"
+#include "questions/question.h"
 
 #include <string.h>
 #include <unistd.h>

@@ -1,8 +1,8 @@
 /* pointspec devices: what OpenCL offers here, and which device would be used. */
 #include "cli/command.h"
-#include "tables/table.h"
-#include "store/figures_file.h"
 #include "engines/engine.h"
+#include "store/figures_file.h"
+#include "tables/table.h"
 
 #include <stdlib.h>
 

@@ -1,7 +1,7 @@
 /* pointspec doctor: what works here, and what does not. */
+#include "api/doctor.h"
 #include "cli/command.h"
 #include "store/result_cache.h"
-#include "api/doctor.h"
 
 #include <stdio.h>
 

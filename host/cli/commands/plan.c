@@ -1,8 +1,8 @@
 /* pointspec plan: what another command would do, by what, what it skips and why. */
 #include "cli/command.h"
 #include "cli/run_shown.h"
-#include "store/host_figures.h"
 #include "questions/options.h"
+#include "store/host_figures.h"
 
 #include "pointspec_version.h"
 

@@ -2,10 +2,10 @@
  */
 #include "base/memory.h"
 #include "base/memory_limit.h"
-#include "cli/command.h"
 #include "base/text.h"
-#include "questions/question.h"
+#include "cli/command.h"
 #include "points/points.h"
+#include "questions/question.h"
 #include "samplers/sampler.h"
 
 #include <stdlib.h>

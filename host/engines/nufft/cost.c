@@ -1,11 +1,11 @@
 #include "engines/nufft/cost.h"
 
 #include "base/round.h"
+#include "device/reals.h"
 #include "engines/nufft/fft.h"
 #include "engines/nufft/kernels.h"
 #include "engines/nufft/plan.h"
 #include "engines/nufft/whole_shape.h"
-#include "device/reals.h"
 
 #include <math.h>
 

@@ -2,8 +2,8 @@
 
 #include "base/memory.h"
 #include "base/round.h"
-#include "engines/nufft/kernels.h"
 #include "device/reals.h"
+#include "engines/nufft/kernels.h"
 
 #include <math.h>
 #include <stdlib.h>

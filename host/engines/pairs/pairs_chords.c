@@ -2,8 +2,8 @@
 
 #include "base/memory.h"
 #include "base/round.h"
-#include "engines/pairs/pairs_points.h"
 #include "device/reals.h"
+#include "engines/pairs/pairs_points.h"
 
 #include <stdlib.h>
 

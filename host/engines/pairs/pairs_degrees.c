@@ -2,8 +2,8 @@
 
 #include "base/memory.h"
 #include "base/round.h"
-#include "engines/error_units.h"
 #include "device/reals.h"
+#include "engines/error_units.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,9 +3,9 @@
 
 #include "base/memory.h"
 #include "base/round.h"
+#include "device/reals.h"
 #include "engines/error_units.h"
 #include "engines/pairs/pairs_degrees.h"
-#include "device/reals.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -4,10 +4,10 @@
 
 #include "base/memory.h"
 #include "base/round.h"
+#include "device/reals.h"
 #include "engines/error_units.h"
 #include "engines/pairs/pairs_bins.h"
 #include "engines/pairs/pairs_degrees.h"
-#include "device/reals.h"
 
 #include <math.h>
 #include <stdlib.h>

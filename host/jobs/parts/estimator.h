@@ -8,11 +8,11 @@
 #ifndef PS_JOBS_PARTS_ESTIMATOR_H
 #define PS_JOBS_PARTS_ESTIMATOR_H
 
-#include "spectra/spectrum_sums.h"
 #include "base/log.h"
 #include "jobs/parts/estimator_pairs.h"
 #include "jobs/parts/pattern_check.h"
 #include "plan/choose.h"
+#include "spectra/spectrum_sums.h"
 
 typedef struct ps_estimator ps_estimator;
 

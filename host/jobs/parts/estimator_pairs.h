@@ -2,9 +2,9 @@
 #ifndef PS_JOBS_PARTS_ESTIMATOR_PAIRS_H
 #define PS_JOBS_PARTS_ESTIMATOR_PAIRS_H
 
+#include "engines/engine.h"
 #include "spectra/accumulate.h"
 #include "spectra/sums.h"
-#include "engines/engine.h"
 
 /* Told of the realizations, one after the other in their order: Z(l) = sum_j w_j P_l(z_j) and C_l^2 for l = 0 .. L,
  * borrowed until it returns. */

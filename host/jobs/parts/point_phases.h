@@ -2,8 +2,8 @@
 #ifndef PS_JOBS_PARTS_POINT_PHASES_H
 #define PS_JOBS_PARTS_POINT_PHASES_H
 
-#include "points/points.h"
 #include "plan/phases.h"
+#include "points/points.h"
 #include "samplers/sampler.h"
 
 /* Of so many realizations of a sampler: the phase "points". */

@@ -6,8 +6,8 @@
 #ifndef PS_JOBS_PARTS_SOURCE_H
 #define PS_JOBS_PARTS_SOURCE_H
 
-#include "points/points.h"
 #include "jobs/parts/pattern_check.h"
+#include "points/points.h"
 #include "samplers/sampler.h"
 
 #include <stdint.h>

@@ -5,9 +5,9 @@
 #ifndef PS_JOBS_QUADRATURE_QUADRATURE_JOB_H
 #define PS_JOBS_QUADRATURE_QUADRATURE_JOB_H
 
+#include "jobs/spectrum/power_job.h"
 #include "rules/kernel_system.h"
 #include "rules/representer.h"
-#include "jobs/spectrum/power_job.h"
 
 typedef enum ps_rule_weights {
     PS_WEIGHTS_EQUAL = 0, /* 1/N */

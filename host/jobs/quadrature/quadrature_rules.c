@@ -1,10 +1,10 @@
 #include "jobs/quadrature/quadrature_rules.h"
 
-#include "rules/optimal_weights.h"
 #include "base/memory.h"
 #include "base/pieces.h"
 #include "engines/pairs/pairs_product.h"
 #include "math/linear/cholesky.h"
+#include "rules/optimal_weights.h"
 
 #include <float.h>
 #include <math.h>

@@ -2,8 +2,8 @@
 #ifndef PS_JOBS_QUADRATURE_QUADRATURE_RULES_H
 #define PS_JOBS_QUADRATURE_QUADRATURE_RULES_H
 
-#include "rules/worst_case_error.h"
 #include "jobs/quadrature/quadrature_setup.h"
+#include "rules/worst_case_error.h"
 
 typedef struct ps_weighted_rule {
     ps_point_set set;

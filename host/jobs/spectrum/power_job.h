@@ -8,11 +8,11 @@
 #ifndef PS_JOBS_SPECTRUM_POWER_JOB_H
 #define PS_JOBS_SPECTRUM_POWER_JOB_H
 
-#include "spectra/sequential.h"
 #include "base/watch.h"
 #include "jobs/parts/estimator.h"
 #include "jobs/parts/source.h"
 #include "plan/needs.h"
+#include "spectra/sequential.h"
 
 typedef struct ps_power_question {
     /* realizations: a sampler, or files */

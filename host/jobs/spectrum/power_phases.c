@@ -1,8 +1,8 @@
 #include "jobs/spectrum/power_phases.h"
 
 #include "jobs/parts/point_phases.h"
-#include "jobs/spectrum/power_job_private.h"
 #include "jobs/parts/self_check.h"
+#include "jobs/spectrum/power_job_private.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,9 +1,9 @@
 /* Answers in the cache of results: under which key, as which bytes. */
 #include "base/memory.h"
-#include "scene/run/run.h"
-#include "tables/table_pack.h"
-#include "store/figures_file.h"
 #include "pointspec_version.h"
+#include "scene/run/run.h"
+#include "store/figures_file.h"
+#include "tables/table_pack.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -2,8 +2,8 @@
 #ifndef PS_SCENE_RUN_DRAWING_H
 #define PS_SCENE_RUN_DRAWING_H
 
-#include "scene/run/run.h"
 #include "plots/plot.h"
+#include "scene/run/run.h"
 
 typedef struct ps_artist {
     ps_run *run;

@@ -1,6 +1,6 @@
 /* The page of a run: one file of HTML with its pictures inside, which needs no network. */
-#include "scene/run/run.h"
 #include "pointspec_version.h"
+#include "scene/run/run.h"
 
 #include <math.h>
 #include <string.h>

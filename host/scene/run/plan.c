@@ -1,6 +1,6 @@
 /* The plan of a scene: a block for each of its questions. */
-#include "scene/run/run.h"
 #include "scene/run/pictures.h"
+#include "scene/run/run.h"
 
 #include <stdio.h>
 

@@ -1,6 +1,6 @@
 /* The record of a run: the scene as JSON, which can be run again, with what it gave, by what, and where. */
-#include "scene/run/run.h"
 #include "pointspec_version.h"
+#include "scene/run/run.h"
 
 #include <stdlib.h>
 #include <string.h>

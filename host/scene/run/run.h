@@ -18,12 +18,12 @@
 #ifndef PS_SCENE_RUN_RUN_H
 #define PS_SCENE_RUN_RUN_H
 
+#include "files/digest.h"
 #include "results/kind.h"
 #include "scene/run/files.h"
 #include "scene/run/pictures.h"
-#include "files/digest.h"
-#include "store/result_cache.h"
 #include "scene/scene.h"
+#include "store/result_cache.h"
 
 typedef struct ps_run_question {
     ps_scene_question asked;

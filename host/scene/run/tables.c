@@ -1,7 +1,7 @@
 /* The tables of a scene: of every result the rows of all its questions, and a summary with a row for each. */
 #include "base/memory.h"
-#include "scene/run/run.h"
 #include "pointspec_version.h"
+#include "scene/run/run.h"
 
 #include <errno.h>
 #include <math.h>

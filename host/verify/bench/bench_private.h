@@ -2,9 +2,9 @@
 #ifndef PS_VERIFY_BENCH_BENCH_PRIVATE_H
 #define PS_VERIFY_BENCH_BENCH_PRIVATE_H
 
+#include "plan/choose.h"
 #include "verify/bench/bench.h"
 #include "verify/stress_sample.h"
-#include "plan/choose.h"
 
 /* Realizations of the case, in host memory. */
 typedef struct ps_bench_sets {

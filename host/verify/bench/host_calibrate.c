@@ -5,8 +5,8 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "base/text.h"
-#include "verify/bench/host_probes.h"
 #include "samplers/sampler.h"
+#include "verify/bench/host_probes.h"
 
 #include <math.h>
 #include <stdlib.h>

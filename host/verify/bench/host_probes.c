@@ -1,18 +1,18 @@
 /* See host_probes.h. */
 #include "verify/bench/host_probes.h"
 
-#include "spectra/bins.h"
-#include "rules/kernel_factor.h"
-#include "rules/kernel_system.h"
-#include "rules/worst_case_error.h"
 #include "base/clock.h"
 #include "base/memory.h"
 #include "base/workers.h"
 #include "engines/host/host_direct.h"
 #include "engines/pairs/pairs_zonal.h"
 #include "points/points.h"
-#include "verify/bench/start_probes.h"
+#include "rules/kernel_factor.h"
+#include "rules/kernel_system.h"
+#include "rules/worst_case_error.h"
 #include "samplers/sampler.h"
+#include "spectra/bins.h"
+#include "verify/bench/start_probes.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,8 +3,8 @@
 #ifndef PS_VERIFY_BENCH_HOST_PROBES_H
 #define PS_VERIFY_BENCH_HOST_PROBES_H
 
-#include "rules/representer.h"
 #include "plan/host_cost.h"
+#include "rules/representer.h"
 
 enum { PS_PROBE_POINTS = 1 << 17 };
 

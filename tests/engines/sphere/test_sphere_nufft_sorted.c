@@ -4,8 +4,8 @@
 #include "harness_sphere.h"
 #include "harness_sphere_shapes.h"
 
-#include "engines/sphere/nufft/sphere_nufft.h"
 #include "engines/sphere/nufft/shape.h"
+#include "engines/sphere/nufft/sphere_nufft.h"
 
 #include <stdlib.h>
 #include <string.h>

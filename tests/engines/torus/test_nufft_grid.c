@@ -4,8 +4,8 @@
 #include "harness.h"
 
 #include "engines/torus/nufft/layout.h"
-#include "engines/torus/torus_direct.h"
 #include "engines/torus/nufft/torus_nufft.h"
+#include "engines/torus/torus_direct.h"
 
 #include <math.h>
 #include <stdlib.h>

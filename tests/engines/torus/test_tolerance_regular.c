@@ -9,8 +9,8 @@
 #include "harness_shapes.h"
 
 #include "engines/nufft/choice.h"
-#include "engines/torus/torus_direct.h"
 #include "engines/torus/nufft/torus_nufft.h"
+#include "engines/torus/torus_direct.h"
 
 #include <math.h>
 #include <stdlib.h>

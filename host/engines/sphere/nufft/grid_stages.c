@@ -1,7 +1,7 @@
 #include "engines/sphere/nufft/grid_stages.h"
 
-#include "engines/nufft/fft.h"
 #include "device/reals.h"
+#include "engines/nufft/fft.h"
 
 /* Of powers, and of coefficients. */
 static const char sums_file[] = "sphere/nufft/grid_sums.cl";

@@ -6,8 +6,8 @@
 
 #include "engines/sphere/nufft/grid_table.h"
 #include "engines/sphere/nufft/points.h"
-#include "engines/sphere/nufft/tables.h"
 #include "engines/sphere/nufft/sphere_powers.h"
+#include "engines/sphere/nufft/tables.h"
 
 typedef struct ps_sphere_grid_stages {
     ps_device *device;

@@ -1,10 +1,10 @@
 #include "engines/sphere/nufft/shape.h"
 
 #include "base/round.h"
+#include "device/reals.h"
 #include "engines/nufft/fft.h"
 #include "engines/nufft/kernels.h"
 #include "engines/nufft/plan.h"
-#include "device/reals.h"
 
 #include <math.h>
 

@@ -1,8 +1,8 @@
 #include "engines/sphere/nufft/stages.h"
 
 #include "base/round.h"
-#include "engines/nufft/fft.h"
 #include "device/reals.h"
+#include "engines/nufft/fft.h"
 
 /* Bits of kernels/sphere/nufft/orders.cl. */
 enum { STEP_SPREAD = 1, STEP_AROUND = 2, STEP_RINGS = 4 };

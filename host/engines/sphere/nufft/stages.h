@@ -5,8 +5,8 @@
 #define PS_ENGINES_SPHERE_NUFFT_STAGES_H
 
 #include "engines/sphere/nufft/points.h"
-#include "engines/sphere/nufft/tables.h"
 #include "engines/sphere/nufft/sphere_powers.h"
+#include "engines/sphere/nufft/tables.h"
 
 typedef struct ps_sphere_stages {
     ps_device *device;

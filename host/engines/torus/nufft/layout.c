@@ -1,9 +1,9 @@
 #include "engines/torus/nufft/layout.h"
 
 #include "base/round.h"
+#include "device/reals.h"
 #include "engines/nufft/kernels.h"
 #include "engines/nufft/plan.h"
-#include "device/reals.h"
 
 #include <math.h>
 

@@ -4,8 +4,8 @@
 #ifndef PS_ENGINES_TORUS_NUFFT_TILES_H
 #define PS_ENGINES_TORUS_NUFFT_TILES_H
 
-#include "engines/torus/nufft/places.h"
 #include "engines/nufft/plan.h"
+#include "engines/torus/nufft/places.h"
 
 typedef struct ps_nufft_tiles {
     const ps_nufft_layout *layout;

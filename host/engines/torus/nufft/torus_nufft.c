@@ -4,13 +4,13 @@
 
 #include "base/memory.h"
 #include "base/round.h"
+#include "device/reals.h"
+#include "engines/nufft/plan.h"
 #include "engines/torus/nufft/grid.h"
 #include "engines/torus/nufft/layout.h"
 #include "engines/torus/nufft/places.h"
-#include "engines/nufft/plan.h"
 #include "engines/torus/nufft/tiles.h"
 #include "engines/torus/nufft/whole.h"
-#include "device/reals.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,8 +3,8 @@
 #ifndef PS_ENGINES_TORUS_NUFFT_WHOLE_H
 #define PS_ENGINES_TORUS_NUFFT_WHOLE_H
 
-#include "engines/torus/nufft/layout.h"
 #include "engines/nufft/plan.h"
+#include "engines/torus/nufft/layout.h"
 #include "engines/torus/torus_points.h"
 
 typedef struct ps_nufft_whole {
