@@ -1,4 +1,4 @@
-/* What reading and printing of doubles know of their bits. Private to host/io. */
+/* What reading and printing of doubles know of their bits. Private to host/files. */
 #ifndef PS_FILES_DECIMAL_BITS_H
 #define PS_FILES_DECIMAL_BITS_H
 

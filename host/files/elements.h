@@ -1,5 +1,5 @@
-/* Numbers of binary files as doubles: the conversions that UTK binary, NPY and RPS share. Private to
- * host/io. */
+/* Numbers of binary files as doubles: the conversions that UTK binary, NPY and RPS share. For
+ * host/files and host/points. */
 #ifndef PS_FILES_ELEMENTS_H
 #define PS_FILES_ELEMENTS_H
 

@@ -1,4 +1,4 @@
-/* Decompression of gzip data as they are read, through zlib. Private to host/io. */
+/* Decompression of gzip data as they are read, through zlib. Private to host/files. */
 #ifndef PS_FILES_GZIP_H
 #define PS_FILES_GZIP_H
 

@@ -1,4 +1,4 @@
-/* Rows of numbers in a long text, parsed by several threads. Private to host/io. */
+/* Rows of numbers in a long text, parsed by several threads. For host/files and host/points. */
 #ifndef PS_FILES_TEXT_ROWS_H
 #define PS_FILES_TEXT_ROWS_H
 

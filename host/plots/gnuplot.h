@@ -1,4 +1,4 @@
-/* The program gnuplot: where it is, and a script that it turns into a picture. Private to host/io; others look for it by
+/* The program gnuplot: where it is, and a script that it turns into a picture. Private to host/plots; others look for it by
  * ps_plot_find_gnuplot (plots/plot.h).
  *
  * The script is its standard input, a file without a name; the picture its standard output, a pipe that is read here to its

@@ -1,4 +1,4 @@
-/* The gnuplot script of a picture, data included. Private to host/io. */
+/* The gnuplot script of a picture, data included. Private to host/plots. */
 #ifndef PS_PLOTS_PLOT_SCRIPT_H
 #define PS_PLOTS_PLOT_SCRIPT_H
 

@@ -1,5 +1,5 @@
 /* From the columns of a file to points, and back: which columns are coordinates, which are angles,
- * which one is the weight. Private to host/io. */
+ * which one is the weight. Private to host/points. */
 #ifndef PS_POINTS_COLUMNS_H
 #define PS_POINTS_COLUMNS_H
 

@@ -1,4 +1,4 @@
-/* What a point format must provide; the table of formats is in points.c. Private to host/io. */
+/* What a point format must provide; the table of formats is in points.c. Private to host/points. */
 #ifndef PS_POINTS_POINTS_FORMAT_H
 #define PS_POINTS_POINTS_FORMAT_H
 

@@ -1,4 +1,4 @@
-/* What the formats of text share: lines, and rows of numbers in them. Private to host/io. */
+/* What the formats of text share: lines, and rows of numbers in them. Private to host/points. */
 #ifndef PS_POINTS_POINTS_TEXT_H
 #define PS_POINTS_POINTS_TEXT_H
 

@@ -1,4 +1,4 @@
-/* What a table holds, for the files that build it and write it. Private to host/io. */
+/* What a table holds, for the files that build it and write it. Private to host/tables. */
 #ifndef PS_TABLES_TABLE_ROWS_H
 #define PS_TABLES_TABLE_ROWS_H
 
