@@ -42,13 +42,14 @@ static void end_waiting(ps_output_file *file) {
     }
 }
 
+/* The temporary file loses its name while it is locked, see temporary_file.h. */
 static void destroy(ps_output_file *file) {
     end_waiting(file);
-    if (file->stream != NULL && !file->is_caller_owned) {
-        fclose(file->stream);
-    }
     if (file->temporary != NULL) {
         unlink(file->temporary);
+    }
+    if (file->stream != NULL && !file->is_caller_owned) {
+        fclose(file->stream);
     }
     free(file->name);
     free(file->target);
@@ -256,10 +257,13 @@ static pspec_status take_name(ps_output_file *file, ps_error *error) {
     if (status == PSPEC_OK && rename(file->temporary, file->target) != 0) {
         status = fail_write(file->name, errno, error);
     }
-    close(lock);
-    PS_TRY(status);
+    if (status != PSPEC_OK) {
+        unlink(file->temporary);
+    }
     free(file->temporary);
     file->temporary = NULL;
+    close(lock);
+    PS_TRY(status);
     sync_folder(file->target);
     return PSPEC_OK;
 }

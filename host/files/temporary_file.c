@@ -33,16 +33,25 @@ static bool is_ours(const char *name, const char *start) {
 
 /* ---- what dead processes left -------------------------------------------------------------- */
 
-/* Whoever writes to the file holds its lock. Files that are no files, or that cannot be opened, stay. */
+/* Whether the name still belongs to the file that is open: its writer may have given it the final name in the meantime,
+ * and may write the next one under the old name already. */
+static bool has_name(int descriptor, int folder, const char *name) {
+    struct stat file;
+    struct stat named;
+    return fstat(descriptor, &file) == 0 &&
+           fstatat(folder, name, &named, AT_SYMLINK_NOFOLLOW) == 0 && S_ISREG(file.st_mode) &&
+           file.st_uid == geteuid() && file.st_dev == named.st_dev && file.st_ino == named.st_ino;
+}
+
+/* Whoever writes to the file holds its lock, and takes its name away before the lock goes: with the lock in hand, the name
+ * is looked at once more, and then stays as it is. Files that are no files, or that cannot be opened, stay. */
 static void remove_if_dead(int folder, const char *folder_path, const char *name) {
-    struct stat facts;
     ps_text path = {0};
     ps_text_append(&path, "%s%s", folder_path, name);
     const int descriptor =
         path.failed ? -1 : open(path.data, O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     if (descriptor >= 0) {
-        if (fstat(descriptor, &facts) == 0 && S_ISREG(facts.st_mode) && facts.st_uid == geteuid() &&
-            flock(descriptor, LOCK_EX | LOCK_NB) == 0) {
+        if (flock(descriptor, LOCK_EX | LOCK_NB) == 0 && has_name(descriptor, folder, name)) {
             (void)unlinkat(folder, name, 0);
         }
         close(descriptor);

@@ -4,7 +4,8 @@
  * A name is .pointspec-HOST-PID-NUMBER.tmp, HOST a checksum of the machine's name, and whoever has made the file holds a
  * lock on it until it is closed. So a file that a process left behind which was killed can be told from one that is being
  * written, whatever became of the process's number: its lock can be had. The next file that is made in the folder takes
- * such files away, but for those with the number of the process that makes it: they are its own.
+ * such files away, but for those with the number of the process that makes it: they are its own. For that a file has to
+ * lose its name, by unlink or rename, before its lock goes: names are used again.
  */
 #ifndef PS_FILES_TEMPORARY_FILE_H
 #define PS_FILES_TEMPORARY_FILE_H

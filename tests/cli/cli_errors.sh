@@ -227,6 +227,10 @@ refuses 1 'missing.txt: No such file' power --frequencies missing.txt /dev/zero
 refuses 1 'missing.txt: No such file' angular -l 8 /dev/zero missing.txt
 refuses 2 'there is no engine "nonsense"' quadrature --brdf diffuse -l 8 --engine nonsense /dev/zero
 refuses 1 'missing.txt: No such file' quadrature --brdf diffuse -l 8 --weights missing.txt /dev/zero
+refuses 1 'no OpenCL device fits "nonsense"' quadrature --brdf diffuse -l 8 --device nonsense /dev/zero
+refuses 1 'no OpenCL device fits "nonsense"' plan quadrature --brdf diffuse -l 8 --device nonsense /dev/zero
+refuses 1 'no OpenCL device fits "nonsense"' pairs -l 8 --device nonsense /dev/zero
+refuses 1 'no OpenCL device fits "nonsense"' angular -l 8 --device nonsense /dev/zero
 says_exactly 'can be indexed; a list of frequencies has no such limit' power --sampler white -n 16 -d 2 -k 100000
 says_exactly '(--per-ring) and lists of frequencies have no such limit' power --sampler white -n 16 -d 5 -k 200
 says_exactly 'in dimension 5 can be indexed' power --sampler white -n 16 -d 5 -k 200 --full full.npy

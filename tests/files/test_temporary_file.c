@@ -2,12 +2,15 @@
 #include "files/temporary_file.h"
 #include "test_folder.h"
 
+#include <errno.h>
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -68,10 +71,57 @@ static void files_of_others_stay_while_locked(void **state) {
     }
 }
 
+/* ---- several processes --------------------------------------------------------------------- */
+
+/* Makes files and gives them their final name, as outputs are made. 0: every file was there until then. */
+static int make_and_rename(const test_folder *folder, unsigned number) {
+    enum { NUM_FILES = 4000 };
+    char name[32];
+    char final_path[TEST_PATH_BYTES];
+    char where[TEST_PATH_BYTES];
+    snprintf(name, sizeof name, "final-%u", number);
+    test_path(folder, name, final_path);
+    test_path(folder, "", where);
+    for (int i = 0; i < NUM_FILES; i++) {
+        char *path = NULL;
+        const int descriptor = ps_temporary_create(where, strlen(where), 0600, &path);
+        const bool is_there = descriptor >= 0 && rename(path, final_path) == 0;
+        close(descriptor);
+        free(path);
+        if (!is_there) {
+            fprintf(stderr, "process %u, file %d: %s\n", number, i, strerror(errno));
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* Names are used again at once: who clears up may have opened the file that had the name before. */
+static void several_processes_keep_their_files(void **state) {
+    enum { NUM_PROCESSES = 4 };
+    pid_t children[NUM_PROCESSES];
+    fflush(stdout);
+    for (unsigned i = 0; i < NUM_PROCESSES; i++) {
+        children[i] = fork();
+        assert_true(children[i] >= 0);
+        if (children[i] == 0) {
+            _exit(make_and_rename(*state, i));
+        }
+    }
+    for (unsigned i = 0; i < NUM_PROCESSES; i++) {
+        int result = 0;
+        assert_int_equal(waitpid(children[i], &result, 0), children[i]);
+        assert_true(WIFEXITED(result));
+        assert_int_equal(WEXITSTATUS(result), 0);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(own_files_stay, test_folder_create, test_folder_remove),
         cmocka_unit_test_setup_teardown(files_of_others_stay_while_locked, test_folder_create,
+                                        test_folder_remove),
+        cmocka_unit_test_setup_teardown(several_processes_keep_their_files, test_folder_create,
                                         test_folder_remove),
     };
     return cmocka_run_group_tests_name("temporary_file", tests, NULL, NULL);

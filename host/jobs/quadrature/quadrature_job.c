@@ -1,7 +1,6 @@
 #include "jobs/quadrature/quadrature_job.h"
 
 #include "base/memory.h"
-#include "files/input_file.h"
 #include "jobs/quadrature/quadrature_looks.h"
 #include "jobs/quadrature/quadrature_rules.h"
 #include "math/pi.h"
@@ -294,6 +293,7 @@ static pspec_status run_once(job *of, double mean_power, double largest_share, b
                              ps_error *error) {
     const ps_quadrature_question *const question = of->question;
     *again = false;
+    PS_TRY(ps_quadrature_setup_begin(&of->setup, question, error));
     PS_TRY(ps_rules_open(&of->rules, &of->shape, error));
     of->shape.mean_power = mean_power;
     of->shape.largest_share = largest_share;
@@ -330,13 +330,6 @@ static void release(job *of) {
     ps_quadrature_setup_free(&of->setup);
 }
 
-/* Names that can be wrong are looked at before sets are read, which may take long. */
-static pspec_status check_names(const ps_quadrature_question *question, ps_error *error) {
-    PS_TRY(ps_plan_check_engine(question->constraints.engine, PS_ON_SPHERE, error));
-    PS_TRY(ps_inputs_check(question->paths, question->num_paths, error));
-    return ps_inputs_check(&question->weights_path, 1, error);
-}
-
 pspec_status ps_quadrature_run(ps_quadrature_result *out, const ps_quadrature_question *question,
                                ps_error *error) {
     enum { MOST_RUNS = 3 };
@@ -344,7 +337,6 @@ pspec_status ps_quadrature_run(ps_quadrature_result *out, const ps_quadrature_qu
     double largest_share = 0;
     bool again = true;
     *out = (ps_quadrature_result){0};
-    PS_TRY(check_names(question, error));
     for (int i = 0; i < MOST_RUNS && again; i++) {
         ps_quadrature_free(out);
         *out = (ps_quadrature_result){.largest_condition = NAN, .was_replanned = i > 0};

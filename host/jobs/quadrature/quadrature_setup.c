@@ -1,5 +1,6 @@
 #include "jobs/quadrature/quadrature_setup.h"
 
+#include "files/input_file.h"
 #include "jobs/quadrature/quadrature_needs.h"
 #include "jobs/quadrature/quadrature_rules.h"
 #include "math/pi.h"
@@ -103,8 +104,11 @@ static ps_problem make_problem(const ps_quadrature_setup *of,
                         .expected_power = of->by_pairs ? power : 0};
 }
 
-static pspec_status get_device(ps_quadrature_setup *out, const ps_quadrature_question *question,
-                               ps_error *error) {
+static pspec_status open_device(ps_quadrature_setup *out, const ps_quadrature_question *question,
+                                ps_error *error) {
+    if (out->device != NULL || !ps_plan_may_need_device(&question->constraints)) {
+        return PSPEC_OK;
+    }
     out->device = question->open_device;
     if (out->device != NULL) {
         return PSPEC_OK;
@@ -115,13 +119,20 @@ static pspec_status get_device(ps_quadrature_setup *out, const ps_quadrature_que
     return status == PSPEC_ERROR_NO_DEVICE && question->may_lack_device ? PSPEC_OK : status;
 }
 
+pspec_status ps_quadrature_setup_begin(ps_quadrature_setup *out,
+                                       const ps_quadrature_question *question, ps_error *error) {
+    *out = (ps_quadrature_setup){0};
+    PS_TRY(ps_plan_check_engine(question->constraints.engine, PS_ON_SPHERE, error));
+    PS_TRY(ps_inputs_check(question->paths, question->num_paths, error));
+    PS_TRY(ps_inputs_check(&question->weights_path, 1, error));
+    return question->device != NULL ? open_device(out, question, error) : PSPEC_OK;
+}
+
 static pspec_status plan_engine(ps_quadrature_setup *out, const ps_quadrature_question *question,
                                 const ps_rule_shape *shape, ps_error *error) {
     PS_TRY(ps_frequencies_degrees(&out->frequencies, (int64_t)out->max_degree, false, error));
     PS_TRY(ps_frequencies_enumerate(&out->frequencies, error));
-    if (ps_plan_may_need_device(&question->constraints)) {
-        PS_TRY(get_device(out, question, error));
-    }
+    PS_TRY(open_device(out, question, error));
     out->problem = make_problem(out, question, shape);
     return ps_quadrature_needs_plan(out, question, error);
 }
@@ -131,7 +142,7 @@ pspec_status ps_quadrature_setup_make(ps_quadrature_setup *out,
                                       const ps_rule_shape *shape, ps_error *error) {
     const size_t most = most_degrees(shape->num_points);
     const size_t asked = question->max_degree;
-    *out = (ps_quadrature_setup){.max_degree = asked > 0 ? asked : most};
+    out->max_degree = asked > 0 ? asked : most;
     out->most_degree = out->max_degree;
     ps_quadrature_needs_find(out, question);
     const bool has_several = shape->has_several && out->num_realizations != 1;
@@ -153,8 +164,10 @@ pspec_status ps_quadrature_setup_ask(ps_quadrature_setup *out,
                                      const ps_quadrature_question *question, ps_error *error) {
     ps_rules rules = {.question = question};
     ps_rule_shape shape;
-    *out = (ps_quadrature_setup){0};
-    pspec_status status = ps_rules_open(&rules, &shape, error);
+    pspec_status status = ps_quadrature_setup_begin(out, question, error);
+    if (status == PSPEC_OK) {
+        status = ps_rules_open(&rules, &shape, error);
+    }
     if (status == PSPEC_OK) {
         status = ps_quadrature_setup_make(out, question, &shape, error);
     }

@@ -34,12 +34,17 @@ typedef struct ps_quadrature_setup {
     char weights_note[256]; /* how optimal weights will be made; "" without */
 } ps_quadrature_setup;
 
+/* What can be wrong without a set having been read, which takes long: names, files that are not there, the device that
+ * was asked for. First of all; *out must not be moved; freed by ps_quadrature_setup_free, also after an error. */
+pspec_status ps_quadrature_setup_begin(ps_quadrature_setup *out,
+                                       const ps_quadrature_question *question,
+                                       ps_error *error) PS_MUST_CHECK;
 /* Opens the device unless no engine that may be chosen needs it, and plans. Nothing feasible is no error here
- * (ps_plan_require). *out must not be moved; freed by ps_quadrature_setup_free, also after an error. */
+ * (ps_plan_require). */
 pspec_status ps_quadrature_setup_make(ps_quadrature_setup *out,
                                       const ps_quadrature_question *question,
                                       const ps_rule_shape *shape, ps_error *error) PS_MUST_CHECK;
-/* The same from the question alone, for `plan`: of files the first two sets are read. */
+/* Both from the question alone, for `plan`: of files the first two sets are read. */
 pspec_status ps_quadrature_setup_ask(ps_quadrature_setup *out,
                                      const ps_quadrature_question *question,
                                      ps_error *error) PS_MUST_CHECK;
