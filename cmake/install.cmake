@@ -1,4 +1,4 @@
-# Install rules: program, library (shared and static), header, pkg-config and CMake package files.
+# Install rules: program, library (shared and static), headers, pkg-config and CMake package files.
 # The static library has an export file of its own: only its users need our dependencies.
 include(CMakePackageConfigHelpers)
 set(PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/pointspec)
@@ -6,8 +6,8 @@ set(PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/pointspec)
 set_target_properties(pointspec_program PROPERTIES EXPORT_NAME program)
 install(TARGETS pointspec_program pointspec EXPORT pointspec_shared)
 install(TARGETS pointspec_static EXPORT pointspec_static)
-install(FILES host/include/pointspec/pointspec.h
-  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pointspec)
+install(DIRECTORY host/include/pointspec DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+  FILES_MATCHING PATTERN "*.h")
 install(FILES LICENSE README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 FILES_MATCHING PATTERN "*.1")
 install(FILES docs/man/pointspec.3 DESTINATION ${CMAKE_INSTALL_MANDIR}/man3)

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# reference.sh FOLDER: the reference of the public header as FOLDER/html, by doxygen. A warning is an error;
+# reference.sh FOLDER: the reference of the public headers as FOLDER/html, by doxygen. A warning is an error;
 # without doxygen the exit code is 77.
 set -euo pipefail
 mkdir -p "$1"

@@ -170,6 +170,48 @@ static void powers_too_large_for_the_tolerance(void **state) {
     pspec_context_destroy(context);
 }
 
+/* What comes of a plan under a limit, with a run. */
+static pspec_status run_limited(uint64_t limit, const pspec_pattern *pattern) {
+    pspec_context *const context = pspec_context_create();
+    pspec_power_request request = make_request();
+    pspec_plan *plan = NULL;
+    request.engine = "host_direct";
+    pspec_context_set_memory_limit(context, limit);
+    pspec_status status = pspec_plan_create(&plan, context, &request);
+    if (status == PSPEC_OK) {
+        status = pspec_plan_run(plan, pattern, 1);
+    }
+    if (status == PSPEC_ERROR_MEMORY &&
+        plan != NULL) { /* which is as good as new without weights */
+        const pspec_pattern plain = {pattern->dimension, pattern->num_points, pattern->points,
+                                     NULL};
+        assert_int_equal(pspec_plan_reset(plan), PSPEC_OK);
+        assert_int_equal(pspec_plan_run(plan, &plain, 1), PSPEC_OK);
+    }
+    pspec_plan_destroy(plan);
+    pspec_context_destroy(context);
+    return status;
+}
+
+/* As in the program sets without weights take no memory for weights. */
+static void weights_count_where_there_are_any(void **state) {
+    (void)state;
+    test_sample what = test_make_sample(1, 2, NUM_POINTS, 0, true);
+    const pspec_pattern with = what.patterns[0];
+    const pspec_pattern without = {with.dimension, with.num_points, with.points, NULL};
+    uint64_t too_little = 1;
+    uint64_t enough = (uint64_t)1 << 30;
+    assert_non_null(with.weights);
+    while (enough - too_little > 1) {
+        const uint64_t middle = too_little + (enough - too_little) / 2;
+        *(run_limited(middle, &without) == PSPEC_OK ? &enough : &too_little) = middle;
+    }
+    assert_int_equal(run_limited(enough, &without), PSPEC_OK);
+    assert_int_equal(run_limited(enough, &with), PSPEC_ERROR_MEMORY);
+    assert_int_equal(run_limited(enough + NUM_POINTS * sizeof(double), &with), PSPEC_OK);
+    test_free_sample(&what);
+}
+
 static void *estimate_in_thread(void *payload) {
     const pspec_power_request request = make_request();
     return estimate(&request, payload);
@@ -211,6 +253,7 @@ int main(void) {
         cmocka_unit_test(lists_and_the_referee),
         cmocka_unit_test(bad_requests),
         cmocka_unit_test(powers_too_large_for_the_tolerance),
+        cmocka_unit_test(weights_count_where_there_are_any),
         cmocka_unit_test(contexts_in_threads),
         cmocka_unit_test(destroys_accept_null),
         cmocka_unit_test(test_gsl_is_left_alone),

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# test_headers.sh SOURCE_DIR C_COMPILER: every header compiles alone. The public one as C and as C++,
-# with every compiler found here; the internal and the kernels' shared ones as C11.
+# test_headers.sh SOURCE_DIR C_COMPILER: every header compiles alone. The public ones as C and as
+# C++, with every compiler found here; the internal and the kernels' shared ones as C11.
 set -euo pipefail
 source_dir=$1 compiler=$2
 scratch=$(mktemp -d)
@@ -18,18 +18,23 @@ compile_alone() { # HEADER SUFFIX COMPILER OPTIONS...
     }
 }
 
-public=pointspec/pointspec.h
+public=("$source_dir"/host/include/pointspec/*.h)
+public=("${public[@]#"$source_dir/host/include/"}")
 include=(-I "$source_dir/host/include")
 for cc in "$compiler" gcc clang; do
     command -v "$cc" >/dev/null || continue
     for standard in c99 c11 c17; do
-        compile_alone $public c "$cc" -std=$standard -Wstrict-prototypes -Wconversion "${include[@]}"
+        for header in "${public[@]}"; do
+            compile_alone "$header" c "$cc" -std=$standard -Wstrict-prototypes -Wconversion "${include[@]}"
+        done
     done
 done
 for cxx in g++ clang++; do
     command -v "$cxx" >/dev/null || continue
     for standard in c++11 c++17; do
-        compile_alone $public cc "$cxx" -std=$standard "${include[@]}"
+        for header in "${public[@]}"; do
+            compile_alone "$header" cc "$cxx" -std=$standard "${include[@]}"
+        done
     done
 done
 

@@ -34,9 +34,9 @@ complain "data that can change" "$(objdump -t "$static" | awk '
             $NF != section && substr($0, 18, 7) !~ /d/) print "    " member " " section " " $NF
     }')"
 
-# What the header declares is what the library exports.
-header=$(dirname "${BASH_SOURCE[0]}")/../../host/include/pointspec/pointspec.h
-declared=$(grep -A1 '^PSPEC_EXPORT' "$header" | grep -oE 'pspec_[a-z0-9_]+\(' | tr -d '(' | sort -u)
+# What the headers declare is what the library exports.
+headers=("$(dirname "${BASH_SOURCE[0]}")"/../../host/include/pointspec/*.h)
+declared=$(grep -hA1 '^PSPEC_EXPORT' "${headers[@]}" | grep -oE 'pspec_[a-z0-9_]+\(' | tr -d '(' | sort -u)
 complain "declared, but not exported, or exported, but not declared" \
     "$(comm -3 <(sort -u <<<"$exported") - <<<"$declared")"
 exit $bad

@@ -1,0 +1,68 @@
+/** @file
+ * What everything else has to do with: statuses, patterns, normalizations, means. Included by
+ * pointspec.h.
+ */
+#ifndef POINTSPEC_COMMON_H
+#define POINTSPEC_COMMON_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Marks what the shared library exports. */
+#if defined(__GNUC__)
+#define PSPEC_EXPORT __attribute__((visibility("default")))
+#else
+#define PSPEC_EXPORT
+#endif
+
+/** What went wrong. The numbers are never reused. */
+typedef enum pspec_status {
+    PSPEC_OK = 0,                     /**< nothing */
+    PSPEC_ERROR_INVALID_ARGUMENT = 1, /**< a request, option or value that cannot be meant */
+    PSPEC_ERROR_INPUT = 2,     /**< points, weights, frequencies or files that cannot be used */
+    PSPEC_ERROR_IO = 3,        /**< the system refused to read or write */
+    PSPEC_ERROR_MEMORY = 4,    /**< host memory, or the memory limit */
+    PSPEC_ERROR_NO_DEVICE = 5, /**< no OpenCL driver, or no device that fits the selector */
+    PSPEC_ERROR_DEVICE = 6,    /**< an OpenCL call failed */
+    PSPEC_ERROR_BUILD = 7,     /**< a kernel did not compile; the log is in the message */
+    PSPEC_ERROR_TOLERANCE = 8, /**< no engine reaches the tolerance asked for */
+    PSPEC_ERROR_CANCELLED = 9, /**< the progress callback asked to stop */
+    PSPEC_ERROR_CHECK = 10     /**< a check of the results failed */
+} pspec_status;
+
+/** The version of the library, "1.2.3"; static storage. */
+PSPEC_EXPORT const char *pspec_version(void);
+
+/** A point set that the caller keeps: a view. */
+typedef struct pspec_pattern {
+    unsigned dimension; /**< d, that of the plan; 3 on the sphere */
+    size_t num_points;  /**< N, at least 1 */
+    /** [num_points][dimension], row by row, each coordinate in [0,1), or unit vectors */
+    const double *points;
+    const double *weights; /**< [num_points], real, finite, of either sign; NULL: all 1 */
+} pspec_pattern;
+
+/** Which power; see the conventions at the beginning. */
+typedef enum pspec_normalization {
+    PSPEC_NORMALIZATION_POWER = 0,     /**< P = N |S|^2 / W^2; needs W != 0 */
+    PSPEC_NORMALIZATION_EFFECTIVE = 1, /**< P = |S|^2 / V */
+    /** on the sphere Q(l) itself, weights 1/N where there are none; the tolerance then is of Q(l),
+     * see pspec_plan_create_angular() */
+    PSPEC_NORMALIZATION_PAIRS = 2
+} pspec_normalization;
+
+/** A mean over realizations. */
+typedef struct pspec_mean {
+    double mean;           /**< over the realizations */
+    double standard_error; /**< of the mean; nan for one realization */
+} pspec_mean;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
