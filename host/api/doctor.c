@@ -28,7 +28,8 @@ void ps_doctor_tell(const ps_doctor *doctor, ps_finding_kind kind, const char *t
     doctor->hear(kind, topic, sentence, doctor->payload);
 }
 
-/* ---- caches ------------------------------------------------------------------------------------ */
+/* ---- caches
+ * ------------------------------------------------------------------------------------ */
 
 static void tell_space(const ps_doctor *doctor, const char *topic, const char *folder) {
     struct statvfs facts;
@@ -82,7 +83,8 @@ static pspec_status tell_pocl_cache(const ps_doctor *doctor, ps_error *error) {
     return status;
 }
 
-/* ---- memory, threads, gnuplot ------------------------------------------------------------------ */
+/* ---- memory, threads, gnuplot
+ * ------------------------------------------------------------------ */
 
 static void tell_memory(const ps_doctor *doctor) {
     ps_memory_limits limits;

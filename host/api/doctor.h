@@ -1,5 +1,6 @@
-/* What works on this machine and what does not, as sentences: drivers, devices, caches, memory, threads, gnuplot. Looks, and
- * computes one spectrum of four points on every device; it changes nothing.
+/* What works on this machine and what does not, as sentences: drivers, devices, caches, memory,
+ * threads, gnuplot. Looks, and computes one spectrum of four points on every device; it changes
+ * nothing.
  */
 #ifndef PS_API_DOCTOR_H
 #define PS_API_DOCTOR_H
@@ -31,7 +32,8 @@ pspec_status ps_doctor_examine(const ps_doctor *doctor, ps_error *error) PS_MUST
 /* Tells a finding, for the files of the doctor; false when it is not good. */
 void ps_doctor_tell(const ps_doctor *doctor, ps_finding_kind kind, const char *topic,
                     const char *format, ...) PS_PRINTF(4, 5);
-/* Every device: does a kernel build there, and is its number right? *is_wrong: not so for the default. */
+/* Every device: does a kernel build there, and is its number right? *is_wrong: not so for the
+ * default. */
 pspec_status ps_doctor_devices(const ps_doctor *doctor, bool *is_wrong,
                                ps_error *error) PS_MUST_CHECK;
 

@@ -59,7 +59,8 @@ void pspec_context_set_log(pspec_context *context, pspec_log log, void *payload)
     }
 }
 
-/* With what `pointspec bench` has measured of it; without a folder for that, with the built-in figures. */
+/* With what `pointspec bench` has measured of it; without a folder for that, with the built-in
+ * figures. */
 pspec_status ps_context_open_device(pspec_context *context) {
     if (context->device != NULL) {
         return PSPEC_OK;

@@ -34,12 +34,12 @@ static pspec_status check(size_t num_points, const double *points, const double 
     return ps_pattern_count_add(&count, &pattern, error);
 }
 
-static void copy_directions(size_t num, const double *from, double *to) {
+static void copy_directions(size_t num, const double *points, double *directions) {
     for (size_t j = 0; j < num; j++) {
-        const double *const u = from + 3 * j;
+        const double *const u = points + 3 * j;
         const double length = sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
         for (size_t i = 0; i < 3; i++) {
-            to[3 * j + i] = u[i] / length;
+            directions[3 * j + i] = u[i] / length;
         }
     }
 }

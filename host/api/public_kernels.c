@@ -31,14 +31,14 @@ static pspec_status check_pattern(const pspec_pattern *pattern, ps_pattern_sums 
 }
 
 /* To weights as they are, or 1/N. */
-static void scale(const pspec_pattern *pattern, const ps_pattern_sums *of, size_t num, double *sums,
-                  double *bounds) {
+static void scale(const pspec_pattern *pattern, const ps_pattern_sums *facts, size_t num,
+                  double *sums, double *bounds) {
     const double points = (double)pattern->num_points;
     const double unit =
-        pattern->weights != NULL ? ldexp(1, 2 * of->exponent) : 1 / (points * points);
+        pattern->weights != NULL ? ldexp(1, 2 * facts->exponent) : 1 / (points * points);
     for (size_t k = 0; k < num; k++) {
         sums[k] *= unit;
-        bounds[k] *= unit * of->weight_size_sum * of->weight_size_sum;
+        bounds[k] *= unit * facts->weight_size_sum * facts->weight_size_sum;
     }
 }
 

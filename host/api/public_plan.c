@@ -158,7 +158,8 @@ static ps_problem make_problem(const ps_public_request *request, bool has_weight
     };
 }
 
-/* As for files in the program, a quarter of a limit that was set leaves room for what computes with the patterns. */
+/* As for files in the program, a quarter of a limit that was set leaves room for what computes
+ * with the patterns. */
 static pspec_status make_room_to_keep(pspec_plan *plan, ps_error *error) {
     const ps_kept_shape shape = {.dimension = plan->request.frequencies.dimension,
                                  .num_points = plan->request.num_points,

@@ -1,5 +1,5 @@
-/* A plan of the public library: a question and what runs it. Private to public_plan.c, which makes it, and
- * public_plan_run.c, which runs it. */
+/* A plan of the public library: a question and what runs it. Private to public_plan.c, which makes
+ * it, and public_plan_run.c, which runs it. */
 #ifndef PS_API_PUBLIC_PLAN_H
 #define PS_API_PUBLIC_PLAN_H
 
@@ -28,7 +28,8 @@ struct pspec_plan {
     double last_asked; /* seconds: when progress was called last */
 };
 
-/* The plan for powers that nobody has measured, as if nothing had been run. has_weights: do patterns have some? */
+/* The plan for powers that nobody has measured, as if nothing had been run. has_weights: do
+ * patterns have some? */
 pspec_status ps_public_plan_begin_anew(pspec_plan *plan, bool has_weights) PS_MUST_CHECK;
 
 #endif

@@ -26,8 +26,8 @@ static pspec_status note(pspec_plan *plan, pspec_status status) {
     return status == PSPEC_ERROR_CANCELLED ? fail_cancelled(plan) : status;
 }
 
-/* Weights take memory, of which a limit leaves less for engines. As in the program the first pattern tells whether
- * there are any. */
+/* Weights take memory, of which a limit leaves less for engines. As in the program the first
+ * pattern tells whether there are any. */
 static pspec_status plan_for_weights(pspec_plan *plan, const pspec_pattern *patterns, size_t num) {
     const bool is_first = !plan->has_begun && num > 0;
     plan->has_begun = plan->has_begun || is_first;
@@ -52,8 +52,8 @@ pspec_status pspec_plan_run(pspec_plan *plan, const pspec_pattern *patterns, siz
     return PSPEC_OK;
 }
 
-/* Are coefficients within the limit that the caller has set, together with what the plan has? The array that they are
- * for counts, though it is the caller's. */
+/* Are coefficients within the limit that the caller has set, together with what the plan has? The
+ * array that they are for counts, though it is the caller's. */
 static pspec_status require_memory(const pspec_plan *plan, ps_harmonics harmonics) {
     pspec_context *context = plan->context;
     const ps_candidate *chosen = plan->choice.chosen;
@@ -102,7 +102,8 @@ pspec_status pspec_plan_reset(pspec_plan *plan) {
     return note(plan, ps_estimator_reset(plan->runner.estimator, &plan->context->error));
 }
 
-/* All that were run are in the averages, out of an engine that is within the tolerance of their powers. */
+/* All that were run are in the averages, out of an engine that is within the tolerance of their
+ * powers. */
 static pspec_status settle(pspec_plan *plan, ps_error *error) {
     if (ps_estimator_num_realizations(plan->runner.estimator) == 0) {
         return PSPEC_OK;

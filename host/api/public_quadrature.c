@@ -95,10 +95,10 @@ static pspec_status fill_answer(pspec_quadrature *out, const ps_quadrature_resul
     out->degrees = memory;
     out->num_degrees = num;
     for (size_t l = 0; l < num; l++) {
-        const ps_quadrature_degree *const from = &result->degrees[l];
+        const ps_quadrature_degree *const found = &result->degrees[l];
         out->degrees[l] = (pspec_quadrature_degree){
-            (int32_t)l,         from->a, from->b, copy_mean(from->d2), copy_mean(from->c2),
-            copy_mean(from->e2)};
+            (int32_t)l,          found->a, found->b, copy_mean(found->d2), copy_mean(found->c2),
+            copy_mean(found->e2)};
     }
     fill_error(&out->error, result);
     snprintf(out->text, sizeof out->text, "%s", result->engine);

@@ -17,13 +17,14 @@ struct pspec_spectrum {
 
 /* ---- from sums --------------------------------------------------------------------------- */
 
-static pspec_status copy_bins(pspec_spectrum *spectrum, const ps_spectrum *from, ps_error *error) {
+static pspec_status copy_bins(pspec_spectrum *spectrum, const ps_spectrum *averages,
+                              ps_error *error) {
     void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, from->num_bins, sizeof(pspec_bin), "bins", error));
+    PS_TRY(ps_allocate(&memory, averages->num_bins, sizeof(pspec_bin), "bins", error));
     spectrum->bins = memory;
-    spectrum->num_bins = from->num_bins;
-    for (size_t b = 0; b < from->num_bins; b++) {
-        const ps_spectrum_bin *bin = &from->bins[b];
+    spectrum->num_bins = averages->num_bins;
+    for (size_t b = 0; b < averages->num_bins; b++) {
+        const ps_spectrum_bin *bin = &averages->bins[b];
         spectrum->bins[b] = (pspec_bin){
             bin->key,   bin->frequency,      bin->normalized_frequency, bin->count,
             bin->power, bin->standard_error, bin->anisotropy_db,        bin->num_computed};
@@ -33,28 +34,29 @@ static pspec_status copy_bins(pspec_spectrum *spectrum, const ps_spectrum *from,
 
 typedef struct copying {
     pspec_spectrum *spectrum;
-    const ps_spectrum *from;
+    const ps_spectrum *averages;
 } copying;
 
 static void copy_some_powers(void *payload, unsigned index, unsigned count) {
-    const copying *all = payload;
-    const size_t num = all->from->frequencies.num;
+    const copying *work = payload;
+    const size_t num = work->averages->frequencies.num;
     const size_t end = ps_share_begin(num, index + 1, count);
     for (size_t i = ps_share_begin(num, index, count); i < end; i++) {
-        all->spectrum->powers[i] = all->from->powers[i].mean;
-        all->spectrum->standard_errors[i] = all->from->powers[i].standard_error;
+        work->spectrum->powers[i] = work->averages->powers[i].mean;
+        work->spectrum->standard_errors[i] = work->averages->powers[i].standard_error;
     }
 }
 
-static pspec_status copy_powers(pspec_spectrum *spectrum, const ps_spectrum *from,
+static pspec_status copy_powers(pspec_spectrum *spectrum, const ps_spectrum *averages,
                                 ps_error *error) {
     void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, from->frequencies.num, sizeof(double), "powers", error));
+    PS_TRY(ps_allocate(&memory, averages->frequencies.num, sizeof(double), "powers", error));
     spectrum->powers = memory;
-    PS_TRY(ps_allocate(&memory, from->frequencies.num, sizeof(double), "standard errors", error));
+    PS_TRY(
+        ps_allocate(&memory, averages->frequencies.num, sizeof(double), "standard errors", error));
     spectrum->standard_errors = memory;
-    copying all = {spectrum, from};
-    ps_workers_share(from->frequencies.num, copy_some_powers, &all);
+    copying work = {spectrum, averages};
+    ps_workers_share(averages->frequencies.num, copy_some_powers, &work);
     return PSPEC_OK;
 }
 

@@ -16,16 +16,16 @@ typedef struct listener {
 } listener;
 
 static int listen(const pspec_progress_report *report, void *payload) {
-    listener *const of = payload;
+    listener *const heard = payload;
     const double now = ps_clock_seconds();
-    of->gap = of->last > 0 && now - of->last > of->gap ? now - of->last : of->gap;
-    of->last = now;
-    if (strstr(report->phase, of->phase) == NULL || report->done < of->least) {
+    heard->gap = heard->last > 0 && now - heard->last > heard->gap ? now - heard->last : heard->gap;
+    heard->last = now;
+    if (strstr(report->phase, heard->phase) == NULL || report->done < heard->least) {
         return 0;
     }
     assert_true(report->total == 0 || report->done <= report->total);
-    strncpy(of->detail, report->detail != NULL ? report->detail : "", sizeof of->detail - 1);
-    of->asked = now;
+    strncpy(heard->detail, report->detail != NULL ? report->detail : "", sizeof heard->detail - 1);
+    heard->asked = now;
     return 1;
 }
 
