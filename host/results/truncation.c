@@ -140,10 +140,12 @@ static void add_rule(const truncation *answer, ps_phases *phases, double num) {
                        num * num / 2, 1);
 }
 
-/* For every degree as many points as will have its error: E falls like N^(-s/2) from a rule that is cheap. Each takes two
- * rules of about so many, and all together the rungs of the ladder up to the highest. */
+/* For every degree as many points as will have its error: E falls like N^(-s/2) from a rule that is cheap. (From 4096
+ * points on, those of 31333 points were off by more than 4 %; from 8192 on, by less.) Each takes two rules of about so
+ * many, or one where the second would be the first again, and all together the rungs of the ladder up to the highest: at
+ * most so much. */
 static pspec_status add_equal_points(truncation *answer, ps_phases *phases, ps_error *error) {
-    enum { FEW = 256, STEPS = 2 };
+    enum { FEW = 8192, STEPS = 2 };
     const double s = answer->arguments->smoothness;
     const ps_morph morph = ps_brdf_morph(answer->brdf);
     double of_few = 0;
@@ -160,6 +162,7 @@ static pspec_status add_equal_points(truncation *answer, ps_phases *phases, ps_e
     for (double num = 1; num < 2 * most; num *= 2) {
         add_rule(answer, phases, num);
     }
+    ps_phases_limit(phases, "points of equal error");
     ps_phases_say(phases, "points of equal error", "rules of up to %.3g points", most);
     return PSPEC_OK;
 }

@@ -56,5 +56,7 @@ double ps_sequential_expected(double fewest_independent, double standard_error) 
         const double error = correction(fewest_independent, num) / standard_error;
         num = fmax(PS_LEAST_REALIZATIONS, error * error / fewest_independent);
     }
-    return ceil(num);
+    /* Nobody has so many; looks are counted in integers. */
+    const double countless = 1e15;
+    return num < countless ? (double)ps_sequential_next_look((uint64_t)ceil(num) - 1) : num;
 }

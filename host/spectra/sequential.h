@@ -45,7 +45,7 @@ ps_sequential_look ps_sequential_find(const ps_bins *bins, const ps_mean *means,
                                       uint64_t num_realizations);
 
 /* About how many realizations white noise needs when the bin of fewest independent frequencies has
- * so many. */
+ * so many: that of a look, where jobs end. */
 double ps_sequential_expected(double fewest_independent, double standard_error);
 
 #endif
