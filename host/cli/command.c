@@ -6,8 +6,8 @@
 #include <string.h>
 
 bool ps_command_takes(const ps_command *command, ps_option_id id) {
-    return id == PS_OPTION_HELP || ps_options_have(command->options, id) ||
-           (command->result != NULL && ps_options_have(command->result->options, id));
+    const ps_option *const option = &ps_options[id];
+    return id == PS_OPTION_HELP || ((option->questions | option->commands) & command->takes) != 0;
 }
 
 const char *ps_command_words(const ps_command *command, ps_option_id id) {

@@ -24,13 +24,15 @@ typedef struct ps_command {
     const char *usage;       /* after "pointspec ", for example "power [options] [FILE...]" */
     const char *description; /* a paragraph for --help */
     const ps_result_kind
-        *result; /* what it prints, with the options of that question; NULL: something else */
-    const ps_option_id *options; /* others that it takes, ended by PS_NUM_OPTIONS */
-    const char *examples[2];     /* complete command lines, run by the tests */
-    const char *formats;         /* words of --format, the default first; NULL: csv|json|npy */
+        *result;     /* what it prints, with the options of that question; NULL: something else */
+    ps_takers takes; /* whose options: the command's bit in their table */
+    const char *examples[2]; /* complete command lines, run by the tests */
+    const char *formats;     /* words of --format, the default first; NULL: csv|json|npy */
     const char *weights; /* words of --weights, where no result says so; NULL: equal|column|FILE */
     ps_domain samples;   /* which samplers it takes, where no result says so, for --help */
     pspec_status (*run)(const ps_request *, ps_error *); /* NULL: it prints its result */
+    /* Adds what the command would come to; NULL: its result says so, or it cannot be planned. */
+    pspec_status (*plan)(ps_planner *, const ps_request *, ps_error *);
 } ps_command;
 
 /* Ended by NULL. */
@@ -39,12 +41,11 @@ extern const ps_command *const ps_commands[];
 /* The command of that name; NULL with a sentence that names the nearest one. */
 const ps_command *ps_command_find(const char *name, ps_error *error);
 
-extern const ps_command ps_command_power, ps_command_angular, ps_command_pairs,
-    ps_command_quadrature, ps_command_truncation, ps_command_sample, ps_command_convert,
-    ps_command_check, ps_command_run, ps_command_plan, ps_command_bench, ps_command_stress,
-    ps_command_devices, ps_command_doctor;
+/* ps_command_power, .. */
+#define PS_DECLARE_COMMAND(name) extern const ps_command ps_command_##name;
+PS_TAKERS(PS_DECLARE_COMMAND, PS_DECLARE_COMMAND)
 
-/* Every command takes --help, also when its list does not say so. */
+/* Every command takes --help, also when the table of options does not say so. */
 bool ps_command_takes(const ps_command *command, ps_option_id id);
 
 /* The values that the command admits for the option, "one|two|FILE"; NULL for a flag. */

@@ -6,26 +6,9 @@
 
 #include <string.h>
 
-/* In the order of --help. A new command is a file and a row here. */
-/* clang-format off */
-const ps_command *const ps_commands[] = {
-    &ps_command_power,
-    &ps_command_angular,
-    &ps_command_pairs,
-    &ps_command_quadrature,
-    &ps_command_truncation,
-    &ps_command_sample,
-    &ps_command_convert,
-    &ps_command_check,
-    &ps_command_run,
-    &ps_command_plan,
-    &ps_command_bench,
-    &ps_command_stress,
-    &ps_command_devices,
-    &ps_command_doctor,
-    NULL,
-};
-/* clang-format on */
+/* In the order of --help. A new command is a file, a name in questions/options.h, and the rows of its options. */
+#define COMMAND(name) &ps_command_##name,
+const ps_command *const ps_commands[] = {PS_TAKERS(COMMAND, COMMAND) NULL};
 
 const ps_command *ps_command_find(const char *name, ps_error *error) {
     const ps_command *nearest = NULL;

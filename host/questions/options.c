@@ -10,6 +10,8 @@
 
 /* ---- the table ----------------------------------------------------------------------------- */
 
+#define NAMED(dashed, shortened, value) .name = dashed, .letter = shortened, .metavar = value
+#define OF(kinds, others) .questions = kinds, .commands = others
 #define FLAG(field) .set = ps_set_flag, .offset = offsetof(ps_request, field)
 #define TEXT(field) .set = ps_set_text, .offset = offsetof(ps_request, field)
 #define WORD(field) .set = ps_set_word, .offset = offsetof(ps_request, field)
@@ -20,270 +22,224 @@
 #define MOST_POINTS UINT64_C(10000000000)
 #define MOST_REALIZATIONS UINT64_C(1000000000000)
 
+/* Sets of takers that many options have: kinds of spectra, those of them on the sphere, kinds that look at point sets and
+ * that have a lobe; commands that try engines, and those whose output is a table. */
+#define BIT PS_TAKER_BIT
+#define SPHERES (BIT(angular) | BIT(pairs))
+#define SPECTRA (BIT(power) | SPHERES)
+#define SETS (SPECTRA | BIT(quadrature) | BIT(check))
+#define LOBES (BIT(quadrature) | BIT(truncation))
+#define SUITES (BIT(bench) | BIT(stress))
+#define TABLES (SETS | SUITES | BIT(truncation) | BIT(devices))
+
 /* In the order of ps_option_id, which is the order of --help. Where an option is repeated the last
  * one counts, but for --sampler. */
 const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_POINTS] =
-        {.letter = 'n',
-         .name = "points",
-         .metavar = "N",
+        {NAMED("points", 'n', "N"), OF(SETS, BIT(sample) | BIT(convert)),
          .help = "points in each realization (default 1024; check: as saved); of files: "
                  "points in each set, for formats that do not say (rps)",
-         COUNT(num_points),
-         .minimum = 1,
-         .maximum = MOST_POINTS},
-    [PS_OPTION_REALIZATIONS] = {.letter = 'm',
-                                .name = "realizations",
-                                .metavar = "M",
+         COUNT(num_points), .minimum = 1, .maximum = MOST_POINTS},
+    [PS_OPTION_REALIZATIONS] = {NAMED("realizations", 'm', "M"), OF(SETS, BIT(sample)),
                                 .help = "realizations of each sampler (default 1; check: as saved)",
-                                COUNT(num_realizations),
-                                .minimum = 1,
+                                COUNT(num_realizations), .minimum = 1,
                                 .maximum = MOST_REALIZATIONS},
     [PS_OPTION_STANDARD_ERROR] =
-        {.name = "standard-error",
-         .metavar = "X",
+        {NAMED("standard-error", 0, "X"), OF(SPECTRA | BIT(quadrature), 0),
          .help = "no more realizations than make the relative standard error of every ring or "
                  "degree X (above --floor; at least 16); -m is then the most (default 1e6)",
          .set = ps_set_standard_error},
-    [PS_OPTION_DIMENSION] = {.letter = 'd',
-                             .name = "dimension",
-                             .metavar = "D",
+    [PS_OPTION_DIMENSION] = {NAMED("dimension", 'd', "D"),
+                             OF(BIT(power), BIT(sample) | BIT(convert)),
                              .help = "dimension, 1 to 6 (default 2; of files: what they have)",
-                             .set = ps_set_dimension,
-                             .minimum = 1,
-                             .maximum = PS_MAX_DIMENSION},
-    [PS_OPTION_SEED] = {.letter = 's',
-                        .name = "seed",
-                        .metavar = "S",
+                             .set = ps_set_dimension, .minimum = 1, .maximum = PS_MAX_DIMENSION},
+    [PS_OPTION_SEED] = {NAMED("seed", 's', "S"), OF(SETS, BIT(sample)),
                         .help = "seed, 0 to 2^64 - 1 (default 1); same seed, same bits",
-                        COUNT(seed),
-                        .minimum = 0,
-                        .maximum = UINT64_MAX},
-    [PS_OPTION_SAMPLER] = {.name = "sampler",
-                           .metavar = "NAME[:key=value,...]",
+                        COUNT(seed), .minimum = 0, .maximum = UINT64_MAX},
+    [PS_OPTION_SAMPLER] = {NAMED("sampler", 0, "NAME[:key=value,...]"), OF(SETS, BIT(sample)),
                            .help = "what makes the points; the names are below",
                            .set = ps_add_sampler},
-    [PS_OPTION_AGAINST] = {.name = "against",
-                           .metavar = "FILE",
+    [PS_OPTION_AGAINST] = {NAMED("against", 0, "FILE"), OF(BIT(check), 0),
                            .help =
                                "the saved spectrum: what power or angular wrote with -o FILE.json",
                            TEXT(against)},
-    [PS_OPTION_FALSE_ALARM_RATE] = {.name = "false-alarm-rate",
-                                    .metavar = "P",
+    [PS_OPTION_FALSE_ALARM_RATE] = {NAMED("false-alarm-rate", 0, "P"), OF(BIT(check), 0),
                                     .help =
                                         "probability that any ring or degree differs by chance, "
                                         "above 0 and below 1 (default 0.001)",
                                     .set = ps_set_false_alarm_rate},
-    [PS_OPTION_BRDF] = {.name = "brdf",
-                        .metavar = "NAME[:key=value,...]",
-                        .help = "lobe of reflection; the names are below",
-                        TEXT(brdf)},
-    [PS_OPTION_SMOOTHNESS] = {.name = "smoothness",
-                              .metavar = "S",
+    [PS_OPTION_BRDF] = {NAMED("brdf", 0, "NAME[:key=value,...]"), OF(LOBES, 0),
+                        .help = "lobe of reflection; the names are below", TEXT(brdf)},
+    [PS_OPTION_SMOOTHNESS] = {NAMED("smoothness", 0, "S"), OF(LOBES, 0),
                               .help = "of the integrands, functions of the Sobolev space H^S, "
                                       "1 < S < 2 (default 1.5)",
                               .set = ps_set_smoothness},
-    [PS_OPTION_MAX_FREQUENCY] = {.letter = 'k',
-                                 .name = "max-frequency",
-                                 .metavar = "K",
+    [PS_OPTION_MAX_FREQUENCY] = {NAMED("max-frequency", 'k', "K"), OF(BIT(power), 0),
                                  .help = "frequencies -K..K on every axis, rings 1..K (default "
                                          "ceil(5 N^(1/d)) for d <= 3)",
-                                 .set = ps_set_max_frequency,
-                                 .minimum = 1,
+                                 .set = ps_set_max_frequency, .minimum = 1,
                                  .maximum = PS_MAX_FREQUENCY},
-    [PS_OPTION_MAX_DEGREE] = {.letter = 'l',
-                              .name = "max-degree",
-                              .metavar = "L",
+    [PS_OPTION_MAX_DEGREE] = {NAMED("max-degree", 'l', "L"), OF(SPHERES | LOBES, 0),
                               .help =
                                   "the largest degree (default ceil(4 sqrt N), for quadrature at "
                                   "most; truncation: 20)",
                               .set = ps_set_max_degree},
-    [PS_OPTION_MEMORY] = {.name = "memory",
-                          .metavar = "SIZE",
+    [PS_OPTION_MEMORY] = {NAMED("memory", 0, "SIZE"),
+                          OF(SETS, BIT(sample) | BIT(convert) | BIT(run)),
                           .help = "what points and the engine may take, as in 400M or 2G; it "
                                   "chooses among engines and is kept with the results (default: "
                                   "POINTSPEC_MEMORY, else what is free, which chooses nothing)",
-                          .set = ps_set_size,
-                          .offset = offsetof(ps_request, memory)},
-    [PS_OPTION_HEMISPHERE] = {.name = "hemisphere",
+                          .set = ps_set_size, .offset = offsetof(ps_request, memory)},
+    [PS_OPTION_HEMISPHERE] = {NAMED("hemisphere", 0, NULL), OF(SPHERES, 0),
                               .help = "points of the hemisphere, that is of the projective plane: "
                                       "even degrees, odd ones vanish",
                               FLAG(hemisphere)},
-    [PS_OPTION_COEFFICIENTS] = {.name = "coefficients",
-                                .metavar = "FILE.npy",
+    [PS_OPTION_COEFFICIENTS] = {NAMED("coefficients", 0, "FILE.npy"), OF(0, BIT(angular)),
                                 .help = "write c_lm = sum w Y_lm of the only set too: complex128, "
                                         "(l, m) at index m(2L+1-m)/2 + l",
                                 TEXT(coefficients)},
-    [PS_OPTION_HARMONICS] = {.name = "harmonics",
-                             .metavar = "spherical|hemispherical",
+    [PS_OPTION_HARMONICS] = {NAMED("harmonics", 0, "spherical|hemispherical"),
+                             OF(BIT(truncation), BIT(angular)),
                              .help = "of --coefficients, or of the products that are cut "
                                      "(default spherical); hemispherical ones are for points and "
                                      "lobes with z >= 0",
                              WORD(harmonics)},
-    [PS_OPTION_FREQUENCIES] = {.name = "frequencies",
-                               .metavar = "FILE",
+    [PS_OPTION_FREQUENCIES] = {NAMED("frequencies", 0, "FILE"), OF(BIT(power), 0),
                                .help = "only the integer frequency vectors in FILE, one per line",
                                TEXT(frequencies)},
-    [PS_OPTION_SHELLS] = {.name = "shells",
+    [PS_OPTION_SHELLS] = {NAMED("shells", 0, NULL), OF(BIT(power), 0),
                           .help = "exact shells of |k|^2 instead of rings of width 1",
                           FLAG(shells)},
-    [PS_OPTION_PER_RING] = {.name = "per-ring",
-                            .metavar = "S",
+    [PS_OPTION_PER_RING] = {NAMED("per-ring", 0, "S"), OF(BIT(power), 0),
                             .help = "of every ring (or shell) with more than S frequencies of the "
                                     "half lattice, only a random subset of S, from the seed",
-                            COUNT(per_ring),
-                            .minimum = PS_MIN_PER_RING,
+                            COUNT(per_ring), .minimum = PS_MIN_PER_RING,
                             .maximum = PS_MAX_NUM_FREQUENCIES},
-    [PS_OPTION_FULL] = {.name = "full",
-                        .metavar = "FILE.npy",
+    [PS_OPTION_FULL] = {NAMED("full", 0, "FILE.npy"), OF(0, BIT(power)),
                         .help = "write the whole array too, shape (2K+1)^D, DC in the middle, and "
                                 "its standard error to FILE.standard_error.npy",
                         TEXT(full)},
-    [PS_OPTION_NORMALIZE] = {.name = "normalize",
-                             .metavar = "power|effective",
+    [PS_OPTION_NORMALIZE] = {NAMED("normalize", 0, "power|effective"),
+                             OF(BIT(power) | BIT(angular), 0),
                              .help = "N |S|^2 / W^2, or |S|^2 / sum w^2 (default power)",
                              .set = ps_set_normalize},
-    [PS_OPTION_HOMOGENIZE] = {.name = "homogenize",
+    [PS_OPTION_HOMOGENIZE] = {NAMED("homogenize", 0, NULL), OF(SETS, BIT(sample)),
                               .help = "shift every realization by one random vector, mod 1; "
                                       "points of the sphere are rotated",
                               FLAG(homogenize)},
-    [PS_OPTION_WEIGHTS] = {.name = "weights",
-                           .metavar = "equal|column|FILE",
+    [PS_OPTION_WEIGHTS] = {NAMED("weights", 0, "equal|column|FILE"), OF(SETS, BIT(convert)),
                            .help = "equal: all 1, weights of the files are dropped; column: the "
                                    "last one of the files (default: those that the format or "
                                    "--columns has, else all 1)",
-                           .set = ps_set_weights,
-                           .offset = offsetof(ps_request, weights)},
-    [PS_OPTION_INPUT_FORMAT] = {.name = "input-format",
-                                .metavar = PS_POINT_FORMATS,
+                           .set = ps_set_weights, .offset = offsetof(ps_request, weights)},
+    [PS_OPTION_INPUT_FORMAT] = {NAMED("input-format", 0, PS_POINT_FORMATS), OF(SETS, BIT(convert)),
                                 .help = "format of the point files (default: detected)",
                                 WORD(input_format)},
-    [PS_OPTION_COLUMNS] = {.name = "columns",
-                           .metavar = PS_POINT_COLUMNS,
+    [PS_OPTION_COLUMNS] = {NAMED("columns", 0, PS_POINT_COLUMNS), OF(SETS, BIT(convert)),
                            .help = "what the columns of the point files are, w being the weight "
                                    "(default: found out; angles are in radians but lon-lat, "
                                    "degrees)",
                            WORD(columns)},
-    [PS_OPTION_DOMAIN] = {.name = "domain",
-                          .metavar = "torus|sphere",
+    [PS_OPTION_DOMAIN] = {NAMED("domain", 0, "torus|sphere"), OF(0, BIT(convert)),
                           .help = "where the points lie (default: found out)",
                           .set = ps_set_domain},
-    [PS_OPTION_WRAP] = {.name = "wrap",
+    [PS_OPTION_WRAP] = {NAMED("wrap", 0, NULL), OF(BIT(power) | BIT(check), BIT(convert)),
                         .help = "reduce coordinates outside [0,1) mod 1 instead of refusing them",
                         FLAG(wrap)},
-    [PS_OPTION_NORMALIZE_VECTORS] = {.name = "normalize-vectors",
+    [PS_OPTION_NORMALIZE_VECTORS] = {NAMED("normalize-vectors", 0, NULL),
+                                     OF(SPHERES | BIT(quadrature) | BIT(check), BIT(convert)),
                                      .help = "divide vectors by their length instead of refusing "
                                              "those of another length than 1",
                                      FLAG(normalize_vectors)},
-    [PS_OPTION_DROP_BELOW] = {.name = "drop-below-horizon",
+    [PS_OPTION_DROP_BELOW] = {NAMED("drop-below-horizon", 0, NULL), OF(BIT(quadrature), 0),
                               .help = "leave points below the horizon out where the lobe "
                                       "ends there",
                               FLAG(drop_below_horizon)},
-    [PS_OPTION_SELECT_SETS] = {.name = "select-sets",
-                               .metavar = "A..B",
+    [PS_OPTION_SELECT_SETS] = {NAMED("select-sets", 0, "A..B"), OF(SETS, BIT(convert)),
                                .help = "only these sets of each file, counted from 1; also A, A.., "
                                        "..B",
                                RANGE(sets)},
-    [PS_OPTION_SELECT_POINTS] = {.name = "select-points",
-                                 .metavar = "A..B",
+    [PS_OPTION_SELECT_POINTS] = {NAMED("select-points", 0, "A..B"), OF(0, BIT(convert)),
                                  .help = "only these points of each set, counted from 1; also A, "
                                          "A.., ..B",
                                  RANGE(points)},
-    [PS_OPTION_MERGE] = {.name = "merge", .help = "make one set of all sets", FLAG(merge)},
-    [PS_OPTION_TO_COLUMNS] = {.name = "to-columns",
-                              .metavar = PS_SPHERE_COLUMNS,
+    [PS_OPTION_MERGE] = {NAMED("merge", 0, NULL), OF(0, BIT(convert)),
+                         .help = "make one set of all sets", FLAG(merge)},
+    [PS_OPTION_TO_COLUMNS] = {NAMED("to-columns", 0, PS_SPHERE_COLUMNS), OF(0, BIT(convert)),
                               .help = "columns of the output, for points of the sphere (default "
                                       "xyz, with w if there are weights)",
                               WORD(to_columns)},
-    [PS_OPTION_TOLERANCE] = {.name = "tol",
-                             .metavar = "T",
+    [PS_OPTION_TOLERANCE] = {NAMED("tol", 0, "T"), OF(SETS, 0),
                              .help =
                                  "largest error, above 0 and at most 1: of S relative to white "
                                  "noise (default 1e-6); pairs: of Q(l) over (sum |w|)^2 (1e-6); "
                                  "quadrature: of E^2 over c (sum |w|)^2 (1e-10)",
                              .set = ps_set_tolerance},
-    [PS_OPTION_FLOOR] = {.name = "floor",
-                         .metavar = "P",
-                         .help = "powers down to P are right to 10 %",
-                         .set = ps_set_floor},
-    [PS_OPTION_PRECISION] = {.name = "precision",
-                             .metavar = "auto|single|double|extended",
+    [PS_OPTION_FLOOR] = {NAMED("floor", 0, "P"), OF(SPECTRA, 0),
+                         .help = "powers down to P are right to 10 %", .set = ps_set_floor},
+    [PS_OPTION_PRECISION] = {NAMED("precision", 0, "auto|single|double|extended"), OF(SETS, SUITES),
                              .help = "arithmetic of the engine (default auto: the cheapest that "
                                      "meets the tolerance)",
                              .set = ps_set_precision},
-    [PS_OPTION_ENGINE] = {.name = "engine",
-                          .metavar = "NAME",
+    [PS_OPTION_ENGINE] = {NAMED("engine", 0, "NAME"), OF(SETS, SUITES),
                           .help = "this engine; pointspec plan lists them (default: the cheapest)",
                           TEXT(engine)},
-    [PS_OPTION_CASE] = {.name = "case",
-                        .metavar = "NAME",
-                        .help = "this case alone; the first column names them",
-                        TEXT(case_name)},
-    [PS_OPTION_CALIBRATE] = {.name = "calibrate",
+    [PS_OPTION_CASE] = {NAMED("case", 0, "NAME"), OF(0, SUITES),
+                        .help = "this case alone; the first column names them", TEXT(case_name)},
+    [PS_OPTION_CALIBRATE] = {NAMED("calibrate", 0, NULL), OF(0, BIT(bench)),
                              .help = "measure this device's figures for the planner and keep them",
                              FLAG(calibrate)},
-    [PS_OPTION_DEVICE] = {.name = "device",
-                          .metavar = "SELECTOR",
+    [PS_OPTION_DEVICE] = {NAMED("device", 0, "SELECTOR"),
+                          OF(0, SETS | SUITES | BIT(run) | BIT(devices) | BIT(doctor)),
                           .help = "OpenCL device: index, cpu, gpu, accelerator or part of a name "
                                   "(default: POINTSPEC_DEVICE, else the first GPU, else the first "
                                   "CPU)",
                           TEXT(device)},
-    [PS_OPTION_CACHE] = {.name = "cache",
-                         .metavar = "BYTES",
+    [PS_OPTION_CACHE] = {NAMED("cache", 0, "BYTES"), OF(0, BIT(run)),
                          .help = "what the cache of results may take on the disk; 0: nothing is "
                                  "taken from it or kept (default 1e9)",
-                         COUNT(cache_bytes),
-                         .minimum = 0,
-                         .maximum = INT64_MAX},
-    [PS_OPTION_NO_SKIP] = {.name = "no-skip",
-                           .help = "do also what the question does not need",
-                           FLAG(no_skip)},
-    [PS_OPTION_NO_SELF_CHECK] = {.name = "no-self-check",
+                         COUNT(cache_bytes), .minimum = 0, .maximum = INT64_MAX},
+    [PS_OPTION_NO_SKIP] = {NAMED("no-skip", 0, NULL), OF(SETS, BIT(run)),
+                           .help = "do also what the question does not need", FLAG(no_skip)},
+    [PS_OPTION_NO_SELF_CHECK] = {NAMED("no-self-check", 0, NULL), OF(SPECTRA | BIT(check), 0),
                                  .help = "do not recompute random entries with the referee",
                                  FLAG(no_self_check)},
-    [PS_OPTION_OUTPUT] = {.letter = 'o',
-                          .name = "output",
-                          .metavar = "FILE",
+    [PS_OPTION_OUTPUT] = {NAMED("output", 'o', "FILE"),
+                          OF(0, TABLES | BIT(sample) | BIT(convert) | BIT(run)),
                           .help = "write there, in the format of its ending (default: standard "
                                   "output)",
                           TEXT(output)},
-    [PS_OPTION_FORMAT] = {.name = "format",
-                          .metavar = "csv|json|npy",
+    [PS_OPTION_FORMAT] = {NAMED("format", 0, "csv|json|npy"),
+                          OF(0, TABLES | BIT(sample) | BIT(convert)),
                           .help = "format of the output (default: by the ending of FILE, else the "
                                   "first of these)",
                           WORD(format)},
-    [PS_OPTION_PLOT] = {.name = "plot",
-                        .metavar = "FILE",
+    [PS_OPTION_PLOT] = {NAMED("plot", 0, "FILE"), OF(0, SPECTRA | LOBES | BIT(bench)),
                         .help = "draw a picture too: .png, .svg or .pdf; one that fails is a "
                                 "warning, and an error where no table is kept",
                         TEXT(plot)},
-    [PS_OPTION_PROFILE] = {.name = "profile",
+    [PS_OPTION_PROFILE] = {NAMED("profile", 0, NULL), OF(0, SETS),
                            .help = "time, flop/s and bytes/s of every kernel on standard error",
                            FLAG(profile)},
-    [PS_OPTION_QUIET] = {.name = "quiet", .help = "no progress line, no remarks", FLAG(quiet)},
-    [PS_OPTION_QUICK] = {.name = "quick",
+    [PS_OPTION_QUIET] = {NAMED("quiet", 0, NULL),
+                         OF(0, SETS | SUITES | BIT(truncation) | BIT(sample) | BIT(convert) |
+                                   BIT(run)),
+                         .help = "no progress line, no remarks", FLAG(quiet)},
+    [PS_OPTION_QUICK] = {NAMED("quick", 0, NULL), OF(0, SUITES),
                          .help = "leave out the cases that take more than a second or so",
                          FLAG(quick)},
-    [PS_OPTION_SCENES] = {.name = "scenes",
+    [PS_OPTION_SCENES] = {NAMED("scenes", 0, NULL), OF(0, BIT(bench)),
                           .help = "time the scenes that are named instead, with and without skips, "
                                   "and compare the answers",
                           FLAG(scenes)},
-    [PS_OPTION_VERBOSE] = {.name = "verbose",
-                           .help = "say on standard error what is being done",
-                           FLAG(verbose)},
-    [PS_OPTION_HELP] = {.letter = 'h', .name = "help", .help = "this text", .set = ps_set_nothing},
+    [PS_OPTION_VERBOSE] = {NAMED("verbose", 0, NULL), OF(0, SETS),
+                           .help = "say on standard error what is being done", FLAG(verbose)},
+    [PS_OPTION_HELP] = {NAMED("help", 'h', NULL), OF(0, 0), .help = "this text",
+                        .set = ps_set_nothing},
+
 };
 
-/* ---- lists of options ---------------------------------------------------------------------- */
-
-bool ps_options_have(const ps_option_id *list, ps_option_id id) {
-    for (; list != NULL && *list != PS_NUM_OPTIONS; list++) {
-        if (*list == id) {
-            return true;
-        }
-    }
-    return false;
-}
+/* ---- one option ---------------------------------------------------------------------------- */
 
 ps_shown_option ps_option_show(const ps_request *request, ps_option_id id) {
     ps_shown_option out;

@@ -6,6 +6,31 @@
 
 #include "questions/request.h"
 
+/* Who takes options, in the order of --help: kinds of results (results/kind.h), each of which a command prints, and the
+ * other commands. A new one is a name here, and a bit in the rows of the options that it takes. */
+#define PS_TAKERS(KIND, OTHER)                                                                     \
+    KIND(power)                                                                                    \
+    KIND(angular)                                                                                  \
+    KIND(pairs)                                                                                    \
+    KIND(quadrature)                                                                               \
+    KIND(truncation)                                                                               \
+    OTHER(sample)                                                                                  \
+    OTHER(convert)                                                                                 \
+    KIND(check)                                                                                    \
+    OTHER(run)                                                                                     \
+    OTHER(plan)                                                                                    \
+    OTHER(bench)                                                                                   \
+    OTHER(stress)                                                                                  \
+    OTHER(devices)                                                                                 \
+    OTHER(doctor)
+
+#define PS_TAKER_NUMBER(name) PS_TAKER_##name,
+typedef enum ps_taker { PS_TAKERS(PS_TAKER_NUMBER, PS_TAKER_NUMBER) PS_NUM_TAKERS } ps_taker;
+
+/* A set of takers. */
+typedef uint32_t ps_takers;
+#define PS_TAKER_BIT(name) (UINT32_C(1) << PS_TAKER_##name)
+
 typedef struct ps_option ps_option;
 
 /* Stores value (NULL for a flag) in *arguments, or says what is wrong with it. shown is the option as it was said; words
@@ -17,6 +42,9 @@ struct ps_option {
     const char *name;    /* without its dashes */
     const char *metavar; /* NULL: takes no value */
     const char *help;
+    ps_takers
+        questions; /* the kinds of results to whose question it belongs: it is a key of scenes there, too */
+    ps_takers commands; /* others that take it: how they compute, and what becomes of the results */
     ps_option_setter *set;
     size_t offset; /* of the field of ps_request, for setters that serve several options */
     uint64_t minimum, maximum;
@@ -34,9 +62,6 @@ ps_shown_option ps_option_show(const ps_request *request, ps_option_id id);
 /* Calls the setter of the option, whose form the request has already. */
 pspec_status ps_option_set(ps_request *request, ps_option_id id, const char *words,
                            const char *value, ps_error *error) PS_MUST_CHECK;
-
-/* Is id in the list, which PS_NUM_OPTIONS or NULL ends? */
-bool ps_options_have(const ps_option_id *list, ps_option_id id);
 
 /* How far a name that somebody typed is from a known one. 0: that very name; a beginning of it
  * counts as one letter. */

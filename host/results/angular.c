@@ -4,29 +4,6 @@
 #include "results/compare.h"
 #include "results/spectra.h"
 
-static const ps_option_id options[] = {PS_OPTION_SAMPLER,
-                                       PS_OPTION_POINTS,
-                                       PS_OPTION_REALIZATIONS,
-                                       PS_OPTION_STANDARD_ERROR,
-                                       PS_OPTION_SEED,
-                                       PS_OPTION_HOMOGENIZE,
-                                       PS_OPTION_WEIGHTS,
-                                       PS_OPTION_INPUT_FORMAT,
-                                       PS_OPTION_COLUMNS,
-                                       PS_OPTION_SELECT_SETS,
-                                       PS_OPTION_NORMALIZE_VECTORS,
-                                       PS_OPTION_MAX_DEGREE,
-                                       PS_OPTION_HEMISPHERE,
-                                       PS_OPTION_NORMALIZE,
-                                       PS_OPTION_TOLERANCE,
-                                       PS_OPTION_FLOOR,
-                                       PS_OPTION_PRECISION,
-                                       PS_OPTION_ENGINE,
-                                       PS_OPTION_NO_SKIP,
-                                       PS_OPTION_NO_SELF_CHECK,
-                                       PS_OPTION_MEMORY,
-                                       PS_NUM_OPTIONS};
-
 static pspec_status check_coefficients(const ps_request *request, ps_error *error) {
     if (request->coefficients == NULL) {
         return request->harmonics == NULL
@@ -76,7 +53,7 @@ static const ps_line_kind axes = {
 
 const ps_result_kind ps_result_angular = {
     .name = "angular",
-    .options = options,
+    .taker = PS_TAKER_BIT(angular),
     .samples = PS_DOMAIN_SPHERE,
     .counted = "realizations",
     .check_arguments = check_coefficients,

@@ -8,27 +8,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const ps_option_id options[] = {PS_OPTION_AGAINST,
-                                       PS_OPTION_FALSE_ALARM_RATE,
-                                       PS_OPTION_SAMPLER,
-                                       PS_OPTION_POINTS,
-                                       PS_OPTION_REALIZATIONS,
-                                       PS_OPTION_SEED,
-                                       PS_OPTION_HOMOGENIZE,
-                                       PS_OPTION_WEIGHTS,
-                                       PS_OPTION_INPUT_FORMAT,
-                                       PS_OPTION_COLUMNS,
-                                       PS_OPTION_SELECT_SETS,
-                                       PS_OPTION_WRAP,
-                                       PS_OPTION_TOLERANCE,
-                                       PS_OPTION_PRECISION,
-                                       PS_OPTION_NORMALIZE_VECTORS,
-                                       PS_OPTION_ENGINE,
-                                       PS_OPTION_NO_SKIP,
-                                       PS_OPTION_NO_SELF_CHECK,
-                                       PS_OPTION_MEMORY,
-                                       PS_NUM_OPTIONS};
-
 /* The saved spectrum, and the measured one. */
 typedef struct checked {
     ps_saved_spectrum saved;
@@ -242,7 +221,7 @@ static const ps_line_kind lines[] = {
 
 const ps_result_kind ps_result_check = {
     .name = "check",
-    .options = options,
+    .taker = PS_TAKER_BIT(check),
     .samples = PS_DOMAIN_ANY,
     .counted = "realizations",
     .has_verdict = true,

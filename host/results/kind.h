@@ -3,7 +3,7 @@
  * A kind of result is what can be asked for: a command of the same name prints one, a scene has several, and both go the
  * same way: check -> compute -> tabulate, with pictures and other files made of what was computed, or of the table. A kind
  * says which options belong to its question, what planning it comes to, and what its tables mean to who draws, sums up or
- * compares them. A new kind is a new file and a row in results/table.c.
+ * compares them. A new kind is a new file, a name and the rows of its options in questions/options.h and .c.
  */
 #ifndef PS_RESULTS_KIND_H
 #define PS_RESULTS_KIND_H
@@ -11,7 +11,7 @@
 #include "base/watch.h"
 #include "device/device.h"
 #include "plan/choose.h"
-#include "questions/request.h"
+#include "questions/options.h"
 #include "report/plan_table.h"
 #include "tables/table.h"
 
@@ -55,8 +55,8 @@ typedef struct ps_result_kind {
     const char *name;
 
     /* The question. */
-    const ps_option_id *
-        options; /* that belong to the question, which is the same on every device; ended by PS_NUM_OPTIONS */
+    ps_takers
+        taker; /* its bit in the table of options: which belong to the question, the same on every device */
     const char *weights; /* words of --weights; NULL: equal|column|FILE */
     ps_domain samples;   /* which samplers it takes */
     const char *counted; /* what its work counts: "realizations" */
@@ -95,11 +95,18 @@ typedef struct ps_result_kind {
     double (*compare)(const ps_table *a, const ps_table *b);
 } ps_result_kind;
 
-extern const ps_result_kind ps_result_power, ps_result_angular, ps_result_pairs,
-    ps_result_quadrature, ps_result_truncation, ps_result_check;
+/* ps_result_power, .. */
+#define PS_DECLARE_KIND(name) extern const ps_result_kind ps_result_##name;
+#define PS_DECLARE_NOTHING(name)
+PS_TAKERS(PS_DECLARE_KIND, PS_DECLARE_NOTHING)
 
-/* Ended by NULL. */
+/* All of them; ended by NULL. */
 extern const ps_result_kind *const ps_result_kinds[];
+
+/* Does the option belong to the question? */
+static inline bool ps_result_asks(const ps_result_kind *kind, ps_option_id id) {
+    return (ps_options[id].questions & kind->taker) != 0;
+}
 
 /* Computes and tabulates, and keeps nothing else. *out is freed by ps_answer_free, also after an error. A check that found
  * differences is no error: the answer has the verdict. */

@@ -3,28 +3,6 @@
 #include "results/compare.h"
 #include "results/spectra.h"
 
-static const ps_option_id options[] = {PS_OPTION_SAMPLER,
-                                       PS_OPTION_POINTS,
-                                       PS_OPTION_REALIZATIONS,
-                                       PS_OPTION_STANDARD_ERROR,
-                                       PS_OPTION_SEED,
-                                       PS_OPTION_HOMOGENIZE,
-                                       PS_OPTION_WEIGHTS,
-                                       PS_OPTION_INPUT_FORMAT,
-                                       PS_OPTION_COLUMNS,
-                                       PS_OPTION_SELECT_SETS,
-                                       PS_OPTION_NORMALIZE_VECTORS,
-                                       PS_OPTION_MAX_DEGREE,
-                                       PS_OPTION_HEMISPHERE,
-                                       PS_OPTION_TOLERANCE,
-                                       PS_OPTION_FLOOR,
-                                       PS_OPTION_PRECISION,
-                                       PS_OPTION_ENGINE,
-                                       PS_OPTION_NO_SKIP,
-                                       PS_OPTION_NO_SELF_CHECK,
-                                       PS_OPTION_MEMORY,
-                                       PS_NUM_OPTIONS};
-
 static pspec_status check_question(const ps_request *request, ps_error *error) {
     return ps_spectra_check(request, PS_QUESTION_PAIRS, error);
 }
@@ -50,7 +28,7 @@ static const ps_line_kind lines[] = {
 
 const ps_result_kind ps_result_pairs = {
     .name = "pairs",
-    .options = options,
+    .taker = PS_TAKER_BIT(pairs),
     .samples = PS_DOMAIN_SPHERE,
     .counted = "realizations",
     .check_question = check_question,

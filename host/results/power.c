@@ -3,20 +3,6 @@
 #include "results/compare.h"
 #include "results/spectra.h"
 
-static const ps_option_id options[] = {PS_OPTION_SAMPLER,       PS_OPTION_POINTS,
-                                       PS_OPTION_REALIZATIONS,  PS_OPTION_STANDARD_ERROR,
-                                       PS_OPTION_DIMENSION,     PS_OPTION_SEED,
-                                       PS_OPTION_HOMOGENIZE,    PS_OPTION_WEIGHTS,
-                                       PS_OPTION_INPUT_FORMAT,  PS_OPTION_COLUMNS,
-                                       PS_OPTION_SELECT_SETS,   PS_OPTION_WRAP,
-                                       PS_OPTION_MAX_FREQUENCY, PS_OPTION_FREQUENCIES,
-                                       PS_OPTION_SHELLS,        PS_OPTION_PER_RING,
-                                       PS_OPTION_NORMALIZE,     PS_OPTION_TOLERANCE,
-                                       PS_OPTION_FLOOR,         PS_OPTION_PRECISION,
-                                       PS_OPTION_ENGINE,        PS_OPTION_NO_SKIP,
-                                       PS_OPTION_NO_SELF_CHECK, PS_OPTION_MEMORY,
-                                       PS_NUM_OPTIONS};
-
 static pspec_status check_question(const ps_request *request, ps_error *error) {
     return ps_spectra_check(request, PS_QUESTION_POWER, error);
 }
@@ -68,7 +54,7 @@ static const ps_line_kind axes = {NULL,
 
 const ps_result_kind ps_result_power = {
     .name = "power",
-    .options = options,
+    .taker = PS_TAKER_BIT(power),
     .samples = PS_DOMAIN_TORUS,
     .counted = "realizations",
     .has_images = true,

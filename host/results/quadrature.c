@@ -8,28 +8,6 @@
 
 #include <stdlib.h>
 
-static const ps_option_id options[] = {PS_OPTION_SAMPLER,
-                                       PS_OPTION_POINTS,
-                                       PS_OPTION_REALIZATIONS,
-                                       PS_OPTION_STANDARD_ERROR,
-                                       PS_OPTION_SEED,
-                                       PS_OPTION_HOMOGENIZE,
-                                       PS_OPTION_BRDF,
-                                       PS_OPTION_SMOOTHNESS,
-                                       PS_OPTION_WEIGHTS,
-                                       PS_OPTION_INPUT_FORMAT,
-                                       PS_OPTION_COLUMNS,
-                                       PS_OPTION_SELECT_SETS,
-                                       PS_OPTION_NORMALIZE_VECTORS,
-                                       PS_OPTION_MAX_DEGREE,
-                                       PS_OPTION_TOLERANCE,
-                                       PS_OPTION_PRECISION,
-                                       PS_OPTION_ENGINE,
-                                       PS_OPTION_NO_SKIP,
-                                       PS_OPTION_DROP_BELOW,
-                                       PS_OPTION_MEMORY,
-                                       PS_NUM_OPTIONS};
-
 /* One rule, or one mean over realizations, for each sampler or for the files. */
 typedef struct rules {
     ps_quadrature_list list;
@@ -161,7 +139,7 @@ static const ps_line_kind convergence = {
 
 const ps_result_kind ps_result_quadrature = {
     .name = "quadrature",
-    .options = options,
+    .taker = PS_TAKER_BIT(quadrature),
     .weights = "equal|column|optimal|FILE",
     .samples = PS_DOMAIN_SPHERE,
     .counted = "realizations",

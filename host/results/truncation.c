@@ -35,9 +35,6 @@ typedef struct truncation {
     double *degrees, *errors, *bounds, *points; /* [max_degree + 1] */
 } truncation;
 
-static const ps_option_id options[] = {PS_OPTION_BRDF, PS_OPTION_SMOOTHNESS, PS_OPTION_MAX_DEGREE,
-                                       PS_OPTION_HARMONICS, PS_NUM_OPTIONS};
-
 static truncation begin(const ps_request *arguments) {
     const char *const harmonics = arguments->harmonics;
     return (truncation){
@@ -316,7 +313,7 @@ static const ps_line_kind lines[] = {
 
 const ps_result_kind ps_result_truncation = {
     .name = "truncation",
-    .options = options,
+    .taker = PS_TAKER_BIT(truncation),
     .counted = "degrees",
     .is_of_host = true,
     .check_arguments = check_question,

@@ -20,14 +20,14 @@ enum { NUM_OWN_KEYS = sizeof own_keys / sizeof own_keys[0] };
 
 /* The option that a key of a result means; -1: none. */
 static int find_option(const ps_result_kind *kind, const char *key) {
-    const bool takes_points = ps_options_have(kind->options, PS_OPTION_SAMPLER);
+    const bool takes_points = ps_result_asks(kind, PS_OPTION_SAMPLER);
     if (strcmp(key, "files") == 0) {
         return takes_points ? PS_SCENE_FILES : -1;
     }
     const char *const name = strcmp(key, "samplers") == 0 ? "sampler" : key;
     for (int id = 0; id < PS_NUM_OPTIONS; id++) {
         if (strcmp(ps_options[id].name, name) == 0) {
-            return ps_options_have(kind->options, (ps_option_id)id) ? id : -1;
+            return ps_result_asks(kind, (ps_option_id)id) ? id : -1;
         }
     }
     return -1;
@@ -49,7 +49,7 @@ static pspec_status complain_of_key(const ps_scene_reader *reader, const ps_resu
         ps_scene_consider(&best, key, own_keys[i]);
     }
     for (int id = 0; id < PS_NUM_OPTIONS; id++) {
-        if (ps_options_have(kind->options, (ps_option_id)id)) {
+        if (ps_result_asks(kind, (ps_option_id)id)) {
             ps_scene_consider(&best, key, ps_options[id].name);
         }
     }
@@ -184,6 +184,23 @@ static pspec_status take_defaults(const ps_scene_reader *reader, ps_scene_result
     return PSPEC_OK;
 }
 
+/* "power, angular, .. or check" */
+static pspec_status complain_of_no_kind(const ps_scene_reader *reader, int line) {
+    ps_text names = {0};
+    for (size_t i = 0; ps_result_kinds[i] != NULL; i++) {
+        const bool is_last = ps_result_kinds[i + 1] == NULL;
+        ps_text_append(&names, "%s%s",
+                       i == 0    ? ""
+                       : is_last ? " or "
+                                 : ", ",
+                       ps_result_kinds[i]->name);
+    }
+    const pspec_status status =
+        ps_scene_complain(reader->file, line, "result", "is missing: %s", ps_text_string(&names));
+    ps_text_free(&names);
+    return status;
+}
+
 /* Which result it is says what the other keys may be. */
 static pspec_status find_kind(const ps_scene_reader *reader, yaml_node_t *node,
                               ps_scene_result *out) {
@@ -195,8 +212,7 @@ static pspec_status find_kind(const ps_scene_reader *reader, yaml_node_t *node,
             return take_kind(reader, value, &out->kind);
         }
     }
-    return ps_scene_complain(reader->file, ps_scene_line(node), "result",
-                             "is missing: power, angular, pairs, quadrature, truncation or check");
+    return complain_of_no_kind(reader, ps_scene_line(node));
 }
 
 static pspec_status check_twice(const ps_scene_reader *reader, const ps_scene_result *result) {

@@ -1,12 +1,6 @@
 /* pointspec angular: the averaged angular power spectrum. */
 #include "cli/command.h"
 
-/* Beside those of the question. */
-static const ps_option_id options[] = {
-    PS_OPTION_DEVICE,  PS_OPTION_COEFFICIENTS, PS_OPTION_HARMONICS, PS_OPTION_OUTPUT,
-    PS_OPTION_FORMAT,  PS_OPTION_PLOT,         PS_OPTION_PROFILE,   PS_OPTION_QUIET,
-    PS_OPTION_VERBOSE, PS_OPTION_HELP,         PS_NUM_OPTIONS};
-
 const ps_command ps_command_angular = {
     .name = "angular",
     .summary = "averaged angular power spectrum of point sets on the sphere",
@@ -20,7 +14,7 @@ const ps_command ps_command_angular = {
         "even degrees only. The default --tol of 1e-6 bounds the numerical error of the "
         "coefficients relative to white noise.",
     .result = &ps_result_angular,
-    .options = options,
+    .takes = PS_TAKER_BIT(angular),
     .examples = {"pointspec angular --sampler healpix-jittered:nside=8 -m 100 -l 64",
                  "pointspec sample --sampler fibonacci -n 256 | pointspec angular -l 32 -"},
 };

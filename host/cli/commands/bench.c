@@ -319,11 +319,6 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
     return status;
 }
 
-static const ps_option_id options[] = {
-    PS_OPTION_CASE,      PS_OPTION_QUICK,  PS_OPTION_PRECISION, PS_OPTION_ENGINE, PS_OPTION_DEVICE,
-    PS_OPTION_OUTPUT,    PS_OPTION_FORMAT, PS_OPTION_PLOT,      PS_OPTION_QUIET,  PS_OPTION_HELP,
-    PS_OPTION_CALIBRATE, PS_OPTION_SCENES, PS_NUM_OPTIONS};
-
 const ps_command ps_command_bench = {
     .name = "bench",
     .summary = "run time against error on this device; its figures for the planner",
@@ -340,7 +335,7 @@ const ps_command ps_command_bench = {
         "and "
         "compares time and answers; exit status 3 when they differ. Wants a quiet machine; a plain "
         "run takes about three minutes.",
-    .options = options,
+    .takes = PS_TAKER_BIT(bench),
     .formats = "csv|json",
     .examples =
         {"pointspec bench --case plane-many --quick -o bench.csv --plot bench.svg",

@@ -1,11 +1,6 @@
 /* pointspec check: is this sampler's spectrum the saved one? */
 #include "cli/command.h"
 
-/* Beside those of the question. */
-static const ps_option_id options[] = {PS_OPTION_DEVICE,  PS_OPTION_OUTPUT, PS_OPTION_FORMAT,
-                                       PS_OPTION_PROFILE, PS_OPTION_QUIET,  PS_OPTION_VERBOSE,
-                                       PS_OPTION_HELP,    PS_NUM_OPTIONS};
-
 const ps_command ps_command_check = {
     .name = "check",
     .summary = "is this the spectrum that was saved, statistically?",
@@ -22,7 +17,7 @@ const ps_command ps_command_check = {
         "A sampler gets as many points and realizations as were saved and the seed after the saved "
         "one, unless others are given.",
     .result = &ps_result_check,
-    .options = options,
+    .takes = PS_TAKER_BIT(check),
     .examples =
         {"pointspec power --sampler jittered -n 256 -m 64 -o saved.json && pointspec check "
          "--against saved.json --sampler jittered -m 16",

@@ -46,14 +46,6 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
     return status;
 }
 
-static const ps_option_id options[] = {
-    PS_OPTION_POINTS,      PS_OPTION_DIMENSION,     PS_OPTION_WEIGHTS, PS_OPTION_INPUT_FORMAT,
-    PS_OPTION_COLUMNS,     PS_OPTION_DOMAIN,        PS_OPTION_WRAP,    PS_OPTION_NORMALIZE_VECTORS,
-    PS_OPTION_SELECT_SETS, PS_OPTION_SELECT_POINTS, PS_OPTION_MERGE,   PS_OPTION_TO_COLUMNS,
-    PS_OPTION_MEMORY,      PS_OPTION_OUTPUT,        PS_OPTION_FORMAT,  PS_OPTION_QUIET,
-    PS_OPTION_HELP,        PS_NUM_OPTIONS,
-};
-
 const ps_command ps_command_convert = {
     .name = "convert",
     .summary = "one format of point files into another",
@@ -63,11 +55,12 @@ const ps_command ps_command_convert = {
         "of points at a time, so that files may be larger than memory. Several files become sets "
         "of one output. What the format of the output cannot keep is refused, or said on standard "
         "error. Files compressed by gzip are read as they are.",
-    .options = options,
+    .takes = PS_TAKER_BIT(convert),
     .formats = PS_POINT_FORMATS,
     .weights = "equal|column",
     .examples = {"pointspec sample --sampler white -n 64 -m 3 | pointspec convert - -o sets.npy",
                  "pointspec sample --sampler halton -n 8 | pointspec convert --select-points 2.. "
                  "--format csv -"},
     .run = run,
+    .plan = ps_plan_table_add_convert,
 };

@@ -120,9 +120,6 @@ out:
     return status;
 }
 
-static const ps_option_id options[] = {PS_OPTION_DEVICE, PS_OPTION_OUTPUT, PS_OPTION_FORMAT,
-                                       PS_OPTION_HELP, PS_NUM_OPTIONS};
-
 const ps_command ps_command_devices = {
     .name = "devices",
     .summary = "list OpenCL devices and what they can do",
@@ -134,7 +131,7 @@ const ps_command ps_command_devices = {
         "The last columns say whether the planner has figures measured on "
         "the "
         "device, and its peaks per second: see pointspec bench --calibrate.",
-    .options = options,
+    .takes = PS_TAKER_BIT(devices),
     .formats = "csv|json",
     .examples = {"pointspec devices", "pointspec devices --device cpu --format json"},
     .run = run,

@@ -34,8 +34,6 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
     return status;
 }
 
-static const ps_option_id options[] = {PS_OPTION_DEVICE, PS_OPTION_HELP, PS_NUM_OPTIONS};
-
 const ps_command ps_command_doctor = {
     .name = "doctor",
     .summary = "say what works here: drivers, devices, caches, memory, threads, gnuplot",
@@ -46,7 +44,7 @@ const ps_command ps_command_doctor = {
         "what is known, the folders of caches, limits of memory, processors, gnuplot. Lines begin "
         "with ok, with note where something is missing that can be done without, or with WRONG. "
         "The exit status is 0 when the default device works, 3 when it does not.",
-    .options = options,
+    .takes = PS_TAKER_BIT(doctor),
     .examples = {"pointspec doctor", "pointspec doctor --device cpu"},
     .run = run,
 };

@@ -1,11 +1,6 @@
 /* pointspec pairs: Legendre sums over all pairs of points. */
 #include "cli/command.h"
 
-/* Beside those of the question. */
-static const ps_option_id options[] = {PS_OPTION_DEVICE,  PS_OPTION_OUTPUT,  PS_OPTION_FORMAT,
-                                       PS_OPTION_PLOT,    PS_OPTION_PROFILE, PS_OPTION_QUIET,
-                                       PS_OPTION_VERBOSE, PS_OPTION_HELP,    PS_NUM_OPTIONS};
-
 const ps_command ps_command_pairs = {
     .name = "pairs",
     .summary = "Legendre sums over all pairs of points on the sphere",
@@ -21,7 +16,7 @@ const ps_command ps_command_pairs = {
         "largest error of Q(l) in units of (sum |w|)^2; --floor P asks for sums down to P sum w^2 "
         "right to 10 %, which sums over pairs lose sooner than sums of squares do.",
     .result = &ps_result_pairs,
-    .options = options,
+    .takes = PS_TAKER_BIT(pairs),
     .examples = {"pointspec pairs --sampler fibonacci -n 256 -l 32",
                  "pointspec pairs --sampler white-hemisphere -n 64 -m 100 -l 16 --tol 1e-10"},
 };

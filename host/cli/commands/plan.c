@@ -1,6 +1,5 @@
 /* pointspec plan: what another command would do, by what, what it skips and why. */
 #include "cli/command.h"
-#include "cli/run_shown.h"
 #include "questions/options.h"
 #include "store/host_figures.h"
 
@@ -8,12 +7,16 @@
 
 #include <string.h>
 
-/* Commands that can be planned. */
-static const ps_command *const planned[] = {
-    &ps_command_power,      &ps_command_angular,    &ps_command_pairs,
-    &ps_command_quadrature, &ps_command_truncation, &ps_command_check,
-    &ps_command_run,        &ps_command_sample,     &ps_command_convert};
-enum { NUM_PLANNED = sizeof planned / sizeof planned[0] };
+/* Commands that can be planned: those that print a result, and others that say how. Their options are those of plan. */
+#define COMMAND(name) &ps_command_##name,
+#define BIT(name) PS_TAKER_BIT(name) |
+#define NOTHING(name)
+static const ps_command *const planned[] = {&ps_command_run, &ps_command_sample,
+                                            &ps_command_convert, PS_TAKERS(COMMAND, NOTHING) NULL};
+enum {
+    PLANNED =
+        PS_TAKER_BIT(run) | PS_TAKER_BIT(sample) | PS_TAKER_BIT(convert) | PS_TAKERS(BIT, NOTHING) 0
+};
 
 /* Options of the other command only. */
 static pspec_status check_options(const ps_command *command, const ps_request *arguments,
@@ -30,7 +33,7 @@ static pspec_status check_options(const ps_command *command, const ps_request *a
 /* The first word names the command that is asked about; the rest is that command's. */
 static pspec_status take_command(ps_request *inner, const ps_command **command,
                                  const ps_request *arguments, ps_error *error) {
-    for (size_t i = 0; i < NUM_PLANNED && arguments->num_files > 0; i++) {
+    for (size_t i = 0; planned[i] != NULL && arguments->num_files > 0; i++) {
         if (strcmp(arguments->files[0], planned[i]->name) == 0) {
             *inner = *arguments;
             inner->files++;
@@ -52,19 +55,6 @@ static pspec_status add_facts(ps_table *table, const ps_request *arguments, ps_e
     return ps_table_add_meta(table, "command", PS_TEXT(arguments->command_line), error);
 }
 
-static pspec_status fill_jobs(ps_planner *planner, const ps_command *command,
-                              const ps_request *arguments, ps_error *error) {
-    if (command == &ps_command_run) {
-        const ps_run_hooks hooks = ps_run_hooks_make(arguments);
-        return ps_run_plan(planner, arguments, &hooks, error);
-    }
-    if (command == &ps_command_sample) {
-        return ps_plan_table_add_sample(planner, arguments, error);
-    }
-    return command == &ps_command_convert ? ps_plan_table_add_convert(planner, arguments, error)
-                                          : command->result->plan(planner, arguments, error);
-}
-
 static pspec_status fill(ps_table *table, const ps_command *command, const ps_request *arguments,
                          ps_error *error) {
     ps_figures host;
@@ -72,7 +62,8 @@ static pspec_status fill(ps_table *table, const ps_command *command, const ps_re
     PS_TRY(add_facts(table, arguments, error));
     PS_TRY(ps_host_figures_read(&host, arguments->cache_folder, error));
     PS_TRY(ps_table_add_meta(table, "host_figures", PS_TEXT(host.note), error));
-    PS_TRY(fill_jobs(&planner, command, arguments, error));
+    PS_TRY(command->plan != NULL ? command->plan(&planner, arguments, error)
+                                 : command->result->plan(&planner, arguments, error));
     return ps_plan_table_end(&planner, error);
 }
 
@@ -95,33 +86,6 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
     return status;
 }
 
-/* Those of all commands that can be planned. */
-static const ps_option_id options[] = {PS_OPTION_SAMPLER,       PS_OPTION_POINTS,
-                                       PS_OPTION_REALIZATIONS,  PS_OPTION_STANDARD_ERROR,
-                                       PS_OPTION_AGAINST,       PS_OPTION_FALSE_ALARM_RATE,
-                                       PS_OPTION_DIMENSION,     PS_OPTION_BRDF,
-                                       PS_OPTION_SMOOTHNESS,    PS_OPTION_DROP_BELOW,
-                                       PS_OPTION_SEED,          PS_OPTION_HOMOGENIZE,
-                                       PS_OPTION_WEIGHTS,       PS_OPTION_INPUT_FORMAT,
-                                       PS_OPTION_COLUMNS,       PS_OPTION_SELECT_SETS,
-                                       PS_OPTION_WRAP,          PS_OPTION_NORMALIZE_VECTORS,
-                                       PS_OPTION_MAX_FREQUENCY, PS_OPTION_MAX_DEGREE,
-                                       PS_OPTION_HEMISPHERE,    PS_OPTION_COEFFICIENTS,
-                                       PS_OPTION_HARMONICS,     PS_OPTION_FREQUENCIES,
-                                       PS_OPTION_SHELLS,        PS_OPTION_PER_RING,
-                                       PS_OPTION_NORMALIZE,     PS_OPTION_TOLERANCE,
-                                       PS_OPTION_FLOOR,         PS_OPTION_PRECISION,
-                                       PS_OPTION_ENGINE,        PS_OPTION_DEVICE,
-                                       PS_OPTION_NO_SKIP,       PS_OPTION_CACHE,
-                                       PS_OPTION_NO_SELF_CHECK, PS_OPTION_OUTPUT,
-                                       PS_OPTION_FORMAT,        PS_OPTION_FULL,
-                                       PS_OPTION_PLOT,          PS_OPTION_PROFILE,
-                                       PS_OPTION_MEMORY,        PS_OPTION_QUIET,
-                                       PS_OPTION_VERBOSE,       PS_OPTION_HELP,
-                                       PS_OPTION_DOMAIN,        PS_OPTION_SELECT_POINTS,
-                                       PS_OPTION_MERGE,         PS_OPTION_TO_COLUMNS,
-                                       PS_NUM_OPTIONS};
-
 const ps_command ps_command_plan = {
     .name = "plan",
     .summary = "what a command would do: engines, seconds, bytes, error, what is skipped",
@@ -134,7 +98,7 @@ const ps_command ps_command_plan = {
         "error, the one chosen, why the others were not, what is skipped and why, and how long "
         "each phase takes. "
         "Nothing is computed and nothing is timed.",
-    .options = options,
+    .takes = PLANNED,
     .examples = {"pointspec plan power --sampler white -n 4096 -m 1000 -k 128",
                  "pointspec plan angular --sampler white-sphere -n 1e6 -l 512 --tol 1e-9"},
     .weights = "equal|column|optimal|FILE",

@@ -1,11 +1,6 @@
 /* pointspec power: the averaged periodogram. */
 #include "cli/command.h"
 
-/* Beside those of the question. */
-static const ps_option_id options[] = {
-    PS_OPTION_DEVICE,  PS_OPTION_FULL,  PS_OPTION_OUTPUT,  PS_OPTION_FORMAT, PS_OPTION_PLOT,
-    PS_OPTION_PROFILE, PS_OPTION_QUIET, PS_OPTION_VERBOSE, PS_OPTION_HELP,   PS_NUM_OPTIONS};
-
 const ps_command ps_command_power = {
     .name = "power",
     .summary = "averaged periodogram of point sets on the torus",
@@ -18,7 +13,7 @@ const ps_command ps_command_power = {
         "realizations. "
         "The default --tol of 1e-6 bounds the numerical error of S relative to white noise.",
     .result = &ps_result_power,
-    .options = options,
+    .takes = PS_TAKER_BIT(power),
     .examples = {"pointspec power --sampler jittered -n 1024 -m 100 -k 64",
                  "pointspec sample --sampler halton -n 256 | pointspec power -k 32 -"},
 };

@@ -1,11 +1,6 @@
 /* pointspec quadrature: quadrature spectrum and worst-case error of rules for a BRDF. */
 #include "cli/command.h"
 
-/* Beside those of the question. */
-static const ps_option_id options[] = {PS_OPTION_DEVICE,  PS_OPTION_OUTPUT,  PS_OPTION_FORMAT,
-                                       PS_OPTION_PLOT,    PS_OPTION_PROFILE, PS_OPTION_QUIET,
-                                       PS_OPTION_VERBOSE, PS_OPTION_HELP,    PS_NUM_OPTIONS};
-
 const ps_command ps_command_quadrature = {
     .name = "quadrature",
     .summary = "quadrature spectrum and worst-case error of rules for a BRDF",
@@ -20,7 +15,7 @@ const ps_command ps_command_quadrature = {
         "L. Points of samplers of the hemisphere are morphed to the BRDF unless morph= says "
         "otherwise.",
     .result = &ps_result_quadrature,
-    .options = options,
+    .takes = PS_TAKER_BIT(quadrature),
     .examples = {"pointspec quadrature --sampler fibonacci-hemisphere -n 256 --brdf diffuse "
                  "--smoothness 1.5 --weights optimal",
                  "pointspec quadrature --sampler white-hemisphere -n 64 -m 50 --brdf glossy:n=30 "

@@ -77,9 +77,10 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
     return status;
 }
 
-static const ps_option_id options[] = {PS_OPTION_MEMORY,  PS_OPTION_DEVICE, PS_OPTION_CACHE,
-                                       PS_OPTION_NO_SKIP, PS_OPTION_OUTPUT, PS_OPTION_QUIET,
-                                       PS_OPTION_HELP,    PS_NUM_OPTIONS};
+static pspec_status plan(ps_planner *planner, const ps_request *arguments, ps_error *error) {
+    const ps_run_hooks hooks = ps_run_hooks_make(arguments);
+    return ps_run_plan(planner, arguments, &hooks, error);
+}
 
 const ps_command ps_command_run = {
     .name = "run",
@@ -94,9 +95,10 @@ const ps_command ps_command_run = {
         "which is a scene too: running it makes the same results and says whether they have the "
         "same bits. Answers are kept in a cache that all scenes share. Exit status 3 when a check "
         "finds another spectrum than the saved one, or a record is not repeated.",
-    .options = options,
+    .takes = PS_TAKER_BIT(run),
     .examples = {"printf 'scene: 1\\nresults:\\n  - {result: power, samplers: [white, jittered], "
                  "points: 64..256, realizations: 16}\\n' >scene.yaml && pointspec run scene.yaml",
                  "pointspec run scene.yaml -o again --no-skip"},
     .run = run,
+    .plan = plan,
 };

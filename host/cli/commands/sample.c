@@ -120,12 +120,6 @@ out:
     return status;
 }
 
-static const ps_option_id options[] = {
-    PS_OPTION_POINTS,  PS_OPTION_REALIZATIONS, PS_OPTION_DIMENSION, PS_OPTION_SEED,
-    PS_OPTION_SAMPLER, PS_OPTION_HOMOGENIZE,   PS_OPTION_MEMORY,    PS_OPTION_OUTPUT,
-    PS_OPTION_FORMAT,  PS_OPTION_QUIET,        PS_OPTION_HELP,      PS_NUM_OPTIONS,
-};
-
 const ps_command ps_command_sample = {
     .name = "sample",
     .summary = "generate point sets of the torus or the sphere",
@@ -138,10 +132,11 @@ const ps_command ps_command_sample = {
         "digits, and a line \"#\" between two realizations; an NPY array has the shape (M, N, D), "
         "D = 3 on the sphere. --homogenize shifts points of the torus and rotates those of the "
         "sphere, at random.",
-    .options = options,
+    .takes = PS_TAKER_BIT(sample),
     .formats = PS_POINT_FORMATS,
     .samples = PS_DOMAIN_ANY,
     .examples = {"pointspec sample --sampler jittered -n 1024 -m 10 --seed 7 -o points.txt",
                  "pointspec sample --sampler sobol:scramble=owen -n 4096 -d 3 -o points.npy"},
     .run = run,
+    .plan = ps_plan_table_add_sample,
 };

@@ -133,10 +133,6 @@ out:
     return status;
 }
 
-static const ps_option_id options[] = {
-    PS_OPTION_CASE,   PS_OPTION_QUICK,  PS_OPTION_PRECISION, PS_OPTION_ENGINE, PS_OPTION_DEVICE,
-    PS_OPTION_OUTPUT, PS_OPTION_FORMAT, PS_OPTION_QUIET,     PS_OPTION_HELP,   PS_NUM_OPTIONS};
-
 const ps_command ps_command_stress = {
     .name = "stress",
     .summary = "numerical stability suite: an acceptance test of this device and its driver",
@@ -148,7 +144,7 @@ const ps_command ps_command_stress = {
         "some of the rows. A row passes when its error is at most its bound, the engine's own "
         "error formula. Exits with 3 when one fails: then the device or its driver computes "
         "wrongly.",
-    .options = options,
+    .takes = PS_TAKER_BIT(stress),
     .formats = "csv|json",
     .examples = {"pointspec stress --quick --engine pairs_direct -o stress.csv",
                  "pointspec stress --case frequencies-1e6 --format json"},

@@ -2,10 +2,6 @@
  * rule have the same. */
 #include "cli/command.h"
 
-/* Beside those of the question. */
-static const ps_option_id options[] = {PS_OPTION_OUTPUT, PS_OPTION_FORMAT, PS_OPTION_PLOT,
-                                       PS_OPTION_QUIET,  PS_OPTION_HELP,   PS_NUM_OPTIONS};
-
 const ps_command ps_command_truncation = {
     .name = "truncation",
     .summary = "error of shading integrals by truncated harmonics, and equivalent points",
@@ -17,7 +13,7 @@ const ps_command ps_command_truncation = {
         "equivalent_points is the number of spherical Fibonacci points, morphed to the lobe and "
         "with equal weights, whose worst-case error is the same.",
     .result = &ps_result_truncation,
-    .options = options,
+    .takes = PS_TAKER_BIT(truncation),
     .examples =
         {"pointspec truncation --brdf glossy:n=30 --smoothness 1.5",
          "pointspec truncation --brdf diffuse --harmonics hemispherical -l 4 --format json"},
