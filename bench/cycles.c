@@ -6,6 +6,7 @@
 #include "cycles.h"
 
 #include "bench.h"
+#include "engines/nufft/choose.h"
 #include "engines/nufft/cost.h"
 #include "engines/torus/nufft/layout.h"
 #include "engines/torus/nufft/torus_nufft.h"

@@ -1,4 +1,4 @@
-/* Measures the table of host/engines/nufft/cost.c: what the parts of a fast transform cost on this device. */
+/* Measures the table of host/engines/nufft/cycles.c: what the parts of a fast transform cost on this device. */
 #ifndef BENCH_CYCLES_H
 #define BENCH_CYCLES_H
 

@@ -61,6 +61,10 @@ double ps_expected_power(const ps_problem *problem) {
     return problem->expected_power > 0 ? problem->expected_power : white_power(problem);
 }
 
+double ps_planned_points(const ps_problem *problem) {
+    return (double)(problem->planned_points > 0 ? problem->planned_points : problem->num_points);
+}
+
 void ps_engine_slots(const ps_engine *engine, const void *state, size_t num, uint32_t *slots) {
     if (engine->get_slots != NULL) {
         engine->get_slots(state, slots);

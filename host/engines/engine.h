@@ -50,6 +50,9 @@ typedef struct ps_problem {
 /* That of white noise where nothing is known: 1, with a margin on the sphere. */
 double ps_expected_power(const ps_problem *problem);
 
+/* planned_points where the job was planned already, else num_points. */
+double ps_planned_points(const ps_problem *problem);
+
 /* Work and memory of a whole job. */
 typedef struct ps_work {
     double phases;        /* (point, frequency) pairs for which a cosine and sine are made */

@@ -8,7 +8,7 @@
  */
 #include "faults.h"
 
-#include "engines/nufft/choice.h"
+#include "engines/nufft/choose.h"
 #include "jobs/parts/source.h"
 
 #include <stdlib.h>

@@ -1,6 +1,7 @@
 /* What plans take: memory, its limits, time. Planning is a pure function: no device is opened here. */
 #include "harness_plan.h"
 
+#include "engines/nufft/choose.h"
 #include "engines/nufft/cost.h"
 #include "plan/cost_model.h"
 

@@ -1,7 +1,9 @@
 /* The error formula of torus_nufft: docs/engines/torus_nufft.md has the reasons. All errors are in units of the root of
  * sum w^2; constants were measured, and are held, by tests/engines/torus/test_tolerance_sweep.c and
  * tests/engines/torus/test_tolerance_regular.c. */
-#include "engines/nufft/choice.h"
+#include "engines/nufft/error.h"
+
+#include "engines/nufft/plan.h"
 
 #include <math.h>
 
@@ -27,10 +29,6 @@ static const double coherent_roundings = 0.45;
 
 double ps_nufft_modes(const ps_problem *problem) {
     return pow(2.0 * problem->frequencies->max_frequency + 1, problem->frequencies->dimension);
-}
-
-double ps_nufft_points(const ps_problem *problem) {
-    return (double)(problem->planned_points > 0 ? problem->planned_points : problem->num_points);
 }
 
 /* Of all axes together. */
@@ -71,7 +69,7 @@ static whole_loss add_axes(const ps_nufft_choice *choice, uint64_t num_points) {
 static double aliasing_of(const ps_nufft_choice *choice, const ps_problem *problem,
                           const whole_loss *loss, double power) {
     const double peaks = choice->stride != 0 ? 4 : pow(2, problem->frequencies->dimension);
-    const double points_per_mode = ps_nufft_points(problem) / ps_nufft_modes(problem);
+    const double points_per_mode = ps_planned_points(problem) / ps_nufft_modes(problem);
     return sqrt(loss->aliasing + loss->worst * (in_step * power + peaks * points_per_mode));
 }
 

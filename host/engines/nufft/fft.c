@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "device/reals.h"
+#include "engines/nufft/cycles.h"
 #include "math/pi.h"
 
 #include <math.h>
@@ -75,6 +76,11 @@ double ps_fft_passed(uint32_t length) {
         passes++;
     }
     return passes * length;
+}
+
+double ps_fft_cycles(uint32_t length) {
+    return ps_nufft_cycles[PS_NUFFT_OPERATION] * ps_fft_flops(length) +
+           ps_nufft_cycles[PS_NUFFT_PASSED] * ps_fft_passed(length);
 }
 
 /* Lengths from least to last, visited in any order: 2^a times every product of 3, 5 and 7 that is small enough.

@@ -24,7 +24,7 @@ double ps_fft_flops(uint32_t length);
 /* Cells times passes. */
 double ps_fft_passed(uint32_t length);
 
-/* Cycles of a core for one transform in vectors (nufft_cost.c). */
+/* Cycles of a core for one transform in vectors (cycles.h). */
 double ps_fft_cycles(uint32_t length);
 
 /* Cell where the result of frequency k = 0 .. length - 1 stands. */

@@ -1,29 +1,10 @@
 #include "engines/nufft/plan.h"
 
 #include "base/memory.h"
-#include "base/round.h"
 #include "device/reals.h"
-#include "engines/nufft/kernels.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-/* Numbers of a window are made in whole vectors of 8 and begin at half cache lines. */
-enum { BIN_UNIT = 8, PITCH_UNIT = 8 };
-
-uint32_t ps_nufft_bins(const ps_nufft_axis *axis) {
-    return (uint32_t)ps_round_up(axis->window.width, BIN_UNIT);
-}
-
-uint32_t ps_nufft_pitch(const ps_nufft_axis *axis) {
-    const uint32_t written = PS_NUFFT_GAP + ps_nufft_bins(axis);
-    const uint32_t read = axis->window.width + 2 * PS_NUFFT_GAP;
-    return (uint32_t)ps_round_up(written > read ? written : read, PITCH_UNIT);
-}
-
-size_t ps_nufft_row_cells(const ps_nufft_axis *axis) {
-    return (size_t)axis->n + axis->window.width + PS_NUFFT_GAP;
-}
 
 ps_range ps_nufft_group_range(const ps_device *device, size_t num_groups, size_t num_realizations,
                               double flops) {
@@ -45,11 +26,6 @@ static pspec_status create_polynomials(ps_nufft_plan *plan, double tolerance,
     ps_nufft_window_polynomials(&axis->window, plan->degree, plan->bins, coefficients);
     return ps_reals_upload(device, &plan->coefficients, precision, coefficients,
                            (plan->degree + 1) * (size_t)plan->bins, "window polynomials", error);
-}
-
-double ps_nufft_gain(const ps_nufft_axis *axis, uint32_t k) {
-    const double transform = ps_nufft_window_transform(&axis->window, (long double)k / axis->n);
-    return 1 / (transform * transform);
 }
 
 static pspec_status create_gains(ps_nufft_plan *plan, ps_precision precision, ps_device *device,

@@ -2,8 +2,12 @@
 #ifndef PS_ENGINES_NUFFT_PLAN_H
 #define PS_ENGINES_NUFFT_PLAN_H
 
-#include "engines/nufft/choice.h"
+#include "engines/nufft/axis.h"
 #include "engines/nufft/fft.h"
+
+/* Part of the tolerance (or of roundoff, if that is more) that polynomials of windows may be off by: little,
+ * since it adds up in step in sets as regular as the grid. One degree more costs a percent. */
+#define PS_NUFFT_POLYNOMIAL_SHARE 0.01
 
 typedef struct ps_nufft_plan {
     ps_nufft_axis axis;
@@ -20,16 +24,6 @@ pspec_status ps_nufft_plan_create(ps_nufft_plan *out, const ps_nufft_axis *axis,
                                   double tolerance, ps_precision precision, ps_device *device,
                                   ps_error *error) PS_MUST_CHECK;
 void ps_nufft_plan_free(ps_nufft_plan *plan);
-
-/* What undoes the window in the power of frequency k. */
-double ps_nufft_gain(const ps_nufft_axis *axis, uint32_t k);
-
-/* Numbers of a window that are computed (whole vectors), and room for one. */
-uint32_t ps_nufft_bins(const ps_nufft_axis *axis);
-uint32_t ps_nufft_pitch(const ps_nufft_axis *axis);
-
-/* Cells of a row in memory: windows go on behind its end. */
-size_t ps_nufft_row_cells(const ps_nufft_axis *axis);
 
 /* Where powers go: rows from `realization` on of power, times their entries in scales. */
 typedef struct ps_nufft_target {

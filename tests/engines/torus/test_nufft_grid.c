@@ -3,6 +3,7 @@
  */
 #include "harness.h"
 
+#include "engines/nufft/choose.h"
 #include "engines/torus/nufft/layout.h"
 #include "engines/torus/nufft/torus_nufft.h"
 #include "engines/torus/torus_direct.h"

@@ -5,8 +5,8 @@
 #include "harness_shapes.h"
 
 #include "engines/host/host_direct.h"
-#include "engines/nufft/choice.h"
-#include "engines/nufft/whole_shape.h"
+#include "engines/nufft/choose.h"
+#include "engines/nufft/whole_sizes.h"
 #include "engines/torus/nufft/torus_nufft.h"
 
 #include <math.h>

@@ -8,7 +8,7 @@
  */
 #include "harness_shapes.h"
 
-#include "engines/nufft/choice.h"
+#include "engines/nufft/choose.h"
 #include "engines/torus/nufft/torus_nufft.h"
 #include "engines/torus/torus_direct.h"
 

@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-/* Fine grids from sigma = n / 2L on, as in nufft_choice.c. */
+/* Fine grids from sigma = n / 2L on, as in engines/nufft/choose.c. */
 static const double least_sigma = 1.2;
 static const double largest_sigma = 4;
 
@@ -98,7 +98,7 @@ static ps_nufft_axis choose_width(const ps_problem *problem, uint32_t n, ps_prec
 ps_nufft_axis ps_sphere_choose_axis(const ps_problem *problem, ps_precision precision,
                                     ps_sphere_route route) {
     const double twice = 2.0 * problem->frequencies->max_frequency;
-    const double points = ps_nufft_points(problem);
+    const double points = ps_planned_points(problem);
     const uint64_t last = (uint64_t)fmax(LEAST_CELLS, largest_sigma * twice);
     ps_nufft_axis best = {0};
     double best_error = HUGE_VAL;

@@ -80,7 +80,7 @@ static const double few_degrees = 3;
 
 static double aliasing_of(const ps_nufft_axis *axis, const ps_problem *problem, double power) {
     const double modes = pow(2.0 * axis->max_frequency + 1, 2);
-    const double points_per_mode = ps_nufft_points(problem) / modes;
+    const double points_per_mode = ps_planned_points(problem) / modes;
     return sqrt(
         (axis->loss.aliasing + axis->loss.worst * (in_step * power + peaks * points_per_mode)) *
         (1 + few_degrees / axis->max_frequency));
@@ -96,7 +96,7 @@ double ps_sphere_nufft_error(const ps_nufft_axis *axis, const ps_problem *proble
     const double power = mean_power > 1 ? mean_power : 1;
     const double unit = unit_roundoff[precision];
     const double L = axis->max_frequency;
-    const double points = ps_nufft_points(problem);
+    const double points = ps_planned_points(problem);
     /* Degree 0 is in the cells, too. */
     const double with_mean = power + points / ((L + 1) * (L + 1));
     const double cells = (double)axis->n * axis->n / 2;

@@ -348,7 +348,7 @@ ps_sphere_shape ps_sphere_shape_make(const ps_problem *problem, const ps_device_
         ps_sphere_rings_shape(problem->frequencies->max_frequency, limits, precision);
     shape.axis = axis;
     shape.route = route;
-    measure(&shape, limits, ps_nufft_points(problem), real_bytes);
+    measure(&shape, limits, ps_planned_points(problem), real_bytes);
     bool fits = spreading_fits(&shape, limits, real_bytes);
     if (route == PS_SPHERE_BY_CELLS) { /* the table is made of rings in double precision */
         const ps_sphere_shape rings = ps_sphere_rings_shape(shape.max_degree, limits, PS_DOUBLE);

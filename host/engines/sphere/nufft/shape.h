@@ -6,7 +6,7 @@
 #define PS_ENGINES_SPHERE_NUFFT_SHAPE_H
 
 #include "engines/engine.h"
-#include "engines/nufft/choice.h"
+#include "engines/nufft/axis.h"
 
 /* Of orders, in kernels/sphere/nufft/orders_sum.cl, grid_sums.cl and grid_table.cl: each adds up those of its own. A number of its own, whatever the
  * device, since sums depend on it; enough that all cores have work to the end. */
@@ -82,7 +82,7 @@ static inline bool ps_sphere_has_strips(const ps_sphere_shape *shape) {
 /* For batches of no more than `batch` realizations. */
 void ps_sphere_shape_shrink(ps_sphere_shape *shape, size_t batch);
 
-/* Its parts, of sphere_nufft_axis.c and sphere_nufft_cost.c. The grid, the same on both axes; the most exact one when none keeps the tolerance,
+/* Its parts, of axis.c and cost.c. The grid, the same on both axes; the most exact one when none keeps the tolerance,
  * n == 0: L is too large. */
 ps_nufft_axis ps_sphere_choose_axis(const ps_problem *problem, ps_precision precision,
                                     ps_sphere_route route);

@@ -3,7 +3,7 @@
 #include "base/round.h"
 #include "device/reals.h"
 #include "engines/nufft/kernels.h"
-#include "engines/nufft/plan.h"
+#include "engines/nufft/choose.h"
 
 #include <math.h>
 

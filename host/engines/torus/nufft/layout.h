@@ -2,7 +2,7 @@
 #ifndef PS_ENGINES_TORUS_NUFFT_LAYOUT_H
 #define PS_ENGINES_TORUS_NUFFT_LAYOUT_H
 
-#include "engines/nufft/whole_shape.h"
+#include "engines/nufft/whole_sizes.h"
 
 /* Buffers of the grid of a large set. */
 enum { PS_NUFFT_MOST_SLABS = 16 };
