@@ -135,11 +135,12 @@ pspec_status ps_quadrature_needs_rate(ps_quadrature_setup *setup,
 }
 
 pspec_status ps_quadrature_needs_plan(ps_quadrature_setup *setup,
-                                      const ps_quadrature_question *question, ps_error *error) {
+                                      const ps_quadrature_question *question, uint64_t held,
+                                      ps_error *error) {
     const ps_needs_strict strict = {setup->problem.tolerance, other_seconds(setup)};
     ps_plan_constraints constraints = question->constraints;
     ps_memory_room room;
-    ps_memory_room_find(&room, 0);
+    ps_memory_room_find(&room, held);
     constraints.room = &room;
     PS_TRY(ps_needs_plan(&setup->needs, &setup->plan, &setup->problem,
                          setup->device != NULL ? ps_device_get_limits(setup->device) : NULL,

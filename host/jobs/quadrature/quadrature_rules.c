@@ -63,23 +63,39 @@ pspec_status ps_rules_open(ps_rules *rules, ps_rule_shape *shape, ps_error *erro
                                  &rules->num_file_weights, error);
 }
 
-void ps_rules_free(ps_rules *rules) {
-    ps_source_destroy(rules->source);
-    free(rules->file_weights);
-    for (size_t i = 0; i < PS_RULES_AHEAD; i++) {
-        ps_point_set_free(&rules->waiting[i]);
-    }
+static void free_batch(ps_rules *rules) {
     for (size_t i = 0; i < rules->capacity; i++) {
         ps_point_set_free(&rules->batch[i].set);
         free(rules->batch[i].weights);
     }
     free(rules->batch);
     free(rules->patterns);
+    rules->batch = NULL;
+    rules->patterns = NULL;
+    rules->capacity = 0;
+}
+
+void ps_rules_free(ps_rules *rules) {
+    ps_source_destroy(rules->source);
+    free(rules->file_weights);
+    for (size_t i = 0; i < PS_RULES_AHEAD; i++) {
+        ps_point_set_free(&rules->waiting[i]);
+    }
+    free_batch(rules);
     *rules = (ps_rules){0};
+}
+
+pspec_status ps_rules_rewind(ps_rules *rules, ps_error *error) {
+    rules->num_waiting = 0;
+    rules->num_taken = 0;
+    rules->num_read = 0;
+    rules->facts = (ps_rule_facts){0};
+    return ps_source_rewind(rules->source, error);
 }
 
 pspec_status ps_rules_allocate(ps_rules *rules, size_t capacity, ps_error *error) {
     void *memory = NULL;
+    free_batch(rules);
     PS_TRY(ps_allocate(&memory, capacity, sizeof(pspec_pattern), "rules", error));
     rules->patterns = memory;
     PS_TRY(ps_allocate(&memory, capacity, sizeof(ps_weighted_rule), "rules", error));
@@ -172,7 +188,7 @@ static pspec_status accept_points(ps_rules *rules, ps_weighted_rule *rule, ps_er
         straighten(points + 3 * kept);
         rule->weights[kept++] = rule->weights[j];
     }
-    rules->num_dropped += rule->set.num_points - kept;
+    rules->facts.num_dropped += rule->set.num_points - kept;
     rule->set.num_points = kept;
     return kept > 0 ? PSPEC_OK
                     : ps_fail(error, PSPEC_ERROR_INPUT,
@@ -202,6 +218,15 @@ static ps_watch watch_phase(const phase *of) {
     return of->watch->tell != NULL ? (ps_watch){tell, (void *)of} : (ps_watch){0};
 }
 
+static void add_facts(ps_rule_facts *facts, const ps_kernel_facts *found, size_t num_points) {
+    facts->largest_condition = fmax(facts->largest_condition, found->condition);
+    facts->is_ill_conditioned |= found->is_ill_conditioned;
+    facts->has_matrices |= found->is_dense;
+    facts->most_steps = found->num_steps > facts->most_steps ? found->num_steps : facts->most_steps;
+    facts->largest_residual = fmax(facts->largest_residual, found->residual);
+    facts->num_duplicates += num_points - found->num_distinct;
+}
+
 static pspec_status find_optimal(ps_rules *rules, const ps_representer *representer,
                                  ps_weighted_rule *rule, ps_error *error) {
     ps_optimal_weights found;
@@ -213,13 +238,7 @@ static pspec_status find_optimal(ps_rules *rules, const ps_representer *represen
                                        .device = rules->device};
     PS_TRY(ps_optimal_weights_find(representer, num, rule->set.points, rule->kappa, false, &options,
                                    rule->weights, &found, error));
-    const ps_kernel_facts *const facts = &found.facts;
-    rules->largest_condition = fmax(rules->largest_condition, facts->condition);
-    rules->is_ill_conditioned |= facts->is_ill_conditioned;
-    rules->has_matrices |= facts->is_dense;
-    rules->most_steps = facts->num_steps > rules->most_steps ? facts->num_steps : rules->most_steps;
-    rules->largest_residual = fmax(rules->largest_residual, facts->residual);
-    rules->num_duplicates += num - facts->num_distinct;
+    add_facts(&rules->facts, &found.facts, num);
     return PSPEC_OK;
 }
 
@@ -245,14 +264,14 @@ void ps_rules_plan_weights(const ps_quadrature_question *question, size_t num_po
                                                : "--memory is less");
 }
 
-void ps_rules_name_weights(const ps_rules *rules, char *text, size_t size) {
-    if (rules->most_steps == 0) {
+void ps_rule_facts_name_weights(const ps_rule_facts *facts, char *text, size_t size) {
+    if (facts->most_steps == 0) {
         snprintf(text, size, "Cholesky");
         return;
     }
     snprintf(text, size, "%sconjugate gradients, %zu steps to a residual of %.2g, at most",
-             rules->has_matrices ? "Cholesky, and " : "", rules->most_steps,
-             rules->largest_residual);
+             facts->has_matrices ? "Cholesky, and " : "", facts->most_steps,
+             facts->largest_residual);
 }
 
 /* E^2 is of degree two in the weights, and its standard error of degree four. */
@@ -346,9 +365,9 @@ static pspec_status complete(ps_rules *rules, const ps_representer *representer,
     return PSPEC_OK;
 }
 
-static pspec_status read_batch(ps_rules *rules, ps_error *error) {
-    const uint64_t end = rules->until < rules->most ? rules->until : rules->most;
-    for (rules->num = 0; rules->num < rules->capacity && rules->num_read < end; rules->num++) {
+static pspec_status read_batch(ps_rules *rules, uint64_t num_rules, ps_error *error) {
+    const uint64_t most = num_rules < rules->capacity ? num_rules : rules->capacity;
+    for (rules->num = 0; rules->num < most && rules->num_read < rules->most; rules->num++) {
         ps_weighted_rule *const rule = &rules->batch[rules->num];
         bool has_set = false;
         PS_TRY(read_set(rules, &rule->set, &has_set, error));
@@ -363,7 +382,8 @@ static pspec_status read_batch(ps_rules *rules, ps_error *error) {
     return PSPEC_OK;
 }
 
-pspec_status ps_rules_next(ps_rules *rules, const ps_representer *representer, ps_error *error) {
-    PS_TRY(read_batch(rules, error));
+pspec_status ps_rules_next(ps_rules *rules, const ps_representer *representer, uint64_t num_rules,
+                           ps_error *error) {
+    PS_TRY(read_batch(rules, num_rules, error));
     return complete(rules, representer, error);
 }

@@ -14,10 +14,19 @@ typedef struct ps_weighted_rule {
     bool is_complete; /* with its kernel form */
 } ps_weighted_rule;
 
+/* For the result: of all rules that were read. */
+typedef struct ps_rule_facts {
+    uint64_t num_dropped, num_duplicates;
+    double largest_condition; /* 0 without optimal weights */
+    bool is_ill_conditioned, has_matrices;
+    size_t most_steps; /* of conjugate gradients */
+    double largest_residual;
+} ps_rule_facts;
+
 typedef struct ps_rules {
     const ps_quadrature_question *question;
-    ps_device *
-        device; /* for systems without a matrix; NULL: none. Borrowed, set before the first batch */
+    /* for systems without a matrix; NULL: none. Borrowed, set before the first batch */
+    ps_device *device;
     ps_source *source;
     double *file_weights;
     size_t num_file_weights;
@@ -28,28 +37,24 @@ typedef struct ps_rules {
     pspec_pattern *patterns;
     size_t capacity, num;    /* rules in batch */
     uint64_t num_read, most; /* rules; others are left unread */
-    uint64_t until;          /* the next batch ends there at the latest */
-    /* for the result */
-    uint64_t num_dropped, num_duplicates;
-    double largest_condition; /* 0 without optimal weights */
-    bool is_ill_conditioned, has_matrices;
-    size_t most_steps; /* of conjugate gradients */
-    double largest_residual;
+    ps_rule_facts facts;
 } ps_rules;
 
 /* {.question}: opens the source and says what is known of the rules. Freed by ps_rules_free, also after an error. */
 pspec_status ps_rules_open(ps_rules *rules, ps_rule_shape *shape, ps_error *error) PS_MUST_CHECK;
 void ps_rules_free(ps_rules *rules);
-/* Room for batches of so many, or of fewer where sets are large. */
+/* Room for batches of so many, instead of what there was. */
 pspec_status ps_rules_allocate(ps_rules *rules, size_t capacity, ps_error *error) PS_MUST_CHECK;
-/* The next batch, complete, of at most rules->most in all; rules->num is 0 behind the last. */
-pspec_status ps_rules_next(ps_rules *rules, const ps_representer *representer,
+/* The next batch, complete, of num_rules at most, and of rules->most in all; rules->num is 0 behind the last. */
+pspec_status ps_rules_next(ps_rules *rules, const ps_representer *representer, uint64_t num_rules,
                            ps_error *error) PS_MUST_CHECK;
+/* Back to the first rule; what is there for the result is forgotten. */
+pspec_status ps_rules_rewind(ps_rules *rules, ps_error *error) PS_MUST_CHECK;
 
 /* How optimal weights of so many points will be made and in what memory, for `plan`; "" without such weights. */
 void ps_rules_plan_weights(const ps_quadrature_question *question, size_t num_points,
                            const ps_device *device, char *text, size_t size);
 /* How they were made. */
-void ps_rules_name_weights(const ps_rules *rules, char *text, size_t size);
+void ps_rule_facts_name_weights(const ps_rule_facts *facts, char *text, size_t size);
 
 #endif

@@ -89,19 +89,16 @@ static ps_problem make_problem(const ps_quadrature_setup *of,
                                const ps_quadrature_question *question, const ps_rule_shape *shape) {
     /* |dc_lm| is e relative to white noise: Q is then off by 4 e at most */
     const double amplitudes = 4;
-    const double power = shape->mean_power > 0
-                             ? shape->mean_power
-                             : expect_power(&of->representer, of->max_degree, shape->num_points);
-    return (ps_problem){.frequencies = &of->frequencies,
-                        .num_points = shape->num_points,
-                        .planned_points = shape->num_points,
-                        .num_realizations = of->planned_realizations,
-                        .has_weights = true,
-                        .measure = of->by_pairs ? PS_OF_PAIR_SUMS : PS_OF_AMPLITUDES,
-                        .tolerance =
-                            of->by_pairs ? question->tolerance : question->tolerance / amplitudes,
-                        .weight_share = shape->largest_share,
-                        .expected_power = of->by_pairs ? power : 0};
+    return (ps_problem){
+        .frequencies = &of->frequencies,
+        .num_points = shape->num_points,
+        .planned_points = shape->num_points,
+        .num_realizations = of->planned_realizations,
+        .has_weights = true,
+        .measure = of->by_pairs ? PS_OF_PAIR_SUMS : PS_OF_AMPLITUDES,
+        .tolerance = of->by_pairs ? question->tolerance : question->tolerance / amplitudes,
+        .expected_power =
+            of->by_pairs ? expect_power(&of->representer, of->max_degree, shape->num_points) : 0};
 }
 
 static pspec_status open_device(ps_quadrature_setup *out, const ps_quadrature_question *question,
@@ -134,7 +131,14 @@ static pspec_status plan_engine(ps_quadrature_setup *out, const ps_quadrature_qu
     PS_TRY(ps_frequencies_enumerate(&out->frequencies, error));
     PS_TRY(open_device(out, question, error));
     out->problem = make_problem(out, question, shape);
-    return ps_quadrature_needs_plan(out, question, error);
+    return ps_quadrature_needs_plan(out, question, 0, error);
+}
+
+pspec_status ps_quadrature_setup_plan_again(ps_quadrature_setup *setup,
+                                            const ps_quadrature_question *question, uint64_t held,
+                                            ps_error *error) {
+    ps_quadrature_needs_find(setup, question); /* with none of what the plan before has skipped */
+    return ps_quadrature_needs_plan(setup, question, held, error);
 }
 
 pspec_status ps_quadrature_setup_make(ps_quadrature_setup *out,

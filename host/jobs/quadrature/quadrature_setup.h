@@ -7,11 +7,8 @@
 
 /* Of the rules: what is known before the first is computed with. */
 typedef struct ps_rule_shape {
-    size_t num_points;    /* of the first */
-    bool has_several;     /* of them */
-    bool has_weights;     /* other than equal ones */
-    double mean_power;    /* 0: not measured yet, see ps_problem.expected_power */
-    double largest_share; /* 0: not measured yet, see ps_problem.weight_share */
+    size_t num_points; /* of the first */
+    bool has_several;  /* of them */
 } ps_rule_shape;
 
 typedef struct ps_quadrature_setup {
@@ -44,6 +41,10 @@ pspec_status ps_quadrature_setup_begin(ps_quadrature_setup *out,
 pspec_status ps_quadrature_setup_make(ps_quadrature_setup *out,
                                       const ps_quadrature_question *question,
                                       const ps_rule_shape *shape, ps_error *error) PS_MUST_CHECK;
+/* Plans once more, for the powers that the problem has by now; held: bytes that the estimator of the plan before has. */
+pspec_status ps_quadrature_setup_plan_again(ps_quadrature_setup *setup,
+                                            const ps_quadrature_question *question, uint64_t held,
+                                            ps_error *error) PS_MUST_CHECK;
 /* Both from the question alone, for `plan`: of files the first two sets are read. */
 pspec_status ps_quadrature_setup_ask(ps_quadrature_setup *out,
                                      const ps_quadrature_question *question,
