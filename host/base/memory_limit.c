@@ -1,9 +1,7 @@
 #include "base/memory_limit.h"
 
 #include "base/proc_files.h"
-#include "base/text.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -190,39 +188,12 @@ void ps_memory_room_find(ps_memory_room *out, uint64_t held) {
 
 /* ---- sizes --------------------------------------------------------------------------------- */
 
-static const char units[] = "KMGT";
-static const double unit_step = 1024;
-
 const char *ps_size_show(char text[PS_SIZE_TEXT], double bytes) {
     size_t power = 0;
-    while (bytes >= unit_step && power < sizeof units - 1) {
-        bytes /= unit_step;
+    while (bytes >= PS_SIZE_STEP && power < sizeof PS_SIZE_UNITS - 1) {
+        bytes /= PS_SIZE_STEP;
         power++;
     }
-    snprintf(text, PS_SIZE_TEXT, "%.4g%.1s", bytes, power > 0 ? units + power - 1 : "");
+    snprintf(text, PS_SIZE_TEXT, "%.4g%.1s", bytes, power > 0 ? &PS_SIZE_UNITS[power - 1] : "");
     return text;
-}
-
-pspec_status ps_parse_size(const char *text, const char *what, uint64_t *out, ps_error *error) {
-    enum { MOST_LETTERS = 40 };
-    char number[MOST_LETTERS + 1];
-    double value = 0;
-    const size_t length = strlen(text);
-    const char last = length > 0 ? text[length - 1] : '\0';
-    const char upper = last >= 'a' && last <= 'z' ? (char)(last - 'a' + 'A') : last;
-    const char *const unit = upper != '\0' ? strchr(units, upper) : NULL;
-    const double bytes_of_unit = unit != NULL ? pow(unit_step, (double)(unit - units + 1)) : 1;
-    ps_error ignored = {0};
-    snprintf(number, sizeof number, "%.*s", (int)(unit != NULL ? length - 1 : length), text);
-    const bool is_size = length <= MOST_LETTERS &&
-                         (unit == NULL ? ps_parse_count(text, what, 1, INT64_MAX, out, &ignored)
-                                       : ps_parse_number(number, what, 1 / bytes_of_unit,
-                                                         (double)INT64_MAX / 2 / bytes_of_unit,
-                                                         &value, &ignored)) == PSPEC_OK;
-    if (!is_size) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "%s: \"%s\" is not a size above 0, such as 400M, 1.5G or 2e9", what, text);
-    }
-    *out = unit != NULL ? (uint64_t)(value * bytes_of_unit) : *out;
-    return PSPEC_OK;
 }

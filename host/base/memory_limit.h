@@ -56,12 +56,12 @@ typedef struct ps_memory_room {
 /* Of this machine; what the asker holds already, and counts, is added. */
 void ps_memory_room_find(ps_memory_room *out, uint64_t held);
 
+/* Units of sizes are powers of 1024. */
+#define PS_SIZE_UNITS "KMGT"
+enum { PS_SIZE_STEP = 1024 };
+
 /* Bytes as --memory takes them and with four digits: "400M", "1.5G". */
 enum { PS_SIZE_TEXT = 24 };
 const char *ps_size_show(char text[PS_SIZE_TEXT], double bytes);
-
-/* "400M", "1.5G", "2e9": a whole number of bytes, or a number of K, M, G or T, which are powers of 1024. */
-pspec_status ps_parse_size(const char *text, const char *what, uint64_t *out,
-                           ps_error *error) PS_MUST_CHECK;
 
 #endif

@@ -1,6 +1,7 @@
 #include "base/text.h"
 
 #include "base/memory.h"
+#include "base/memory_limit.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -121,6 +122,31 @@ pspec_status ps_parse_count(const char *text, const char *what, uint64_t minimum
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: %s is not between %llu and %llu",
                        what, text, (unsigned long long)minimum, (unsigned long long)maximum);
     }
+    return PSPEC_OK;
+}
+
+pspec_status ps_parse_size(const char *text, const char *what, uint64_t *out, ps_error *error) {
+    static const char units[] = PS_SIZE_UNITS;
+    enum { MOST_LETTERS = 40 };
+    char number[MOST_LETTERS + 1];
+    double value = 0;
+    const size_t length = strlen(text);
+    const char last = length > 0 ? text[length - 1] : '\0';
+    const char upper = last >= 'a' && last <= 'z' ? (char)(last - 'a' + 'A') : last;
+    const char *const unit = upper != '\0' ? strchr(units, upper) : NULL;
+    const double bytes_of_unit = unit != NULL ? pow(PS_SIZE_STEP, (double)(unit - units + 1)) : 1;
+    ps_error ignored = {0};
+    snprintf(number, sizeof number, "%.*s", (int)(unit != NULL ? length - 1 : length), text);
+    const bool is_size = length <= MOST_LETTERS &&
+                         (unit == NULL ? ps_parse_count(text, what, 1, INT64_MAX, out, &ignored)
+                                       : ps_parse_number(number, what, 1 / bytes_of_unit,
+                                                         (double)INT64_MAX / 2 / bytes_of_unit,
+                                                         &value, &ignored)) == PSPEC_OK;
+    if (!is_size) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "%s: \"%s\" is not a size above 0, such as 400M, 1.5G or 2e9", what, text);
+    }
+    *out = unit != NULL ? (uint64_t)(value * bytes_of_unit) : *out;
     return PSPEC_OK;
 }
 

@@ -39,6 +39,10 @@ pspec_status ps_parse_count(const char *text, const char *what, uint64_t minimum
 pspec_status ps_parse_number(const char *text, const char *what, double minimum, double maximum,
                              double *out, ps_error *error) PS_MUST_CHECK;
 
+/* "400M", "1.5G", "2e9": a whole number of bytes, or a number of K, M, G or T, which are powers of 1024. */
+pspec_status ps_parse_size(const char *text, const char *what, uint64_t *out,
+                           ps_error *error) PS_MUST_CHECK;
+
 /* The nearer one to name of *nearest, which may be NULL at first, and known. */
 void ps_text_keep_nearest(const char *name, const char *known, const char **nearest);
 

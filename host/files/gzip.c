@@ -1,10 +1,10 @@
 #include "files/gzip.h"
 
 #include "base/memory.h"
+#include "files/descriptor.h"
 
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 #include <zlib.h>
 
 enum {
@@ -14,24 +14,28 @@ enum {
 };
 
 struct ps_gzip {
+    int descriptor;
+    const char *name;
     z_stream stream;
     bool is_between_members; /* the input may end here */
     unsigned char compressed[COMPRESSED_BYTES];
 };
 
-static pspec_status fail_zlib(const z_stream *stream, const char *name, int code, ps_error *error) {
+static pspec_status fail_zlib(const ps_gzip *gzip, int code, ps_error *error) {
+    const char *const message = gzip->stream.msg;
     if (code == Z_MEM_ERROR) {
-        return ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory to decompress %s", name);
+        return ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory to decompress %s", gzip->name);
     }
-    return ps_fail(error, PSPEC_ERROR_INPUT, "%s: its gzip data are damaged: %s", name,
-                   stream->msg != NULL ? stream->msg : "zlib does not say how");
+    return ps_fail(error, PSPEC_ERROR_INPUT, "%s: its gzip data are damaged: %s", gzip->name,
+                   message != NULL ? message : "zlib does not say how");
 }
 
-pspec_status ps_gzip_create(ps_gzip **out, const unsigned char *start, size_t num_bytes,
-                            ps_error *error) {
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_gzip), "decompression", error));
-    ps_gzip *gzip = memory;
+pspec_status ps_gzip_create(ps_gzip **out, int descriptor, const char *name,
+                            const unsigned char *start, size_t num_bytes, ps_error *error) {
+    ps_gzip *gzip = NULL;
+    PS_TRY(PS_NEW(&gzip, 1, "decompression", error));
+    gzip->descriptor = descriptor;
+    gzip->name = name;
     const int code = inflateInit2(&gzip->stream, MAX_WBITS + GZIP_ONLY);
     if (code != Z_OK) {
         free(gzip);
@@ -51,24 +55,23 @@ void ps_gzip_destroy(ps_gzip *gzip) {
     }
 }
 
-static pspec_status refill(ps_gzip *gzip, const ps_input *input, bool *is_at_end, ps_error *error) {
-    const ssize_t count = read(input->descriptor, gzip->compressed, COMPRESSED_BYTES);
-    if (count < 0) {
-        return ps_input_fail(input->name, error);
-    }
+static pspec_status refill(ps_gzip *gzip, bool *is_at_end, ps_error *error) {
+    size_t count = 0;
+    PS_TRY(ps_descriptor_read(gzip->descriptor, gzip->name, gzip->compressed, COMPRESSED_BYTES,
+                              &count, error));
     gzip->stream.next_in = gzip->compressed;
     gzip->stream.avail_in = (uInt)count;
     *is_at_end = count == 0;
     if (*is_at_end && !gzip->is_between_members) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "%s is truncated: its gzip data go on",
-                       input->name);
+                       gzip->name);
     }
     return PSPEC_OK;
 }
 
 /* One call of zlib. A finished member may be followed by another. Without input it still may have
  * output that found no room before. */
-static pspec_status inflate_step(ps_gzip *gzip, const ps_input *input, ps_error *error) {
+static pspec_status inflate_step(ps_gzip *gzip, ps_error *error) {
     if (gzip->is_between_members && gzip->stream.avail_in == 0) {
         return PSPEC_OK;
     }
@@ -80,22 +83,22 @@ static pspec_status inflate_step(ps_gzip *gzip, const ps_input *input, ps_error 
     gzip->is_between_members = code == Z_STREAM_END;
     return code == Z_OK || code == Z_STREAM_END || code == Z_BUF_ERROR
                ? PSPEC_OK
-               : fail_zlib(&gzip->stream, input->name, code, error);
+               : fail_zlib(gzip, code, error);
 }
 
-pspec_status ps_gzip_read(ps_gzip *gzip, ps_input *input, void *out, size_t max_bytes,
-                          size_t *count, ps_error *error) {
+pspec_status ps_gzip_read(ps_gzip *gzip, void *out, size_t max_bytes, size_t *count,
+                          ps_error *error) {
     const uInt room = (uInt)(max_bytes < MOST_AT_ONCE ? max_bytes : MOST_AT_ONCE);
     bool is_at_end = false;
     gzip->stream.next_out = out;
     gzip->stream.avail_out = room;
     while (!is_at_end) {
-        PS_TRY(inflate_step(gzip, input, error));
+        PS_TRY(inflate_step(gzip, error));
         if (gzip->stream.avail_out < room) {
             break;
         }
         if (gzip->stream.avail_in == 0) {
-            PS_TRY(refill(gzip, input, &is_at_end, error));
+            PS_TRY(refill(gzip, &is_at_end, error));
         }
     }
     *count = room - gzip->stream.avail_out;

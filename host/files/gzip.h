@@ -2,16 +2,22 @@
 #ifndef PS_FILES_GZIP_H
 #define PS_FILES_GZIP_H
 
-#include "files/input_file.h"
+#include "base/status.h"
 
-/* start: compressed bytes that were read already; copied. */
-pspec_status ps_gzip_create(ps_gzip **out, const unsigned char *start, size_t num_bytes,
+#include <stddef.h>
+
+typedef struct ps_gzip ps_gzip;
+
+/* start: compressed bytes that were read already; copied. The descriptor, which gives the others, and the name for messages
+ * stay the caller's. */
+pspec_status ps_gzip_create(ps_gzip **out, int descriptor, const char *name,
+                            const unsigned char *start, size_t num_bytes,
                             ps_error *error) PS_MUST_CHECK;
 void ps_gzip_destroy(ps_gzip *gzip);
 
 /* Up to max_bytes of the data, *count 0 at the end of the last member. Damaged and truncated data
  * are PSPEC_ERROR_INPUT; zlib checks the CRC of every member. */
-pspec_status ps_gzip_read(ps_gzip *gzip, ps_input *input, void *out, size_t max_bytes,
-                          size_t *count, ps_error *error) PS_MUST_CHECK;
+pspec_status ps_gzip_read(ps_gzip *gzip, void *out, size_t max_bytes, size_t *count,
+                          ps_error *error) PS_MUST_CHECK;
 
 #endif

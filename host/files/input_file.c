@@ -1,10 +1,10 @@
 #include "files/input_file.h"
 
 #include "base/memory.h"
+#include "files/descriptor.h"
 #include "files/gzip.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -15,16 +15,10 @@ enum {
     MOST_PEEKED = 16
 };
 
-pspec_status ps_input_fail(const char *name, ps_error *error) {
-    const int reason = errno;
-    return ps_fail(error, reason == EINTR ? PSPEC_ERROR_CANCELLED : PSPEC_ERROR_IO,
-                   "cannot read %s: %s", name, strerror(reason));
-}
-
 pspec_status ps_inputs_check(const char *const *paths, size_t num, ps_error *error) {
     for (size_t i = 0; i < num; i++) {
         if (paths[i] != NULL && strcmp(paths[i], "-") != 0 && access(paths[i], R_OK) != 0) {
-            return ps_input_fail(paths[i], error);
+            return ps_read_fail(paths[i], error);
         }
     }
     return PSPEC_OK;
@@ -32,20 +26,14 @@ pspec_status ps_inputs_check(const char *const *paths, size_t num, ps_error *err
 
 /* ---- opening ----------------------------------------------------------------------------- */
 
-/* Standard input is read through a copy of its descriptor, so that closing it is ours to do. */
-static int open_descriptor(const char *path) {
-    return strcmp(path, "-") != 0 ? open(path, O_RDONLY | O_NOCTTY | O_CLOEXEC)
-                                  : fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0);
-}
-
 static pspec_status check_kind(ps_input *input, ps_error *error) {
     struct stat facts;
     if (fstat(input->descriptor, &facts) != 0) {
-        return ps_input_fail(input->name, error);
+        return ps_read_fail(input->name, error);
     }
     if (S_ISDIR(facts.st_mode)) {
         errno = EISDIR;
-        return ps_input_fail(input->name, error);
+        return ps_read_fail(input->name, error);
     }
     input->is_seekable = S_ISREG(facts.st_mode);
     return PSPEC_OK;
@@ -66,8 +54,8 @@ static pspec_status start_gzip(ps_input *input, ps_error *error) {
     if (num_bytes < sizeof magic || bytes[1] != magic[1]) {
         return PSPEC_OK;
     }
-    PS_TRY(ps_gzip_create(&input->gzip, input->buffer + input->begin, input->end - input->begin,
-                          error));
+    PS_TRY(ps_gzip_create(&input->gzip, input->descriptor, input->name,
+                          input->buffer + input->begin, input->end - input->begin, error));
     input->begin = input->end = 0;
     input->is_seekable = false;
     return PSPEC_OK;
@@ -78,15 +66,13 @@ static pspec_status open_input(ps_input *input, const char *path, ps_error *erro
     if (input->name == NULL) {
         return ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for a file name");
     }
-    input->descriptor = open_descriptor(path);
+    input->descriptor = ps_descriptor_open(path);
     if (input->descriptor < 0) {
-        return ps_input_fail(input->name, error);
+        return ps_read_fail(input->name, error);
     }
     PS_TRY(check_kind(input, error));
     input->can_reopen = input->is_seekable && strcmp(path, "-") != 0;
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, BUFFER_BYTES, 1, "an input buffer", error));
-    input->buffer = memory;
+    PS_TRY(PS_NEW(&input->buffer, BUFFER_BYTES, "an input buffer", error));
     return start_gzip(input, error);
 }
 
@@ -115,14 +101,9 @@ void ps_input_close(ps_input *input) {
 static pspec_status read_source(ps_input *input, void *out, size_t max_bytes, size_t *count,
                                 ps_error *error) {
     if (input->gzip != NULL) {
-        return ps_gzip_read(input->gzip, input, out, max_bytes, count, error);
+        return ps_gzip_read(input->gzip, out, max_bytes, count, error);
     }
-    const ssize_t taken = read(input->descriptor, out, max_bytes);
-    if (taken < 0) {
-        return ps_input_fail(input->name, error);
-    }
-    *count = (size_t)taken;
-    return PSPEC_OK;
+    return ps_descriptor_read(input->descriptor, input->name, out, max_bytes, count, error);
 }
 
 pspec_status ps_input_peek(ps_input *input, size_t wanted, const unsigned char **bytes,
@@ -206,5 +187,5 @@ pspec_status ps_input_seek(ps_input *input, off_t position, ps_error *error) {
     input->begin = input->end = 0;
     return lseek(input->descriptor, position, SEEK_SET) == position
                ? PSPEC_OK
-               : ps_input_fail(input->name, error);
+               : ps_read_fail(input->name, error);
 }

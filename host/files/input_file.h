@@ -10,7 +10,7 @@
 #include <stdint.h>
 #include <sys/types.h>
 
-typedef struct ps_gzip ps_gzip;
+typedef struct ps_gzip ps_gzip; /* files/gzip.h */
 
 /* Closed by ps_input_close, also after an open that failed. */
 typedef struct ps_input {
@@ -50,9 +50,5 @@ bool ps_input_bytes_left(const ps_input *input, uint64_t *num_bytes);
 /* Where the next byte stands in the file, and going back there. Seekable inputs only. */
 off_t ps_input_position(const ps_input *input);
 pspec_status ps_input_seek(ps_input *input, off_t position, ps_error *error) PS_MUST_CHECK;
-
-/* Records that reading name failed, as errno says; an interruption is PSPEC_ERROR_CANCELLED, so
- * that whoever installed the signal handler decides (SA_RESTART or not) whether reads go on. */
-pspec_status ps_input_fail(const char *name, ps_error *error);
 
 #endif

@@ -1,7 +1,7 @@
 #include "frequencies/frequencies.h"
 
 #include "base/memory.h"
-#include "frequencies/frequency_sample.h"
+#include "math/lattice_rank.h"
 #include "math/pi.h"
 
 #include <math.h>
@@ -55,6 +55,13 @@ static int32_t largest_allowed(unsigned dimension) {
         }
     }
     return low;
+}
+
+bool ps_frequencies_can_sample(unsigned dimension, int64_t max_frequency) {
+    return dimension > 1 && dimension <= PS_MAX_TORUS_DIMENSION && max_frequency >= 1 &&
+           max_frequency <= PS_MAX_SAMPLED_RING &&
+           ps_lattice_estimate(dimension, max_frequency * (max_frequency + 1)).most <
+               (double)UINT64_MAX;
 }
 
 /* The end of a sentence about a K that is too large. */

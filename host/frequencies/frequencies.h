@@ -70,6 +70,14 @@ enum {
     PS_OFFER_LISTS = 2
 };
 
+/* Counting rings up to K takes (d + 1) K^2 numbers of 64 bits and d K^3 additions: at this K, 200 MB and
+ * some ten seconds. */
+enum { PS_MAX_SAMPLED_RING = 2000 };
+
+/* Is there a subset of fewer frequencies than all up to K? In one dimension a ring has one, and beyond a K, or where
+ * there are more than can be counted, nobody knows how many a ring has. */
+bool ps_frequencies_can_sample(unsigned dimension, int64_t max_frequency);
+
 /* A box or ball, not enumerated: costs nothing, whatever the size. dimension 1..6, K >= 1. More
  * frequencies than an index holds: PSPEC_ERROR_INVALID_ARGUMENT with the largest K that fits. */
 pspec_status ps_frequencies_lattice(ps_frequencies *out, unsigned dimension, int32_t max_frequency,

@@ -9,13 +9,6 @@
 _Static_assert((int)PS_LATTICE_MAX_DIMENSION == (int)PS_MAX_TORUS_DIMENSION,
                "lattices are counted in as many dimensions as there are");
 
-bool ps_frequencies_can_sample(unsigned dimension, int64_t max_frequency) {
-    return dimension > 1 && dimension <= PS_MAX_TORUS_DIMENSION && max_frequency >= 1 &&
-           max_frequency <= PS_MAX_SAMPLED_RING &&
-           ps_lattice_estimate(dimension, max_frequency * (max_frequency + 1)).most <
-               (double)UINT64_MAX;
-}
-
 /* The shell of one ring, or the ring of one |k|^2. */
 typedef struct ring_range {
     uint64_t number; /* b, or |k|^2 */

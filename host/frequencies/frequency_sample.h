@@ -12,16 +12,8 @@
 
 #include "frequencies/frequencies.h"
 
-/* Counting rings up to K takes (d + 1) K^2 numbers of 64 bits and d K^3 additions: at this K, 200 MB and
- * some ten seconds. */
-enum { PS_MAX_SAMPLED_RING = 2000 };
-
 /* A ring's subset needs two frequencies to have a variance. */
 enum { PS_MIN_PER_RING = 2 };
-
-/* Is there a subset of fewer frequencies than all up to K? In one dimension a ring has one, and beyond a K, or where
- * there are more than can be counted, nobody knows how many a ring has. */
-bool ps_frequencies_can_sample(unsigned dimension, int64_t max_frequency);
 
 typedef struct ps_frequency_sample {
     unsigned dimension;

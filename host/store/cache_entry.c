@@ -1,7 +1,7 @@
 #include "store/cache_entry.h"
 
 #include "base/memory.h"
-#include "files/input_file.h"
+#include "files/descriptor.h"
 #include "files/output_file.h"
 #include "store/cache_trust.h"
 
@@ -64,7 +64,7 @@ static pspec_status read_bytes(const entry_file *file, void *out, size_t wanted,
     while (*count < wanted && step > 0) {
         step = read(file->descriptor, (char *)out + *count, wanted - *count);
         if (step < 0) {
-            return ps_input_fail(file->path, error);
+            return ps_read_fail(file->path, error);
         }
         *count += (size_t)step;
     }

@@ -1,6 +1,6 @@
 #include "store/cache_trust.h"
 
-#include "files/input_file.h"
+#include "files/descriptor.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -44,7 +44,7 @@ static pspec_status look_at(int descriptor, const char *path, uint64_t *num_byte
                             ps_cache_file_kind *kind, ps_error *error) {
     struct stat facts;
     if (fstat(descriptor, &facts) != 0) {
-        return ps_input_fail(path, error);
+        return ps_read_fail(path, error);
     }
     if (!S_ISREG(facts.st_mode)) {
         *kind = PS_CACHE_FILE_NONE;
@@ -67,7 +67,7 @@ pspec_status ps_cache_file_open(const char *path, int *descriptor, uint64_t *num
     if (*descriptor < 0) {
         const bool is_absent = errno == ENOENT || errno == ENOTDIR;
         *kind = is_no_file(errno) ? PS_CACHE_FILE_NONE : PS_CACHE_FILE_ABSENT;
-        return is_absent || is_no_file(errno) ? PSPEC_OK : ps_input_fail(path, error);
+        return is_absent || is_no_file(errno) ? PSPEC_OK : ps_read_fail(path, error);
     }
     const pspec_status status = look_at(*descriptor, path, num_bytes, kind, error);
     if (*kind != PS_CACHE_FILE_OWN) {

@@ -2,7 +2,7 @@
 
 #include "base/memory.h"
 #include "files/digest.h"
-#include "files/input_file.h"
+#include "files/descriptor.h"
 #include "files/output_file.h"
 #include "store/cache_folder.h"
 #include "store/cache_trust.h"
@@ -89,7 +89,7 @@ static pspec_status read_all(int descriptor, const char *path, char *out, size_t
     for (*length = 0; *length < MOST_BYTES && step > 0; *length += (size_t)step) {
         step = read(descriptor, out + *length, MOST_BYTES - *length);
         if (step < 0) {
-            return ps_input_fail(path, error);
+            return ps_read_fail(path, error);
         }
     }
     return PSPEC_OK;
