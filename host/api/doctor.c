@@ -8,7 +8,6 @@
 
 #include <errno.h>
 #include <inttypes.h>
-#include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,18 +17,7 @@
 
 enum { LINE_BYTES = 512 };
 
-void ps_doctor_tell(const ps_doctor *doctor, ps_finding_kind kind, const char *topic,
-                    const char *format, ...) {
-    char sentence[PS_MESSAGE_BYTES];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(sentence, sizeof sentence, format, arguments);
-    va_end(arguments);
-    doctor->hear(kind, topic, sentence, doctor->payload);
-}
-
-/* ---- caches
- * ------------------------------------------------------------------------------------ */
+/* ---- caches ---------------------------------------------------------------------------------- */
 
 static void tell_space(const ps_doctor *doctor, const char *topic, const char *folder) {
     struct statvfs facts;
@@ -83,8 +71,7 @@ static pspec_status tell_pocl_cache(const ps_doctor *doctor, ps_error *error) {
     return status;
 }
 
-/* ---- memory, threads, gnuplot
- * ------------------------------------------------------------------ */
+/* ---- memory, threads, gnuplot ---------------------------------------------------------------- */
 
 static void tell_memory(const ps_doctor *doctor) {
     ps_memory_limits limits;

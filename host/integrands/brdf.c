@@ -3,7 +3,6 @@
 #include "base/memory.h"
 #include "base/text.h"
 
-#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,20 +12,6 @@ const ps_brdf_kind *const ps_brdf_kinds[] = {&ps_brdf_diffuse, &ps_brdf_glossy, 
                                              &ps_brdf_zonal, NULL};
 
 enum { MOST_LETTERS = 4095 }; /* of a value: a path */
-
-double ps_zonal_at_pole(size_t l) {
-    return sqrt((2 * (double)l + 1) / PS_FOUR_PI);
-}
-
-pspec_status ps_brdf_read_exponent(ps_brdf *brdf, const char *text, ps_error *error) {
-    if (text[0] == '\0') {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "BRDF %s needs its exponent, as in %s:n=30", brdf->kind->name,
-                       brdf->kind->name);
-    }
-    return ps_parse_number(text, "exponent n of the lobe", PS_LEAST_LOBE, PS_MOST_LOBE,
-                           &brdf->exponent, error);
-}
 
 /* ---- parsing ------------------------------------------------------------------------------- */
 
