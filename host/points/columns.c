@@ -1,5 +1,7 @@
 #include "points/columns.h"
 
+#include "math/unit_vector.h"
+
 #include <string.h>
 
 typedef struct named_layout {

@@ -39,9 +39,6 @@ pspec_status ps_columns_resolve(ps_layout *out, const ps_columns_question *quest
 pspec_status ps_columns_for_writing(ps_layout *out, const ps_point_shape *shape,
                                     ps_error *error) PS_MUST_CHECK;
 
-/* Has it length 1, within 1e-6? */
-bool ps_is_unit_vector(const double *vector);
-
 /* Columns of a row in this layout. */
 unsigned ps_layout_columns(const ps_layout *layout);
 /* "xy", "xyzw", "theta-phi", "x1..x4": static storage. */

@@ -2,24 +2,14 @@
 
 #include "base/wide.h"
 #include "math/pi.h"
+#include "math/unit_vector.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Vectors this near to length 1 are unit vectors that somebody printed with few digits. The square
- * of the length is compared. */
-static const double UNIT_TOLERANCE = 2e-6;
 /* Angles may exceed their range by what rounding to 7 digits does. */
 static const double ANGLE_SLACK = 1e-6;
-
-static double square_length(const double *vector) {
-    return vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2];
-}
-
-bool ps_is_unit_vector(const double *vector) {
-    return fabs(square_length(vector) - 1) <= UNIT_TOLERANCE;
-}
 
 /* ---- what is accepted -------------------------------------------------------------------- */
 
@@ -64,7 +54,7 @@ static size_t accept_torus(unsigned dimension, bool wraps, double *values, size_
 static bool normalize(double *vector) {
     const double rounding = 4 * 2.220446049250313e-16;
     double largest = 0;
-    if (fabs(square_length(vector) - 1) <= rounding) {
+    if (fabs(ps_square_length(vector) - 1) <= rounding) {
         return true;
     }
     for (int axis = 0; axis < 3; axis++) {
@@ -81,7 +71,7 @@ static bool normalize(double *vector) {
     for (int axis = 0; axis < 3; axis++) {
         vector[axis] = ldexp(vector[axis], -exponent);
     }
-    const double length = sqrt(square_length(vector));
+    const double length = sqrt(ps_square_length(vector));
     for (int axis = 0; axis < 3; axis++) {
         vector[axis] /= length;
     }

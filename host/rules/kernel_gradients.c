@@ -97,7 +97,7 @@ static double bound_eigenvalue(const ps_kernel_system *system) {
 
 static pspec_status refuse(const ps_kernel_system *system, ps_error *error) {
     const ps_kernel_factor *const factor = &system->factor;
-    return ps_kernel_system_refuse(system, factor->near[0], factor->near[1], factor->nearest,
+    return ps_kernel_points_refuse(system, factor->near[0], factor->near[1], factor->nearest,
                                    error);
 }
 

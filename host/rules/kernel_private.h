@@ -27,8 +27,15 @@ struct ps_kernel_system {
     ps_kernel_facts facts;
 };
 
+/* ---- the points ----------------------------------------------------------------------------- */
+
+/* Numbers the distinct points in the order of their first ones, and keeps which one every point is. */
+pspec_status ps_kernel_points_merge(ps_kernel_system *system, const double *points,
+                                    ps_error *error) PS_MUST_CHECK;
+/* The distinct point nearest to one of them: what makes a matrix singular. */
+size_t ps_kernel_points_nearest(const ps_kernel_system *system, size_t i, double *distance);
 /* The sentence for two of the distinct points that are too near each other. */
-pspec_status ps_kernel_system_refuse(const ps_kernel_system *system, size_t i, size_t j,
+pspec_status ps_kernel_points_refuse(const ps_kernel_system *system, size_t i, size_t j,
                                      double distance, ps_error *error);
 
 /* ---- the matrix in memory ------------------------------------------------------------------ */
