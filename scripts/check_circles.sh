@@ -8,8 +8,6 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # shellcheck source=scripts/rooms.sh
 . scripts/rooms.sh
 
-exceptions=scripts/circles.txt # FROM TO of edges that are still to be cut
-
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 for folder in pointspec_objects pointspec_program; do
@@ -40,21 +38,20 @@ while read -r from to; do
 done <"$scratch/edges"
 
 # An edge is part of a circle where its end needs its beginning.
-sort "$exceptions" | sed '/^#/d; /^$/d' | comm -23 "$scratch/edges" - |
-    awk '{ from[++num] = $1; to[num] = $2; needs[$1] = needs[$1] " " $2 }
-         function reaches(begin, end,   queue, seen, list, first, last, i, n) {
-             queue[last = 1] = begin
-             for (first = 1; first <= last; first++) {
-                 n = split(needs[queue[first]], list, " ")
-                 for (i = 1; i <= n; i++) {
-                     if (list[i] == end) return 1
-                     if (!(list[i] in seen)) { seen[list[i]] = 1; queue[++last] = list[i] }
-                 }
+awk '{ from[++num] = $1; to[num] = $2; needs[$1] = needs[$1] " " $2 }
+     function reaches(begin, end,   queue, seen, list, first, last, i, n) {
+         queue[last = 1] = begin
+         for (first = 1; first <= last; first++) {
+             n = split(needs[queue[first]], list, " ")
+             for (i = 1; i <= n; i++) {
+                 if (list[i] == end) return 1
+                 if (!(list[i] in seen)) { seen[list[i]] = 1; queue[++last] = list[i] }
              }
-             return 0
          }
-         END { for (i = 1; i <= num; i++) if (reaches(to[i], from[i])) print "    host/" from[i] " -> host/" to[i] }' \
-        >"$scratch/circles"
+         return 0
+     }
+     END { for (i = 1; i <= num; i++) if (reaches(to[i], from[i])) print "    host/" from[i] " -> host/" to[i] }' \
+    "$scratch/edges" >"$scratch/circles"
 if [[ -s $scratch/circles ]]; then
     echo "files that need each other in a circle:" >&2
     cat "$scratch/circles" >&2
