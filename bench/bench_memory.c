@@ -23,10 +23,10 @@ static void run_job(uint64_t num_realizations) {
     BENCH_TRY(ps_sampler_parse(&request, "jittered", error));
     const ps_power_question question = {.sampler = &request,
                                         .num_realizations = num_realizations,
-                                        .max_frequency = 32,
-                                        .tolerance = 1e-6,
-                                        .constraints = {.precision = -1},
-                                        .device = getenv("POINTSPEC_DEVICE")};
+                                        .frequencies.max_frequency = 32,
+                                        .accuracy.tolerance = 1e-6,
+                                        .limits.constraints = {.precision = -1},
+                                        .limits.device = getenv("POINTSPEC_DEVICE")};
     ps_power_job *job = NULL;
     struct rusage usage;
     const double begin = bench_seconds();
@@ -82,10 +82,10 @@ static void compare_memory(const memory_case *what) {
                                         .on_sphere = on_sphere,
                                         .max_degree = what->k,
                                         .harmonics = what->harmonics,
-                                        .max_frequency = what->k,
-                                        .tolerance = 1e-6,
-                                        .constraints = {.precision = -1},
-                                        .device = getenv("POINTSPEC_DEVICE")};
+                                        .frequencies.max_frequency = what->k,
+                                        .accuracy.tolerance = 1e-6,
+                                        .limits.constraints = {.precision = -1},
+                                        .limits.device = getenv("POINTSPEC_DEVICE")};
     ps_power_job *job = NULL;
     BENCH_TRY(ps_power_job_create(&job, &question, error));
     const long before = resident_kibibytes();

@@ -51,14 +51,15 @@ static pspec_status make_question(ps_quadrature_question *out, pspec_context *co
         .weights = request->optimal_weights != 0 ? PS_WEIGHTS_OPTIMAL : PS_WEIGHTS_GIVEN,
         .drops_below_horizon = request->drop_below_horizon != 0,
         .max_degree = (size_t)request->max_degree,
-        .tolerance = request->tolerance,
-        .constraints = {.engine = request->engine, .memory_limit = context->memory_limit},
-        .no_skip = request->no_skip != 0,
+        .accuracy = {.tolerance = request->tolerance, .no_skip = request->no_skip != 0},
+        .limits = {.constraints = {.engine = request->engine,
+                                   .memory_limit = context->memory_limit}},
         .watch = context->watch,
         .tell_plan = say_plan,
         .payload = context};
-    PS_TRY(ps_public_parse_precision(request->precision, &out->constraints.precision, error));
-    if (ps_plan_may_need_device(&out->constraints)) {
+    PS_TRY(
+        ps_public_parse_precision(request->precision, &out->limits.constraints.precision, error));
+    if (ps_plan_may_need_device(&out->limits.constraints)) {
         PS_TRY(ps_context_open_device(context));
         out->open_device = context->device;
     }

@@ -64,7 +64,8 @@ static pspec_status compute_shown(void **computed, const ps_result_kind *kind,
                                    .next = begin_line,
                                    .warn = arguments->quiet ? NULL : print_warning,
                                    .tell_plan = arguments->verbose ? print_plan : NULL,
-                                   .tell_profile = arguments->profile ? print_profile : NULL};
+                                   .tell_profile =
+                                       arguments->limits.profile ? print_profile : NULL};
     const pspec_status status = kind->compute(computed, arguments, &hooks, error);
     ps_progress_end(ear.progress);
     return status;

@@ -69,7 +69,7 @@ static int finish_output(void) {
 static void trust_cache(const ps_command *command, ps_request *arguments, const char *folder) {
     ps_error reason = {0};
     if (ps_cache_check_folder(folder, &reason) == PSPEC_OK) {
-        arguments->cache_folder = folder;
+        arguments->limits.cache_folder = folder;
     } else if (ps_command_takes(command, PS_OPTION_DEVICE) && !arguments->quiet) {
         fprintf(stderr, "pointspec: no cache: %s\n", reason.message);
     }
@@ -83,7 +83,8 @@ static pspec_status take_memory(const ps_command *command, ps_request *arguments
         !ps_command_takes(command, PS_OPTION_MEMORY)) {
         return PSPEC_OK;
     }
-    PS_TRY(ps_parse_size(limit, "POINTSPEC_MEMORY", &arguments->memory, error));
+    PS_TRY(ps_parse_size(limit, "POINTSPEC_MEMORY", &arguments->limits.constraints.memory_limit,
+                         error));
     arguments->is_memory_of_environment = true;
     ps_text_append(line, " --memory");
     ps_text_append_word(line, limit);
@@ -92,7 +93,7 @@ static pspec_status take_memory(const ps_command *command, ps_request *arguments
 
 static pspec_status run_parsed(const ps_command *command, ps_request *arguments, ps_error *error) {
     if (!arguments->is_given[PS_OPTION_DEVICE]) {
-        arguments->device = getenv("POINTSPEC_DEVICE");
+        arguments->limits.device = getenv("POINTSPEC_DEVICE");
     }
     ps_text folder = {0};
     pspec_status status = ps_cache_default_directory(&folder, error);

@@ -58,8 +58,9 @@ static pspec_status check_inputs(const named_path *output, const ps_request *arg
     if (is_file) {
         PS_TRY(check_pair(output, &(named_path){"--weights", weights}, error));
     }
-    if (arguments->frequencies != NULL) {
-        PS_TRY(check_pair(output, &(named_path){"--frequencies", arguments->frequencies}, error));
+    if (arguments->frequencies.path != NULL) {
+        PS_TRY(
+            check_pair(output, &(named_path){"--frequencies", arguments->frequencies.path}, error));
     }
     if (arguments->against != NULL) {
         PS_TRY(check_pair(output, &(named_path){"--against", arguments->against}, error));

@@ -32,7 +32,7 @@ static double share_not_needed(const ps_needs_question *question) {
 }
 
 ps_needs ps_needs_find(const ps_needs_question *question) {
-    ps_needs needs = {.no_skip = question->no_skip};
+    ps_needs needs = {.no_skip = question->accuracy.no_skip};
     const bool is_grid = question->max_frequency > 0;
     if (is_grid) {
         ps_needs_add(&needs, "frequencies -k", "real weights: P(-k) = P(k), a symmetry", 0.5);
@@ -50,7 +50,7 @@ ps_needs ps_needs_find(const ps_needs_question *question) {
                      "asked for by --per-ring; the standard error has the error of the choice",
                      question->share_not_drawn);
     }
-    if (question->no_skip) {
+    if (question->accuracy.no_skip) {
         return needs;
     }
     if (is_grid && question->dimension > 1 && !question->wants_full_array &&
@@ -76,7 +76,7 @@ ps_needs ps_needs_find(const ps_needs_question *question) {
         ps_needs_add(&needs, "all realizations but the first",
                      "a deterministic set has the same power every time",
                      1 - 1 / (double)question->num_realizations);
-    } else if (question->standard_error > 0) {
+    } else if (question->accuracy.standard_error > 0) {
         needs.sequential = true;
         ps_needs_add(
             &needs, "realizations beyond the standard error asked for",

@@ -3,7 +3,7 @@
 #define PS_PLAN_NEEDS_H
 
 #include "base/text.h"
-#include "plan/choose.h"
+#include "plan/specs.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -18,10 +18,9 @@ typedef struct ps_needs_question {
     bool has_constant_power;   /* all realizations have the same power: deterministic, or shifted */
     bool is_homogenized;       /* a random shift of every realization was asked for */
     uint64_t num_realizations; /* 0: not known */
-    double standard_error;     /* realizations are to stop at it; 0: all of them are wanted */
+    ps_accuracy_spec accuracy;
     double expected_realizations; /* that white noise takes to it */
     bool wants_frequency_errors;  /* standard errors of single frequencies, of a grid */
-    bool no_skip;                 /* the user wants everything done; symmetries stay */
 } ps_needs_question;
 
 typedef struct ps_skip {

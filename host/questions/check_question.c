@@ -6,11 +6,11 @@ ps_request ps_check_request(const ps_request *arguments, const ps_saved_spectrum
     ps_request own = *arguments;
     own.is_given[PS_OPTION_DIMENSION] = !saved->on_sphere;
     own.dimension = saved->dimension;
-    own.max_frequency = saved->on_sphere ? 0 : saved->max_frequency;
+    own.frequencies.max_frequency = saved->on_sphere ? 0 : saved->max_frequency;
     own.max_degree = saved->on_sphere ? (uint64_t)saved->max_frequency : 0;
     own.hemisphere = saved->on_hemisphere;
-    own.shells = saved->exact_shells;
-    own.per_ring = saved->per_ring;
+    own.frequencies.exact_shells = saved->exact_shells;
+    own.frequencies.per_ring = saved->per_ring;
     own.effective = saved->normalization == PSPEC_NORMALIZATION_EFFECTIVE;
     if (arguments->num_samplers == 0) {
         return own;
@@ -33,6 +33,6 @@ pspec_status ps_check_question_make(ps_question_list *out, const ps_request *own
     PS_TRY(ps_questions_make(out, own, saved->on_sphere ? PS_QUESTION_ANGULAR : PS_QUESTION_POWER,
                              error));
     out->questions[0].per_ring_seed = saved->seed;
-    out->questions[0].constraints.offers = 0; /* the saved spectrum says which frequencies */
+    out->questions[0].limits.constraints.offers = 0; /* the saved spectrum says which frequencies */
     return PSPEC_OK;
 }

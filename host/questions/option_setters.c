@@ -114,7 +114,7 @@ pspec_status ps_set_max_frequency(const ps_option *option, const char *shown, co
     uint64_t count = 0;
     (void)words;
     PS_TRY(ps_parse_count(value, shown, option->minimum, option->maximum, &count, error));
-    arguments->max_frequency = (int32_t)count;
+    arguments->frequencies.max_frequency = (int32_t)count;
     return PSPEC_OK;
 }
 
@@ -134,19 +134,19 @@ static pspec_status parse_positive(const char *shown, const char *value, double 
 pspec_status ps_set_tolerance(const ps_option *option, const char *shown, const char *words,
                               const char *value, ps_request *arguments, ps_error *error) {
     (void)option, (void)words;
-    return parse_positive(shown, value, 1, &arguments->tolerance, error);
+    return parse_positive(shown, value, 1, &arguments->accuracy.tolerance, error);
 }
 
 pspec_status ps_set_floor(const ps_option *option, const char *shown, const char *words,
                           const char *value, ps_request *arguments, ps_error *error) {
     (void)option, (void)words;
-    return parse_positive(shown, value, DBL_MAX, &arguments->floor, error);
+    return parse_positive(shown, value, DBL_MAX, &arguments->accuracy.floor, error);
 }
 
 pspec_status ps_set_standard_error(const ps_option *option, const char *shown, const char *words,
                                    const char *value, ps_request *arguments, ps_error *error) {
     (void)option, (void)words;
-    return parse_positive(shown, value, 1, &arguments->standard_error, error);
+    return parse_positive(shown, value, 1, &arguments->accuracy.standard_error, error);
 }
 
 pspec_status ps_set_false_alarm_rate(const ps_option *option, const char *shown, const char *words,
@@ -250,6 +250,6 @@ pspec_status ps_set_precision(const ps_option *option, const char *shown, const 
     (void)option;
     int index = 0;
     PS_TRY(find_word(shown, words, value, &index, error));
-    arguments->precision = index - 1;
+    arguments->limits.constraints.precision = index - 1;
     return PSPEC_OK;
 }

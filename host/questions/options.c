@@ -89,7 +89,8 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                           .help = "what points and the engine may take, as in 400M or 2G; it "
                                   "chooses among engines and is kept with the results (default: "
                                   "POINTSPEC_MEMORY, else what is free, which chooses nothing)",
-                          .set = ps_set_size, .offset = offsetof(ps_request, memory)},
+                          .set = ps_set_size,
+                          .offset = offsetof(ps_request, limits.constraints.memory_limit)},
     [PS_OPTION_HEMISPHERE] = {NAMED("hemisphere", 0, NULL), OF(SPHERES, 0),
                               .help = "points of the hemisphere, that is of the projective plane: "
                                       "even degrees, odd ones vanish",
@@ -106,14 +107,14 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                              WORD(harmonics)},
     [PS_OPTION_FREQUENCIES] = {NAMED("frequencies", 0, "FILE"), OF(BIT(power), 0),
                                .help = "only the integer frequency vectors in FILE, one per line",
-                               TEXT(frequencies)},
+                               TEXT(frequencies.path)},
     [PS_OPTION_SHELLS] = {NAMED("shells", 0, NULL), OF(BIT(power), 0),
                           .help = "exact shells of |k|^2 instead of rings of width 1",
-                          FLAG(shells)},
+                          FLAG(frequencies.exact_shells)},
     [PS_OPTION_PER_RING] = {NAMED("per-ring", 0, "S"), OF(BIT(power), 0),
                             .help = "of every ring (or shell) with more than S frequencies of the "
                                     "half lattice, only a random subset of S, from the seed",
-                            COUNT(per_ring), .minimum = PS_MIN_PER_RING,
+                            COUNT(frequencies.per_ring), .minimum = PS_MIN_PER_RING,
                             .maximum = PS_MAX_NUM_FREQUENCIES},
     [PS_OPTION_FULL] = {NAMED("full", 0, "FILE.npy"), OF(0, BIT(power)),
                         .help = "write the whole array too, shape (2K+1)^D, DC in the middle, and "
@@ -183,7 +184,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                              .set = ps_set_precision},
     [PS_OPTION_ENGINE] = {NAMED("engine", 0, "NAME"), OF(SETS, SUITES),
                           .help = "this engine; pointspec plan lists them (default: the cheapest)",
-                          TEXT(engine)},
+                          TEXT(limits.constraints.engine)},
     [PS_OPTION_CASE] = {NAMED("case", 0, "NAME"), OF(0, SUITES),
                         .help = "this case alone; the first column names them", TEXT(case_name)},
     [PS_OPTION_CALIBRATE] = {NAMED("calibrate", 0, NULL), OF(0, BIT(bench)),
@@ -194,16 +195,17 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                           .help = "OpenCL device: index, cpu, gpu, accelerator or part of a name "
                                   "(default: POINTSPEC_DEVICE, else the first GPU, else the first "
                                   "CPU)",
-                          TEXT(device)},
+                          TEXT(limits.device)},
     [PS_OPTION_CACHE] = {NAMED("cache", 0, "BYTES"), OF(0, BIT(run)),
                          .help = "what the cache of results may take on the disk; 0: nothing is "
                                  "taken from it or kept (default 1e9)",
                          COUNT(cache_bytes), .minimum = 0, .maximum = INT64_MAX},
     [PS_OPTION_NO_SKIP] = {NAMED("no-skip", 0, NULL), OF(SETS, BIT(run)),
-                           .help = "do also what the question does not need", FLAG(no_skip)},
+                           .help = "do also what the question does not need",
+                           FLAG(accuracy.no_skip)},
     [PS_OPTION_NO_SELF_CHECK] = {NAMED("no-self-check", 0, NULL), OF(SPECTRA | BIT(check), 0),
                                  .help = "do not recompute random entries with the referee",
-                                 FLAG(no_self_check)},
+                                 FLAG(accuracy.no_self_check)},
     [PS_OPTION_OUTPUT] = {NAMED("output", 'o', "FILE"),
                           OF(0, TABLES | BIT(sample) | BIT(convert) | BIT(run)),
                           .help = "write there, in the format of its ending (default: standard "
@@ -220,7 +222,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                         TEXT(plot)},
     [PS_OPTION_PROFILE] = {NAMED("profile", 0, NULL), OF(0, SETS),
                            .help = "time, flop/s and bytes/s of every kernel on standard error",
-                           FLAG(profile)},
+                           FLAG(limits.profile)},
     [PS_OPTION_QUIET] = {NAMED("quiet", 0, NULL),
                          OF(0, SETS | SUITES | BIT(truncation) | BIT(sample) | BIT(convert) |
                                    BIT(run)),

@@ -72,21 +72,17 @@ static ps_quadrature_question make_question(const ps_request *arguments, const p
         .brdf = brdf,
         .smoothness = arguments->smoothness,
         .num_realizations = arguments->num_samplers > 0 ? ps_num_realizations_asked(arguments) : 0,
-        .standard_error = arguments->standard_error,
         .paths = arguments->files,
         .num_paths = arguments->num_files,
         .point_options = ps_point_options_make(arguments),
         .drops_below_horizon = arguments->drop_below_horizon,
         .max_degree = (size_t)arguments->max_degree,
-        .tolerance = arguments->is_given[PS_OPTION_TOLERANCE] ? arguments->tolerance : TOLERANCE,
-        .constraints = {.engine = arguments->engine,
-                        .precision = arguments->precision,
-                        .memory_limit = arguments->memory},
-        .no_skip = arguments->no_skip,
-        .device = arguments->device,
-        .figures_folder = arguments->cache_folder,
-        .profile = arguments->profile,
+        .accuracy = arguments->accuracy,
+        .limits = arguments->limits,
     };
+    if (!arguments->is_given[PS_OPTION_TOLERANCE]) {
+        out.accuracy.tolerance = TOLERANCE;
+    }
     out.weights = choose_weights(arguments, &out.weights_path);
     out.point_options.domain = PS_DOMAIN_SPHERE;
     out.point_options.above_horizon =

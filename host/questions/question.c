@@ -31,7 +31,7 @@ static pspec_status check_other_source(const ps_request *arguments, ps_error *er
     const bool are_files = arguments->num_files > 0;
     const ps_option_source other = are_files ? PS_OF_SAMPLERS : PS_OF_FILES;
     for (int id = 0; id < PS_NUM_OPTIONS; id++) {
-        const bool is_of_subset = id == PS_OPTION_SEED && arguments->per_ring > 0;
+        const bool is_of_subset = id == PS_OPTION_SEED && arguments->frequencies.per_ring > 0;
         if (!arguments->is_given[id] || ps_option_source_of((ps_option_id)id) != other ||
             is_of_subset) {
             continue;
@@ -109,7 +109,7 @@ ps_point_options ps_point_options_make(const ps_request *arguments) {
         .ignore_weights = weights != NULL && !is_column,
         .wrap = arguments->wrap,
         .normalize_vectors = arguments->normalize_vectors,
-        .memory_limit = arguments->memory,
+        .memory_limit = arguments->limits.constraints.memory_limit,
     };
 }
 
@@ -149,20 +149,21 @@ static ps_domain domain_of(ps_question_kind kind) {
 /* A standard error needs a limit, for a sampler may never reach it. */
 uint64_t ps_num_realizations_asked(const ps_request *arguments) {
     const uint64_t most = 1000000;
-    return arguments->standard_error > 0 && !arguments->is_given[PS_OPTION_REALIZATIONS]
+    return arguments->accuracy.standard_error > 0 && !arguments->is_given[PS_OPTION_REALIZATIONS]
                ? most
                : arguments->num_realizations;
 }
 
 /* What else this may be asked of, as check_results has it. */
 static unsigned find_offers(const ps_request *arguments, ps_question_kind kind) {
-    const bool is_whole = arguments->full != NULL || arguments->standard_error > 0;
-    if (kind != PS_QUESTION_POWER || is_whole || arguments->frequencies != NULL ||
-        arguments->per_ring > 0) {
+    const bool is_whole = arguments->full != NULL || arguments->accuracy.standard_error > 0;
+    if (kind != PS_QUESTION_POWER || is_whole || arguments->frequencies.path != NULL ||
+        arguments->frequencies.per_ring > 0) {
         return 0;
     }
-    return PS_OFFER_RINGS |
-           (arguments->plot == NULL && !arguments->shells ? (unsigned)PS_OFFER_LISTS : 0);
+    return PS_OFFER_RINGS | (arguments->plot == NULL && !arguments->frequencies.exact_shells
+                                 ? (unsigned)PS_OFFER_LISTS
+                                 : 0);
 }
 
 static ps_power_question make_question(const ps_request *arguments, ps_question_kind kind) {
@@ -173,31 +174,19 @@ static ps_power_question make_question(const ps_request *arguments, ps_question_
         .harmonics = find_harmonics(arguments),
         .max_degree = (int64_t)arguments->max_degree,
         .num_realizations = ps_num_realizations_asked(arguments),
-        .max_frequency = arguments->max_frequency,
-        .frequencies_path = arguments->frequencies,
-        .per_ring = arguments->per_ring,
+        .frequencies = arguments->frequencies,
         .per_ring_seed = arguments->seed,
-        .exact_shells = arguments->shells,
         /* the picture of one spectrum shows the corners; several, and subsets, are curves only */
-        .wants_full_array =
-            arguments->full != NULL || arguments->wants_picture ||
-            (arguments->plot != NULL && arguments->num_samplers <= 1 && arguments->per_ring == 0),
+        .wants_full_array = arguments->full != NULL || arguments->wants_picture ||
+                            (arguments->plot != NULL && arguments->num_samplers <= 1 &&
+                             arguments->frequencies.per_ring == 0),
         .normalization = choose_normalization(arguments, kind),
-        .tolerance = arguments->tolerance,
-        .floor = arguments->floor,
-        .standard_error = arguments->standard_error,
-        .may_loosen = arguments->standard_error > 0 && arguments->floor > 0 &&
+        .accuracy = arguments->accuracy,
+        .may_loosen = arguments->accuracy.standard_error > 0 && arguments->accuracy.floor > 0 &&
                       !arguments->is_given[PS_OPTION_TOLERANCE],
-        .no_skip = arguments->no_skip,
-        .no_self_check = arguments->no_self_check,
-        .constraints = {.engine = arguments->engine,
-                        .precision = arguments->precision,
-                        .memory_limit = arguments->memory,
-                        .offers = find_offers(arguments, kind)},
-        .device = arguments->device,
-        .figures_folder = arguments->cache_folder,
-        .profile = arguments->profile,
+        .limits = arguments->limits,
     };
+    question.limits.constraints.offers = find_offers(arguments, kind);
     fill_points(&question, arguments, domain_of(kind));
     return question;
 }

@@ -5,6 +5,8 @@
 #define PS_QUESTIONS_REQUEST_H
 
 #include "base/status.h"
+#include "frequencies/frequencies_spec.h"
+#include "plan/specs.h"
 #include "points/points.h"
 #include "samplers/sampler.h"
 
@@ -86,30 +88,26 @@ typedef struct ps_request {
     uint64_t seed;                        /* 1 unless given */
     size_t num_samplers;
     const char *samplers[PS_MAX_SAMPLERS];
-    int32_t max_frequency;         /* 0 unless given: the default of docs/user/conventions.md */
-    uint64_t max_degree;           /* the same */
-    uint64_t per_ring;             /* 0 unless given: all frequencies */
-    uint64_t memory;               /* that was typed, here or in POINTSPEC_MEMORY; 0: nothing was */
+    ps_frequencies_spec
+        frequencies;           /* {0} unless given: the defaults of docs/user/conventions.md */
+    uint64_t max_degree;       /* the same */
+    ps_accuracy_spec accuracy; /* tolerance 1e-6 unless given */
+    ps_limits_spec
+        limits; /* precision -1 unless given, which is auto; the memory is that of POINTSPEC_MEMORY, too */
     bool is_memory_of_environment; /* it stands in POINTSPEC_MEMORY */
     uint64_t cache_bytes;          /* 1e9 unless given */
     const char *against;           /* NULL unless given */
     double false_alarm_rate;       /* 1e-3 unless given */
-    const char *brdf, *coefficients, *harmonics, *frequencies, *full, *weights, *input_format,
-        *columns, *to_columns, *engine, *case_name, *device, *output, *format,
-        *plot;                   /* NULL unless given */
-    const char *cache_folder;    /* of what can be made again; NULL: there is none */
-    ps_domain domain;            /* PS_DOMAIN_ANY unless given */
-    ps_point_range sets, points; /* {0} unless given */
-    bool shells, homogenize, hemisphere, wrap, normalize_vectors, drop_below_horizon, merge,
-        no_skip, no_self_check, profile, calibrate, quick, scenes, quiet, verbose;
+    const char *brdf, *coefficients, *harmonics, *full, *weights, *input_format, *columns,
+        *to_columns, *case_name, *output, *format, *plot; /* NULL unless given */
+    ps_domain domain;                                     /* PS_DOMAIN_ANY unless given */
+    ps_point_range sets, points;                          /* {0} unless given */
+    bool homogenize, hemisphere, wrap, normalize_vectors, drop_below_horizon, merge, calibrate,
+        quick, scenes, quiet, verbose;
     bool
         wants_picture; /* of the averaged periodogram on the whole square, which no option asks for */
     bool effective;    /* --normalize effective */
-    double tolerance;      /* 1e-6 unless given */
-    double standard_error; /* 0 unless given */
-    double floor;          /* 0 unless given */
-    double smoothness;     /* 1.5 unless given */
-    int precision;         /* a ps_precision, -1 for auto */
+    double smoothness; /* 1.5 unless given */
     size_t num_files;
     const char **files;       /* the remaining words; "-" is standard input */
     const char *command_line; /* the whole line, for headers */

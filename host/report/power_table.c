@@ -58,7 +58,7 @@ static size_t choose_columns(const char **columns, const ps_request *arguments,
     if (arguments->num_samplers > 1) {
         columns[num++] = "sampler";
     }
-    if (arguments->frequencies != NULL) {
+    if (arguments->frequencies.path != NULL) {
         for (unsigned axis = 0; axis < dimension; axis++) {
             columns[num++] = axis_columns[axis];
         }
@@ -75,8 +75,8 @@ static size_t choose_columns(const char **columns, const ps_request *arguments,
 static pspec_status add_rows(ps_table *table, const ps_request *arguments, const ps_power_job *job,
                              const char *sampler, ps_error *error) {
     const ps_spectrum *spectrum = ps_power_job_spectrum(job);
-    return arguments->frequencies != NULL ? add_frequencies(table, spectrum, sampler, error)
-                                          : add_bins(table, spectrum, sampler, error);
+    return arguments->frequencies.path != NULL ? add_frequencies(table, spectrum, sampler, error)
+                                               : add_bins(table, spectrum, sampler, error);
 }
 
 pspec_status ps_power_table(ps_table **out, const ps_request *arguments,

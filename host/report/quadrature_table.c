@@ -35,7 +35,7 @@ static pspec_status add_question(ps_table *table, const ps_request *arguments,
         {"pointspec_version", PS_TEXT(pspec_version())},
         {"schema", PS_INTEGER(1)},
         {"command", PS_TEXT(arguments->command_line)},
-        {"tolerance", PS_NUMBER(question->tolerance)},
+        {"tolerance", PS_NUMBER(question->accuracy.tolerance)},
         {"seed", question->sampler != NULL ? PS_INTEGER(arguments->seed) : PS_MISSING},
         {"normalization", PS_TEXT("weights as they are; equal ones are 1/N")},
         {"weights", PS_TEXT(name_weights(question))},
@@ -159,7 +159,7 @@ static pspec_status fill(ps_table *table, const ps_request *arguments,
     for (size_t i = 0; i < list->num; i++) {
         const char *const sampler = arguments->num_samplers > 0 ? arguments->samplers[i] : NULL;
         PS_TRY(add_facts(table, sampler, &results[i], error));
-        PS_TRY(add_look(table, arguments->standard_error, &results[i], error));
+        PS_TRY(add_look(table, arguments->accuracy.standard_error, &results[i], error));
         PS_TRY(add_answer(table, &results[i], error));
         PS_TRY(add_condition(table, &results[i], error));
         PS_TRY(add_degrees(table, list->num > 1 ? sampler : NULL, &results[i], error));

@@ -42,7 +42,7 @@ static void put_common(header *head, const ps_request *arguments, const ps_probl
     put(head, "schema", PS_INTEGER(1));
     put(head, "command", PS_TEXT(arguments->command_line));
     put(head, "normalization", PS_TEXT(name_normalization(arguments, problem)));
-    if (arguments->num_samplers > 0 || arguments->per_ring > 0) {
+    if (arguments->num_samplers > 0 || arguments->frequencies.per_ring > 0) {
         put(head, "seed", PS_INTEGER(arguments->seed));
     }
     if (arguments->num_samplers > 0) {
@@ -75,10 +75,10 @@ static void put_points(header *head, const ps_spectrum *spectrum, const ps_needs
 /* Both signs, as in the table. */
 static void put_subset(header *head, const ps_request *arguments, const ps_frequencies *set) {
     char text[128];
-    if (arguments->per_ring == 0) {
+    if (arguments->frequencies.per_ring == 0) {
         return;
     }
-    put(head, "per_ring", PS_INTEGER(arguments->per_ring));
+    put(head, "per_ring", PS_INTEGER(arguments->frequencies.per_ring));
     snprintf(text, sizeof text, "%llu of %llu frequencies of the rings, both signs",
              2 * (unsigned long long)set->num,
              2 * (unsigned long long)ps_frequencies_population(set));
@@ -130,8 +130,8 @@ static void put_look(header *head, const ps_request *arguments, const ps_power_j
         return;
     }
     snprintf(text, sizeof text, "%.3g, %s; largest %.3g, of %s %lld, %.3g with the correction",
-             arguments->standard_error,
-             look->corrected <= arguments->standard_error ? "reached" : "not reached",
+             arguments->accuracy.standard_error,
+             look->corrected <= arguments->accuracy.standard_error ? "reached" : "not reached",
              look->relative_error,
              is_on_sphere(ps_power_job_problem(job)->frequencies) ? "degree" : "bin",
              (long long)look->bin, look->corrected);

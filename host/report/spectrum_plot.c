@@ -85,7 +85,7 @@ pspec_status ps_spectrum_plot(const ps_request *arguments, const ps_power_job *c
     const ps_spectrum *first = ps_power_job_spectrum(jobs[0]);
     const bool on_sphere = first->frequencies.kind == PS_FREQUENCIES_DEGREES;
     const bool has_image =
-        num == 1 && first->frequencies.dimension == 2 && arguments->per_ring == 0;
+        num == 1 && first->frequencies.dimension == 2 && arguments->frequencies.per_ring == 0;
     for (size_t i = 0; i < num; i++) {
         const char *label = arguments->num_samplers > 0 ? arguments->samplers[i] : "mean";
         PS_TRY_OUT(status, make_curve(&curves[i], label, jobs[i], &blocks[i], error));

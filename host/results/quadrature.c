@@ -28,8 +28,8 @@ static pspec_status plan_one(ps_planner *planner, const ps_request *request,
                              ps_quadrature_question *question, size_t index, ps_error *error) {
     ps_quadrature_setup setup = {0};
     question->open_device = planner->device;
-    PS_TRY(ps_plan_table_find_lack(planner, &question->constraints, &question->may_lack_device,
-                                   error));
+    PS_TRY(ps_plan_table_find_lack(planner, &question->limits.constraints,
+                                   &question->may_lack_device, error));
     pspec_status status = ps_quadrature_setup_ask(&setup, question, error);
     if (status == PSPEC_OK) {
         status = ps_plan_table_add_quadrature(planner, request, question, &setup, index, error);
@@ -73,7 +73,7 @@ static pspec_status run_one(ps_quadrature_result *result, ps_quadrature_question
     question->payload = hooks->payload;
     ps_answer_begin_next(hooks);
     PS_TRY(ps_quadrature_run(result, question, error));
-    warn_of_standard_error(result, question->standard_error, hooks);
+    warn_of_standard_error(result, question->accuracy.standard_error, hooks);
     return PSPEC_OK;
 }
 
@@ -83,8 +83,8 @@ static pspec_status compute(void **out, const ps_request *request, const ps_answ
     rules *const work = *out;
     ps_quadrature_list *const list = &work->list;
     PS_TRY(ps_quadrature_list_make(list, request, error));
-    PS_TRY(ps_answer_open_device(&work->device, request, &list->questions[0].constraints, list->num,
-                                 hooks, error));
+    PS_TRY(ps_answer_open_device(&work->device, request, &list->questions[0].limits.constraints,
+                                 list->num, hooks, error));
     for (size_t i = 0; i < list->num; i++) {
         list->questions[i].open_device = work->device;
         PS_TRY(run_one(&work->results[i], &list->questions[i], hooks, error));

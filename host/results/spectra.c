@@ -56,12 +56,12 @@ pspec_status ps_spectra_run_one(ps_power_job **job, ps_power_question *question,
     }
     ps_answer_begin_next(hooks);
     PS_TRY(ps_power_job_create(job, question, error));
-    warn_of_hours(*job, question->constraints.offers, hooks);
+    warn_of_hours(*job, question->limits.constraints.offers, hooks);
     if (hooks->tell_plan != NULL) {
         hooks->tell_plan(hooks->payload, ps_power_job_plan(*job));
     }
     PS_TRY(ps_power_job_run(*job, error));
-    warn_of_standard_error(*job, question->standard_error, hooks);
+    warn_of_standard_error(*job, question->accuracy.standard_error, hooks);
     if (hooks->tell_profile != NULL) {
         size_t num_rows = 0;
         const ps_profile_row *const rows = ps_power_job_profile(*job, &num_rows);
@@ -74,9 +74,10 @@ pspec_status ps_answer_open_device(ps_device **out, const ps_request *request,
                                    const ps_plan_constraints *constraints, size_t num_jobs,
                                    const ps_answer_hooks *hooks, ps_error *error) {
     *out = NULL;
-    return num_jobs > 1 && hooks->device == NULL && !request->profile &&
+    return num_jobs > 1 && hooks->device == NULL && !request->limits.profile &&
                    ps_plan_may_need_device(constraints)
-               ? ps_figures_open_device(out, request->device, false, request->cache_folder, error)
+               ? ps_figures_open_device(out, request->limits.device, false,
+                                        request->limits.cache_folder, error)
                : PSPEC_OK;
 }
 
@@ -86,7 +87,7 @@ pspec_status ps_spectra_compute(void **out, const ps_request *request, ps_questi
     ps_spectra *const spectra = *out;
     ps_question_list *const list = &spectra->list;
     PS_TRY(ps_questions_make(list, request, kind, error));
-    PS_TRY(ps_answer_open_device(&spectra->device, request, &list->questions[0].constraints,
+    PS_TRY(ps_answer_open_device(&spectra->device, request, &list->questions[0].limits.constraints,
                                  list->num, hooks, error));
     for (size_t i = 0; i < list->num; i++) {
         list->questions[i].open_device = spectra->device;
@@ -120,8 +121,8 @@ pspec_status ps_spectra_plan_list(ps_planner *planner, const ps_request *request
         ps_power_job *job = NULL;
         ps_power_question *const question = &list->questions[i];
         question->open_device = planner->device;
-        PS_TRY(ps_plan_table_find_lack(planner, &question->constraints, &question->may_lack_device,
-                                       error));
+        PS_TRY(ps_plan_table_find_lack(planner, &question->limits.constraints,
+                                       &question->may_lack_device, error));
         PS_TRY(ps_power_job_create(&job, question, error));
         ps_power_job_rate_skips(job);
         const pspec_status status = ps_plan_table_add_power(planner, request, job, i, error);

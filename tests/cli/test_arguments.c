@@ -65,8 +65,8 @@ static void nothing_leaves_the_defaults(void **state) {
     assert_int_equal(l.arguments.num_realizations, 1);
     assert_int_equal(l.arguments.dimension, 2);
     assert_int_equal(l.arguments.seed, 1);
-    assert_int_equal(l.arguments.precision, -1);
-    assert_true(l.arguments.tolerance == 1e-6);
+    assert_int_equal(l.arguments.limits.constraints.precision, -1);
+    assert_true(l.arguments.accuracy.tolerance == 1e-6);
     assert_null(l.arguments.output);
     for (int id = 0; id < PS_NUM_OPTIONS; id++) {
         assert_false(l.arguments.is_given[id]);
@@ -99,21 +99,22 @@ static void every_option_finds_its_field(void **state) {
     assert_int_equal(l.arguments.num_samplers, 2);
     assert_string_equal(l.arguments.samplers[0], "a");
     assert_string_equal(l.arguments.samplers[1], "b:c=d");
-    assert_int_equal(l.arguments.max_frequency, 1 << 28);
-    assert_true(l.arguments.tolerance == 0.5 && l.arguments.floor == 1e-4);
-    assert_int_equal(l.arguments.precision, 1);
-    assert_true(l.arguments.effective && l.arguments.no_skip && !l.arguments.no_self_check);
+    assert_int_equal(l.arguments.frequencies.max_frequency, 1 << 28);
+    assert_true(l.arguments.accuracy.tolerance == 0.5 && l.arguments.accuracy.floor == 1e-4);
+    assert_int_equal(l.arguments.limits.constraints.precision, 1);
+    assert_true(l.arguments.effective && l.arguments.accuracy.no_skip &&
+                !l.arguments.accuracy.no_self_check);
     ps_arguments_free(&l.arguments);
     must_parse(&l, "--shells --homogenize --wrap --no-self-check --profile --quiet --verbose "
                    "--format json --input-format npy --precision auto -o out=1 --plot= x");
-    assert_true(l.arguments.shells && l.arguments.homogenize && l.arguments.wrap);
-    assert_true(l.arguments.no_self_check && l.arguments.profile);
-    assert_true(l.arguments.quiet && l.arguments.verbose && !l.arguments.no_skip);
+    assert_true(l.arguments.frequencies.exact_shells && l.arguments.homogenize && l.arguments.wrap);
+    assert_true(l.arguments.accuracy.no_self_check && l.arguments.limits.profile);
+    assert_true(l.arguments.quiet && l.arguments.verbose && !l.arguments.accuracy.no_skip);
     assert_string_equal(l.arguments.format, "json");
     assert_string_equal(l.arguments.input_format, "npy");
     assert_string_equal(l.arguments.output, "out=1");
     assert_string_equal(l.arguments.plot, "");
-    assert_int_equal(l.arguments.precision, -1);
+    assert_int_equal(l.arguments.limits.constraints.precision, -1);
     ps_arguments_free(&l.arguments);
 }
 

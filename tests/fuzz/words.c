@@ -117,11 +117,12 @@ static int split_words(char *text, size_t size, char *words[MOST_WORDS]) {
 static void check_ranges(const ps_command *command, const ps_request *a, int num_words) {
     enum { MOST_DIMENSIONS = 6, MOST_PRECISION = 2 };
     const bool is_good = a->num_points >= 1 && a->num_realizations >= 1 && a->dimension >= 1 &&
-                         a->dimension <= MOST_DIMENSIONS && a->max_frequency >= 0 &&
-                         a->tolerance > 0 && a->tolerance <= 1 && a->floor >= 0 &&
-                         isfinite(a->floor) && a->precision >= -1 &&
-                         a->precision <= MOST_PRECISION && a->num_samplers <= PS_MAX_SAMPLERS &&
-                         a->num_files <= (size_t)num_words;
+                         a->dimension <= MOST_DIMENSIONS && a->frequencies.max_frequency >= 0 &&
+                         a->accuracy.tolerance > 0 && a->accuracy.tolerance <= 1 &&
+                         a->accuracy.floor >= 0 && isfinite(a->accuracy.floor) &&
+                         a->limits.constraints.precision >= -1 &&
+                         a->limits.constraints.precision <= MOST_PRECISION &&
+                         a->num_samplers <= PS_MAX_SAMPLERS && a->num_files <= (size_t)num_words;
     if (!is_good) {
         fuzz_fail("%s: a value outside its limits", command->name);
     }

@@ -41,10 +41,10 @@ static ps_mean run_job(const char *sampler, size_t num_points, unsigned dimensio
     const ps_power_question question = {
         .sampler = &request,
         .num_realizations = M,
-        .frequencies_path = path,
-        .tolerance = 1e-6,
-        .constraints = {.precision = -1},
-        .device = getenv("POINTSPEC_DEVICE"),
+        .frequencies.path = path,
+        .accuracy.tolerance = 1e-6,
+        .limits.constraints = {.precision = -1},
+        .limits.device = getenv("POINTSPEC_DEVICE"),
     };
     ps_power_job *job = NULL;
     assert_ok(ps_power_job_create(&job, &question, error));
@@ -95,11 +95,11 @@ static void regular_grid(void **state) {
     request.homogenize = true; /* shifts leave the power unchanged, so they are skipped */
     const ps_power_question question = {.sampler = &request,
                                         .num_realizations = 50,
-                                        .max_frequency = K,
+                                        .frequencies.max_frequency = K,
                                         .wants_full_array = true,
-                                        .tolerance = 1e-6,
-                                        .constraints = {.precision = -1},
-                                        .device = getenv("POINTSPEC_DEVICE")};
+                                        .accuracy.tolerance = 1e-6,
+                                        .limits.constraints = {.precision = -1},
+                                        .limits.device = getenv("POINTSPEC_DEVICE")};
     ps_power_job *job = NULL;
     assert_ok(ps_power_job_create(&job, &question, error));
     assert_ok(ps_power_job_run(job, error));
@@ -127,11 +127,11 @@ static void skipping_changes_nothing(void **state) {
             request.homogenize = true;
             const ps_power_question question = {.sampler = &request,
                                                 .num_realizations = 20,
-                                                .max_frequency = 12,
-                                                .tolerance = 1e-6,
-                                                .no_skip = no_skip == 1,
-                                                .constraints = {.precision = -1},
-                                                .device = getenv("POINTSPEC_DEVICE")};
+                                                .frequencies.max_frequency = 12,
+                                                .accuracy.tolerance = 1e-6,
+                                                .accuracy.no_skip = no_skip == 1,
+                                                .limits.constraints = {.precision = -1},
+                                                .limits.device = getenv("POINTSPEC_DEVICE")};
             ps_power_job *job = NULL;
             assert_ok(ps_power_job_create(&job, &question, error));
             assert_ok(ps_power_job_run(job, error));
@@ -175,10 +175,10 @@ static void coherent_sets_are_planned_twice(void **state) {
     assert_ok(ps_sampler_parse(&request, "regular", error));
     ps_power_question question = {.sampler = &request,
                                   .num_realizations = 1,
-                                  .frequencies_path = path,
-                                  .tolerance = 1e-6,
-                                  .constraints = {.precision = -1},
-                                  .device = getenv("POINTSPEC_DEVICE")};
+                                  .frequencies.path = path,
+                                  .accuracy.tolerance = 1e-6,
+                                  .limits.constraints = {.precision = -1},
+                                  .limits.device = getenv("POINTSPEC_DEVICE")};
     ps_power_job *job = NULL;
     assert_ok(ps_power_job_create(&job, &question, error));
     assert_int_equal(ps_power_job_plan(job)->chosen->precision, PS_SINGLE);
@@ -189,7 +189,7 @@ static void coherent_sets_are_planned_twice(void **state) {
     assert_true(ps_power_job_accuracy(job)->error <= 1e-6);
     assert_true(fabs(ps_power_job_spectrum(job)->powers[0].mean / 4096 - 1) < 1e-12);
     ps_power_job_destroy(job);
-    question.constraints.precision = PS_SINGLE;
+    question.limits.constraints.precision = PS_SINGLE;
     assert_ok(ps_power_job_create(&job, &question, error));
     ps_error error = {0};
     assert_int_equal(ps_power_job_run(job, &error), PSPEC_ERROR_TOLERANCE);

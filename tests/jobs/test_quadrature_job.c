@@ -25,13 +25,14 @@ static void ask(asked *of, const char *sampler, size_t num_points, uint64_t num_
     assert_ok(ps_brdf_parse(&of->brdf, "diffuse", error));
     assert_ok(ps_sampler_parse(&of->request, sampler, error));
     assert_ok(ps_sampler_resolve(&of->request, error));
-    of->question = (ps_quadrature_question){.brdf = of->brdf,
-                                            .smoothness = 1.5,
-                                            .sampler = &of->request,
-                                            .num_realizations = num_realizations,
-                                            .max_degree = LAST,
-                                            .tolerance = 1e-10,
-                                            .constraints = {.engine = engine, .precision = -1}};
+    of->question =
+        (ps_quadrature_question){.brdf = of->brdf,
+                                 .smoothness = 1.5,
+                                 .sampler = &of->request,
+                                 .num_realizations = num_realizations,
+                                 .max_degree = LAST,
+                                 .accuracy.tolerance = 1e-10,
+                                 .limits.constraints = {.engine = engine, .precision = -1}};
 }
 
 static ps_quadrature_result run(const ps_quadrature_question *question) {
@@ -93,7 +94,7 @@ static void two_routes(void **state) {
         asked of;
         ask(&of, samplers[i], 64, 1, "host_direct");
         ps_quadrature_result coefficients = run(&of.question);
-        of.question.constraints.engine = "pairs_direct";
+        of.question.limits.constraints.engine = "pairs_direct";
         ps_quadrature_result pairs = run(&of.question);
         assert_true(strstr(pairs.engine, "pairs_direct") != NULL);
         near(&coefficients, &pairs, 1e-14);
@@ -113,9 +114,9 @@ static void replanned(void **state) {
     for (size_t i = 0; i < sizeof tolerances / sizeof tolerances[0]; i++) {
         asked of;
         ask(&of, "white-hemisphere:morph=glossy,n=5000", 64, 4, "sphere_nufft");
-        of.question.tolerance = tolerances[i];
+        of.question.accuracy.tolerance = tolerances[i];
         ps_quadrature_result result = run(&of.question);
-        of.question.constraints.engine = "host_direct";
+        of.question.limits.constraints.engine = "host_direct";
         ps_quadrature_result exact = run(&of.question);
         near(&exact, &result, tolerances[i]);
         assert_false(exact.was_replanned);
@@ -168,14 +169,14 @@ static void stops(void **state) {
         asked of;
         ask(&of, "white-hemisphere:morph=diffuse", 16, 5000, "pairs_direct");
         of.question.weights = weights[i];
-        of.question.standard_error = wanted;
+        of.question.accuracy.standard_error = wanted;
         ps_quadrature_result whole = run(&of.question);
         const uint64_t num = whole.num_realizations;
         assert_true(num > PS_LEAST_REALIZATIONS && num < 1000);
         assert_int_equal(ps_sequential_next_look(num - 1), num);
         assert_true(whole.has_look && whole.look.corrected <= wanted);
         assert_true(whole.squared.standard_error <= wanted * whole.squared.mean);
-        const double least = of.question.tolerance * whole.representer.constant *
+        const double least = of.question.accuracy.tolerance * whole.representer.constant *
                              whole.weight_size * whole.weight_size;
         for (size_t l = 0; l <= LAST; l++) {
             const ps_mean e2 = whole.degrees[l].e2;
@@ -187,7 +188,7 @@ static void stops(void **state) {
             same_bits(&whole, &parts);
             ps_quadrature_free(&parts);
         }
-        of.question.standard_error = 0;
+        of.question.accuracy.standard_error = 0;
         of.question.num_realizations = num;
         ps_quadrature_result exactly = run(&of.question);
         same_bits(&whole, &exactly);
@@ -203,10 +204,10 @@ static void one_is_enough(void **state) {
     asked of;
     (void)state;
     ask(&of, "fibonacci-hemisphere:morph=diffuse", 24, 20, NULL);
-    of.question.standard_error = 0.01;
+    of.question.accuracy.standard_error = 0.01;
     ps_quadrature_result once = run(&of.question);
     assert_true(once.num_realizations == 1 && !once.has_look);
-    of.question.no_skip = true;
+    of.question.accuracy.no_skip = true;
     ps_quadrature_result all = run(&of.question);
     assert_true(all.num_realizations == 20 && all.has_look && all.look.corrected < 1e-12);
     assert_true(fabs(once.squared.mean - all.squared.mean) <= 1e-15);

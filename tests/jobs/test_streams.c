@@ -67,10 +67,10 @@ static pspec_status run(uint64_t whole_bytes, bool weight_column, uint64_t most_
         .point_options = {.weight_column = weight_column},
         .whole_bytes = whole_bytes,
         .weights_path = weights_path,
-        .max_frequency = K,
-        .tolerance = 1e-4,
-        .constraints = {.engine = "torus_nufft", .precision = PS_SINGLE},
-        .device = getenv("POINTSPEC_DEVICE"),
+        .frequencies.max_frequency = K,
+        .accuracy.tolerance = 1e-4,
+        .limits.constraints = {.engine = "torus_nufft", .precision = PS_SINGLE},
+        .limits.device = getenv("POINTSPEC_DEVICE"),
         .watch = {count_calls, &most_calls},
     };
     ps_power_job *job = NULL;

@@ -27,7 +27,7 @@ static void symmetry_is_always_used(void **state) {
     (void)state;
     for (int no_skip = 0; no_skip <= 1; no_skip++) {
         ps_needs_question question = ordinary();
-        question.no_skip = no_skip != 0;
+        question.accuracy.no_skip = no_skip != 0;
         const ps_needs needs = ps_needs_find(&question);
         assert_non_null(find_skip(&needs, "-k"));
         assert_true(find_skip(&needs, "-k")->share == 0.5);
@@ -41,7 +41,7 @@ static void symmetry_is_always_used(void **state) {
 static void standard_error(void **state) {
     (void)state;
     ps_needs_question question = ordinary();
-    question.standard_error = 0.1;
+    question.accuracy.standard_error = 0.1;
     question.expected_realizations = 25;
     ps_needs needs = ps_needs_find(&question);
     assert_true(needs.sequential);
@@ -52,8 +52,8 @@ static void standard_error(void **state) {
     question.has_constant_power = true; /* one will do anyway */
     assert_false(ps_needs_find(&question).sequential);
     question = ordinary();
-    question.standard_error = 0.1;
-    question.no_skip = true;
+    question.accuracy.standard_error = 0.1;
+    question.accuracy.no_skip = true;
     assert_false(ps_needs_find(&question).sequential);
     question = ordinary();
     assert_false(ps_needs_find(&question).sequential);
@@ -83,7 +83,7 @@ static void subsets(void **state) {
     (void)state;
     ps_needs_question question = ordinary();
     for (int no_skip = 0; no_skip <= 1; no_skip++) {
-        question.no_skip = no_skip != 0;
+        question.accuracy.no_skip = no_skip != 0;
         question.share_not_drawn = 0.75;
         const ps_needs needs = ps_needs_find(&question);
         assert_true(find_skip(&needs, "random subset")->share == 0.75);
@@ -123,7 +123,7 @@ static void everything_is_done_on_request(void **state) {
     question.is_homogenized = question.has_constant_power = true;
     assert_int_equal(ps_needs_find(&question).num_skips, 4);
     assert_true(ps_needs_find(&question).no_frequency_errors);
-    question.no_skip = true;
+    question.accuracy.no_skip = true;
     const ps_needs needs = ps_needs_find(&question);
     assert_false(needs.only_ball || needs.one_realization || needs.no_shift);
     assert_false(needs.no_frequency_errors);
@@ -160,7 +160,7 @@ typedef struct planned {
 static ps_needs plan(planned *of, double tolerance, double strict_tolerance, bool has_double,
                      bool no_skip) {
     ps_needs_question question = ordinary();
-    question.no_skip = no_skip;
+    question.accuracy.no_skip = no_skip;
     ps_needs needs = ps_needs_find(&question);
     *of = (planned){.limits = test_cpu(), .constraints = {.precision = -1}};
     of->limits.has_fp64 = has_double;

@@ -39,7 +39,7 @@ static void sample(ps_sampler_request *request, const char *text, size_t num_poi
 
 static ps_power_job *run_power(ps_power_question *question, bool no_skip) {
     ps_power_job *job = NULL;
-    question->no_skip = no_skip;
+    question->accuracy.no_skip = no_skip;
     assert_ok(ps_power_job_create(&job, question, error));
     assert_ok(ps_power_job_run(job, error));
     return job;
@@ -91,12 +91,12 @@ static void torus(void **state) {
         ps_power_question question = {
             .sampler = &request,
             .num_realizations = test_uniform(&random) < 0.3 ? 1 : 6,
-            .max_frequency = test_uniform(&random) < 0.5 ? 5 : 17,
-            .exact_shells = test_uniform(&random) < 0.3,
-            .tolerance = pick_tolerance(&random, i, 1e-9, 1e-2),
-            .floor = test_uniform(&random) < 0.3 ? pick_power(&random, 1e-4, 1) : 0,
-            .no_self_check = true,
-            .constraints = {.engine = pick_engine(i, "torus_direct"), .precision = -1}};
+            .frequencies.max_frequency = test_uniform(&random) < 0.5 ? 5 : 17,
+            .frequencies.exact_shells = test_uniform(&random) < 0.3,
+            .accuracy.tolerance = pick_tolerance(&random, i, 1e-9, 1e-2),
+            .accuracy.floor = test_uniform(&random) < 0.3 ? pick_power(&random, 1e-4, 1) : 0,
+            .accuracy.no_self_check = true,
+            .limits.constraints = {.engine = pick_engine(i, "torus_direct"), .precision = -1}};
         ps_power_job *const lean = run_power(&question, false);
         ps_power_job *const full = run_power(&question, true);
         skipped += ps_power_job_needs(lean)->num_skips - ps_power_job_needs(full)->num_skips;
@@ -127,9 +127,9 @@ static void sphere(void **state) {
             .num_realizations = test_uniform(&random) < 0.3 ? 1 : 6,
             .max_degree = test_uniform(&random) < 0.5 ? 7 : 24,
             .normalization = of_pairs ? PSPEC_NORMALIZATION_PAIRS : PSPEC_NORMALIZATION_POWER,
-            .tolerance = pick_tolerance(&random, i, 1e-9, 1e-2),
-            .no_self_check = true,
-            .constraints = {.engine = pick_engine(i, "sphere_direct"), .precision = -1}};
+            .accuracy.tolerance = pick_tolerance(&random, i, 1e-9, 1e-2),
+            .accuracy.no_self_check = true,
+            .limits.constraints = {.engine = pick_engine(i, "sphere_direct"), .precision = -1}};
         ps_power_job *const lean = run_power(&question, false);
         ps_power_job *const full = run_power(&question, true);
         skipped += ps_power_job_needs(lean)->num_skips - ps_power_job_needs(full)->num_skips;
@@ -146,14 +146,15 @@ static void statistics(void **state) {
     ps_sampler_request request;
     (void)state;
     sample(&request, "jittered", 64, 2, 3, false);
-    ps_power_question question = {.sampler = &request,
-                                  .num_realizations = 3000,
-                                  .max_frequency = 12,
-                                  .tolerance = 1e-6,
-                                  .floor = 0.05,
-                                  .may_loosen = true,
-                                  .standard_error = 0.05,
-                                  .constraints = {.engine = "torus_direct", .precision = -1}};
+    ps_power_question question = {
+        .sampler = &request,
+        .num_realizations = 3000,
+        .frequencies.max_frequency = 12,
+        .accuracy.tolerance = 1e-6,
+        .accuracy.floor = 0.05,
+        .may_loosen = true,
+        .accuracy.standard_error = 0.05,
+        .limits.constraints = {.engine = "torus_direct", .precision = -1}};
     ps_power_job *const lean = run_power(&question, false);
     ps_power_job *const full = run_power(&question, true);
     const ps_spectrum *const x = ps_power_job_spectrum(lean);
@@ -173,7 +174,7 @@ static void statistics(void **state) {
 
 static ps_quadrature_result run_rule(ps_quadrature_question *question, bool no_skip) {
     ps_quadrature_result result;
-    question->no_skip = no_skip;
+    question->accuracy.no_skip = no_skip;
     assert_ok(ps_quadrature_run(&result, question, error));
     return result;
 }
@@ -226,12 +227,12 @@ static void quadrature(void **state) {
             .num_realizations = test_uniform(&random) < 0.3 ? 1 : 6,
             .weights = test_uniform(&random) < 0.3 ? PS_WEIGHTS_OPTIMAL : PS_WEIGHTS_EQUAL,
             .max_degree = test_uniform(&random) < 0.6 ? 0 : 20,
-            .tolerance = i % 2 == 0 ? 1e-2 : pick_tolerance(&random, i, 1e-10, 1e-2),
+            .accuracy.tolerance = i % 2 == 0 ? 1e-2 : pick_tolerance(&random, i, 1e-10, 1e-2),
             .open_device = device,
-            .constraints = {.engine = pick_engine(i, "sphere_direct"), .precision = -1}};
+            .limits.constraints = {.engine = pick_engine(i, "sphere_direct"), .precision = -1}};
         ps_quadrature_result lean = run_rule(&question, false);
         ps_quadrature_result full = run_rule(&question, true);
-        compare_rules(&lean, &full, question.tolerance);
+        compare_rules(&lean, &full, question.accuracy.tolerance);
         assert_int_equal(full.num_realizations, question.num_realizations);
         fewer_degrees += lean.max_degree < full.max_degree;
         fewer_sets += lean.num_realizations < full.num_realizations;

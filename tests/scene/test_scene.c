@@ -178,10 +178,11 @@ static void assert_same_request(const ps_request *a, const ps_request *b) {
     assert_memory_equal(a->is_given, b->is_given, sizeof a->is_given);
     assert_int_equal(a->num_points, b->num_points);
     assert_int_equal(a->seed, b->seed);
-    assert_int_equal(a->max_frequency, b->max_frequency);
-    assert_int_equal(a->shells, b->shells);
-    assert_true(a->tolerance == b->tolerance);
-    assert_true(is_same_text(a->weights, b->weights) && is_same_text(a->engine, b->engine));
+    assert_int_equal(a->frequencies.max_frequency, b->frequencies.max_frequency);
+    assert_int_equal(a->frequencies.exact_shells, b->frequencies.exact_shells);
+    assert_true(a->accuracy.tolerance == b->accuracy.tolerance);
+    assert_true(is_same_text(a->weights, b->weights) &&
+                is_same_text(a->limits.constraints.engine, b->limits.constraints.engine));
     assert_int_equal(a->num_samplers, b->num_samplers);
     for (size_t i = 0; i < a->num_samplers; i++) {
         assert_string_equal(a->samplers[i], b->samplers[i]);

@@ -120,13 +120,12 @@ static ps_power_job *run(double standard_error, uint64_t most, bool no_skip) {
     request = (ps_sampler_request){.num_points = 64, .dimension = 2, .seed = 5};
     assert_ok(ps_sampler_parse(&request, "jittered", error));
     assert_ok(ps_sampler_resolve(&request, error));
-    question = (ps_power_question){.sampler = &request,
-                                   .num_realizations = most,
-                                   .max_frequency = 12,
-                                   .tolerance = 1e-6,
-                                   .standard_error = standard_error,
-                                   .no_skip = no_skip,
-                                   .constraints = {.precision = -1}};
+    question = (ps_power_question){
+        .sampler = &request,
+        .num_realizations = most,
+        .frequencies = {.max_frequency = 12},
+        .accuracy = {.tolerance = 1e-6, .standard_error = standard_error, .no_skip = no_skip},
+        .limits = {.constraints = {.precision = -1}}};
     assert_ok(ps_power_job_create(&job, &question, error));
     assert_ok(ps_power_job_run(job, error));
     return job;

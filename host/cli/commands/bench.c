@@ -194,7 +194,7 @@ static void say_date(ps_figures *figures) {
 /* Measures, keeps, and shows what was kept. */
 static pspec_status calibrate(answer *shown, const ps_bench_options *options,
                               ps_table_format format, const char *path, ps_error *error) {
-    const char *const folder = shown->arguments->cache_folder;
+    const char *const folder = shown->arguments->limits.cache_folder;
     const ps_device_limits *const limits = ps_device_get_limits(shown->device);
     ps_figures figures;
     ps_figures host;
@@ -240,7 +240,7 @@ static pspec_status check_others(const ps_request *arguments, const char *flag, 
 
 static pspec_status check_calibration(const ps_request *arguments, ps_error *error) {
     PS_TRY(check_others(arguments, "--calibrate", "all engines are measured", error));
-    return arguments->cache_folder != NULL
+    return arguments->limits.cache_folder != NULL
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                          "there is no folder to keep the figures in: set POINTSPEC_CACHE_DIR");
@@ -294,10 +294,10 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
     const char *const path = arguments->output != NULL ? arguments->output : "-";
     answer shown = {.arguments = arguments};
     const ps_bench_options options = {.case_name = arguments->case_name,
-                                      .engine = arguments->engine,
-                                      .precision = arguments->precision,
+                                      .engine = arguments->limits.constraints.engine,
+                                      .precision = arguments->limits.constraints.precision,
                                       .program = "/proc/self/exe",
-                                      .device = arguments->device,
+                                      .device = arguments->limits.device,
                                       .quick = arguments->quick,
                                       .should_stop = should_stop,
                                       .report = report,
@@ -307,8 +307,8 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
     PS_TRY(check_words(arguments, &options, error));
     PS_TRY(ps_table_choose_format(&format, arguments->format, path, error));
     PS_TRY(ps_outputs_check(arguments, true, error));
-    PS_TRY(ps_figures_open_device(&shown.device, arguments->device, false, arguments->cache_folder,
-                                  error));
+    PS_TRY(ps_figures_open_device(&shown.device, arguments->limits.device, false,
+                                  arguments->limits.cache_folder, error));
     const pspec_status status = arguments->calibrate
                                     ? calibrate(&shown, &options, format, path, error)
                                     : run_cases(&shown, &options, format, path, error);

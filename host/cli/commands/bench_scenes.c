@@ -94,7 +94,7 @@ static pspec_status bench_file(ps_table *table, const ps_request *arguments, con
                                ps_error *error) {
     ps_scene scene;
     comparison both = {.scene = &scene, .arguments = {*arguments, *arguments}};
-    both.arguments[1].no_skip = true;
+    both.arguments[1].accuracy.no_skip = true;
     pspec_status status = ps_scene_read(&scene, path, error);
     if (status == PSPEC_OK) {
         status = bench_scene(table, &both, error);

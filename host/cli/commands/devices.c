@@ -91,11 +91,12 @@ static pspec_status fill_table(ps_table *table, const ps_request *arguments, ps_
     if (num_devices == 0) {
         return add_facts(table, arguments, error);
     }
-    PS_TRY_OUT(status, ps_device_choose(limits, num_devices, arguments->device, &chosen, error));
+    PS_TRY_OUT(status,
+               ps_device_choose(limits, num_devices, arguments->limits.device, &chosen, error));
     PS_TRY_OUT(status, add_header(table, arguments, &limits[chosen], error));
     for (size_t i = 0; i < num_devices; i++) {
-        PS_TRY_OUT(status,
-                   add_device(table, &limits[i], i, i == chosen, arguments->cache_folder, error));
+        PS_TRY_OUT(status, add_device(table, &limits[i], i, i == chosen,
+                                      arguments->limits.cache_folder, error));
     }
 out:
     free(limits);

@@ -23,7 +23,7 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
     ps_text folder = {0}; /* also one that is not trusted, which is then a finding */
     ps_error ignored = {0};
     const bool has_folder = ps_cache_default_directory(&folder, &ignored) == PSPEC_OK;
-    const ps_doctor doctor = {.device = arguments->device,
+    const ps_doctor doctor = {.device = arguments->limits.device,
                               .cache_folder = has_folder ? ps_text_string(&folder) : NULL,
                               .hear = print};
     const pspec_status status = ps_doctor_examine(&doctor, error);

@@ -60,7 +60,7 @@ static pspec_status fill(ps_table *table, const ps_command *command, const ps_re
     ps_figures host;
     ps_planner planner = {.table = table, .host = &host};
     PS_TRY(add_facts(table, arguments, error));
-    PS_TRY(ps_host_figures_read(&host, arguments->cache_folder, error));
+    PS_TRY(ps_host_figures_read(&host, arguments->limits.cache_folder, error));
     PS_TRY(ps_table_add_meta(table, "host_figures", PS_TEXT(host.note), error));
     PS_TRY(command->plan != NULL ? command->plan(&planner, arguments, error)
                                  : command->result->plan(&planner, arguments, error));

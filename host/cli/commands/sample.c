@@ -94,7 +94,7 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
     pspec_status status = PSPEC_OK;
     PS_TRY(check_words(arguments, error));
     PS_TRY(ps_sampler_request_make(&request, arguments, 0, error));
-    PS_TRY(check_memory(&request, arguments->memory, error));
+    PS_TRY(check_memory(&request, arguments->limits.constraints.memory_limit, error));
     PS_TRY(ps_allocate(&points, request.num_points, request.dimension * sizeof(double), "points",
                        error));
     const ps_coordinates coordinates =

@@ -102,8 +102,8 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
     const char *const path = arguments->output != NULL ? arguments->output : "-";
     answer shown = {.arguments = arguments};
     const ps_stress_options options = {.case_name = arguments->case_name,
-                                       .engine = arguments->engine,
-                                       .precision = arguments->precision,
+                                       .engine = arguments->limits.constraints.engine,
+                                       .precision = arguments->limits.constraints.precision,
                                        .quick = arguments->quick,
                                        .should_stop = should_stop,
                                        .report = report,
@@ -116,7 +116,7 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
     PS_TRY(ps_table_choose_format(&format, arguments->format, path, error));
     PS_TRY(ps_outputs_check(arguments, true, error));
     if (ps_stress_needs_device(&options)) {
-        PS_TRY(ps_device_open(&shown.device, arguments->device, false, error));
+        PS_TRY(ps_device_open(&shown.device, arguments->limits.device, false, error));
     }
     PS_TRY_OUT(status, make_table(&shown, format, path, error));
     shown.progress = ps_progress_begin(arguments, "cases");

@@ -185,7 +185,8 @@ static pspec_status look_at_errors(void *payload, double *largest, ps_error *err
     const double unit = job->setup.representer.constant * out->weight_size * out->weight_size;
     (void)error;
     out->has_look = true;
-    out->look = ps_quadrature_look(&sums, job->question->tolerance * unit, out->num_realizations);
+    out->look =
+        ps_quadrature_look(&sums, job->question->accuracy.tolerance * unit, out->num_realizations);
     *largest = out->look.corrected;
     return PSPEC_OK;
 }
@@ -281,7 +282,7 @@ static void tell_profile(const quadrature_job *job) {
 /* The spectral form may not exceed the kernel form, nor the rest its rigorous bound, by more than rounding. */
 static pspec_status check_forms(const quadrature_job *job, ps_error *error) {
     const ps_quadrature_result *const result = job->out;
-    const double slack = result->numerical_bound + job->question->tolerance *
+    const double slack = result->numerical_bound + job->question->accuracy.tolerance *
                                                        job->setup.representer.constant *
                                                        result->weight_size * result->weight_size;
     if (result->tail.mean >= -slack && result->tail.mean <= result->tail_bound + slack) {
@@ -333,7 +334,7 @@ static pspec_status run(quadrature_job *job, ps_error *error) {
                               .problem = &job->setup.problem,
                               .plan = &job->setup.plan,
                               .device = job->setup.device,
-                              .standard_error = job->question->standard_error,
+                              .standard_error = job->question->accuracy.standard_error,
                               .is_sequential = job->setup.needs.sequential,
                               .has_no_accuracy = !job->setup.by_pairs};
     PS_TRY(ps_runner_run(&job->runner, error));

@@ -32,20 +32,15 @@ typedef struct ps_quadrature_question {
         drops_below_horizon; /* points of files for a lobe that ends there; else they are refused */
     size_t
         max_degree; /* 0: where the bound of what is beyond meets the tolerance, at most ceil(4 sqrt N) */
-    double
-        tolerance; /* of E^2, in units of c (sum |w|)^2, c = 2^(2s-1)/s: |dQ(l)| <= tolerance (sum |w|)^2 */
-    double
-        standard_error; /* relative, of the means of E^2 and of every e_l^2 above the tolerance, at which realizations
-                              stop (spectra/sequential.h); 0: all of them are done */
-    ps_plan_constraints constraints;
+    /* The tolerance is of E^2, in units of c (sum |w|)^2, c = 2^(2s-1)/s: |dQ(l)| <= tolerance (sum |w|)^2. The standard error
+     * is that of the means of E^2 and of every e_l^2 above the tolerance. Without skips all realizations are done, all
+     * degrees to ceil(4 sqrt N), in double precision. There is no floor. */
+    ps_accuracy_spec accuracy;
+    ps_limits_spec limits;
     size_t batch; /* rules at a time, the results the same; 0: what the plan and memory say */
-    bool no_skip; /* all realizations, all degrees to ceil(4 sqrt N), in double precision */
     bool may_lack_device;   /* to be planned only: without a device, with the host's engines */
-    ps_device *open_device; /* borrowed; NULL: the one that `device` selects is opened */
-    const char *device;
-    const char *figures_folder; /* store/figures_file.h; NULL: the built-in figures */
-    bool profile;
-    ps_watch watch; /* told of realizations and other phases; {0}: nobody */
+    ps_device *open_device; /* borrowed; NULL: the one that limits.device selects is opened */
+    ps_watch watch;         /* told of realizations and other phases; {0}: nobody */
     void (*tell_plan)(void *, const ps_plan *); /* called before the work begins; may be NULL */
     void (*tell_profile)(void *, const ps_profile_row *, size_t num_rows); /* after it; likewise */
     void *payload;
@@ -83,7 +78,7 @@ typedef struct ps_quadrature_result {
     ps_sequential_look
         look; /* of the largest standard error when the realizations ended; its bin is a degree or
                                 jobs/quadrature/quadrature_looks.h's */
-    bool has_look;          /* false without question.standard_error, and for one realization */
+    bool has_look; /* false without question.accuracy.standard_error, and for one realization */
     bool was_replanned;     /* the first run missed the tolerance */
     char degrees_note[192]; /* why the degrees end where they do; "" when L was asked for */
     char skipped[2048];     /* what was not computed, and why */

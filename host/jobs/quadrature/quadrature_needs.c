@@ -12,16 +12,16 @@ static const double fewest_independent = 1.5;
 
 void ps_quadrature_needs_find(ps_quadrature_setup *setup, const ps_quadrature_question *question) {
     const ps_sampler_request *const sampler = question->sampler;
-    const double expected = ps_sequential_expected(fewest_independent, question->standard_error);
+    const double expected =
+        ps_sequential_expected(fewest_independent, question->accuracy.standard_error);
     const ps_needs_question needs = {.on_sphere = true,
                                      /* c_l0 and C_l^2 turn with the set */
                                      .has_constant_power = sampler != NULL &&
                                                            !sampler->homogenize &&
                                                            ps_sampler_has_constant_power(sampler),
                                      .num_realizations = question->num_realizations,
-                                     .standard_error = question->standard_error,
-                                     .expected_realizations = expected,
-                                     .no_skip = question->no_skip};
+                                     .accuracy = question->accuracy,
+                                     .expected_realizations = expected};
     setup->needs = ps_needs_find(&needs);
     setup->num_realizations = setup->needs.one_realization ? 1 : question->num_realizations;
     const bool is_less = setup->needs.sequential && expected < (double)setup->num_realizations;
@@ -35,7 +35,7 @@ double ps_quadrature_needs_accuracy(const ps_quadrature_setup *setup,
     const double share = 0.01; /* of the tolerance */
     const double most = 1e-9;  /* still below the E^2 of any rule */
     return has_several && !setup->needs.no_skip
-               ? fmin(fmax(share * question->tolerance, PS_REPRESENTER_TOLERANCE), most)
+               ? fmin(fmax(share * question->accuracy.tolerance, PS_REPRESENTER_TOLERANCE), most)
                : PS_REPRESENTER_TOLERANCE;
 }
 
@@ -99,7 +99,7 @@ static pspec_status plan_all(double *seconds, const ps_quadrature_setup *setup,
     problem.frequencies = &all;
     const pspec_status status = ps_plan_make(
         &plan, &problem, setup->device != NULL ? ps_device_get_limits(setup->device) : NULL,
-        &question->constraints, error);
+        &question->limits.constraints, error);
     *seconds = status == PSPEC_OK && plan.chosen != NULL ? plan.chosen->seconds : 0;
     ps_frequencies_free(&all);
     return status;
@@ -138,7 +138,7 @@ pspec_status ps_quadrature_needs_plan(ps_quadrature_setup *setup,
                                       const ps_quadrature_question *question, uint64_t held,
                                       ps_error *error) {
     const ps_needs_strict strict = {setup->problem.tolerance, other_seconds(setup)};
-    ps_plan_constraints constraints = question->constraints;
+    ps_plan_constraints constraints = question->limits.constraints;
     ps_memory_room room;
     ps_memory_room_find(&room, held);
     constraints.room = &room;

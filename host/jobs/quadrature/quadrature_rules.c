@@ -234,7 +234,8 @@ static pspec_status find_optimal(ps_rules *rules, const ps_representer *represen
     const phase weights = {&rules->question->watch, "weights"};
     const ps_watch watch = watch_phase(&weights);
     const ps_kernel_options options = {.watch = &watch,
-                                       .memory_limit = rules->question->constraints.memory_limit,
+                                       .memory_limit =
+                                           rules->question->limits.constraints.memory_limit,
                                        .device = rules->device};
     PS_TRY(ps_optimal_weights_find(representer, num, rule->set.points, rule->kappa, false, &options,
                                    rule->weights, &found, error));
@@ -244,7 +245,7 @@ static pspec_status find_optimal(ps_rules *rules, const ps_representer *represen
 
 void ps_rules_plan_weights(const ps_quadrature_question *question, size_t num_points,
                            const ps_device *device, char *text, size_t size) {
-    const uint64_t limit = question->constraints.memory_limit;
+    const uint64_t limit = question->limits.constraints.memory_limit;
     const double dense = (double)ps_kernel_system_bytes(num_points, true);
     const double sparse = (double)ps_kernel_system_bytes(num_points, false);
     text[0] = '\0';

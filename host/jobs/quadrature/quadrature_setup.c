@@ -96,22 +96,24 @@ static ps_problem make_problem(const ps_quadrature_setup *of,
         .num_realizations = of->planned_realizations,
         .has_weights = true,
         .measure = of->by_pairs ? PS_OF_PAIR_SUMS : PS_OF_AMPLITUDES,
-        .tolerance = of->by_pairs ? question->tolerance : question->tolerance / amplitudes,
+        .tolerance =
+            of->by_pairs ? question->accuracy.tolerance : question->accuracy.tolerance / amplitudes,
         .expected_power =
             of->by_pairs ? expect_power(&of->representer, of->max_degree, shape->num_points) : 0};
 }
 
 static pspec_status open_device(ps_quadrature_setup *out, const ps_quadrature_question *question,
                                 ps_error *error) {
-    if (out->device != NULL || !ps_plan_may_need_device(&question->constraints)) {
+    if (out->device != NULL || !ps_plan_may_need_device(&question->limits.constraints)) {
         return PSPEC_OK;
     }
     out->device = question->open_device;
     if (out->device != NULL) {
         return PSPEC_OK;
     }
-    const pspec_status status = ps_figures_open_device(
-        &out->device, question->device, question->profile, question->figures_folder, error);
+    const pspec_status status =
+        ps_figures_open_device(&out->device, question->limits.device, question->limits.profile,
+                               question->limits.cache_folder, error);
     out->owns_device = status == PSPEC_OK;
     return status == PSPEC_ERROR_NO_DEVICE && question->may_lack_device ? PSPEC_OK : status;
 }
@@ -119,10 +121,10 @@ static pspec_status open_device(ps_quadrature_setup *out, const ps_quadrature_qu
 pspec_status ps_quadrature_setup_begin(ps_quadrature_setup *out,
                                        const ps_quadrature_question *question, ps_error *error) {
     *out = (ps_quadrature_setup){0};
-    PS_TRY(ps_plan_check_engine(question->constraints.engine, PS_ON_SPHERE, error));
+    PS_TRY(ps_plan_check_engine(question->limits.constraints.engine, PS_ON_SPHERE, error));
     PS_TRY(ps_inputs_check(question->paths, question->num_paths, error));
     PS_TRY(ps_inputs_check(&question->weights_path, 1, error));
-    return question->device != NULL ? open_device(out, question, error) : PSPEC_OK;
+    return question->limits.device != NULL ? open_device(out, question, error) : PSPEC_OK;
 }
 
 static pspec_status plan_engine(ps_quadrature_setup *out, const ps_quadrature_question *question,
@@ -151,11 +153,11 @@ pspec_status ps_quadrature_setup_make(ps_quadrature_setup *out,
     ps_quadrature_needs_find(out, question);
     const bool has_several = shape->has_several && out->num_realizations != 1;
     const double accuracy = ps_quadrature_needs_accuracy(out, question, has_several);
-    out->by_pairs = has_several || is_for_pairs(question->constraints.engine);
+    out->by_pairs = has_several || is_for_pairs(question->limits.constraints.engine);
     PS_TRY(ps_representer_create(&out->representer, question->brdf, question->smoothness, accuracy,
                                  2 * out->most_degree, error));
-    if (asked == 0 && !question->no_skip) {
-        choose_degrees(out, question->tolerance, most);
+    if (asked == 0 && !question->accuracy.no_skip) {
+        choose_degrees(out, question->accuracy.tolerance, most);
     }
     ps_quadrature_needs_terms(out, accuracy);
     PS_TRY(plan_engine(out, question, shape, error));

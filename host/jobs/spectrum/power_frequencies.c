@@ -54,27 +54,27 @@ static pspec_status read_list(ps_frequencies *out, const char *path, uint64_t me
 
 pspec_status ps_power_frequencies(ps_frequencies *out, const ps_power_question *question,
                                   unsigned dimension, size_t num_points, ps_error *error) {
-    int32_t max_frequency = question->max_frequency;
+    int32_t max_frequency = question->frequencies.max_frequency;
     if (question->on_sphere) {
         return choose_degrees(out, question, num_points, error);
     }
-    if (question->frequencies_path != NULL) {
-        return read_list(out, question->frequencies_path, question->constraints.memory_limit,
+    if (question->frequencies.path != NULL) {
+        return read_list(out, question->frequencies.path, question->limits.constraints.memory_limit,
                          dimension, error);
     }
     if (max_frequency == 0) {
         PS_TRY(default_max_frequency(&max_frequency, dimension, num_points,
-                                     question->constraints.offers, error));
+                                     question->limits.constraints.offers, error));
     }
-    if (question->per_ring > 0) {
+    if (question->frequencies.per_ring > 0) {
         const ps_frequency_sample sample = {.dimension = dimension,
                                             .max_frequency = max_frequency,
-                                            .exact_shells = question->exact_shells,
-                                            .per_ring = question->per_ring,
+                                            .exact_shells = question->frequencies.exact_shells,
+                                            .per_ring = question->frequencies.per_ring,
                                             .seed = question->per_ring_seed};
         return ps_frequencies_sample(out, &sample, error);
     }
-    const bool only_ball = !question->wants_full_array && !question->no_skip;
+    const bool only_ball = !question->wants_full_array && !question->accuracy.no_skip;
     return ps_frequencies_grid(out, dimension, max_frequency, only_ball,
-                               question->constraints.offers, error);
+                               question->limits.constraints.offers, error);
 }

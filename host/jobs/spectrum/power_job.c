@@ -34,7 +34,7 @@ static bool should_stop(void *payload) {
 
 /* A quarter of a limit that was typed leaves room for what computes with the points. */
 static uint64_t choose_whole_bytes(const ps_power_question *question) {
-    const uint64_t limit = question->constraints.memory_limit / 4;
+    const uint64_t limit = question->limits.constraints.memory_limit / 4;
     const uint64_t asked =
         question->whole_bytes > 0 ? question->whole_bytes : PS_SOURCE_WHOLE_BYTES;
     return limit > 0 && limit < asked ? limit : asked;
@@ -74,7 +74,7 @@ static pspec_status find_shape(ps_power_job *job, ps_error *error) {
 /* A device is opened unless the user's choice of engine or precision leaves none that needs one. */
 static pspec_status open_device(ps_power_job *job, ps_error *error) {
     const ps_power_question *question = job->question;
-    if (job->device != NULL || !ps_plan_may_need_device(&question->constraints)) {
+    if (job->device != NULL || !ps_plan_may_need_device(&question->limits.constraints)) {
         return PSPEC_OK;
     }
     job->owns_device = question->open_device == NULL;
@@ -82,20 +82,21 @@ static pspec_status open_device(ps_power_job *job, ps_error *error) {
     if (!job->owns_device) {
         return PSPEC_OK;
     }
-    const pspec_status status = ps_figures_open_device(
-        &job->device, question->device, question->profile, question->figures_folder, error);
+    const pspec_status status =
+        ps_figures_open_device(&job->device, question->limits.device, question->limits.profile,
+                               question->limits.cache_folder, error);
     return status == PSPEC_ERROR_NO_DEVICE && question->may_lack_device ? PSPEC_OK : status;
 }
 
 /* Names that can be wrong are looked at before anything that takes long: sets are read, and rings counted, in seconds. */
 static pspec_status check_names(ps_power_job *job, ps_error *error) {
     const ps_power_question *question = job->question;
-    PS_TRY(ps_plan_check_engine(question->constraints.engine,
+    PS_TRY(ps_plan_check_engine(question->limits.constraints.engine,
                                 question->on_sphere ? PS_ON_SPHERE : PS_ON_TORUS, error));
     PS_TRY(ps_inputs_check(question->paths, question->num_paths, error));
     PS_TRY(ps_inputs_check(&question->weights_path, 1, error));
-    PS_TRY(ps_inputs_check(&question->frequencies_path, 1, error));
-    return question->device != NULL ? open_device(job, error) : PSPEC_OK;
+    PS_TRY(ps_inputs_check(&question->frequencies.path, 1, error));
+    return question->limits.device != NULL ? open_device(job, error) : PSPEC_OK;
 }
 
 static pspec_status prepare(ps_power_job *job, ps_error *error) {
@@ -123,7 +124,7 @@ static pspec_status prepare(ps_power_job *job, ps_error *error) {
         .block_points =
             question->sampler == NULL && !job->sets.part.is_whole ? job->sets.part.block_points : 0,
         .measure = question->wants_pair_sums ? PS_OF_PAIR_SUMS : PS_OF_AMPLITUDES,
-        .floor = question->wants_pair_sums ? question->floor : 0,
+        .floor = question->wants_pair_sums ? question->accuracy.floor : 0,
         .tolerance = ps_power_needs_tolerance(question),
     };
     PS_TRY(open_device(job, error));
@@ -170,10 +171,10 @@ static ps_estimator_options choose_options(void *payload) {
     const ps_power_job *const job = payload;
     const ps_power_question *const question = job->question;
     return (ps_estimator_options){
-        .exact_shells = question->exact_shells,
+        .exact_shells = question->frequencies.exact_shells,
         .want_frequencies = !question->on_sphere, /* anisotropy needs them, too */
         .no_frequency_errors = job->needs.no_frequency_errors,
-        .self_check = !question->no_self_check,
+        .self_check = !question->accuracy.no_self_check,
         .normalization = question->normalization,
         .coefficients = job->coefficients,
         .want_c2 = question->wants_pair_sums,
@@ -213,7 +214,8 @@ static pspec_status look_at_errors(void *payload, double *largest, ps_error *err
         job->means = memory;
     }
     PS_TRY(ps_estimator_bin_means(job->runner.estimator, job->means, error));
-    job->look = ps_sequential_find(bins, job->means, job->question->floor, job->runner.num_done);
+    job->look =
+        ps_sequential_find(bins, job->means, job->question->accuracy.floor, job->runner.num_done);
     *largest = job->look.corrected;
     return PSPEC_OK;
 }
@@ -282,8 +284,9 @@ static pspec_status find_c2(ps_power_job *job, ps_error *error) {
 /* Realizations that a deterministic one stands for: all, or as few as a standard error takes. */
 static uint64_t count_repeats(const ps_power_question *question) {
     const uint64_t all = question->num_realizations;
-    return question->standard_error > 0 && all > PS_LEAST_REALIZATIONS ? PS_LEAST_REALIZATIONS
-                                                                       : all;
+    return question->accuracy.standard_error > 0 && all > PS_LEAST_REALIZATIONS
+               ? PS_LEAST_REALIZATIONS
+               : all;
 }
 
 static pspec_status finish(ps_power_job *job, ps_error *error) {
@@ -308,7 +311,7 @@ pspec_status ps_power_job_run(ps_power_job *job, ps_error *error) {
                               .problem = &job->problem,
                               .plan = &job->plan,
                               .device = job->device,
-                              .standard_error = job->question->standard_error,
+                              .standard_error = job->question->accuracy.standard_error,
                               .is_sequential = job->needs.sequential};
     PS_TRY(ps_runner_run(&job->runner, error));
     return finish(job, error);

@@ -9,9 +9,11 @@
 #define PS_JOBS_SPECTRUM_POWER_JOB_H
 
 #include "base/watch.h"
+#include "frequencies/frequencies_spec.h"
 #include "jobs/parts/estimator.h"
 #include "jobs/parts/source.h"
 #include "plan/needs.h"
+#include "plan/specs.h"
 #include "spectra/sequential.h"
 
 typedef struct ps_power_question {
@@ -30,30 +32,20 @@ typedef struct ps_power_question {
     int64_t max_degree; /* 0: ceil(4 sqrt N) */
 
     /* frequencies */
-    int32_t max_frequency;        /* 0: ceil(5 N^(1/d)), for d <= 3 */
-    const char *frequencies_path; /* NULL: a grid */
-    uint64_t per_ring; /* of every ring, at random; 0: all (frequencies/frequency_sample.h) */
+    ps_frequencies_spec frequencies;
     uint64_t per_ring_seed;
-    bool exact_shells;
     bool wants_full_array;
 
     /* result */
     bool wants_pair_sums;   /* on the sphere: Q(l) itself, weights 1/N unless given, and C_l^2 */
     ps_harmonics harmonics; /* whose coefficients are wanted, of the only set, on the sphere */
     pspec_normalization normalization;
-    double tolerance, floor; /* floor 0: none */
-    bool may_loosen; /* the tolerance, to what standard_error and floor need; not for pair sums */
-    double
-        standard_error; /* relative, of every bin above the floor, at which realizations stop (spectra/sequential.h);
-                              0: all of them are done */
-    bool no_skip, no_self_check;
-    ps_plan_constraints constraints;
-    bool may_lack_device;       /* to be planned only: without a device, with the host's engines */
-    ps_device *open_device;     /* borrowed; NULL: the one that `device` selects is opened */
-    const char *device;         /* selector, NULL: default */
-    const char *figures_folder; /* store/figures_file.h; NULL: the built-in figures */
-    bool profile;
-    ps_watch watch; /* told of realizations and other phases; {0}: nobody */
+    ps_accuracy_spec accuracy; /* the tolerance is of S, or of Q(l) */
+    bool may_loosen; /* the tolerance, to what standard error and floor need; not for pair sums */
+    ps_limits_spec limits;
+    bool may_lack_device;   /* to be planned only: without a device, with the host's engines */
+    ps_device *open_device; /* borrowed; NULL: the one that limits.device selects is opened */
+    ps_watch watch;         /* told of realizations and other phases; {0}: nobody */
 } ps_power_question;
 
 /* A job that is planned but not yet run. */
@@ -88,7 +80,7 @@ const ps_accuracy *ps_power_job_accuracy(const ps_power_job *job);
 const char *ps_power_job_description(const ps_power_job *job);
 /* c_lm as ps_engine.coefficients has them, [ps_num_coefficients(L)]; NULL unless they were asked for. */
 const double *ps_power_job_coefficients(const ps_power_job *job);
-/* The bin of the largest standard error when the realizations ended; NULL unless question.standard_error was asked for,
+/* The bin of the largest standard error when the realizations ended; NULL unless question.accuracy.standard_error was asked for,
  * and with one realization that stands for all. */
 const ps_sequential_look *ps_power_job_look(const ps_power_job *job);
 /* C_l^2 of pair sums, [number of degrees]; NULL unless they were asked for. */

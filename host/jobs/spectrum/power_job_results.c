@@ -46,7 +46,8 @@ const double *ps_power_job_coefficients(const ps_power_job *job) {
 }
 
 const ps_sequential_look *ps_power_job_look(const ps_power_job *job) {
-    return job->question->standard_error > 0 && job->runner.num_done > 1 ? &job->look : NULL;
+    return job->question->accuracy.standard_error > 0 && job->runner.num_done > 1 ? &job->look
+                                                                                  : NULL;
 }
 
 const ps_mean *ps_power_job_c2(const ps_power_job *job) {

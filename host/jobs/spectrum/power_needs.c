@@ -14,13 +14,13 @@ static double count_fewest(const ps_power_job *job) {
     if (job->question->on_sphere) {
         return job->question->on_hemisphere ? 2.5 : 1.5;
     }
-    return job->question->exact_shells ? d : d * d;
+    return job->question->frequencies.exact_shells ? d : d * d;
 }
 
 void ps_power_needs_find(ps_power_job *job) {
     const ps_power_question *question = job->question;
     const ps_sampler_request *sampler = question->sampler;
-    const bool is_grid = question->frequencies_path == NULL && !question->on_sphere;
+    const bool is_grid = question->frequencies.path == NULL && !question->on_sphere;
     /* coefficients, unlike powers, turn with the set */
     const bool is_invariant =
         sampler != NULL && !folding_matters(question) && question->harmonics == PS_NO_HARMONICS;
@@ -32,24 +32,24 @@ void ps_power_needs_find(ps_power_job *job) {
         .on_sphere = question->on_sphere,
         .on_hemisphere = question->on_hemisphere,
         .wants_full_array = question->wants_full_array,
-        .wants_frequency_errors = question->wants_full_array || question->per_ring > 0,
+        .wants_frequency_errors = question->wants_full_array || question->frequencies.per_ring > 0,
         .share_not_drawn =
             1 - (double)job->frequencies.num / (double)ps_frequencies_population(&job->frequencies),
         .has_constant_power = is_invariant && !turns && ps_sampler_has_constant_power(sampler),
         .is_homogenized = is_invariant && !turns && sampler->homogenize,
         .num_realizations = question->num_realizations,
-        .standard_error = question->standard_error,
+        .accuracy = question->accuracy,
         .expected_realizations =
-            ps_sequential_expected(count_fewest(job), question->standard_error),
-        .no_skip = question->no_skip,
+            ps_sequential_expected(count_fewest(job), question->accuracy.standard_error),
     };
     job->needs = ps_needs_find(&needs);
 }
 
 /* Without a statistical target. */
 static double strict_tolerance(const ps_power_question *question) {
-    return question->wants_pair_sums ? question->tolerance
-                                     : ps_plan_tolerance(question->tolerance, question->floor);
+    return question->wants_pair_sums
+               ? question->accuracy.tolerance
+               : ps_plan_tolerance(question->accuracy.tolerance, question->accuracy.floor);
 }
 
 void ps_power_job_rate_skips(ps_power_job *job) {
@@ -63,7 +63,7 @@ void ps_power_job_rate_skips(ps_power_job *job) {
             PSPEC_OK;
     problem.frequencies = &box;
     if (is_box_possible &&
-        ps_plan_make(&plan, &problem, ps_power_job_limits(job), &job->question->constraints,
+        ps_plan_make(&plan, &problem, ps_power_job_limits(job), &job->question->limits.constraints,
                      NULL) == PSPEC_OK &&
         plan.chosen != NULL) {
         const double share = 1 - chosen->seconds / plan.chosen->seconds;
@@ -80,7 +80,7 @@ static uint64_t find_held(const ps_power_job *job) {
 
 pspec_status ps_power_needs_plan(ps_power_job *job, ps_error *error) {
     const ps_power_question *question = job->question;
-    ps_plan_constraints constraints = question->constraints;
+    ps_plan_constraints constraints = question->limits.constraints;
     ps_memory_room room;
     ps_memory_room_find(&room, find_held(job));
     constraints.room = &room;
@@ -92,13 +92,14 @@ pspec_status ps_power_needs_plan(ps_power_job *job, ps_error *error) {
 
 uint64_t ps_power_needs_realizations(const ps_power_job *job) {
     const double expected =
-        ps_sequential_expected(count_fewest(job), job->question->standard_error);
+        ps_sequential_expected(count_fewest(job), job->question->accuracy.standard_error);
     const bool is_less = job->needs.sequential && expected < (double)job->num_realizations;
     return is_less ? (uint64_t)expected : job->num_realizations;
 }
 
 double ps_power_needs_tolerance(const ps_power_question *question) {
-    return question->may_loosen && !question->wants_pair_sums && !question->no_skip
-               ? ps_plan_statistical_tolerance(question->standard_error, question->floor)
+    return question->may_loosen && !question->wants_pair_sums && !question->accuracy.no_skip
+               ? ps_plan_statistical_tolerance(question->accuracy.standard_error,
+                                               question->accuracy.floor)
                : strict_tolerance(question);
 }

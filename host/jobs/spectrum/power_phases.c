@@ -74,7 +74,7 @@ static void add_frequencies(const ps_power_job *job, ps_phases *phases) {
     }
     ps_phases_add(phases, name,
                   set->kind == PS_FREQUENCIES_LIST ? PS_HOST_LISTED : PS_HOST_FREQUENCY, num);
-    if (job->question->per_ring >
+    if (job->question->frequencies.per_ring >
         0) { /* rings are counted axis by axis: frequencies/frequency_sample.h */
         const double k = set->max_frequency;
         ps_phases_add(phases, name, PS_HOST_COUNT, job->dimension * k * k * k);
@@ -84,7 +84,7 @@ static void add_frequencies(const ps_power_job *job, ps_phases *phases) {
 
 static void add_check(const ps_power_job *job, ps_phases *phases) {
     bool is_of_degrees = false;
-    if (job->question->no_self_check) {
+    if (job->question->accuracy.no_self_check) {
         return;
     }
     const double terms = ps_self_check_count(&job->frequencies, job->num_points, &is_of_degrees);

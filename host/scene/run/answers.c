@@ -13,11 +13,11 @@ static pspec_status ask_one(ps_run *run, ps_run_result *result, size_t number, p
     ps_scene_question *const asked = &result->questions[number].asked;
     pspec_status status = ps_scene_question_make(asked, result->asked, number, error);
     result->num = number + 1;
-    if (run->arguments->no_skip) {
-        asked->request.no_skip = true;
+    if (run->arguments->accuracy.no_skip) {
+        asked->request.accuracy.no_skip = true;
     }
-    asked->request.device = run->arguments->device;
-    asked->request.cache_folder = run->arguments->cache_folder;
+    asked->request.limits.device = run->arguments->limits.device;
+    asked->request.limits.cache_folder = run->arguments->limits.cache_folder;
     if (status == PSPEC_OK) {
         status = result->asked->kind->check_question(&asked->request, error);
     }
@@ -71,8 +71,8 @@ static pspec_status digest(const ps_answer *answer, char out[PS_DIGEST_BYTES], p
 pspec_status ps_run_open_device(ps_run *run, const ps_run_result *result, ps_error *error) {
     return run->device != NULL || result->asked->kind->is_of_host
                ? PSPEC_OK
-               : ps_figures_open_device(&run->device, run->arguments->device, false,
-                                        run->arguments->cache_folder, error);
+               : ps_figures_open_device(&run->device, run->arguments->limits.device, false,
+                                        run->arguments->limits.cache_folder, error);
 }
 
 static pspec_status answer_one(ps_run *run, ps_run_result *result, ps_run_question *question,

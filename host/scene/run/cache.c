@@ -34,9 +34,9 @@ static pspec_status identify_device(const ps_run *run, ps_text *out, ps_error *e
         return listed;
     }
     ps_figures figures; /* plans, and so bits, depend on them */
-    pspec_status status = ps_device_choose(all, num, run->arguments->device, &index, error);
+    pspec_status status = ps_device_choose(all, num, run->arguments->limits.device, &index, error);
     if (status == PSPEC_OK) {
-        status = ps_figures_read(&figures, run->arguments->cache_folder, &all[index], error);
+        status = ps_figures_read(&figures, run->arguments->limits.cache_folder, &all[index], error);
     }
     if (status == PSPEC_OK) {
         const ps_device_limits *const limits = &all[index];
@@ -56,11 +56,12 @@ pspec_status ps_run_open_cache(ps_run *run, ps_error *error) {
     const bool is_known = identify_program(&run->identity);
     PS_TRY(identify_device(run, &run->identity, error));
     PS_TRY(ps_text_check(&run->identity, error));
-    if (most == 0 || run->arguments->no_skip || run->arguments->cache_folder == NULL || !is_known ||
+    if (most == 0 || run->arguments->accuracy.no_skip ||
+        run->arguments->limits.cache_folder == NULL || !is_known ||
         getenv("POINTSPEC_KERNEL_DIR") != NULL) {
         return PSPEC_OK;
     }
-    ps_text_append(&folder, "%s/results", run->arguments->cache_folder);
+    ps_text_append(&folder, "%s/results", run->arguments->limits.cache_folder);
     pspec_status status = ps_text_check(&folder, &reason);
     if (status == PSPEC_OK) {
         status = ps_cache_open(&run->cache, ps_text_string(&folder), most, &reason);
@@ -92,8 +93,8 @@ static pspec_status add_files(ps_text *key, const ps_request *request, ps_error 
         strcmp(weights, "optimal") != 0) {
         PS_TRY(add_file(key, weights, error));
     }
-    if (request->frequencies != NULL) {
-        PS_TRY(add_file(key, request->frequencies, error));
+    if (request->frequencies.path != NULL) {
+        PS_TRY(add_file(key, request->frequencies.path, error));
     }
     if (request->against != NULL) {
         PS_TRY(add_file(key, request->against, error));
@@ -106,7 +107,7 @@ static pspec_status make_key(const ps_run *run, const ps_run_question *question,
                              ps_error *error) {
     const ps_request *const request = &question->asked.request;
     ps_text_append(key, "%s%s\npicture %d\nno-skip %d\n", ps_text_string(&run->identity),
-                   request->command_line, request->wants_picture, request->no_skip);
+                   request->command_line, request->wants_picture, request->accuracy.no_skip);
     PS_TRY(add_files(key, request, error));
     return ps_text_check(key, error);
 }

@@ -10,8 +10,8 @@
 pspec_status ps_run_read_scene(ps_scene *out, const ps_request *arguments, ps_error *error) {
     PS_TRY(ps_scene_read(out, arguments->files[0], error));
     const bool is_repeated = out->num_digests > 0 && arguments->is_memory_of_environment;
-    return arguments->memory > 0 && !is_repeated
-               ? ps_scene_limit_memory(out, arguments->memory, error)
+    return arguments->limits.constraints.memory_limit > 0 && !is_repeated
+               ? ps_scene_limit_memory(out, arguments->limits.constraints.memory_limit, error)
                : PSPEC_OK;
 }
 

@@ -1,0 +1,15 @@
+/* Which frequencies a question is about, on the torus: a part of questions as plan/specs.h has others. */
+#ifndef PS_FREQUENCIES_FREQUENCIES_SPEC_H
+#define PS_FREQUENCIES_FREQUENCIES_SPEC_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct ps_frequencies_spec {
+    int32_t max_frequency; /* K of a grid; 0: ceil(5 N^(1/d)), for d <= 3 */
+    const char *path;      /* of a list; NULL: a grid */
+    uint64_t per_ring;     /* of every ring, at random; 0: all (frequencies/frequency_sample.h) */
+    bool exact_shells;     /* |k|^2 = n instead of rings of width 1 */
+} ps_frequencies_spec;
+
+#endif

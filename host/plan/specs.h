@@ -1,0 +1,28 @@
+/* Parts of every question about point sets, as the option table fills them (questions/options.c) and the program, scenes
+ * and the C library hand them on: nested in the request, in the questions of jobs, and in what decides about needs, so that
+ * a value is said once.
+ */
+#ifndef PS_PLAN_SPECS_H
+#define PS_PLAN_SPECS_H
+
+#include "plan/choose.h"
+
+/* How exact a result has to be, and what may be left out for that. */
+typedef struct ps_accuracy_spec {
+    double tolerance; /* of what, the question says */
+    double floor;     /* powers down to it are right to 10 %; 0: none */
+    /* relative, of every bin above the floor, at which realizations stop (spectra/sequential.h); 0: all are done */
+    double standard_error;
+    bool no_skip;       /* what the question does not need is done all the same; symmetries stay */
+    bool no_self_check; /* the referee recomputes nothing */
+} ps_accuracy_spec;
+
+/* Where the work is done, and in what memory. */
+typedef struct ps_limits_spec {
+    ps_plan_constraints constraints; /* engine, precision and memory that somebody asked for */
+    const char *device;              /* selector; NULL: the default */
+    const char *cache_folder;        /* of what can be made again, such as figures; NULL: none */
+    bool profile;                    /* kernels are timed */
+} ps_limits_spec;
+
+#endif
