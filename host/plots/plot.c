@@ -34,23 +34,10 @@ bool ps_plot_is_supported(const char *path) {
     return find_terminal(path) != NULL;
 }
 
-/* A picture of one kind; the others are NULL. */
-typedef struct drawing {
-    const ps_plot *spectra;
-    const ps_line_plot *lines;
-    const ps_panel_plot *panels;
-} drawing;
-
 /* Writes the script to a file without a name, and goes back to its start. */
-static pspec_status make_script(FILE *script, const drawing *what, const char *terminal_name,
+static pspec_status make_script(FILE *script, const ps_figure *figure, const char *terminal_name,
                                 ps_error *error) {
-    if (what->spectra != NULL) {
-        PS_TRY(ps_plot_write_script(what->spectra, terminal_name, script, error));
-    } else if (what->lines != NULL) {
-        ps_line_plot_write_script(what->lines, terminal_name, script);
-    } else {
-        ps_panel_plot_write_script(what->panels, terminal_name, script);
-    }
+    PS_TRY(ps_figure_write_script(figure, terminal_name, script, error));
     errno = 0;
     if (fflush(script) != 0 || ferror(script) || fseeko(script, 0, SEEK_SET) != 0) {
         return ps_fail(error, PSPEC_ERROR_IO, "cannot write a temporary file: %s", strerror(errno));
@@ -58,8 +45,14 @@ static pspec_status make_script(FILE *script, const drawing *what, const char *t
     return PSPEC_OK;
 }
 
-/* num: of places in all curves together. */
-static pspec_status check_plot(const char *name, size_t num, ps_error *error) {
+/* name: for the sentence. */
+static pspec_status check_places(const char *name, const ps_figure *figure, ps_error *error) {
+    size_t num = 0;
+    for (size_t i = 0; i < figure->num_panels; i++) {
+        for (size_t j = 0; j < figure->panels[i].num_series; j++) {
+            num += figure->panels[i].series[j].num;
+        }
+    }
     return num > 0
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: there is nothing to plot", name);
@@ -85,11 +78,11 @@ static pspec_status escape_ends(ps_text *svg, ps_error *error) {
     return ps_text_check(svg, error);
 }
 
-static pspec_status draw(ps_text *picture, const terminal *kind, const drawing *what,
+static pspec_status draw(ps_text *picture, const terminal *kind, const ps_figure *figure,
                          ps_error *error) {
     FILE *script = NULL;
     PS_TRY(ps_temporary_open(&script, error));
-    pspec_status status = make_script(script, what, kind->name, error);
+    pspec_status status = make_script(script, figure, kind->name, error);
     if (status == PSPEC_OK) {
         status = ps_gnuplot_run(script, kind->last, picture, error);
     }
@@ -101,17 +94,18 @@ static pspec_status draw(ps_text *picture, const terminal *kind, const drawing *
 }
 
 /* The file is opened first: what cannot be written is not drawn. */
-static pspec_status draw_file(const char *path, const drawing *what, ps_error *error) {
+pspec_status ps_figure_write(const char *path, const ps_figure *figure, ps_error *error) {
     ps_output_file *file = NULL;
     ps_text picture = {0};
     pspec_status status = PSPEC_OK;
     const terminal *const kind = find_terminal(path);
+    PS_TRY(check_places(path, figure, error));
     if (kind == NULL) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "%s: pictures end in .png, .svg or .pdf", path);
     }
     PS_TRY(ps_output_open(&file, path, error));
-    PS_TRY_OUT(status, draw(&picture, kind, what, error));
+    PS_TRY_OUT(status, draw(&picture, kind, figure, error));
     ps_output_write(file, picture.data, 1, picture.length);
     PS_TRY_OUT(status, ps_output_commit(&file, error));
 out:
@@ -120,58 +114,43 @@ out:
     return status;
 }
 
-static size_t count_bins(const ps_plot *plot) {
-    size_t num = 0;
-    for (size_t i = 0; i < plot->num_curves; i++) {
-        num += plot->curves[i].num_bins;
+pspec_status ps_figure_draw_svg(ps_text *svg, const ps_figure *figure, ps_error *error) {
+    PS_TRY(check_places(figure->title, figure, error));
+    return draw(svg, find_terminal(".svg"), figure, error);
+}
+
+static void add_numbers(ps_text *key, const double *numbers, size_t num) {
+    if (numbers != NULL) {
+        ps_text_append_bytes(key, (const char *)numbers, num * sizeof *numbers);
     }
-    return num;
 }
 
-static size_t count_places(const ps_line_plot *plot) {
-    size_t num = 0;
-    for (size_t i = 0; i < plot->num_lines; i++) {
-        num += plot->lines[i].num;
-    }
-    return num;
+static void add_text(ps_text *key, const char *text) {
+    ps_text_append(key, "%s\n", text != NULL ? text : "");
 }
 
-pspec_status ps_plot_write(const char *path, const ps_plot *plot, ps_error *error) {
-    PS_TRY(check_plot(path, count_bins(plot), error));
-    return draw_file(path, &(drawing){.spectra = plot}, error);
-}
-
-pspec_status ps_line_plot_write(const char *path, const ps_line_plot *plot, ps_error *error) {
-    PS_TRY(check_plot(path, count_places(plot), error));
-    return draw_file(path, &(drawing){.lines = plot}, error);
-}
-
-pspec_status ps_plot_draw_svg(ps_text *svg, const ps_plot *plot, ps_error *error) {
-    PS_TRY(check_plot(plot->title, count_bins(plot), error));
-    return draw(svg, find_terminal(".svg"), &(drawing){.spectra = plot}, error);
-}
-
-pspec_status ps_line_plot_draw_svg(ps_text *svg, const ps_line_plot *plot, ps_error *error) {
-    PS_TRY(check_plot(plot->title, count_places(plot), error));
-    return draw(svg, find_terminal(".svg"), &(drawing){.lines = plot}, error);
-}
-
-static size_t count_panels(const ps_panel_plot *plot) {
-    size_t num = 0;
-    for (size_t i = 0; i < plot->num_panels; i++) {
-        for (size_t j = 0; j < plot->panels[i].num_series; j++) {
-            num += plot->panels[i].series[j].num;
+void ps_figure_add_key(ps_text *key, const ps_figure *figure) {
+    add_text(key, figure->title);
+    add_text(key, figure->x_label);
+    add_text(key, figure->y_label);
+    ps_text_append(key, "%d %d %d %d %a\n", (int)figure->form, figure->is_log_x, figure->is_log_y,
+                   figure->on_sphere, figure->noise_level_db);
+    for (size_t i = 0; i < figure->num_panels; i++) {
+        const ps_panel *const panel = &figure->panels[i];
+        add_text(key, panel->title);
+        ps_text_append(key, "%zu\n", panel->num_series);
+        for (size_t j = 0; j < panel->num_series; j++) {
+            const ps_series *const series = &panel->series[j];
+            add_text(key, series->label);
+            ps_text_append(key, "%zu %d %zu\n", series->kind, series->is_front, series->num);
+            add_numbers(key, series->x, series->num);
+            add_numbers(key, series->y, series->num);
+            add_numbers(key, series->error, series->num);
+            add_numbers(key, series->lower, series->num);
         }
     }
-    return num;
-}
-
-pspec_status ps_panel_plot_write(const char *path, const ps_panel_plot *plot, ps_error *error) {
-    PS_TRY(check_plot(path, count_panels(plot), error));
-    return draw_file(path, &(drawing){.panels = plot}, error);
-}
-
-pspec_status ps_panel_plot_draw_svg(ps_text *svg, const ps_panel_plot *plot, ps_error *error) {
-    PS_TRY(check_plot(plot->title, count_panels(plot), error));
-    return draw(svg, find_terminal(".svg"), &(drawing){.panels = plot}, error);
+    if (figure->image != NULL) {
+        ps_text_append(key, "%zu %a\n", figure->image->size, figure->image->unit);
+        add_numbers(key, figure->image->power, figure->image->size * figure->image->size);
+    }
 }

@@ -10,28 +10,20 @@ static const int marks[] = {7, 6, 5, 4, 9, 8, 11, 10, 13, 12, 15, 14};
 enum { NUM_MARKS = sizeof marks / sizeof marks[0] };
 
 /* Panels, and a place for the key. */
-static size_t num_columns(const ps_panel_plot *plot) {
-    return plot->num_panels + 1 < COLUMNS ? plot->num_panels + 1 : COLUMNS;
+static size_t num_columns(const ps_figure *figure) {
+    return figure->num_panels + 1 < COLUMNS ? figure->num_panels + 1 : COLUMNS;
 }
 
-static int page_height(const ps_panel_plot *plot) {
-    const size_t columns = num_columns(plot);
-    return HEAD + PANEL_HEIGHT * (int)((plot->num_panels + columns) / columns);
-}
-
-/* On a logarithmic axis is only what is above 0. */
-static bool is_shown(const ps_panel_plot *plot, const ps_plot_series *series, size_t place) {
-    const double x = series->x[place];
-    const double y = series->y[place];
-    return isfinite(x) && isfinite(y) && (plot->is_linear_x || x > 0) &&
-           (plot->is_linear_y || y > 0);
+static int page_height(const ps_figure *figure) {
+    const size_t columns = num_columns(figure);
+    return HEAD + PANEL_HEIGHT * (int)((figure->num_panels + columns) / columns);
 }
 
 /* gnuplot makes no axes for nothing. */
-static bool has_places(const ps_panel_plot *plot, const ps_plot_panel *panel) {
+static bool has_places(const ps_figure *figure, const ps_panel *panel) {
     for (size_t j = 0; j < panel->num_series; j++) {
         for (size_t place = 0; place < panel->series[j].num; place++) {
-            if (is_shown(plot, &panel->series[j], place)) {
+            if (ps_script_is_shown(figure, &panel->series[j], place)) {
                 return true;
             }
         }
@@ -39,26 +31,10 @@ static bool has_places(const ps_panel_plot *plot, const ps_plot_panel *panel) {
     return false;
 }
 
-static void print_data(const ps_panel_plot *plot, FILE *stream) {
-    for (size_t i = 0; i < plot->num_panels; i++) {
-        for (size_t j = 0; j < plot->panels[i].num_series; j++) {
-            const ps_plot_series *const series = &plot->panels[i].series[j];
-            fprintf(stream, "$data%zu_%zu << EOD\n", i, j);
-            for (size_t place = 0; place < series->num; place++) {
-                const bool shows = is_shown(plot, series, place);
-                ps_plot_print_value(shows ? series->x[place] : NAN, stream);
-                ps_plot_print_value(shows ? series->y[place] : NAN, stream);
-                putc('\n', stream);
-            }
-            fputs("EOD\n", stream);
-        }
-    }
-}
-
-static void print_look(const ps_panel_plot *plot, const ps_plot_series *series, FILE *stream) {
-    if (plot->has_lines) {
+static void print_look(const ps_figure *figure, const ps_series *series, FILE *stream) {
+    if (figure->form == PS_FIGURE_PANELS) {
         fputs("with linespoints pointtype 7 pointsize 0.3 linewidth 1.6 ", stream);
-        ps_plot_print_style(series->kind, stream);
+        ps_script_print_style(series->kind, stream);
         return;
     }
     if (series->is_front) {
@@ -67,18 +43,18 @@ static void print_look(const ps_panel_plot *plot, const ps_plot_series *series, 
     }
     fprintf(stream, "with points pointtype %d pointsize 0.9 linewidth 1.4 ",
             marks[series->kind % NUM_MARKS]);
-    ps_plot_print_style(series->kind / 2, stream);
+    ps_script_print_style(series->kind / 2, stream);
 }
 
 /* Margins of cell number `cell`, in pixels of the page. */
-static void print_margins(const ps_panel_plot *plot, size_t cell, FILE *stream) {
+static void print_margins(const ps_figure *figure, size_t cell, FILE *stream) {
     const double left = 82;
     const double right = 20;
     const double above = 30;
     const double below = 52;
-    const size_t columns = num_columns(plot);
+    const size_t columns = num_columns(figure);
     const double width = (double)columns * PANEL_WIDTH;
-    const double height = page_height(plot);
+    const double height = page_height(figure);
     const double x = (double)(cell % columns) * PANEL_WIDTH;
     const double y = HEAD + (double)(cell / columns) * PANEL_HEIGHT;
     fprintf(stream,
@@ -88,23 +64,17 @@ static void print_margins(const ps_panel_plot *plot, size_t cell, FILE *stream) 
             1 - (y + PANEL_HEIGHT - below) / height);
 }
 
-static void print_label(const char *axis, const char *label, const char *offset, FILE *stream) {
-    fprintf(stream, "set %slabel ", axis);
-    ps_plot_print_text(label, stream);
-    fprintf(stream, " offset %s\n", offset);
-}
-
-static void print_panel(const ps_panel_plot *plot, size_t i, FILE *stream) {
-    const ps_plot_panel *const panel = &plot->panels[i];
-    print_margins(plot, i, stream);
+static void print_panel(const ps_figure *figure, size_t i, FILE *stream) {
+    const ps_panel *const panel = &figure->panels[i];
+    print_margins(figure, i, stream);
     if (i > 0) {
         fputs("unset label 1\n", stream); /* the page has its title */
     }
     fputs("set title ", stream);
-    ps_plot_print_text(panel->title, stream);
+    ps_script_print_text(panel->title, stream);
     fputs(" noenhanced offset 0,-0.6\n", stream);
-    if (!has_places(plot, panel)) {
-        fputs(plot->has_lines
+    if (!has_places(figure, panel)) {
+        fputs(figure->form == PS_FIGURE_PANELS
                   ? "plot NaN notitle\n"
                   : "set xrange [1:10]\nset yrange [1:10]\nplot NaN notitle\nset autoscale\n",
               stream);
@@ -113,44 +83,38 @@ static void print_panel(const ps_panel_plot *plot, size_t i, FILE *stream) {
     fputs("plot ", stream);
     for (size_t j = 0; j < panel->num_series; j++) {
         fprintf(stream, "%s$data%zu_%zu using 1:2 ", j > 0 ? ", " : "", i, j);
-        print_look(plot, &panel->series[j], stream);
+        print_look(figure, &panel->series[j], stream);
         fputs(" notitle", stream);
     }
     putc('\n', stream);
 }
 
 /* One entry for every kind that there is. */
-static void print_key(const ps_panel_plot *plot, FILE *stream) {
+static void print_key(const ps_figure *figure, FILE *stream) {
     bool is_done[MOST_KINDS + 1] = {false};
-    print_margins(plot, plot->num_panels, stream);
+    print_margins(figure, figure->num_panels, stream);
     fputs("unset label 1\nunset title\nunset border\nunset tics\nunset xlabel\nunset ylabel\nunset "
           "grid\n"
           "set key center center Left reverse noenhanced box linecolor '#c0c0c0' samplen 2 "
           "maxcols 1 font ',9'\n"
           "set xrange [1:10]\nset yrange [1:10]\nplot ",
           stream);
-    for (size_t i = 0; i < plot->num_panels; i++) {
-        for (size_t j = 0; j < plot->panels[i].num_series; j++) {
-            const ps_plot_series *const series = &plot->panels[i].series[j];
+    for (size_t i = 0; i < figure->num_panels; i++) {
+        for (size_t j = 0; j < figure->panels[i].num_series; j++) {
+            const ps_series *const series = &figure->panels[i].series[j];
             const size_t kind = series->is_front ? MOST_KINDS : series->kind;
             if (kind > MOST_KINDS || is_done[kind]) {
                 continue;
             }
             is_done[kind] = true;
             fputs("NaN ", stream);
-            print_look(plot, series, stream);
+            print_look(figure, series, stream);
             fputs(" title ", stream);
-            ps_plot_print_text(series->label, stream);
+            ps_script_print_text(series->label, stream);
             fputs(", ", stream);
         }
     }
     fputs("NaN notitle\n", stream);
-}
-
-static void print_scale(const char *axis, bool is_linear, FILE *stream) {
-    if (!is_linear) {
-        fprintf(stream, "set logscale %s\nset format %s '10^{%%T}'\n", axis, axis);
-    }
 }
 
 /* What all places of one axis lie in. */
@@ -158,57 +122,56 @@ typedef struct range {
     double least, most;
 } range;
 
-static void widen(range *to, double value) {
-    to->least = fmin(to->least, value);
-    to->most = fmax(to->most, value);
+static void widen(range *places, double value) {
+    places->least = fmin(places->least, value);
+    places->most = fmax(places->most, value);
 }
 
 /* A linear axis begins at 0, unless something is below it; a logarithmic one leaves out what rounding left. */
-static void print_range(const char *axis, range of, bool is_linear, FILE *stream) {
+static void print_range(const char *axis, range places, bool is_log, FILE *stream) {
     const double digits = 1e-16;
     const double margin = 1.05;
-    const double low = is_linear ? fmin(of.least, 0) : fmax(of.least, of.most * digits);
-    if (of.most > low) {
-        fprintf(stream, "set %srange [%.9g:%.9g]\n", axis, is_linear ? low * margin : low / margin,
-                of.most * margin);
+    const double low = is_log ? fmax(places.least, places.most * digits) : fmin(places.least, 0);
+    if (places.most > low) {
+        fprintf(stream, "set %srange [%.9g:%.9g]\n", axis, is_log ? low / margin : low * margin,
+                places.most * margin);
     }
 }
 
-static void print_ranges(const ps_panel_plot *plot, FILE *stream) {
+static void print_ranges(const ps_figure *figure, FILE *stream) {
     range x = {INFINITY, -INFINITY};
     range y = {INFINITY, -INFINITY};
-    for (size_t i = 0; i < plot->num_panels; i++) {
-        for (size_t j = 0; j < plot->panels[i].num_series; j++) {
-            const ps_plot_series *const series = &plot->panels[i].series[j];
+    for (size_t i = 0; i < figure->num_panels; i++) {
+        for (size_t j = 0; j < figure->panels[i].num_series; j++) {
+            const ps_series *const series = &figure->panels[i].series[j];
             for (size_t place = 0; place < series->num; place++) {
-                if (is_shown(plot, series, place)) {
+                if (ps_script_is_shown(figure, series, place)) {
                     widen(&x, series->x[place]);
                     widen(&y, series->y[place]);
                 }
             }
         }
     }
-    print_range("x", x, plot->is_linear_x, stream);
-    print_range("y", y, plot->is_linear_y, stream);
+    print_range("x", x, figure->is_log_x, stream);
+    print_range("y", y, figure->is_log_y, stream);
 }
 
-void ps_panel_plot_write_script(const ps_panel_plot *plot, const char *terminal, FILE *stream) {
-    ps_plot_print_page(plot->title, terminal, (int)num_columns(plot) * PANEL_WIDTH,
-                       page_height(plot), stream);
-    print_data(plot, stream);
-    print_scale("x", plot->is_linear_x, stream);
-    print_scale("y", plot->is_linear_y, stream);
-    fputs("set xtics in mirror\nset ytics in mirror\n"
-          "set grid linecolor '#d8d8d8' linewidth 0.8 dashtype solid\nunset key\n",
-          stream);
-    print_label("x", plot->x_label, "0,0.3", stream);
-    print_label("y", plot->y_label, "0.4,0", stream);
-    if (plot->has_lines) {
-        print_ranges(plot, stream);
+void ps_script_size_panels(const ps_figure *figure, int *width, int *height) {
+    *width = (int)num_columns(figure) * PANEL_WIDTH;
+    *height = page_height(figure);
+}
+
+void ps_script_print_panels(const ps_figure *figure, FILE *stream) {
+    ps_script_print_scale("x", figure->is_log_x, stream);
+    ps_script_print_scale("y", figure->is_log_y, stream);
+    fprintf(stream, "%sunset key\n", ps_script_ticks);
+    ps_script_print_label("x", figure->x_label, "0,0.3", stream);
+    ps_script_print_label("y", figure->y_label, "0.4,0", stream);
+    if (figure->form == PS_FIGURE_PANELS) {
+        print_ranges(figure, stream);
     }
-    for (size_t i = 0; i < plot->num_panels; i++) {
-        print_panel(plot, i, stream);
+    for (size_t i = 0; i < figure->num_panels; i++) {
+        print_panel(figure, i, stream);
     }
-    print_key(plot, stream);
-    fputs("unset multiplot\n", stream);
+    print_key(figure, stream);
 }

@@ -1,4 +1,4 @@
-/* The gnuplot script of a picture, data included. Private to host/plots. */
+/* The gnuplot script of a figure, data included. Private to host/plots. */
 #ifndef PS_PLOTS_PLOT_SCRIPT_H
 #define PS_PLOTS_PLOT_SCRIPT_H
 
@@ -7,23 +7,34 @@
 #include <stdio.h>
 
 /* terminal: "pngcairo", "svg" or "pdfcairo". Errors of the stream are the caller's to check. */
-pspec_status ps_plot_write_script(const ps_plot *plot, const char *terminal, FILE *stream,
-                                  ps_error *error) PS_MUST_CHECK;
+pspec_status ps_figure_write_script(const ps_figure *figure, const char *terminal, FILE *stream,
+                                    ps_error *error) PS_MUST_CHECK;
 
-/* The same of lines. */
-void ps_line_plot_write_script(const ps_line_plot *plot, const char *terminal, FILE *stream);
+/* ---- what stands between the page and its end ------------------------------------------------ */
 
-/* The same of panels. */
-void ps_panel_plot_write_script(const ps_panel_plot *plot, const char *terminal, FILE *stream);
+/* Spectra, a frame, panels of lines or marks; the data are there. */
+pspec_status ps_script_print_spectra(const ps_figure *figure, FILE *stream,
+                                     ps_error *error) PS_MUST_CHECK;
+void ps_script_print_frame(const ps_figure *figure, FILE *stream);
+void ps_script_print_panels(const ps_figure *figure, FILE *stream);
+/* Sizes of the page, in pixels. */
+enum { PS_SCRIPT_WIDTH = 1000, PS_SCRIPT_HEIGHT = 700 };
+void ps_script_size_panels(const ps_figure *figure, int *width, int *height);
 
-/* What all have: the page, with its title, in pixels; a text constant of gnuplot; a number or NaN; colour and dashes of line
- * number. */
-void ps_plot_print_page(const char *title, const char *terminal, int width, int height,
-                        FILE *stream);
-enum { PS_PLOT_HEIGHT = 700 }; /* of one row of panels */
-void ps_plot_print_text(const char *text, FILE *stream);
-void ps_plot_print_value(double value, FILE *stream);
-void ps_plot_print_style(size_t number, FILE *stream);
+/* ---- what all have ----------------------------------------------------------------------------- */
+
+/* A text constant of gnuplot, "" for NULL; a number or NaN; colour and dashes of series of a kind. */
+void ps_script_print_text(const char *text, FILE *stream);
+void ps_script_print_value(double value, FILE *stream);
+void ps_script_print_colour(size_t kind, FILE *stream);
+void ps_script_print_style(size_t kind, FILE *stream);
+/* The label of the axis "x" or "y"; numbers of a logarithmic one, or nothing. */
+void ps_script_print_label(const char *axis, const char *label, const char *offset, FILE *stream);
+void ps_script_print_scale(const char *axis, bool is_log, FILE *stream);
+/* Ticks and lines of panels. */
+extern const char ps_script_ticks[];
+/* Can this place of a series be shown with these axes? */
+bool ps_script_is_shown(const ps_figure *figure, const ps_series *series, size_t place);
 
 /* The image panel's values, ready to draw: blocks averaged until they fit the panel, DC left out,
  * transposed so that x_1 runs to the right. */

@@ -31,7 +31,7 @@ enum { MOST_SERIES = PS_FIGURES_ENGINES * 2 + 1 };
 typedef struct panel {
     char title[128];
     char labels[MOST_SERIES][64];
-    ps_plot_series series[MOST_SERIES];
+    ps_series series[MOST_SERIES];
     double *numbers; /* [MOST_SERIES][2][rows] */
 } panel;
 
@@ -48,7 +48,7 @@ static size_t kind_of(const ps_bench_row *row) {
     return 2 * engine + (row->precision == PS_DOUBLE ? 1 : 0);
 }
 
-static void add_place(ps_plot_series *series, double *numbers, size_t num_rows,
+static void add_place(ps_series *series, double *numbers, size_t num_rows,
                       const ps_bench_row *row) {
     numbers[series->num] = row->seconds;
     numbers[num_rows + series->num] = error_of(row);
@@ -91,8 +91,8 @@ static size_t pack_series(panel *out) {
     return num;
 }
 
-static pspec_status make_panel(panel *out, ps_plot_panel *plot, const ps_bench_row *rows,
-                               size_t num, ps_error *error) {
+static pspec_status make_panel(panel *out, ps_panel *plot, const ps_bench_row *rows, size_t num,
+                               ps_error *error) {
     void *memory = NULL;
     PS_TRY(ps_allocate(&memory, MOST_SERIES * 2 * num, sizeof(double), "a picture", error));
     out->numbers = memory;
@@ -102,11 +102,11 @@ static pspec_status make_panel(panel *out, ps_plot_panel *plot, const ps_bench_r
         sorted[i] = &rows[i];
     }
     qsort(sorted, num, sizeof *sorted, compare_seconds);
-    out->series[0] = (ps_plot_series){.label = "Pareto front", .is_front = true};
+    out->series[0] = (ps_series){.label = "Pareto front", .is_front = true};
     fill_series(out, sorted, num);
     free(memory);
     snprintf(out->title, sizeof out->title, "%s", rows[0].what->what.name);
-    *plot = (ps_plot_panel){out->title, pack_series(out), out->series};
+    *plot = (ps_panel){out->title, pack_series(out), out->series};
     return PSPEC_OK;
 }
 
@@ -128,7 +128,7 @@ static size_t count_panels(const ps_bench_rows *measured) {
 }
 
 static pspec_status draw(const char *path, const ps_bench_rows *measured, const char *device,
-                         panel *panels, ps_plot_panel *plots, ps_error *error) {
+                         panel *panels, ps_panel *plots, ps_error *error) {
     char title[256];
     size_t num = 0;
     for (size_t i = 0; i < measured->num; i += count_of_case(measured, i)) {
@@ -137,12 +137,15 @@ static pspec_status draw(const char *path, const ps_bench_rows *measured, const 
         num++;
     }
     snprintf(title, sizeof title, "run time against error, %s", device);
-    const ps_panel_plot plot = {.title = title,
-                                .x_label = "seconds per realization",
-                                .y_label = "error",
-                                .num_panels = num,
-                                .panels = plots};
-    return ps_panel_plot_write(path, &plot, error);
+    const ps_figure figure = {.form = PS_FIGURE_MARKS,
+                              .title = title,
+                              .x_label = "seconds per realization",
+                              .y_label = "error",
+                              .is_log_x = true,
+                              .is_log_y = true,
+                              .num_panels = num,
+                              .panels = plots};
+    return ps_figure_write(path, &figure, error);
 }
 
 pspec_status ps_bench_plot(const char *path, const ps_bench_rows *measured, const char *device,
@@ -152,7 +155,7 @@ pspec_status ps_bench_plot(const char *path, const ps_bench_rows *measured, cons
     void *plots = NULL;
     PS_TRY(ps_allocate(&memory, num, sizeof(panel), "a picture", error));
     panel *panels = memory;
-    pspec_status status = ps_allocate(&plots, num, sizeof(ps_plot_panel), "a picture", error);
+    pspec_status status = ps_allocate(&plots, num, sizeof(ps_panel), "a picture", error);
     if (status == PSPEC_OK) {
         status = draw(path, measured, device, panels, plots, error);
     }

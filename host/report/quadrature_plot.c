@@ -13,7 +13,7 @@ typedef struct curves {
     char labels[LINES][MOST_LABEL];
 } curves;
 
-static pspec_status make_curves(curves *out, ps_plot_line *lines, const char *sampler,
+static pspec_status make_curves(curves *out, ps_series *lines, size_t first, const char *sampler,
                                 const ps_quadrature_result *result, ps_error *error) {
     static const char *const names[LINES] = {"d_l^2", "C_l^2", "e_l^2"};
     const size_t num = result->max_degree + 1;
@@ -30,12 +30,16 @@ static pspec_status make_curves(curves *out, ps_plot_line *lines, const char *sa
     for (size_t i = 0; i < LINES; i++) {
         snprintf(out->labels[i], MOST_LABEL, "%s%s%s", names[i], sampler != NULL ? ", " : "",
                  sampler != NULL ? sampler : "");
-        lines[i] = (ps_plot_line){out->labels[i], num, out->numbers, out->numbers + (i + 1) * num};
+        lines[i] = (ps_series){.label = out->labels[i],
+                               .kind = first + i,
+                               .num = num,
+                               .x = out->numbers,
+                               .y = out->numbers + (i + 1) * num};
     }
     return PSPEC_OK;
 }
 
-static pspec_status write_plot(const ps_request *arguments, const ps_plot_line *lines,
+static pspec_status write_plot(const ps_request *arguments, const ps_series *lines,
                                size_t num_lines, const ps_quadrature_result *first,
                                ps_error *error) {
     ps_text title = {0};
@@ -43,16 +47,18 @@ static pspec_status write_plot(const ps_request *arguments, const ps_plot_line *
                    arguments->smoothness, first->num_points,
                    (unsigned long long)first->num_realizations,
                    first->num_realizations == 1 ? "" : "s");
-    const ps_line_plot plot = {.title = ps_text_string(&title),
-                               .x_label = "degree l",
-                               .y_label = "d_l^2, C_l^2, e_l^2 = a_l (d_l^2 + C_l^2)",
-                               .is_log_x = true,
-                               .is_log_y = true,
-                               .num_lines = num_lines,
-                               .lines = lines};
+    const ps_panel panel = {NULL, num_lines, lines};
+    const ps_figure figure = {.form = PS_FIGURE_FRAME,
+                              .title = ps_text_string(&title),
+                              .x_label = "degree l",
+                              .y_label = "d_l^2, C_l^2, e_l^2 = a_l (d_l^2 + C_l^2)",
+                              .is_log_x = true,
+                              .is_log_y = true,
+                              .num_panels = 1,
+                              .panels = &panel};
     pspec_status status = ps_text_check(&title, error);
     if (status == PSPEC_OK) {
-        status = ps_line_plot_write(arguments->plot, &plot, error);
+        status = ps_figure_write(arguments->plot, &figure, error);
     }
     ps_text_free(&title);
     return status;
@@ -61,11 +67,12 @@ static pspec_status write_plot(const ps_request *arguments, const ps_plot_line *
 pspec_status ps_quadrature_plot(const ps_request *arguments, const ps_quadrature_list *list,
                                 const ps_quadrature_result *results, ps_error *error) {
     curves all[PS_MAX_SAMPLERS] = {{.numbers = NULL}};
-    ps_plot_line lines[LINES * PS_MAX_SAMPLERS];
+    ps_series lines[LINES * PS_MAX_SAMPLERS];
     pspec_status status = PSPEC_OK;
     for (size_t i = 0; i < list->num; i++) {
         const char *const sampler = list->num > 1 ? arguments->samplers[i] : NULL;
-        PS_TRY_OUT(status, make_curves(&all[i], lines + LINES * i, sampler, &results[i], error));
+        PS_TRY_OUT(status,
+                   make_curves(&all[i], lines + LINES * i, LINES * i, sampler, &results[i], error));
     }
     status = write_plot(arguments, lines, LINES * list->num, &results[0], error);
 out:

@@ -15,8 +15,8 @@ static double power_unit(const ps_power_job *job) {
 }
 
 /* Columns of one curve, in one block: normalized frequency, power, standard error, anisotropy. */
-static pspec_status make_curve(ps_plot_curve *curve, const char *label, const ps_power_job *job,
-                               void **block, ps_error *error) {
+static pspec_status make_curve(ps_series *curve, size_t number, const char *label,
+                               const ps_power_job *job, void **block, ps_error *error) {
     const ps_spectrum *spectrum = ps_power_job_spectrum(job);
     const size_t num = spectrum->num_bins;
     const double unit = power_unit(job);
@@ -28,8 +28,13 @@ static pspec_status make_curve(ps_plot_curve *curve, const char *label, const ps
         columns[2 * num + b] = spectrum->bins[b].standard_error * unit;
         columns[3 * num + b] = spectrum->bins[b].anisotropy_db;
     }
-    *curve =
-        (ps_plot_curve){label, num, columns, columns + num, columns + 2 * num, columns + 3 * num};
+    *curve = (ps_series){.label = label,
+                         .kind = number,
+                         .num = num,
+                         .x = columns,
+                         .y = columns + num,
+                         .error = columns + 2 * num,
+                         .lower = columns + 3 * num};
     return PSPEC_OK;
 }
 
@@ -76,7 +81,7 @@ static void write_title(ps_text *title, const ps_request *arguments,
 
 pspec_status ps_spectrum_plot(const ps_request *arguments, const ps_power_job *const *jobs,
                               size_t num, ps_error *error) {
-    ps_plot_curve curves[PS_MAX_SAMPLERS];
+    ps_series curves[PS_MAX_SAMPLERS];
     void *blocks[PS_MAX_SAMPLERS] = {NULL};
     ps_plot_image image;
     double *array = NULL;
@@ -88,7 +93,7 @@ pspec_status ps_spectrum_plot(const ps_request *arguments, const ps_power_job *c
         num == 1 && first->frequencies.dimension == 2 && arguments->frequencies.per_ring == 0;
     for (size_t i = 0; i < num; i++) {
         const char *label = arguments->num_samplers > 0 ? arguments->samplers[i] : "mean";
-        PS_TRY_OUT(status, make_curve(&curves[i], label, jobs[i], &blocks[i], error));
+        PS_TRY_OUT(status, make_curve(&curves[i], i, label, jobs[i], &blocks[i], error));
     }
     if (has_image) {
         PS_TRY_OUT(status, make_image(&image, &array, first, error));
@@ -96,13 +101,15 @@ pspec_status ps_spectrum_plot(const ps_request *arguments, const ps_power_job *c
     write_title(&title, arguments, jobs, num);
     PS_TRY_OUT(status, ps_text_check(&title, error));
     const double realizations = (double)first->num_realizations;
-    const ps_plot plot = {ps_text_string(&title),
-                          num,
-                          curves,
-                          has_image ? &image : NULL,
-                          realizations > 1 ? -10 * log10(realizations) : NAN,
-                          on_sphere};
-    PS_TRY_OUT(status, ps_plot_write(arguments->plot, &plot, error));
+    const ps_panel panel = {NULL, num, curves};
+    const ps_figure figure = {.form = PS_FIGURE_SPECTRA,
+                              .title = ps_text_string(&title),
+                              .num_panels = 1,
+                              .panels = &panel,
+                              .image = has_image ? &image : NULL,
+                              .noise_level_db = realizations > 1 ? -10 * log10(realizations) : NAN,
+                              .on_sphere = on_sphere};
+    PS_TRY_OUT(status, ps_figure_write(arguments->plot, &figure, error));
 out:
     for (size_t i = 0; i < num; i++) {
         free(blocks[i]);

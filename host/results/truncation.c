@@ -268,16 +268,19 @@ static pspec_status draw(const void *computed, const ps_request *request, ps_err
     ps_text_append(&title, "%s, %s harmonics, smoothness %g", answer->arguments->brdf,
                    answer->is_hemispherical ? "hemispherical" : "spherical",
                    answer->arguments->smoothness);
-    const ps_plot_line line = {NULL, answer->max_degree + 1, answer->degrees, answer->errors};
-    const ps_line_plot plot = {.title = ps_text_string(&title),
-                               .x_label = "largest degree L",
-                               .y_label = "worst-case error E(L)",
-                               .is_log_y = true,
-                               .num_lines = 1,
-                               .lines = &line};
+    const ps_series line = {
+        .num = answer->max_degree + 1, .x = answer->degrees, .y = answer->errors};
+    const ps_panel panel = {NULL, 1, &line};
+    const ps_figure figure = {.form = PS_FIGURE_FRAME,
+                              .title = ps_text_string(&title),
+                              .x_label = "largest degree L",
+                              .y_label = "worst-case error E(L)",
+                              .is_log_y = true,
+                              .num_panels = 1,
+                              .panels = &panel};
     pspec_status status = ps_text_check(&title, error);
     if (status == PSPEC_OK) {
-        status = ps_line_plot_write(request->plot, &plot, error);
+        status = ps_figure_write(request->plot, &figure, error);
     }
     ps_text_free(&title);
     return status;

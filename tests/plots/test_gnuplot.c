@@ -13,17 +13,24 @@ enum { NUM = 3 };
 
 typedef struct example {
     double x[NUM], y[NUM];
-    ps_plot_curve curves[2];
-    ps_plot plot;
+    ps_series curves[2];
+    ps_panel panel;
+    ps_figure plot;
 } example;
 
 static void make_example(example *out) {
     for (size_t i = 0; i < NUM; i++) {
         out->x[i] = out->y[i] = (double)(i + 1);
     }
-    const ps_plot_curve curve = {"a", NUM, out->x, out->y, out->y, out->y};
+    const ps_series curve = {
+        .label = "a", .num = NUM, .x = out->x, .y = out->y, .error = out->y, .lower = out->y};
     out->curves[0] = out->curves[1] = curve;
-    out->plot = (ps_plot){"title", 2, out->curves, NULL, -10, false};
+    out->panel = (ps_panel){NULL, 2, out->curves};
+    out->plot = (ps_figure){.form = PS_FIGURE_SPECTRA,
+                            .title = "title",
+                            .num_panels = 1,
+                            .panels = &out->panel,
+                            .noise_level_db = -10};
 }
 
 static bool has_gnuplot(void) {
@@ -80,15 +87,16 @@ static void hostile_texts_are_drawn_as_they_are(void **state) {
         ps_error error = {0};
         make_example(&data);
         data.plot.title = data.curves[0].label = data.curves[1].label = hostile[i];
-        const ps_plot_line line = {hostile[i], NUM, data.x, data.y};
-        const ps_plot_line lines[] = {line, line};
-        const ps_line_plot plot = {hostile[i], "x", "y", false, false, 2, lines};
-        if (ps_plot_write(path, &data.plot, &error) != PSPEC_OK) {
+        ps_figure frame = data.plot;
+        frame.form = PS_FIGURE_FRAME;
+        frame.x_label = "x";
+        frame.y_label = "y";
+        if (ps_figure_write(path, &data.plot, &error) != PSPEC_OK) {
             fail_msg("%s: %s", hostile[i], error.message);
         }
         assert_is_xml(path);
         assert_shows(path, hostile[i]);
-        if (ps_line_plot_write(path, &plot, &error) != PSPEC_OK) {
+        if (ps_figure_write(path, &frame, &error) != PSPEC_OK) {
             fail_msg("%s: %s", hostile[i], error.message);
         }
         assert_is_xml(path);
@@ -108,12 +116,12 @@ static void temporary_files_are_where_tmpdir_says(void **state) {
     test_path(*state, "a.svg", path);
     test_path(*state, "nowhere", nowhere);
     setenv("TMPDIR", nowhere, 1);
-    assert_int_equal(ps_plot_write(path, &data.plot, &error), PSPEC_ERROR_IO);
+    assert_int_equal(ps_figure_write(path, &data.plot, &error), PSPEC_ERROR_IO);
     assert_non_null(strstr(error.message, nowhere));
     assert_non_null(strstr(error.message, "TMPDIR"));
     assert_int_equal(mkdir(nowhere, 0700), 0);
     if (has_gnuplot()) {
-        assert_int_equal(ps_plot_write(path, &data.plot, &error), PSPEC_OK);
+        assert_int_equal(ps_figure_write(path, &data.plot, &error), PSPEC_OK);
     }
     unsetenv("TMPDIR");
     assert_int_equal(rmdir(nowhere), 0); /* nothing is left in it */

@@ -19,9 +19,10 @@ enum { NUM_BINS = 20, IMAGE_SIZE = 2 * NUM_BINS + 1 };
 typedef struct example {
     double frequency[NUM_BINS], power[NUM_BINS], error[NUM_BINS], anisotropy[NUM_BINS];
     double image[IMAGE_SIZE * IMAGE_SIZE];
-    ps_plot_curve curves[9];
+    ps_series curves[9];
+    ps_panel panel;
     ps_plot_image picture;
-    ps_plot plot;
+    ps_figure plot;
 } example;
 
 static void make_example(example *out, size_t num_curves, bool has_image, bool has_errors) {
@@ -35,20 +36,22 @@ static void make_example(example *out, size_t num_curves, bool has_image, bool h
         out->image[i] = (double)(i % 7) / 3;
     }
     for (size_t i = 0; i < num_curves; i++) {
-        out->curves[i] = (ps_plot_curve){"it's \"a_b\" {x^2} `date` \\ $c",
-                                         NUM_BINS,
-                                         out->frequency,
-                                         out->power,
-                                         out->error,
-                                         out->anisotropy};
+        out->curves[i] = (ps_series){.label = "it's \"a_b\" {x^2} `date` \\ $c",
+                                     .kind = i,
+                                     .num = NUM_BINS,
+                                     .x = out->frequency,
+                                     .y = out->power,
+                                     .error = out->error,
+                                     .lower = out->anisotropy};
     }
     out->picture = (ps_plot_image){IMAGE_SIZE, out->image, 8};
-    out->plot = (ps_plot){"it's \"a_b\"\nexit 1; `false` {",
-                          num_curves,
-                          out->curves,
-                          has_image ? &out->picture : NULL,
-                          has_errors ? -10 : (double)NAN,
-                          false};
+    out->panel = (ps_panel){NULL, num_curves, out->curves};
+    out->plot = (ps_figure){.form = PS_FIGURE_SPECTRA,
+                            .title = "it's \"a_b\"\nexit 1; `false` {",
+                            .num_panels = 1,
+                            .panels = &out->panel,
+                            .image = has_image ? &out->picture : NULL,
+                            .noise_level_db = has_errors ? -10 : (double)NAN};
 }
 
 static bool has_gnuplot(void) {
@@ -70,7 +73,7 @@ static void draws_every_kind(void **state) {
         make_example(&data, i % 4 == 3 ? 9 : 1 + i % 2, i % 4 < 2, i % 4 != 1);
         test_path(*state, kinds[i / 4].name, path);
         assert_true(ps_plot_is_supported(path));
-        if (ps_plot_write(path, &data.plot, &error) != PSPEC_OK) {
+        if (ps_figure_write(path, &data.plot, &error) != PSPEC_OK) {
             fail_msg("%s", error.message);
         }
         char *const file = test_read_file(path, NULL);
@@ -86,11 +89,11 @@ static void refuses_what_cannot_be_drawn(void **state) {
     ps_error error = {0};
     make_example(&data, 1, true, true);
     assert_false(ps_plot_is_supported("a.jpg") || ps_plot_is_supported("png"));
-    assert_int_equal(ps_plot_write("a.jpg", &data.plot, &error), PSPEC_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(ps_figure_write("a.jpg", &data.plot, &error), PSPEC_ERROR_INVALID_ARGUMENT);
     assert_string_equal(error.message, "a.jpg: pictures end in .png, .svg or .pdf");
-    data.plot.num_curves = 0;
+    data.panel.num_series = 0;
     test_path(*state, "a.png", path);
-    assert_int_equal(ps_plot_write(path, &data.plot, &error), PSPEC_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(ps_figure_write(path, &data.plot, &error), PSPEC_ERROR_INVALID_ARGUMENT);
     assert_int_equal(test_folder_count(*state, false), 0);
 }
 
@@ -102,7 +105,8 @@ static pspec_status draw_with_path(const test_folder *folder, ps_error *error) {
     assert_non_null(kept);
     make_example(&data, 1, true, true);
     setenv("PATH", folder->path, 1);
-    const pspec_status status = ps_plot_write(test_path(folder, "a.png", path), &data.plot, error);
+    const pspec_status status =
+        ps_figure_write(test_path(folder, "a.png", path), &data.plot, error);
     setenv("PATH", kept, 1);
     free(kept);
     return status;
@@ -167,7 +171,7 @@ static int draw_beyond_limit(const char *path) {
     if (setrlimit(RLIMIT_FSIZE, &limit) != 0) {
         return 1;
     }
-    if (ps_plot_write(path, &data.plot, &error) != PSPEC_ERROR_IO) {
+    if (ps_figure_write(path, &data.plot, &error) != PSPEC_ERROR_IO) {
         return 2;
     }
     if (strstr(error.message, "cannot write ") == NULL ||
@@ -199,13 +203,13 @@ static void a_disk_that_fills_leaves_no_picture(void **state) {
     }
 }
 
-static bool script_contains(const ps_plot *plot, const char *what) {
+static bool script_contains(const ps_figure *plot, const char *what) {
     char *script = NULL;
     size_t length = 0;
     ps_error error = {0};
     FILE *const stream = open_memstream(&script, &length);
     assert_non_null(stream);
-    assert_int_equal(ps_plot_write_script(plot, "svg", stream, &error), PSPEC_OK);
+    assert_int_equal(ps_figure_write_script(plot, "svg", stream, &error), PSPEC_OK);
     assert_int_equal(fclose(stream), 0);
     const bool contains = strstr(script, what) != NULL;
     free(script);
@@ -245,7 +249,7 @@ static void a_single_bin_is_a_point(void **state) {
     make_example(&data, 1, false, true);
     data.plot.on_sphere = true;
     assert_false(script_contains(&data.plot, "with points"));
-    data.curves[0].num_bins = 1;
+    data.curves[0].num = 1;
     assert_true(script_contains(&data.plot, "using 1:2 with points"));
     assert_false(script_contains(&data.plot, "with lines"));
 }
@@ -254,28 +258,34 @@ static void a_single_bin_is_a_point(void **state) {
 static void draws_panels(void **state) {
     static const double x[] = {1e-5, 1e-4, 0, 1e-3};
     static const double y[] = {1e-3, (double)NAN, 1e-6, 1e-12};
-    const ps_plot_series series[] = {
+    const ps_series series[] = {
         {.label = "it's a front", .is_front = true, .num = 4, .x = x, .y = y},
         {.label = "a_b {x}", .kind = 3, .num = 4, .x = x, .y = y}};
-    const ps_plot_panel panels[] = {{"first's", 2, series},
-                                    {"none", 0, NULL},
-                                    {"2", 1, series},
-                                    {"3", 2, series},
-                                    {"4", 2, series}};
+    const ps_panel panels[] = {{"first's", 2, series},
+                               {"none", 0, NULL},
+                               {"2", 1, series},
+                               {"3", 2, series},
+                               {"4", 2, series}};
     static const char *const names[] = {"panels.svg", "panels.png", "panels.pdf"};
     ps_error said = {0};
     char path[TEST_PATH_BYTES];
-    ps_panel_plot plot = {
-        .title = "it's \"a_b\"", .x_label = "x", .y_label = "y", .num_panels = 5, .panels = panels};
+    ps_figure plot = {.form = PS_FIGURE_MARKS,
+                      .is_log_x = true,
+                      .is_log_y = true,
+                      .title = "it's \"a_b\"",
+                      .x_label = "x",
+                      .y_label = "y",
+                      .num_panels = 5,
+                      .panels = panels};
     for (size_t i = 0; i < sizeof names / sizeof names[0] && has_gnuplot(); i++) {
         plot.num_panels = i == 0 ? 1 : 5;
-        if (ps_panel_plot_write(test_path(*state, names[i], path), &plot, &said) != PSPEC_OK) {
+        if (ps_figure_write(test_path(*state, names[i], path), &plot, &said) != PSPEC_OK) {
             fail_msg("%s: %s", names[i], said.message);
         }
     }
     assert_int_equal(test_folder_count(*state, false), has_gnuplot() ? 3 : 0);
     plot.num_panels = 0;
-    assert_int_equal(ps_panel_plot_write(test_path(*state, "no.svg", path), &plot, &said),
+    assert_int_equal(ps_figure_write(test_path(*state, "no.svg", path), &plot, &said),
                      PSPEC_ERROR_INVALID_ARGUMENT);
     assert_non_null(strstr(said.message, "nothing to plot"));
 }

@@ -15,22 +15,16 @@ typedef struct ps_artist {
 void ps_plot_title(const ps_artist *artist, const ps_picture *picture, const char *what,
                    ps_text *out);
 
-/* One of the three kinds of plots; the others are NULL. */
-typedef struct ps_drawing {
-    const ps_plot *spectra;
-    const ps_line_plot *lines;
-    const ps_panel_plot *panels;
-} ps_drawing;
-
 /* Draws it, or takes it from the cache, and adds it to the result. */
-pspec_status ps_draw(const ps_artist *artist, const ps_drawing *what,
+pspec_status ps_draw(const ps_artist *artist, const ps_figure *figure,
                      const ps_picture *picture) PS_MUST_CHECK;
 
 /* Adds a picture to the result: its text, or else why there is none. Takes the text. */
 pspec_status ps_run_add_plot(const ps_artist *artist, const ps_picture *picture, ps_text *svg,
                              ps_text *reason) PS_MUST_CHECK;
 
-/* A picture of lines: columns, errors, and spectra in panels. */
-pspec_status ps_draw_lines(const ps_artist *artist, const ps_picture *what) PS_MUST_CHECK;
+/* A picture of curves: spectra, with an image or none (NULL), columns, errors. */
+pspec_status ps_draw_curves(const ps_artist *artist, const ps_picture *what,
+                            const ps_plot_image *image) PS_MUST_CHECK;
 
 #endif

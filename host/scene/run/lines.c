@@ -1,4 +1,5 @@
-/* Pictures of lines, in one frame or in panels: columns against the degree, worst-case errors against the number of points. */
+/* Pictures of curves, in one frame or in panels: spectra, columns against the degree, worst-case errors against the number of
+ * points. */
 #include "base/memory.h"
 #include "scene/run/drawing.h"
 
@@ -58,7 +59,7 @@ static void label_curve(const ps_scene_result *asked, const ps_picture *what, si
 
 typedef struct line_set {
     size_t num;
-    ps_plot_line *lines;
+    ps_series *lines;
     ps_text *labels;
     double **numbers;
 } line_set;
@@ -85,20 +86,36 @@ static pspec_status allocate_lines(line_set *set, size_t num, ps_error *error) {
     return PSPEC_OK;
 }
 
-static pspec_status begin_line(line_set *set, size_t index, size_t num, ps_error *error) {
+static pspec_status begin_line(line_set *set, size_t index, size_t num, size_t num_columns,
+                               ps_error *error) {
     void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, 2 * num, sizeof(double), "a curve", error));
+    PS_TRY(ps_allocate(&memory, num, num_columns * sizeof(double), "a curve", error));
     double *const numbers = set->numbers[index] = memory;
-    set->lines[index] = (ps_plot_line){"", num, numbers, numbers + num};
+    set->lines[index] = (ps_series){.num = num, .x = numbers, .y = numbers + num};
     return PSPEC_OK;
 }
 
+/* Are these curves drawn as spectra are, with bars and anisotropy? In panels they are lines. */
+static bool has_bars(const ps_picture *what) {
+    return what->num_panels == 1 &&
+           (what->form == PS_PICTURE_SPECTRA || what->form == PS_PICTURE_IMAGE);
+}
+
 static pspec_status take_columns(const ps_artist *artist, line_set *set, size_t index,
-                                 size_t question, const ps_line_kind *kind) {
-    const ps_table *const table = artist->result->questions[question].answer.table;
-    PS_TRY(begin_line(set, index, ps_table_num_rows(table), artist->error));
-    ps_table_read_column(table, kind->x, set->numbers[index]);
-    ps_table_read_column(table, kind->y, set->numbers[index] + ps_table_num_rows(table));
+                                 const ps_picture *what, const ps_line_kind *kind) {
+    enum { MOST_COLUMNS = 4 };
+    const ps_table *const table = artist->result->questions[what->curves[index]].answer.table;
+    const char *const names[MOST_COLUMNS] = {kind->x, kind->y, "standard_error", "anisotropy_db"};
+    const size_t num_columns = has_bars(what) ? MOST_COLUMNS : 2;
+    const size_t num = ps_table_num_rows(table);
+    PS_TRY(begin_line(set, index, num, num_columns, artist->error));
+    for (size_t i = 0; i < num_columns; i++) {
+        ps_table_read_column(table, names[i], set->numbers[index] + i * num);
+    }
+    if (num_columns == MOST_COLUMNS) {
+        set->lines[index].error = set->numbers[index] + 2 * num;
+        set->lines[index].lower = set->numbers[index] + 3 * num;
+    }
     return PSPEC_OK;
 }
 
@@ -129,7 +146,7 @@ static pspec_status take_errors(const ps_artist *artist, line_set *set, size_t i
     for (size_t i = points + 1; i < asked->num_entries; i++) {
         step *= asked->entries[i].num_values;
     }
-    PS_TRY(begin_line(set, index, num, artist->error));
+    PS_TRY(begin_line(set, index, num, 2, artist->error));
     double *const x = set->numbers[index];
     for (size_t i = 0; i < num; i++) {
         const ps_table *const table = artist->result->questions[first + i * step].answer.table;
@@ -141,7 +158,7 @@ static pspec_status take_errors(const ps_artist *artist, line_set *set, size_t i
 
 /* One frame has room for more of a label than the key of many panels. */
 static void label_line(const ps_artist *artist, const ps_picture *what, size_t question,
-                       const ps_plot_line *line, ps_text *out) {
+                       const ps_series *line, ps_text *out) {
     if (what->num_panels > 1 || what->form == PS_PICTURE_ERRORS) {
         label_curve(artist->result->asked, what, question, out);
     } else {
@@ -160,7 +177,7 @@ static pspec_status take_lines(const ps_artist *artist, const ps_picture *what,
         const size_t question = what->curves[i];
         PS_TRY(what->form == PS_PICTURE_ERRORS
                    ? take_errors(artist, set, i, question, what->points, kind)
-                   : take_columns(artist, set, i, question, kind));
+                   : take_columns(artist, set, i, what, kind));
         label_line(artist, what, question, &set->lines[i], &set->labels[i]);
         PS_TRY(ps_text_check(&set->labels[i], artist->error));
         set->lines[i].label = ps_text_string(&set->labels[i]);
@@ -168,82 +185,49 @@ static pspec_status take_lines(const ps_artist *artist, const ps_picture *what,
     return PSPEC_OK;
 }
 
-/* ---- one frame --------------------------------------------------------------------------- */
-
-static pspec_status draw_frame(const ps_artist *artist, const ps_picture *what,
-                               const ps_line_kind *kind, const char *title, const line_set *set) {
-    const ps_line_plot plot = {.title = title,
-                               .x_label = kind->x_label,
-                               .y_label = kind->y_label,
-                               .is_log_x = kind->is_log_x,
-                               .is_log_y = kind->is_log_y,
-                               .num_lines = set->num,
-                               .lines = set->lines};
-    return ps_draw(artist, &(ps_drawing){.lines = &plot}, what);
-}
-
 /* ---- panels ------------------------------------------------------------------------------ */
 
-/* Curves with the same label look the same in all panels. */
-static size_t find_kind(const ps_plot_series *all, size_t num, const char *label,
-                        size_t *num_kinds) {
-    for (size_t i = 0; i < num; i++) {
-        if (strcmp(all[i].label, label) == 0) {
-            return all[i].kind;
-        }
-    }
-    return (*num_kinds)++;
-}
-
-static void fill_series(ps_plot_series *out, const line_set *set) {
+/* Curves of one panel are told apart; those with the same label look the same in all panels. */
+static void number_kinds(const line_set *set, bool is_frame) {
     size_t num_kinds = 0;
     for (size_t i = 0; i < set->num; i++) {
-        const ps_plot_line *const line = &set->lines[i];
-        const size_t kind = find_kind(out, i, line->label, &num_kinds);
-        out[i] = (ps_plot_series){line->label, kind, false, line->num, line->x, line->y};
+        size_t same = 0;
+        while (same < i && (is_frame || strcmp(set->lines[same].label, set->lines[i].label) != 0)) {
+            same++;
+        }
+        set->lines[i].kind = same < i ? set->lines[same].kind : num_kinds++;
     }
 }
 
-static pspec_status fill_panels(const ps_artist *artist, const ps_picture *what,
-                                ps_plot_panel *panels, ps_text *titles,
-                                const ps_plot_series *series) {
+static pspec_status fill_panels(const ps_artist *artist, const ps_picture *what, ps_panel *panels,
+                                ps_text *titles, const ps_series *series) {
     for (size_t i = 0, begin = 0; i < what->num_panels; begin = what->ends[i++]) {
         label_panel(artist->result->asked, what, what->curves[begin], &titles[i]);
         PS_TRY(ps_text_check(&titles[i], artist->error));
-        panels[i] =
-            (ps_plot_panel){ps_text_string(&titles[i]), what->ends[i] - begin, series + begin};
+        panels[i] = (ps_panel){ps_text_string(&titles[i]), what->ends[i] - begin, series + begin};
     }
     return PSPEC_OK;
 }
 
-static pspec_status draw_panels(const ps_artist *artist, const ps_picture *what,
-                                const ps_line_kind *kind, const char *title, const line_set *set) {
-    void *series = NULL;
+/* figure: all but its panels. */
+static pspec_status draw_panels(const ps_artist *artist, const ps_picture *what, ps_figure *figure,
+                                const line_set *set) {
     void *panels = NULL;
     void *titles = NULL;
     pspec_status status = PSPEC_OK;
     PS_TRY_OUT(status,
-               ps_allocate(&series, set->num, sizeof(ps_plot_series), "panels", artist->error));
-    PS_TRY_OUT(status, ps_allocate(&panels, what->num_panels, sizeof(ps_plot_panel), "panels",
-                                   artist->error));
+               ps_allocate(&panels, what->num_panels, sizeof(ps_panel), "panels", artist->error));
     PS_TRY_OUT(status,
                ps_allocate(&titles, what->num_panels, sizeof(ps_text), "panels", artist->error));
-    fill_series(series, set);
-    PS_TRY_OUT(status, fill_panels(artist, what, panels, titles, series));
-    const ps_panel_plot plot = {.title = title,
-                                .x_label = kind->x_label,
-                                .y_label = kind->y_label,
-                                .has_lines = true,
-                                .is_linear_x = !kind->is_log_x,
-                                .is_linear_y = !kind->is_log_y,
-                                .num_panels = what->num_panels,
-                                .panels = panels};
-    status = ps_draw(artist, &(ps_drawing){.panels = &plot}, what);
+    number_kinds(set, what->num_panels == 1);
+    PS_TRY_OUT(status, fill_panels(artist, what, panels, titles, set->lines));
+    figure->num_panels = what->num_panels;
+    figure->panels = panels;
+    status = ps_draw(artist, figure, what);
 out:
     for (size_t i = 0; titles != NULL && i < what->num_panels; i++) {
         ps_text_free((ps_text *)titles + i);
     }
-    free(series);
     free(panels);
     free(titles);
     return status;
@@ -253,7 +237,7 @@ out:
 
 static ps_line_kind find_axes(const ps_artist *artist, const ps_picture *what) {
     size_t column = 0;
-    if (what->form == PS_PICTURE_SPECTRA) {
+    if (what->lines == NULL) {
         return *artist->result->asked->kind->spectrum;
     }
     ps_line_kind kind = *what->lines;
@@ -271,7 +255,13 @@ static bool has_lines(const ps_artist *artist, const ps_picture *what) {
     return what->form != PS_PICTURE_COLUMNS || ps_table_num_rows(first) >= FEWEST_ROWS;
 }
 
-pspec_status ps_draw_lines(const ps_artist *artist, const ps_picture *what) {
+static double noise_level(const ps_artist *artist, const ps_picture *what) {
+    const ps_table *const first = artist->result->questions[what->curves[0]].answer.table;
+    return ps_cell_number(ps_table_find_meta(first, "noise_level_db"));
+}
+
+pspec_status ps_draw_curves(const ps_artist *artist, const ps_picture *what,
+                            const ps_plot_image *image) {
     line_set set = {0};
     ps_text title = {0};
     pspec_status status = PSPEC_OK;
@@ -280,10 +270,20 @@ pspec_status ps_draw_lines(const ps_artist *artist, const ps_picture *what) {
         return PSPEC_OK;
     }
     PS_TRY_OUT(status, take_lines(artist, what, &kind, &set));
-    ps_plot_title(artist, what, kind.what, &title);
+    ps_plot_title(artist, what, image != NULL ? set.lines[0].label : kind.what, &title);
     PS_TRY_OUT(status, ps_text_check(&title, artist->error));
-    status = what->num_panels > 1 ? draw_panels(artist, what, &kind, ps_text_string(&title), &set)
-                                  : draw_frame(artist, what, &kind, ps_text_string(&title), &set);
+    ps_figure figure = {.form = has_bars(what)          ? PS_FIGURE_SPECTRA
+                                : what->num_panels == 1 ? PS_FIGURE_FRAME
+                                                        : PS_FIGURE_PANELS,
+                        .title = ps_text_string(&title),
+                        .x_label = kind.x_label,
+                        .y_label = kind.y_label,
+                        .is_log_x = kind.is_log_x && !has_bars(what),
+                        .is_log_y = kind.is_log_y && !has_bars(what),
+                        .image = image,
+                        .noise_level_db = noise_level(artist, what),
+                        .on_sphere = artist->result->asked->kind->samples == PS_DOMAIN_SPHERE};
+    status = draw_panels(artist, what, &figure, &set);
 out:
     free_lines(&set);
     ps_text_free(&title);

@@ -1,74 +1,14 @@
-/* Pictures of the results of a scene, made from their tables by the list of pictures.c: spectra here, lines in lines.c. */
-#include "base/memory.h"
+/* Pictures of the results of a scene, made from their tables by the list of pictures.c. */
 #include "scene/run/drawing.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-
-/* ---- spectra ----------------------------------------------------------------------------- */
-
-enum { CURVE_COLUMNS = 4 };
-
-static pspec_status take_curve(const ps_artist *artist, size_t number, ps_plot_curve *out,
-                               ps_text *label, double **numbers) {
-    const ps_table *const table = artist->result->questions[number].answer.table;
-    const ps_line_kind *const axes = artist->result->asked->kind->spectrum;
-    const size_t num = ps_table_num_rows(table);
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, num, CURVE_COLUMNS * sizeof(double), "a curve", artist->error));
-    double *const columns = *numbers = memory;
-    ps_table_read_column(table, axes->x, columns);
-    ps_table_read_column(table, axes->y, columns + num);
-    ps_table_read_column(table, "standard_error", columns + 2 * num);
-    ps_table_read_column(table, "anisotropy_db", columns + 3 * num);
-    ps_run_label(artist->result, number, label);
-    *out = (ps_plot_curve){ps_text_string(label), num, columns, columns + num, columns + 2 * num,
-                           columns + 3 * num};
-    return ps_text_check(label, artist->error);
-}
-
-static double noise_level(const ps_artist *artist, size_t number) {
-    const ps_table *const table = artist->result->questions[number].answer.table;
-    return ps_cell_number(ps_table_find_meta(table, "noise_level_db"));
-}
-
-/* Curves of a picture; with an array, the picture of one spectrum. */
-static pspec_status draw_spectra(const ps_artist *artist, const ps_picture *what,
-                                 const ps_plot_image *image) {
-    ps_plot_curve curves[PS_MOST_CURVES];
-    ps_text labels[PS_MOST_CURVES] = {{0}};
-    double *numbers[PS_MOST_CURVES] = {NULL};
-    ps_text title = {0};
-    pspec_status status = PSPEC_OK;
-    for (size_t i = 0; i < what->num_curves; i++) {
-        PS_TRY_OUT(status,
-                   take_curve(artist, what->curves[i], &curves[i], &labels[i], &numbers[i]));
-    }
-    ps_plot_title(artist, what, image != NULL ? curves[0].label : "", &title);
-    PS_TRY_OUT(status, ps_text_check(&title, artist->error));
-    const ps_plot plot = {ps_text_string(&title),
-                          what->num_curves,
-                          curves,
-                          image,
-                          noise_level(artist, what->curves[0]),
-                          artist->result->asked->kind->samples == PS_DOMAIN_SPHERE};
-    status = ps_draw(artist, &(ps_drawing){.spectra = &plot}, what);
-out:
-    for (size_t i = 0; i < PS_MOST_CURVES; i++) {
-        ps_text_free(&labels[i]);
-        free(numbers[i]);
-    }
-    ps_text_free(&title);
-    return status;
-}
 
 /* Where the array was wanted and is there. */
 static pspec_status draw_image(const ps_artist *artist, const ps_picture *what) {
     const ps_answer *const answer = &artist->result->questions[what->curves[0]].answer;
     const double points = ps_cell_number(ps_table_find_meta(answer->table, "points"));
     const ps_plot_image image = {answer->side, answer->array, sqrt(points)};
-    return answer->array != NULL && points > 0 ? draw_spectra(artist, what, &image) : PSPEC_OK;
+    return answer->array != NULL && points > 0 ? ps_draw_curves(artist, what, &image) : PSPEC_OK;
 }
 
 /* Lists of frequencies have no normalized ones, and no picture. */
@@ -84,9 +24,7 @@ static pspec_status draw(const ps_artist *artist, const ps_picture *what) {
     if (is_spectrum && !has_bins(artist->result)) {
         return PSPEC_OK;
     }
-    return is_image                               ? draw_image(artist, what)
-           : is_spectrum && what->num_panels == 1 ? draw_spectra(artist, what, NULL)
-                                                  : ps_draw_lines(artist, what);
+    return is_image ? draw_image(artist, what) : ps_draw_curves(artist, what, NULL);
 }
 
 /* What a picture costs is a picture: the numbers are there. */

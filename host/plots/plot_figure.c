@@ -1,0 +1,77 @@
+/* The gnuplot script of a figure: page, data, and what its form asks for. */
+#include "plots/plot_script.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- data ----------------------------------------------------------------------------------- */
+
+static void print_series(const ps_figure *figure, const ps_series *series, FILE *stream) {
+    for (size_t place = 0; place < series->num; place++) {
+        const bool is_shown = ps_script_is_shown(figure, series, place);
+        ps_script_print_value(series->x[place], stream);
+        ps_script_print_value(is_shown ? series->y[place] : NAN, stream);
+        if (series->error != NULL) {
+            ps_script_print_value(series->error[place], stream);
+            ps_script_print_value(series->lower[place], stream);
+        }
+        putc('\n', stream);
+    }
+}
+
+/* $data0_1 is series 1 of panel 0. */
+static void print_data(const ps_figure *figure, FILE *stream) {
+    for (size_t i = 0; i < figure->num_panels; i++) {
+        for (size_t j = 0; j < figure->panels[i].num_series; j++) {
+            fprintf(stream, "$data%zu_%zu << EOD\n", i, j);
+            print_series(figure, &figure->panels[i].series[j], stream);
+            fputs("EOD\n", stream);
+        }
+    }
+}
+
+/* ---- the script ------------------------------------------------------------------------------- */
+
+static void print_page(const char *title, const char *terminal, int width, int height,
+                       FILE *stream) {
+    if (strcmp(terminal, "pdfcairo") == 0) { /* in inches; 100 pixels each */
+        fprintf(stream, "set terminal pdfcairo enhanced color size %gin,%gin font 'Sans,11.5'\n",
+                width / 100.0, height / 100.0);
+    } else {
+        fprintf(stream, "set terminal %s enhanced size %d,%d background '#ffffff' font '%s'\n",
+                terminal, width, height,
+                strcmp(terminal, "svg") == 0 ? "sans-serif,16" : "Sans,12");
+    }
+    fputs("set encoding utf8\n", stream);
+    fputs("set border linewidth 0.8 linecolor '#404040'\nset tics textcolor '#202020'\n", stream);
+    fputs("set multiplot\nset label 1 ", stream);
+    ps_script_print_text(title, stream);
+    fprintf(stream, " at screen 0.5,%.4g center noenhanced font ',%d'\n", 1 - 26.6 / height,
+            strcmp(terminal, "svg") == 0 ? 20 : 15); /* svg counts pixels, the others points */
+}
+
+pspec_status ps_figure_write_script(const ps_figure *figure, const char *terminal, FILE *stream,
+                                    ps_error *error) {
+    enum { WIDTH_WITH_IMAGE = 1400 };
+    int width = figure->image != NULL ? WIDTH_WITH_IMAGE : PS_SCRIPT_WIDTH;
+    int height = PS_SCRIPT_HEIGHT;
+    if (figure->form == PS_FIGURE_PANELS || figure->form == PS_FIGURE_MARKS) {
+        ps_script_size_panels(figure, &width, &height);
+    }
+    print_page(figure->title, terminal, width, height, stream);
+    print_data(figure, stream);
+    switch (figure->form) {
+    case PS_FIGURE_SPECTRA:
+        PS_TRY(ps_script_print_spectra(figure, stream, error));
+        break;
+    case PS_FIGURE_FRAME:
+        ps_script_print_frame(figure, stream);
+        break;
+    case PS_FIGURE_PANELS:
+    case PS_FIGURE_MARKS:
+        ps_script_print_panels(figure, stream);
+        break;
+    }
+    fputs("unset multiplot\n", stream);
+    return PSPEC_OK;
+}
