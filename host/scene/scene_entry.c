@@ -117,8 +117,8 @@ static pspec_status check_value(const ps_scene_file *file, const ps_result_kind 
 }
 
 /* A value of num texts, which are set one by one. */
-static pspec_status make_value(ps_scene *scene, size_t num, int line, ps_scene_value *out,
-                               ps_error *error) {
+pspec_status ps_scene_make_value(ps_scene *scene, size_t num, int line, ps_scene_value *out,
+                                 ps_error *error) {
     void *memory = NULL;
     PS_TRY(ps_scene_allocate(scene, 2 * num, sizeof *out->texts, &memory, error));
     *out = (ps_scene_value){.num_texts = num, .texts = memory, .line = line};
@@ -126,34 +126,31 @@ static pspec_status make_value(ps_scene *scene, size_t num, int line, ps_scene_v
     return PSPEC_OK;
 }
 
-static pspec_status set_text(ps_scene *scene, ps_scene_value *value, size_t index, const char *text,
-                             ps_error *error) {
-    PS_TRY(ps_scene_copy(scene, "", text, &value->originals[index], error));
-    value->texts[index] = value->originals[index];
-    return PSPEC_OK;
+static void set_text(ps_scene_value *value, size_t index, const char *text) {
+    value->texts[index] = value->originals[index] = text;
 }
 
 /* The scalars of a node as the texts of one value. */
 static pspec_status take_value(ps_scene *scene, const ps_scene_file *file, const char *key,
-                               yaml_node_t *node, ps_scene_value *out) {
+                               const ps_scene_node *node, ps_scene_value *out) {
     const size_t num = ps_scene_num_items(node);
     if (num == 0) {
-        return ps_scene_complain(file, ps_scene_line(node), key, "an empty list");
+        return ps_scene_complain(file, node->line, key, "an empty list");
     }
-    PS_TRY(make_value(scene, num, ps_scene_line(node), out, file->error));
-    for (size_t i = 0; i < num; i++) {
+    PS_TRY(ps_scene_make_value(scene, num, node->line, out, file->error));
+    const ps_scene_node *item = ps_scene_first_item(node);
+    for (size_t i = 0; i < num; i++, item = item->next) {
         const char *text = NULL;
-        PS_TRY(ps_scene_take_text(file, ps_scene_item(file, node, i), key, &text));
-        PS_TRY(set_text(scene, out, i, text, file->error));
+        PS_TRY(ps_scene_take_text(file, item, key, &text));
+        set_text(out, i, text);
     }
     return PSPEC_OK;
 }
 
 /* A list of paths is one value; a list in which there are lists has a value in each item. */
-static bool has_lists(const ps_scene_file *file, yaml_node_t *node) {
-    for (size_t i = 0; i < ps_scene_num_items(node); i++) {
-        if (node->type == YAML_SEQUENCE_NODE &&
-            ps_scene_item(file, node, i)->type == YAML_SEQUENCE_NODE) {
+static bool has_lists(const ps_scene_node *node) {
+    for (const ps_scene_node *item = node->first; item != NULL; item = item->next) {
+        if (node->kind == PS_NODE_LIST && item->kind == PS_NODE_LIST) {
             return true;
         }
     }
@@ -184,8 +181,8 @@ static pspec_status read_range(const char *text, uint64_t *first, size_t *num, p
     return PSPEC_OK;
 }
 
-static pspec_status expand_range(ps_scene *scene, const ps_scene_file *file, yaml_node_t *node,
-                                 ps_scene_entry *out, bool *is_range) {
+static pspec_status expand_range(ps_scene *scene, const ps_scene_file *file,
+                                 const ps_scene_node *node, ps_scene_entry *out, bool *is_range) {
     enum { NUMBER = 24 };
     const char *text = NULL;
     uint64_t first = 0;
@@ -193,12 +190,12 @@ static pspec_status expand_range(ps_scene *scene, const ps_scene_file *file, yam
     ps_error reason = {0};
     void *values = NULL;
     *is_range = false;
-    if (out->option != PS_OPTION_POINTS || node->type != YAML_SCALAR_NODE) {
+    if (out->option != PS_OPTION_POINTS || node->kind != PS_NODE_TEXT) {
         return PSPEC_OK;
     }
     PS_TRY(ps_scene_take_text(file, node, "points", &text));
     if (read_range(text, &first, &num, &reason) != PSPEC_OK) {
-        return complain_of_value(file, ps_scene_line(node), "points", &reason);
+        return complain_of_value(file, node->line, "points", &reason);
     }
     *is_range = num > 0;
     PS_TRY(ps_scene_allocate(scene, num, sizeof *out->values, &values, file->error));
@@ -206,30 +203,32 @@ static pspec_status expand_range(ps_scene *scene, const ps_scene_file *file, yam
     out->num_values = num;
     for (size_t i = 0; i < num; i++) {
         char number[NUMBER];
+        const char *kept = NULL;
         snprintf(number, sizeof number, "%llu", (unsigned long long)(first << i));
-        PS_TRY(make_value(scene, 1, out->line, &out->values[i], file->error));
-        PS_TRY(set_text(scene, &out->values[i], 0, number, file->error));
+        PS_TRY(ps_scene_copy(scene, "", number, &kept, file->error));
+        PS_TRY(ps_scene_make_value(scene, 1, out->line, &out->values[i], file->error));
+        set_text(&out->values[i], 0, kept);
     }
     return PSPEC_OK;
 }
 
 static pspec_status take_values(ps_scene *scene, const ps_scene_file *file, const char *key,
-                                yaml_node_t *node, ps_scene_entry *out) {
-    const bool is_one = out->option == PS_SCENE_FILES && !has_lists(file, node);
+                                const ps_scene_node *node, ps_scene_entry *out) {
+    const bool is_one = out->option == PS_SCENE_FILES && !has_lists(node);
     const size_t num = is_one ? 1 : ps_scene_num_items(node);
     void *values = NULL;
     if (num == 0 || num > MOST_VALUES) {
-        return num == 0 ? ps_scene_complain(file, ps_scene_line(node), key, "an empty list")
-                        : ps_scene_complain(file, ps_scene_line(node), key,
-                                            "%zu values, more than %d", num, MOST_VALUES);
+        return num == 0 ? ps_scene_complain(file, node->line, key, "an empty list")
+                        : ps_scene_complain(file, node->line, key, "%zu values, more than %d", num,
+                                            MOST_VALUES);
     }
     PS_TRY(ps_scene_allocate(scene, num, sizeof *out->values, &values, file->error));
     out->values = values;
     out->num_values = num;
-    for (size_t i = 0; i < num; i++) {
-        yaml_node_t *const item = is_one ? node : ps_scene_item(file, node, i);
-        if (item->type == YAML_SEQUENCE_NODE && out->option != PS_SCENE_FILES) {
-            return ps_scene_complain(file, ps_scene_line(item), key,
+    const ps_scene_node *item = is_one ? node : ps_scene_first_item(node);
+    for (size_t i = 0; i < num; i++, item = item->next) {
+        if (item->kind == PS_NODE_LIST && out->option != PS_SCENE_FILES) {
+            return ps_scene_complain(file, item->line, key,
                                      "a list in a list; only files have those");
         }
         PS_TRY(take_value(scene, file, key, item, &out->values[i]));
@@ -239,9 +238,9 @@ static pspec_status take_values(ps_scene *scene, const ps_scene_file *file, cons
 
 pspec_status ps_scene_take_entry(ps_scene *scene, const ps_scene_file *file,
                                  const ps_result_kind *kind, int option, const char *key,
-                                 yaml_node_t *value, ps_scene_entry *out) {
+                                 const ps_scene_node *value, ps_scene_entry *out) {
     bool is_range = false;
-    *out = (ps_scene_entry){.option = option, .line = ps_scene_line(value)};
+    *out = (ps_scene_entry){.option = option, .line = value->line};
     PS_TRY(expand_range(scene, file, value, out, &is_range));
     if (!is_range) {
         PS_TRY(take_values(scene, file, key, value, out));

@@ -6,41 +6,50 @@
 
 #include <yaml.h>
 
+/* A text, or what a list or mapping holds, with its line. Lives as long as the scene, as its text does. */
+typedef enum ps_scene_node_kind { PS_NODE_TEXT, PS_NODE_LIST, PS_NODE_MAPPING } ps_scene_node_kind;
+typedef struct ps_scene_node {
+    ps_scene_node_kind kind;
+    int line;
+    const char *text; /* of a text */
+    size_t length;    /* of it: more than strlen where it holds bytes of value 0 */
+    size_t num_items; /* of a list; keys and values of a mapping in turn */
+    struct ps_scene_node *first, *last, *next; /* of these; the next one of what this is in */
+} ps_scene_node;
+
 typedef struct ps_scene_file {
     const char *path;
-    yaml_document_t document;
-    bool has_document;
+    const ps_scene_node *root;
     ps_error *error;
 } ps_scene_file;
 
-/* No nest, anchor or mapping beyond what a scene can need, and no alias; the parser is at its beginning, and is at its end
- * then. */
-pspec_status ps_scene_check_events(ps_scene_file *file, yaml_parser_t *parser) PS_MUST_CHECK;
+/* The tree of the only document: no nest, anchor or mapping beyond what a scene can need, and no alias. The parser is at its
+ * beginning, and is at its end then. */
+pspec_status ps_scene_build(ps_scene *scene, ps_scene_file *file,
+                            yaml_parser_t *parser) PS_MUST_CHECK;
 /* What the parser objects to. */
 pspec_status ps_scene_fail_parser(const ps_scene_file *file, const yaml_parser_t *parser);
 
-/* Reads the only document of a file, "-" for standard input. Closed by ps_scene_file_close, also after an error. */
-pspec_status ps_scene_file_open(ps_scene_file *out, const char *path,
+/* Reads the only document of a file, "-" for standard input. */
+pspec_status ps_scene_file_read(ps_scene_file *out, ps_scene *scene, const char *path,
                                 ps_error *error) PS_MUST_CHECK;
-void ps_scene_file_close(ps_scene_file *file);
 
-int ps_scene_line(const yaml_node_t *node);
 /* "scene.yaml:3: points: ..."; key NULL: of no key. Returns PSPEC_ERROR_INPUT. */
 pspec_status ps_scene_complain(const ps_scene_file *file, int line, const char *key,
                                const char *format, ...) PS_PRINTF(4, 5);
 
-/* The text of a scalar; anything else is complained of. */
-pspec_status ps_scene_take_text(const ps_scene_file *file, yaml_node_t *node, const char *key,
-                                const char **out) PS_MUST_CHECK;
+/* The text of a node; anything else is complained of. */
+pspec_status ps_scene_take_text(const ps_scene_file *file, const ps_scene_node *node,
+                                const char *key, const char **out) PS_MUST_CHECK;
 
-/* Items of a sequence; a node that is none counts as its only item. */
-size_t ps_scene_num_items(const yaml_node_t *node);
-yaml_node_t *ps_scene_item(const ps_scene_file *file, yaml_node_t *node, size_t index);
+/* Items of a list, linked by next; a node that is none counts as its only item. */
+size_t ps_scene_num_items(const ps_scene_node *node);
+const ps_scene_node *ps_scene_first_item(const ps_scene_node *node);
 
 /* Pairs of a mapping. A key that is no text, and one that stands there twice, is complained of. */
-size_t ps_scene_num_pairs(const yaml_node_t *node);
-pspec_status ps_scene_pair(const ps_scene_file *file, yaml_node_t *mapping, size_t index,
-                           const char **key, yaml_node_t **value) PS_MUST_CHECK;
+size_t ps_scene_num_pairs(const ps_scene_node *node);
+pspec_status ps_scene_pair(const ps_scene_file *file, const ps_scene_node *mapping, size_t index,
+                           const char **key, const ps_scene_node **value) PS_MUST_CHECK;
 
 /* Memory that lives as long as the scene. */
 struct ps_scene_memory {
@@ -53,10 +62,13 @@ pspec_status ps_scene_allocate(ps_scene *scene, size_t count, size_t element_byt
 pspec_status ps_scene_copy(ps_scene *scene, const char *prefix, const char *text, const char **out,
                            ps_error *error) PS_MUST_CHECK;
 
+/* A value of num texts, which are set one by one. */
+pspec_status ps_scene_make_value(ps_scene *scene, size_t num, int line, ps_scene_value *out,
+                                 ps_error *error) PS_MUST_CHECK;
 /* The values of an option, which word says: paths are made relative to the current folder. */
 pspec_status ps_scene_take_entry(ps_scene *scene, const ps_scene_file *file,
                                  const ps_result_kind *kind, int option, const char *key,
-                                 yaml_node_t *value, ps_scene_entry *out) PS_MUST_CHECK;
+                                 const ps_scene_node *value, ps_scene_entry *out) PS_MUST_CHECK;
 
 /* Is the value of an option a path, and no word? */
 bool ps_scene_is_path(int option, const char *text);
@@ -68,18 +80,15 @@ pspec_status ps_scene_apply(ps_request *request, const ps_result_kind *kind, ps_
 /* What reads a scene. */
 typedef struct ps_scene_reader {
     ps_scene *scene;
-    ps_scene_file *file;
-    yaml_node_t *defaults; /* NULL: none */
+    const ps_scene_file *file;
+    const ps_scene_node *defaults; /* NULL: none */
 } ps_scene_reader;
 
-/* The text of a scalar, kept with the scene. */
-pspec_status ps_scene_keep_text(const ps_scene_reader *reader, yaml_node_t *node, const char *key,
-                                const char **out) PS_MUST_CHECK;
 /* Of a scene: pages of more are of no use to anyone, and a record of more could not be read. */
 enum { PS_SCENE_MOST_QUESTIONS = 10000 };
 
 /* One of the results, but for a name that the file does not say. */
-pspec_status ps_scene_take_result(const ps_scene_reader *reader, yaml_node_t *node,
+pspec_status ps_scene_take_result(const ps_scene_reader *reader, const ps_scene_node *node,
                                   ps_scene_result *out) PS_MUST_CHECK;
 
 /* The word that a complaint may suggest: begins as {0}, and ends as the nearest of those considered. */

@@ -20,9 +20,7 @@ static pspec_status add_limit(ps_scene *scene, ps_scene_result *result, const ch
     void *memory = NULL;
     PS_TRY(ps_scene_allocate(scene, 1, sizeof(ps_scene_value), &memory, error));
     ps_scene_value *const value = memory;
-    PS_TRY(ps_scene_allocate(scene, 2, sizeof *value->texts, &memory, error));
-    *value = (ps_scene_value){.num_texts = 1, .texts = memory, .line = result->line};
-    value->originals = value->texts + 1;
+    PS_TRY(ps_scene_make_value(scene, 1, result->line, value, error));
     PS_TRY(ps_scene_copy(scene, "", text, &value->texts[0], error));
     value->originals[0] = value->texts[0];
     PS_TRY(ps_scene_allocate(scene, num + 1, sizeof *result->entries, &memory, error));

@@ -10,10 +10,6 @@
 
 /* ---- complaints ---------------------------------------------------------------------------- */
 
-int ps_scene_line(const yaml_node_t *node) {
-    return (int)node->start_mark.line + 1;
-}
-
 pspec_status ps_scene_complain(const ps_scene_file *file, int line, const char *key,
                                const char *format, ...) {
     char sentence[PS_MESSAGE_BYTES];
@@ -41,58 +37,48 @@ pspec_status ps_scene_fail_parser(const ps_scene_file *file, const yaml_parser_t
 
 /* ---- nodes ------------------------------------------------------------------------------- */
 
-pspec_status ps_scene_take_text(const ps_scene_file *file, yaml_node_t *node, const char *key,
-                                const char **out) {
-    if (node->type != YAML_SCALAR_NODE) {
-        return ps_scene_complain(file, ps_scene_line(node), key,
-                                 "one value is wanted here, not a %s",
-                                 node->type == YAML_SEQUENCE_NODE ? "list" : "mapping");
+pspec_status ps_scene_take_text(const ps_scene_file *file, const ps_scene_node *node,
+                                const char *key, const char **out) {
+    if (node->kind != PS_NODE_TEXT) {
+        return ps_scene_complain(file, node->line, key, "one value is wanted here, not a %s",
+                                 node->kind == PS_NODE_LIST ? "list" : "mapping");
     }
-    const char *const text = (const char *)node->data.scalar.value;
-    if (strlen(text) != node->data.scalar.length) {
-        return ps_scene_complain(file, ps_scene_line(node), key, "a byte of value 0 in a text");
+    if (strlen(node->text) != node->length) {
+        return ps_scene_complain(file, node->line, key, "a byte of value 0 in a text");
     }
-    if (text[0] == '\0') {
-        return ps_scene_complain(file, ps_scene_line(node), key, "no value");
+    if (node->length == 0) {
+        return ps_scene_complain(file, node->line, key, "no value");
     }
-    *out = text;
+    *out = node->text;
     return PSPEC_OK;
 }
 
-size_t ps_scene_num_items(const yaml_node_t *node) {
-    return node->type == YAML_SEQUENCE_NODE
-               ? (size_t)(node->data.sequence.items.top - node->data.sequence.items.start)
-               : 1;
+size_t ps_scene_num_items(const ps_scene_node *node) {
+    return node->kind == PS_NODE_LIST ? node->num_items : 1;
 }
 
-/* libyaml does not write to a document that is looked at; its interface has no const. */
-static yaml_node_t *find_node(const ps_scene_file *file, int number) {
-    return yaml_document_get_node((yaml_document_t *)(uintptr_t)&file->document, number);
+const ps_scene_node *ps_scene_first_item(const ps_scene_node *node) {
+    return node->kind == PS_NODE_LIST ? node->first : node;
 }
 
-yaml_node_t *ps_scene_item(const ps_scene_file *file, yaml_node_t *node, size_t index) {
-    return node->type == YAML_SEQUENCE_NODE
-               ? find_node(file, node->data.sequence.items.start[index])
-               : node;
+size_t ps_scene_num_pairs(const ps_scene_node *node) {
+    return node->num_items / 2;
 }
 
-size_t ps_scene_num_pairs(const yaml_node_t *node) {
-    return (size_t)(node->data.mapping.pairs.top - node->data.mapping.pairs.start);
-}
-
-pspec_status ps_scene_pair(const ps_scene_file *file, yaml_node_t *mapping, size_t index,
-                           const char **key, yaml_node_t **value) {
-    const yaml_node_pair_t *const pairs = mapping->data.mapping.pairs.start;
-    yaml_node_t *const node = find_node(file, pairs[index].key);
-    PS_TRY(ps_scene_take_text(file, node, NULL, key));
+pspec_status ps_scene_pair(const ps_scene_file *file, const ps_scene_node *mapping, size_t index,
+                           const char **key, const ps_scene_node **value) {
+    const ps_scene_node *node = mapping->first;
     for (size_t i = 0; i < index; i++) {
-        const yaml_node_t *const other = find_node(file, pairs[i].key);
-        if (strcmp((const char *)other->data.scalar.value, *key) == 0) {
-            return ps_scene_complain(file, ps_scene_line(node), *key,
-                                     "this key stands in line %d already", ps_scene_line(other));
+        node = node->next->next;
+    }
+    PS_TRY(ps_scene_take_text(file, node, NULL, key));
+    for (const ps_scene_node *other = mapping->first; other != node; other = other->next->next) {
+        if (strcmp(other->text, *key) == 0) {
+            return ps_scene_complain(file, node->line, *key, "this key stands in line %d already",
+                                     other->line);
         }
     }
-    *value = find_node(file, pairs[index].value);
+    *value = node->next;
     return PSPEC_OK;
 }
 

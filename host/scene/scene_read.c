@@ -27,20 +27,20 @@ static pspec_status name_result(const ps_scene_reader *reader, size_t index) {
     return PSPEC_OK;
 }
 
-static pspec_status take_results(const ps_scene_reader *reader, yaml_node_t *node) {
+static pspec_status take_results(const ps_scene_reader *reader, const ps_scene_node *node) {
     void *results = NULL;
     const size_t num = ps_scene_num_items(node);
-    if (node->type != YAML_SEQUENCE_NODE || num == 0 || num > MOST_RESULTS) {
-        return ps_scene_complain(reader->file, ps_scene_line(node), "results",
+    if (node->kind != PS_NODE_LIST || num == 0 || num > MOST_RESULTS) {
+        return ps_scene_complain(reader->file, node->line, "results",
                                  "a list of 1 to %d results is wanted here", MOST_RESULTS);
     }
     PS_TRY(ps_scene_allocate(reader->scene, num, sizeof *reader->scene->results, &results,
                              reader->file->error));
     reader->scene->results = results;
     size_t num_questions = 0;
-    for (size_t i = 0; i < num; i++) {
-        PS_TRY(ps_scene_take_result(reader, ps_scene_item(reader->file, node, i),
-                                    &reader->scene->results[i]));
+    const ps_scene_node *item = ps_scene_first_item(node);
+    for (size_t i = 0; i < num; i++, item = item->next) {
+        PS_TRY(ps_scene_take_result(reader, item, &reader->scene->results[i]));
         reader->scene->num_results++;
         num_questions += ps_scene_num_questions(&reader->scene->results[i]);
         if (num_questions > PS_SCENE_MOST_QUESTIONS) {
@@ -53,30 +53,31 @@ static pspec_status take_results(const ps_scene_reader *reader, yaml_node_t *nod
     return PSPEC_OK;
 }
 
-static pspec_status take_texts(const ps_scene_reader *reader, yaml_node_t *node, const char *key,
-                               const char ***out, size_t *num_out) {
+static pspec_status take_texts(const ps_scene_reader *reader, const ps_scene_node *node,
+                               const char *key, const char ***out, size_t *num_out) {
     void *memory = NULL;
     const size_t num = ps_scene_num_items(node);
     PS_TRY(ps_scene_allocate(reader->scene, num, sizeof **out, &memory, reader->file->error));
     *out = memory;
-    for (size_t i = 0; i < num; i++) {
-        PS_TRY(ps_scene_keep_text(reader, ps_scene_item(reader->file, node, i), key, &(*out)[i]));
+    const ps_scene_node *item = ps_scene_first_item(node);
+    for (size_t i = 0; i < num; i++, item = item->next) {
+        PS_TRY(ps_scene_take_text(reader->file, item, key, &(*out)[i]));
     }
     *num_out = num;
     return PSPEC_OK;
 }
 
 /* What a run wrote (docs/user/scenes.md); other keys are for people. */
-static pspec_status take_record(const ps_scene_reader *reader, yaml_node_t *node) {
-    if (node->type != YAML_MAPPING_NODE) {
-        return ps_scene_complain(reader->file, ps_scene_line(node), "record", "no mapping");
+static pspec_status take_record(const ps_scene_reader *reader, const ps_scene_node *node) {
+    if (node->kind != PS_NODE_MAPPING) {
+        return ps_scene_complain(reader->file, node->line, "record", "no mapping");
     }
     for (size_t i = 0; i < ps_scene_num_pairs(node); i++) {
         const char *key = NULL;
-        yaml_node_t *value = NULL;
+        const ps_scene_node *value = NULL;
         PS_TRY(ps_scene_pair(reader->file, node, i, &key, &value));
         if (strcmp(key, "folder") == 0) {
-            PS_TRY(ps_scene_keep_text(reader, value, key, &reader->scene->folder));
+            PS_TRY(ps_scene_take_text(reader->file, value, key, &reader->scene->folder));
         } else if (strcmp(key, "digests") == 0) {
             PS_TRY(take_texts(reader, value, key, &reader->scene->digests,
                               &reader->scene->num_digests));
@@ -84,32 +85,33 @@ static pspec_status take_record(const ps_scene_reader *reader, yaml_node_t *node
             PS_TRY(
                 take_texts(reader, value, key, &reader->scene->files, &reader->scene->num_files));
         } else if (strcmp(key, "pointspec_version") == 0) {
-            PS_TRY(ps_scene_keep_text(reader, value, key, &reader->scene->recorded_version));
+            PS_TRY(ps_scene_take_text(reader->file, value, key, &reader->scene->recorded_version));
         } else if (strcmp(key, "device") == 0) {
-            PS_TRY(ps_scene_keep_text(reader, value, key, &reader->scene->recorded_device));
+            PS_TRY(ps_scene_take_text(reader->file, value, key, &reader->scene->recorded_device));
         }
     }
     return PSPEC_OK;
 }
 
-static pspec_status check_schema(const ps_scene_reader *reader, yaml_node_t *node) {
+static pspec_status check_schema(const ps_scene_reader *reader, const ps_scene_node *node) {
     const char *text = NULL;
     PS_TRY(ps_scene_take_text(reader->file, node, "scene", &text));
     return strcmp(text, "1") == 0
                ? PSPEC_OK
-               : ps_scene_complain(reader->file, ps_scene_line(node), "scene",
+               : ps_scene_complain(reader->file, node->line, "scene",
                                    "schema \"%s\" is not known, this version reads schema 1", text);
 }
 
 /* The keys of the file; the results come last, when the defaults and the folder are known. */
 typedef struct parts {
-    yaml_node_t *schema, *title, *description, *defaults, *results, *record;
+    const ps_scene_node *schema, *title, *description, *defaults, *results, *record;
 } parts;
 
-static pspec_status find_parts(const ps_scene_reader *reader, yaml_node_t *root, parts *out) {
+static pspec_status find_parts(const ps_scene_reader *reader, const ps_scene_node *root,
+                               parts *out) {
     const struct {
         const char *key;
-        yaml_node_t **node;
+        const ps_scene_node **node;
     } known[] = {{"scene", &out->schema},
                  {"title", &out->title},
                  {"description", &out->description},
@@ -118,7 +120,7 @@ static pspec_status find_parts(const ps_scene_reader *reader, yaml_node_t *root,
                  {"record", &out->record}};
     for (size_t i = 0; i < ps_scene_num_pairs(root); i++) {
         const char *key = NULL;
-        yaml_node_t *value = NULL;
+        const ps_scene_node *value = NULL;
         ps_scene_nearest best = {NULL, 0};
         bool is_known = false;
         PS_TRY(ps_scene_pair(reader->file, root, i, &key, &value));
@@ -131,7 +133,7 @@ static pspec_status find_parts(const ps_scene_reader *reader, yaml_node_t *root,
         }
         if (!is_known) {
             return ps_scene_complain(
-                reader->file, ps_scene_line(value), key, "unknown key%s",
+                reader->file, value->line, key, "unknown key%s",
                 ps_text_suggest(key, best.word, best.distance, "; did you mean ", "?").text);
         }
     }
@@ -152,15 +154,15 @@ static pspec_status find_folder(const ps_scene_reader *reader) {
     return PSPEC_OK;
 }
 
-static pspec_status take_scene(ps_scene_reader *reader, yaml_node_t *root) {
+static pspec_status take_scene(ps_scene_reader *reader, const ps_scene_node *root) {
     parts found = {0};
-    if (root->type != YAML_MAPPING_NODE) {
-        return ps_scene_complain(reader->file, ps_scene_line(root), NULL,
+    if (root->kind != PS_NODE_MAPPING) {
+        return ps_scene_complain(reader->file, root->line, NULL,
                                  "a scene is a mapping with the keys scene and results");
     }
     PS_TRY(find_parts(reader, root, &found));
     if (found.schema == NULL || found.results == NULL) {
-        return ps_scene_complain(reader->file, ps_scene_line(root),
+        return ps_scene_complain(reader->file, root->line,
                                  found.schema == NULL ? "scene" : "results", "is missing%s",
                                  found.schema == NULL ? ": a scene begins with scene: 1" : "");
     }
@@ -170,14 +172,14 @@ static pspec_status take_scene(ps_scene_reader *reader, yaml_node_t *root) {
         PS_TRY(take_record(reader, found.record));
     }
     if (found.title != NULL) {
-        PS_TRY(ps_scene_keep_text(reader, found.title, "title", &reader->scene->title));
+        PS_TRY(ps_scene_take_text(reader->file, found.title, "title", &reader->scene->title));
     }
     if (found.description != NULL) {
-        PS_TRY(ps_scene_keep_text(reader, found.description, "description",
+        PS_TRY(ps_scene_take_text(reader->file, found.description, "description",
                                   &reader->scene->description));
     }
-    if (found.defaults != NULL && found.defaults->type != YAML_MAPPING_NODE) {
-        return ps_scene_complain(reader->file, ps_scene_line(found.defaults), "defaults",
+    if (found.defaults != NULL && found.defaults->kind != PS_NODE_MAPPING) {
+        return ps_scene_complain(reader->file, found.defaults->line, "defaults",
                                  "a mapping of keys is wanted here");
     }
     reader->defaults = found.defaults;
@@ -187,11 +189,7 @@ static pspec_status take_scene(ps_scene_reader *reader, yaml_node_t *root) {
 pspec_status ps_scene_read(ps_scene *out, const char *path, ps_error *error) {
     ps_scene_file file;
     *out = (ps_scene){.path = path};
-    pspec_status status = ps_scene_file_open(&file, path, error);
-    if (status == PSPEC_OK) {
-        ps_scene_reader reader = {out, &file, NULL};
-        status = take_scene(&reader, yaml_document_get_root_node(&file.document));
-    }
-    ps_scene_file_close(&file);
-    return status;
+    PS_TRY(ps_scene_file_read(&file, out, path, error));
+    ps_scene_reader reader = {out, &file, NULL};
+    return take_scene(&reader, file.root);
 }

@@ -61,39 +61,34 @@ static pspec_status complain_of_key(const ps_scene_reader *reader, const ps_resu
 
 /* ---- one result -------------------------------------------------------------------------- */
 
-static pspec_status take_switch(const ps_scene_reader *reader, yaml_node_t *node, const char *key,
-                                bool *out) {
+static pspec_status take_switch(const ps_scene_reader *reader, const ps_scene_node *node,
+                                const char *key, bool *out) {
     const char *text = NULL;
     PS_TRY(ps_scene_take_text(reader->file, node, key, &text));
     *out = strcmp(text, "true") == 0;
     return *out || strcmp(text, "false") == 0
                ? PSPEC_OK
-               : ps_scene_complain(reader->file, ps_scene_line(node), key,
-                                   "true or false, not \"%s\"", text);
-}
-
-pspec_status ps_scene_keep_text(const ps_scene_reader *reader, yaml_node_t *node, const char *key,
-                                const char **out) {
-    PS_TRY(ps_scene_take_text(reader->file, node, key, out));
-    return ps_scene_copy(reader->scene, "", *out, out, reader->file->error);
+               : ps_scene_complain(reader->file, node->line, key, "true or false, not \"%s\"",
+                                   text);
 }
 
 /* It becomes the name of files. */
-static pspec_status take_name(const ps_scene_reader *reader, yaml_node_t *node, const char **out) {
+static pspec_status take_name(const ps_scene_reader *reader, const ps_scene_node *node,
+                              const char **out) {
     enum { MOST_LETTERS = 64 };
-    PS_TRY(ps_scene_keep_text(reader, node, "name", out));
+    PS_TRY(ps_scene_take_text(reader->file, node, "name", out));
     bool is_good = strlen(*out) <= MOST_LETTERS && (*out)[0] != '-';
     for (const char *c = *out; *c != '\0'; c++) {
         is_good = is_good && (isalnum((unsigned char)*c) || *c == '-' || *c == '_');
     }
     return is_good
                ? PSPEC_OK
-               : ps_scene_complain(reader->file, ps_scene_line(node), "name",
+               : ps_scene_complain(reader->file, node->line, "name",
                                    "\"%s\" cannot name files: up to %d letters, digits, - and _",
                                    *out, MOST_LETTERS);
 }
 
-static pspec_status take_kind(const ps_scene_reader *reader, yaml_node_t *node,
+static pspec_status take_kind(const ps_scene_reader *reader, const ps_scene_node *node,
                               const ps_result_kind **out) {
     const char *text = NULL;
     ps_scene_nearest best = {NULL, 0};
@@ -106,12 +101,12 @@ static pspec_status take_kind(const ps_scene_reader *reader, yaml_node_t *node,
         }
     }
     return ps_scene_complain(
-        reader->file, ps_scene_line(node), "result", "\"%s\" is no kind of result%s", text,
+        reader->file, node->line, "result", "\"%s\" is no kind of result%s", text,
         ps_text_suggest(text, best.word, best.distance, "; did you mean ", "?").text);
 }
 
 static pspec_status take_pair(const ps_scene_reader *reader, ps_scene_result *out, const char *key,
-                              int line, yaml_node_t *value) {
+                              int line, const ps_scene_node *value) {
     if (strcmp(key, "result") == 0) {
         return PSPEC_OK; /* taken before all others */
     }
@@ -119,7 +114,7 @@ static pspec_status take_pair(const ps_scene_reader *reader, ps_scene_result *ou
         return take_name(reader, value, &out->name);
     }
     if (strcmp(key, "title") == 0) {
-        return ps_scene_keep_text(reader, value, key, &out->title);
+        return ps_scene_take_text(reader->file, value, key, &out->title);
     }
     if (strcmp(key, "plot") == 0) {
         return take_switch(reader, value, key, &out->wants_plot);
@@ -169,7 +164,7 @@ static pspec_status take_defaults(const ps_scene_reader *reader, ps_scene_result
     ps_scene_result own = *out;
     for (size_t i = 0; reader->defaults != NULL && i < ps_scene_num_pairs(reader->defaults); i++) {
         const char *key = NULL;
-        yaml_node_t *value = NULL;
+        const ps_scene_node *value = NULL;
         PS_TRY(ps_scene_pair(reader->file, reader->defaults, i, &key, &value));
         const int option = find_option(out->kind, key);
         own.num_entries = num_own;
@@ -177,7 +172,7 @@ static pspec_status take_defaults(const ps_scene_reader *reader, ps_scene_result
             PS_TRY(ps_scene_take_entry(reader->scene, reader->file, out->kind, option, key, value,
                                        &out->entries[out->num_entries++]));
         } else if (option < 0 && !is_any_option(key)) {
-            return complain_of_key(reader, out->kind, ps_scene_line(value), key);
+            return complain_of_key(reader, out->kind, value->line, key);
         }
     }
     drop_of_other_source(out, num_own);
@@ -202,17 +197,17 @@ static pspec_status complain_of_no_kind(const ps_scene_reader *reader, int line)
 }
 
 /* Which result it is says what the other keys may be. */
-static pspec_status find_kind(const ps_scene_reader *reader, yaml_node_t *node,
+static pspec_status find_kind(const ps_scene_reader *reader, const ps_scene_node *node,
                               ps_scene_result *out) {
     for (size_t i = 0; i < ps_scene_num_pairs(node); i++) {
         const char *key = NULL;
-        yaml_node_t *value = NULL;
+        const ps_scene_node *value = NULL;
         PS_TRY(ps_scene_pair(reader->file, node, i, &key, &value));
         if (strcmp(key, "result") == 0) {
             return take_kind(reader, value, &out->kind);
         }
     }
-    return complain_of_no_kind(reader, ps_scene_line(node));
+    return complain_of_no_kind(reader, node->line);
 }
 
 static pspec_status check_twice(const ps_scene_reader *reader, const ps_scene_result *result) {
@@ -240,11 +235,11 @@ static pspec_status check_questions(const ps_scene_reader *reader, const ps_scen
                                    PS_SCENE_MOST_QUESTIONS);
 }
 
-pspec_status ps_scene_take_result(const ps_scene_reader *reader, yaml_node_t *node,
+pspec_status ps_scene_take_result(const ps_scene_reader *reader, const ps_scene_node *node,
                                   ps_scene_result *out) {
     void *entries = NULL;
-    *out = (ps_scene_result){.line = ps_scene_line(node), .wants_plot = true};
-    if (node->type != YAML_MAPPING_NODE) {
+    *out = (ps_scene_result){.line = node->line, .wants_plot = true};
+    if (node->kind != PS_NODE_MAPPING) {
         return ps_scene_complain(reader->file, out->line, "results",
                                  "a result is a mapping of keys");
     }
@@ -255,9 +250,9 @@ pspec_status ps_scene_take_result(const ps_scene_reader *reader, yaml_node_t *no
     out->entries = entries;
     for (size_t i = 0; i < ps_scene_num_pairs(node); i++) {
         const char *key = NULL;
-        yaml_node_t *value = NULL;
+        const ps_scene_node *value = NULL;
         PS_TRY(ps_scene_pair(reader->file, node, i, &key, &value));
-        PS_TRY(take_pair(reader, out, key, ps_scene_line(value), value));
+        PS_TRY(take_pair(reader, out, key, value->line, value));
     }
     PS_TRY(check_twice(reader, out));
     PS_TRY(take_defaults(reader, out));

@@ -93,7 +93,7 @@ WRAPPER(yaml_parser_delete, void, (yaml_parser_t * parser)) {
     __real_yaml_parser_delete(parser);
 }
 
-/* Each takes what the deletion of its document or event gives back, also an empty one. */
+/* Each takes what the deletion of its event gives back, also an empty one. */
 #define YAML_STEP(name, type)                                                                      \
     WRAPPER(name, int, (yaml_parser_t * parser, type * out)) {                                     \
         if (is_refused(#name)) {                                                                   \
@@ -105,7 +105,5 @@ WRAPPER(yaml_parser_delete, void, (yaml_parser_t * parser)) {
         return is_good;                                                                            \
     }
 
-YAML_STEP(yaml_parser_load, yaml_document_t)
 YAML_STEP(yaml_parser_parse, yaml_event_t)
-DEALLOCATION(yaml_document_delete, yaml_document_t *)
 DEALLOCATION(yaml_event_delete, yaml_event_t *)
