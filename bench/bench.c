@@ -81,7 +81,7 @@ void bench_job_create_for(bench_job *job, const ps_engine *engine, ps_precision 
     own.frequencies = &job->frequencies;
     BENCH_TRY(ps_frequencies_enumerate(&job->frequencies, error));
     const ps_device_limits *limits = ps_device_get_limits(device);
-    const ps_work work = engine->work(&own, limits, precision);
+    const ps_work work = engine->survey(&own, limits, precision).work;
     job->batch = ps_cost_batch(&work, limits, num_realizations);
     job->points = bench_uniform(num_points * dimension * num_realizations, num_points);
     if (job->frequencies.kind == PS_FREQUENCIES_DEGREES) {

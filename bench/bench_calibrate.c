@@ -43,7 +43,7 @@ static double measure(ps_device *device, const ps_engine *engine, ps_precision p
                                 .num_points = num_points,
                                 .num_realizations = num_realizations,
                                 .tolerance = TOLERANCE};
-    *work = engine->work(&problem, ps_device_get_limits(device), precision);
+    *work = engine->survey(&problem, ps_device_get_limits(device), precision).work;
     const double seconds = best_run(&job);
     bench_job_destroy(&job);
     return seconds;
@@ -72,7 +72,7 @@ static double harmonics_per_flop(ps_device *device, ps_precision precision) {
                                 .num_realizations = REALIZATIONS,
                                 .tolerance = TOLERANCE};
     const ps_device_limits *limits = ps_device_get_limits(device);
-    const double harmonics = ps_sphere_direct.work(&problem, limits, precision).harmonics;
+    const double harmonics = ps_sphere_direct.survey(&problem, limits, precision).work.harmonics;
     const double rate = harmonics / best_run(&job);
     bench_job_destroy(&job);
     return rate / ps_cost_nominal_flops(limits, precision);

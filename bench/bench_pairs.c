@@ -115,12 +115,11 @@ static bool find_precision(const ps_problem *asked, const ps_engine *engine, ps_
                            ps_precision *out) {
     const ps_device_limits *limits = ps_device_get_limits(device);
     const ps_problem own = ps_engine_problem(engine, asked);
-    const char *why_not = NULL;
     for (int p = PS_SINGLE; p <= (limits->has_fp64 ? PS_DOUBLE : PS_SINGLE); p++) {
         *out = (ps_precision)p;
-        if (engine->applicable(&own, limits, *out, &why_not) &&
-            ps_engine_error_in(engine, asked, engine->error(&own, limits, *out, 1)) <=
-                asked->tolerance) {
+        const ps_survey survey = engine->survey(&own, limits, *out);
+        if (survey.why_not == NULL &&
+            ps_engine_error_in(engine, asked, survey.error) <= asked->tolerance) {
             return true;
         }
     }

@@ -34,13 +34,11 @@ static void measure(ps_device *device, ps_precision precision, size_t num_points
     }
     const double harmonics =
         (double)num_points * (double)num_realizations * (degree + 1.0) * (degree + 2.0) / 2;
-    const ps_problem problem = {.frequencies = &job.frequencies, .num_points = num_points};
-    const ps_device_limits *limits = ps_device_get_limits(device);
     printf("%-7s %-4s %7zu %5d %6zu %11.2f %9.3g %7.1f %6.2f %9.2g\n", ps_precision_name(precision),
            only_even ? "even" : "all", num_points, degree, num_realizations,
            1e6 * best / (double)num_realizations, harmonics / best, best_peak * 1e-9,
            FLOPS_PER_HARMONIC * harmonics / best / best_peak,
-           ps_sphere_direct.error(&problem, limits, precision, 1));
+           ps_sphere_direct.error_of_state(job.state, 1, 0));
     ps_peak_destroy(&peak);
     bench_job_destroy(&job);
 }

@@ -152,15 +152,14 @@ static bool measure(ps_device *device, size_t shape, size_t which, measured *out
     const ps_device_limits *limits = ps_device_get_limits(device);
     const ps_precision precision = exactness[which].precision;
     ps_frequencies grid = {0};
-    const char *why_not = NULL;
     BENCH_TRY(
         ps_frequencies_lattice(&grid, shapes[shape].dimension, shapes[shape].k, false, error));
     const ps_problem problem = {.frequencies = &grid,
                                 .num_points = shapes[shape].num_points,
                                 .tolerance = exactness[which].tolerance,
                                 .planned_points = shapes[shape].planned_points};
-    if (!ps_torus_nufft.applicable(&problem, limits, precision, &why_not) ||
-        ps_torus_nufft.error(&problem, limits, precision, 1) > problem.tolerance) {
+    const ps_survey survey = ps_torus_nufft.survey(&problem, limits, precision);
+    if (survey.why_not != NULL || survey.error > problem.tolerance) {
         return false;
     }
     const ps_nufft_layout layout = ps_nufft_layout_make(&problem, limits, precision);

@@ -23,7 +23,7 @@ typedef enum ps_harmonics {
 
 /* What the tolerance of a problem is about. */
 typedef enum ps_measure {
-    PS_OF_AMPLITUDES = 0, /* S relative to white noise, see ps_engine.error */
+    PS_OF_AMPLITUDES = 0, /* S relative to white noise, see ps_survey.error */
     PS_OF_PAIR_SUMS = 1   /* Q(l) relative to (sum |w|)^2, on the sphere (engines/error_units.h) */
 } ps_measure;
 
@@ -120,11 +120,16 @@ typedef struct ps_engine_stream {
 /* Where points may lie: bits of ps_engine.domains. */
 enum { PS_ON_TORUS = 1, PS_ON_SPHERE = 2 };
 
-/* What the planner asks about a candidate, in one go. */
+/* What an engine says of a problem. */
 typedef struct ps_survey {
-    const char *why_not; /* NULL: applicable; else the rest is not there */
+    const char *why_not; /* a static sentence; NULL: applicable, else the rest is not there */
     ps_work work;
-    double error; /* at the expected power */
+    /* Expected error e of S in sqrt(mean |dS|^2) = e sqrt(sum w^2), mean over the frequencies, for sets of the expected
+     * power (ps_expected_power). On the sphere sqrt(4 pi mean |dc_lm|^2), mean over all degrees and orders.
+     * With sums_pairs instead the largest |dQ(l)| = e (sum |w|)^2 of all degrees. engines/error_units.h
+     * brings both to what the problem asks for.
+     * The formula and its measured slack are in the engine's page in docs/. */
+    double error;
 } ps_survey;
 
 typedef struct ps_engine {
@@ -137,23 +142,8 @@ typedef struct ps_engine {
     bool checks_points;    /* run gives PSPEC_ERROR_INPUT for coordinates outside [0,1) */
     bool sums_pairs; /* Q(l) = sum_ij w_i w_j P_l(u_i.u_j) over pairs; error is another one then */
 
-    /* May it do this problem? limits is NULL without a device. *why_not is a static sentence. */
-    bool (*applicable)(const ps_problem *, const ps_device_limits *limits, ps_precision,
-                       const char **why_not);
-    ps_work (*work)(const ps_problem *, const ps_device_limits *limits, ps_precision);
-    /* Expected error e of S in sqrt(mean |dS|^2) = e sqrt(sum w^2), mean over the frequencies, for
-     * sets whose effective power averaged over the frequencies is mean_power (1: white noise). On the
-     * sphere sqrt(4 pi mean |dc_lm|^2), mean over all degrees and orders.
-     * With sums_pairs instead the largest |dQ(l)| = e (sum |w|)^2 of all degrees. engines/error_units.h
-     * brings both to what the problem asks for.
-     * The formula and its measured slack are in the engine's page in docs/. */
-    double (*error)(const ps_problem *, const ps_device_limits *limits, ps_precision,
-                    double mean_power);
-    /* applicable, work and error in one, where what they have in common takes long; NULL: it does not. */
+    /* All that the planner asks. limits is NULL without a device. */
     ps_survey (*survey)(const ps_problem *, const ps_device_limits *limits, ps_precision);
-    /* error for the problem that the state was made for, where that is much cheaper (what error() chooses is
-     * chosen by then); NULL: it is not. */
-    double (*error_of_state)(const void *state, double mean_power);
     /* batch: the largest number of patterns in one run. The problem's frequencies are enumerated
      * and outlive the state. */
     pspec_status (*create)(void **state, const ps_problem *, ps_precision, size_t batch,
@@ -162,6 +152,9 @@ typedef struct ps_engine {
     void (*get_slots)(const void *state, uint32_t *slots);
     /* Entries in a row. */
     size_t (*get_stride)(const void *state);
+    /* The error of a survey again, for the problem that the state was made for and what was measured since: effective
+     * power averaged over the frequencies (1: white noise), and weight_share as a problem has it. */
+    double (*error_of_state)(const void *state, double mean_power, double weight_share);
     pspec_status (*run)(void *state, const ps_batch *, ps_rows *, ps_error *);
     const ps_engine_stream *stream; /* NULL: whole sets only */
     /* c_lm = sum w Y_lm(u) of a batch of one pattern for l = 0 .. L, 0 <= m <= l, as pairs (real, imaginary) at index
@@ -184,7 +177,7 @@ unsigned ps_problem_domain(const ps_problem *problem);
 /* All engines, ended by NULL, in the order in which plan lists them. */
 extern const ps_engine *const ps_engines[];
 
-/* Part of applicable of every engine whose kernels know single and double precision: is there a device that
+/* Part of survey of every engine whose kernels know single and double precision: is there a device that
  * has this one? */
 bool ps_engine_on_device(const ps_device_limits *limits, ps_precision precision,
                          const char **why_not);

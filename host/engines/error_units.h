@@ -1,5 +1,5 @@
 /* Errors in the units of what was asked. Engines that make coefficients have an error of S, relative to white noise:
- * sqrt(mean |dS|^2) = e sqrt(V) (ps_engine.error). Sums over pairs have one of Q(l) itself: |dQ(l)| = d (sum |w|)^2. With
+ * sqrt(mean |dS|^2) = e sqrt(V) (ps_survey.error). Sums over pairs have one of Q(l) itself: |dQ(l)| = d (sum |w|)^2. With
  * s = V / (sum |w|)^2, which is 1 / N for equal weights, and Q(l) <= (sum |w|)^2,
  *
  *     |dQ(l)| <= (2 x + x^2) (sum |w|)^2,  x = SPREAD e sqrt(s)
@@ -15,7 +15,7 @@
 
 /* s of the problem: what is known, else 1 / N. */
 double ps_weight_share(const ps_problem *problem);
-/* Part of applicable of engines that sum over pairs. */
+/* Part of survey of engines that sum over pairs. */
 bool ps_engine_sums_pairs(const ps_problem *problem, const char **why_not);
 
 /* What an engine is told: the same problem with the tolerance in its own units. */

@@ -93,24 +93,6 @@ static void estimate(ps_candidate *candidate, const ps_problem *asked, const ps_
     candidate->floor_error = ps_engine_floor_error(candidate->engine, asked, survey->error);
 }
 
-/* What the engine says of it, asked once or part by part. */
-static ps_survey survey_of(const ps_candidate *candidate, const ps_problem *problem,
-                           const ps_device_limits *limits) {
-    const ps_engine *engine = candidate->engine;
-    const ps_precision precision = candidate->precision;
-    const ps_device_limits *used = engine->needs_device ? limits : NULL;
-    ps_survey survey = {0};
-    if (engine->survey != NULL) {
-        return engine->survey(problem, limits, precision);
-    }
-    if (engine->applicable(problem, limits, precision, &survey.why_not)) {
-        survey.why_not = NULL;
-        survey.work = engine->work(problem, used, precision);
-        survey.error = engine->error(problem, used, precision, ps_expected_power(problem));
-    }
-    return survey;
-}
-
 /* Does the user's choice of engine or precision rule it out? */
 static bool exclude(ps_candidate *candidate, const ps_plan_constraints *constraints) {
     if (constraints->engine != NULL && strcmp(constraints->engine, candidate->engine->name) != 0) {
@@ -150,7 +132,7 @@ static bool fits_memory(ps_candidate *candidate, const ps_device_limits *limits,
 static void judge(ps_candidate *candidate, const ps_problem *problem,
                   const ps_device_limits *limits, const ps_plan_constraints *constraints) {
     const ps_problem own = ps_engine_problem(candidate->engine, problem);
-    const ps_survey survey = survey_of(candidate, &own, limits);
+    const ps_survey survey = candidate->engine->survey(&own, limits, candidate->precision);
     candidate->is_excluded = exclude(candidate, constraints);
     candidate->is_applicable = survey.why_not == NULL;
     if (candidate->is_applicable) {

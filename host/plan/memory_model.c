@@ -86,6 +86,6 @@ double ps_memory_of_coefficients(const ps_engine *engine, ps_precision precision
     ps_problem without = *problem;
     with.harmonics = harmonics;
     without.harmonics = PS_NO_HARMONICS;
-    return coefficient_bytes(&with) + engine->work(&with, used, precision).fixed_bytes -
-           engine->work(&without, used, precision).fixed_bytes;
+    return coefficient_bytes(&with) + engine->survey(&with, used, precision).work.fixed_bytes -
+           engine->survey(&without, used, precision).work.fixed_bytes;
 }

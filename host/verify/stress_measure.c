@@ -149,11 +149,7 @@ static double mean_power(const measurement *self) {
 
 static double bound_of(const measurement *self) {
     const double power = mean_power(self);
-    const ps_device_limits *limits =
-        self->device != NULL ? ps_device_get_limits(self->device) : NULL;
-    const double own = self->engine->error_of_state != NULL
-                           ? self->engine->error_of_state(self->state, power)
-                           : self->engine->error(&self->own, limits, self->precision, power);
+    const double own = self->engine->error_of_state(self->state, power, self->own.weight_share);
     return ps_engine_error_in(self->engine, &self->problem, own);
 }
 

@@ -157,6 +157,15 @@ double *test_run_engine(const ps_engine *engine, ps_precision precision, ps_devi
                               batch);
 }
 
+double test_engine_error(const ps_engine *engine, const ps_problem *problem, ps_precision precision,
+                         ps_device *device, double mean_power) {
+    void *state = NULL;
+    assert_ok(engine->create(&state, problem, precision, 1, device, error));
+    const double found = engine->error_of_state(state, mean_power, problem->weight_share);
+    engine->destroy(state);
+    return found;
+}
+
 double test_uniform(uint64_t *state) {
     return ps_stress_uniform(state);
 }

@@ -70,6 +70,10 @@ double *test_run_problem(const ps_engine *engine, const ps_problem *problem, ps_
                          ps_device *device, const pspec_pattern *patterns, size_t num_patterns,
                          size_t batch);
 
+/* The expected error of an engine that is made for the problem, for a set of some mean power. */
+double test_engine_error(const ps_engine *engine, const ps_problem *problem, ps_precision precision,
+                         ps_device *device, double mean_power);
+
 /* Reproducible numbers in [0,1) for tests that must not depend on math/random. */
 double test_uniform(uint64_t *state);
 

@@ -66,7 +66,7 @@ static void same_bits_in_small_buffers(void **state) {
         options.mean_only = mean_only == 1;
         ps_spectrum first = test_estimate(&options, &what, 3, device);
         const ps_work work =
-            ps_torus_nufft.work(&options.problem, ps_device_get_limits(device), PS_SINGLE);
+            ps_torus_nufft.survey(&options.problem, ps_device_get_limits(device), PS_SINGLE).work;
         ps_device_set_max_allocation(device, (uint64_t)work.row_bytes);
         ps_spectrum again = test_estimate(&options, &what, 3, device);
         ps_device_set_max_allocation(device, 0);

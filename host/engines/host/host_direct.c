@@ -61,18 +61,7 @@ typedef struct host_direct {
     double *power; /* [batch][number of frequencies] */
 } host_direct;
 
-static bool applicable(const ps_problem *problem, const ps_device_limits *limits,
-                       ps_precision precision, const char **why_not) {
-    (void)problem;
-    (void)limits;
-    *why_not = "extended precision only";
-    return precision == PS_EXTENDED;
-}
-
-static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
-                    ps_precision precision) {
-    (void)limits;
-    (void)precision;
+static ps_work work_of(const ps_problem *problem) {
     const double realizations =
         problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
     const double num = (double)problem->frequencies->num;
@@ -88,13 +77,23 @@ static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
 
 /* Results are handed on as doubles: their rounding, not the sums (below 1e-18), is the error. Where
  * long double is double, k low rounds at 2^-51 turns, 3e-15. */
-static double error_of(const ps_problem *problem, const ps_device_limits *limits,
-                       ps_precision precision, double mean_power) {
-    (void)limits;
-    (void)problem;
-    (void)precision;
+static double error_at(double mean_power) {
     const double sums = LDBL_MANT_DIG >= 64 ? 1e-18 : 1e-14;
     return sums + DBL_EPSILON / 2 * sqrt(mean_power);
+}
+
+static ps_survey survey(const ps_problem *problem, const ps_device_limits *limits,
+                        ps_precision precision) {
+    (void)limits;
+    return (ps_survey){.why_not = precision == PS_EXTENDED ? NULL : "extended precision only",
+                       .work = work_of(problem),
+                       .error = error_at(ps_expected_power(problem))};
+}
+
+static double error_of_state(const void *state, double mean_power, double weight_share) {
+    (void)state;
+    (void)weight_share;
+    return error_at(mean_power);
 }
 
 static void destroy(void *state) {
@@ -224,9 +223,8 @@ const ps_engine ps_host_direct = {
     .domains = PS_ON_TORUS | PS_ON_SPHERE,
     .needs_device = false,
     .has_precision = {false, false, true},
-    .applicable = applicable,
-    .work = work,
-    .error = error_of,
+    .survey = survey,
+    .error_of_state = error_of_state,
     .create = create,
     .get_stride = get_stride,
     .run = run,

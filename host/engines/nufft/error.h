@@ -5,7 +5,7 @@
 
 #include "engines/nufft/choice.h"
 
-/* ps_engine.error of a choice. */
+/* Expected error of a choice for sets of a mean power (ps_survey.error). */
 double ps_nufft_error(const ps_nufft_choice *choice, const ps_problem *problem,
                       ps_precision precision, double mean_power);
 

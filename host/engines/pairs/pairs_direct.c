@@ -25,6 +25,8 @@ typedef struct run_layout {
 
 typedef struct pairs_direct {
     ps_device *device;
+    ps_problem problem;
+    ps_precision precision;
     run_layout layout;
     size_t batch;
     ps_pairs_points points;
@@ -55,39 +57,48 @@ static double largest_buffer(const run_layout *layout) {
     return fmax((double)layout->slab * layout->row_bytes, layout->points_bytes);
 }
 
-static bool applicable(const ps_problem *problem, const ps_device_limits *limits,
-                       ps_precision precision, const char **why_not) {
-    if (!ps_engine_sums_pairs(problem, why_not) ||
-        !ps_engine_on_device(limits, precision, why_not)) {
-        return false;
-    }
-    const run_layout layout = make_layout(problem, limits, precision);
-    if (largest_buffer(&layout) > (double)limits->max_allocation_bytes) {
-        *why_not = "needs a larger buffer than the device allows";
-        return false;
-    }
-    *why_not = NULL;
-    return true;
-}
-
-static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
-                    ps_precision precision) {
-    const run_layout layout = make_layout(problem, limits, precision);
+static ps_work work_of(const run_layout *layout, const ps_problem *problem) {
     const double realizations =
         problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
     const double pairs =
-        (double)ps_pairs_vectors(problem->num_points, layout.lanes) * layout.lanes * realizations;
-    const double slabs = ceil((double)layout.num_runs / (double)layout.slab);
+        (double)ps_pairs_vectors(problem->num_points, layout->lanes) * layout->lanes * realizations;
+    const double slabs = ceil((double)layout->num_runs / (double)layout->slab);
     const double kernels = 2; /* sums, and their sum */
     return (ps_work){.kernels = kernels,
-                     .pair_degrees = pairs * ((double)layout.num_degrees + PS_PAIR_BEGIN_DEGREES),
+                     .pair_degrees = pairs * ((double)layout->num_degrees + PS_PAIR_BEGIN_DEGREES),
                      .launches = 2 * slabs,
-                     .fixed_bytes = layout.row_bytes,
+                     .fixed_bytes = layout->row_bytes,
                      .bytes_per_realization =
-                         layout.points_bytes + ((double)layout.slab + 1) * layout.row_bytes,
+                         layout->points_bytes + ((double)layout->slab + 1) * layout->row_bytes,
                      .row_bytes = (double)problem->frequencies->num * sizeof(double),
-                     .point_bytes = layout.points_bytes + layout.row_bytes,
-                     .largest_buffer_per_realization = largest_buffer(&layout)};
+                     .point_bytes = layout->points_bytes + layout->row_bytes,
+                     .largest_buffer_per_realization = largest_buffer(layout)};
+}
+
+static const ps_pairs_error_law error_laws[] = {
+    [PS_SINGLE] = {4e-7, 4e-8, 3e-8}, [PS_DOUBLE] = {1e-15, 8e-17, 6e-17}};
+
+static ps_survey survey(const ps_problem *problem, const ps_device_limits *limits,
+                        ps_precision precision) {
+    ps_survey result = {0};
+    if (!ps_engine_sums_pairs(problem, &result.why_not) ||
+        !ps_engine_on_device(limits, precision, &result.why_not)) {
+        return result;
+    }
+    const run_layout layout = make_layout(problem, limits, precision);
+    result.why_not = largest_buffer(&layout) > (double)limits->max_allocation_bytes
+                         ? "needs a larger buffer than the device allows"
+                         : NULL;
+    result.work = work_of(&layout, problem);
+    result.error = ps_pairs_rounding(&error_laws[precision], problem, ps_expected_power(problem));
+    return result;
+}
+
+static double error_of_state(const void *state, double mean_power, double weight_share) {
+    const pairs_direct *self = state;
+    ps_problem problem = self->problem;
+    problem.weight_share = weight_share;
+    return ps_pairs_rounding(&error_laws[self->precision], &problem, mean_power);
 }
 
 /* ---- create and destroy ------------------------------------------------------------------ */
@@ -127,6 +138,8 @@ static pspec_status create(void **state, const ps_problem *problem, ps_precision
     pairs_direct *self = memory;
     pspec_status status = PSPEC_OK;
     self->device = device;
+    self->problem = *problem;
+    self->precision = precision;
     self->batch = batch;
     self->layout = make_layout(problem, ps_device_get_limits(device), precision);
     const unsigned lanes = self->layout.lanes;
@@ -189,17 +202,6 @@ static void describe(const void *state, ps_text *text) {
                    PS_PAIRS_RUN_CHUNKS, self->degrees.frequencies->degree_step == 2 ? " even" : "");
 }
 
-/* ---- error ------------------------------------------------------------------------------- */
-
-static const ps_pairs_error_law error_laws[] = {
-    [PS_SINGLE] = {4e-7, 4e-8, 3e-8}, [PS_DOUBLE] = {1e-15, 8e-17, 6e-17}};
-
-static double error_of(const ps_problem *problem, const ps_device_limits *limits,
-                       ps_precision precision, double mean_power) {
-    (void)limits;
-    return ps_pairs_rounding(&error_laws[precision], problem, mean_power);
-}
-
 const ps_engine ps_pairs_direct = {
     .name = "pairs_direct",
     .summary = "Legendre polynomials of all pairs of points on the device",
@@ -208,9 +210,8 @@ const ps_engine ps_pairs_direct = {
     .rows_on_host = true,
     .sums_pairs = true,
     .has_precision = {true, true, false},
-    .applicable = applicable,
-    .work = work,
-    .error = error_of,
+    .survey = survey,
+    .error_of_state = error_of_state,
     .create = create,
     .get_stride = get_stride,
     .run = run,

@@ -40,6 +40,7 @@ typedef struct histogram_layout {
 
 typedef struct pairs_histogram {
     ps_device *device;
+    ps_problem problem;
     ps_precision precision;
     double bound;
     histogram_layout layout;
@@ -87,49 +88,78 @@ static double largest_buffer(const histogram_layout *layout) {
                 (double)layout->node_runs * layout->row_bytes);
 }
 
-static bool applicable(const ps_problem *problem, const ps_device_limits *limits,
-                       ps_precision precision, const char **why_not) {
-    if (!ps_engine_sums_pairs(problem, why_not) ||
-        !ps_engine_on_device(limits, precision, why_not)) {
-        return false;
-    }
-    const histogram_layout layout = make_layout(problem, limits, precision);
-    if (largest_buffer(&layout) > (double)limits->max_allocation_bytes) {
-        *why_not = "needs a larger buffer than the device allows";
-        return false;
-    }
-    *why_not = NULL;
-    return true;
-}
-
 /* What a set costs besides, as pairs: 1 us for the kernels and 2 us of the host at N = 64 .. 256 (Zen 5, PoCL 3.1). */
 static const double pairs_per_set = 2500;
 
-static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
-                    ps_precision precision) {
-    const histogram_layout layout = make_layout(problem, limits, precision);
+static ps_work work_of(const histogram_layout *layout, const ps_problem *problem) {
     const double realizations =
         problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
-    const double pairs = (double)ps_pairs_vectors(problem->num_points, layout.lanes) * layout.lanes;
-    const double slabs = ceil((double)layout.num_runs / (double)layout.slab);
-    const double tables = 3 * layout.histogram_bytes / 2 + layout.row_bytes;
-    const double histograms = ((double)layout.slab + 3) * layout.histogram_bytes;
-    const double rows = ((double)layout.node_runs + 1) * layout.row_bytes;
+    const double pairs =
+        (double)ps_pairs_vectors(problem->num_points, layout->lanes) * layout->lanes;
+    const double slabs = ceil((double)layout->num_runs / (double)layout->slab);
+    const double tables = 3 * layout->histogram_bytes / 2 + layout->row_bytes;
+    const double histograms = ((double)layout->slab + 3) * layout->histogram_bytes;
+    const double rows = ((double)layout->node_runs + 1) * layout->row_bytes;
     const double kernels = 5; /* histogram, nodes, their sums, two folds */
     return (ps_work){
         .kernels = kernels,
         .binned_pairs = (pairs + pairs_per_set +
-                         (double)(layout.num_runs * layout.num_nodes) / PAIRS_PER_NUMBER) *
+                         (double)(layout->num_runs * layout->num_nodes) / PAIRS_PER_NUMBER) *
                         realizations,
-        .pair_degrees = (double)layout.num_nodes *
-                        ((double)layout.num_degrees + PS_PAIR_BEGIN_DEGREES) * realizations,
+        .pair_degrees = (double)layout->num_nodes *
+                        ((double)layout->num_degrees + PS_PAIR_BEGIN_DEGREES) * realizations,
         .launches = 2 * slabs + 3,
         .fixed_bytes = 2 * tables,
         .host_bytes = tables,
-        .bytes_per_realization = layout.points_bytes + histograms + rows,
+        .bytes_per_realization = layout->points_bytes + histograms + rows,
         .row_bytes = (double)problem->frequencies->num * sizeof(double),
-        .point_bytes = layout.points_bytes + layout.row_bytes,
-        .largest_buffer_per_realization = largest_buffer(&layout)};
+        .point_bytes = layout->points_bytes + layout->row_bytes,
+        .largest_buffer_per_realization = largest_buffer(layout)};
+}
+
+/* The bound of the bins, and rounding, mostly of the place in a bin. Pairs of the same chord go into one bin, where a run
+ * adds them up one by one: if all are alike, each addition may round by half a unit, the same way. */
+static const ps_pairs_error_law error_laws[] = {
+    [PS_SINGLE] = {1e-6, 2e-7, 3e-8}, [PS_DOUBLE] = {5e-15, 4e-16, 6e-17}};
+
+static double error_of(const histogram_layout *layout, const ps_problem *problem,
+                       ps_precision precision, double mean_power) {
+    static const double half_unit[] = {[PS_SINGLE] = 0x1p-25, [PS_DOUBLE] = 0x1p-54};
+    const double num = (double)problem->num_points;
+    const double pairs = fmin((double)layout->run_vectors * layout->lanes, num * (num - 1) / 2);
+    const double share = fmin(1, fabs(mean_power) * ps_weight_share(problem));
+    return half_unit[precision] * pairs * share +
+           ps_pairs_bins_bound(problem->frequencies->max_frequency, layout->num_bins) +
+           ps_pairs_rounding(&error_laws[precision], problem, mean_power);
+}
+
+static ps_survey survey(const ps_problem *problem, const ps_device_limits *limits,
+                        ps_precision precision) {
+    ps_survey result = {0};
+    if (!ps_engine_sums_pairs(problem, &result.why_not) ||
+        !ps_engine_on_device(limits, precision, &result.why_not)) {
+        return result;
+    }
+    const histogram_layout layout = make_layout(problem, limits, precision);
+    result.why_not = largest_buffer(&layout) > (double)limits->max_allocation_bytes
+                         ? "needs a larger buffer than the device allows"
+                         : NULL;
+    result.work = work_of(&layout, problem);
+    result.error = error_of(&layout, problem, precision, ps_expected_power(problem));
+    return result;
+}
+
+double ps_pairs_histogram_error(const ps_problem *problem, const ps_device_limits *limits,
+                                ps_precision precision, double mean_power) {
+    const histogram_layout layout = make_layout(problem, limits, precision);
+    return error_of(&layout, problem, precision, mean_power);
+}
+
+static double error_of_state(const void *state, double mean_power, double weight_share) {
+    const pairs_histogram *self = state;
+    ps_problem problem = self->problem;
+    problem.weight_share = weight_share;
+    return error_of(&self->layout, &problem, self->precision, mean_power);
 }
 
 /* ---- create and destroy ------------------------------------------------------------------ */
@@ -223,6 +253,7 @@ static pspec_status create(void **state, const ps_problem *problem, ps_precision
     pairs_histogram *self = memory;
     pspec_status status = PSPEC_OK;
     self->device = device;
+    self->problem = *problem;
     self->precision = precision;
     self->layout = make_layout(problem, ps_device_get_limits(device), precision);
     self->bound = ps_pairs_bins_bound(problem->frequencies->max_frequency, self->layout.num_bins);
@@ -335,25 +366,6 @@ static void describe(const void *state, ps_text *text) {
         PS_PAIRS_MOMENTS, self->bound, self->degrees.frequencies->degree_step == 2 ? " even" : "");
 }
 
-/* ---- error ------------------------------------------------------------------------------- */
-
-/* The bound of the bins, and rounding, mostly of the place in a bin. Pairs of the same chord go into one bin, where a run
- * adds them up one by one: if all are alike, each addition may round by half a unit, the same way. */
-static const ps_pairs_error_law error_laws[] = {
-    [PS_SINGLE] = {1e-6, 2e-7, 3e-8}, [PS_DOUBLE] = {5e-15, 4e-16, 6e-17}};
-
-static double error_of(const ps_problem *problem, const ps_device_limits *limits,
-                       ps_precision precision, double mean_power) {
-    static const double half_unit[] = {[PS_SINGLE] = 0x1p-25, [PS_DOUBLE] = 0x1p-54};
-    const histogram_layout layout = make_layout(problem, limits, precision);
-    const double num = (double)problem->num_points;
-    const double pairs = fmin((double)layout.run_vectors * layout.lanes, num * (num - 1) / 2);
-    const double share = fmin(1, fabs(mean_power) * ps_weight_share(problem));
-    return half_unit[precision] * pairs * share +
-           ps_pairs_bins_bound(problem->frequencies->max_frequency, find_bins(problem, precision)) +
-           ps_pairs_rounding(&error_laws[precision], problem, mean_power);
-}
-
 const ps_engine ps_pairs_histogram = {
     .name = "pairs_histogram",
     .summary = "a histogram of the chords of all pairs of points on the device",
@@ -362,9 +374,8 @@ const ps_engine ps_pairs_histogram = {
     .rows_on_host = true,
     .sums_pairs = true,
     .has_precision = {true, true, false},
-    .applicable = applicable,
-    .work = work,
-    .error = error_of,
+    .survey = survey,
+    .error_of_state = error_of_state,
     .create = create,
     .get_stride = get_stride,
     .run = run,

@@ -112,7 +112,7 @@ static pspec_status run_engine(sums_of_pairs *of, void *state, ps_precision prec
         of->q[l] = rows.host[l - 1];
         mean_power += of->q[l] / of->weight_square / last;
     }
-    of->bound = ps_pairs_histogram.error(&of->problem, ps_device_get_limits(of->device), precision,
+    of->bound = ps_pairs_histogram_error(&of->problem, ps_device_get_limits(of->device), precision,
                                          mean_power);
     of->rounding = of->bound - ps_pairs_bins_bound(last, of->num_bins);
     return PSPEC_OK;
@@ -132,11 +132,10 @@ static pspec_status fill_histogram(sums_of_pairs *of, ps_error *error) {
     double best = INFINITY;
     for (int p = PS_SINGLE; p <= PS_DOUBLE; p++) {
         const ps_precision precision = (ps_precision)p;
-        const char *why_not = NULL;
-        if (!ps_pairs_histogram.applicable(&of->problem, limits, precision, &why_not)) {
+        if (ps_pairs_histogram.survey(&of->problem, limits, precision).why_not != NULL) {
             continue;
         }
-        const double expected = ps_pairs_histogram.error(&of->problem, limits, precision, 0);
+        const double expected = ps_pairs_histogram_error(&of->problem, limits, precision, 0);
         best = fmin(best, expected);
         if (!(expected <= of->problem.tolerance)) {
             continue;

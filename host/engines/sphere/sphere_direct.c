@@ -16,7 +16,8 @@
 
 typedef struct sphere_direct {
     ps_device *device;
-    const ps_frequencies *frequencies;
+    ps_problem problem;
+    ps_precision precision;
     ps_sphere_layout layout;
     size_t batch;
     ps_sphere_points points;
@@ -32,40 +33,45 @@ typedef struct sphere_direct {
 
 /* ---- what the planner asks --------------------------------------------------------------- */
 
-static bool applicable(const ps_problem *problem, const ps_device_limits *limits,
-                       ps_precision precision, const char **why_not) {
-    if (!ps_engine_on_device(limits, precision, why_not)) {
-        return false;
-    }
-    const ps_sphere_layout layout = ps_sphere_layout_make(problem, limits, precision);
-    if (layout.largest_buffer > (double)limits->max_allocation_bytes ||
-        layout.largest_buffer_per_realization > (double)limits->max_allocation_bytes) {
-        *why_not = "needs a larger buffer than the device allows";
-        return false;
-    }
-    *why_not = NULL;
-    return true;
-}
-
-static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
-                    ps_precision precision) {
-    const ps_sphere_layout layout = ps_sphere_layout_make(problem, limits, precision);
+static ps_work work_of(const ps_sphere_layout *layout, const ps_problem *problem) {
     const double realizations =
         problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
-    const double points = (double)ps_round_up(problem->num_points, layout.lanes) * realizations;
-    const double orders = layout.max_degree + 1.0;
-    const double slabs = ceil((double)problem->num_points / (double)layout.slab);
+    const double points = (double)ps_round_up(problem->num_points, layout->lanes) * realizations;
+    const double orders = layout->max_degree + 1.0;
+    const double slabs = ceil((double)problem->num_points / (double)layout->slab);
     const double launches = 2 * slabs + 1;
     const double kernels = 3; /* vectors, sums, powers */
     return (ps_work){.harmonics = points * orders * (orders + 1) / 2,
                      .kernels = kernels,
-                     .launches = launches * (double)layout.num_passes,
-                     .fixed_bytes = layout.fixed_bytes,
-                     .host_bytes = layout.fixed_bytes / 2,
-                     .bytes_per_realization = layout.bytes_per_realization,
+                     .launches = launches * (double)layout->num_passes,
+                     .fixed_bytes = layout->fixed_bytes,
+                     .host_bytes = layout->fixed_bytes / 2,
+                     .bytes_per_realization = layout->bytes_per_realization,
                      .row_bytes = (double)problem->frequencies->num * sizeof(double),
-                     .point_bytes = layout.point_bytes,
-                     .largest_buffer_per_realization = layout.largest_buffer_per_realization};
+                     .point_bytes = layout->point_bytes,
+                     .largest_buffer_per_realization = layout->largest_buffer_per_realization};
+}
+
+static ps_survey survey(const ps_problem *problem, const ps_device_limits *limits,
+                        ps_precision precision) {
+    ps_survey result = {0};
+    if (!ps_engine_on_device(limits, precision, &result.why_not)) {
+        return result;
+    }
+    const ps_sphere_layout layout = ps_sphere_layout_make(problem, limits, precision);
+    const double most = (double)limits->max_allocation_bytes;
+    if (layout.largest_buffer > most || layout.largest_buffer_per_realization > most) {
+        result.why_not = "needs a larger buffer than the device allows";
+    }
+    result.work = work_of(&layout, problem);
+    result.error = ps_sphere_error(problem, precision, ps_expected_power(problem));
+    return result;
+}
+
+static double error_of_state(const void *state, double mean_power, double weight_share) {
+    const sphere_direct *self = state;
+    (void)weight_share;
+    return ps_sphere_error(&self->problem, self->precision, mean_power);
 }
 
 /* ---- create and destroy ------------------------------------------------------------------ */
@@ -113,7 +119,7 @@ out:
 
 static pspec_status allocate_on_host(sphere_direct *self, ps_error *error) {
     const ps_sphere_layout *layout = &self->layout;
-    const size_t num = self->frequencies->num;
+    const size_t num = self->problem.frequencies->num;
     void *memory = NULL;
     PS_TRY(ps_allocate(&memory, (size_t)layout->max_degree + 1, sizeof(long double),
                        "constants of the orders", error));
@@ -157,7 +163,8 @@ static pspec_status create(void **state, const ps_problem *problem, ps_precision
     sphere_direct *self = memory;
     pspec_status status = PSPEC_OK;
     self->device = device;
-    self->frequencies = problem->frequencies;
+    self->problem = *problem;
+    self->precision = precision;
     self->batch = batch;
     self->layout = ps_sphere_layout_make(problem, ps_device_get_limits(device), precision);
     self->table_pass = SIZE_MAX;
@@ -174,7 +181,7 @@ out:
 }
 
 static size_t get_stride(const void *state) {
-    return ((const sphere_direct *)state)->frequencies->num;
+    return ((const sphere_direct *)state)->problem.frequencies->num;
 }
 
 /* ---- a pass of orders -------------------------------------------------------------------- */
@@ -302,7 +309,7 @@ static pspec_status read_order(sphere_direct *self, size_t order, int32_t m, boo
 
 /* Q(l) = (4 pi / (2l + 1)) (|c_l0|^2 + 2 sum_{m > 0} |c_lm|^2). */
 static pspec_status read_powers(sphere_direct *self, const ps_batch *batch, ps_error *error) {
-    const ps_frequencies *set = self->frequencies;
+    const ps_frequencies *set = self->problem.frequencies;
     const size_t stride = self->layout.stride;
     const size_t bytes = PS_SPHERE_POWERS * stride * self->layout.real_bytes;
     for (size_t r = 0; r < batch->num_patterns; r++) {
@@ -348,7 +355,7 @@ static pspec_status give_rows(sphere_direct *self, const ps_batch *batch, ps_row
                               ps_error *error) {
     PS_TRY(read_powers(self, batch, error));
     *rows = (ps_rows){.num_rows = batch->num_patterns,
-                      .stride = self->frequencies->num,
+                      .stride = self->problem.frequencies->num,
                       .precision = PS_DOUBLE,
                       .host = self->power};
     return PSPEC_OK;
@@ -381,9 +388,8 @@ const ps_engine ps_sphere_direct = {
     .needs_device = true,
     .rows_on_host = true,
     .has_precision = {true, true, false},
-    .applicable = applicable,
-    .work = work,
-    .error = ps_sphere_error,
+    .survey = survey,
+    .error_of_state = error_of_state,
     .create = create,
     .get_stride = get_stride,
     .run = run,

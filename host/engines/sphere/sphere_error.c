@@ -21,9 +21,7 @@ static const error_law error_laws[2] = {
 };
 
 /* White noise has a mean power of 1: what is above comes from points that are close together. */
-double ps_sphere_error(const ps_problem *problem, const ps_device_limits *limits,
-                       ps_precision precision, double mean_power) {
-    (void)limits;
+double ps_sphere_error(const ps_problem *problem, ps_precision precision, double mean_power) {
     const error_law *law = &error_laws[precision];
     const double degree = problem->frequencies->max_frequency;
     const double excess = mean_power > 1 ? mean_power - 1 : 0;

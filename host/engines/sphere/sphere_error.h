@@ -4,8 +4,7 @@
 
 #include "engines/engine.h"
 
-/* ps_engine.error */
-double ps_sphere_error(const ps_problem *problem, const ps_device_limits *limits,
-                       ps_precision precision, double mean_power);
+/* Expected error for sets of a mean power (ps_survey.error). */
+double ps_sphere_error(const ps_problem *problem, ps_precision precision, double mean_power);
 
 #endif

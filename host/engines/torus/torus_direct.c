@@ -38,23 +38,12 @@ typedef struct torus_direct {
 static const double random_error[2] = {2.2e-7, 4.0e-16};
 static const double coherent_error[2] = {4.8e-7, 9.0e-16};
 
-static bool applicable(const ps_problem *problem, const ps_device_limits *limits,
-                       ps_precision precision, const char **why_not) {
-    if (!ps_engine_on_device(limits, precision, why_not)) {
-        return false;
+static const char *refuse(const ps_torus_layout *layout, const ps_device_limits *limits) {
+    if (layout->largest_buffer > limits->max_allocation_bytes ||
+        layout->largest_buffer_per_realization > limits->max_allocation_bytes) {
+        return "needs a larger buffer than the device allows";
     }
-    const ps_torus_layout layout = ps_torus_layout_make(problem, limits, precision);
-    if (layout.largest_buffer > limits->max_allocation_bytes ||
-        layout.largest_buffer_per_realization > limits->max_allocation_bytes) {
-        *why_not = "needs a larger buffer than the device allows";
-        return false;
-    }
-    if (layout.max_stride > UINT32_MAX) {
-        *why_not = "too many frequencies for 32-bit slots";
-        return false;
-    }
-    *why_not = NULL;
-    return true;
+    return layout->max_stride > UINT32_MAX ? "too many frequencies for 32-bit slots" : NULL;
 }
 
 /* What the product of the tables of num_points points takes, in points of an endless pattern: each begun run is
@@ -68,52 +57,68 @@ static double product_points(double num_points) {
            (1 + points_per_run / PS_TORUS_RUN);
 }
 
-static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
-                    ps_precision precision) {
-    const ps_torus_layout layout = ps_torus_layout_make(problem, limits, precision);
+static ps_work work_of(const ps_torus_layout *layout, const ps_problem *problem) {
     const double realizations =
         problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
     const double num_points = (double)problem->num_points * realizations;
-    const double lanes = layout.lanes;
-    const double box =
-        lanes * lanes * (double)layout.left_tiles * (double)layout.right_tiles; /* padding counts */
+    const double lanes = layout->lanes;
+    const double box = lanes * lanes * (double)layout->left_tiles *
+                       (double)layout->right_tiles; /* padding counts */
     /* Tile pairs in the corners of a ball are left out; in one dimension there are none. */
-    const double left = (double)layout.num_left;
-    const double right = (double)layout.num_right;
+    const double left = (double)layout->num_left;
+    const double right = (double)layout->num_right;
     const bool has_corners =
         problem->frequencies->kind == PS_FREQUENCIES_BALL && problem->frequencies->dimension > 1;
     const double share = (double)problem->frequencies->num / (2 * left * right + left + right);
     const double of_list = 3; /* sums, their sum, powers */
     return (ps_work){
-        .kernels = of_list + (layout.is_grid ? 1 : 0),
-        .phases = num_points * lanes * (double)(layout.left_tiles + layout.right_tiles),
+        .kernels = of_list + (layout->is_grid ? 1 : 0),
+        .phases = num_points * lanes * (double)(layout->left_tiles + layout->right_tiles),
         .product_flops = 8 * realizations * product_points((double)problem->num_points) * box *
                          (has_corners && share < 1 ? share : 1),
-        .launches = ceil(realizations / (double)layout.group) *
-                    (double)ps_divide_up((size_t)problem->num_points, layout.slab) *
-                    (layout.is_grid ? 2 : 1),
-        .fixed_bytes = (double)layout.fixed_bytes,
-        .point_bytes = (double)layout.point_bytes,
+        .launches = ceil(realizations / (double)layout->group) *
+                    (double)ps_divide_up((size_t)problem->num_points, layout->slab) *
+                    (layout->is_grid ? 2 : 1),
+        .fixed_bytes = (double)layout->fixed_bytes,
+        .point_bytes = (double)layout->point_bytes,
         .coordinate_bytes =
-            (double)(layout.table_points * problem->frequencies->dimension * sizeof(uint64_t)),
-        .bytes_per_realization = (double)layout.bytes_per_realization,
-        .row_bytes = (double)(layout.max_stride * layout.real_bytes),
-        .largest_buffer_per_realization = (double)layout.largest_buffer_per_realization};
+            (double)(layout->table_points * problem->frequencies->dimension * sizeof(uint64_t)),
+        .bytes_per_realization = (double)layout->bytes_per_realization,
+        .row_bytes = (double)(layout->max_stride * layout->real_bytes),
+        .largest_buffer_per_realization = (double)layout->largest_buffer_per_realization};
 }
 
-static double error_of(const ps_problem *problem, const ps_device_limits *limits,
-                       ps_precision precision, double mean_power) {
-    (void)limits;
+static double error_of(const ps_frequencies *frequencies, ps_precision precision,
+                       double mean_power) {
     /* Fixed-point phases: 2 + (2 + d) 2^-24 sum |k| units of 2^-32 turns (float, torus/phase.h), 2^-65 |k|
      * turns (coordinates below 2^-11). Uniform errors: standard deviation 1/sqrt(12) of a unit. */
-    const double dimension = problem->frequencies->dimension;
-    const double sum_k = problem->frequencies->max_frequency * dimension;
+    const double dimension = frequencies->dimension;
+    const double sum_k = frequencies->max_frequency * dimension;
     const double phase = precision == PS_SINGLE
                              ? PS_TWO_PI * (2 + (2 + dimension) * ldexp(sum_k, -24)) * ldexp(1, -32)
                              : PS_TWO_PI * ldexp(sum_k, -65);
     const double uniform = sqrt(12.0);
     const double in_step = (coherent_error[precision] + phase / uniform) * sqrt(mean_power);
     return hypot(hypot(random_error[precision], phase / uniform), in_step);
+}
+
+static ps_survey survey(const ps_problem *problem, const ps_device_limits *limits,
+                        ps_precision precision) {
+    ps_survey result = {0};
+    if (!ps_engine_on_device(limits, precision, &result.why_not)) {
+        return result;
+    }
+    const ps_torus_layout layout = ps_torus_layout_make(problem, limits, precision);
+    result.why_not = refuse(&layout, limits);
+    result.work = work_of(&layout, problem);
+    result.error = error_of(problem->frequencies, precision, ps_expected_power(problem));
+    return result;
+}
+
+static double error_of_state(const void *state, double mean_power, double weight_share) {
+    const torus_direct *self = state;
+    (void)weight_share;
+    return error_of(self->frequencies, self->precision, mean_power);
 }
 
 /* ---- create and destroy ------------------------------------------------------------------ */
@@ -357,9 +362,8 @@ const ps_engine ps_torus_direct = {
     .needs_device = true,
     .has_precision = {true, true, false},
     .checks_points = true,
-    .applicable = applicable,
-    .work = work,
-    .error = error_of,
+    .survey = survey,
+    .error_of_state = error_of_state,
     .create = create,
     .get_slots = get_slots,
     .get_stride = get_stride,

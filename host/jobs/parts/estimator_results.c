@@ -2,24 +2,24 @@
 #include "engines/error_units.h"
 #include "jobs/parts/estimator_private.h"
 
-/* In the engine's units. */
-static double own_error(const ps_estimator *self, const ps_problem *problem, double mean_power) {
+/* In the engine's units; of an engine that is still to be made again, what is planned for such powers. */
+static double own_error(const ps_estimator *self, double mean_power, double share) {
     const ps_engine *engine = self->options.engine;
-    if (self->engine_state != NULL && engine->error_of_state != NULL) {
-        return engine->error_of_state(self->engine_state, mean_power);
+    if (self->engine_state != NULL) {
+        return engine->error_of_state(self->engine_state, mean_power, share);
     }
     const ps_device_limits *limits =
         self->device != NULL ? ps_device_get_limits(self->device) : NULL;
     ps_problem own = ps_engine_problem(engine, &self->options.problem); /* as it was planned */
-    own.weight_share = problem->weight_share;
-    return engine->error(&own, limits, self->options.precision, mean_power);
+    own.weight_share = share;
+    own.expected_power = mean_power;
+    return engine->survey(&own, limits, self->options.precision).error;
 }
 
 static double error_for_share(const ps_estimator *self, double mean_power, double share) {
     ps_problem problem = self->options.problem;
     problem.weight_share = share;
-    return ps_engine_error_in(self->options.engine, &problem,
-                              own_error(self, &problem, mean_power));
+    return ps_engine_error_in(self->options.engine, &problem, own_error(self, mean_power, share));
 }
 
 double ps_estimator_error_at(const ps_estimator *self, double mean_power) {

@@ -90,7 +90,7 @@ static double formula_of(const ps_engine *engine, ps_precision precision, double
                               .tolerance = tolerance};
     const ps_problem own = ps_engine_problem(engine, &asked);
     const double error = ps_engine_error_in(
-        engine, &asked, engine->error(&own, ps_device_get_limits(device), precision, power));
+        engine, &asked, test_engine_error(engine, &own, precision, device, power));
     ps_frequencies_free(&degrees);
     return error;
 }
@@ -116,8 +116,8 @@ static bool is_possible(const ps_engine *engine, ps_precision precision, double 
                               .measure = PS_OF_PAIR_SUMS,
                               .tolerance = tolerance};
     const ps_problem own = ps_engine_problem(engine, &asked);
-    const char *why_not = NULL;
-    const bool result = engine->applicable(&own, ps_device_get_limits(device), precision, &why_not);
+    const bool result =
+        engine->survey(&own, ps_device_get_limits(device), precision).why_not == NULL;
     ps_frequencies_free(&degrees);
     return result || engine != &ps_sphere_grid;
 }

@@ -78,8 +78,7 @@ static void check(const job *one, ps_precision precision) {
     const ps_problem problem = {.frequencies = &degrees, .num_points = num, .tolerance = 1};
     const double power = mean_power(&degrees, c, squares);
     const double error = measure(&degrees, c, &pattern, squares);
-    const double formula =
-        ps_sphere_direct.error(&problem, ps_device_get_limits(device), precision, power);
+    const double formula = test_engine_error(&ps_sphere_direct, &problem, precision, device, power);
     print_message("%-13s N %6zu L %5d %-7s power %9.3g error %9.3g formula %9.3g slack %5.2f\n",
                   one->shape->name, num, one->max_degree, ps_precision_name(precision), power,
                   error, formula, formula / error);

@@ -79,8 +79,7 @@ static void check_shape(const sphere_case *what, const test_sphere_shape *shape,
     double power = 0;
     const double error =
         test_sphere_error(found, expected, set.max_frequency, step, &pattern, &power);
-    const double bound =
-        engine->error(&problem, ps_device_get_limits(device), what->precision, power);
+    const double bound = test_engine_error(engine, &problem, what->precision, device, power);
     if (!(error <= bound)) {
         fail_msg("L=%d N=%zu %s tolerance %.0e %s: error %.2e, bound %.2e", (int)what->max_degree,
                  num_points, ps_precision_name(what->precision), what->tolerance, shape->name,
@@ -210,15 +209,14 @@ static void check_exact(const test_set *set, const sphere_case *what) {
     ps_frequencies degrees = degrees_of(what);
     const pspec_pattern pattern = test_pattern(set);
     const ps_problem problem = problem_of(what, &degrees, set->num_points);
-    const char *why_not = NULL;
-    if (!engine->applicable(&problem, ps_device_get_limits(device), what->precision, &why_not)) {
+    if (engine->survey(&problem, ps_device_get_limits(device), what->precision).why_not != NULL) {
         ps_frequencies_free(&degrees);
         return; /* the table of L = 2000 is too large */
     }
     double *found = test_run_problem(engine, &problem, what->precision, device, &pattern, 1, 1);
-    const double bound = of_one_degree * sqrt(set->weight_square_sum) *
-                         engine->error(&problem, ps_device_get_limits(device), what->precision,
-                                       (double)set->num_points);
+    const double bound =
+        of_one_degree * sqrt(set->weight_square_sum) *
+        test_engine_error(engine, &problem, what->precision, device, (double)set->num_points);
     const cJSON *row;
     cJSON_ArrayForEach(row, cJSON_GetObjectItem(set->json, "pl")) {
         const int l = cJSON_GetArrayItem(row, 0)->valueint;

@@ -69,7 +69,7 @@ static void check(const test_sphere_shape *shape, ps_precision precision, double
         expected[i] *= COPIES;
     }
     const double off = test_sphere_error(found, expected, DEGREE, 1, &large, &power);
-    const double bound = ps_sphere_nufft.error(&of_large, limits, precision, power);
+    const double bound = test_engine_error(&ps_sphere_nufft, &of_large, precision, device, power);
     if (!(off <= bound)) {
         fail_msg("%s %s: error %.2e, bound %.2e", shape->name, ps_precision_name(precision), off,
                  bound);

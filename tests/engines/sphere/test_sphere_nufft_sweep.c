@@ -47,7 +47,7 @@ static void measure(const ps_problem *problem, ps_precision precision, size_t nu
             state, &(ps_batch){.num_patterns = 1, .patterns = &patterns[i]}, NULL, found, error));
         const double error =
             test_sphere_error(found, expected[i], (int32_t)L, 1, &patterns[i], &power);
-        slack[i] = fmin(slack[i], engine->error_of_state(state, power) / error);
+        slack[i] = fmin(slack[i], engine->error_of_state(state, power, 0) / error);
     }
     engine->destroy(state);
     free(found);

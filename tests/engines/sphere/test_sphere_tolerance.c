@@ -102,8 +102,8 @@ static void check_sample(sweep *self, const sample *one, const ps_problem *probl
         state, &(ps_batch){.num_patterns = 1, .patterns = &one->pattern}, NULL, found, error));
     const double error =
         test_sphere_error(found, one->expected, (int32_t)L, step_of(self), &one->pattern, &power);
-    const double bound = candidate->engine->error(problem, ps_device_get_limits(device),
-                                                  candidate->precision, one->power);
+    const double bound =
+        candidate->engine->error_of_state(state, one->power, problem->weight_share);
     const bool is_promised = problem->expected_power > 0 || one->power <= 1;
     if (!(error <= bound) || (is_promised && !(bound <= problem->tolerance))) {
         fail_msg("%s L=%zu N=%zu power %.3g, %s %s, tolerance %.2e: error %.2e, bound %.2e",

@@ -78,7 +78,8 @@ static void check_case(const announced_case *what, ps_precision precision) {
                                 .num_realizations = what->num_realizations,
                                 .tolerance = what->tolerance,
                                 .planned_points = what->planned_points};
-    const ps_work work = ps_torus_nufft.work(&problem, ps_device_get_limits(device), precision);
+    const ps_work work =
+        ps_torus_nufft.survey(&problem, ps_device_get_limits(device), precision).work;
     const double announced =
         work.fixed_bytes + work.bytes_per_realization * (double)what->num_realizations;
     const uint64_t launches_before = count_launches();

@@ -69,7 +69,7 @@ static double run_case(const grid_case *what, ps_frequencies *grid, double **fou
                                 .tolerance = what->tolerance};
     assert_true(ps_nufft_choose(&problem, NULL, what->precision).is_gridded);
     *found = test_run_problem(&ps_torus_nufft, &problem, what->precision, device, pattern, 1, 1);
-    return ps_torus_nufft.error(&problem, ps_device_get_limits(device), what->precision, 1.2);
+    return test_engine_error(&ps_torus_nufft, &problem, what->precision, device, 1.2);
 }
 
 static void check_case(const grid_case *what) {
@@ -157,7 +157,6 @@ static void split_grids(void **state) {
         double *whole =
             test_run_problem(&ps_torus_nufft, &problem, what->precision, device, &pattern, 1, 1);
         for (size_t j = 0; j < 2; j++) {
-            const char *why_not = NULL;
             ps_device_set_max_allocation(device, splits[i].limits[j]);
             const ps_nufft_layout layout =
                 ps_nufft_layout_make(&problem, ps_device_get_limits(device), what->precision);
@@ -165,8 +164,9 @@ static void split_grids(void **state) {
                           (int)what->k, layout.num_slabs, layout.tiles_at_once, layout.num_tiles);
             assert_true(layout.choice.is_gridded && layout.num_slabs > 1);
             assert_true(j == 0 || layout.tiles_at_once < layout.num_tiles);
-            assert_true(ps_torus_nufft.applicable(&problem, ps_device_get_limits(device),
-                                                  what->precision, &why_not));
+            assert_null(
+                ps_torus_nufft.survey(&problem, ps_device_get_limits(device), what->precision)
+                    .why_not);
             double *split = test_run_problem(&ps_torus_nufft, &problem, what->precision, device,
                                              &pattern, 1, 1);
             assert_memory_equal(split, whole, grid.num * sizeof(double));
@@ -192,7 +192,9 @@ static void memory_does_not_grow(void **state) {
                                     .num_points = (uint64_t)num,
                                     .num_realizations = 1,
                                     .tolerance = 1e-3};
-        const ps_work work = ps_torus_nufft.work(&problem, limits, PS_SINGLE);
+        const ps_survey survey = ps_torus_nufft.survey(&problem, limits, PS_SINGLE);
+        const ps_work work = survey.work;
+        assert_null(survey.why_not);
         assert_true(work.fixed_bytes < num * bytes_per_point);
         assert_true(first == 0 || work.fixed_bytes < 4 * first);
         first = first == 0 ? work.fixed_bytes : first;
@@ -207,13 +209,11 @@ static void largest_frequencies(void **state) {
         const ps_frequencies grid = {
             .kind = PS_FREQUENCIES_BOX, .dimension = dimension, .max_frequency = PS_MAX_FREQUENCY};
         const ps_problem problem = {.frequencies = &grid, .num_points = 1000000, .tolerance = 1e-6};
-        const char *why_not = NULL;
         for (int precision = PS_SINGLE; precision <= PS_DOUBLE; precision++) {
             assert_int_equal(ps_nufft_choose(&problem, NULL, (ps_precision)precision).num_axes, 0);
         }
-        assert_false(
-            ps_torus_nufft.applicable(&problem, ps_device_get_limits(device), PS_SINGLE, &why_not));
-        assert_non_null(why_not);
+        assert_non_null(
+            ps_torus_nufft.survey(&problem, ps_device_get_limits(device), PS_SINGLE).why_not);
     }
 }
 

@@ -72,7 +72,8 @@ static void check_shape(const whole_case *what, const test_shape *shape, size_t 
         test_run_problem(&ps_torus_nufft, &problem, what->precision, device, &pattern, 1, 1);
     double *expected = test_run_engine(&ps_host_direct, PS_EXTENDED, NULL, &grid, &pattern, 1, 1);
     const double error = error_of(found, expected, &grid, &pattern, &power);
-    const double bound = ps_torus_nufft.error(&problem, limits, what->precision, power);
+    const double bound =
+        test_engine_error(&ps_torus_nufft, &problem, what->precision, device, power);
     if (!(error <= bound)) {
         print_message("d=%u K=%d N=%zu %s %s: error %.1e, bound %.1e\n", what->dimension,
                       (int)what->k, num_points, ps_precision_name(what->precision), shape->name,

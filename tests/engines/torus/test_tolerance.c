@@ -106,8 +106,8 @@ static measured measure(const ps_frequencies *set, const pspec_pattern *pattern,
     const ps_problem problem = {.frequencies = set, .num_points = pattern->num_points};
     free(found);
     free(expected);
-    return (measured){sqrt(2 * error), ps_torus_direct.error(&problem, ps_device_get_limits(device),
-                                                             precision, power)};
+    return (measured){sqrt(2 * error),
+                      test_engine_error(&ps_torus_direct, &problem, precision, device, power)};
 }
 
 static pspec_pattern make_pattern(const shape *what, unsigned dimension, size_t num_points) {

@@ -81,7 +81,7 @@ static double slack_of(const pspec_pattern *pattern, const ps_frequencies *grid,
     }
     free(found);
     free(expected);
-    return ps_torus_nufft.error(&problem, ps_device_get_limits(device), precision, power) / error;
+    return test_engine_error(&ps_torus_nufft, &problem, precision, device, power) / error;
 }
 
 static double slack_of_comb(const regular_case *what, const ps_frequencies *grid, size_t num_teeth,

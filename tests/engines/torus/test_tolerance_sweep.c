@@ -100,16 +100,19 @@ typedef struct tried {
     bool is_kept;
 } tried;
 
-static void check_shape(tried *self, const sweep *at, size_t s, double tolerance,
-                        const double *found) {
-    const double *expected = at->expected + s * at->grid.num;
+/* For white noise. */
+static double error_at_one(const tried *self, const sweep *at, double tolerance) {
     const ps_problem problem = problem_of(at, tolerance);
-    const double formula =
-        self->engine->error(&problem, ps_device_get_limits(device), self->precision, at->power[s]);
+    return self->engine->survey(&problem, ps_device_get_limits(device), self->precision).error;
+}
+
+static void check_shape(tried *self, const sweep *at, size_t s, double tolerance,
+                        const double *found, const void *state) {
+    const double *expected = at->expected + s * at->grid.num;
+    const double formula = self->engine->error_of_state(state, at->power[s], 0);
     const double likely_power = 1.05; /* white sets, up to chance */
     const bool is_promised = formula <= tolerance || at->power[s] <= likely_power;
-    const double at_one =
-        self->engine->error(&problem, ps_device_get_limits(device), self->precision, 1);
+    const double at_one = self->engine->error_of_state(state, 1, 0);
     double error = 0;
     for (size_t i = 0; i < at->grid.num; i++) {
         error += pow(sqrt(found[i]) - sqrt(expected[i]), 2) / (double)at->grid.num;
@@ -134,11 +137,8 @@ static void check_shape(tried *self, const sweep *at, size_t s, double tolerance
 
 /* Nothing new where an engine does not look at the tolerance. */
 static bool is_as_before(const tried *self, const sweep *at, double tolerance, double before) {
-    const ps_problem now = problem_of(at, tolerance);
-    const ps_problem then = problem_of(at, before);
     return before > 0 && strcmp(self->engine->name, "torus_nufft") != 0 &&
-           self->engine->error(&now, ps_device_get_limits(device), self->precision, 1) ==
-               self->engine->error(&then, ps_device_get_limits(device), self->precision, 1);
+           error_at_one(self, at, tolerance) == error_at_one(self, at, before);
 }
 
 static void sweep_tolerances(tried *self, const sweep *at) {
@@ -148,17 +148,18 @@ static void sweep_tolerances(tried *self, const sweep *at) {
         const double tolerance = most * pow(10, -i / at->what->steps_per_decade);
         const ps_problem problem = problem_of(at, tolerance);
         /* A little beyond what the engine can do, to see it say so. */
-        const bool is_hopeless = self->engine->error(&problem, ps_device_get_limits(device),
-                                                     self->precision, 1) > 4 * tolerance &&
-                                 before > 0;
+        const bool is_hopeless = error_at_one(self, at, tolerance) > 4 * tolerance && before > 0;
         if (is_hopeless || is_as_before(self, at, tolerance, before)) {
             continue;
         }
         double *found = test_run_engine_to(self->engine, self->precision, tolerance, device,
                                            &at->grid, at->patterns, TEST_SHAPES, TEST_SHAPES);
+        void *state = NULL;
+        assert_ok(self->engine->create(&state, &problem, self->precision, 1, device, error));
         for (size_t s = 0; s < TEST_SHAPES; s++) {
-            check_shape(self, at, s, tolerance, found + s * at->grid.num);
+            check_shape(self, at, s, tolerance, found + s * at->grid.num, state);
         }
+        self->engine->destroy(state);
         free(found);
         before = tolerance;
     }
@@ -171,10 +172,9 @@ static void check_engine(const ps_engine *engine, ps_precision precision) {
             self.slack[s] = HUGE_VAL;
         }
         for (size_t i = 0; i < NUM_CASES; i++) {
-            const char *why_not = NULL;
             const ps_problem problem = problem_of(&sweeps[i], most);
             if (cases[i].dimension == dimension &&
-                engine->applicable(&problem, ps_device_get_limits(device), precision, &why_not)) {
+                engine->survey(&problem, ps_device_get_limits(device), precision).why_not == NULL) {
                 sweep_tolerances(&self, &sweeps[i]);
             }
         }

@@ -288,7 +288,7 @@ static void a_million_in_a_cell(void **state) {
             }
             error = sqrt(2 * error / POINTS);
             const double formula =
-                ps_torus_nufft.error(&problem, ps_device_get_limits(device), precisions[p], power);
+                test_engine_error(&ps_torus_nufft, &problem, precisions[p], device, power);
             print_message("a million in a cell, %s d=%u: error %.2e bound %.2e\n",
                           ps_precision_name(precisions[p]), dimension, error, formula);
             assert_true(error <= formula);

@@ -111,7 +111,7 @@ ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_byt
 /* axis.loss for the sphere: mean square of what aliases do, and the most when all power is in step. */
 void ps_sphere_nufft_loss(const ps_nufft_axis *axis, double *aliasing, double *worst);
 
-/* ps_engine.error */
+/* Expected error for sets of a mean power (ps_survey.error). */
 double ps_sphere_nufft_error(const ps_nufft_axis *axis, const ps_problem *problem,
                              ps_precision precision, double mean_power, ps_sphere_route route);
 

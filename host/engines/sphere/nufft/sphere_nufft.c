@@ -118,16 +118,9 @@ static ps_survey survey_route(const ps_problem *problem, const ps_device_limits 
     return result;
 }
 
-static double error_of_route(const ps_problem *problem, const ps_device_limits *limits,
-                             ps_precision precision, double mean_power, ps_sphere_route route) {
-    const ps_sphere_shape shape = ps_sphere_shape_make(problem, limits, precision, route);
-    return shape.lanes == 0
-               ? HUGE_VAL
-               : ps_sphere_nufft_error(&shape.axis, problem, precision, mean_power, route);
-}
-
-static double error_of_state(const void *state, double mean_power) {
+static double error_of_state(const void *state, double mean_power, double weight_share) {
     const sphere_nufft *self = state;
+    (void)weight_share;
     return ps_sphere_nufft_error(&self->shape.axis, &self->problem, self->precision, mean_power,
                                  self->shape.route);
 }
@@ -359,19 +352,6 @@ static void describe(const void *state, ps_text *text) {
                                    ps_precision precision) {                                       \
         return survey_route(problem, limits, precision, route);                                    \
     }                                                                                              \
-    static bool applicable_##name(const ps_problem *problem, const ps_device_limits *limits,       \
-                                  ps_precision precision, const char **why_not) {                  \
-        *why_not = survey_route(problem, limits, precision, route).why_not;                        \
-        return *why_not == NULL;                                                                   \
-    }                                                                                              \
-    static ps_work work_##name(const ps_problem *problem, const ps_device_limits *limits,          \
-                               ps_precision precision) {                                           \
-        return survey_route(problem, limits, precision, route).work;                               \
-    }                                                                                              \
-    static double error_##name(const ps_problem *problem, const ps_device_limits *limits,          \
-                               ps_precision precision, double mean_power) {                        \
-        return error_of_route(problem, limits, precision, mean_power, route);                      \
-    }                                                                                              \
     static pspec_status create_##name(void **state, const ps_problem *problem,                     \
                                       ps_precision precision, size_t batch, ps_device *device,     \
                                       ps_error *error) {                                           \
@@ -382,7 +362,6 @@ static void describe(const void *state, ps_text *text) {
     {                                                                                              \
         .name = "sphere_" #the_name, .summary = (the_summary), .domains = PS_ON_SPHERE,            \
         .needs_device = true, .rows_on_host = true, .has_precision = {true, true, false},          \
-        .applicable = applicable_##the_name, .work = work_##the_name, .error = error_##the_name,   \
         .survey = survey_##the_name, .error_of_state = error_of_state,                             \
         .create = create_##the_name, .get_stride = get_stride, .run = run,                         \
         .coefficients = coefficients, .describe = describe, .destroy = destroy,                    \

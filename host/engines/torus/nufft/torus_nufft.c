@@ -36,42 +36,29 @@ typedef struct torus_nufft {
 
 /* ---- what the planner asks --------------------------------------------------------------- */
 
-static bool applicable_to_problem(const ps_problem *problem, const char **why_not) {
+/* Why no layout is made for the problem; NULL: nothing speaks against it. */
+static const char *refuse(const ps_problem *problem) {
     const ps_frequencies *set = problem->frequencies;
     if (set->kind == PS_FREQUENCIES_LIST) {
-        *why_not = "full grids only, not lists of frequencies";
-    } else if (set->dimension > 3) {
-        *why_not = "up to three dimensions only";
-    } else if (problem->num_points > UINT32_MAX) {
-        *why_not = "too many points for 32-bit places";
-    } else {
-        return true;
+        return "full grids only, not lists of frequencies";
     }
-    return false;
+    if (set->dimension > 3) {
+        return "up to three dimensions only";
+    }
+    return problem->num_points > UINT32_MAX ? "too many points for 32-bit places" : NULL;
 }
 
-static bool applicable(const ps_problem *problem, const ps_device_limits *limits,
-                       ps_precision precision, const char **why_not) {
-    if (!ps_engine_on_device(limits, precision, why_not) ||
-        !applicable_to_problem(problem, why_not)) {
-        return false;
+static const char *refuse_layout(const ps_nufft_layout *layout, const ps_device_limits *limits) {
+    if (layout->lanes == 0) {
+        return "a row of the fine grid does not fit into local memory";
     }
-    const ps_nufft_layout layout = ps_nufft_layout_make(problem, limits, precision);
-    if (layout.lanes == 0) {
-        *why_not = "a row of the fine grid does not fit into local memory";
-        return false;
+    if (layout->stride > UINT32_MAX) {
+        return "too many frequencies for 32-bit slots";
     }
-    if (layout.stride > UINT32_MAX) {
-        *why_not = "too many frequencies for 32-bit slots";
-        return false;
-    }
-    if (layout.largest_buffer > limits->max_allocation_bytes ||
-        layout.largest_buffer_per_realization > limits->max_allocation_bytes) {
-        *why_not = "needs a larger buffer than the device allows";
-        return false;
-    }
-    *why_not = NULL;
-    return true;
+    const bool has_large_buffer =
+        layout->largest_buffer > limits->max_allocation_bytes ||
+        layout->largest_buffer_per_realization > limits->max_allocation_bytes;
+    return has_large_buffer ? "needs a larger buffer than the device allows" : NULL;
 }
 
 /* Sorting, then one or two launches that spread and transform, for some realizations at a time; for a large set
@@ -94,33 +81,43 @@ static double kernels_of(const ps_nufft_choice *choice) {
     return choice->is_whole ? 1 : choice->is_gridded ? of_grid : of_tiles;
 }
 
-static ps_work work(const ps_problem *problem, const ps_device_limits *limits,
-                    ps_precision precision) {
-    const ps_nufft_layout layout = ps_nufft_layout_make(problem, limits, precision);
+static ps_work work_of(const ps_nufft_layout *layout, const ps_problem *problem,
+                       ps_precision precision) {
     const double realizations =
         problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
     return (ps_work){
         .transform_flops =
-            realizations * ps_nufft_flops(&layout.choice, precision, (double)problem->num_points),
-        .launches = launches_of(&layout, (double)problem->num_points, realizations),
-        .kernels = kernels_of(&layout.choice),
-        .fixed_bytes = (double)layout.fixed_bytes,
-        .host_bytes = (double)layout.host_bytes,
-        .bytes_per_realization = (double)layout.bytes_per_realization,
-        .row_bytes = (double)layout.bytes_per_realization,
-        .largest_buffer_per_realization = (double)layout.largest_buffer_per_realization,
-        .takes_blocks = ps_nufft_is_large(&layout.choice)};
+            realizations * ps_nufft_flops(&layout->choice, precision, (double)problem->num_points),
+        .launches = launches_of(layout, (double)problem->num_points, realizations),
+        .kernels = kernels_of(&layout->choice),
+        .fixed_bytes = (double)layout->fixed_bytes,
+        .host_bytes = (double)layout->host_bytes,
+        .bytes_per_realization = (double)layout->bytes_per_realization,
+        .row_bytes = (double)layout->bytes_per_realization,
+        .largest_buffer_per_realization = (double)layout->largest_buffer_per_realization,
+        .takes_blocks = ps_nufft_is_large(&layout->choice)};
 }
 
-static double error_of(const ps_problem *problem, const ps_device_limits *limits,
-                       ps_precision precision, double mean_power) {
-    const ps_nufft_choice choice = ps_nufft_choose(problem, limits, precision);
-    return choice.num_axes == 0 ? HUGE_VAL
-                                : ps_nufft_error(&choice, problem, precision, mean_power);
+static ps_survey survey(const ps_problem *problem, const ps_device_limits *limits,
+                        ps_precision precision) {
+    ps_survey result = {.why_not = refuse(problem)};
+    const bool has_device = ps_engine_on_device(limits, precision, &result.why_not);
+    if (!has_device || result.why_not != NULL) {
+        return result;
+    }
+    const ps_nufft_layout layout = ps_nufft_layout_make(problem, limits, precision);
+    result.why_not = refuse_layout(&layout, limits);
+    if (result.why_not == NULL) {
+        result.work = work_of(&layout, problem, precision);
+        result.error =
+            ps_nufft_error(&layout.choice, problem, precision, ps_expected_power(problem));
+    }
+    return result;
 }
 
-static double error_of_state(const void *state, double mean_power) {
+static double error_of_state(const void *state, double mean_power, double weight_share) {
     const torus_nufft *self = state;
+    (void)weight_share;
     return ps_nufft_error(&self->layout.choice, &self->problem, self->precision, mean_power);
 }
 
@@ -371,9 +368,7 @@ const ps_engine ps_torus_nufft = {
     .needs_device = true,
     .has_precision = {true, true, false},
     .checks_points = true,
-    .applicable = applicable,
-    .work = work,
-    .error = error_of,
+    .survey = survey,
     .error_of_state = error_of_state,
     .create = create,
     .get_slots = get_slots,
