@@ -73,43 +73,43 @@ static const version versions[] = {
 
 /* What a group uses without the caches of files that the kernel takes back first: those that were not touched lately, and
  * half of the others, as the kernel itself counts for MemAvailable at worst. */
-static uint64_t used_by(const version *of, const char *root, const char *group) {
+static uint64_t used_by(const version *cgroups, const char *root, const char *group) {
     char path[PS_PROC_PATH];
     uint64_t used = 0;
     uint64_t inactive = 0;
     uint64_t active = 0;
-    if (!ps_proc_join(path, group, of->usage) || !ps_proc_number(root, path, &used) ||
+    if (!ps_proc_join(path, group, cgroups->usage) || !ps_proc_number(root, path, &used) ||
         !ps_proc_join(path, group, "/memory.stat")) {
         return used;
     }
-    (void)ps_proc_entry(root, path, of->inactive, &inactive);
-    (void)ps_proc_entry(root, path, of->active, &active);
+    (void)ps_proc_entry(root, path, cgroups->inactive, &inactive);
+    (void)ps_proc_entry(root, path, cgroups->active, &active);
     const uint64_t given_back = inactive + active / 2;
     return used > given_back ? used - given_back : 0;
 }
 
-static void find_limits(ps_memory_limits *out, const version *of, const char *root,
+static void find_limits(ps_memory_limits *out, const version *cgroups, const char *root,
                         const char *group) {
     const uint64_t no_limit = (uint64_t)1 << 60; /* version 1 writes 2^63 less a page */
-    for (size_t i = 0; i < 2 && of->limits[i].file != NULL; i++) {
+    for (size_t i = 0; i < 2 && cgroups->limits[i].file != NULL; i++) {
         char path[PS_PROC_PATH];
         uint64_t limit = 0;
-        if (ps_proc_join(path, group, of->limits[i].file) && ps_proc_number(root, path, &limit) &&
-            limit < no_limit) {
-            consider(out, of->limits[i].kind, limit, used_by(of, root, group), path);
+        if (ps_proc_join(path, group, cgroups->limits[i].file) &&
+            ps_proc_number(root, path, &limit) && limit < no_limit) {
+            consider(out, cgroups->limits[i].kind, limit, used_by(cgroups, root, group), path);
         }
     }
 }
 
 /* The own group and those around it, up to the folder where the hierarchy is mounted. */
-static void find_groups(ps_memory_limits *out, const version *of, const char *root) {
+static void find_groups(ps_memory_limits *out, const version *cgroups, const char *root) {
     char group[PS_PROC_PATH];
     size_t mounted = 0;
-    if (!ps_proc_cgroup(root, of->is_second, group, &mounted)) {
+    if (!ps_proc_cgroup(root, cgroups->is_second, group, &mounted)) {
         return;
     }
     for (;;) {
-        find_limits(out, of, root, group);
+        find_limits(out, cgroups, root, group);
         char *const slash = strrchr(group, '/');
         if (slash == NULL || (size_t)(slash - group) < mounted) {
             return;
@@ -127,16 +127,16 @@ static void find_process(ps_memory_limits *out, const char *root) {
         unsigned column;
         ps_memory_kind kind;
         const char *place;
-    } all[] = {{RLIMIT_AS, 0, PS_MEMORY_ADDRESS_SPACE, "ulimit -v"},
-               {RLIMIT_DATA, 5, PS_MEMORY_DATA, "ulimit -d"}};
+    } bounds[] = {{RLIMIT_AS, 0, PS_MEMORY_ADDRESS_SPACE, "ulimit -v"},
+                  {RLIMIT_DATA, 5, PS_MEMORY_DATA, "ulimit -d"}};
     const long page_bytes = sysconf(_SC_PAGESIZE);
-    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
+    for (size_t i = 0; i < sizeof bounds / sizeof bounds[0]; i++) {
         struct rlimit limit;
         uint64_t pages = 0;
-        if (getrlimit(all[i].resource, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
-            (void)ps_proc_column(root, "/proc/self/statm", all[i].column, &pages);
-            consider(out, all[i].kind, (uint64_t)limit.rlim_cur, pages * (uint64_t)page_bytes,
-                     all[i].place);
+        if (getrlimit(bounds[i].resource, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
+            (void)ps_proc_column(root, "/proc/self/statm", bounds[i].column, &pages);
+            consider(out, bounds[i].kind, (uint64_t)limit.rlim_cur, pages * (uint64_t)page_bytes,
+                     bounds[i].place);
         }
     }
 }

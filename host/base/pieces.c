@@ -14,16 +14,17 @@ static void do_share(void *payload, unsigned index) {
     }
 }
 
-pspec_status ps_pieces_do(ps_pieces *of, size_t num, void (*task)(void *payload, size_t i),
+pspec_status ps_pieces_do(ps_pieces *pieces, size_t num, void (*task)(void *payload, size_t i),
                           void *payload, ps_error *error) {
-    const unsigned count = ps_workers_count(of->workers);
-    const size_t most = of->each * count;
+    const unsigned count = ps_workers_count(pieces->workers);
+    const size_t most = pieces->each * count;
     for (size_t begin = 0; begin < num; begin += most) {
         const size_t end = num - begin < most ? num : begin + most;
         piece now = {task, payload, begin, end, count};
-        PS_TRY(ps_watch_tell(of->watch, of->phase, of->done, of->total, NULL, error));
-        ps_workers_run(of->workers, do_share, &now);
-        of->done += end - begin;
+        PS_TRY(
+            ps_watch_tell(pieces->watch, pieces->phase, pieces->done, pieces->total, NULL, error));
+        ps_workers_run(pieces->workers, do_share, &now);
+        pieces->done += end - begin;
     }
     return PSPEC_OK;
 }
@@ -35,12 +36,12 @@ pspec_status ps_pieces_share(const ps_watch *watch, const char *phase, size_t wo
     ps_workers *const workers =
         num > 1 && work >= PS_WORKERS_LEAST ? ps_workers_create(PS_WORKERS_MOST) : NULL;
     const size_t work_of_one = work / (num > 0 ? num : 1) + 1;
-    ps_pieces of = {.workers = workers,
-                    .each = work_of_one < WORK_AT_A_TIME ? WORK_AT_A_TIME / work_of_one : 1,
-                    .watch = watch,
-                    .phase = phase,
-                    .total = num};
-    const pspec_status status = ps_pieces_do(&of, num, task, payload, error);
+    ps_pieces pieces = {.workers = workers,
+                        .each = work_of_one < WORK_AT_A_TIME ? WORK_AT_A_TIME / work_of_one : 1,
+                        .watch = watch,
+                        .phase = phase,
+                        .total = num};
+    const pspec_status status = ps_pieces_do(&pieces, num, task, payload, error);
     ps_workers_destroy(workers);
     return status;
 }

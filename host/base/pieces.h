@@ -17,7 +17,7 @@ typedef struct ps_pieces {
 } ps_pieces;
 
 /* Calls task(payload, i) for i = 0 .. num - 1, each in one of the threads. */
-pspec_status ps_pieces_do(ps_pieces *of, size_t num, void (*task)(void *payload, size_t i),
+pspec_status ps_pieces_do(ps_pieces *pieces, size_t num, void (*task)(void *payload, size_t i),
                           void *payload, ps_error *error) PS_MUST_CHECK;
 
 /* The same with threads for this once, if they are worth it: the num things, told as `phase`, are made of `work` smaller

@@ -142,18 +142,18 @@ static pspec_status read_limits(cl_device_id id, ps_device_limits *limits, ps_er
 
 pspec_status ps_device_list(ps_device_limits **limits, size_t *num_devices, ps_error *error) {
     cl_device_id devices[MAX_DEVICES];
-    void *memory = NULL;
+    ps_device_limits *list = NULL;
     *limits = NULL;
     PS_TRY(find_devices(devices, num_devices, error));
-    PS_TRY(ps_allocate(&memory, *num_devices, sizeof **limits, "the list of devices", error));
+    PS_TRY(PS_NEW(&list, *num_devices, "the list of devices", error));
     for (size_t i = 0; i < *num_devices; i++) {
-        const pspec_status status = read_limits(devices[i], (ps_device_limits *)memory + i, error);
+        const pspec_status status = read_limits(devices[i], list + i, error);
         if (status != PSPEC_OK) {
-            free(memory);
+            free(list);
             return status;
         }
     }
-    *limits = memory;
+    *limits = list;
     return PSPEC_OK;
 }
 
@@ -328,11 +328,9 @@ const ps_device_limits *ps_device_get_limits(const ps_device *device) {
 }
 
 pspec_status ps_device_set_figures(ps_device *device, const ps_figures *figures, ps_error *error) {
-    void *memory = device->figures;
-    if (memory == NULL) {
-        PS_TRY(ps_allocate(&memory, 1, sizeof *figures, "figures of a device", error));
+    if (device->figures == NULL) {
+        PS_TRY(PS_NEW(&device->figures, 1, "figures of a device", error));
     }
-    device->figures = memory;
     *device->figures = *figures;
     device->limits.figures = device->figures;
     return PSPEC_OK;

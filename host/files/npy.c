@@ -173,9 +173,7 @@ static pspec_status read_header_text(ps_input *input, char **text, ps_error *err
                        "%s: an NPY header of %zu bytes; at most %d are read", input->name, length,
                        MAX_HEADER_BYTES);
     }
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, length + 1, 1, "NPY header", error));
-    *text = memory;
+    PS_TRY(PS_NEW(text, length + 1, "NPY header", error));
     return read_exactly(input, *text, length, error);
 }
 

@@ -135,9 +135,8 @@ static bool promises_gzip(const char *path) {
 
 pspec_status ps_output_open(ps_output_file **out, const char *path, ps_error *error) {
     *out = NULL;
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_output_file), "output file", error));
-    ps_output_file *file = memory;
+    ps_output_file *file = NULL;
+    PS_TRY(PS_NEW(&file, 1, "output file", error));
     const bool is_standard = strcmp(path, "-") == 0;
     pspec_status status = PSPEC_OK;
     file->name = strdup(is_standard ? "standard output" : path);

@@ -15,10 +15,8 @@ enum { FIRST_BYTES = 1 << 16, MOST_BYTES = 1 << 22, GROWTH = 8 };
 /* ---- lines ------------------------------------------------------------------------------- */
 
 pspec_status ps_lines_open(ps_lines *lines, ps_input *input, ps_error *error) {
-    void *memory = NULL;
     *lines = (ps_lines){.input = input, .line_number = 1, .capacity = FIRST_BYTES};
-    PS_TRY(ps_allocate(&memory, FIRST_BYTES + PS_DECIMAL_PADDING, 1, "text buffer", error));
-    lines->buffer = memory;
+    PS_TRY(PS_NEW(&lines->buffer, FIRST_BYTES + PS_DECIMAL_PADDING, "text buffer", error));
     lines->cursor = lines->lines_end = lines->buffer;
     return PSPEC_OK;
 }

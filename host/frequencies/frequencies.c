@@ -188,7 +188,6 @@ static void list_degrees(ps_frequencies *set) {
 }
 
 pspec_status ps_frequencies_enumerate(ps_frequencies *frequencies, ps_error *error) {
-    void *vectors = NULL;
     size_t num_components = 0;
     if (frequencies->vectors != NULL) {
         return PSPEC_OK;
@@ -198,9 +197,8 @@ pspec_status ps_frequencies_enumerate(ps_frequencies *frequencies, ps_error *err
     if (!ps_size_multiply(num, ps_frequency_components(frequencies), &num_components)) {
         return ps_fail(error, PSPEC_ERROR_MEMORY, "%zu frequencies are too many", num);
     }
-    PS_TRY(ps_allocate(&vectors, num_components, sizeof(int32_t), "the frequencies", error));
+    PS_TRY(PS_NEW(&frequencies->vectors, num_components, "the frequencies", error));
     frequencies->num = num;
-    frequencies->vectors = vectors;
     if (are_degrees) {
         list_degrees(frequencies);
     } else {
@@ -209,23 +207,24 @@ pspec_status ps_frequencies_enumerate(ps_frequencies *frequencies, ps_error *err
     return PSPEC_OK;
 }
 
-static pspec_status copy_rings(ps_frequencies *out, const ps_frequencies *from, ps_error *error) {
-    void *rings = NULL;
-    PS_TRY(ps_allocate(&rings, from->num_rings, sizeof *out->rings, "the rings", error));
-    memcpy(rings, from->rings, from->num_rings * sizeof *out->rings);
-    out->rings = rings;
+static pspec_status copy_rings(ps_frequencies *out, const ps_frequencies *original,
+                               ps_error *error) {
+    PS_TRY(PS_NEW(&out->rings, original->num_rings, "the rings", error));
+    memcpy(out->rings, original->rings, original->num_rings * sizeof *out->rings);
     return PSPEC_OK;
 }
 
-pspec_status ps_frequencies_copy(ps_frequencies *out, const ps_frequencies *from, ps_error *error) {
-    void *vectors = NULL;
-    const size_t num_components = from->num * ps_frequency_components(from);
-    PS_TRY(ps_allocate(&vectors, num_components, sizeof(int32_t), "the frequencies", error));
-    memcpy(vectors, from->vectors, num_components * sizeof(int32_t));
-    *out = *from;
+pspec_status ps_frequencies_copy(ps_frequencies *out, const ps_frequencies *original,
+                                 ps_error *error) {
+    int32_t *vectors = NULL;
+    const size_t num_components = original->num * ps_frequency_components(original);
+    PS_TRY(PS_NEW(&vectors, num_components, "the frequencies", error));
+    memcpy(vectors, original->vectors, num_components * sizeof(int32_t));
+    *out = *original;
     out->vectors = vectors;
     out->rings = NULL;
-    const pspec_status status = from->rings != NULL ? copy_rings(out, from, error) : PSPEC_OK;
+    const pspec_status status =
+        original->rings != NULL ? copy_rings(out, original, error) : PSPEC_OK;
     if (status != PSPEC_OK) {
         ps_frequencies_free(out);
     }

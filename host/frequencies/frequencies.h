@@ -98,8 +98,8 @@ unsigned ps_frequency_components(const ps_frequencies *frequencies);
 unsigned ps_frequencies_space_dimension(const ps_frequencies *frequencies);
 /* Fills vectors (and the exact num of a ball). */
 pspec_status ps_frequencies_enumerate(ps_frequencies *frequencies, ps_error *error) PS_MUST_CHECK;
-/* A copy with vectors of its own; from is enumerated. */
-pspec_status ps_frequencies_copy(ps_frequencies *out, const ps_frequencies *from,
+/* A copy with vectors of its own; the original is enumerated. */
+pspec_status ps_frequencies_copy(ps_frequencies *out, const ps_frequencies *original,
                                  ps_error *error) PS_MUST_CHECK;
 void ps_frequencies_free(ps_frequencies *frequencies);
 /* Half-lattice frequencies of all rings that the list was drawn from; num when it was not. */

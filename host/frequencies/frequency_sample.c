@@ -76,12 +76,12 @@ static pspec_status draw_ring(const ps_frequency_sample *sample, const ps_lattic
 
 static pspec_status draw_rings(ps_frequencies *out, const ps_frequency_sample *sample,
                                const ps_lattice *lattice, ps_error *error) {
-    void *ranks = NULL;
+    uint64_t *ranks = NULL;
     size_t ring = 0;
     size_t at = 0;
     pspec_status status = PSPEC_OK;
     const size_t most = (size_t)num_drawn(sample, out->num);
-    PS_TRY(ps_allocate(&ranks, most, sizeof(uint64_t), "ranks of frequencies", error));
+    PS_TRY(PS_NEW(&ranks, most, "ranks of frequencies", error));
     for (uint64_t number = 1; status == PSPEC_OK && ring < out->num_rings; number++) {
         const ring_range range = range_of(sample, number);
         const uint64_t size = half_size(lattice, range);
@@ -100,18 +100,15 @@ static pspec_status draw_rings(ps_frequencies *out, const ps_frequency_sample *s
 
 static pspec_status allocate(ps_frequencies *out, const ps_frequency_sample *sample,
                              size_t num_rings, uint64_t num, ps_error *error) {
-    void *memory = NULL;
     *out = (ps_frequencies){.kind = PS_FREQUENCIES_LIST,
                             .dimension = sample->dimension,
                             .max_frequency = sample->max_frequency,
                             .num = (size_t)num,
                             .per_ring = sample->per_ring,
                             .num_rings = num_rings};
-    PS_TRY(ps_allocate(&memory, num_rings, sizeof *out->rings, "the rings", error));
-    out->rings = memory;
-    PS_TRY(ps_allocate(&memory, (size_t)num, sample->dimension * sizeof(int32_t), "the frequencies",
-                       error));
-    out->vectors = memory;
+    PS_TRY(PS_NEW(&out->rings, num_rings, "the rings", error));
+    PS_TRY(ps_allocate_for(&out->vectors, (size_t)num, sample->dimension * sizeof(int32_t),
+                           "the frequencies", error));
     return PSPEC_OK;
 }
 

@@ -37,9 +37,8 @@ static pspec_status copy_values(char ***out, const ps_parameter *const *paramete
     for (size_t i = 0; i < num; i++) {
         num_bytes += values[i].length + strlen(parameters[i]->default_value) + 1;
     }
-    void *block = NULL;
-    PS_TRY(ps_allocate(&block, num_bytes, 1, "a BRDF", error));
-    char **const texts = block;
+    char **texts = NULL;
+    PS_TRY(ps_allocate_for(&texts, num_bytes, 1, "a BRDF", error));
     char *letters = (char *)(texts + num);
     for (size_t i = 0; i < num; i++) {
         const char *const preset = parameters[i]->default_value;

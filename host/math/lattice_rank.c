@@ -64,15 +64,14 @@ static pspec_status fill(ps_lattice *lattice, ps_error *error) {
 
 pspec_status ps_lattice_create(ps_lattice *out, unsigned dimension, int64_t max_norm2,
                                ps_error *error) {
-    void *memory = NULL;
+    uint64_t *block = NULL;
     const size_t row = (size_t)max_norm2 + 1;
     *out = (ps_lattice){.dimension = dimension, .max_norm2 = max_norm2};
     if (ps_lattice_estimate(dimension, max_norm2).least > (double)UINT64_MAX) {
         return fail_countless(out, error);
     }
-    PS_TRY(ps_allocate(&memory, row, (dimension + 1) * sizeof(uint64_t), "counts of frequencies",
-                       error));
-    uint64_t *const block = memory;
+    PS_TRY(ps_allocate_for(&block, row, (dimension + 1) * sizeof(uint64_t), "counts of frequencies",
+                           error));
     for (unsigned j = 0; j <= dimension; j++) {
         out->within[j] = block + j * row;
     }

@@ -239,14 +239,12 @@ static bool would_do_of_rings(const ps_problem *problem, const ps_device_limits 
     const ps_frequencies *const whole = problem->frequencies;
     const size_t num = (size_t)PS_MIN_PER_RING * (size_t)whole->max_frequency;
     ps_frequencies subset = {0};
-    void *memory = NULL;
+    int32_t *vectors = NULL;
     if ((constraints->offers & PS_OFFER_RINGS) == 0 ||
         !ps_frequencies_can_sample(whole->dimension, whole->max_frequency) ||
-        ps_allocate(&memory, num * whole->dimension, sizeof(int32_t), "frequencies", NULL) !=
-            PSPEC_OK) {
+        PS_NEW(&vectors, num * whole->dimension, "frequencies", NULL) != PSPEC_OK) {
         return false;
     }
-    int32_t *const vectors = memory;
     for (size_t i = 0; i < num; i++) {
         vectors[i * whole->dimension] = (int32_t)(i / PS_MIN_PER_RING) + 1;
     }

@@ -70,10 +70,11 @@ ps_file_estimate ps_file_estimate_of(const char *path, const char *format) {
     return out;
 }
 
-double ps_file_estimate_points(const ps_file_estimate *of, unsigned columns) {
-    if (of->bytes <= 0) {
+double ps_file_estimate_points(const ps_file_estimate *estimate, unsigned columns) {
+    if (estimate->bytes <= 0) {
         return 0;
     }
-    return of->is_text ? of->bytes / (of->line_bytes > 0 ? of->line_bytes : 1)
-                       : of->bytes / (columns * of->bytes_of_number);
+    return estimate->is_text
+               ? estimate->bytes / (estimate->line_bytes > 0 ? estimate->line_bytes : 1)
+               : estimate->bytes / (columns * estimate->bytes_of_number);
 }

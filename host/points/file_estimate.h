@@ -15,6 +15,6 @@ typedef struct ps_file_estimate {
 ps_file_estimate ps_file_estimate_of(const char *path, const char *format);
 
 /* Points of `columns` numbers each. */
-double ps_file_estimate_points(const ps_file_estimate *of, unsigned columns);
+double ps_file_estimate_points(const ps_file_estimate *estimate, unsigned columns);
 
 #endif

@@ -185,9 +185,7 @@ static pspec_status parse_frequency(number_list *list, const char *text, size_t 
 }
 
 static pspec_status convert_frequencies(const number_list *list, int **vectors, ps_error *error) {
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, list->num_values, sizeof(int), "frequencies", error));
-    *vectors = memory;
+    PS_TRY(PS_NEW(vectors, list->num_values, "frequencies", error));
     for (size_t i = 0; i < list->num_values; i++) {
         (*vectors)[i] = (int)list->values[i];
     }
@@ -314,10 +312,8 @@ static pspec_status parse_pair(number_list *list, const char *text, size_t line_
 
 static pspec_status convert_pairs(const number_list *list, ps_pair **pairs, size_t *num_pairs,
                                   ps_error *error) {
-    void *memory = NULL;
     const size_t num = list->num_values / PAIR_VALUES;
-    PS_TRY(ps_allocate(&memory, num, sizeof(ps_pair), "rows", error));
-    *pairs = memory;
+    PS_TRY(PS_NEW(pairs, num, "rows", error));
     *num_pairs = num;
     for (size_t i = 0; i < num; i++) {
         const double *const row = list->values + PAIR_VALUES * i;

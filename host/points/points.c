@@ -141,9 +141,8 @@ pspec_status ps_points_open(ps_point_reader **out, const char *path,
                             const ps_point_options *options, ps_error *error) {
     *out = NULL;
     PS_TRY(check_options(options, error));
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_point_reader), "point reader", error));
-    ps_point_reader *reader = memory;
+    ps_point_reader *reader = NULL;
+    PS_TRY(PS_NEW(&reader, 1, "point reader", error));
     reader->options = *options;
     pspec_status status = PSPEC_OK;
     PS_TRY_OUT(status, ps_input_open(&reader->input, path, error));

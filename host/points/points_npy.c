@@ -108,9 +108,7 @@ static pspec_status open_npy(ps_point_reader *reader, ps_error *error) {
     state->data_position = reader->input.is_seekable ? ps_input_position(&reader->input) : -1;
     reader->rows_per_set = state->data_position >= 0 ? state->num_points : 0;
     if (state->is_fortran_order) {
-        void *memory = NULL;
-        PS_TRY(ps_allocate(&memory, BLOCK_ELEMENTS, sizeof(double), "NPY block", error));
-        state->block = memory;
+        PS_TRY(PS_NEW(&state->block, BLOCK_ELEMENTS, "NPY block", error));
     }
     return PSPEC_OK;
 }

@@ -88,14 +88,12 @@ pspec_status ps_points_create(ps_point_writer **out, const char *path, const cha
     PS_TRY(ps_point_format_find(format != NULL ? format : ps_points_format_by_ending(path), &chosen,
                                 error));
     PS_TRY(check_counts(chosen, shape, error));
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_point_writer), "point writer", error));
-    ps_point_writer *writer = memory;
+    ps_point_writer *writer = NULL;
+    PS_TRY(PS_NEW(&writer, 1, "point writer", error));
     *writer = (ps_point_writer){.format = chosen, .shape = *shape};
     pspec_status status = PSPEC_OK;
     PS_TRY_OUT(status, make_layout(writer, error));
-    PS_TRY_OUT(status, ps_allocate(&memory, STAGING_VALUES, sizeof(double), "rows", error));
-    writer->staging = memory;
+    PS_TRY_OUT(status, PS_NEW(&writer->staging, STAGING_VALUES, "rows", error));
     PS_TRY_OUT(status, open_output(writer, path, error));
     *out = writer;
     return PSPEC_OK;

@@ -93,18 +93,16 @@ static size_t pack_series(panel *out) {
 
 static pspec_status make_panel(panel *out, ps_panel *plot, const ps_bench_row *rows, size_t num,
                                ps_error *error) {
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, MOST_SERIES * 2 * num, sizeof(double), "a picture", error));
-    out->numbers = memory;
-    PS_TRY(ps_allocate(&memory, num, sizeof(ps_bench_row *), "a picture", error));
-    const ps_bench_row **sorted = memory;
+    const ps_bench_row **sorted = NULL;
+    PS_TRY(PS_NEW(&out->numbers, MOST_SERIES * 2 * num, "a picture", error));
+    PS_TRY(PS_NEW(&sorted, num, "a picture", error));
     for (size_t i = 0; i < num; i++) {
         sorted[i] = &rows[i];
     }
     qsort(sorted, num, sizeof *sorted, compare_seconds);
     out->series[0] = (ps_series){.label = "Pareto front", .is_front = true};
     fill_series(out, sorted, num);
-    free(memory);
+    free(sorted);
     snprintf(out->title, sizeof out->title, "%s", rows[0].what->what.name);
     *plot = (ps_panel){out->title, pack_series(out), out->series};
     return PSPEC_OK;
@@ -151,11 +149,10 @@ static pspec_status draw(const char *path, const ps_bench_rows *measured, const 
 pspec_status ps_bench_plot(const char *path, const ps_bench_rows *measured, const char *device,
                            ps_error *error) {
     const size_t num = count_panels(measured);
-    void *memory = NULL;
-    void *plots = NULL;
-    PS_TRY(ps_allocate(&memory, num, sizeof(panel), "a picture", error));
-    panel *panels = memory;
-    pspec_status status = ps_allocate(&plots, num, sizeof(ps_panel), "a picture", error);
+    ps_panel *plots = NULL;
+    panel *panels = NULL;
+    PS_TRY(PS_NEW(&panels, num, "a picture", error));
+    pspec_status status = PS_NEW(&plots, num, "a picture", error);
     if (status == PSPEC_OK) {
         status = draw(path, measured, device, panels, plots, error);
     }

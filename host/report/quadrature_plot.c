@@ -17,9 +17,7 @@ static pspec_status make_curves(curves *out, ps_series *lines, size_t first, con
                                 const ps_quadrature_result *result, ps_error *error) {
     static const char *const names[LINES] = {"d_l^2", "C_l^2", "e_l^2"};
     const size_t num = result->max_degree + 1;
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, (1 + LINES) * num, sizeof(double), "a picture", error));
-    out->numbers = memory;
+    PS_TRY(PS_NEW(&out->numbers, (1 + LINES) * num, "a picture", error));
     for (size_t l = 0; l < num; l++) {
         const ps_quadrature_degree *const degree = &result->degrees[l];
         out->numbers[l] = (double)l;

@@ -42,10 +42,9 @@ static void discard(void *computed) {
 
 /* Reads the saved spectrum and finds out what it asks of the measured side. *out is for discard, also after an error. */
 static pspec_status ask(checked **out, const ps_request *request, ps_error *error) {
-    void *memory = NULL;
     PS_TRY(check_question(request, error));
-    PS_TRY(ps_allocate(&memory, 1, sizeof(checked), "a check", error));
-    checked *const check = *out = memory;
+    PS_TRY(PS_NEW(out, 1, "a check", error));
+    checked *const check = *out;
     PS_TRY(ps_saved_spectrum_read(&check->saved, request->against, error));
     check->own = ps_check_request(request, &check->saved);
     return ps_check_question_make(&check->list, &check->own, &check->saved, error);
@@ -116,15 +115,14 @@ static void make_sides(ps_compared *saved_side, ps_compared *measured_side,
 static pspec_status compare(ps_comparison *rows, const ps_request *request,
                             const ps_saved_spectrum *saved, const ps_power_job *job,
                             ps_error *error) {
-    void *memory = NULL;
+    ps_compared *sides = NULL;
     const size_t num = saved->num_bins;
-    PS_TRY(ps_allocate(&memory, num, 2 * sizeof(ps_compared), "bins to compare", error));
-    ps_compared *const sides = memory;
+    PS_TRY(ps_allocate_for(&sides, num, 2 * sizeof(ps_compared), "bins to compare", error));
     make_sides(sides, sides + num, saved, job);
     const pspec_status status =
         ps_compare(rows, num, sides, saved->num_realizations, sides + num,
                    ps_power_job_spectrum(job)->num_realizations, request->false_alarm_rate, error);
-    free(memory);
+    free(sides);
     return status;
 }
 
@@ -179,7 +177,6 @@ static pspec_status judge(const ps_request *request, const ps_check_results *res
 
 static pspec_status compute(void **out, const ps_request *request, const ps_answer_hooks *hooks,
                             ps_error *error) {
-    void *memory = NULL;
     checked *check = NULL;
     const pspec_status asked = ask(&check, request, error);
     *out = check;
@@ -189,8 +186,7 @@ static pspec_status compute(void **out, const ps_request *request, const ps_answ
     const ps_spectrum *const measured = ps_power_job_spectrum(check->job);
     PS_TRY(check_points(saved, measured, request->against, error));
     PS_TRY(check_bins(saved, measured, request->against, error));
-    PS_TRY(ps_allocate(&memory, saved->num_bins, sizeof(ps_comparison), "compared bins", error));
-    check->rows = memory;
+    PS_TRY(PS_NEW(&check->rows, saved->num_bins, "compared bins", error));
     return compare(check->rows, request, saved, check->job, error);
 }
 

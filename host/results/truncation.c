@@ -101,13 +101,11 @@ static pspec_status find_errors(truncation *answer, double bracket, ps_error *er
     enum { COLUMNS = 4 };
     const ps_request *const arguments = answer->arguments;
     const size_t num = answer->max_degree + 1;
-    void *memory = NULL;
     PS_TRY(ps_brdf_parse(&answer->brdf, arguments->brdf, error));
     /* twice the degrees: the last one's rest is then mostly summed, not bracketed */
     PS_TRY(ps_representer_create(&answer->representer, answer->brdf, arguments->smoothness,
                                  TOLERANCE, 2 * num, error));
-    PS_TRY(ps_allocate(&memory, num, COLUMNS * sizeof(double), "degrees", error));
-    answer->degrees = memory;
+    PS_TRY(ps_allocate_for(&answer->degrees, num, COLUMNS * sizeof(double), "degrees", error));
     answer->errors = answer->degrees + num;
     answer->bounds = answer->errors + num;
     answer->points = answer->bounds + num;

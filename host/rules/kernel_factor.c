@@ -182,11 +182,10 @@ static void find_nearest(const neighbour_search *search) {
 
 static pspec_status allocate(ps_kernel_factor *factor, neighbour_search *search, ps_error *error) {
     const size_t num = factor->num;
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, num, MOST * sizeof(double), "an approximate inverse", error));
-    factor->values = memory;
-    PS_TRY(ps_allocate(&memory, num, MOST * sizeof(uint32_t), "an approximate inverse", error));
-    factor->columns = memory;
+    PS_TRY(ps_allocate_for(&factor->values, num, MOST * sizeof(double), "an approximate inverse",
+                           error));
+    PS_TRY(ps_allocate_for(&factor->columns, num, MOST * sizeof(uint32_t), "an approximate inverse",
+                           error));
     PS_TRY(PS_NEW(&search->order, num, "an order of points", error));
     PS_TRY(PS_NEW(&search->nearest, num, "distances of points", error));
     PS_TRY(PS_NEW(&search->chunks, num / CHUNK + 1, "points in order", error));

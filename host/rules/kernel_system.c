@@ -47,28 +47,19 @@ bool ps_kernel_system_is_dense(size_t num_points, uint64_t memory_limit) {
 static pspec_status allocate(ps_kernel_system *system, bool is_dense, ps_error *error) {
     const size_t num = system->num_points;
     const size_t num_rows = is_dense ? PS_KERNEL_DENSE_ROWS : PS_KERNEL_GRADIENT_ROWS;
-    void *points = NULL;
-    void *group = NULL;
-    void *shares = NULL;
-    void *rows = NULL;
-    pspec_status status = PSPEC_OK;
-    PS_TRY_OUT(status, ps_allocate(&points, num, 3 * sizeof(double), "distinct points", error));
-    PS_TRY_OUT(status, ps_allocate(&group, num, sizeof(size_t), "duplicates", error));
-    PS_TRY_OUT(status, ps_allocate(&shares, num, sizeof(double), "duplicates", error));
-    PS_TRY_OUT(status, ps_allocate(&rows, num, num_rows * sizeof(double), "solutions", error));
-out:
-    system->points = points;
-    system->group = group;
-    system->shares = shares;
-    system->rows = rows;
-    return status;
+    PS_TRY(ps_allocate_for(&system->points, num, 3 * sizeof(double), "distinct points", error));
+    PS_TRY(PS_NEW(&system->group, num, "duplicates", error));
+    PS_TRY(PS_NEW(&system->shares, num, "duplicates", error));
+    PS_TRY(ps_allocate_for(&system->rows, num, num_rows * sizeof(double), "solutions", error));
+    return PSPEC_OK;
 }
 
 /* What the machine has free does not choose the way, for weights would depend on it; it may
  * refuse. */
-static pspec_status allocate_matrix(void **matrix, size_t num, ps_error *error) {
+static pspec_status allocate_matrix(double **matrix, size_t num, ps_error *error) {
     ps_error refusal = {0};
-    if (ps_allocate(matrix, num, num * sizeof(double), "a kernel matrix", &refusal) == PSPEC_OK) {
+    if (ps_allocate_for(matrix, num, num * sizeof(double), "a kernel matrix", &refusal) ==
+        PSPEC_OK) {
         return PSPEC_OK;
     }
     return ps_fail(error, PSPEC_ERROR_MEMORY,
@@ -78,10 +69,8 @@ static pspec_status allocate_matrix(void **matrix, size_t num, ps_error *error) 
 }
 
 static pspec_status prepare_dense(ps_kernel_system *system, ps_error *error) {
-    void *matrix = NULL;
-    PS_TRY(allocate_matrix(&matrix, system->num, error));
-    system->matrix = matrix;
-    ps_memory_use_large_pages(matrix, system->num * system->num * sizeof(double));
+    PS_TRY(allocate_matrix(&system->matrix, system->num, error));
+    ps_memory_use_large_pages(system->matrix, system->num * system->num * sizeof(double));
     return factorize(system, error);
 }
 

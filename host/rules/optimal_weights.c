@@ -49,11 +49,10 @@ pspec_status ps_optimal_weights_find(const ps_representer *representer, size_t n
                                      ps_optimal_weights *out, ps_error *error) {
     enum { ARRAYS = 2 };
     ps_kernel_system *system = NULL;
-    void *memory = NULL;
+    double *own = NULL;
     double defect = 0;
     pspec_status status = PSPEC_OK;
-    PS_TRY(ps_allocate(&memory, num_points, ARRAYS * sizeof(double), "kappa", error));
-    double *const own = memory;
+    PS_TRY(ps_allocate_for(&own, num_points, ARRAYS * sizeof(double), "kappa", error));
     if (kappa == NULL) {
         ps_representer_kappa(representer, num_points, points, own);
         kappa = own;
@@ -70,6 +69,6 @@ pspec_status ps_optimal_weights_find(const ps_representer *representer, size_t n
     describe(system, num_points, weights, out);
 out:
     ps_kernel_system_destroy(system);
-    free(memory);
+    free(own);
     return status;
 }

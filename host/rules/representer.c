@@ -88,9 +88,8 @@ static void fill_series(ps_representer *representer) {
 static pspec_status fill(ps_representer *representer, const ps_brdf *brdf, size_t max_degree,
                          ps_error *error) {
     enum { ARRAYS = 5 };
-    void *block = NULL;
-    PS_TRY(ps_allocate(&block, ARRAYS * (max_degree + 2), sizeof(double), "coefficients of a BRDF",
-                       error));
+    double *block = NULL;
+    PS_TRY(PS_NEW(&block, ARRAYS * (max_degree + 2), "coefficients of a BRDF", error));
     free(representer->a);
     representer->a = block;
     representer->b = representer->a + max_degree + 2;

@@ -119,10 +119,9 @@ static uint64_t count_pieces(size_t num_blocks) {
 
 pspec_status ps_rule_distance(const ps_rule *rule, double smoothness, const ps_watch *watch,
                               double *sum, ps_error *error) {
-    void *memory = NULL;
+    pair_work work = {.rule = rule, .smoothness = smoothness};
     const size_t num_blocks = count_blocks(rule);
-    PS_TRY(ps_allocate(&memory, num_blocks, sizeof(ps_neumaier), "sums of pairs", error));
-    pair_work work = {.rule = rule, .smoothness = smoothness, .sums = memory};
+    PS_TRY(PS_NEW(&work.sums, num_blocks, "sums of pairs", error));
     ps_pieces pieces = {.workers = rule->num_points * (rule->num_points / 2) >= PS_WORKERS_LEAST
                                        ? ps_workers_create(PS_WORKERS_MOST)
                                        : NULL,
@@ -138,7 +137,7 @@ pspec_status ps_rule_distance(const ps_rule *rule, double smoothness, const ps_w
     const double num = (double)rule->num_points;
     *sum = ps_neumaier_value(&total) / (rule->weights != NULL ? 1 : num * num);
     ps_workers_destroy(pieces.workers);
-    free(memory);
+    free(work.sums);
     return status;
 }
 
@@ -179,10 +178,10 @@ pspec_status ps_kernel_error_of(const ps_representer *representer, const ps_rule
                                 const double *kappa, const ps_watch *watch, ps_kernel_error *out,
                                 ps_error *error) {
     double distance = 0;
-    void *own = NULL;
+    double *own = NULL;
     PS_TRY(ps_rule_distance(rule, representer->smoothness, watch, &distance, error));
     if (kappa == NULL) {
-        PS_TRY(ps_allocate(&own, rule->num_points, sizeof(double), "kappa", error));
+        PS_TRY(PS_NEW(&own, rule->num_points, "kappa", error));
         ps_representer_kappa(representer, rule->num_points, rule->points, own);
         kappa = own;
     }

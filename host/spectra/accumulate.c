@@ -205,11 +205,11 @@ static void pick_bins(const ps_accumulator *self, const ps_sums *frequencies, ps
 /* Sums of bins that are sums of frequencies come to self->bin_sums. */
 static pspec_status fetch_bins(ps_accumulator *self, ps_error *error) {
     const size_t num = self->options.num_frequencies;
-    void *frequencies = NULL;
+    ps_sums *frequencies = NULL;
     if (self->formed == self->options.bins) {
         return PSPEC_OK;
     }
-    PS_TRY(ps_allocate(&frequencies, num, sizeof(ps_sums), "sums of frequencies", error));
+    PS_TRY(PS_NEW(&frequencies, num, "sums of frequencies", error));
     const pspec_status status = ps_device_accumulator_sums(self->on_device, frequencies, error);
     if (status == PSPEC_OK) {
         pick_bins(self, frequencies, self->bin_sums);

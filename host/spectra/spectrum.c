@@ -89,15 +89,14 @@ pspec_status ps_spectrum_create(ps_spectrum *out, const ps_frequencies *frequenc
                                 const ps_bins *bins, ps_accumulator *accumulator, double factor,
                                 const ps_pattern_totals *totals, bool with_frequencies,
                                 ps_error *error) {
-    void *bin_means = NULL;
-    void *powers = NULL;
+    ps_mean *bin_means = NULL;
+    ps_mean *powers = NULL;
     pspec_status status = PSPEC_OK;
     *out = (ps_spectrum){0};
-    PS_TRY_OUT(status, ps_allocate(&bin_means, bins->num, sizeof(ps_mean), "the bins", error));
+    PS_TRY_OUT(status, PS_NEW(&bin_means, bins->num, "the bins", error));
     PS_TRY_OUT(status, ps_accumulator_bins(accumulator, bin_means, error));
     if (with_frequencies) {
-        PS_TRY_OUT(status,
-                   ps_allocate(&powers, frequencies->num, sizeof(ps_mean), "the powers", error));
+        PS_TRY_OUT(status, PS_NEW(&powers, frequencies->num, "the powers", error));
         PS_TRY_OUT(status, ps_accumulator_frequencies(accumulator, powers, error));
     }
     status =

@@ -180,17 +180,16 @@ static void finish_all(const ps_sums *sums, size_t num, uint64_t num_realization
 
 pspec_status ps_spectrum_sums_finish(const ps_spectrum_sums *sums, const ps_bins *bins,
                                      ps_spectrum *out, ps_error *error) {
-    void *bin_means = NULL;
-    void *powers = NULL;
+    ps_mean *bin_means = NULL;
+    ps_mean *powers = NULL;
     pspec_status status = PSPEC_OK;
     const uint64_t num = sums->totals.num_realizations;
     const double factor = sums->normalization == PSPEC_NORMALIZATION_POWER
                               ? sums->totals.sum_points / (double)num / sums->reference_points
                               : 1;
     *out = (ps_spectrum){0};
-    PS_TRY_OUT(status, ps_allocate(&bin_means, bins->num, sizeof(ps_mean), "the bins", error));
-    PS_TRY_OUT(status,
-               ps_allocate(&powers, sums->frequencies.num, sizeof(ps_mean), "the powers", error));
+    PS_TRY_OUT(status, PS_NEW(&bin_means, bins->num, "the bins", error));
+    PS_TRY_OUT(status, PS_NEW(&powers, sums->frequencies.num, "the powers", error));
     finish_all(sums->bins, sums->num_bins, num, bin_means);
     finish_all(sums->powers, sums->frequencies.num, num, powers);
     status = ps_spectrum_from_means(out, &sums->frequencies, bins, bin_means, powers, factor,

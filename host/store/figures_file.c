@@ -111,21 +111,21 @@ static pspec_status read_file(ps_figures *figures, const char *path, bool *is_th
     int descriptor = -1;
     uint64_t num_bytes = 0;
     ps_cache_file_kind kind = PS_CACHE_FILE_ABSENT;
-    void *memory = NULL;
+    char *text = NULL;
     size_t length = 0;
     PS_TRY(ps_cache_file_open(path, &descriptor, &num_bytes, &kind, error));
     *is_there = kind != PS_CACHE_FILE_ABSENT;
     if (kind != PS_CACHE_FILE_OWN) {
         return *is_there ? ps_fail(error, PSPEC_ERROR_IO, "%s is no file", path) : PSPEC_OK;
     }
-    pspec_status status = ps_allocate(&memory, MOST_BYTES, 1, "figures of a device", error);
+    pspec_status status = PS_NEW(&text, MOST_BYTES, "figures of a device", error);
     if (status == PSPEC_OK) {
-        status = read_all(descriptor, path, memory, &length, error);
+        status = read_all(descriptor, path, text, &length, error);
     }
     if (status == PSPEC_OK) {
-        status = parse_file(figures, path, memory, length, limits, error);
+        status = parse_file(figures, path, text, length, limits, error);
     }
-    free(memory);
+    free(text);
     close(descriptor);
     return status;
 }

@@ -37,11 +37,11 @@ void ps_figures_append_device(ps_text *text, const ps_device_limits *limits) {
 
 /* ---- writing ------------------------------------------------------------------------------- */
 
-static void append_number(ps_text *text, const char *key, const char *of, double value) {
+static void append_number(ps_text *text, const char *key, const char *what, double value) {
     char number[PS_DECIMAL_BYTES];
     if (value > 0) {
         ps_decimal_format(number, value);
-        ps_text_append(text, "%s %s %s\n", key, of, number);
+        ps_text_append(text, "%s %s %s\n", key, what, number);
     }
 }
 
@@ -217,12 +217,12 @@ static pspec_status parse(ps_figures *figures, char *text, size_t length,
 
 pspec_status ps_figures_parse(ps_figures *figures, const char *text, size_t length,
                               const ps_device_limits *limits, ps_error *error) {
-    void *memory = NULL;
+    char *copy = NULL;
     *figures = (ps_figures){0};
-    PS_TRY(ps_allocate(&memory, length + PS_DECIMAL_PADDING, 1, "figures of a device", error));
-    memcpy(memory, text, length);
-    const pspec_status status = parse(figures, memory, length, limits, error);
-    free(memory);
+    PS_TRY(PS_NEW(&copy, length + PS_DECIMAL_PADDING, "figures of a device", error));
+    memcpy(copy, text, length);
+    const pspec_status status = parse(figures, copy, length, limits, error);
+    free(copy);
     if (status != PSPEC_OK) {
         *figures = (ps_figures){0};
         return status;

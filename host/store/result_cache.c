@@ -53,9 +53,8 @@ pspec_status ps_cache_open(ps_cache **out, const char *directory, uint64_t max_b
     }
     PS_TRY(ps_cache_folder_make(directory, error));
     PS_TRY(ps_cache_check_folder(directory, error));
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_cache), "cache", error));
-    ps_cache *const cache = memory;
+    ps_cache *cache = NULL;
+    PS_TRY(PS_NEW(&cache, 1, "cache", error));
     cache->max_bytes = max_bytes;
     atomic_flag_clear(&cache->has_failed);
     cache->directory = strdup(directory);

@@ -39,9 +39,7 @@ static void free_cell(const ps_cell *cell) {
 
 static pspec_status copy_columns(ps_table *table, const char *const *columns, size_t num_columns,
                                  ps_error *error) {
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, num_columns, sizeof *table->columns, "columns", error));
-    table->columns = memory;
+    PS_TRY(PS_NEW(&table->columns, num_columns, "columns", error));
     while (table->num_columns < num_columns) { /* counts those that are to be freed */
         PS_TRY(copy_text(&table->columns[table->num_columns], columns[table->num_columns], error));
         table->num_columns++;
@@ -52,9 +50,8 @@ static pspec_status copy_columns(ps_table *table, const char *const *columns, si
 pspec_status ps_table_create(ps_table **out, const char *command, const char *const *columns,
                              size_t num_columns, ps_error *error) {
     *out = NULL;
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_table), "table", error));
-    ps_table *table = memory;
+    ps_table *table = NULL;
+    PS_TRY(PS_NEW(&table, 1, "table", error));
     pspec_status status = copy_columns(table, columns, num_columns, error);
     if (status == PSPEC_OK) {
         status = copy_text(&table->command, command, error);
@@ -206,9 +203,7 @@ static pspec_status to_numbers(const ps_table *table, double **out, ps_error *er
                            table->columns[i % table->num_columns]);
         }
     }
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, num_cells, sizeof(double), "table", error));
-    *out = memory;
+    PS_TRY(PS_NEW(out, num_cells, "table", error));
     for (size_t i = 0; i < num_cells; i++) {
         const ps_cell *const cell = &table->cells[i];
         (*out)[i] = cell->kind == PS_CELL_NUMBER    ? cell->number

@@ -117,10 +117,8 @@ static pspec_status take_text(packed *in, char **text, ps_error *error) {
     if (memchr(in->next, '\0', length) != NULL) {
         return fail_packed("a text has a NUL inside", error);
     }
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, length + 1, 1, "text", error)); /* zeroed, so it ends in NUL */
-    memcpy(memory, in->next, length);
-    *text = memory;
+    PS_TRY(PS_NEW(text, length + 1, "text", error)); /* zeroed, so it ends in NUL */
+    memcpy(*text, in->next, length);
     in->next += length;
     in->left -= length;
     return PSPEC_OK;
@@ -160,10 +158,8 @@ static pspec_status take_cell(packed *in, ps_cell *cell, ps_error *error) {
 /* The table counts what is allocated, zeroes until it is filled, so that it can be destroyed at any time. */
 static pspec_status take_columns(packed *in, ps_table *table, ps_error *error) {
     size_t count = 0;
-    void *memory = NULL;
     PS_TRY(take_count(in, NUMBER_BYTES, &count, error));
-    PS_TRY(ps_allocate(&memory, count, sizeof *table->columns, "columns", error));
-    table->columns = memory;
+    PS_TRY(PS_NEW(&table->columns, count, "columns", error));
     table->num_columns = count;
     for (size_t i = 0; i < count; i++) {
         PS_TRY(take_text(in, &table->columns[i], error));
@@ -173,10 +169,8 @@ static pspec_status take_columns(packed *in, ps_table *table, ps_error *error) {
 
 static pspec_status take_meta(packed *in, ps_table *table, ps_error *error) {
     size_t count = 0;
-    void *memory = NULL;
     PS_TRY(take_count(in, NUMBER_BYTES + 1, &count, error));
-    PS_TRY(ps_allocate(&memory, count, sizeof *table->meta, "header of a table", error));
-    table->meta = memory;
+    PS_TRY(PS_NEW(&table->meta, count, "header of a table", error));
     table->num_meta = table->meta_capacity = count;
     for (size_t i = 0; i < count; i++) {
         PS_TRY(take_text(in, &table->meta[i].key, error));
@@ -188,14 +182,12 @@ static pspec_status take_meta(packed *in, ps_table *table, ps_error *error) {
 static pspec_status take_rows(packed *in, ps_table *table, ps_error *error) {
     const size_t num_columns = table->num_columns;
     size_t count = 0;
-    void *memory = NULL;
     PS_TRY(take_count(in, num_columns > 0 ? num_columns : 1, &count, error));
     if (num_columns == 0 && count > 0) {
         return fail_packed("it has rows, but no columns", error);
     }
     const size_t num_cells = count * num_columns; /* at most as many as bytes */
-    PS_TRY(ps_allocate(&memory, num_cells, sizeof *table->cells, "rows of a table", error));
-    table->cells = memory;
+    PS_TRY(PS_NEW(&table->cells, num_cells, "rows of a table", error));
     table->num_rows = count;
     table->cells_capacity = num_cells;
     for (size_t i = 0; i < num_cells; i++) {
@@ -219,14 +211,14 @@ static pspec_status take_table(packed *in, ps_table *table, ps_error *error) {
 
 pspec_status ps_table_unpack(ps_table **out, const void *bytes, size_t num_bytes, ps_error *error) {
     packed in = {bytes, num_bytes};
-    void *memory = NULL;
+    ps_table *table = NULL;
     *out = NULL;
-    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_table), "table", error));
-    const pspec_status status = take_table(&in, memory, error);
+    PS_TRY(PS_NEW(&table, 1, "table", error));
+    const pspec_status status = take_table(&in, table, error);
     if (status != PSPEC_OK) {
-        ps_table_destroy(memory);
+        ps_table_destroy(table);
         return status;
     }
-    *out = memory;
+    *out = table;
     return PSPEC_OK;
 }

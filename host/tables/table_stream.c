@@ -17,10 +17,9 @@ struct ps_table_stream {
 
 pspec_status ps_table_stream_open(ps_table_stream **out, const ps_table *table, const char *path,
                                   ps_table_format format, ps_error *error) {
-    void *memory = NULL;
     *out = NULL;
-    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_table_stream), "table", error));
-    ps_table_stream *stream = memory;
+    ps_table_stream *stream = NULL;
+    PS_TRY(PS_NEW(&stream, 1, "table", error));
     *stream = (ps_table_stream){.table = table, .path = path, .format = format};
     *out = stream;
     if (format == PS_FORMAT_CSV && strcmp(path, "-") == 0) {

@@ -24,10 +24,9 @@ static pspec_status measure_eigenvalues(ps_device *device, ps_precision precisio
                                         double *bound, ps_error *error) {
     enum { LAST = 10000 };
     static const double smoothnesses[] = {1.1, 1.5, 1.9};
-    void *memory = NULL;
+    double *a = NULL;
     (void)device, (void)precision;
-    PS_TRY(ps_allocate(&memory, LAST + 1, sizeof(double), "eigenvalues", error));
-    double *a = memory;
+    PS_TRY(PS_NEW(&a, LAST + 1, "eigenvalues", error));
     *found = 0;
     *bound = 1e-12; /* math/sobolev.h */
     for (size_t i = 0; i < sizeof smoothnesses / sizeof smoothnesses[0]; i++) {
@@ -41,7 +40,7 @@ static pspec_status measure_eigenvalues(ps_device *device, ps_precision precisio
             *found = fmax(*found, fabs((double)(a[l] / other - 1)));
         }
     }
-    free(memory);
+    free(a);
     return PSPEC_OK;
 }
 
@@ -82,14 +81,12 @@ static void integrate_lobe(double n, double end, size_t last, long double *ratio
 static pspec_status compare_lobe(const char *name, double n, double end, size_t last, double *found,
                                  ps_error *error) {
     ps_brdf *brdf = NULL;
-    void *memory = NULL;
-    void *others = NULL;
+    double *b = NULL;
+    long double *ratios = NULL;
     pspec_status status = PSPEC_OK;
     PS_TRY_OUT(status, ps_brdf_parse(&brdf, name, error));
-    PS_TRY_OUT(status, ps_allocate(&memory, last + 1, sizeof(double), "coefficients", error));
-    PS_TRY_OUT(status, ps_allocate(&others, last + 1, sizeof(long double), "coefficients", error));
-    double *b = memory;
-    long double *ratios = others;
+    PS_TRY_OUT(status, PS_NEW(&b, last + 1, "coefficients", error));
+    PS_TRY_OUT(status, PS_NEW(&ratios, last + 1, "coefficients", error));
     PS_TRY_OUT(status, ps_brdf_spherical(brdf, last, b, error));
     integrate_lobe(n, end, last, ratios);
     *found = 0;
@@ -98,8 +95,8 @@ static pspec_status compare_lobe(const char *name, double n, double end, size_t 
         *found = fmax(*found, fabs((double)(b[l] / other - 1)));
     }
 out:
-    free(memory);
-    free(others);
+    free(b);
+    free(ratios);
     ps_brdf_destroy(brdf);
     return status;
 }

@@ -57,12 +57,12 @@ static pspec_status run_engine(measurement *self, ps_error *error) {
                             .scales = &scale,
                             .exponents = &sample->sums.exponent};
     ps_rows rows = {0};
-    void *memory = NULL;
+    uint32_t *slots = NULL;
     PS_TRY(self->engine->run(self->state, &batch, &rows, error));
-    PS_TRY(ps_allocate(&memory, sample->frequencies.num, sizeof(uint32_t), "slots", error));
-    ps_engine_slots(self->engine, self->state, sample->frequencies.num, memory);
-    const pspec_status status = read_rows(self, &rows, memory, error);
-    free(memory);
+    PS_TRY(PS_NEW(&slots, sample->frequencies.num, "slots", error));
+    ps_engine_slots(self->engine, self->state, sample->frequencies.num, slots);
+    const pspec_status status = read_rows(self, &rows, slots, error);
+    free(slots);
     PS_TRY(status);
     if (self->coefficients != NULL) {
         PS_TRY(self->engine->coefficients(self->state, &batch, NULL, self->coefficients, error));

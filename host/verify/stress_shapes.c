@@ -326,19 +326,15 @@ const ps_vector_shape *ps_vector_shape_find(const char *name) {
 static pspec_status allocate(pspec_pattern *out, double **points, double **weights,
                              unsigned dimension, size_t num_points, bool has_weights,
                              ps_error *error) {
-    void *memory = NULL;
     *out = (pspec_pattern){.dimension = dimension, .num_points = num_points};
     *weights = NULL;
-    PS_TRY(ps_allocate(&memory, num_points, dimension * sizeof(double), "points", error));
-    *points = memory;
+    PS_TRY(ps_allocate_for(points, num_points, dimension * sizeof(double), "points", error));
     if (has_weights) {
-        const pspec_status status =
-            ps_allocate(&memory, num_points, sizeof(double), "weights", error);
+        const pspec_status status = PS_NEW(weights, num_points, "weights", error);
         if (status != PSPEC_OK) {
             free(*points);
             return status;
         }
-        *weights = memory;
     }
     out->points = *points;
     out->weights = *weights;

@@ -45,17 +45,12 @@ static pspec_status create_parts(ps_estimator *self, ps_error *error) {
 }
 
 static pspec_status create_arrays(ps_estimator *self, ps_error *error) {
-    void *memory = NULL;
     const ps_frequencies *set = self->options.problem.frequencies;
     PS_TRY(ps_bins_create(&self->bins, set, self->options.exact_shells, error));
-    PS_TRY(ps_allocate(&memory, set->num, sizeof(uint32_t), "slots", error));
-    self->slots = memory;
-    PS_TRY(ps_allocate(&memory, self->batch, sizeof(double), "scales", error));
-    self->scales = memory;
-    PS_TRY(ps_allocate(&memory, self->batch, sizeof(int), "exponents", error));
-    self->exponents = memory;
-    PS_TRY(ps_allocate(&memory, self->batch, sizeof *self->sums, "sums of weights", error));
-    self->sums = memory;
+    PS_TRY(PS_NEW(&self->slots, set->num, "slots", error));
+    PS_TRY(PS_NEW(&self->scales, self->batch, "scales", error));
+    PS_TRY(PS_NEW(&self->exponents, self->batch, "exponents", error));
+    PS_TRY(PS_NEW(&self->sums, self->batch, "sums of weights", error));
     return self->options.want_c2
                ? ps_pair_sums_create(&self->c2, set, self->batch, self->options.observer, error)
                : PSPEC_OK;
@@ -63,10 +58,9 @@ static pspec_status create_arrays(ps_estimator *self, ps_error *error) {
 
 pspec_status ps_estimator_create(ps_estimator **out, const ps_estimator_options *options,
                                  ps_device *device, ps_error *error) {
-    void *memory = NULL;
     *out = NULL;
-    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_estimator), "an estimator", error));
-    ps_estimator *self = memory;
+    ps_estimator *self = NULL;
+    PS_TRY(PS_NEW(&self, 1, "an estimator", error));
     self->options = *options;
     self->device = device;
     self->batch = options->batch;

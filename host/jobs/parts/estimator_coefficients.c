@@ -7,10 +7,8 @@
 
 /* vectors: [num_points][3], freed by the caller. */
 static pspec_status stretch(const pspec_pattern *pattern, double **vectors, ps_error *error) {
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, pattern->num_points, PS_SPHERE_DIMENSION * sizeof(double),
-                       "the stretched hemisphere", error));
-    *vectors = memory;
+    PS_TRY(ps_allocate_for(vectors, pattern->num_points, PS_SPHERE_DIMENSION * sizeof(double),
+                           "the stretched hemisphere", error));
     for (size_t j = 0; j < pattern->num_points; j++) {
         const size_t at = j * PS_SPHERE_DIMENSION;
         if (!ps_hemisphere_stretch(pattern->points + at, *vectors + at)) {

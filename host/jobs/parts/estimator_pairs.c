@@ -14,18 +14,14 @@ enum { MOST_THREADS = 16 };
 
 pspec_status ps_pair_sums_create(ps_pair_sums *out, const ps_frequencies *frequencies, size_t batch,
                                  ps_pair_observer observer, ps_error *error) {
-    void *memory = NULL;
     const size_t degrees = (size_t)frequencies->max_frequency + 1;
     *out = (ps_pair_sums){.frequencies = frequencies, .batch = batch, .observer = observer};
-    PS_TRY(ps_allocate(&memory, batch, degrees * sizeof(double), "zonal sums", error));
-    out->zonal = memory;
-    PS_TRY(ps_allocate(&memory, degrees, 2 * sizeof(double), "C_l^2", error));
-    out->c2 = memory;
+    PS_TRY(ps_allocate_for(&out->zonal, batch, degrees * sizeof(double), "zonal sums", error));
+    PS_TRY(ps_allocate_for(&out->c2, degrees, 2 * sizeof(double), "C_l^2", error));
     PS_TRY(ps_allocate(&out->scratch, batch < MOST_THREADS ? batch : MOST_THREADS,
                        ps_zonal_scratch(frequencies->max_frequency) * sizeof(double), "zonal sums",
                        error));
-    PS_TRY(ps_allocate(&memory, frequencies->num, sizeof(ps_sums), "sums of C_l^2", error));
-    out->sums = memory;
+    PS_TRY(PS_NEW(&out->sums, frequencies->num, "sums of C_l^2", error));
     return PSPEC_OK;
 }
 

@@ -230,16 +230,14 @@ static pspec_status estimate_inverse(estimate *inverse, ps_error *error) {
 
 pspec_status ps_cholesky_condition(size_t n, const double *matrix, double norm,
                                    const ps_watch *watch, double *condition, ps_error *error) {
-    void *x = NULL;
-    void *sign = NULL;
+    estimate inverse = {.n = n, .matrix = matrix, .watch = watch};
     pspec_status status = PSPEC_OK;
-    PS_TRY_OUT(status, ps_allocate(&x, n, sizeof(double), "a condition number", error));
-    PS_TRY_OUT(status, ps_allocate(&sign, n, 1, "a condition number", error));
-    estimate inverse = {.n = n, .matrix = matrix, .watch = watch, .x = x, .sign = sign};
+    PS_TRY_OUT(status, PS_NEW(&inverse.x, n, "a condition number", error));
+    PS_TRY_OUT(status, PS_NEW(&inverse.sign, n, "a condition number", error));
     PS_TRY_OUT(status, estimate_inverse(&inverse, error));
     *condition = norm * inverse.norm;
 out:
-    free(x);
-    free(sign);
+    free(inverse.x);
+    free(inverse.sign);
     return status;
 }

@@ -287,9 +287,8 @@ static pspec_status run_cases(bench *self, ps_error *error) {
 
 pspec_status ps_bench_run(const ps_bench_options *options, ps_device *device, double copied_bytes,
                           ps_error *error) {
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, 1, sizeof(bench), "a benchmark", error));
-    bench *self = memory;
+    bench *self = NULL;
+    PS_TRY(PS_NEW(&self, 1, "a benchmark", error));
     *self = (bench){.options = options, .device = device, .copied_bytes = copied_bytes};
     pspec_status status = ps_peak_create(&self->peaks[PS_SINGLE], device, PS_SINGLE, error);
     if (status == PSPEC_OK && ps_device_get_limits(device)->has_fp64) {
@@ -300,6 +299,6 @@ pspec_status ps_bench_run(const ps_bench_options *options, ps_device *device, do
     }
     ps_peak_destroy(&self->peaks[PS_SINGLE]);
     ps_peak_destroy(&self->peaks[PS_DOUBLE]);
-    free(memory);
+    free(self);
     return status;
 }

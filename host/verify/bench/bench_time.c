@@ -19,17 +19,13 @@ static const double most_device_seconds = 2, most_host_seconds = 0.5, quick_most
 
 pspec_status ps_bench_sets_create(ps_bench_sets *out, const ps_bench_case *what, uint64_t num,
                                   ps_error *error) {
-    void *memory = NULL;
     *out = (ps_bench_sets){.what = what, .capacity = (size_t)num};
     PS_TRY(PS_NEW(&out->patterns, out->capacity, "realizations", error));
-    pspec_status status =
-        ps_allocate(&memory, out->capacity, sizeof *out->scales, "realizations", error);
+    const pspec_status status = PS_NEW(&out->scales, out->capacity, "realizations", error);
     if (status != PSPEC_OK) {
         ps_bench_sets_free(out);
-        return status;
     }
-    out->scales = memory;
-    return PSPEC_OK;
+    return status;
 }
 
 void ps_bench_sets_free(ps_bench_sets *sets) {

@@ -202,9 +202,9 @@ static pspec_status find_neighbours(ps_probe_data *data, const ps_probe *what, d
 static pspec_status touch_memory(ps_probe_data *data, const ps_probe *what, double *predicted,
                                  ps_error *error) {
     enum { BYTES = 1 << 26, PAGE = 4096 };
-    void *memory = NULL;
+    char *memory = NULL;
     (void)data;
-    PS_TRY(ps_allocate(&memory, BYTES, 1, "memory to touch", error));
+    PS_TRY(PS_NEW(&memory, BYTES, "memory to touch", error));
     for (size_t i = 0; i < BYTES; i += PAGE) {
         ((volatile char *)memory)[i] = 1;
     }
