@@ -59,6 +59,12 @@ void pspec_context_set_log(pspec_context *context, pspec_log log, void *payload)
     }
 }
 
+void pspec_context_set_warnings(pspec_context *context, pspec_log warn, void *payload) {
+    if (context != NULL) {
+        context->warnings = (ps_log){warn, payload};
+    }
+}
+
 /* With what `pointspec bench` has measured of it; without a folder for that, with the built-in
  * figures. */
 pspec_status ps_context_open_device(pspec_context *context) {

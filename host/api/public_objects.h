@@ -6,6 +6,7 @@
 #include "base/watch.h"
 #include "device/device.h"
 #include "spectra/spectrum_sums.h"
+#include "tables/table.h"
 
 struct pspec_context {
     ps_error error;
@@ -14,7 +15,12 @@ struct pspec_context {
     uint64_t memory_limit;
     ps_watch watch; /* the progress callback */
     ps_log log;
+    ps_log warnings;
 };
+
+/* A table with its verdict, "" where nothing is wrong; both are taken over even when it fails. */
+pspec_status ps_public_table(pspec_table **out, ps_table *table, const char *verdict,
+                             ps_error *error) PS_MUST_CHECK;
 
 /* Opens the context's device unless it is open. */
 pspec_status ps_context_open_device(pspec_context *context) PS_MUST_CHECK;

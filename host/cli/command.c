@@ -11,12 +11,14 @@ bool ps_command_takes(const ps_command *command, ps_option_id id) {
 }
 
 const char *ps_command_words(const ps_command *command, ps_option_id id) {
-    const char *const weights =
-        command->result != NULL ? command->result->weights : command->weights;
+    if (command->result != NULL) {
+        return ps_result_words(command->result, id);
+    }
     if (id == PS_OPTION_FORMAT && command->formats != NULL) {
         return command->formats;
     }
-    return id == PS_OPTION_WEIGHTS && weights != NULL ? weights : ps_options[id].metavar;
+    return id == PS_OPTION_WEIGHTS && command->weights != NULL ? command->weights
+                                                               : ps_options[id].metavar;
 }
 
 const char *ps_command_metavar(const ps_command *command, ps_option_id id) {

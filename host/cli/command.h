@@ -27,9 +27,11 @@ typedef struct ps_command {
         *result;     /* what it prints, with the options of that question; NULL: something else */
     ps_takers takes; /* whose options: the command's bit in their table */
     const char *examples[2]; /* complete command lines, run by the tests */
-    const char *formats;     /* words of --format, the default first; NULL: csv|json|npy */
-    const char *weights; /* words of --weights, where no result says so; NULL: equal|column|FILE */
-    ps_domain samples;   /* which samplers it takes, where no result says so, for --help */
+    /* Words of --format, the default first, and of --weights, where no result says so; NULL: csv|json|npy,
+     * equal|column|FILE. */
+    const char *formats, *weights;
+    bool makes_folder; /* which --output names: it has no default */
+    ps_domain samples; /* which samplers it takes, where no result says so, for --help */
     pspec_status (*run)(const ps_request *, ps_error *); /* NULL: it prints its result */
     /* Adds what the command would come to; NULL: its result says so, or it cannot be planned. */
     pspec_status (*plan)(ps_planner *, const ps_request *, ps_error *);

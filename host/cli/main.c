@@ -92,6 +92,9 @@ static pspec_status take_memory(const ps_command *command, ps_request *arguments
 }
 
 static pspec_status run_parsed(const ps_command *command, ps_request *arguments, ps_error *error) {
+    if (arguments->output == NULL && !command->makes_folder) {
+        arguments->output = "-"; /* in the library NULL is no output */
+    }
     if (!arguments->is_given[PS_OPTION_DEVICE]) {
         arguments->limits.device = getenv("POINTSPEC_DEVICE");
     }

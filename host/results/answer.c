@@ -12,16 +12,27 @@ void ps_answer_begin_next(const ps_answer_hooks *hooks) {
     }
 }
 
-void ps_answer_warn(const ps_answer_hooks *hooks, const char *format, ...) {
+static void say(void (*hear)(void *payload, const char *sentence), void *payload,
+                const char *format, va_list arguments) {
     char sentence[PS_MESSAGE_BYTES];
-    va_list arguments;
-    if (hooks->warn == NULL) {
-        return;
+    if (hear != NULL) {
+        vsnprintf(sentence, sizeof sentence, format, arguments);
+        hear(payload, sentence);
     }
+}
+
+void ps_answer_warn(const ps_answer_hooks *hooks, const char *format, ...) {
+    va_list arguments;
     va_start(arguments, format);
-    vsnprintf(sentence, sizeof sentence, format, arguments);
+    say(hooks->warn, hooks->payload, format, arguments);
     va_end(arguments);
-    hooks->warn(hooks->payload, sentence);
+}
+
+void ps_answer_tell_missing(const ps_answer_hooks *hooks, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    say(hooks->tell_missing, hooks->payload, format, arguments);
+    va_end(arguments);
 }
 
 pspec_status ps_answer_make(ps_answer *out, const ps_result_kind *kind, const ps_request *request,

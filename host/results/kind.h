@@ -23,8 +23,14 @@ typedef struct ps_answer_hooks {
     void *payload; /* of the calls */
     /* The work for the next sampler, or for the files, begins. */
     void (*next)(void *payload);
+    /* The work is over, or has failed; what was made of it is written next. */
+    void (*end)(void *payload);
     /* A whole sentence that is no error. */
     void (*warn)(void *payload, const char *sentence);
+    /* The same, of a file that was asked for and is not there. */
+    void (*tell_missing)(void *payload, const char *sentence);
+    /* Asked after a failure: was it an interrupt? */
+    bool (*is_interrupted)(void *payload);
     /* Before the work for one sampler, and after it. */
     void (*tell_plan)(void *payload, const ps_plan *plan);
     void (*tell_profile)(void *payload, const ps_profile_row *rows, size_t num_rows);
@@ -34,6 +40,7 @@ typedef struct ps_answer_hooks {
 void ps_answer_begin_next(const ps_answer_hooks *hooks);
 /* Calls the hook `warn` with a sentence, if there is somebody to hear it. */
 void ps_answer_warn(const ps_answer_hooks *hooks, const char *format, ...) PS_PRINTF(2, 3);
+void ps_answer_tell_missing(const ps_answer_hooks *hooks, const char *format, ...) PS_PRINTF(2, 3);
 
 typedef struct ps_answer {
     ps_table *table;
@@ -113,5 +120,16 @@ static inline bool ps_result_asks(const ps_result_kind *kind, ps_option_id id) {
 pspec_status ps_answer_make(ps_answer *out, const ps_result_kind *kind, const ps_request *request,
                             const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
 void ps_answer_free(ps_answer *answer);
+
+/* What a command that prints the kind does: whatever can be refused is refused before hours of
+ * work, then it is computed, and the files are written that the request names: table (an output
+ * NULL is none), others, picture. *out is freed by ps_answer_free, also after an error; differences
+ * that a check found are its verdict, and no error. */
+pspec_status ps_answer_produce(ps_answer *out, const ps_result_kind *kind,
+                               const ps_request *request, const ps_answer_hooks *hooks,
+                               ps_error *error) PS_MUST_CHECK;
+
+/* The values that the kind admits for the option, "one|two|FILE"; NULL for a flag. */
+const char *ps_result_words(const ps_result_kind *kind, ps_option_id id);
 
 #endif

@@ -1,29 +1,11 @@
 /* The values of one key of a scene. */
-#include "questions/options.h"
+#include "questions/option_text.h"
 #include "scene/scene_file.h"
 
 #include <string.h>
 
 /* Of one key; lists are typed by people. */
 enum { MOST_VALUES = 1000 };
-
-pspec_status ps_scene_apply(ps_request *request, const ps_result_kind *kind, ps_option_id option,
-                            const char *text, ps_error *error) {
-    const ps_option *const row = &ps_options[option];
-    const char *const words =
-        option == PS_OPTION_WEIGHTS && kind->weights != NULL ? kind->weights : row->metavar;
-    if (row->metavar == NULL) {
-        if (strcmp(text, "false") == 0) {
-            return PSPEC_OK;
-        }
-        if (strcmp(text, "true") != 0) {
-            return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "true or false, not \"%s\"", text);
-        }
-    }
-    request->is_given[option] = true;
-    request->forms[option] = PS_FORM_KEY;
-    return ps_option_set(request, option, words, text, error);
-}
 
 /* ---- paths ------------------------------------------------------------------------------- */
 
@@ -110,7 +92,8 @@ static pspec_status check_value(const ps_scene_file *file, const ps_result_kind 
     if (option == PS_SCENE_FILES) {
         return PSPEC_OK;
     }
-    return ps_scene_apply(&scratch, kind, (ps_option_id)option, value->texts[0], &reason) ==
+    const ps_option_id id = (ps_option_id)option;
+    return ps_option_apply(&scratch, id, ps_result_words(kind, id), value->texts[0], &reason) ==
                    PSPEC_OK
                ? PSPEC_OK
                : complain_of_value(file, value->line, key, &reason);

@@ -73,10 +73,6 @@ pspec_status ps_scene_take_entry(ps_scene *scene, const ps_scene_file *file,
 /* Is the value of an option a path, and no word? */
 bool ps_scene_is_path(int option, const char *text);
 
-/* Sets an option of a request to a text; flags are true or false. */
-pspec_status ps_scene_apply(ps_request *request, const ps_result_kind *kind, ps_option_id option,
-                            const char *text, ps_error *error) PS_MUST_CHECK;
-
 /* What reads a scene. */
 typedef struct ps_scene_reader {
     ps_scene *scene;

@@ -1,5 +1,5 @@
 /* The questions of a result: one for each combination of its values. */
-#include "questions/options.h"
+#include "questions/option_text.h"
 #include "scene/scene_file.h"
 
 #include <stdlib.h>
@@ -27,27 +27,6 @@ const ps_scene_value *ps_scene_value_of(const ps_scene_result *result, size_t nu
     return &entry->values[number % entry->num_values];
 }
 
-static void append_option(ps_text *command, const ps_scene_entry *entry, const char *text) {
-    const bool is_flag = ps_options[entry->option].metavar == NULL;
-    if (is_flag && strcmp(text, "true") != 0) {
-        return;
-    }
-    if (is_flag) {
-        ps_text_append(command, " --%s", ps_scene_key(entry));
-        return;
-    }
-    if (text[0] != '-') {
-        ps_text_append(command, " --%s", ps_scene_key(entry));
-        ps_text_append_word(command, text);
-        return;
-    }
-    ps_text word = {0}; /* one word, since the value looks like an option */
-    ps_text_append(&word, "--%s=%s", ps_scene_key(entry), text);
-    ps_text_append_word(command, ps_text_string(&word));
-    command->failed = command->failed || word.failed;
-    ps_text_free(&word);
-}
-
 static pspec_status take_value(ps_scene_question *out, const ps_scene_entry *entry,
                                const ps_scene_value *value, ps_error *error) {
     if (entry->option == PS_SCENE_FILES) {
@@ -55,9 +34,10 @@ static pspec_status take_value(ps_scene_question *out, const ps_scene_entry *ent
         out->request.num_files = value->num_texts;
         return PSPEC_OK;
     }
-    append_option(&out->command, entry, value->texts[0]);
-    return ps_scene_apply(&out->request, out->result->kind, (ps_option_id)entry->option,
-                          value->texts[0], error);
+    const ps_option_id id = (ps_option_id)entry->option;
+    ps_option_append(&out->command, id, value->texts[0]);
+    return ps_option_apply(&out->request, id, ps_result_words(out->result->kind, id),
+                           value->texts[0], error);
 }
 
 pspec_status ps_scene_question_make(ps_scene_question *out, const ps_scene_result *result,

@@ -1,6 +1,7 @@
 #include "harness_public.h"
 
 #include <gsl/gsl_errno.h>
+#include <stdlib.h>
 #include <string.h>
 
 pspec_power_request test_host_request(void) {
@@ -9,6 +10,12 @@ pspec_power_request test_host_request(void) {
     request.max_frequency = 4;
     request.engine = "host_direct";
     return request;
+}
+
+pspec_context *test_public_context(void) {
+    pspec_context *const context = pspec_context_create();
+    assert_int_equal(pspec_context_set_device(context, getenv("POINTSPEC_DEVICE")), PSPEC_OK);
+    return context;
 }
 
 pspec_spectrum *test_public_spectrum(pspec_context *context, const pspec_power_request *request,

@@ -9,6 +9,9 @@ enum { TEST_NUM_POINTS = 30 };
 /* A small grid, by the engine that needs no device. */
 pspec_power_request test_host_request(void);
 
+/* With the device of the tests. */
+pspec_context *test_public_context(void);
+
 /* The spectrum of patterns, by a plan of its own. */
 pspec_spectrum *test_public_spectrum(pspec_context *context, const pspec_power_request *request,
                                      const pspec_pattern *patterns, size_t num);

@@ -192,15 +192,9 @@ static void check_plan(pspec_context *context, pspec_plan *plan, const pspec_pat
     check_spectrum(context, plan, expected);
 }
 
-static pspec_context *make_context(void) {
-    pspec_context *const context = pspec_context_create();
-    assert_int_equal(pspec_context_set_device(context, getenv("POINTSPEC_DEVICE")), PSPEC_OK);
-    return context;
-}
-
 static void compare_power(const cloud *shape, const pspec_power_request *request, const char *words,
                           bool is_planned_twice) {
-    pspec_context *const context = make_context();
+    pspec_context *const context = test_public_context();
     pspec_plan *plan = NULL;
     pspec_pattern patterns[NUM_SETS];
     for (size_t r = 0; r < NUM_SETS; r++) {
@@ -221,7 +215,7 @@ static void compare_power(const cloud *shape, const pspec_power_request *request
 
 static void compare_angular(const cloud *shape, const pspec_angular_request *request,
                             const char *words, const char *power, const char *error) {
-    pspec_context *const context = make_context();
+    pspec_context *const context = test_public_context();
     pspec_plan *plan = NULL;
     pspec_pattern patterns[NUM_SETS];
     for (size_t r = 0; r < NUM_SETS; r++) {
@@ -290,7 +284,7 @@ static void on_the_sphere(void **state) {
 
 /* What was measured of a device lies where the program keeps it, and the library reads it there. */
 static void with_calibrated_figures(void **state) {
-    pspec_context *const context = make_context();
+    pspec_context *const context = test_public_context();
     ps_device *const device = test_open_device();
     ps_figures figures = {.is_measured = true};
     ps_figures_row(&figures, "torus_nufft")->scales[PS_SINGLE] = 1.0 / 3;

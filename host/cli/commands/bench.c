@@ -1,8 +1,8 @@
 /* pointspec bench: run time against error on this device, and its figures for the planner. */
 #include "cli/command.h"
 #include "cli/commands/bench_scenes.h"
-#include "cli/output_check.h"
-#include "cli/picture.h"
+#include "report/output_check.h"
+#include "results/picture.h"
 #include "questions/options.h"
 #include "report/bench_plot.h"
 #include "store/host_figures.h"
@@ -128,6 +128,16 @@ static pspec_status make_table(answer *shown, ps_table_format format, const char
     return ps_table_stream_open(&shown->stream, shown->table, path, format, error);
 }
 
+static void warn(void *payload, const char *sentence) {
+    (void)payload;
+    fprintf(stderr, "pointspec: %s\n", sentence);
+}
+
+static bool is_interrupted(void *payload) {
+    (void)payload;
+    return ps_interrupted != 0;
+}
+
 static pspec_status run_cases(answer *shown, const ps_bench_options *options,
                               ps_table_format format, const char *path, ps_error *error) {
     const ps_request *arguments = shown->arguments;
@@ -139,9 +149,10 @@ static pspec_status run_cases(answer *shown, const ps_bench_options *options,
     ps_progress_end(shown->progress);
     PS_TRY(status);
     PS_TRY(ps_table_stream_close(&shown->stream, error));
+    const ps_answer_hooks hooks = {.tell_missing = warn, .is_interrupted = is_interrupted};
     return arguments->plot == NULL
                ? PSPEC_OK
-               : ps_picture_settle(arguments,
+               : ps_picture_settle(arguments, &hooks,
                                    ps_bench_plot(arguments->plot, &shown->rows,
                                                  ps_device_get_limits(shown->device)->name, error),
                                    error);
@@ -253,7 +264,8 @@ static pspec_status check_words(const ps_request *arguments, const ps_bench_opti
                        "no file is read, but %s was given; --scenes is for scenes",
                        arguments->files[0]);
     }
-    PS_TRY(ps_picture_check(arguments, error));
+    PS_TRY(ps_picture_check(arguments, &(ps_answer_hooks){.warn = arguments->quiet ? NULL : warn},
+                            error));
     if (arguments->calibrate) {
         PS_TRY(check_calibration(arguments, error));
     }
@@ -262,7 +274,7 @@ static pspec_status check_words(const ps_request *arguments, const ps_bench_opti
 
 /* The table is there also when answers differ. */
 static pspec_status run_scenes(const ps_request *arguments, ps_error *error) {
-    const char *const path = arguments->output != NULL ? arguments->output : "-";
+    const char *const path = arguments->output;
     ps_table *table = NULL;
     ps_table_format format = PS_FORMAT_CSV;
     ps_error unwritten = {0};
@@ -291,7 +303,7 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
     if (arguments->scenes) {
         return run_scenes(arguments, error);
     }
-    const char *const path = arguments->output != NULL ? arguments->output : "-";
+    const char *const path = arguments->output;
     answer shown = {.arguments = arguments};
     const ps_bench_options options = {.case_name = arguments->case_name,
                                       .engine = arguments->limits.constraints.engine,

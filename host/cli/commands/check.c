@@ -23,5 +23,4 @@ const ps_command ps_command_check = {
          "--against saved.json --sampler jittered -m 16",
          "pointspec sample --sampler jittered -n 256 -m 16 -s 7 | pointspec check --against "
          "saved.json -"},
-    .formats = "csv|json",
 };

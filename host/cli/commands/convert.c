@@ -1,6 +1,6 @@
 /* pointspec convert: point files into another format, block by block. */
 #include "cli/command.h"
-#include "cli/output_check.h"
+#include "report/output_check.h"
 #include "jobs/convert.h"
 #include "questions/question.h"
 
@@ -22,7 +22,7 @@ static ps_progress *begin_progress(const ps_request *arguments, const char *path
 }
 
 static pspec_status run(const ps_request *arguments, ps_error *error) {
-    const char *const output = arguments->output != NULL ? arguments->output : "-";
+    const char *const output = arguments->output;
     ps_text loss = {0};
     PS_TRY(check_words(arguments, error));
     ps_progress *const progress = begin_progress(arguments, output);

@@ -104,7 +104,7 @@ out:
 }
 
 static pspec_status run(const ps_request *arguments, ps_error *error) {
-    const char *const path = arguments->output != NULL ? arguments->output : "-";
+    const char *const path = arguments->output;
     ps_table_format format = PS_FORMAT_CSV;
     ps_table *table = NULL;
     pspec_status status = PSPEC_OK;

@@ -75,7 +75,7 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
     PS_TRY(take_command(&inner, &command, arguments, error));
     /* Where points are written -o and --format are about the points: the plan must not stand in their place. */
     const bool is_of_points = command == &ps_command_sample || command == &ps_command_convert;
-    const char *const path = !is_of_points && arguments->output != NULL ? arguments->output : "-";
+    const char *const path = is_of_points ? "-" : arguments->output;
     PS_TRY(ps_table_choose_format(&format, is_of_points ? NULL : arguments->format, path, error));
     PS_TRY(ps_plan_table_create(&table, command == &ps_command_run, error));
     pspec_status status = fill(table, command, &inner, error);

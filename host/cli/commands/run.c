@@ -96,6 +96,7 @@ const ps_command ps_command_run = {
         "same bits. Answers are kept in a cache that all scenes share. Exit status 3 when a check "
         "finds another spectrum than the saved one, or a record is not repeated.",
     .takes = PS_TAKER_BIT(run),
+    .makes_folder = true,
     .examples = {"printf 'scene: 1\\nresults:\\n  - {result: power, samplers: [white, jittered], "
                  "points: 64..256, realizations: 16}\\n' >scene.yaml && pointspec run scene.yaml",
                  "pointspec run scene.yaml -o again --no-skip"},

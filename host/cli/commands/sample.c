@@ -86,7 +86,7 @@ static pspec_status check_memory(const ps_sampler_request *request, uint64_t lim
 }
 
 static pspec_status run(const ps_request *arguments, ps_error *error) {
-    const char *const path = arguments->output != NULL ? arguments->output : "-";
+    const char *const path = arguments->output;
     ps_sampler_request request = {0};
     void *points = NULL;
     ps_point_writer *writer = NULL;

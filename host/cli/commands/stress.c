@@ -1,6 +1,6 @@
 /* pointspec stress: the numerical stability suite on this device. */
 #include "cli/command.h"
-#include "cli/output_check.h"
+#include "report/output_check.h"
 #include "tables/table_stream.h"
 #include "verify/stress.h"
 
@@ -99,7 +99,7 @@ static pspec_status check_words(const ps_request *arguments, const ps_stress_opt
 }
 
 static pspec_status run(const ps_request *arguments, ps_error *error) {
-    const char *const path = arguments->output != NULL ? arguments->output : "-";
+    const char *const path = arguments->output;
     answer shown = {.arguments = arguments};
     const ps_stress_options options = {.case_name = arguments->case_name,
                                        .engine = arguments->limits.constraints.engine,

@@ -65,6 +65,11 @@ typedef void (*pspec_log)(const char *sentence, void *payload);
  * versions. Plans keep the callback that was set when they were made. */
 PSPEC_EXPORT void pspec_context_set_log(pspec_context *context, pspec_log log, void *payload);
 
+/** Calls warn with sentences that are no errors and that the program says on standard error: work
+ * that will take hours, a standard error that was not reached, a picture that could not be drawn;
+ * NULL, the default: nobody is told. */
+PSPEC_EXPORT void pspec_context_set_warnings(pspec_context *context, pspec_log warn, void *payload);
+
 /** @} */
 
 #ifdef __cplusplus

@@ -48,11 +48,13 @@
 #ifndef POINTSPEC_POINTSPEC_H
 #define POINTSPEC_POINTSPEC_H
 
+#include "pointspec/answer.h"
 #include "pointspec/common.h"
 #include "pointspec/context.h"
 #include "pointspec/interpolant.h"
 #include "pointspec/plan.h"
 #include "pointspec/quadrature.h"
 #include "pointspec/spectrum.h"
+#include "pointspec/table.h"
 
 #endif

@@ -1,4 +1,4 @@
-#include "cli/output_check.h"
+#include "report/output_check.h"
 
 #include "base/text.h"
 #include "files/output_file.h"
@@ -94,6 +94,10 @@ static pspec_status check_standard_output(const ps_request *arguments, ps_error 
     return PSPEC_OK;
 }
 
+static bool is_stream(const char *path) {
+    return path != NULL && strcmp(path, "-") == 0;
+}
+
 static bool ends_in(const char *path, const char *ending) {
     const size_t length = strlen(path);
     return length >= strlen(ending) && strcmp(path + length - strlen(ending), ending) == 0;
@@ -124,7 +128,7 @@ static void replace_ending(ps_text *out, const char *path, const char *ending) {
 static pspec_status check_all(const named_path *outputs, size_t num, const ps_request *arguments,
                               ps_error *error) {
     for (size_t i = 0; i < num; i++) {
-        if (outputs[i].path == NULL) {
+        if (outputs[i].path == NULL || is_stream(outputs[i].path)) {
             continue;
         }
         for (size_t j = i + 1; j < num; j++) {
@@ -141,7 +145,7 @@ static pspec_status check_all(const named_path *outputs, size_t num, const ps_re
 pspec_status ps_outputs_check(const ps_request *arguments, bool is_table, ps_error *error) {
     ps_text sidecar = {0};         /* names of the columns beside a table in NPY */
     ps_text standard_errors = {0}; /* beside the array of --full */
-    const bool is_npy = is_table && arguments->output != NULL &&
+    const bool is_npy = is_table && arguments->output != NULL && !is_stream(arguments->output) &&
                         (arguments->format != NULL ? strcmp(arguments->format, "npy") == 0
                                                    : ends_in(arguments->output, ".npy"));
     if (is_npy) {
@@ -163,7 +167,7 @@ pspec_status ps_outputs_check(const ps_request *arguments, bool is_table, ps_err
     if (status == PSPEC_OK) {
         status = ps_text_check(&standard_errors, error);
     }
-    if (status == PSPEC_OK && (arguments->output == NULL || strcmp(arguments->output, "-") == 0)) {
+    if (status == PSPEC_OK && is_stream(arguments->output)) {
         status = check_standard_output(arguments, error);
     }
     if (status == PSPEC_OK) {

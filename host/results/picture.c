@@ -1,0 +1,58 @@
+#include "results/picture.h"
+
+#include "base/text.h"
+#include "plots/plot.h"
+
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* Does the table go where nobody reads it? */
+static bool is_discarded(const char *output) {
+    struct stat facts;
+    struct stat nothing;
+    const bool is_standard = strcmp(output, "-") == 0;
+    const int found = is_standard ? fstat(STDOUT_FILENO, &facts) : stat(output, &facts);
+    return found == 0 && stat("/dev/null", &nothing) == 0 && S_ISCHR(facts.st_mode) &&
+           facts.st_rdev == nothing.st_rdev;
+}
+
+/* A table that is written nowhere is kept by who asked for it. */
+static bool is_all(const ps_request *request) {
+    return request->full == NULL && request->coefficients == NULL && request->output != NULL &&
+           is_discarded(request->output);
+}
+
+pspec_status ps_picture_check(const ps_request *request, const ps_answer_hooks *hooks,
+                              ps_error *error) {
+    ps_text path = {0};
+    ps_error reason = {0};
+    if (request->plot == NULL) {
+        return PSPEC_OK;
+    }
+    if (!ps_plot_is_supported(request->plot)) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "--plot draws .png, .svg and .pdf, not \"%s\"", request->plot);
+    }
+    pspec_status status = ps_plot_find_gnuplot(&path, &reason);
+    if (status == PSPEC_ERROR_MEMORY || (status != PSPEC_OK && is_all(request))) {
+        *error = reason;
+    } else if (status != PSPEC_OK) {
+        status = PSPEC_OK;
+        ps_answer_warn(hooks, "\"%s\" will not be drawn: %s", request->plot, reason.message);
+    }
+    ps_text_free(&path);
+    return status;
+}
+
+pspec_status ps_picture_settle(const ps_request *request, const ps_answer_hooks *hooks,
+                               pspec_status drawn, ps_error *error) {
+    const bool is_interrupted =
+        hooks->is_interrupted != NULL && hooks->is_interrupted(hooks->payload);
+    if (drawn == PSPEC_OK || drawn == PSPEC_ERROR_CANCELLED || is_interrupted || is_all(request)) {
+        return drawn;
+    }
+    ps_answer_tell_missing(hooks, "\"%s\" was not drawn: %s", request->plot, error->message);
+    *error = (ps_error){0};
+    return PSPEC_OK;
+}

@@ -1,0 +1,284 @@
+/* Answers of the library are those of the program, byte for byte: the same options, by names to one and as words to the
+ * other, give the same files. */
+#include "harness_public.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { TEXT = 4096, EXIT_CHECK = 3 };
+
+static char folder[] = "/tmp/test_answers_XXXXXX";
+
+#define COUNT(options) (sizeof(options) / sizeof(options)[0])
+
+/* ---- the program ------------------------------------------------------------------------- */
+
+/* "--points 64 ... a.txt": as the library says the command line, files behind the rest. */
+static void append_words(char *line, size_t size, const pspec_option *options, size_t num) {
+    for (int want_files = 0; want_files < 2; want_files++) {
+        for (size_t i = 0; i < num; i++) {
+            const size_t length = strlen(line);
+            const bool is_file = strcmp(options[i].name, "files") == 0;
+            const char *const value = options[i].value != NULL ? options[i].value : "";
+            if (is_file == (want_files != 0)) {
+                snprintf(line + length, size - length, is_file ? "%.0s %s" : " --%s %s",
+                         options[i].name, value);
+            }
+        }
+    }
+}
+
+/* Its exit status; what it says on standard error is in "said". */
+static int ask_program(const char *command, const pspec_option *options, size_t num) {
+    char line[TEXT];
+    snprintf(line, sizeof line, "'%s' %s", TEST_PROGRAM, command);
+    append_words(line, sizeof line, options, num);
+    strncat(line, " >/dev/null 2>said", sizeof line - strlen(line) - 1);
+    const int status = system(line);
+    assert_true(status != -1 && WIFEXITED(status));
+    return WEXITSTATUS(status);
+}
+
+/* ---- files --------------------------------------------------------------------------------- */
+
+static char *read_whole(const char *path, size_t *num) {
+    FILE *const file = fopen(path, "rb");
+    struct stat facts;
+    if (file == NULL) {
+        fail_msg("there is no %s", path);
+    }
+    assert_int_equal(stat(path, &facts), 0);
+    char *const bytes = calloc((size_t)facts.st_size + 1, 1);
+    *num = fread(bytes, 1, (size_t)facts.st_size, file);
+    assert_int_equal(*num, facts.st_size);
+    fclose(file);
+    return bytes;
+}
+
+static void assert_same_file(const char *path, const char *expected) {
+    size_t num = 0;
+    size_t num_expected = 0;
+    char *const bytes = read_whole(path, &num);
+    char *const other = read_whole(expected, &num_expected);
+    if (num != num_expected || memcmp(bytes, other, num) != 0) {
+        fail_msg("%s, which the library wrote:\n%s\n%s, which the program wrote:\n%s", path, bytes,
+                 expected, other);
+    }
+    free(bytes);
+    free(other);
+}
+
+/* ---- the library ----------------------------------------------------------------------------- */
+
+static pspec_table *ask_library(pspec_context *context, const char *kind,
+                                const pspec_option *options, size_t num) {
+    pspec_table *table = NULL;
+    if (pspec_answer(&table, context, kind, options, num) != PSPEC_OK) {
+        fail_msg("%s: %s", kind, pspec_context_message(context));
+    }
+    assert_non_null(table);
+    assert_string_equal(pspec_table_name(table), kind);
+    return table;
+}
+
+/* Both write the files named, the program first; the table is the option "output", which is files[0]. */
+static void compare(const char *kind, const pspec_option *options, size_t num,
+                    const char *const *files, size_t num_files) {
+    pspec_context *const context = test_public_context();
+    char expected[TEXT];
+    assert_int_equal(ask_program(kind, options, num), 0);
+    for (size_t i = 0; i < num_files; i++) {
+        snprintf(expected, sizeof expected, "expected_%s", files[i]);
+        assert_int_equal(rename(files[i], expected), 0);
+    }
+    pspec_table *const table = ask_library(context, kind, options, num);
+    assert_string_equal(pspec_table_verdict(table), "");
+    for (size_t i = 0; i < num_files; i++) {
+        snprintf(expected, sizeof expected, "expected_%s", files[i]);
+        assert_same_file(files[i], expected);
+    }
+    /* and from the object */
+    snprintf(expected, sizeof expected, "again_%s", files[0]);
+    assert_int_equal(pspec_table_write(table, context, expected, NULL), PSPEC_OK);
+    assert_same_file(expected, files[0]);
+    pspec_table_destroy(table);
+    pspec_context_destroy(context);
+}
+
+#define COMPARE(kind, options, ...)                                                                \
+    compare(kind, options, COUNT(options), (const char *const[]){__VA_ARGS__},                     \
+            sizeof((const char *const[]){__VA_ARGS__}) / sizeof(char *))
+
+/* ---- kinds ----------------------------------------------------------------------------------- */
+
+static void power(void **state) {
+    (void)state;
+    const pspec_option two[] = {{"sampler", "jittered"}, {"sampler", "white"},
+                                {"points", "64"},        {"realizations", "3"},
+                                {"shells", NULL},        {"max-frequency", "6"},
+                                {"output", "two.csv"}};
+    COMPARE("power", two, "two.csv");
+    const pspec_option whole[] = {{"sampler", "halton"},  {"points", "50"},
+                                  {"full", "full.npy"},   {"tol", "1e-9"},
+                                  {"max-frequency", "5"}, {"output", "h.npy"}};
+    COMPARE("power", whole, "h.npy", "h.json", "full.npy", "full.standard_error.npy");
+    const pspec_option of_files[] = {{"files", "sets.txt"},      {"files", "more.txt"},
+                                     {"weights", "weights.txt"}, {"normalize", "effective"},
+                                     {"max-frequency", "4"},     {"output", "files.json"}};
+    COMPARE("power", of_files, "files.json");
+    const pspec_option by_format[] = {{"sampler", "white"},
+                                      {"points", "32"},
+                                      {"format", "json"},
+                                      {"max-frequency", "3"},
+                                      {"output", "odd.csv"}};
+    pspec_context *const context = test_public_context();
+    assert_int_equal(ask_program("power", by_format, COUNT(by_format)), 0);
+    assert_int_equal(rename("odd.csv", "expected_odd.csv"), 0);
+    pspec_table_destroy(ask_library(context, "power", by_format, COUNT(by_format)));
+    assert_same_file("odd.csv", "expected_odd.csv");
+    pspec_context_destroy(context);
+}
+
+static void angular(void **state) {
+    (void)state;
+    const pspec_option many[] = {
+        {"sampler", "white-sphere"}, {"points", "40"}, {"realizations", "4"},
+        {"max-degree", "7"},         {"seed", "9"},    {"output", "angular.json"}};
+    COMPARE("angular", many, "angular.json");
+    const pspec_option one[] = {{"sampler", "fibonacci-hemisphere"},
+                                {"points", "30"},
+                                {"hemisphere", NULL},
+                                {"max-degree", "6"},
+                                {"coefficients", "c.npy"},
+                                {"output", "one.csv"}};
+    COMPARE("angular", one, "one.csv", "c.npy");
+}
+
+static void pairs(void **state) {
+    (void)state;
+    const pspec_option options[] = {{"sampler", "white-sphere"},
+                                    {"points", "40"},
+                                    {"realizations", "2"},
+                                    {"max-degree", "5"},
+                                    {"output", "pairs.npy"}};
+    COMPARE("pairs", options, "pairs.npy", "pairs.json");
+}
+
+static void quadrature(void **state) {
+    (void)state;
+    const pspec_option equal[] = {{"brdf", "diffuse"},
+                                  {"sampler", "fibonacci-hemisphere:morph=diffuse"},
+                                  {"points", "48"},
+                                  {"max-degree", "6"},
+                                  {"output", "rule.csv"}};
+    COMPARE("quadrature", equal, "rule.csv");
+    const pspec_option optimal[] = {{"brdf", "glossy:n=8"}, {"sampler", "fibonacci-hemisphere"},
+                                    {"points", "40"},       {"weights", "optimal"},
+                                    {"smoothness", "1.25"}, {"output", "optimal.json"}};
+    COMPARE("quadrature", optimal, "optimal.json");
+}
+
+static void truncation(void **state) {
+    (void)state;
+    const pspec_option options[] = {
+        {"brdf", "phong:n=8"}, {"max-degree", "5"}, {"output", "truncation.csv"}};
+    COMPARE("truncation", options, "truncation.csv");
+}
+
+/* The program's exit status 3 is a verdict here, with the same sentence. */
+static void check(void **state) {
+    (void)state;
+    pspec_context *const context = test_public_context();
+    const pspec_option saved[] = {{"sampler", "jittered"},
+                                  {"points", "64"},
+                                  {"realizations", "8"},
+                                  {"max-frequency", "8"},
+                                  {"output", "saved.json"}};
+    pspec_table_destroy(ask_library(context, "power", saved, COUNT(saved)));
+    const pspec_option same[] = {
+        {"against", "saved.json"}, {"sampler", "jittered"}, {"seed", "2"}, {"output", "same.csv"}};
+    COMPARE("check", same, "same.csv");
+    const pspec_option other[] = {
+        {"against", "saved.json"}, {"sampler", "white"}, {"seed", "2"}, {"output", "other.csv"}};
+    assert_int_equal(ask_program("check", other, COUNT(other)), EXIT_CHECK);
+    assert_int_equal(rename("other.csv", "expected_other.csv"), 0);
+    pspec_table *const table = ask_library(context, "check", other, COUNT(other));
+    assert_same_file("other.csv", "expected_other.csv");
+    assert_string_equal(pspec_table_find_entry(table, "verdict").text, "different");
+    char expected[2 * TEXT];
+    size_t num = 0;
+    char *const said = read_whole("said", &num);
+    snprintf(expected, sizeof expected, "pointspec check: %s\n", pspec_table_verdict(table));
+    assert_string_equal(said, expected);
+    free(said);
+    pspec_table_destroy(table);
+    pspec_context_destroy(context);
+}
+
+/* The limit of a context is POINTSPEC_MEMORY of the program. */
+static void memory_limits(void **state) {
+    (void)state;
+    pspec_context *const context = test_public_context();
+    const pspec_option options[] = {
+        {"sampler", "white"}, {"points", "64"}, {"max-frequency", "4"}, {"output", "limited.csv"}};
+    assert_int_equal(setenv("POINTSPEC_MEMORY", "268435456", 1), 0);
+    assert_int_equal(ask_program("power", options, COUNT(options)), 0);
+    assert_int_equal(unsetenv("POINTSPEC_MEMORY"), 0);
+    assert_int_equal(rename("limited.csv", "expected_limited.csv"), 0);
+    pspec_context_set_memory_limit(context, (uint64_t)1 << 28);
+    pspec_table_destroy(ask_library(context, "power", options, COUNT(options)));
+    assert_same_file("limited.csv", "expected_limited.csv");
+    pspec_context_destroy(context);
+}
+
+/* ---- all --------------------------------------------------------------------------------------- */
+
+static void write_points(const char *path, uint64_t seed) {
+    FILE *const file = fopen(path, "w");
+    uint64_t state = seed;
+    assert_non_null(file);
+    for (int j = 0; j < 30; j++) {
+        const double x = test_uniform(&state);
+        fprintf(file, "%.17g %.17g\n", x, test_uniform(&state));
+    }
+    assert_int_equal(fclose(file), 0);
+}
+
+static int make_folder(void **state) {
+    (void)state;
+    assert_non_null(mkdtemp(folder));
+    assert_int_equal(chdir(folder), 0);
+    write_points("sets.txt", 1);
+    write_points("more.txt", 2);
+    FILE *const file = fopen("weights.txt", "w");
+    assert_non_null(file);
+    for (int j = 0; j < 30; j++) {
+        fprintf(file, "%d\n", 1 + j % 4);
+    }
+    fclose(file);
+    unsetenv("POINTSPEC_MEMORY");
+    return setenv("POINTSPEC_CACHE_DIR", folder, 1);
+}
+
+static int remove_folder(void **state) {
+    (void)state;
+    char command[TEXT];
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    return system(command);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(power),         cmocka_unit_test(angular),
+        cmocka_unit_test(pairs),         cmocka_unit_test(quadrature),
+        cmocka_unit_test(truncation),    cmocka_unit_test(check),
+        cmocka_unit_test(memory_limits), cmocka_unit_test(test_gsl_is_left_alone),
+    };
+    test_watch_gsl();
+    ps_device_close(test_open_device()); /* ends as skipped when there is none */
+    return cmocka_run_group_tests_name("answers", tests, make_folder, remove_folder);
+}
