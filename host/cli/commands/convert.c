@@ -1,49 +1,10 @@
-/* pointspec convert: point files into another format, block by block. */
+/* pointspec convert: point files into another format. */
+#include "cli/points_shown.h"
+
 #include "cli/command.h"
-#include "report/output_check.h"
-#include "jobs/convert.h"
-#include "questions/question.h"
-
-#include <string.h>
-#include <unistd.h>
-
-static pspec_status check_words(const ps_request *arguments, ps_error *error) {
-    if (arguments->num_files == 0) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "nothing to convert: name point files (- for standard input)");
-    }
-    return ps_outputs_check(arguments, false, error);
-}
-
-/* A progress line would run into points that go to the same terminal. */
-static ps_progress *begin_progress(const ps_request *arguments, const char *path) {
-    const bool shares_terminal = strcmp(path, "-") == 0 && isatty(STDOUT_FILENO);
-    return shares_terminal ? NULL : ps_progress_begin(arguments, "points");
-}
 
 static pspec_status run(const ps_request *arguments, ps_error *error) {
-    const char *const output = arguments->output;
-    ps_text loss = {0};
-    PS_TRY(check_words(arguments, error));
-    ps_progress *const progress = begin_progress(arguments, output);
-    const ps_conversion conversion = {
-        .paths = arguments->files,
-        .num_paths = arguments->num_files,
-        .options = ps_point_options_make(arguments),
-        .points = arguments->points,
-        .merge = arguments->merge,
-        .output = output,
-        .format = arguments->format,
-        .columns = arguments->to_columns,
-        .watch = {ps_progress_tell, progress},
-    };
-    const pspec_status status = ps_convert(&conversion, &loss, error);
-    ps_progress_end(progress);
-    if (status == PSPEC_OK && loss.length > 0 && !arguments->quiet) {
-        fprintf(stderr, "pointspec convert: %s\n", ps_text_string(&loss));
-    }
-    ps_text_free(&loss);
-    return status;
+    return ps_points_make_shown(ps_points_convert, "convert", "points", arguments, error);
 }
 
 const ps_command ps_command_convert = {
@@ -57,7 +18,7 @@ const ps_command ps_command_convert = {
         "error. Files compressed by gzip are read as they are.",
     .takes = PS_TAKER_BIT(convert),
     .formats = PS_POINT_FORMATS,
-    .weights = "equal|column",
+    .weights = PS_CONVERT_WEIGHTS,
     .examples = {"pointspec sample --sampler white -n 64 -m 3 | pointspec convert - -o sets.npy",
                  "pointspec sample --sampler halton -n 8 | pointspec convert --select-points 2.. "
                  "--format csv -"},
