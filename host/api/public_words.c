@@ -2,11 +2,18 @@
 
 #include "base/memory.h"
 #include "questions/option_text.h"
+#include "results/points.h"
 #include "store/cache_trust.h"
 #include "store/result_cache.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+const ps_public_taker ps_public_taker_sample = {"sample", PS_TAKER_BIT(sample), NULL,
+                                                PS_POINT_FORMATS, NULL};
+const ps_public_taker ps_public_taker_convert = {"convert", PS_TAKER_BIT(convert), NULL,
+                                                 PS_POINT_FORMATS, PS_CONVERT_WEIGHTS};
+const ps_public_taker ps_public_taker_run = {"run", PS_TAKER_BIT(run), NULL, NULL, NULL};
 
 /* ---- what is taken ----------------------------------------------------------------------- */
 
@@ -91,7 +98,7 @@ static void take_memory(ps_public_words *out, const pspec_context *context,
         is_said = options[i].name != NULL && strcmp(options[i].name, name) == 0;
     }
     if (!is_said) {
-        out->request.memory = context->memory_limit;
+        out->request.limits.constraints.memory_limit = context->memory_limit;
         out->request.is_memory_of_environment = true;
         ps_text_append(&out->command, " --%s %llu", name,
                        (unsigned long long)context->memory_limit);
@@ -104,7 +111,7 @@ static pspec_status find_folder(ps_public_words *out, const pspec_context *conte
     const pspec_status status = ps_cache_default_directory(&out->folder, &reason);
     if (status == PSPEC_OK &&
         ps_cache_check_folder(ps_text_string(&out->folder), &reason) == PSPEC_OK) {
-        out->request.cache_folder = ps_text_string(&out->folder);
+        out->request.limits.cache_folder = ps_text_string(&out->folder);
     } else if (status == PSPEC_OK) {
         ps_log_say(&context->warnings, "no cache: %s", reason.message);
     }
@@ -127,7 +134,7 @@ static pspec_status take_all(ps_public_words *out, pspec_context *context,
         ps_text_append_word(&out->command, out->files[i]);
     }
     out->request.files = out->files;
-    out->request.device = context->selector;
+    out->request.limits.device = context->selector;
     out->request.command_line = ps_text_string(&out->command);
     PS_TRY(find_folder(out, context));
     return ps_text_check(&out->command, error);
@@ -166,9 +173,7 @@ static void say_plan(void *payload, const ps_plan *plan) {
 
 pspec_status ps_public_hooks(ps_answer_hooks *out, pspec_context *context,
                              const ps_request *request, bool is_of_host) {
-    const ps_plan_constraints constraints = {.engine = request->engine,
-                                             .precision = request->precision};
-    if (!is_of_host && ps_plan_may_need_device(&constraints)) {
+    if (!is_of_host && ps_plan_may_need_device(&request->limits.constraints)) {
         PS_TRY(ps_context_open_device(context));
     }
     *out = (ps_answer_hooks){.watch = context->watch,

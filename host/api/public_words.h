@@ -15,6 +15,9 @@ typedef struct ps_public_taker {
     const char *formats, *weights; /* words of these options; NULL: those of the kind or table */
 } ps_public_taker;
 
+/* Commands that are no kinds of results. */
+extern const ps_public_taker ps_public_taker_sample, ps_public_taker_convert, ps_public_taker_run;
+
 /* Not those of how a program shows its work, nor the device, which is that of the context. */
 bool ps_public_takes(const ps_public_taker *taker, ps_option_id id);
 const char *ps_public_words_of(const ps_public_taker *taker, ps_option_id id);

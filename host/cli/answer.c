@@ -76,7 +76,8 @@ pspec_status ps_answer_print(const ps_result_kind *kind, const ps_request *argum
                                    .tell_missing = print_warning,
                                    .is_interrupted = is_interrupted,
                                    .tell_plan = arguments->verbose ? print_plan : NULL,
-                                   .tell_profile = arguments->limits.profile ? print_profile : NULL};
+                                   .tell_profile =
+                                       arguments->limits.profile ? print_profile : NULL};
     ps_answer answer = {0};
     pspec_status status = ps_answer_produce(&answer, kind, arguments, &hooks, error);
     if (status == PSPEC_OK && answer.verdict.status != PSPEC_OK) {

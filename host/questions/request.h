@@ -88,12 +88,12 @@ typedef struct ps_request {
     uint64_t seed;                        /* 1 unless given */
     size_t num_samplers;
     const char *samplers[PS_MAX_SAMPLERS];
-    ps_frequencies_spec
-        frequencies;           /* {0} unless given: the defaults of docs/user/conventions.md */
-    uint64_t max_degree;       /* the same */
+    /* Zeros unless given: the defaults of docs/user/conventions.md. */
+    ps_frequencies_spec frequencies;
+    uint64_t max_degree;
     ps_accuracy_spec accuracy; /* tolerance 1e-6 unless given */
-    ps_limits_spec
-        limits; /* precision -1 unless given, which is auto; the memory is that of POINTSPEC_MEMORY, too */
+    /* Precision -1 unless given, which is auto. The memory may be that of POINTSPEC_MEMORY. */
+    ps_limits_spec limits;
     bool is_memory_of_environment; /* it stands in POINTSPEC_MEMORY */
     uint64_t cache_bytes;          /* 1e9 unless given */
     const char *against;           /* NULL unless given */
@@ -104,8 +104,8 @@ typedef struct ps_request {
     ps_point_range sets, points;                          /* {0} unless given */
     bool homogenize, hemisphere, wrap, normalize_vectors, drop_below_horizon, merge, calibrate,
         quick, scenes, quiet, verbose;
-    bool
-        wants_picture; /* of the averaged periodogram on the whole square, which no option asks for */
+    /* Of the averaged periodogram on the whole square; no option asks for it. */
+    bool wants_picture;
     bool effective;    /* --normalize effective */
     double smoothness; /* 1.5 unless given */
     size_t num_files;

@@ -3,22 +3,6 @@
 #include "cli/command.h"
 #include "cli/run_shown.h"
 
-#include <string.h>
-
-/* The name of the scene without its folder and ending. */
-static void name_folder(const char *scene, ps_text *out) {
-    const char *const slash = strrchr(scene, '/');
-    const char *const name = strcmp(scene, "-") == 0 ? "scene" /* from standard input */
-                             : slash != NULL         ? slash + 1
-                                                     : scene;
-    const char *const dot = strrchr(name, '.');
-    const size_t length = dot != NULL && dot > name ? (size_t)(dot - name) : strlen(name);
-    ps_text_append_bytes(out, name, length);
-    if (dot == NULL) {
-        ps_text_append(out, "-results"); /* the name of the scene itself is taken */
-    }
-}
-
 /* Also with --quiet: files are missing that were asked for. */
 static void warn_of_pictures(const ps_run *run) {
     if (run->num_undrawn > 0) {
@@ -58,7 +42,7 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
     if (arguments->output != NULL) {
         ps_text_append(&folder, "%s", arguments->output);
     } else {
-        name_folder(arguments->files[0], &folder);
+        ps_run_name_folder(arguments->files[0], &folder);
     }
     ps_run whole = {.hooks = ps_run_hooks_make(arguments),
                     .arguments = arguments,

@@ -53,6 +53,7 @@
 #include "pointspec/context.h"
 #include "pointspec/interpolant.h"
 #include "pointspec/plan.h"
+#include "pointspec/points.h"
 #include "pointspec/quadrature.h"
 #include "pointspec/spectrum.h"
 #include "pointspec/table.h"

@@ -38,6 +38,8 @@ ps_run_file *ps_run_files_find(const ps_run_files *files, const char *name);
 
 /* ---- the folder: folder.c ---------------------------------------------------------------- */
 
+/* The folder for a scene where none is named: the scene's name without its folder and ending. */
+void ps_run_name_folder(const char *scene, ps_text *out);
 /* A folder of an earlier run is written over; one with anything else in it is somebody's. Whether files can be made there
  * is found out before the work, which may be long. */
 pspec_status ps_run_check_folder(const char *path, ps_error *error) PS_MUST_CHECK;

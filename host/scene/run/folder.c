@@ -7,6 +7,19 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+void ps_run_name_folder(const char *scene, ps_text *out) {
+    const char *const slash = strrchr(scene, '/');
+    const char *const name = strcmp(scene, "-") == 0 ? "scene" /* from standard input */
+                             : slash != NULL         ? slash + 1
+                                                     : scene;
+    const char *const dot = strrchr(name, '.');
+    const size_t length = dot != NULL && dot > name ? (size_t)(dot - name) : strlen(name);
+    ps_text_append_bytes(out, name, length);
+    if (dot == NULL) {
+        ps_text_append(out, "-results"); /* the name of the scene itself is taken */
+    }
+}
+
 static pspec_status is_empty_folder(const char *path, bool *is_empty, ps_error *error) {
     DIR *const folder = opendir(path);
     if (folder == NULL) {

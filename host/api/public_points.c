@@ -1,0 +1,98 @@
+/* The public library: points of samplers, and point files. */
+#include "api/public_words.h"
+#include "base/memory.h"
+#include "results/points.h"
+
+#include <stdlib.h>
+
+struct pspec_sampler {
+    ps_sampler_request request; /* resolved; it borrows nothing */
+};
+
+/* ---- into arrays ------------------------------------------------------------------------- */
+
+pspec_status pspec_sampler_create(pspec_sampler **out, pspec_context *context,
+                                  const pspec_option *options, size_t num_options) {
+    ps_public_words words;
+    void *memory = NULL;
+    if (out == NULL || context == NULL) {
+        return PSPEC_ERROR_INVALID_ARGUMENT;
+    }
+    ps_error *const error = &context->error;
+    *out = NULL;
+    PS_TRY(ps_allocate(&memory, 1, sizeof(pspec_sampler), "a sampler", error));
+    pspec_sampler *const self = memory;
+    pspec_status status =
+        ps_public_words_make(&words, context, &ps_public_taker_sample, options, num_options);
+    if (status == PSPEC_OK) {
+        status = ps_points_find_sampler(&self->request, &words.request, error);
+    }
+    ps_public_words_free(&words);
+    if (status != PSPEC_OK) {
+        free(self);
+        return status;
+    }
+    *out = self;
+    return PSPEC_OK;
+}
+
+void pspec_sampler_destroy(pspec_sampler *sampler) {
+    free(sampler);
+}
+
+pspec_sampler_shape pspec_sampler_get_shape(const pspec_sampler *sampler) {
+    const ps_sampler_request *const request = &sampler->request;
+    const pspec_domain domain = ps_sampler_is_on_hemisphere(request) ? PSPEC_DOMAIN_HEMISPHERE
+                                : ps_sampler_is_on_sphere(request)   ? PSPEC_DOMAIN_SPHERE
+                                                                     : PSPEC_DOMAIN_TORUS;
+    return (pspec_sampler_shape){domain, request->dimension, request->num_points};
+}
+
+pspec_status pspec_sampler_generate(const pspec_sampler *sampler, pspec_context *context,
+                                    uint64_t realization, double *points) {
+    if (context == NULL) {
+        return PSPEC_ERROR_INVALID_ARGUMENT;
+    }
+    return sampler != NULL && points != NULL
+               ? ps_sampler_generate(&sampler->request, realization, points, &context->error)
+               : ps_fail(&context->error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "there is no sampler, or no room for its points");
+}
+
+/* ---- into files -------------------------------------------------------------------------- */
+
+typedef pspec_status make_points(const ps_request *request, const ps_answer_hooks *hooks,
+                                 ps_error *error);
+
+static pspec_status make_file(make_points *make, pspec_context *context,
+                              const ps_public_taker *taker, const pspec_option *options,
+                              size_t num_options) {
+    ps_public_words words;
+    ps_answer_hooks hooks;
+    if (context == NULL) {
+        return PSPEC_ERROR_INVALID_ARGUMENT;
+    }
+    ps_error *const error = &context->error;
+    pspec_status status = ps_public_words_make(&words, context, taker, options, num_options);
+    if (status == PSPEC_OK && words.request.output == NULL) {
+        status = ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "%s needs the option output, the file to write", taker->name);
+    }
+    if (status == PSPEC_OK) {
+        status = ps_public_hooks(&hooks, context, &words.request, true);
+    }
+    if (status == PSPEC_OK) {
+        status = make(&words.request, &hooks, error);
+    }
+    ps_public_words_free(&words);
+    return status;
+}
+
+pspec_status pspec_sample(pspec_context *context, const pspec_option *options, size_t num_options) {
+    return make_file(ps_points_sample, context, &ps_public_taker_sample, options, num_options);
+}
+
+pspec_status pspec_convert(pspec_context *context, const pspec_option *options,
+                           size_t num_options) {
+    return make_file(ps_points_convert, context, &ps_public_taker_convert, options, num_options);
+}
