@@ -6,7 +6,7 @@ rooms=(
     samplers samplers/torus samplers/sphere integrands frequencies
     engines engines/host engines/nufft engines/torus engines/torus/nufft engines/sphere engines/sphere/nufft
     engines/pairs plan spectra rules jobs jobs/parts jobs/spectrum jobs/quadrature verify verify/bench
-    questions report results scene scene/run api cli cli/commands
+    questions report results scene scene/run tasks api cli cli/commands
 )
 
 declare -A rank=()

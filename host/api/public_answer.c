@@ -2,8 +2,6 @@
 #include "api/public_words.h"
 #include "questions/options.h"
 
-#include <string.h>
-
 const char *pspec_result_kind(size_t i) {
     size_t num = 0;
     while (ps_result_kinds[num] != NULL) {
@@ -12,34 +10,13 @@ const char *pspec_result_kind(size_t i) {
     return i < num ? ps_result_kinds[i]->name : NULL;
 }
 
-/* ---- names ------------------------------------------------------------------------------- */
-
-static pspec_status find_kind(const ps_result_kind **out, const char *name, ps_error *error) {
-    size_t best = SIZE_MAX;
-    if (name == NULL) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "there is no name of a kind of result");
-    }
-    for (size_t i = 0; ps_result_kinds[i] != NULL; i++) {
-        const size_t distance = ps_name_distance(name, ps_result_kinds[i]->name);
-        if (distance < best) {
-            best = distance;
-            *out = ps_result_kinds[i];
-        }
-    }
-    return best == 0
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "there is no kind of result \"%s\"%s",
-                         name,
-                         ps_text_suggest(name, (*out)->name, best, "; did you mean ", "?").text);
-}
-
 /* ---- options ----------------------------------------------------------------------------- */
 
-static pspec_status fill_options(ps_table *table, const ps_public_taker *taker, ps_error *error) {
+static pspec_status fill_options(ps_table *table, const ps_task *task, ps_error *error) {
     for (int i = 0; i < PS_NUM_OPTIONS; i++) {
         const ps_option_id id = (ps_option_id)i;
-        if (ps_public_takes(taker, id)) {
-            const char *const words = ps_public_words_of(taker, id);
+        if (ps_public_takes(task, id)) {
+            const char *const words = ps_task_words(task, id);
             const ps_cell cells[] = {PS_TEXT(ps_options[id].name),
                                      words != NULL ? PS_TEXT(words) : PS_MISSING,
                                      PS_TEXT(ps_options[id].help)};
@@ -52,16 +29,15 @@ static pspec_status fill_options(ps_table *table, const ps_public_taker *taker, 
 pspec_status pspec_options_table(pspec_table **out, pspec_context *context, const char *command) {
     static const char *const columns[] = {"option", "values", "help"};
     ps_table *table = NULL;
-    const ps_result_kind *kind = NULL;
+    const ps_task *task = NULL;
     if (out == NULL || context == NULL) {
         return PSPEC_ERROR_INVALID_ARGUMENT;
     }
     ps_error *const error = &context->error;
     *out = NULL;
-    PS_TRY(find_kind(&kind, command, error));
+    PS_TRY(ps_public_find_task(&task, command, false, error));
     PS_TRY(ps_table_create(&table, "options", columns, sizeof columns / sizeof columns[0], error));
-    const ps_public_taker taker = {kind->name, kind->taker, kind, NULL, NULL};
-    const pspec_status status = fill_options(table, &taker, error);
+    const pspec_status status = fill_options(table, task, error);
     if (status != PSPEC_OK) {
         ps_table_destroy(table);
         return status;
@@ -73,11 +49,13 @@ pspec_status pspec_options_table(pspec_table **out, pspec_context *context, cons
 
 static pspec_status answer(pspec_table **out, pspec_context *context, const ps_result_kind *kind,
                            const ps_request *request) {
-    ps_answer_hooks hooks;
     ps_answer made = {0};
     ps_error *const error = &context->error;
     PS_TRY(kind->check_question(request, error)); /* before a device is opened for nothing */
-    PS_TRY(ps_public_hooks(&hooks, context, request, kind->is_of_host));
+    if (!kind->is_of_host && ps_plan_may_need_device(&request->limits.constraints)) {
+        PS_TRY(ps_context_open_device(context));
+    }
+    const ps_answer_hooks hooks = ps_public_hooks(context);
     pspec_status status = ps_answer_produce(&made, kind, request, &hooks, error);
     if (status == PSPEC_OK) {
         status = ps_public_table(out, made.table, made.verdict.message, error);
@@ -89,17 +67,16 @@ static pspec_status answer(pspec_table **out, pspec_context *context, const ps_r
 
 pspec_status pspec_answer(pspec_table **out, pspec_context *context, const char *kind,
                           const pspec_option *options, size_t num_options) {
-    const ps_result_kind *found = NULL;
+    const ps_task *task = NULL;
     ps_public_words words;
     if (out == NULL || context == NULL) {
         return PSPEC_ERROR_INVALID_ARGUMENT;
     }
     *out = NULL;
-    PS_TRY(find_kind(&found, kind, &context->error));
-    const ps_public_taker taker = {found->name, found->taker, found, NULL, NULL};
-    pspec_status status = ps_public_words_make(&words, context, &taker, options, num_options);
+    PS_TRY(ps_public_find_task(&task, kind, true, &context->error));
+    pspec_status status = ps_public_words_make(&words, context, "", task, options, num_options);
     if (status == PSPEC_OK) {
-        status = answer(out, context, found, &words.request);
+        status = answer(out, context, task->kind, &words.request);
     }
     ps_public_words_free(&words);
     return status;

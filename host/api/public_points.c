@@ -1,7 +1,7 @@
 /* The public library: points of samplers, and point files. */
 #include "api/public_words.h"
 #include "base/memory.h"
-#include "results/points.h"
+#include "tasks/points.h"
 
 #include <stdlib.h>
 
@@ -23,7 +23,7 @@ pspec_status pspec_sampler_create(pspec_sampler **out, pspec_context *context,
     PS_TRY(ps_allocate(&memory, 1, sizeof(pspec_sampler), "a sampler", error));
     pspec_sampler *const self = memory;
     pspec_status status =
-        ps_public_words_make(&words, context, &ps_public_taker_sample, options, num_options);
+        ps_public_words_make(&words, context, "", &ps_task_sample, options, num_options);
     if (status == PSPEC_OK) {
         status = ps_points_find_sampler(&self->request, &words.request, error);
     }
@@ -64,24 +64,20 @@ pspec_status pspec_sampler_generate(const pspec_sampler *sampler, pspec_context 
 typedef pspec_status make_points(const ps_request *request, const ps_answer_hooks *hooks,
                                  ps_error *error);
 
-static pspec_status make_file(make_points *make, pspec_context *context,
-                              const ps_public_taker *taker, const pspec_option *options,
-                              size_t num_options) {
+static pspec_status make_file(make_points *make, pspec_context *context, const ps_task *task,
+                              const pspec_option *options, size_t num_options) {
     ps_public_words words;
-    ps_answer_hooks hooks;
     if (context == NULL) {
         return PSPEC_ERROR_INVALID_ARGUMENT;
     }
     ps_error *const error = &context->error;
-    pspec_status status = ps_public_words_make(&words, context, taker, options, num_options);
+    pspec_status status = ps_public_words_make(&words, context, "", task, options, num_options);
     if (status == PSPEC_OK && words.request.output == NULL) {
         status = ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "%s needs the option output, the file to write", taker->name);
+                         "%s needs the option output, the file to write", task->name);
     }
     if (status == PSPEC_OK) {
-        status = ps_public_hooks(&hooks, context, &words.request, true);
-    }
-    if (status == PSPEC_OK) {
+        const ps_answer_hooks hooks = ps_public_hooks(context);
         status = make(&words.request, &hooks, error);
     }
     ps_public_words_free(&words);
@@ -89,10 +85,10 @@ static pspec_status make_file(make_points *make, pspec_context *context,
 }
 
 pspec_status pspec_sample(pspec_context *context, const pspec_option *options, size_t num_options) {
-    return make_file(ps_points_sample, context, &ps_public_taker_sample, options, num_options);
+    return make_file(ps_points_sample, context, &ps_task_sample, options, num_options);
 }
 
 pspec_status pspec_convert(pspec_context *context, const pspec_option *options,
                            size_t num_options) {
-    return make_file(ps_points_convert, context, &ps_public_taker_convert, options, num_options);
+    return make_file(ps_points_convert, context, &ps_task_convert, options, num_options);
 }

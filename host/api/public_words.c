@@ -2,44 +2,48 @@
 
 #include "base/memory.h"
 #include "questions/option_text.h"
-#include "results/points.h"
 #include "store/cache_trust.h"
 #include "store/result_cache.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-const ps_public_taker ps_public_taker_sample = {"sample", PS_TAKER_BIT(sample), NULL,
-                                                PS_POINT_FORMATS, NULL};
-const ps_public_taker ps_public_taker_convert = {"convert", PS_TAKER_BIT(convert), NULL,
-                                                 PS_POINT_FORMATS, PS_CONVERT_WEIGHTS};
-const ps_public_taker ps_public_taker_run = {"run", PS_TAKER_BIT(run), NULL, NULL, NULL};
+/* ---- names ------------------------------------------------------------------------------- */
+
+pspec_status ps_public_find_task(const ps_task **out, const char *name, bool is_kind,
+                                 ps_error *error) {
+    const char *const what = is_kind ? "kind of result" : "command";
+    size_t best = SIZE_MAX;
+    if (name == NULL) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "there is no name of a %s", what);
+    }
+    for (size_t i = 0; ps_tasks[i] != NULL; i++) {
+        const size_t distance = ps_name_distance(name, ps_tasks[i]->name);
+        if (distance < best && (ps_tasks[i]->kind != NULL || !is_kind)) {
+            best = distance;
+            *out = ps_tasks[i];
+        }
+    }
+    return best == 0
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "there is no %s \"%s\"%s", what, name,
+                         ps_text_suggest(name, (*out)->name, best, "; did you mean ", "?").text);
+}
 
 /* ---- what is taken ----------------------------------------------------------------------- */
 
-bool ps_public_takes(const ps_public_taker *taker, ps_option_id id) {
+bool ps_public_takes(const ps_task *task, ps_option_id id) {
     static const ps_option_id of_program[] = {PS_OPTION_DEVICE, PS_OPTION_PROFILE, PS_OPTION_QUIET,
                                               PS_OPTION_VERBOSE, PS_OPTION_HELP};
     bool is_of_program = false;
     for (size_t i = 0; i < sizeof of_program / sizeof of_program[0]; i++) {
         is_of_program = is_of_program || of_program[i] == id;
     }
-    return !is_of_program &&
-           ((ps_options[id].questions | ps_options[id].commands) & taker->taker) != 0;
+    return !is_of_program && ps_task_takes(task, id);
 }
 
-const char *ps_public_words_of(const ps_public_taker *taker, ps_option_id id) {
-    if (taker->kind != NULL) {
-        return ps_result_words(taker->kind, id);
-    }
-    const char *const own = id == PS_OPTION_FORMAT    ? taker->formats
-                            : id == PS_OPTION_WEIGHTS ? taker->weights
-                                                      : NULL;
-    return own != NULL ? own : ps_options[id].metavar;
-}
-
-static bool takes(const void *taker, ps_option_id id) {
-    return ps_public_takes(taker, id);
+static bool takes(const void *task, ps_option_id id) {
+    return ps_public_takes(task, id);
 }
 
 /* ---- one option -------------------------------------------------------------------------- */
@@ -64,7 +68,7 @@ static pspec_status take_file(ps_public_words *out, const char *path, ps_error *
     return is_stream(path) ? refuse_stream(files_name, error) : PSPEC_OK;
 }
 
-static pspec_status take_option(ps_public_words *out, const ps_public_taker *taker,
+static pspec_status take_option(ps_public_words *out, const ps_task *task,
                                 const pspec_option *option, ps_error *error) {
     ps_option_id id = PS_NUM_OPTIONS;
     if (option->name == NULL) {
@@ -73,8 +77,8 @@ static pspec_status take_option(ps_public_words *out, const ps_public_taker *tak
     if (strcmp(option->name, files_name) == 0) {
         return take_file(out, option->value, error);
     }
-    PS_TRY(ps_option_find(&id, option->name, takes, taker, taker->name, error));
-    const char *const words = ps_public_words_of(taker, id);
+    PS_TRY(ps_option_find(&id, option->name, takes, task, task->name, error));
+    const char *const words = ps_task_words(task, id);
     const char *const value = option->value != NULL || words != NULL ? option->value : "true";
     if (value == NULL) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s needs a value: %s", option->name,
@@ -90,10 +94,10 @@ static pspec_status take_option(ps_public_words *out, const ps_public_taker *tak
 /* ---- all of them ------------------------------------------------------------------------- */
 
 /* As POINTSPEC_MEMORY for the program: it counts as if it had been said, and so results keep it. */
-static void take_memory(ps_public_words *out, const pspec_context *context,
-                        const ps_public_taker *taker, const pspec_option *options, size_t num) {
+static void take_memory(ps_public_words *out, const pspec_context *context, const ps_task *task,
+                        const pspec_option *options, size_t num) {
     const char *const name = ps_options[PS_OPTION_MEMORY].name;
-    bool is_said = !ps_public_takes(taker, PS_OPTION_MEMORY) || context->memory_limit == 0;
+    bool is_said = !ps_public_takes(task, PS_OPTION_MEMORY) || context->memory_limit == 0;
     for (size_t i = 0; i < num && !is_said; i++) {
         is_said = options[i].name != NULL && strcmp(options[i].name, name) == 0;
     }
@@ -118,17 +122,16 @@ static pspec_status find_folder(ps_public_words *out, const pspec_context *conte
     return status == PSPEC_ERROR_MEMORY ? status : PSPEC_OK;
 }
 
-static pspec_status take_all(ps_public_words *out, pspec_context *context,
-                             const ps_public_taker *taker, const pspec_option *options,
-                             size_t num) {
+static pspec_status take_all(ps_public_words *out, pspec_context *context, const char *before,
+                             const ps_task *task, const pspec_option *options, size_t num) {
     void *memory = NULL;
     ps_error *const error = &context->error;
     PS_TRY(ps_allocate(&memory, num, sizeof *out->files, "names of files", error));
     out->files = memory;
-    ps_text_append(&out->command, "pointspec %s", taker->name);
-    take_memory(out, context, taker, options, num);
+    ps_text_append(&out->command, "pointspec %s%s", before, task->name);
+    take_memory(out, context, task, options, num);
     for (size_t i = 0; i < num; i++) {
-        PS_TRY(take_option(out, taker, &options[i], error));
+        PS_TRY(take_option(out, task, &options[i], error));
     }
     for (size_t i = 0; i < out->request.num_files; i++) {
         ps_text_append_word(&out->command, out->files[i]);
@@ -140,12 +143,12 @@ static pspec_status take_all(ps_public_words *out, pspec_context *context,
     return ps_text_check(&out->command, error);
 }
 
-pspec_status ps_public_words_make(ps_public_words *out, pspec_context *context,
-                                  const ps_public_taker *taker, const pspec_option *options,
+pspec_status ps_public_words_make(ps_public_words *out, pspec_context *context, const char *before,
+                                  const ps_task *task, const pspec_option *options,
                                   size_t num_options) {
     *out = (ps_public_words){.request = ps_request_default};
     return options != NULL || num_options == 0
-               ? take_all(out, context, taker, options, num_options)
+               ? take_all(out, context, before, task, options, num_options)
                : ps_fail(&context->error, PSPEC_ERROR_INVALID_ARGUMENT,
                          "%zu options at the address NULL", num_options);
 }
@@ -171,16 +174,11 @@ static void say_plan(void *payload, const ps_plan *plan) {
     }
 }
 
-pspec_status ps_public_hooks(ps_answer_hooks *out, pspec_context *context,
-                             const ps_request *request, bool is_of_host) {
-    if (!is_of_host && ps_plan_may_need_device(&request->limits.constraints)) {
-        PS_TRY(ps_context_open_device(context));
-    }
-    *out = (ps_answer_hooks){.watch = context->watch,
+ps_answer_hooks ps_public_hooks(pspec_context *context) {
+    return (ps_answer_hooks){.watch = context->watch,
                              .device = context->device,
                              .payload = context,
                              .warn = warn,
                              .tell_missing = warn,
                              .tell_plan = say_plan};
-    return PSPEC_OK;
 }

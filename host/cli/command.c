@@ -14,6 +14,9 @@ const char *ps_command_words(const ps_command *command, ps_option_id id) {
     if (command->result != NULL) {
         return ps_result_words(command->result, id);
     }
+    if (command->task != NULL) {
+        return ps_task_words(command->task, id);
+    }
     if (id == PS_OPTION_FORMAT && command->formats != NULL) {
         return command->formats;
     }

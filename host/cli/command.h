@@ -5,6 +5,7 @@
 #include "base/watch.h"
 #include "cli/signals.h"
 #include "results/kind.h"
+#include "tasks/task.h"
 
 #include <stdio.h>
 
@@ -20,21 +21,19 @@ enum {
 
 typedef struct ps_command {
     const char *name;
-    const char *summary;     /* one line */
-    const char *usage;       /* after "pointspec ", for example "power [options] [FILE...]" */
-    const char *description; /* a paragraph for --help */
-    const ps_result_kind
-        *result;     /* what it prints, with the options of that question; NULL: something else */
-    ps_takers takes; /* whose options: the command's bit in their table */
-    const char *examples[2]; /* complete command lines, run by the tests */
-    /* Words of --format, the default first, and of --weights, where no result says so; NULL: csv|json|npy,
-     * equal|column|FILE. */
+    const char *summary;          /* one line */
+    const char *usage;            /* after "pointspec ", for example "power [options] [FILE...]" */
+    const char *description;      /* a paragraph for --help */
+    const ps_result_kind *result; /* what it prints, with the options of that question; or NULL */
+    const ps_task *task;          /* what else it does that the library can do, too; or NULL */
+    ps_takers takes;              /* whose options: the command's bit in their table */
+    const char *examples[2];      /* complete command lines, run by the tests */
+    /* Words of --format, the default first, and of --weights, where neither result nor task says so; NULL:
+     * csv|json|npy, equal|column|FILE. */
     const char *formats, *weights;
     bool makes_folder; /* which --output names: it has no default */
     ps_domain samples; /* which samplers it takes, where no result says so, for --help */
     pspec_status (*run)(const ps_request *, ps_error *); /* NULL: it prints its result */
-    /* Adds what the command would come to; NULL: its result says so, or it cannot be planned. */
-    pspec_status (*plan)(ps_planner *, const ps_request *, ps_error *);
 } ps_command;
 
 /* Ended by NULL. */

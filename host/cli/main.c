@@ -2,8 +2,8 @@
  * its message into one line on standard error. */
 #include "base/memory_limit.h"
 #include "base/text.h"
-#include "cli/answer.h"
 #include "cli/command.h"
+#include "cli/shown.h"
 #include "questions/options.h"
 #include "store/cache_trust.h"
 #include "store/result_cache.h"
@@ -105,7 +105,7 @@ static pspec_status run_parsed(const ps_command *command, ps_request *arguments,
     }
     if (status != PSPEC_ERROR_MEMORY) { /* there need not be one */
         status = command->run != NULL ? command->run(arguments, error)
-                                      : ps_answer_print(command->result, arguments, error);
+                                      : ps_shown_answer(command->result, arguments, error);
     }
     ps_text_free(&folder);
     /* A signal may make anything fail that was going on (a compiler in the driver, a read): what the

@@ -12,6 +12,16 @@ void ps_answer_begin_next(const ps_answer_hooks *hooks) {
     }
 }
 
+void ps_answer_end(const ps_answer_hooks *hooks) {
+    if (hooks->end != NULL) {
+        hooks->end(hooks->payload);
+    }
+}
+
+bool ps_answer_is_interrupted(const ps_answer_hooks *hooks) {
+    return hooks->is_interrupted != NULL && hooks->is_interrupted(hooks->payload);
+}
+
 static void say(void (*hear)(void *payload, const char *sentence), void *payload,
                 const char *format, va_list arguments) {
     char sentence[PS_MESSAGE_BYTES];

@@ -21,23 +21,28 @@ typedef struct ps_answer_hooks {
     ps_device
         *device;   /* borrowed; NULL: the one that the request names is opened where it is needed */
     void *payload; /* of the calls */
-    /* The work for the next sampler, or for the files, begins. */
+    /* The work for the next sampler, for files, or for a scene begins. */
     void (*next)(void *payload);
+    /* Question `number` (from 1) of num, which is one of that result of a scene, begins. */
+    void (*begin_question)(void *payload, const char *result, size_t number, size_t num);
     /* The work is over, or has failed; what was made of it is written next. */
     void (*end)(void *payload);
     /* A whole sentence that is no error. */
     void (*warn)(void *payload, const char *sentence);
     /* The same, of a file that was asked for and is not there. */
     void (*tell_missing)(void *payload, const char *sentence);
-    /* Asked after a failure: was it an interrupt? */
+    /* Asked between two questions of a scene, and after a failure: was it an interrupt? */
     bool (*is_interrupted)(void *payload);
     /* Before the work for one sampler, and after it. */
     void (*tell_plan)(void *payload, const ps_plan *plan);
     void (*tell_profile)(void *payload, const ps_profile_row *rows, size_t num_rows);
 } ps_answer_hooks;
 
-/* Calls the hook `next`, if there is one. */
+/* Call the hooks `next` and `end`, if there are such. */
 void ps_answer_begin_next(const ps_answer_hooks *hooks);
+void ps_answer_end(const ps_answer_hooks *hooks);
+/* false where nobody can say. */
+bool ps_answer_is_interrupted(const ps_answer_hooks *hooks);
 /* Calls the hook `warn` with a sentence, if there is somebody to hear it. */
 void ps_answer_warn(const ps_answer_hooks *hooks, const char *format, ...) PS_PRINTF(2, 3);
 void ps_answer_tell_missing(const ps_answer_hooks *hooks, const char *format, ...) PS_PRINTF(2, 3);

@@ -47,9 +47,8 @@ pspec_status ps_picture_check(const ps_request *request, const ps_answer_hooks *
 
 pspec_status ps_picture_settle(const ps_request *request, const ps_answer_hooks *hooks,
                                pspec_status drawn, ps_error *error) {
-    const bool is_interrupted =
-        hooks->is_interrupted != NULL && hooks->is_interrupted(hooks->payload);
-    if (drawn == PSPEC_OK || drawn == PSPEC_ERROR_CANCELLED || is_interrupted || is_all(request)) {
+    if (drawn == PSPEC_OK || drawn == PSPEC_ERROR_CANCELLED || ps_answer_is_interrupted(hooks) ||
+        is_all(request)) {
         return drawn;
     }
     ps_answer_tell_missing(hooks, "\"%s\" was not drawn: %s", request->plot, error->message);

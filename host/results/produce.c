@@ -54,9 +54,7 @@ pspec_status ps_answer_produce(ps_answer *out, const ps_result_kind *kind,
     *out = (ps_answer){0};
     PS_TRY(check(&format, kind, request, hooks, error));
     pspec_status status = kind->compute(&computed, request, hooks, error);
-    if (hooks->end != NULL) {
-        hooks->end(hooks->payload);
-    }
+    ps_answer_end(hooks);
     if (status == PSPEC_OK) {
         status = write_files(out, kind, computed, request, format, hooks, error);
     }

@@ -1,6 +1,6 @@
 /* Answers of the library are those of the program, byte for byte: the same options, by names to one and as words to the
  * other, give the same files. */
-#include "harness_public.h"
+#include "harness_program.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,65 +12,6 @@
 enum { TEXT = 4096, EXIT_CHECK = 3 };
 
 static char folder[] = "/tmp/test_answers_XXXXXX";
-
-#define COUNT(options) (sizeof(options) / sizeof(options)[0])
-
-/* ---- the program ------------------------------------------------------------------------- */
-
-/* "--points 64 ... a.txt": as the library says the command line, files behind the rest. */
-static void append_words(char *line, size_t size, const pspec_option *options, size_t num) {
-    for (int want_files = 0; want_files < 2; want_files++) {
-        for (size_t i = 0; i < num; i++) {
-            const size_t length = strlen(line);
-            const bool is_file = strcmp(options[i].name, "files") == 0;
-            const char *const value = options[i].value != NULL ? options[i].value : "";
-            if (is_file == (want_files != 0)) {
-                snprintf(line + length, size - length, is_file ? "%.0s %s" : " --%s %s",
-                         options[i].name, value);
-            }
-        }
-    }
-}
-
-/* Its exit status; what it says on standard error is in "said". */
-static int ask_program(const char *command, const pspec_option *options, size_t num) {
-    char line[TEXT];
-    snprintf(line, sizeof line, "'%s' %s", TEST_PROGRAM, command);
-    append_words(line, sizeof line, options, num);
-    strncat(line, " >/dev/null 2>said", sizeof line - strlen(line) - 1);
-    const int status = system(line);
-    assert_true(status != -1 && WIFEXITED(status));
-    return WEXITSTATUS(status);
-}
-
-/* ---- files --------------------------------------------------------------------------------- */
-
-static char *read_whole(const char *path, size_t *num) {
-    FILE *const file = fopen(path, "rb");
-    struct stat facts;
-    if (file == NULL) {
-        fail_msg("there is no %s", path);
-    }
-    assert_int_equal(stat(path, &facts), 0);
-    char *const bytes = calloc((size_t)facts.st_size + 1, 1);
-    *num = fread(bytes, 1, (size_t)facts.st_size, file);
-    assert_int_equal(*num, facts.st_size);
-    fclose(file);
-    return bytes;
-}
-
-static void assert_same_file(const char *path, const char *expected) {
-    size_t num = 0;
-    size_t num_expected = 0;
-    char *const bytes = read_whole(path, &num);
-    char *const other = read_whole(expected, &num_expected);
-    if (num != num_expected || memcmp(bytes, other, num) != 0) {
-        fail_msg("%s, which the library wrote:\n%s\n%s, which the program wrote:\n%s", path, bytes,
-                 expected, other);
-    }
-    free(bytes);
-    free(other);
-}
 
 /* ---- the library ----------------------------------------------------------------------------- */
 
@@ -90,7 +31,7 @@ static void compare(const char *kind, const pspec_option *options, size_t num,
                     const char *const *files, size_t num_files) {
     pspec_context *const context = test_public_context();
     char expected[TEXT];
-    assert_int_equal(ask_program(kind, options, num), 0);
+    assert_int_equal(test_ask_program(kind, options, num), 0);
     for (size_t i = 0; i < num_files; i++) {
         snprintf(expected, sizeof expected, "expected_%s", files[i]);
         assert_int_equal(rename(files[i], expected), 0);
@@ -99,12 +40,12 @@ static void compare(const char *kind, const pspec_option *options, size_t num,
     assert_string_equal(pspec_table_verdict(table), "");
     for (size_t i = 0; i < num_files; i++) {
         snprintf(expected, sizeof expected, "expected_%s", files[i]);
-        assert_same_file(files[i], expected);
+        test_assert_same_file(files[i], expected);
     }
     /* and from the object */
     snprintf(expected, sizeof expected, "again_%s", files[0]);
     assert_int_equal(pspec_table_write(table, context, expected, NULL), PSPEC_OK);
-    assert_same_file(expected, files[0]);
+    test_assert_same_file(expected, files[0]);
     pspec_table_destroy(table);
     pspec_context_destroy(context);
 }
@@ -136,10 +77,10 @@ static void power(void **state) {
                                       {"max-frequency", "3"},
                                       {"output", "odd.csv"}};
     pspec_context *const context = test_public_context();
-    assert_int_equal(ask_program("power", by_format, COUNT(by_format)), 0);
+    assert_int_equal(test_ask_program("power", by_format, COUNT(by_format)), 0);
     assert_int_equal(rename("odd.csv", "expected_odd.csv"), 0);
     pspec_table_destroy(ask_library(context, "power", by_format, COUNT(by_format)));
-    assert_same_file("odd.csv", "expected_odd.csv");
+    test_assert_same_file("odd.csv", "expected_odd.csv");
     pspec_context_destroy(context);
 }
 
@@ -204,14 +145,14 @@ static void check(void **state) {
     COMPARE("check", same, "same.csv");
     const pspec_option other[] = {
         {"against", "saved.json"}, {"sampler", "white"}, {"seed", "2"}, {"output", "other.csv"}};
-    assert_int_equal(ask_program("check", other, COUNT(other)), EXIT_CHECK);
+    assert_int_equal(test_ask_program("check", other, COUNT(other)), EXIT_CHECK);
     assert_int_equal(rename("other.csv", "expected_other.csv"), 0);
     pspec_table *const table = ask_library(context, "check", other, COUNT(other));
-    assert_same_file("other.csv", "expected_other.csv");
+    test_assert_same_file("other.csv", "expected_other.csv");
     assert_string_equal(pspec_table_find_entry(table, "verdict").text, "different");
     char expected[2 * TEXT];
     size_t num = 0;
-    char *const said = read_whole("said", &num);
+    char *const said = test_read_whole("said", &num);
     snprintf(expected, sizeof expected, "pointspec check: %s\n", pspec_table_verdict(table));
     assert_string_equal(said, expected);
     free(said);
@@ -226,12 +167,12 @@ static void memory_limits(void **state) {
     const pspec_option options[] = {
         {"sampler", "white"}, {"points", "64"}, {"max-frequency", "4"}, {"output", "limited.csv"}};
     assert_int_equal(setenv("POINTSPEC_MEMORY", "268435456", 1), 0);
-    assert_int_equal(ask_program("power", options, COUNT(options)), 0);
+    assert_int_equal(test_ask_program("power", options, COUNT(options)), 0);
     assert_int_equal(unsetenv("POINTSPEC_MEMORY"), 0);
     assert_int_equal(rename("limited.csv", "expected_limited.csv"), 0);
     pspec_context_set_memory_limit(context, (uint64_t)1 << 28);
     pspec_table_destroy(ask_library(context, "power", options, COUNT(options)));
-    assert_same_file("limited.csv", "expected_limited.csv");
+    test_assert_same_file("limited.csv", "expected_limited.csv");
     pspec_context_destroy(context);
 }
 

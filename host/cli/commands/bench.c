@@ -1,6 +1,7 @@
 /* pointspec bench: run time against error on this device, and its figures for the planner. */
 #include "cli/command.h"
 #include "cli/commands/bench_scenes.h"
+#include "cli/shown.h"
 #include "report/output_check.h"
 #include "results/picture.h"
 #include "questions/options.h"
@@ -128,16 +129,6 @@ static pspec_status make_table(answer *shown, ps_table_format format, const char
     return ps_table_stream_open(&shown->stream, shown->table, path, format, error);
 }
 
-static void warn(void *payload, const char *sentence) {
-    (void)payload;
-    fprintf(stderr, "pointspec: %s\n", sentence);
-}
-
-static bool is_interrupted(void *payload) {
-    (void)payload;
-    return ps_interrupted != 0;
-}
-
 static pspec_status run_cases(answer *shown, const ps_bench_options *options,
                               ps_table_format format, const char *path, ps_error *error) {
     const ps_request *arguments = shown->arguments;
@@ -149,7 +140,8 @@ static pspec_status run_cases(answer *shown, const ps_bench_options *options,
     ps_progress_end(shown->progress);
     PS_TRY(status);
     PS_TRY(ps_table_stream_close(&shown->stream, error));
-    const ps_answer_hooks hooks = {.tell_missing = warn, .is_interrupted = is_interrupted};
+    ps_shown ear = {.arguments = arguments, .speaker = "pointspec"};
+    const ps_answer_hooks hooks = ps_shown_hooks(&ear);
     return arguments->plot == NULL
                ? PSPEC_OK
                : ps_picture_settle(arguments, &hooks,
@@ -264,8 +256,9 @@ static pspec_status check_words(const ps_request *arguments, const ps_bench_opti
                        "no file is read, but %s was given; --scenes is for scenes",
                        arguments->files[0]);
     }
-    PS_TRY(ps_picture_check(arguments, &(ps_answer_hooks){.warn = arguments->quiet ? NULL : warn},
-                            error));
+    ps_shown shown = {.arguments = arguments, .speaker = "pointspec"};
+    const ps_answer_hooks hooks = ps_shown_hooks(&shown);
+    PS_TRY(ps_picture_check(arguments, &hooks, error));
     if (arguments->calibrate) {
         PS_TRY(check_calibration(arguments, error));
     }

@@ -1,6 +1,7 @@
 #include "cli/commands/bench_scenes.h"
 
-#include "cli/run_shown.h"
+#include "cli/shown.h"
+#include "scene/run/run.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -30,9 +31,12 @@ typedef struct comparison {
 
 static pspec_status answer(const ps_request *arguments, const ps_scene *scene, ps_run *out,
                            ps_error *error) {
-    *out = (ps_run){.hooks = ps_run_hooks_make(arguments), .arguments = arguments, .scene = scene};
+    ps_shown shown = {.arguments = arguments, .counted = "realizations", .speaker = "pointspec"};
+    *out = (ps_run){.hooks = ps_shown_hooks(&shown), .arguments = arguments, .scene = scene};
     PS_TRY(ps_run_ask(out, error));
-    return ps_run_answer_shown(out, error);
+    const pspec_status status = ps_run_answer(out, error);
+    out->hooks = (ps_answer_hooks){0}; /* nobody hears any more */
+    return status;
 }
 
 static double seconds_of(const ps_run_result *result) {

@@ -1,10 +1,16 @@
 /* pointspec convert: point files into another format. */
-#include "cli/points_shown.h"
-
 #include "cli/command.h"
+#include "cli/shown.h"
+#include "tasks/points.h"
+#include "tasks/task.h"
 
 static pspec_status run(const ps_request *arguments, ps_error *error) {
-    return ps_points_make_shown(ps_points_convert, "convert", "points", arguments, error);
+    ps_shown shown = {.arguments = arguments,
+                      .counted = "points",
+                      .speaker = "pointspec convert",
+                      .is_streamed = true};
+    const ps_answer_hooks hooks = ps_shown_hooks(&shown);
+    return ps_points_convert(arguments, &hooks, error);
 }
 
 const ps_command ps_command_convert = {
@@ -16,12 +22,10 @@ const ps_command ps_command_convert = {
         "of points at a time, so that files may be larger than memory. Several files become sets "
         "of one output. What the format of the output cannot keep is refused, or said on standard "
         "error. Files compressed by gzip are read as they are.",
+    .task = &ps_task_convert,
     .takes = PS_TAKER_BIT(convert),
-    .formats = PS_POINT_FORMATS,
-    .weights = PS_CONVERT_WEIGHTS,
     .examples = {"pointspec sample --sampler white -n 64 -m 3 | pointspec convert - -o sets.npy",
                  "pointspec sample --sampler halton -n 8 | pointspec convert --select-points 2.. "
                  "--format csv -"},
     .run = run,
-    .plan = ps_plan_table_add_convert,
 };

@@ -1,14 +1,13 @@
 /* pointspec doctor: what works here, and what does not. */
-#include "api/doctor.h"
+#include "tasks/doctor.h"
 #include "cli/command.h"
 #include "store/result_cache.h"
 
 #include <stdio.h>
 
 static void print(ps_finding_kind kind, const char *topic, const char *sentence, void *payload) {
-    static const char *const words[] = {"ok", "note", "WRONG"};
     (void)payload;
-    printf("%-6s %-8s ", words[kind], topic);
+    printf("%-6s %-8s ", ps_finding_words[kind], topic);
     for (; *sentence != '\0'; sentence++) { /* names of files may hold anything */
         putchar((unsigned char)*sentence < ' ' || *sentence == 0x7f ? '?' : *sentence);
     }

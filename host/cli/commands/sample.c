@@ -1,10 +1,16 @@
 /* pointspec sample: point sets to a file or standard output. */
-#include "cli/points_shown.h"
-
 #include "cli/command.h"
+#include "cli/shown.h"
+#include "tasks/points.h"
+#include "tasks/task.h"
 
 static pspec_status run(const ps_request *arguments, ps_error *error) {
-    return ps_points_make_shown(ps_points_sample, "sample", "realizations", arguments, error);
+    ps_shown shown = {.arguments = arguments,
+                      .counted = "realizations",
+                      .speaker = "pointspec sample",
+                      .is_streamed = true};
+    const ps_answer_hooks hooks = ps_shown_hooks(&shown);
+    return ps_points_sample(arguments, &hooks, error);
 }
 
 const ps_command ps_command_sample = {
@@ -19,11 +25,10 @@ const ps_command ps_command_sample = {
         "digits, and a line \"#\" between two realizations; an NPY array has the shape (M, N, D), "
         "D = 3 on the sphere. --homogenize shifts points of the torus and rotates those of the "
         "sphere, at random.",
+    .task = &ps_task_sample,
     .takes = PS_TAKER_BIT(sample),
-    .formats = PS_POINT_FORMATS,
     .samples = PS_DOMAIN_ANY,
     .examples = {"pointspec sample --sampler jittered -n 1024 -m 10 --seed 7 -o points.txt",
                  "pointspec sample --sampler sobol:scramble=owen -n 4096 -d 3 -o points.npy"},
     .run = run,
-    .plan = ps_plan_table_add_sample,
 };

@@ -49,6 +49,7 @@
 #define POINTSPEC_POINTSPEC_H
 
 #include "pointspec/answer.h"
+#include "pointspec/commands.h"
 #include "pointspec/common.h"
 #include "pointspec/context.h"
 #include "pointspec/interpolant.h"

@@ -69,10 +69,15 @@ static pspec_status digest(const ps_answer *answer, char out[PS_DIGEST_BYTES], p
 
 /* One device for all questions: its programs are built once. */
 pspec_status ps_run_open_device(ps_run *run, const ps_run_result *result, ps_error *error) {
-    return run->device != NULL || result->asked->kind->is_of_host
-               ? PSPEC_OK
-               : ps_figures_open_device(&run->device, run->arguments->limits.device, false,
-                                        run->arguments->limits.cache_folder, error);
+    if (run->device == NULL) {
+        run->device = run->hooks.device;
+    }
+    if (run->device != NULL || result->asked->kind->is_of_host) {
+        return PSPEC_OK;
+    }
+    run->owns_device = true;
+    return ps_figures_open_device(&run->device, run->arguments->limits.device, false,
+                                  run->arguments->limits.cache_folder, error);
 }
 
 static pspec_status answer_one(ps_run *run, ps_run_result *result, ps_run_question *question,
@@ -95,7 +100,7 @@ static pspec_status answer_one(ps_run *run, ps_run_result *result, ps_run_questi
 static pspec_status answer_result(ps_run *run, ps_run_result *result, size_t *done,
                                   ps_error *error) {
     for (size_t q = 0; q < result->num; q++) {
-        if (ps_run_is_interrupted(run)) {
+        if (ps_answer_is_interrupted(&run->hooks)) {
             return ps_fail(error, PSPEC_ERROR_CANCELLED, "interrupted after %zu of %zu questions",
                            *done, run->num_questions);
         }
@@ -115,9 +120,11 @@ pspec_status ps_run_answer(ps_run *run, ps_error *error) {
     size_t done = 0;
     pspec_status status = PSPEC_OK;
     const double start = ps_clock_seconds();
+    ps_answer_begin_next(&run->hooks);
     for (size_t i = 0; status == PSPEC_OK && i < run->num_results; i++) {
         status = answer_result(run, &run->results[i], &done, error);
     }
+    ps_answer_end(&run->hooks);
     run->seconds = ps_clock_seconds() - start;
     return status;
 }

@@ -67,7 +67,7 @@ pspec_status ps_run_open_cache(ps_run *run, ps_error *error) {
         status = ps_cache_open(&run->cache, ps_text_string(&folder), most, &reason);
     }
     if (status != PSPEC_OK) {
-        ps_run_warn(run, "no cache of results: %s", reason.message);
+        ps_answer_warn(&run->hooks, "no cache of results: %s", reason.message);
     }
     ps_text_free(&folder);
     return PSPEC_OK;
@@ -163,7 +163,7 @@ static pspec_status unpack(ps_answer *out, double *seconds, const char *bytes, s
 
 void ps_run_warn_of_cache(const ps_run *run, ps_error *reason) {
     if (ps_cache_first_failure(run->cache)) {
-        ps_run_warn(run, "the cache of results: %s", reason->message);
+        ps_answer_warn(&run->hooks, "the cache of results: %s", reason->message);
     }
     *reason = (ps_error){0};
 }

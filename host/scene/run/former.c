@@ -150,7 +150,7 @@ static void say(const ps_run *run, fate what, const char *path) {
         [KEPT_CHANGED] = "kept \"%s\": it is not what the former run made",
         [KEPT_IN_VAIN] = "cannot remove \"%s\", which the former run made and this one does not"};
     if (sentences[what] != NULL) {
-        ps_run_warn(run, sentences[what], path);
+        ps_answer_warn(&run->hooks, sentences[what], path);
     }
 }
 

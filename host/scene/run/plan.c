@@ -65,7 +65,7 @@ static pspec_status add_blocks(ps_run *run, ps_planner *planner, ps_error *error
 }
 
 pspec_status ps_run_plan(ps_planner *planner, const ps_request *arguments,
-                         const ps_run_hooks *hooks, ps_error *error) {
+                         const ps_answer_hooks *hooks, ps_error *error) {
     ps_scene scene = {0};
     if (arguments->num_files != 1) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,

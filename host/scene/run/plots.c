@@ -57,8 +57,8 @@ static void say_panels(const ps_artist *artist) {
     }
     ps_text text = {0};
     ps_picture_say_panels(&pictures->all[i], asked, &text);
-    ps_run_warn(artist->run, "%s%s.svg: %s", asked->name, pictures->all[i].suffix,
-                ps_text_string(&text));
+    ps_answer_warn(&artist->run->hooks, "%s%s.svg: %s", asked->name, pictures->all[i].suffix,
+                   ps_text_string(&text));
     ps_text_free(&text);
 }
 
@@ -68,7 +68,8 @@ pspec_status ps_run_make_plots(ps_run *run, ps_run_result *result, ps_error *err
     for (size_t i = 0; i < result->pictures.num; i++) {
         const ps_picture *const what = &result->pictures.all[i];
         const pspec_status status = draw(&artist, what);
-        if (status == PSPEC_ERROR_CANCELLED || (status != PSPEC_OK && ps_run_is_interrupted(run))) {
+        if (status == PSPEC_ERROR_CANCELLED ||
+            (status != PSPEC_OK && ps_answer_is_interrupted(&run->hooks))) {
             return ps_fail(error, PSPEC_ERROR_CANCELLED, "interrupted while pictures were drawn");
         }
         if (status != PSPEC_OK) {

@@ -1,4 +1,4 @@
-/* The beginning and the end of a run. */
+/* The whole of a run, its beginning and its end. */
 #include "scene/run/run.h"
 
 #include "plots/plot.h"
@@ -26,7 +26,8 @@ static void warn_of_gnuplot(const ps_run *run) {
     const pspec_status status =
         num > 0 && run->hooks.warn != NULL ? ps_plot_find_gnuplot(&path, &reason) : PSPEC_OK;
     if (status != PSPEC_OK && status != PSPEC_ERROR_MEMORY) {
-        ps_run_warn(run, "%s; pictures are left out where the cache has none", reason.message);
+        ps_answer_warn(&run->hooks, "%s; pictures are left out where the cache has none",
+                       reason.message);
     }
     ps_text_free(&path);
 }
@@ -66,6 +67,60 @@ void ps_run_free(ps_run *run) {
     ps_run_files_free(&run->files);
     ps_scene_free(&run->former);
     ps_cache_close(run->cache);
-    ps_device_close(run->device);
+    if (run->owns_device) {
+        ps_device_close(run->device);
+    }
     ps_text_free(&run->identity);
+}
+
+/* ---- all of it --------------------------------------------------------------------------- */
+
+static void tell_of_pictures(const ps_run *run) {
+    if (run->num_undrawn > 0) {
+        ps_answer_tell_missing(&run->hooks, "%zu picture%s of \"%s\" %s not drawn: %s",
+                               run->num_undrawn, run->num_undrawn == 1 ? "" : "s", run->folder,
+                               run->num_undrawn == 1 ? "was" : "were", run->undrawn.message);
+    }
+}
+
+static pspec_status produce(ps_answer *out, ps_run *run, ps_error *error) {
+    PS_TRY(ps_run_prepare(run, error));
+    PS_TRY(ps_run_answer(run, error));
+    PS_TRY(ps_run_write(run, error));
+    tell_of_pictures(run);
+    PS_TRY(ps_run_overview(&out->table, run, error));
+    /* what it comes to is told beside the overview, not instead of it */
+    return ps_run_judge(run, &out->verdict) == PSPEC_ERROR_CHECK ? PSPEC_OK : out->verdict.status;
+}
+
+pspec_status ps_run_produce(ps_answer *out, const ps_request *arguments,
+                            const ps_answer_hooks *hooks, ps_error *error) {
+    ps_scene scene = {0};
+    ps_text folder = {0};
+    *out = (ps_answer){0};
+    if (arguments->num_files != 1) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "one scene is run at a time, but %zu files were named",
+                       arguments->num_files);
+    }
+    if (arguments->output != NULL) {
+        ps_text_append(&folder, "%s", arguments->output);
+    } else {
+        ps_run_name_folder(arguments->files[0], &folder);
+    }
+    ps_run run = {.hooks = *hooks,
+                  .arguments = arguments,
+                  .scene = &scene,
+                  .folder = ps_text_string(&folder)};
+    pspec_status status = ps_text_check(&folder, error);
+    if (status == PSPEC_OK) {
+        status = ps_run_read_scene(&scene, arguments, error);
+    }
+    if (status == PSPEC_OK) {
+        status = produce(out, &run, error);
+    }
+    ps_run_free(&run);
+    ps_scene_free(&scene);
+    ps_text_free(&folder);
+    return status;
 }

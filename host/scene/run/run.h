@@ -1,7 +1,6 @@
 /* A scene answered, and what becomes of the answers, in this order: prepare, answer, write, judge. Each file is one part:
  *
- *     run.c        the beginning and the end
- *     hooks.c      who hears of it
+ *     run.c        the whole of it, its beginning and end
  *     answers.c    every question from the cache or computed
  *     cache.c      keys and bytes of answers in the cache
  *     tables.c     tables of the results, and summaries
@@ -49,27 +48,16 @@ typedef struct ps_run_result {
     ps_run_plot *plots;
 } ps_run_result;
 
-/* Who hears of a run; {0}: nobody. Each of the calls may be NULL. */
-typedef struct ps_run_hooks {
-    ps_watch watch; /* of the work for each question */
-    void *payload;  /* of the calls */
-    /* Question `number` (from 1) of num, which is one of the result of that name, begins. */
-    void (*begin_question)(void *payload, const char *result, size_t number, size_t num);
-    /* Asked between two questions, and after a failure: was it an interrupt? */
-    bool (*is_interrupted)(void *payload);
-    /* A whole sentence that is no error. */
-    void (*warn)(void *payload, const char *sentence);
-} ps_run_hooks;
-
 typedef struct ps_run {
-    ps_run_hooks hooks;
+    ps_answer_hooks hooks; /* the watch hears of the work for each question */
     const ps_request *arguments;
     const ps_scene *scene;
     const char *folder; /* for the results */
     ps_cache *cache;    /* NULL: none */
     ps_text identity;   /* of program and device, for the keys of the cache */
-    ps_device *device;  /* NULL: not opened yet */
-    bool lacks_device;  /* a plan that goes on without */
+    ps_device *device;  /* that of the hooks, or opened here; NULL: none yet */
+    bool owns_device;
+    bool lacks_device; /* a plan that goes on without */
     size_t num_results, num_questions, num_cached;
     double seconds; /* of this run */
     size_t num_undrawn;
@@ -79,6 +67,14 @@ typedef struct ps_run {
     ps_scene former;    /* the record of the former run in the folder; no files: none */
     bool is_written;    /* all files are there, but for the last record */
 } ps_run;
+
+/* All of it: the scene arguments->files[0], with its results in the folder arguments->output, or in one of the scene's
+ * name. *out has the overview, and the verdict on records and checks; it is freed by ps_answer_free, also after an
+ * error. */
+pspec_status ps_run_produce(ps_answer *out, const ps_request *arguments,
+                            const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
+
+/* ---- the steps of it --------------------------------------------------------------------------- */
 
 /* Reads the scene and gives it the limit of memory of the command, if there is one. A record repeats what was typed then:
  * POINTSPEC_MEMORY of today is not for it. */
@@ -93,10 +89,6 @@ pspec_status ps_run_write(ps_run *run, ps_error *error) PS_MUST_CHECK;
 pspec_status ps_run_judge(const ps_run *run, ps_error *error) PS_MUST_CHECK;
 
 /* ---- the steps of these ---------------------------------------------------------------------- */
-
-/* Calls the hook with a sentence, if there is somebody to hear it. */
-void ps_run_warn(const ps_run *run, const char *format, ...) PS_PRINTF(2, 3);
-bool ps_run_is_interrupted(const ps_run *run);
 
 /* Makes all questions and looks whether they can be asked, without work. */
 pspec_status ps_run_ask(ps_run *run, ps_error *error) PS_MUST_CHECK;
@@ -132,6 +124,6 @@ void ps_run_label(const ps_run_result *result, size_t number, ps_text *out);
 
 /* The plan of the scene request->files[0]: one block for every question. */
 pspec_status ps_run_plan(ps_planner *planner, const ps_request *arguments,
-                         const ps_run_hooks *hooks, ps_error *error) PS_MUST_CHECK;
+                         const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
 
 #endif

@@ -1,7 +1,9 @@
-#include "api/doctor.h"
+#include "tasks/doctor.h"
 
 #include <stdarg.h>
 #include <stdio.h>
+
+const char *const ps_finding_words[] = {"ok", "note", "WRONG"};
 
 void ps_doctor_tell(const ps_doctor *doctor, ps_finding_kind kind, const char *topic,
                     const char *format, ...) {

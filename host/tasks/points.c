@@ -1,5 +1,5 @@
 /* Points of a sampler, and point files in another format. */
-#include "results/points.h"
+#include "tasks/points.h"
 
 #include "base/memory.h"
 #include "base/memory_limit.h"
@@ -9,12 +9,6 @@
 
 #include <stdlib.h>
 #include <string.h>
-
-static void end(const ps_answer_hooks *hooks) {
-    if (hooks->end != NULL) {
-        hooks->end(hooks->payload);
-    }
-}
 
 /* ---- sample ------------------------------------------------------------------------------ */
 
@@ -109,7 +103,7 @@ static pspec_status write_sets(const ps_request *request, const ps_sampler_reque
         tell_loss(writer, hooks);
         status = ps_points_commit(writer, error);
     }
-    end(hooks);
+    ps_answer_end(hooks);
     ps_points_discard(writer);
     return status;
 }
@@ -150,7 +144,7 @@ pspec_status ps_points_convert(const ps_request *request, const ps_answer_hooks 
         .watch = hooks->watch,
     };
     const pspec_status status = ps_convert(&conversion, &loss, error);
-    end(hooks);
+    ps_answer_end(hooks);
     if (status == PSPEC_OK && loss.length > 0) {
         ps_answer_warn(hooks, "%s", ps_text_string(&loss));
     }

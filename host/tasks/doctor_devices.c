@@ -1,5 +1,5 @@
 /* The doctor: devices, and whether they compute what is known. */
-#include "api/doctor.h"
+#include "tasks/doctor.h"
 #include "base/text.h"
 #include "device/device.h"
 #include "device/drivers.h"

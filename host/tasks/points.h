@@ -1,12 +1,9 @@
 /* What commands do that make point files: sample and convert, for program and library alike. The file is the output of the
  * request, which must have one. */
-#ifndef PS_RESULTS_POINTS_H
-#define PS_RESULTS_POINTS_H
+#ifndef PS_TASKS_POINTS_H
+#define PS_TASKS_POINTS_H
 
 #include "results/kind.h"
-
-/* Words of --weights of convert. */
-#define PS_CONVERT_WEIGHTS "equal|column"
 
 /* Writes realizations of the only sampler, one of them in memory at a time. hooks->warn hears what the format could not
  * keep, hooks->watch of realizations. */

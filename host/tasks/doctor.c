@@ -1,4 +1,4 @@
-#include "api/doctor.h"
+#include "tasks/doctor.h"
 
 #include "base/memory_limit.h"
 #include "base/text.h"

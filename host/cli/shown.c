@@ -1,0 +1,108 @@
+#include "cli/shown.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+/* ---- progress -------------------------------------------------------------------------------- */
+
+/* A line for each sampler, or other phase. */
+static void begin_line(void *payload) {
+    ps_shown *const shown = payload;
+    const bool shares_terminal =
+        shown->is_streamed && strcmp(shown->arguments->output, "-") == 0 && isatty(STDOUT_FILENO);
+    ps_progress_end(shown->progress);
+    shown->progress = shares_terminal ? NULL : ps_progress_begin(shown->arguments, shown->counted);
+}
+
+static void begin_question(void *payload, const char *result, size_t number, size_t num) {
+    const ps_shown *const shown = payload;
+    ps_progress_part(shown->progress, "%s, question %zu of %zu: ", result, number, num);
+}
+
+static void end_line(void *payload) {
+    ps_shown *const shown = payload;
+    ps_progress_end(shown->progress);
+    shown->progress = NULL;
+}
+
+static int tell(const ps_watch_report *report, void *payload) {
+    const ps_shown *const shown = payload;
+    return ps_progress_tell(report, shown->progress);
+}
+
+static bool is_interrupted(void *payload) {
+    (void)payload;
+    return ps_interrupted != 0;
+}
+
+/* ---- sentences ------------------------------------------------------------------------------- */
+
+static void hide(void *payload) {
+    const ps_shown *const shown = payload;
+    ps_progress_hide(shown->progress);
+}
+
+static void print_warning(void *payload, const char *sentence) {
+    const ps_shown *const shown = payload;
+    hide(payload);
+    fprintf(stderr, "%s: %s\n", shown->speaker, sentence);
+}
+
+static void print_plan(void *payload, const ps_plan *plan) {
+    hide(payload);
+    for (size_t i = 0; i < plan->num_candidates; i++) {
+        const ps_candidate *candidate = &plan->candidates[i];
+        fprintf(stderr, "%s (%s): %s\n", candidate->engine->name,
+                ps_precision_name(candidate->precision), candidate->reason);
+    }
+}
+
+static void print_profile(void *payload, const ps_profile_row *rows, size_t num_rows) {
+    hide(payload);
+    fprintf(stderr, "%-24s %9s %12s %10s %8s\n", "kernel", "launches", "seconds", "GFLOP/s",
+            "GB/s");
+    for (size_t i = 0; i < num_rows; i++) {
+        const double giga = 1e-9;
+        const double seconds = rows[i].seconds > 0 ? rows[i].seconds : giga; /* a clock's tick */
+        fprintf(stderr, "%-24s %9llu %12.6f %10.1f %8.1f\n", rows[i].kernel,
+                (unsigned long long)rows[i].launches, rows[i].seconds,
+                rows[i].flops / seconds * giga, rows[i].bytes / seconds * giga);
+    }
+}
+
+/* ---- all of it ------------------------------------------------------------------------------- */
+
+ps_answer_hooks ps_shown_hooks(ps_shown *shown) {
+    const ps_request *const arguments = shown->arguments;
+    return (ps_answer_hooks){.watch = {tell, shown},
+                             .payload = shown,
+                             .next = begin_line,
+                             .begin_question = begin_question,
+                             .end = end_line,
+                             .warn = arguments->quiet ? NULL : print_warning,
+                             .tell_missing = print_warning,
+                             .is_interrupted = is_interrupted,
+                             .tell_plan = arguments->verbose ? print_plan : NULL,
+                             .tell_profile = arguments->limits.profile ? print_profile : NULL};
+}
+
+pspec_status ps_shown_verdict(const ps_answer *answer, ps_error *error) {
+    if (answer->verdict.status != PSPEC_OK) {
+        *error = answer->verdict;
+    }
+    return answer->verdict.status;
+}
+
+pspec_status ps_shown_answer(const ps_result_kind *kind, const ps_request *arguments,
+                             ps_error *error) {
+    ps_shown shown = {.arguments = arguments, .counted = kind->counted, .speaker = "pointspec"};
+    const ps_answer_hooks hooks = ps_shown_hooks(&shown);
+    ps_answer answer = {0};
+    pspec_status status = ps_answer_produce(&answer, kind, arguments, &hooks, error);
+    if (status == PSPEC_OK) {
+        status = ps_shown_verdict(&answer, error);
+    }
+    ps_answer_free(&answer);
+    return status;
+}
