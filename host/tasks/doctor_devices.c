@@ -3,9 +3,9 @@
 #include "base/text.h"
 #include "device/device.h"
 #include "device/drivers.h"
+#include "questions/option_text.h"
 
 #include <math.h>
-#include <pointspec/pointspec.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -13,72 +13,67 @@
 enum { NUM_POINTS = 4 };
 static const double far_off = 1e-4; /* single precision does a hundred times better */
 
-static bool is_right(const pspec_bin *bins, size_t num_bins) {
-    for (size_t i = 0; i < num_bins; i++) {
-        const double known = lround(bins[i].frequency) % NUM_POINTS == 0 ? NUM_POINTS : 0;
-        if (!(fabs(bins[i].power - known) < far_off)) {
-            return false;
-        }
+static bool is_right(const ps_table *table) {
+    size_t bin = 0;
+    size_t power = 0;
+    const size_t num = ps_table_num_rows(table);
+    bool is_good = num == NUM_POINTS && ps_table_find_column(table, "bin", &bin) &&
+                   ps_table_find_column(table, "power", &power);
+    for (size_t row = 0; row < num && is_good; row++) {
+        const double known =
+            ps_table_cell(table, row, bin).integer % NUM_POINTS == 0 ? NUM_POINTS : 0;
+        is_good = fabs(ps_table_cell(table, row, power).number - known) < far_off;
     }
-    return num_bins >= NUM_POINTS;
+    return is_good;
 }
 
-static pspec_status compute(pspec_context *context, bool *is_good) {
-    static const double points[NUM_POINTS] = {0, 0.25, 0.5, 0.75};
-    const pspec_pattern pattern = {1, NUM_POINTS, points, NULL};
-    pspec_power_request request = PSPEC_POWER_REQUEST_INIT;
-    pspec_plan *plan = NULL;
-    pspec_spectrum *spectrum = NULL;
-    size_t num_bins = 0;
-    request.dimension = 1;
-    request.num_points = NUM_POINTS;
-    request.max_frequency = NUM_POINTS;
-    request.engine = "torus_direct";
-    request.no_self_check = 1;
-    pspec_status status = pspec_plan_create(&plan, context, &request);
-    if (status == PSPEC_OK) {
-        status = pspec_plan_run(plan, &pattern, 1);
+static pspec_status ask(ps_request *out, ps_error *error) {
+    static const struct {
+        ps_option_id id;
+        const char *value;
+    } options[] = {{PS_OPTION_SAMPLER, "regular"},     {PS_OPTION_POINTS, "4"},
+                   {PS_OPTION_DIMENSION, "1"},         {PS_OPTION_MAX_FREQUENCY, "4"},
+                   {PS_OPTION_ENGINE, "torus_direct"}, {PS_OPTION_NO_SELF_CHECK, "true"}};
+    *out = ps_request_default;
+    out->command_line = "pointspec doctor";
+    for (size_t i = 0; i < sizeof options / sizeof options[0]; i++) {
+        PS_TRY(ps_option_apply(out, options[i].id, ps_options[options[i].id].metavar,
+                               options[i].value, error));
     }
-    if (status == PSPEC_OK) {
-        status = pspec_spectrum_create(&spectrum, plan);
-    }
-    if (status == PSPEC_OK) {
-        const pspec_bin *const bins = pspec_spectrum_bins(spectrum, &num_bins);
-        *is_good = is_right(bins, num_bins);
-    }
-    pspec_spectrum_destroy(spectrum);
-    pspec_plan_destroy(plan);
+    return PSPEC_OK;
+}
+
+static pspec_status compute(const char *device, bool *is_good, ps_error *error) {
+    const ps_answer_hooks nobody = {0};
+    ps_answer answer = {0};
+    ps_request request;
+    PS_TRY(ask(&request, error));
+    request.limits.device = device;
+    const pspec_status status = ps_answer_make(&answer, &ps_result_power, &request, &nobody, error);
+    *is_good = status == PSPEC_OK && is_right(answer.table);
+    ps_answer_free(&answer);
     return status;
 }
 
-static pspec_status try_device(const ps_doctor *doctor, const ps_device_limits *limits,
-                               size_t index, bool is_default, bool *is_good, ps_error *error) {
+static void try_device(const ps_doctor *doctor, const ps_device_limits *limits, size_t index,
+                       bool is_default, bool *is_good) {
     char number[24];
+    ps_error reason = {0};
     const char *const which = is_default ? ", the default" : "";
-    pspec_context *const context = pspec_context_create();
-    if (context == NULL) {
-        return ps_fail(error, PSPEC_ERROR_MEMORY, "no memory for a context");
-    }
+    const ps_finding_kind bad = is_default ? PS_FINDING_WRONG : PS_FINDING_NOTE;
     *is_good = false;
     snprintf(number, sizeof number, "%zu", index);
-    pspec_status status = pspec_context_set_device(context, number);
-    if (status == PSPEC_OK) {
-        status = compute(context, is_good);
-    }
-    const ps_finding_kind bad = is_default ? PS_FINDING_WRONG : PS_FINDING_NOTE;
-    if (status != PSPEC_OK) {
+    if (compute(number, is_good, &reason) != PSPEC_OK) {
         ps_doctor_tell(doctor, bad, "device", "number %zu, \"%s\"%s, fails: %s", index,
-                       limits->name, which, pspec_context_message(context));
-    } else {
-        ps_doctor_tell(doctor, *is_good ? PS_FINDING_GOOD : bad, "device",
-                       "number %zu, \"%s\"%s (%s, driver %s, %u compute units%s): a kernel builds, "
-                       "and its numbers are %s",
-                       index, limits->name, which, limits->platform, limits->driver,
-                       limits->compute_units, ps_device_is_simulator(limits) ? ", a simulator" : "",
-                       *is_good ? "right" : "wrong");
+                       limits->name, which, reason.message);
+        return;
     }
-    pspec_context_destroy(context);
-    return PSPEC_OK;
+    ps_doctor_tell(doctor, *is_good ? PS_FINDING_GOOD : bad, "device",
+                   "number %zu, \"%s\"%s (%s, driver %s, %u compute units%s): a kernel builds, "
+                   "and its numbers are %s",
+                   index, limits->name, which, limits->platform, limits->driver,
+                   limits->compute_units, ps_device_is_simulator(limits) ? ", a simulator" : "",
+                   *is_good ? "right" : "wrong");
 }
 
 static pspec_status tell_drivers(const ps_doctor *doctor, ps_error *error) {
@@ -125,12 +120,11 @@ pspec_status ps_doctor_devices(const ps_doctor *doctor, bool *is_wrong, ps_error
         num = limits != NULL ? num : 0;
         chosen = num;
     }
-    status = PSPEC_OK;
-    for (size_t i = 0; i < num && status == PSPEC_OK; i++) {
+    for (size_t i = 0; i < num; i++) {
         bool is_good = false;
-        status = try_device(doctor, &limits[i], i, i == chosen, &is_good, error);
+        try_device(doctor, &limits[i], i, i == chosen, &is_good);
         *is_wrong = *is_wrong || (i == chosen && !is_good);
     }
     free(limits);
-    return status;
+    return PSPEC_OK;
 }

@@ -38,8 +38,8 @@ typedef struct pspec_option {
 PSPEC_EXPORT const char *pspec_result_kind(size_t i);
 
 /** The options that a command takes here, as a table with the columns option, values (missing for
- * flags) and help. command: a kind of result. #PSPEC_ERROR_INVALID_ARGUMENT
- * names the nearest command where there is no such one. */
+ * flags) and help. command: a kind of result, "sample", "convert" or "run".
+ * #PSPEC_ERROR_INVALID_ARGUMENT names the nearest command where there is no such one. */
 PSPEC_EXPORT pspec_status pspec_options_table(pspec_table **out, pspec_context *context,
                                               const char *command);
 
