@@ -30,22 +30,22 @@ typedef struct sums_of_pairs {
 
 /* ---- weights ----------------------------------------------------------------------------- */
 
-static double weight_of(const sums_of_pairs *of, size_t j) {
-    return of->pattern->weights != NULL ? ldexp(of->pattern->weights[j], -of->exponent)
-                                        : ldexp(1, -of->exponent);
+static double weight_of(const sums_of_pairs *self, size_t j) {
+    return self->pattern->weights != NULL ? ldexp(self->pattern->weights[j], -self->exponent)
+                                          : ldexp(1, -self->exponent);
 }
 
-static void add_weights(sums_of_pairs *of) {
+static void add_weights(sums_of_pairs *self) {
     ps_neumaier sum = {0, 0}, size = {0, 0}, square = {0, 0};
-    for (size_t j = 0; j < of->pattern->num_points; j++) {
-        const double weight = weight_of(of, j);
+    for (size_t j = 0; j < self->pattern->num_points; j++) {
+        const double weight = weight_of(self, j);
         ps_neumaier_add(&sum, weight);
         ps_neumaier_add(&size, fabs(weight));
         ps_neumaier_add(&square, weight * weight);
     }
-    of->weight_sum = ps_neumaier_value(&sum);
-    of->weight_size = ps_neumaier_value(&size);
-    of->weight_square = ps_neumaier_value(&square);
+    self->weight_sum = ps_neumaier_value(&sum);
+    self->weight_size = ps_neumaier_value(&size);
+    self->weight_square = ps_neumaier_value(&square);
 }
 
 /* ---- the histogram ----------------------------------------------------------------------- */
@@ -59,10 +59,10 @@ static double size_of_kernel(const ps_isotropic_kernel *kernel) {
     return sum;
 }
 
-static pspec_status make_problem(sums_of_pairs *of, const ps_isotropic_kernel *kernels,
+static pspec_status make_problem(sums_of_pairs *self, const ps_isotropic_kernel *kernels,
                                  size_t num_kernels, ps_error *error) {
     const double share = 0.5; /* of the tolerance; the other half is for what is below rho */
-    const double root = sqrt((double)of->pattern->num_points);
+    const double root = sqrt((double)self->pattern->num_points);
     int64_t last = root > LEAST_DEGREES ? (int64_t)root : LEAST_DEGREES;
     double largest = 1;
     for (size_t k = 0; k < num_kernels; k++) {
@@ -70,88 +70,90 @@ static pspec_status make_problem(sums_of_pairs *of, const ps_isotropic_kernel *k
         last = num - 1 > last ? num - 1 : last;
         largest = fmax(largest, size_of_kernel(&kernels[k]));
     }
-    PS_TRY(ps_frequencies_degrees(&of->degrees, last, false, error));
-    PS_TRY(ps_frequencies_enumerate(&of->degrees, error));
-    of->problem =
-        (ps_problem){.frequencies = &of->degrees,
-                     .num_points = of->pattern->num_points,
+    PS_TRY(ps_frequencies_degrees(&self->degrees, last, false, error));
+    PS_TRY(ps_frequencies_enumerate(&self->degrees, error));
+    self->problem =
+        (ps_problem){.frequencies = &self->degrees,
+                     .num_points = self->pattern->num_points,
                      .num_realizations = 1,
                      .has_weights = true,
                      .measure = PS_OF_PAIR_SUMS,
-                     .tolerance = fmin(share * of->tolerance / largest, 1),
-                     .weight_share = of->weight_square / (of->weight_size * of->weight_size)};
+                     .tolerance = fmin(share * self->tolerance / largest, 1),
+                     .weight_share = self->weight_square / (self->weight_size * self->weight_size)};
     return PSPEC_OK;
 }
 
-static pspec_status allocate(sums_of_pairs *of, ps_error *error) {
+static pspec_status allocate(sums_of_pairs *self, ps_error *error) {
     void *memory = NULL;
-    const size_t num_nodes = 2 * of->num_bins * PS_PAIRS_MOMENTS;
-    const size_t num_degrees = (size_t)of->degrees.max_frequency + 1;
+    const size_t num_nodes = 2 * self->num_bins * PS_PAIRS_MOMENTS;
+    const size_t num_degrees = (size_t)self->degrees.max_frequency + 1;
     PS_TRY(ps_allocate(&memory, num_degrees + 3 * num_nodes, sizeof(double), "a histogram", error));
-    of->q = memory;
-    of->nodes = of->q + num_degrees;
-    of->weights = of->nodes + 2 * num_nodes;
-    ps_pairs_bins_nodes(of->num_bins, of->nodes);
+    self->q = memory;
+    self->nodes = self->q + num_degrees;
+    self->weights = self->nodes + 2 * num_nodes;
+    ps_pairs_bins_nodes(self->num_bins, self->nodes);
     return PSPEC_OK;
 }
 
-static pspec_status run_engine(sums_of_pairs *of, void *state, ps_precision precision,
+static pspec_status run_engine(sums_of_pairs *self, void *state, ps_precision precision,
                                ps_error *error) {
     const double scale = 1;
-    const ps_batch batch = {
-        .num_patterns = 1, .patterns = of->pattern, .scales = &scale, .exponents = &of->exponent};
-    const int32_t last = of->degrees.max_frequency;
+    const ps_batch batch = {.num_patterns = 1,
+                            .patterns = self->pattern,
+                            .scales = &scale,
+                            .exponents = &self->exponent};
+    const int32_t last = self->degrees.max_frequency;
     ps_rows rows;
-    of->num_bins = ps_pairs_histogram_num_bins(state);
-    PS_TRY(allocate(of, error));
+    self->num_bins = ps_pairs_histogram_num_bins(state);
+    PS_TRY(allocate(self, error));
     PS_TRY(ps_pairs_histogram.run(state, &batch, &rows, error));
-    PS_TRY(ps_pairs_histogram_weights(state, of->weights, error));
-    of->q[0] = of->weight_sum * of->weight_sum;
+    PS_TRY(ps_pairs_histogram_weights(state, self->weights, error));
+    self->q[0] = self->weight_sum * self->weight_sum;
     double mean_power = 0;
     for (int32_t l = 1; l <= last; l++) {
-        of->q[l] = rows.host[l - 1];
-        mean_power += of->q[l] / of->weight_square / last;
+        self->q[l] = rows.host[l - 1];
+        mean_power += self->q[l] / self->weight_square / last;
     }
-    of->bound = ps_pairs_histogram_error(&of->problem, ps_device_get_limits(of->device), precision,
-                                         mean_power);
-    of->rounding = of->bound - ps_pairs_bins_bound(last, of->num_bins);
+    self->bound = ps_pairs_histogram_error(&self->problem, ps_device_get_limits(self->device),
+                                           precision, mean_power);
+    self->rounding = self->bound - ps_pairs_bins_bound(last, self->num_bins);
     return PSPEC_OK;
 }
 
-static pspec_status make_histogram(sums_of_pairs *of, ps_precision precision, ps_error *error) {
+static pspec_status make_histogram(sums_of_pairs *self, ps_precision precision, ps_error *error) {
     void *state = NULL;
-    PS_TRY(ps_pairs_histogram.create(&state, &of->problem, precision, 1, of->device, error));
-    const pspec_status status = run_engine(of, state, precision, error);
+    PS_TRY(ps_pairs_histogram.create(&state, &self->problem, precision, 1, self->device, error));
+    const pspec_status status = run_engine(self, state, precision, error);
     ps_pairs_histogram.destroy(state);
     return status;
 }
 
 /* In the cheapest precision whose error is within the tolerance, also with the powers that are measured. */
-static pspec_status fill_histogram(sums_of_pairs *of, ps_error *error) {
-    const ps_device_limits *const limits = ps_device_get_limits(of->device);
+static pspec_status fill_histogram(sums_of_pairs *self, ps_error *error) {
+    const ps_device_limits *const limits = ps_device_get_limits(self->device);
     double best = INFINITY;
     for (int p = PS_SINGLE; p <= PS_DOUBLE; p++) {
         const ps_precision precision = (ps_precision)p;
-        if (ps_pairs_histogram.survey(&of->problem, limits, precision).why_not != NULL) {
+        if (ps_pairs_histogram.survey(&self->problem, limits, precision).why_not != NULL) {
             continue;
         }
-        const double expected = ps_pairs_histogram_error(&of->problem, limits, precision, 0);
+        const double expected = ps_pairs_histogram_error(&self->problem, limits, precision, 0);
         best = fmin(best, expected);
-        if (!(expected <= of->problem.tolerance)) {
+        if (!(expected <= self->problem.tolerance)) {
             continue;
         }
-        free(of->q);
-        of->q = NULL;
-        PS_TRY(make_histogram(of, precision, error));
-        if (of->bound <= of->problem.tolerance) {
+        free(self->q);
+        self->q = NULL;
+        PS_TRY(make_histogram(self, precision, error));
+        if (self->bound <= self->problem.tolerance) {
             return PSPEC_OK;
         }
-        best = of->bound;
+        best = self->bound;
     }
     return ps_fail(error, PSPEC_ERROR_TOLERANCE,
                    "sums over pairs by a histogram have an error of %.2g here, and these kernels "
                    "need %.2g",
-                   best, of->problem.tolerance);
+                   best, self->problem.tolerance);
 }
 
 /* ---- chords ------------------------------------------------------------------------------ */
@@ -163,17 +165,17 @@ typedef struct chord {
     double bound; /* of what bins lose */
 } chord;
 
-static double chord_at(const chord *of, double square) {
-    return square > 0 ? pow(square, of->power) : 0;
+static double chord_at(const chord *shape, double square) {
+    return square > 0 ? pow(square, shape->power) : 0;
 }
 
-static double below_rho(const chord *of, double square) {
-    const double x = square / of->rho_square - 1;
+static double below_rho(const chord *shape, double square) {
+    const double x = square / shape->rho_square - 1;
     double sum = 0;
     for (int k = TERMS; k-- > 0;) {
-        sum = sum * x + of->binomials[k];
+        sum = sum * x + shape->binomials[k];
     }
-    return sum * pow(of->rho_square, of->power);
+    return sum * pow(shape->rho_square, shape->power);
 }
 
 /* |x (x - 1) .. (x - k + 1)| */
@@ -186,13 +188,13 @@ static double falling(double x, int k) {
 }
 
 /* Of g'''''''' below rho, in units of rho^(2 power - 8). */
-static double bound_below(const chord *of) {
+static double bound_below(const chord *shape) {
     double sum = 0;
     for (int j = PS_PAIRS_MOMENTS / 2; j < TERMS; j++) {
         double c = 0;
         double ways = 1; /* binom(k, j) (-1)^(k - j) */
         for (int k = j; k < TERMS; k++) {
-            c += of->binomials[k] * ways;
+            c += shape->binomials[k] * ways;
             ways *= -(double)(k + 1) / (double)(k + 1 - j);
         }
         sum += fabs(c) * falling(2 * j, PS_PAIRS_MOMENTS);
@@ -214,7 +216,7 @@ static double bound_opposite(double power) {
 }
 
 /* Sets rho to so many bins of the histogram. */
-static void set_rho(chord *of, size_t num_bins, size_t near_bins) {
+static void set_rho(chord *shape, size_t num_bins, size_t near_bins) {
     enum { K = PS_PAIRS_MOMENTS };
     const double width = sqrt(2) / (double)num_bins;
     const double rho = width * (double)near_bins;
@@ -222,10 +224,10 @@ static void set_rho(chord *of, size_t num_bins, size_t near_bins) {
     for (int k = 1; k <= K; k++) {
         rest /= 4 * (double)k;
     }
-    of->rho_square = rho * rho;
-    const double near = fmax(falling(2 * of->power, K), bound_below(of));
-    const double scaled = near * pow(rho, 2 * of->power) * pow((double)near_bins, -K);
-    of->bound = rest * fmax(scaled, bound_opposite(of->power) * pow(width, K));
+    shape->rho_square = rho * rho;
+    const double near = fmax(falling(2 * shape->power, K), bound_below(shape));
+    const double scaled = near * pow(rho, 2 * shape->power) * pow((double)near_bins, -K);
+    shape->bound = rest * fmax(scaled, bound_opposite(shape->power) * pow(width, K));
 }
 
 static chord make_chord(double power, size_t num_bins, double tolerance) {
@@ -258,20 +260,20 @@ static int by_height(const void *a, const void *b) {
     return x->index < y->index ? -1 : x->index > y->index;
 }
 
-static void sort_directions(const sums_of_pairs *of, direction *all) {
-    const size_t num = of->pattern->num_points;
+static void sort_directions(const sums_of_pairs *self, direction *all) {
+    const size_t num = self->pattern->num_points;
     for (size_t j = 0; j < num; j++) {
-        const double *const u = of->pattern->points + j * PS_SPHERE_DIMENSION;
+        const double *const u = self->pattern->points + j * PS_SPHERE_DIMENSION;
         const long double x = u[0], y = u[1], z = u[2];
         const long double length = sqrtl(x * x + y * y + z * z);
-        all[j] = (direction){{x / length, y / length, z / length}, weight_of(of, j), j};
+        all[j] = (direction){{x / length, y / length, z / length}, weight_of(self, j), j};
     }
     qsort(all, num, sizeof *all, by_height);
 }
 
 /* What below_rho is off by, over pairs nearer than rho, each once. */
-static double add_near(const chord *of, size_t num, const direction *all) {
-    const double rho = sqrt(of->rho_square);
+static double add_near(const chord *shape, size_t num, const direction *all) {
+    const double rho = sqrt(shape->rho_square);
     ps_neumaier sum = {0, 0};
     for (size_t i = 0; i < num; i++) {
         for (size_t j = i + 1; j < num && all[j].u[2] - all[i].u[2] < rho; j++) {
@@ -280,8 +282,9 @@ static double add_near(const chord *of, size_t num, const direction *all) {
                 const long double step = all[j].u[axis] - all[i].u[axis];
                 square += step * step;
             }
-            if ((double)square < of->rho_square) {
-                const double off = chord_at(of, (double)square) - below_rho(of, (double)square);
+            if ((double)square < shape->rho_square) {
+                const double off =
+                    chord_at(shape, (double)square) - below_rho(shape, (double)square);
                 ps_neumaier_add(&sum, all[i].weight * all[j].weight * off);
             }
         }
@@ -291,38 +294,38 @@ static double add_near(const chord *of, size_t num, const direction *all) {
 
 /* ---- kernels ----------------------------------------------------------------------------- */
 
-static pspec_status sum_chords(const sums_of_pairs *of, double power, double *sum, double *bound,
+static pspec_status sum_chords(const sums_of_pairs *self, double power, double *sum, double *bound,
                                ps_error *error) {
     const double share = 0.5; /* of the tolerance; rounding has the other half */
-    const size_t num_nodes = 2 * of->num_bins * PS_PAIRS_MOMENTS;
-    const chord kernel = make_chord(power, of->num_bins, share * of->tolerance);
+    const size_t num_nodes = 2 * self->num_bins * PS_PAIRS_MOMENTS;
+    const chord kernel = make_chord(power, self->num_bins, share * self->tolerance);
     ps_neumaier total = {0, 0};
     void *memory = NULL;
     for (size_t i = 0; i < num_nodes; i++) {
-        const double t = of->nodes[i];
-        const double side = of->nodes[num_nodes + i];
+        const double t = self->nodes[i];
+        const double side = self->nodes[num_nodes + i];
         const double square = side > 0 ? 2 * t : 4 - 2 * t;
-        ps_neumaier_add(&total,
-                        of->weights[i] * (square < kernel.rho_square ? below_rho(&kernel, square)
-                                                                     : chord_at(&kernel, square)));
+        ps_neumaier_add(&total, self->weights[i] * (square < kernel.rho_square
+                                                        ? below_rho(&kernel, square)
+                                                        : chord_at(&kernel, square)));
     }
-    PS_TRY(ps_allocate(&memory, of->pattern->num_points, sizeof(direction), "directions", error));
-    sort_directions(of, memory);
-    ps_neumaier_add(&total, add_near(&kernel, of->pattern->num_points, memory));
+    PS_TRY(ps_allocate(&memory, self->pattern->num_points, sizeof(direction), "directions", error));
+    sort_directions(self, memory);
+    ps_neumaier_add(&total, add_near(&kernel, self->pattern->num_points, memory));
     free(memory);
     *sum = 2 * ps_neumaier_value(&total);
-    *bound = kernel.bound + pow(4, power) * of->rounding;
+    *bound = kernel.bound + pow(4, power) * self->rounding;
     return PSPEC_OK;
 }
 
-static void sum_zonal(const sums_of_pairs *of, const ps_isotropic_kernel *kernel, double *sum,
+static void sum_zonal(const sums_of_pairs *self, const ps_isotropic_kernel *kernel, double *sum,
                       double *bound) {
     ps_neumaier total = {0, 0};
     for (size_t l = kernel->num_coefficients; l-- > 0;) {
-        ps_neumaier_add(&total, kernel->coefficients[l] * of->q[l]);
+        ps_neumaier_add(&total, kernel->coefficients[l] * self->q[l]);
     }
     *sum = ps_neumaier_value(&total);
-    *bound = size_of_kernel(kernel) * of->bound;
+    *bound = size_of_kernel(kernel) * self->bound;
 }
 
 static pspec_status check_kernels(const ps_isotropic_kernel *kernels, size_t num_kernels,
@@ -344,15 +347,15 @@ static pspec_status check_kernels(const ps_isotropic_kernel *kernels, size_t num
     return PSPEC_OK;
 }
 
-static pspec_status sum_kernels(sums_of_pairs *of, const ps_isotropic_kernel *kernels,
+static pspec_status sum_kernels(sums_of_pairs *self, const ps_isotropic_kernel *kernels,
                                 size_t num_kernels, double *sums, double *bounds, ps_error *error) {
-    PS_TRY(make_problem(of, kernels, num_kernels, error));
-    PS_TRY(fill_histogram(of, error));
+    PS_TRY(make_problem(self, kernels, num_kernels, error));
+    PS_TRY(fill_histogram(self, error));
     for (size_t k = 0; k < num_kernels; k++) {
         if (kernels[k].num_coefficients > 0) {
-            sum_zonal(of, &kernels[k], &sums[k], &bounds[k]);
+            sum_zonal(self, &kernels[k], &sums[k], &bounds[k]);
         } else {
-            PS_TRY(sum_chords(of, kernels[k].power, &sums[k], &bounds[k], error));
+            PS_TRY(sum_chords(self, kernels[k].power, &sums[k], &bounds[k], error));
         }
     }
     return PSPEC_OK;
@@ -362,12 +365,12 @@ pspec_status ps_pairs_isotropic_sums(ps_device *device, const pspec_pattern *pat
                                      const ps_isotropic_kernel *kernels, size_t num_kernels,
                                      double tolerance, double *sums, double *bounds,
                                      ps_error *error) {
-    sums_of_pairs of = {
+    sums_of_pairs self = {
         .device = device, .pattern = pattern, .exponent = exponent, .tolerance = tolerance};
     PS_TRY(check_kernels(kernels, num_kernels, error));
-    add_weights(&of);
-    const pspec_status status = sum_kernels(&of, kernels, num_kernels, sums, bounds, error);
-    free(of.q);
-    ps_frequencies_free(&of.degrees);
+    add_weights(&self);
+    const pspec_status status = sum_kernels(&self, kernels, num_kernels, sums, bounds, error);
+    free(self.q);
+    ps_frequencies_free(&self.degrees);
     return status;
 }

@@ -71,18 +71,20 @@ static double share_of(double saved, const ps_quadrature_setup *setup) {
 }
 
 static void list_terms(ps_quadrature_setup *setup) {
-    const ps_representer *const of = &setup->representer;
-    const size_t all = of->max_degree + 1;
-    const size_t last = of->only_even ? 2 * (of->num_terms - 1) : of->num_terms - 1;
-    const double kept = (double)of->num_terms;
+    const ps_representer *const representer = &setup->representer;
+    const size_t all = representer->max_degree + 1;
+    const size_t last =
+        representer->only_even ? 2 * (representer->num_terms - 1) : representer->num_terms - 1;
+    const double kept = (double)representer->num_terms;
     const size_t few = 16; /* a part of them that is worth a line */
     char what[sizeof setup->needs.skips[0].what];
-    if (of->only_even) {
+    if (representer->only_even) {
         ps_needs_add(&setup->needs, "odd degrees above 1 of kappa", "they are 0 for this lobe",
                      share_of(seconds_of_terms(setup, kept), setup));
     }
     if (all - last > all / few) {
-        const double left_out = (double)(of->only_even ? (all - last) / 2 : all - 1 - last);
+        const double left_out =
+            (double)(representer->only_even ? (all - last) / 2 : all - 1 - last);
         snprintf(what, sizeof what, "degrees %zu to %zu of kappa", last + 1, all - 1);
         ps_needs_add(&setup->needs, what, "the lobe has decayed below the digits that are needed",
                      share_of(seconds_of_terms(setup, left_out), setup));

@@ -205,17 +205,17 @@ typedef struct phase {
 } phase;
 
 static int tell(const ps_watch_report *report, void *payload) {
-    const phase *const of = payload;
+    const phase *const work = payload;
     char name[128];
     ps_watch_report named = *report;
-    snprintf(name, sizeof name, "%s: %s", of->purpose, report->phase);
+    snprintf(name, sizeof name, "%s: %s", work->purpose, report->phase);
     named.phase = name;
-    return of->watch->tell(&named, of->watch->payload);
+    return work->watch->tell(&named, work->watch->payload);
 }
 
 /* {0} where nobody listens. */
-static ps_watch watch_phase(const phase *of) {
-    return of->watch->tell != NULL ? (ps_watch){tell, (void *)of} : (ps_watch){0};
+static ps_watch watch_phase(const phase *work) {
+    return work->watch->tell != NULL ? (ps_watch){tell, (void *)work} : (ps_watch){0};
 }
 
 static void add_facts(ps_rule_facts *facts, const ps_kernel_facts *found, size_t num_points) {

@@ -20,21 +20,22 @@ static size_t most_degrees(size_t num_points) {
 }
 
 /* E^2 beyond degree L is at most that, for sum |w| = 1 (docs/mathematics/quadrature.md#tail). */
-static double bound_tail(const ps_representer *of, size_t last) {
+static double bound_tail(const ps_representer *representer, size_t last) {
     double half_width = 0;
-    const double rest = ps_representer_rest(of, last, &half_width);
+    const double rest = ps_representer_rest(representer, last, &half_width);
     const double root =
-        sqrt(ps_sobolev_tail(of->smoothness, last, of->a[last + 1])) + sqrt(rest + half_width);
+        sqrt(ps_sobolev_tail(representer->smoothness, last, representer->a[last + 1])) +
+        sqrt(rest + half_width);
     return root * root;
 }
 
 /* Bounds fall with the degree. */
-static size_t find_degree(const ps_representer *of, size_t most, double wanted) {
+static size_t find_degree(const ps_representer *representer, size_t most, double wanted) {
     size_t low = 0;
     size_t high = most;
     while (high - low > 1) {
         const size_t middle = low + (high - low) / 2;
-        if (bound_tail(of, middle) <= wanted) {
+        if (bound_tail(representer, middle) <= wanted) {
             high = middle;
         } else {
             low = middle;
@@ -67,11 +68,11 @@ static void choose_degrees(ps_quadrature_setup *out, double tolerance, size_t mo
 
 /* N Q(l) of points with the density of the lobe is 1 + (N - 1) 4 pi / (2l + 1) b_l^2: what the errors of engines that
  * sum squares depend on, with a margin. */
-static double expect_power(const ps_representer *of, size_t last, size_t num_points) {
+static double expect_power(const ps_representer *representer, size_t last, size_t num_points) {
     const double margin = 2;
     double sum = 0;
     for (size_t l = 1; l <= last; l++) {
-        sum += PS_FOUR_PI / (2 * (double)l + 1) * of->b[l] * of->b[l];
+        sum += PS_FOUR_PI / (2 * (double)l + 1) * representer->b[l] * representer->b[l];
     }
     return margin * (1 + (double)(num_points - 1) * sum / (double)last);
 }
@@ -85,21 +86,22 @@ static bool is_for_pairs(const char *name) {
     return false;
 }
 
-static ps_problem make_problem(const ps_quadrature_setup *of,
+static ps_problem make_problem(const ps_quadrature_setup *setup,
                                const ps_quadrature_question *question, const ps_rule_shape *shape) {
     /* |dc_lm| is e relative to white noise: Q is then off by 4 e at most */
     const double amplitudes = 4;
-    return (ps_problem){
-        .frequencies = &of->frequencies,
-        .num_points = shape->num_points,
-        .planned_points = shape->num_points,
-        .num_realizations = of->planned_realizations,
-        .has_weights = true,
-        .measure = of->by_pairs ? PS_OF_PAIR_SUMS : PS_OF_AMPLITUDES,
-        .tolerance =
-            of->by_pairs ? question->accuracy.tolerance : question->accuracy.tolerance / amplitudes,
-        .expected_power =
-            of->by_pairs ? expect_power(&of->representer, of->max_degree, shape->num_points) : 0};
+    return (ps_problem){.frequencies = &setup->frequencies,
+                        .num_points = shape->num_points,
+                        .planned_points = shape->num_points,
+                        .num_realizations = setup->planned_realizations,
+                        .has_weights = true,
+                        .measure = setup->by_pairs ? PS_OF_PAIR_SUMS : PS_OF_AMPLITUDES,
+                        .tolerance = setup->by_pairs ? question->accuracy.tolerance
+                                                     : question->accuracy.tolerance / amplitudes,
+                        .expected_power = setup->by_pairs
+                                              ? expect_power(&setup->representer, setup->max_degree,
+                                                             shape->num_points)
+                                              : 0};
 }
 
 static pspec_status open_device(ps_quadrature_setup *out, const ps_quadrature_question *question,
