@@ -31,5 +31,5 @@ while IFS= read -r folder; do
         echo "$folder has $num files, more than $most_files: a prefix that five of them share is a folder" >&2
         bad=1
     fi
-done < <(find host kernels tests scripts docs -type d -not -path 'tests/fuzz/corpus*')
+done < <(find host kernels tests bench scripts docs -type d -not -path 'tests/fuzz/corpus*')
 exit $bad

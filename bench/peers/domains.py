@@ -4,12 +4,12 @@ from typing import Callable, NamedTuple
 
 from cases import (PAIRS_CASES, PAIRS_TOLERANCES, SPHERE_CASES, SPHERE_TOLERANCES, TORUS_CASES, TORUS_TOLERANCES,
                    SphereCase)
-from peer_ducc0 import Ducc0
-from peer_ducc0_sphere import Ducc0Sphere
-from peer_finufft import Finufft
-from peer_nfft import Nfft
-from peer_nfsft import Nfsft
-from peer_numpy_pairs import NumpyPairs
+from libraries.ducc0_torus import Ducc0
+from libraries.ducc0_sphere import Ducc0Sphere
+from libraries.finufft_torus import Finufft
+from libraries.nfft import Nfft
+from libraries.nfsft import Nfsft
+from libraries.numpy_pairs import NumpyPairs
 from plain import PlainRunner
 from points import TorusPoints
 from points_sphere import SpherePoints

@@ -9,7 +9,7 @@ import time
 import numpy as np
 
 from loops_sphere import nfsft_coefficients, sum_orders_nfsft
-from peer_nfft import cut_off
+from libraries.nfft import cut_off
 from runner import Runner
 
 THRESHOLD = 1000.0  # of its fast polynomial transform, the default

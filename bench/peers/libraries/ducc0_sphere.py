@@ -7,7 +7,7 @@ import numpy as np
 
 import loops
 from loops_sphere import num_coefficients, sum_orders
-from peer_ducc0 import eps_ladder
+from libraries.ducc0_torus import eps_ladder
 from runner import Runner, thread_choices
 
 SHARED_MODES = 1 << 14  # from here on two threads in one call are worth a trial
