@@ -53,7 +53,8 @@ double bench_peak_run(const ps_peak *peak) {
 
 /* ---- jobs -------------------------------------------------------------------------------- */
 
-/* Numbers in [0,1) become white points on the sphere: the first is the height, the second the azimuth. */
+/* Numbers in [0,1) become white points on the sphere: the first is the height, the second the
+ * azimuth. */
 static void make_unit_vectors(double *points, size_t num) {
     for (size_t j = 0; j < num; j++) {
         double *u = points + j * PS_SPHERE_DIMENSION;

@@ -1,5 +1,5 @@
-/* What benchmark programs share: a clock, random points, the device's measured peak, and engines run
- * by hand with the error measured beside the time.
+/* What benchmark programs share: a clock, random points, the device's measured peak, and engines
+ * run by hand with the error measured beside the time.
  */
 #ifndef BENCH_H
 #define BENCH_H
@@ -51,8 +51,8 @@ void bench_job_create_for(bench_job *job, const ps_engine *engine, ps_precision 
                           const ps_problem *problem, ps_device *device);
 /* All realizations once; seconds. rows are those of the last batch. */
 double bench_job_run(bench_job *job, ps_rows *rows);
-/* Root mean square of | |S| - |S_referee| | over some frequencies of the first realization, in units
- * of sqrt(N). */
+/* Root mean square of | |S| - |S_referee| | over some frequencies of the first realization, in
+ * units of sqrt(N). */
 double bench_job_error(bench_job *job);
 void bench_job_destroy(bench_job *job);
 

@@ -1,8 +1,9 @@
-/* Measures the rates of host/plan/cost_model.c and the cycles of host/engines/nufft/cycles.c on this machine and prints
- * them as they stand there. Rates are shares of what those cycles allow: new cycles first, then the rates again.
+/* Measures the rates of host/plan/cost_model.c and the cycles of host/engines/nufft/cycles.c on
+ * this machine and prints them as they stand there. Rates are shares of what those cycles allow:
+ * new cycles first, then the rates again.
  *
- * Run on a quiet machine; a busy neighbour makes everything up to twice as slow. The best of several
- * runs is taken, since nothing but disturbance makes a run slower.
+ * Run on a quiet machine; a busy neighbour makes everything up to twice as slow. The best of
+ * several runs is taken, since nothing but disturbance makes a run slower.
  */
 #include "bench.h"
 #include "cycles.h"
@@ -49,7 +50,8 @@ static double measure(ps_device *device, const ps_engine *engine, ps_precision p
     return seconds;
 }
 
-/* Small and large grids: the geometric mean of what the cycles of host/engines/nufft/cycles.c are worth. */
+/* Small and large grids: the geometric mean of what the cycles of host/engines/nufft/cycles.c are
+ * worth. */
 static double transform_share(ps_device *device, ps_precision precision) {
     const double peak = ps_cost_nominal_flops(ps_device_get_limits(device), precision);
     ps_work small;

@@ -1,5 +1,6 @@
-/* How often does the planner choose well? For a grid of problems every engine that keeps the tolerance is
- * timed, alternating in one run, and the one that plan chose is compared with the best.
+/* How often does the planner choose well? For a grid of problems every engine that keeps the
+ * tolerance is timed, alternating in one run, and the one that plan chose is compared with the
+ * best.
  *
  *     bench_choice            ends with how many were within 1.3x of the best
  *     bench_choice D N K      only this shape, with a line for every engine that was timed

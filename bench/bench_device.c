@@ -2,10 +2,11 @@
  *
  *     bench_device [CASE...]       a case is "DIMENSION N K R TOLERANCE single|double"; on a GPU R times 16
  *
- * Times are medians, from points in host memory to powers on the device; errors as in bench_torus. GFLOP/s are
- * of the operations that docs/engines/torus_nufft.md and docs/engines/torus_direct.md count. GB/s are of the traffic that no
- * method can do without: points read, powers written, once each; `of peak` is its share of the bandwidth of
- * a copy (probe/copy.cl, bytes read and written). torus_direct gets fewer realizations where it is slow.
+ * Times are medians, from points in host memory to powers on the device; errors as in bench_torus.
+ * GFLOP/s are of the operations that docs/engines/torus_nufft.md and docs/engines/torus_direct.md
+ * count. GB/s are of the traffic that no method can do without: points read, powers written, once
+ * each; `of peak` is its share of the bandwidth of a copy (probe/copy.cl, bytes read and written).
+ * torus_direct gets fewer realizations where it is slow.
  */
 #include "bench.h"
 

@@ -1,11 +1,11 @@
-/* What standard errors cost: microseconds for a realization by the estimator, mean only and with sums of
- * squares, alternating in one run, for bins and every frequency.
+/* What standard errors cost: microseconds for a realization by the estimator, mean only and with
+ * sums of squares, alternating in one run, for bins and every frequency.
  *
  *     bench_errors [CASE...]        a case is "DIMENSION N K R"
  *
- * The planner chooses engine and precision for a tolerance of 1e-6. Patterns are white and made before; the
- * clock runs from the first to the last of them, checks of coordinates included. Medians of each, and of the
- * ratios of neighbours. The error is that of |S| as in bench_torus.
+ * The planner chooses engine and precision for a tolerance of 1e-6. Patterns are white and made
+ * before; the clock runs from the first to the last of them, checks of coordinates included.
+ * Medians of each, and of the ratios of neighbours. The error is that of |S| as in bench_torus.
  */
 #include "bench.h"
 

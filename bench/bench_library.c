@@ -1,10 +1,11 @@
-/* What a call of pspec_plan_run costs: microseconds for each pattern of N points, beside the engine alone.
+/* What a call of pspec_plan_run costs: microseconds for each pattern of N points, beside the engine
+ * alone.
  *
  *     bench_library [POINTS [MAX_FREQUENCY]]     default 1 point, K = 4
  *
- * "calls of" is the number of patterns handed over at a time; "overhead" is what the library adds to
- * the engine's own time for a full batch (which includes nothing of checking, copying or averaging). The
- * bits of all spectra of an engine are compared.
+ * "calls of" is the number of patterns handed over at a time; "overhead" is what the library adds
+ * to the engine's own time for a full batch (which includes nothing of checking, copying or
+ * averaging). The bits of all spectra of an engine are compared.
  */
 #include "bench.h"
 

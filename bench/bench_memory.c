@@ -1,6 +1,6 @@
-/* Largest resident memory and seconds per realization of whole jobs against the number of realizations:
- * memory must not grow with it. Then what plan announces against what there was: buffers of the device, and all
- * memory.
+/* Largest resident memory and seconds per realization of whole jobs against the number of
+ * realizations: memory must not grow with it. Then what plan announces against what there was:
+ * buffers of the device, and all memory.
  *
  *     bench_memory [M...]          default 100 1000 10000 of jittered, N = 256, K = 32
  *     bench_memory plan            announced against measured only

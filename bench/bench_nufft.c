@@ -2,8 +2,8 @@
  *
  *     bench_nufft [CASE...]        a case is "N K R TOLERANCE single|double [DIMENSION]", two dimensions by default
  *
- * The machine may be shared: minimum and median of each, and the median of the ratios. The passes are timed
- * in a run of their own, with the profile of the device. Errors as in bench_torus.
+ * The machine may be shared: minimum and median of each, and the median of the ratios. The passes
+ * are timed in a run of their own, with the profile of the device. Errors as in bench_torus.
  */
 #include "bench.h"
 

@@ -1,6 +1,6 @@
-/* Pair sums of white sets: (pair, degree) per second at 6 flop each as a share of the peak, which is measured in turn
- * with it; pairs per second into a histogram; the ways to the same sums side by side, and against error and number of
- * points, for docs/scripts/make_figures.sh.
+/* Pair sums of white sets: (pair, degree) per second at 6 flop each as a share of the peak, which
+ * is measured in turn with it; pairs per second into a histogram; the ways to the same sums side by
+ * side, and against error and number of points, for docs/scripts/make_figures.sh.
  */
 #include "bench.h"
 
@@ -110,7 +110,8 @@ static const struct {
                 {&ps_sphere_direct, "coefs."},
                 {&ps_sphere_nufft, "fast coefs."}};
 
-/* The problem that a way is told, and the cheapest precision in which it says to have the tolerance. */
+/* The problem that a way is told, and the cheapest precision in which it says to have the
+ * tolerance. */
 static bool find_precision(const ps_problem *asked, const ps_engine *engine, ps_device *device,
                            ps_precision *out) {
     const ps_device_limits *limits = ps_device_get_limits(device);
@@ -146,7 +147,8 @@ static double *read_rows(const bench_job *job, const ps_rows *rows) {
     return out;
 }
 
-/* The largest error of Q(l) of the first realization, in (sum |w|)^2, for some degrees, against long double. */
+/* The largest error of Q(l) of the first realization, in (sum |w|)^2, for some degrees, against
+ * long double. */
 static double measure_error(bench_job *job) {
     const double num = (double)job->num_points;
     const ps_batch batch = {.num_patterns = 1, .patterns = job->patterns, .scales = job->scales};
@@ -306,7 +308,8 @@ static void measure_all_ways(ps_device *device) {
     }
 }
 
-/* bench_pairs [PART...]: direct, histogram, ways, routes; without, all but the last, which takes minutes. */
+/* bench_pairs [PART...]: direct, histogram, ways, routes; without, all but the last, which takes
+ * minutes. */
 static bool is_wanted(int argc, char **argv, const char *part) {
     bool found = argc < 2 && strcmp(part, "routes") != 0;
     for (int i = 1; i < argc; i++) {

@@ -3,10 +3,11 @@
  *     bench_plan [PROGRAM [PART]]     all questions, or those whose command line has PART
  *     bench_plan --quick PROGRAM      a few, for the tests: with the built-in figures, twice each, within a factor of 4
  *
- * Calibrates first, in a cache of its own, then asks every question of plan_questions.h and runs it six times, the first to
- * build kernels. Beside every run a yardstick is run; times are divided by it and are those of a machine where the
- * yardstick takes what it took beside the calibration. Ends with how many are within a factor of 1.5, and of 3; a plan that
- * says "at most" has to be at most 1.5 times too low.
+ * Calibrates first, in a cache of its own, then asks every question of plan_questions.h and runs it
+ * six times, the first to build kernels. Beside every run a yardstick is run; times are divided by
+ * it and are those of a machine where the yardstick takes what it took beside the calibration. Ends
+ * with how many are within a factor of 1.5, and of 3; a plan that says "at most" has to be at most
+ * 1.5 times too low.
  */
 #include "bench.h"
 #include "plan_questions.h"
@@ -227,9 +228,10 @@ static void make_scenes(void) {
     }
 }
 
-/* Calibrates, and makes the files of the questions. Returns what the yardstick takes just after: the middle, as figures are those
- * of middle runs, and after a command each, as beside the questions, since a processor that was busy runs at another speed
- * (measured: 1.2 times as long in a row of yardsticks). */
+/* Calibrates, and makes the files of the questions. Returns what the yardstick takes just after:
+ * the middle, as figures are those of middle runs, and after a command each, as beside the
+ * questions, since a processor that was busy runs at another speed (measured: 1.2 times as long in
+ * a row of yardsticks). */
 static yardstick prepare(const char *program, bool is_calibrated) {
     enum { FILES = sizeof plan_files / sizeof plan_files[0] - 1 };
     double single[FILES];

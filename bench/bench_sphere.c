@@ -1,5 +1,6 @@
-/* Time per realization of sphere_direct on white sets, as a rate of (point, degree, order) triples and as a share of
- * the peak, which is measured in turn with it: on a shared machine only their ratio means something.
+/* Time per realization of sphere_direct on white sets, as a rate of (point, degree, order) triples
+ * and as a share of the peak, which is measured in turn with it: on a shared machine only their
+ * ratio means something.
  */
 #include "bench.h"
 
@@ -11,8 +12,8 @@
 
 enum { REPEATS = 15 };
 
-/* Fused operations or products of sphere/sums.cl for a triple, in flop of a peak that counts two for each: five for
- * a degree and two for every eight. */
+/* Fused operations or products of sphere/sums.cl for a triple, in flop of a peak that counts two
+ * for each: five for a degree and two for every eight. */
 #define FLOPS_PER_HARMONIC 10.5
 
 static void measure(ps_device *device, ps_precision precision, size_t num_points, int32_t degree,

@@ -1,5 +1,5 @@
-/* Time per realization of sphere_grid and sphere_nufft on batches of white sets, in turn: the least of several
- * runs. Arguments: N L R TOLERANCE, else those of docs/developer/peers.md.
+/* Time per realization of sphere_grid and sphere_nufft on batches of white sets, in turn: the least
+ * of several runs. Arguments: N L R TOLERANCE, else those of docs/developer/peers.md.
  */
 #include "bench.h"
 

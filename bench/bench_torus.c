@@ -3,9 +3,10 @@
  *
  *     bench_torus [CASE...]        a case is "grid|list D N K R single|double", K frequencies of a list
  *
- * The engine, the peak and the plain loop alternate in one run; the machine may be shared, so minimum
- * and median are given, and shares and ratios are medians of those of each repeat. Errors are measured against long double sums:
- * root mean square of |S| - |S_referee| in units of sqrt(N), as --tol counts them.
+ * The engine, the peak and the plain loop alternate in one run; the machine may be shared, so
+ * minimum and median are given, and shares and ratios are medians of those of each repeat. Errors
+ * are measured against long double sums: root mean square of |S| - |S_referee| in units of sqrt(N),
+ * as --tol counts them.
  */
 #include "bench.h"
 
@@ -64,8 +65,8 @@ static ps_frequencies make_frequencies(const bench_case *what) {
     return set;
 }
 
-/* One thread, float phases: what a C programmer writes first. Returns seconds per (point, frequency)
- * and the error of |S| in units of sqrt(N). */
+/* One thread, float phases: what a C programmer writes first. Returns seconds per (point,
+ * frequency) and the error of |S| in units of sqrt(N). */
 static double plain_loop(const bench_job *job, double *error_out) {
     enum { PAIRS = 1 << 21, MOST = 64 };
     const float two_pi = 6.2831853f;
@@ -108,8 +109,8 @@ static double plain_loop(const bench_job *job, double *error_out) {
     return seconds / ((double)num * (double)n);
 }
 
-/* Arithmetic as docs/developer/performance.md counts it: 8 (K+1)^2 per point in two dimensions, 4 per
- * half-lattice frequency in others; a list by what its kernel does. */
+/* Arithmetic as docs/developer/performance.md counts it: 8 (K+1)^2 per point in two dimensions, 4
+ * per half-lattice frequency in others; a list by what its kernel does. */
 static double counted_flops(const bench_case *what, const bench_job *job) {
     const double points = (double)what->num_points * (double)what->num_realizations;
     const double k1 = (double)what->size + 1;

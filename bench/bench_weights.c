@@ -1,5 +1,6 @@
-/* Optimal weights of spherical Fibonacci points by Cholesky and by conjugate gradients on the device: seconds by the clock
- * and of all processors, those of the kernel form beside them (check), E^2 and how far both are from each other, condition, steps, bytes announced.
+/* Optimal weights of spherical Fibonacci points by Cholesky and by conjugate gradients on the
+ * device: seconds by the clock and of all processors, those of the kernel form beside them (check),
+ * E^2 and how far both are from each other, condition, steps, bytes announced.
  *
  *     bench_weights [both|cholesky|gradients] [N...]          default both 1024 4096
  */

@@ -1,7 +1,7 @@
-/* Kernels are timed by the profile of the device on problems that each have much of something; a problem's cycles
- * are to be the sum of the numbers of its parts times what they cost. The relative deviations are
- * made least, together with those of the parts from what the table has now, which weigh little: a part that the
- * problems tell nothing of stays as it is.
+/* Kernels are timed by the profile of the device on problems that each have much of something; a
+ * problem's cycles are to be the sum of the numbers of its parts times what they cost. The relative
+ * deviations are made least, together with those of the parts from what the table has now, which
+ * weigh little: a part that the problems tell nothing of stays as it is.
  */
 #include "cycles.h"
 
@@ -14,15 +14,15 @@
 #include <math.h>
 #include <stdio.h>
 
-/* What a problem is there for. Three dimensions in tiles are made of the same parts, but what their many short rows
- * cost beside is in none of them: they are measured, and not fitted. */
+/* What a problem is there for. Three dimensions in tiles are made of the same parts, but what their
+ * many short rows cost beside is in none of them: they are measured, and not fitted. */
 typedef enum kind { LINES, TILES, ROWS, GRIDS, BOXES, WHOLE, NUM_KINDS } kind;
 static const char *const kind_names[NUM_KINDS] = {
     "tiles, 1 dimension", "tiles, 2", "tiles, 3 (not fitted)",
     "grids, 2",           "grids, 3", "whole, 1 and 2"};
 
-/* Points planned for: 0 as many as there are, so that many in few cells are done whole; NOT_WHOLE more than
- * are ever done whole; FOR_GRIDS a large set's. */
+/* Points planned for: 0 as many as there are, so that many in few cells are done whole; NOT_WHOLE
+ * more than are ever done whole; FOR_GRIDS a large set's. */
 enum { NOT_WHOLE = (1 << 20) + 1, FOR_GRIDS = 20000000 };
 
 /* Grids are as large as they are in use: beyond all caches. */
@@ -182,8 +182,8 @@ typedef struct equations {
     double matrix[NUM][NUM], right[NUM];
 } equations;
 
-/* parts: the last solution. Large deviations weigh by their size and not its square, for neighbours of a shared
- * machine disturb some problems a lot. */
+/* parts: the last solution. Large deviations weigh by their size and not its square, for neighbours
+ * of a shared machine disturb some problems a lot. */
 static void set_up(equations *sums, const measured *all, size_t num, const double *parts) {
     const double usual = 0.1;
     *sums = (equations){0};
@@ -208,8 +208,9 @@ static void set_up(equations *sums, const measured *all, size_t num, const doubl
     }
 }
 
-/* The least sum of squares with every part at least `least` of what it was: the equations are solved part by
- * part, over and over (Gauss and Seidel), which converges since the matrix is positive definite. */
+/* The least sum of squares with every part at least `least` of what it was: the equations are
+ * solved part by part, over and over (Gauss and Seidel), which converges since the matrix is
+ * positive definite. */
 static void solve(const equations *sums, double *parts) {
     enum { ROUNDS = 2000 };
     const double least = 0.1;
@@ -263,7 +264,8 @@ static double share_of(const measured *all, size_t num, size_t part) {
     return sum / (double)num;
 }
 
-/* What a table says of the problems of a kind over what they took: geometric mean, and its spread. */
+/* What a table says of the problems of a kind over what they took: geometric mean, and its spread.
+ */
 static void print_kind(const measured *all, size_t num, kind which, const double *cycles) {
     double sum = 0;
     double squares = 0;

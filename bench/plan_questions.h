@@ -1,5 +1,5 @@
-/* What bench_plan asks: command lines of every command that can be planned, each longer than 50 ms. Files named in them are
- * made by the first table, in a folder of their own. */
+/* What bench_plan asks: command lines of every command that can be planned, each longer than 50 ms.
+ * Files named in them are made by the first table, in a folder of their own. */
 #ifndef BENCH_PLAN_QUESTIONS_H
 #define BENCH_PLAN_QUESTIONS_H
 
@@ -33,7 +33,8 @@ static const char *const plan_files[] = {
     NULL
 };
 
-/* What was off by 100 and more when only the engine's sums were counted, and one of each command: for the tests. */
+/* What was off by 100 and more when only the engine's sums were counted, and one of each command:
+ * for the tests. */
 static const char *const plan_quick[] = {
     "power --sampler white -n 1e6 -k 64",
     "power --sampler sobol:scramble=owen -n 4096 -m 500 -k 64",

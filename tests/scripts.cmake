@@ -8,6 +8,7 @@ endfunction()
 add_script_test(headers unit ${CMAKE_CURRENT_SOURCE_DIR}/project/test_headers.sh
   ${PROJECT_SOURCE_DIR} ${CMAKE_C_COMPILER})
 add_script_test(layers unit ${PROJECT_SOURCE_DIR}/scripts/check_layers.sh)
+add_script_test(gates unit ${PROJECT_SOURCE_DIR}/scripts/check_gates.sh)
 add_script_test(circles unit ${PROJECT_SOURCE_DIR}/scripts/check_circles.sh ${PROJECT_BINARY_DIR})
 add_script_test(pages unit ${PROJECT_SOURCE_DIR}/scripts/check_pages.sh)
 add_script_test(library_calls unit ${PROJECT_SOURCE_DIR}/scripts/check_library_calls.sh)

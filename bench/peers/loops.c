@@ -1,7 +1,7 @@
-/* Loops over realizations that call a peer's plan through pointers to its functions and add up |F|^2, so that
- * neither Python nor numpy is part of what is measured. install.sh compiles this with -O3 -march=native
- * into a library that the .py files beside it load. Sums are in the precision of the modes: the least
- * memory traffic.
+/* Loops over realizations that call a peer's plan through pointers to its functions and add up
+ * |F|^2, so that neither Python nor numpy is part of what is measured. install.sh compiles this
+ * with -O3 -march=native into a library that the .py files beside it load. Sums are in the
+ * precision of the modes: the least memory traffic.
  */
 #define _POSIX_C_SOURCE 200809L
 #include <complex.h>
@@ -87,8 +87,8 @@ void nfft_loop(void *plan, void *set_x, void *adjoint, int dimension, int64_t nu
     }
 }
 
-/* What one writes first: S(k) for num_frequencies vectors k, one after the other. k.x is reduced exactly but
- * for the rounding of its sum, so this also checks the reference. */
+/* What one writes first: S(k) for num_frequencies vectors k, one after the other. k.x is reduced
+ * exactly but for the rounding of its sum, so this also checks the reference. */
 void direct_sums(const double *points, int64_t num_points, int dimension,
                  const int32_t *frequencies, int64_t num_frequencies, double *sums);
 void direct_sums(const double *points, int64_t num_points, int dimension,

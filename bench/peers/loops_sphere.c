@@ -1,7 +1,7 @@
-/* Loops of the sphere: sums over orders, NFSFT through pointers to its functions, and the coefficients as one
- * writes them first. Compiled together with loops.c. Coefficients are those of orders m >= 0, order
- * by order, l = m .. L each, pairs of real and imaginary parts; those of m < 0 are their mirror image,
- * since weights are real.
+/* Loops of the sphere: sums over orders, NFSFT through pointers to its functions, and the
+ * coefficients as one writes them first. Compiled together with loops.c. Coefficients are those of
+ * orders m >= 0, order by order, l = m .. L each, pairs of real and imaginary parts; those of m < 0
+ * are their mirror image, since weights are real.
  */
 #include <math.h>
 #include <stdint.h>
@@ -26,7 +26,8 @@ void sum_orders_double(const double *coefficients, int64_t degree, double *sums)
 DEFINE_SUMS(float, single)
 DEFINE_SUMS(double, double)
 
-/* NFSFT has every order in a row of 2 degree + 2, l = -degree-1 .. degree, the highest order first. */
+/* NFSFT has every order in a row of 2 degree + 2, l = -degree-1 .. degree, the highest order first.
+ */
 static const double *nfsft_row(const double *f_hat, int64_t degree, int64_t m) {
     return f_hat + 2 * ((2 * degree + 2) * (degree - m + 1) + degree + 1);
 }
@@ -54,8 +55,8 @@ void nfsft_coefficients(const double *f_hat, int64_t degree, double *coefficient
     }
 }
 
-/* The first numbers of the recurrence q_lm = a (z q_{l-1,m} - b q_{l-2,m}), Y_lm = q_lm (x + iy)^m, in the order
- * of coefficients[]: a and b of (l, m), for l = m: q_mm and 0. */
+/* The first numbers of the recurrence q_lm = a (z q_{l-1,m} - b q_{l-2,m}), Y_lm = q_lm (x + iy)^m,
+ * in the order of coefficients[]: a and b of (l, m), for l = m: q_mm and 0. */
 void plain_recurrence(int64_t degree, double *recurrence);
 void plain_recurrence(int64_t degree, double *recurrence) {
     double q = sqrt(0.25 / 3.14159265358979323846);
@@ -73,8 +74,9 @@ void plain_recurrence(int64_t degree, double *recurrence) {
     }
 }
 
-/* What one writes first: for every point all orders, for every order all degrees. Adds conj(Y_lm) at the points
- * x, y, z to coefficients[]. Beyond degree 1900 or so q_lm overflows at some points. */
+/* What one writes first: for every point all orders, for every order all degrees. Adds conj(Y_lm)
+ * at the points x, y, z to coefficients[]. Beyond degree 1900 or so q_lm overflows at some points.
+ */
 void plain_coefficients(const double *points, int64_t num_points, int64_t degree,
                         const double *recurrence, double *coefficients);
 void plain_coefficients(const double *points, int64_t num_points, int64_t degree,
@@ -126,8 +128,8 @@ static long double exact_recurrence(int64_t degree, int64_t m, long double *a, l
     return q;
 }
 
-/* c_lm for one m and l = m .. degree <= 4096, as a reference: in long double, whose exponents hold q_lm, of the
- * directions of the points. */
+/* c_lm for one m and l = m .. degree <= 4096, as a reference: in long double, whose exponents hold
+ * q_lm, of the directions of the points. */
 void exact_order(const double *points, int64_t num_points, int64_t degree, int64_t m,
                  double *coefficients);
 void exact_order(const double *points, int64_t num_points, int64_t degree, int64_t m,

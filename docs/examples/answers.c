@@ -1,5 +1,5 @@
-/* What the program computes, asked for by its own words: the spectrum of a sampler, then whether another sampler has the
- * same, and what the first bins are.
+/* What the program computes, asked for by its own words: the spectrum of a sampler, then whether
+ * another sampler has the same, and what the first bins are.
  *
  *     cc answers.c $(pkg-config --cflags --libs pointspec) && ./a.out
  */
@@ -13,7 +13,8 @@ static void warn(const char *sentence, void *payload) {
     fprintf(payload, "# %s\n", sentence);
 }
 
-/* pointspec power --sampler jittered --points 256 --realizations 16 --max-frequency 16 --output answers.json */
+/* pointspec power --sampler jittered --points 256 --realizations 16 --max-frequency 16 --output
+ * answers.json */
 static pspec_status print_power(pspec_context *context) {
     const pspec_option options[] = {{"sampler", "jittered"},
                                     {"points", "256"},

@@ -1,5 +1,5 @@
-/* Weights of one's own, single frequencies, saving, loading and merging: importance-weighted points, in
- * two halves as two machines would compute them.
+/* Weights of one's own, single frequencies, saving, loading and merging: importance-weighted
+ * points, in two halves as two machines would compute them.
  *
  *     cc own_weights.c $(pkg-config --cflags --libs pointspec) -lm && ./a.out
  */

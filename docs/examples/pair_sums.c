@@ -1,5 +1,6 @@
-/* Legendre sums over all pairs of weighted points on the sphere, Q(l) = sum_ij w_i w_j P_l(u_i.u_j), and their part C_l^2 that depends on the
- * azimuth: random points with random weights, 20 realizations. Q is about the sum of the squared weights, which is 1 here.
+/* Legendre sums over all pairs of weighted points on the sphere, Q(l) = sum_ij w_i w_j
+ * P_l(u_i.u_j), and their part C_l^2 that depends on the azimuth: random points with random
+ * weights, 20 realizations. Q is about the sum of the squared weights, which is 1 here.
  *
  *     cc pair_sums.c $(pkg-config --cflags --libs pointspec) -lm && ./a.out
  */

@@ -1,4 +1,5 @@
-/* Callbacks: a log, progress, and a user who has seen enough; then the same plan for another average.
+/* Callbacks: a log, progress, and a user who has seen enough; then the same plan for another
+ * average.
  *
  *     cc progress_and_cancel.c $(pkg-config --cflags --libs pointspec) && ./a.out
  */

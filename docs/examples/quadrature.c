@@ -1,6 +1,7 @@
-/* How well do directions integrate light times reflection? Spherical Fibonacci points with the density of a diffuse surface: their
- * worst-case error, what each degree has to do with it, what other weights would do, and up to which degree a truncated product of
- * spherical harmonics is worse.
+/* How well do directions integrate light times reflection? Spherical Fibonacci points with the
+ * density of a diffuse surface: their worst-case error, what each degree has to do with it, what
+ * other weights would do, and up to which degree a truncated product of spherical harmonics is
+ * worse.
  *
  *     cc quadrature.c $(pkg-config --cflags --libs pointspec) -lm && ./a.out
  */

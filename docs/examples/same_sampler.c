@@ -1,4 +1,5 @@
-/* Is it the same sampler? Jittered points with two random generators, and white ones: which rings differ.
+/* Is it the same sampler? Jittered points with two random generators, and white ones: which rings
+ * differ.
  *
  *     cc same_sampler.c $(pkg-config --cflags --libs pointspec) && ./a.out
  */

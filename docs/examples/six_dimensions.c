@@ -1,4 +1,5 @@
-/* Six dimensions, where rings have millions of frequencies: a random subset of each, and the error of that.
+/* Six dimensions, where rings have millions of frequencies: a random subset of each, and the error
+ * of that.
  *
  *     cc six_dimensions.c $(pkg-config --cflags --libs pointspec) && ./a.out
  */

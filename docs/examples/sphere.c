@@ -1,5 +1,6 @@
-/* The averaged angular power spectrum of points on the sphere that the caller makes: one random point in each cell of
- * equal area, 100 realizations. At low degrees it is near (pi / 3) l (l + 1) / N.
+/* The averaged angular power spectrum of points on the sphere that the caller makes: one random
+ * point in each cell of equal area, 100 realizations. At low degrees it is near (pi / 3) l (l + 1)
+ * / N.
  *
  *     cc sphere.c $(pkg-config --cflags --libs pointspec) -lm && ./a.out
  */

@@ -7,7 +7,8 @@
 #include "base/text.h"
 #include "tasks/task.h"
 
-/* The task of that name, or the sentence that names the nearest one. is_kind: kinds of results only. */
+/* The task of that name, or the sentence that names the nearest one. is_kind: kinds of results
+ * only. */
 pspec_status ps_public_find_task(const ps_task **out, const char *name, bool is_kind,
                                  ps_error *error) PS_MUST_CHECK;
 
@@ -22,8 +23,8 @@ typedef struct ps_public_words {
 } ps_public_words;
 
 /* Device and limit of memory are those of the context. before: what the command line has before the
- * name of the task, "" or "plan ". Freed by ps_public_words_free, also after an error; it must not be
- * moved. */
+ * name of the task, "" or "plan ". Freed by ps_public_words_free, also after an error; it must not
+ * be moved. */
 pspec_status ps_public_words_make(ps_public_words *out, pspec_context *context, const char *before,
                                   const ps_task *task, const pspec_option *options,
                                   size_t num_options) PS_MUST_CHECK;

@@ -29,20 +29,20 @@ typedef struct ps_grammar {
     const char *kind, *name;
     const ps_parameter *const *parameters; /* ended by NULL */
     size_t num_own; /* the first of them: its own; the others are those of many things */
-    const ps_parameter
-        *others; /* keys of other things, ended by key NULL: meaning says why not here; or NULL */
+    /* Keys of other things, ended by key NULL: meaning says why not here; or NULL */
+    const ps_parameter *others;
     size_t most_letters; /* of a value */
 } ps_grammar;
 
-/* Copies the name at the beginning of text, cut to what fits (a cut one is unknown anyway), and returns what
- * follows it: "" or ":key=value,...". */
+/* Copies the name at the beginning of text, cut to what fits (a cut one is unknown anyway), and
+ * returns what follows it: "" or ":key=value,...". */
 const char *ps_grammar_name(const char *text, char name[PS_GRAMMAR_WORD]);
 
 /* Copies a slice to text, which has room for its length and a NUL. */
 void ps_slice_copy(char *text, ps_slice slice);
 
-/* Reads rest, what follows the name: values[i] belongs to parameters[i]. Unknown keys name the nearest known one;
- * empty and repeated values are errors. Slices are of rest. */
+/* Reads rest, what follows the name: values[i] belongs to parameters[i]. Unknown keys name the
+ * nearest known one; empty and repeated values are errors. Slices are of rest. */
 pspec_status ps_grammar_values(const ps_grammar *grammar, const char *rest, ps_slice *values,
                                ps_error *error) PS_MUST_CHECK;
 

@@ -33,7 +33,8 @@ static pspec_status fail_memory(size_t count, size_t element_bytes, const char *
 /* Smaller arrays are not worth the 0.1 ms that it takes to look. */
 enum { LEAST_CHECKED = 16 << 20 };
 
-/* The system gives out more than there is, and kills the program when it is used: so somebody has to look before. */
+/* The system gives out more than there is, and kills the program when it is used: so somebody has
+ * to look before. */
 static pspec_status check_room(uint64_t bytes, const char *what, ps_error *error) {
     ps_memory_room room;
     char needed[PS_SIZE_TEXT];

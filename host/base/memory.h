@@ -1,5 +1,6 @@
-/* Allocation with checked size arithmetic: a product that overflows is an error, not a small block. So is an array that
- * the limits of this machine leave no room for (base/memory_limit.h), since using it would end the program. */
+/* Allocation with checked size arithmetic: a product that overflows is an error, not a small block.
+ * So is an array that the limits of this machine leave no room for (base/memory_limit.h), since
+ * using it would end the program. */
 #ifndef PS_BASE_MEMORY_H
 #define PS_BASE_MEMORY_H
 
@@ -20,15 +21,17 @@ uint64_t ps_memory_installed(void);
 pspec_status ps_allocate(void **out, size_t count, size_t element_bytes, const char *what,
                          ps_error *error) PS_MUST_CHECK;
 
-/* Allocates for the pointer to which pointer points, of whatever type: zeroed, count of what it points to, with the sentence of
- * ps_allocate. The size of an element is thus said nowhere else than in the type. */
+/* Allocates for the pointer to which pointer points, of whatever type: zeroed, count of what it
+ * points to, with the sentence of ps_allocate. The size of an element is thus said nowhere else
+ * than in the type. */
 #define PS_NEW(pointer, count, what, error)                                                        \
     ps_allocate_for((pointer), (count), sizeof **(pointer), (what), (error))
 pspec_status ps_allocate_for(void *pointer, size_t count, size_t element_bytes, const char *what,
                              ps_error *error) PS_MUST_CHECK;
 
-/* Says that memory of many megabytes will all be used, whatever it costs: Linux then gives it out in pages of 2 MiB, which
- * saves a fifth of the time of a Cholesky factor of 4096 rows (bench_weights cholesky). A hint that may have no effect. */
+/* Says that memory of many megabytes will all be used, whatever it costs: Linux then gives it out
+ * in pages of 2 MiB, which saves a fifth of the time of a Cholesky factor of 4096 rows
+ * (bench_weights cholesky). A hint that may have no effect. */
 void ps_memory_use_large_pages(void *memory, size_t bytes);
 
 /* Grows *array to hold at least needed elements; *capacity counts elements. Contents are kept;

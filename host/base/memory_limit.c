@@ -71,8 +71,9 @@ static const version versions[] = {
      "active_file",
      {{"/memory.max", PS_MEMORY_CGROUP_MAX}, {"/memory.high", PS_MEMORY_CGROUP_HIGH}}}};
 
-/* What a group uses without the caches of files that the kernel takes back first: those that were not touched lately, and
- * half of the others, as the kernel itself counts for MemAvailable at worst. */
+/* What a group uses without the caches of files that the kernel takes back first: those that were
+ * not touched lately, and half of the others, as the kernel itself counts for MemAvailable at
+ * worst. */
 static uint64_t used_by(const version *cgroups, const char *root, const char *group) {
     char path[PS_PROC_PATH];
     uint64_t used = 0;

@@ -1,8 +1,10 @@
-/* How much memory this process may still take, and which limit is the least: what the machine has available, the limits
- * of memory cgroups (versions 1 and 2; of the own group and of every group around it), and ulimit -v and -d.
+/* How much memory this process may still take, and which limit is the least: what the machine has
+ * available, the limits of memory cgroups (versions 1 and 2; of the own group and of every group
+ * around it), and ulimit -v and -d.
  *
- * What is free changes from minute to minute. So it may make batches smaller or refuse work with a sentence, and never
- * decides what is computed: only a limit that somebody typed does that (plan/choose.h).
+ * What is free changes from minute to minute. So it may make batches smaller or refuse work with a
+ * sentence, and never decides what is computed: only a limit that somebody typed does that
+ * (plan/choose.h).
  */
 #ifndef PS_BASE_MEMORY_LIMIT_H
 #define PS_BASE_MEMORY_LIMIT_H
@@ -24,7 +26,8 @@ typedef enum ps_memory_kind {
 
 enum { PS_MEMORY_PLACE = 256 };
 
-/* One limit; limit 0: there is none of this kind. Caches of files, which the kernel gives back, are not used. */
+/* One limit; limit 0: there is none of this kind. Caches of files, which the kernel gives back, are
+ * not used. */
 typedef struct ps_memory_bound {
     uint64_t limit, used;
     char place[PS_MEMORY_PLACE]; /* the file or the command that sets it */
@@ -35,19 +38,21 @@ typedef struct ps_memory_limits {
     int least; /* the kind that leaves the least; -1: nothing is known */
 } ps_memory_limits;
 
-/* root: a folder with proc and, where /proc/self/mountinfo says so, cgroups; "" is this machine. What cannot be read or
- * understood is left out. */
+/* root: a folder with proc and, where /proc/self/mountinfo says so, cgroups; "" is this machine.
+ * What cannot be read or understood is left out. */
 void ps_memory_limits_find(ps_memory_limits *out, const char *root);
 
 /* What a limit leaves; UINT64_MAX where there is none. */
 uint64_t ps_memory_left(const ps_memory_bound *bound);
 
-/* A sentence without its full stop, as in "/sys/fs/cgroup/memory.max: 400M, of which 20M are used". */
+/* A sentence without its full stop, as in "/sys/fs/cgroup/memory.max: 400M, of which 20M are used".
+ */
 enum { PS_MEMORY_TEXT = PS_MEMORY_PLACE + 128 };
 void ps_memory_describe(const ps_memory_limits *limits, ps_memory_kind kind, char *text,
                         size_t size);
 
-/* What may still be taken and what says so ("memory.max of ..."); bytes UINT64_MAX: no limit is known. */
+/* What may still be taken and what says so ("memory.max of ..."); bytes UINT64_MAX: no limit is
+ * known. */
 typedef struct ps_memory_room {
     uint64_t bytes;
     char by[PS_MEMORY_PLACE];

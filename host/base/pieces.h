@@ -1,5 +1,5 @@
-/* Many things to do, shared among threads, some of them at a time: in between a watch is told how many are done, and may
- * stop the rest. What becomes of a thing must not depend on who does it. */
+/* Many things to do, shared among threads, some of them at a time: in between a watch is told how
+ * many are done, and may stop the rest. What becomes of a thing must not depend on who does it. */
 #ifndef PS_BASE_PIECES_H
 #define PS_BASE_PIECES_H
 
@@ -20,8 +20,8 @@ typedef struct ps_pieces {
 pspec_status ps_pieces_do(ps_pieces *pieces, size_t num, void (*task)(void *payload, size_t i),
                           void *payload, ps_error *error) PS_MUST_CHECK;
 
-/* The same with threads for this once, if they are worth it: the num things, told as `phase`, are made of `work` smaller
- * ones that take some nanoseconds each. */
+/* The same with threads for this once, if they are worth it: the num things, told as `phase`, are
+ * made of `work` smaller ones that take some nanoseconds each. */
 pspec_status ps_pieces_share(const ps_watch *watch, const char *phase, size_t work, size_t num,
                              void (*task)(void *payload, size_t i), void *payload,
                              ps_error *error) PS_MUST_CHECK;

@@ -174,7 +174,8 @@ static void decode(char *name) {
     *out = '\0';
 }
 
-/* "36 35 98:0 /root /mounted rw,noatime shared:1 - cgroup cgroup rw,memory": false for other mounts. */
+/* "36 35 98:0 /root /mounted rw,noatime shared:1 - cgroup cgroup rw,memory": false for other
+ * mounts. */
 static bool parse_mount(char *line, bool is_second, char **mount_root, char **mounted) {
     enum { FIRST_WORDS = 5 };
     char *words[FIRST_WORDS];
@@ -204,8 +205,8 @@ static bool parse_mount(char *line, bool is_second, char **mount_root, char **mo
     return is_ours;
 }
 
-/* The part of a group's path below the root of a mount; a container may see a group from outside, and then its mount is
- * the group. */
+/* The part of a group's path below the root of a mount; a container may see a group from outside,
+ * and then its mount is the group. */
 static const char *below(const char *path, const char *mount_root) {
     const size_t length = strcmp(mount_root, "/") == 0 ? 0 : strlen(mount_root);
     const bool is_below = strncmp(path, mount_root, length) == 0 &&

@@ -1,5 +1,6 @@
-/* Numbers out of the files of /proc and of cgroups. Names are below a folder root, "" for this machine. False: the file,
- * or what is looked for, is not there or is no number. Private to host/base. */
+/* Numbers out of the files of /proc and of cgroups. Names are below a folder root, "" for this
+ * machine. False: the file, or what is looked for, is not there or is no number. Private to
+ * host/base. */
 #ifndef PS_BASE_PROC_FILES_H
 #define PS_BASE_PROC_FILES_H
 
@@ -21,8 +22,8 @@ bool ps_proc_entry(const char *root, const char *name, const char *key, uint64_t
 /* Number `column` of the first line, counted from 0. */
 bool ps_proc_column(const char *root, const char *name, unsigned column, uint64_t *out);
 
-/* The folder of this process's memory cgroup, of version 2 or 1; its first `mounted` letters are where the hierarchy
- * is mounted. */
+/* The folder of this process's memory cgroup, of version 2 or 1; its first `mounted` letters are
+ * where the hierarchy is mounted. */
 bool ps_proc_cgroup(const char *root, bool is_second, char group[PS_PROC_PATH], size_t *mounted);
 
 #endif

@@ -1,4 +1,5 @@
-/* Errors as values: a status code and one sentence that names what, where, which value, which limit.
+/* Errors as values: a status code and one sentence that names what, where, which value, which
+ * limit.
  *
  * Every function that can fail returns pspec_status and takes a ps_error as its last parameter; the
  * sentence is written there, by ps_fail and by nothing else (one place for a breakpoint).

@@ -188,8 +188,8 @@ void ps_text_keep_nearest(const char *name, const char *known, const char **near
 
 ps_suggestion ps_text_suggest(const char *typed, const char *known, size_t distance,
                               const char *before, const char *after) {
-    /* A slip changes one letter, or two in five of a longer name, so that "powre" is near "power"; and a name may be cut
-     * short, to no less than two letters. */
+    /* A slip changes one letter, or two in five of a longer name, so that "powre" is near "power";
+     * and a name may be cut short, to no less than two letters. */
     enum { SLIP = 1, CHANGED = 2, LETTERS = 5, LEAST_BEGINNING = 2 };
     ps_suggestion out = {""};
     const size_t typed_length = strlen(typed);
@@ -215,7 +215,8 @@ static size_t count_bytes(unsigned char first) {
                           : 0;
 }
 
-/* Neither the shortest form nor a half of a pair nor beyond Unicode nor one of its two last places is a character. */
+/* Neither the shortest form nor a half of a pair nor beyond Unicode nor one of its two last places
+ * is a character. */
 static bool is_character(uint32_t code, size_t length) {
     static const uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
     return code >= least[length] && code <= 0x10ffff && (code < 0xd800 || code > 0xdfff) &&

@@ -25,8 +25,8 @@ void ps_text_free(ps_text *text);
 /* PSPEC_ERROR_MEMORY when an append ran out of memory. */
 pspec_status ps_text_check(const ps_text *text, ps_error *error) PS_MUST_CHECK;
 
-/* Bytes of the character of UTF-8 that text begins with; 0: it begins with none that texts for people, XML among them, may
- * have. The end of a text is no character. */
+/* Bytes of the character of UTF-8 that text begins with; 0: it begins with none that texts for
+ * people, XML among them, may have. The end of a text is no character. */
 size_t ps_text_character(const char *text);
 #define PS_TEXT_UNKNOWN "\xef\xbf\xbd" /* U+FFFD, which stands for what is none */
 
@@ -39,15 +39,16 @@ pspec_status ps_parse_count(const char *text, const char *what, uint64_t minimum
 pspec_status ps_parse_number(const char *text, const char *what, double minimum, double maximum,
                              double *out, ps_error *error) PS_MUST_CHECK;
 
-/* "400M", "1.5G", "2e9": a whole number of bytes, or a number of K, M, G or T, which are powers of 1024. */
+/* "400M", "1.5G", "2e9": a whole number of bytes, or a number of K, M, G or T, which are powers of
+ * 1024. */
 pspec_status ps_parse_size(const char *text, const char *what, uint64_t *out,
                            ps_error *error) PS_MUST_CHECK;
 
 /* The nearer one to name of *nearest, which may be NULL at first, and known. */
 void ps_text_keep_nearest(const char *name, const char *known, const char **nearest);
 
-/* "BEFORE known AFTER" for the end of a sentence when the name as typed is near the known one, at the distance
- * given; else nothing, as a name that only happens to be the nearest misleads. */
+/* "BEFORE known AFTER" for the end of a sentence when the name as typed is near the known one, at
+ * the distance given; else nothing, as a name that only happens to be the nearest misleads. */
 typedef struct ps_suggestion {
     char text[96];
 } ps_suggestion;

@@ -1,10 +1,12 @@
-/* Loops compiled a second time for wider vectors than those that every x86-64 has, for processors that
- * have them: the binary formats are read at the speed of memory, and checked at half of it otherwise.
+/* Loops compiled a second time for wider vectors than those that every x86-64 has, for processors
+ * that have them: the binary formats are read at the speed of memory, and checked at half of it
+ * otherwise.
  *
  *     PS_WIDE_BODY(bool, are_inside, (const double *values, size_t count)) { ... the loop ... }
  *     PS_WIDE(bool, are_inside, (const double *values, size_t count), (values, count))
  *
- * makes a function are_inside. Nothing else may be in such a loop: results must be the same to the bit.
+ * makes a function are_inside. Nothing else may be in such a loop: results must be the same to the
+ * bit.
  */
 #ifndef PS_BASE_WIDE_H
 #define PS_BASE_WIDE_H

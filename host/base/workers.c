@@ -48,7 +48,8 @@ static void *work(void *argument) {
     return NULL;
 }
 
-/* Signals that a handler of the caller waits for must not end up in a thread that goes on working. */
+/* Signals that a handler of the caller waits for must not end up in a thread that goes on working.
+ */
 static void start_threads(ps_workers *workers, unsigned wanted) {
     sigset_t all;
     sigset_t kept;
@@ -122,8 +123,8 @@ void ps_workers_run(ps_workers *workers, void (*task)(void *payload, unsigned in
     workers->num_busy = workers->num_threads;
     workers->round++;
     pthread_mutex_unlock(&workers->mutex);
-    /* Not before: a thread that wakes to find the mutex taken sleeps again, and its next waking puts it
-     * on the caller's processor (Linux 6.18). */
+    /* Not before: a thread that wakes to find the mutex taken sleeps again, and its next waking
+     * puts it on the caller's processor (Linux 6.18). */
     pthread_cond_broadcast(&workers->has_work);
     task(payload, 0);
     pthread_mutex_lock(&workers->mutex);

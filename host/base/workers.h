@@ -9,13 +9,13 @@ typedef struct ps_workers ps_workers;
 /* Threads of one thing to do. */
 enum { PS_WORKERS_MOST = 16 };
 
-/* Threads that come and go take PS_WORKERS_SECONDS, which so many things of some nanoseconds each pay for (2 cores of a Zen 5
- * EPYC, Linux 6.18, 2026-11). */
+/* Threads that come and go take PS_WORKERS_SECONDS, which so many things of some nanoseconds each
+ * pay for (2 cores of a Zen 5 EPYC, Linux 6.18, 2026-11). */
 enum { PS_WORKERS_LEAST = 1 << 17 };
 #define PS_WORKERS_SECONDS 0.1e-3
 
-/* At most most_threads, the caller counted, and no more than there are processors; NULL when there is
- * nothing to gain, or no thread to be had: ps_workers_count is 1 then. */
+/* At most most_threads, the caller counted, and no more than there are processors; NULL when there
+ * is nothing to gain, or no thread to be had: ps_workers_count is 1 then. */
 ps_workers *ps_workers_create(unsigned most_threads);
 void ps_workers_destroy(ps_workers *workers);
 unsigned ps_workers_count(const ps_workers *workers);
@@ -25,8 +25,9 @@ unsigned ps_workers_count(const ps_workers *workers);
 void ps_workers_run(ps_workers *workers, void (*task)(void *payload, unsigned index),
                     void *payload);
 
-/* The same with threads for this once, where num things to do are worth that: task(payload, i, count) for all i
- * below count, which is 1 for few. What becomes of a thing must not depend on who does it. */
+/* The same with threads for this once, where num things to do are worth that: task(payload, i,
+ * count) for all i below count, which is 1 for few. What becomes of a thing must not depend on who
+ * does it. */
 void ps_workers_share(size_t num, void (*task)(void *payload, unsigned index, unsigned count),
                       void *payload);
 

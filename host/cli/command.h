@@ -28,8 +28,8 @@ typedef struct ps_command {
     const ps_task *task;          /* what else it does that the library can do, too; or NULL */
     ps_takers takes;              /* whose options: the command's bit in their table */
     const char *examples[2];      /* complete command lines, run by the tests */
-    /* Words of --format, the default first, and of --weights, where neither result nor task says so; NULL:
-     * csv|json|npy, equal|column|FILE. */
+    /* Words of --format, the default first, and of --weights, where neither result nor task says
+     * so; NULL: csv|json|npy, equal|column|FILE. */
     const char *formats, *weights;
     bool makes_folder; /* which --output names: it has no default */
     ps_domain samples; /* which samplers it takes, where no result says so, for --help */
@@ -77,12 +77,13 @@ void ps_help_command(FILE *stream, const ps_command *command);
 typedef struct ps_progress ps_progress;
 ps_progress *ps_progress_begin(const ps_request *arguments, const char *what); /* NULL: silent */
 void ps_progress_update(ps_progress *progress, uint64_t done, uint64_t total);
-/* From now on the line is about a part of the work, which it names first; time and rate begin anew. */
+/* From now on the line is about a part of the work, which it names first; time and rate begin anew.
+ */
 void ps_progress_part(ps_progress *progress, const char *format, ...) PS_PRINTF(2, 3);
 void ps_progress_hide(ps_progress *progress); /* until the next update: something else is printed */
 void ps_progress_end(ps_progress *progress);
-/* Of a ps_watch whose payload is a progress line or NULL: other phases than `what` are shown, too, with a rate of
- * their own or their detail; an interrupt cancels. */
+/* Of a ps_watch whose payload is a progress line or NULL: other phases than `what` are shown, too,
+ * with a rate of their own or their detail; an interrupt cancels. */
 int ps_progress_tell(const ps_watch_report *report, void *progress);
 
 #endif

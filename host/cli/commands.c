@@ -6,7 +6,8 @@
 
 #include <string.h>
 
-/* In the order of --help. A new command is a file, a name in questions/options.h, and the rows of its options. */
+/* In the order of --help. A new command is a file, a name in questions/options.h, and the rows of
+ * its options. */
 #define COMMAND(name) &ps_command_##name,
 const ps_command *const ps_commands[] = {PS_TAKERS(COMMAND, COMMAND) NULL};
 

@@ -65,7 +65,8 @@ static int finish_output(void) {
 
 /* ---- commands ------------------------------------------------------------------------------ */
 
-/* A folder that others can write is as good as none, for whatever the command would take from it. */
+/* A folder that others can write is as good as none, for whatever the command would take from it.
+ */
 static void trust_cache(const ps_command *command, ps_request *arguments, const char *folder) {
     ps_error reason = {0};
     if (ps_cache_check_folder(folder, &reason) == PSPEC_OK) {
@@ -75,7 +76,8 @@ static void trust_cache(const ps_command *command, ps_request *arguments, const 
     }
 }
 
-/* POINTSPEC_MEMORY counts as if it had been typed, and so it is part of the command that results keep. */
+/* POINTSPEC_MEMORY counts as if it had been typed, and so it is part of the command that results
+ * keep. */
 static pspec_status take_memory(const ps_command *command, ps_request *arguments, ps_text *line,
                                 ps_error *error) {
     const char *const limit = getenv("POINTSPEC_MEMORY");
@@ -108,8 +110,8 @@ static pspec_status run_parsed(const ps_command *command, ps_request *arguments,
                                       : ps_shown_answer(command->result, arguments, error);
     }
     ps_text_free(&folder);
-    /* A signal may make anything fail that was going on (a compiler in the driver, a read): what the
-     * user did is the reason, not what it led to. */
+    /* A signal may make anything fail that was going on (a compiler in the driver, a read): what
+     * the user did is the reason, not what it led to. */
     static const char reason[] = "interrupted";
     return status != PSPEC_OK && ps_interrupted &&
                    strncmp(error->message, reason, sizeof reason - 1) != 0

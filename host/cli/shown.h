@@ -8,7 +8,8 @@ typedef struct ps_shown {
     const ps_request *arguments;
     const char *counted; /* what the progress line counts: "realizations" */
     const char *speaker; /* who says warnings: "pointspec" */
-    /* What is made goes to the output while the line is shown: it would run into points on the same terminal. */
+    /* What is made goes to the output while the line is shown: it would run into points on the same
+     * terminal. */
     bool is_streamed;
     ps_progress *progress; /* NULL between two phases of the work */
 } ps_shown;
@@ -16,8 +17,8 @@ typedef struct ps_shown {
 /* shown must outlive the work. With --quiet there are no warnings, but what is missing is told. */
 ps_answer_hooks ps_shown_hooks(ps_shown *shown);
 
-/* Answers a question of the kind with these, and writes what the arguments name. Differences that a check found are
- * PSPEC_ERROR_CHECK. */
+/* Answers a question of the kind with these, and writes what the arguments name. Differences that a
+ * check found are PSPEC_ERROR_CHECK. */
 pspec_status ps_shown_answer(const ps_result_kind *kind, const ps_request *arguments,
                              ps_error *error) PS_MUST_CHECK;
 /* The status of the verdict, which is then the error. */

@@ -19,8 +19,8 @@ static volatile sig_atomic_t exit_code = PS_EXIT_INTERRUPTED;
 static timer_t patience; /* ends when the command had its time to end by itself */
 static volatile sig_atomic_t has_patience = 0;
 
-/* Of the second that the end of the program may take: what remains is for the end of the process, which
- * gives gigabytes back. */
+/* Of the second that the end of the program may take: what remains is for the end of the process,
+ * which gives gigabytes back. */
 static const struct timespec PATIENCE = {0, 700000000};
 
 enum {
@@ -66,7 +66,8 @@ static bool is_own_temporary(const char *path, const char *pid) {
            number[1 + strlen(pid)] == '-';
 }
 
-/* A temporary file is open as long as it is incomplete: the system knows the names of what is open. */
+/* A temporary file is open as long as it is incomplete: the system knows the names of what is open.
+ */
 static void remove_temporary_files(const char *pid) {
     char digits[NUMBER_BYTES];
     char link[PATH_BYTES];
@@ -150,8 +151,8 @@ static void pass_over(int signal_number) {
     (void)signal_number;
 }
 
-/* No SA_RESTART, so that a read or write that waits returns. A signal that our parent had ignored, as
- * nohup and shells do for background jobs, stays ignored. */
+/* No SA_RESTART, so that a read or write that waits returns. A signal that our parent had ignored,
+ * as nohup and shells do for background jobs, stays ignored. */
 static void handle(int signal_number, void (*handler)(int)) {
     struct sigaction action;
     if (sigaction(signal_number, NULL, &action) == 0 && action.sa_handler != SIG_IGN) {

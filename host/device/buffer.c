@@ -109,14 +109,15 @@ pspec_status ps_buffer_clear(ps_device *device, const ps_buffer *buffer, ps_erro
     return PSPEC_OK;
 }
 
-pspec_status ps_buffer_copy_rectangle(ps_device *device, const ps_buffer *from, const ps_buffer *to,
-                                      const ps_rectangle *rectangle, ps_error *error) {
+pspec_status ps_buffer_copy_rectangle(ps_device *device, const ps_buffer *source,
+                                      const ps_buffer *target, const ps_rectangle *rectangle,
+                                      ps_error *error) {
     const size_t from_origin[] = {rectangle->from_offset % rectangle->from_pitch,
                                   rectangle->from_offset / rectangle->from_pitch, 0};
     const size_t to_origin[] = {rectangle->to_offset % rectangle->to_pitch,
                                 rectangle->to_offset / rectangle->to_pitch, 0};
     const size_t region[] = {rectangle->row_bytes, rectangle->num_rows, 1};
-    PS_TRY_CL(clEnqueueCopyBufferRect(device->queue, from->memory, to->memory, from_origin,
+    PS_TRY_CL(clEnqueueCopyBufferRect(device->queue, source->memory, target->memory, from_origin,
                                       to_origin, region, rectangle->from_pitch, 0,
                                       rectangle->to_pitch, 0, 0, NULL, NULL),
               error);

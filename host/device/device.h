@@ -108,8 +108,9 @@ typedef struct ps_rectangle {
 } ps_rectangle;
 
 /* Between two buffers of the device, after everything enqueued before. */
-pspec_status ps_buffer_copy_rectangle(ps_device *device, const ps_buffer *from, const ps_buffer *to,
-                                      const ps_rectangle *rectangle, ps_error *error) PS_MUST_CHECK;
+pspec_status ps_buffer_copy_rectangle(ps_device *device, const ps_buffer *source,
+                                      const ps_buffer *target, const ps_rectangle *rectangle,
+                                      ps_error *error) PS_MUST_CHECK;
 
 /* The most bytes that buffers of the device have had at a time. */
 uint64_t ps_device_most_buffer_bytes(const ps_device *device);

@@ -48,9 +48,10 @@ unsigned ps_problem_domain(const ps_problem *problem) {
     return problem->frequencies->kind == PS_FREQUENCIES_DEGREES ? PS_ON_SPHERE : PS_ON_TORUS;
 }
 
-/* On the sphere white sets are planned for with a margin, since what is above 1 counts there by its square root: the
- * mean of (L + 1)^2 modes, half of them independent, stays within four standard deviations. (torus_nufft has a
- * margin of its own; the other engines of the torus hardly feel it.) */
+/* On the sphere white sets are planned for with a margin, since what is above 1 counts there by its
+ * square root: the mean of (L + 1)^2 modes, half of them independent, stays within four standard
+ * deviations. (torus_nufft has a margin of its own; the other engines of the torus hardly feel it.)
+ */
 static double white_power(const ps_problem *problem) {
     const double most = 1.5;
     const double num_modes = pow(problem->frequencies->max_frequency + 1.0, 2);

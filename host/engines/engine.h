@@ -1,9 +1,9 @@
 /* The interface of every engine, on the torus and on the sphere, and the table that names them all.
  *
  * An engine turns batches of point sets into rows of powers, one row per realization, one slot per
- * frequency or degree (plus padding). It says when it applies, what it costs in work and memory and how exact
- * it is; the planner (host/plan) compares. Costs are counts of work: turning them into seconds is
- * the cost model's business. A new engine is a new file and a row in engines/table.c.
+ * frequency or degree (plus padding). It says when it applies, what it costs in work and memory and
+ * how exact it is; the planner (host/plan) compares. Costs are counts of work: turning them into
+ * seconds is the cost model's business. A new engine is a new file and a row in engines/table.c.
  */
 #ifndef PS_ENGINES_ENGINE_H
 #define PS_ENGINES_ENGINE_H
@@ -35,15 +35,15 @@ typedef struct ps_problem {
     bool has_weights;
     ps_measure measure;
     double tolerance; /* as the measure says */
-    double
-        floor; /* of pair sums: powers, relative to white noise, that are to be right to 10 %; 0: none */
+    /* Of pair sums: powers, relative to white noise, that are to be right to 10 %; 0: none */
+    double floor;
     double weight_share;   /* largest sum w^2 / (sum |w|)^2 of a set; 0: not known, 1 / N */
     double expected_power; /* mean effective power of the sets; 0: not known, 1 as of white noise */
-    uint64_t
-        planned_points; /* num_points when the job was planned, which later growth leaves alone, for
-                                choices that must be the same for all of it; 0: num_points */
-    uint64_t
-        block_points; /* of a set in host memory at a time, where the engine allows it; 0: all */
+    /* num_points when the job was planned, which later growth leaves alone, for choices that must
+     * be the same for all of it; 0: num_points */
+    uint64_t planned_points;
+    /* Of a set in host memory at a time, where the engine allows it; 0: all */
+    uint64_t block_points;
     ps_harmonics harmonics; /* whose coefficients are wanted, too, of the only set */
 } ps_problem;
 
@@ -57,29 +57,29 @@ double ps_planned_points(const ps_problem *problem);
 typedef struct ps_work {
     double phases;        /* (point, frequency) pairs for which a cosine and sine are made */
     double product_flops; /* additions and multiplications of products of tables */
-    double
-        transform_flops; /* what a device at its peak would do while spreading and transforming */
-    double harmonics;    /* (point, degree, order) triples, orders from 0 on */
-    double pair_degrees; /* (pair of points, degree), each pair once */
-    double binned_pairs; /* pairs of points put into a histogram */
-    double launches;     /* kernel launches */
-    double kernels;      /* programs that the driver loads for it, once in a process */
-    double fixed_bytes;  /* memory, whatever the batch */
-    double host_bytes;   /* part of that on the host */
+    /* What a device at its peak would do while spreading and transforming */
+    double transform_flops;
+    double harmonics;             /* (point, degree, order) triples, orders from 0 on */
+    double pair_degrees;          /* (pair of points, degree), each pair once */
+    double binned_pairs;          /* pairs of points put into a histogram */
+    double launches;              /* kernel launches */
+    double kernels;               /* programs that the driver loads for it, once in a process */
+    double fixed_bytes;           /* memory, whatever the batch */
+    double host_bytes;            /* part of that on the host */
     double bytes_per_realization; /* on the device, for each realization of a batch */
     double row_bytes;             /* part of that for its powers */
     double point_bytes; /* of points of each realization besides, on the device and on the host */
     double coordinate_bytes; /* part of that, on the device both times where memory is unified */
     double largest_buffer_per_realization; /* part of that in one allocation */
-    double
-        wanted_batch; /* realizations of a batch that share work, whatever fits into caches; 0: any */
+    /* Realizations of a batch that share work, whatever fits into caches; 0: any */
+    double wanted_batch;
     bool takes_blocks; /* ps_engine.stream will */
 } ps_work;
 
-/* A batch of realizations. power = scales[r] |S|^2, S with weights w 2^-exponents[r] (NULL: 0); on the sphere
- * |S|^2 is Q(l) = (4 pi / (2l + 1)) sum_m |c_lm|^2, whose expectation is sum w^2 for white noise, as that of
- * |S|^2 on the torus. Points of the sphere are vectors of a length between 1 - 1e-6 and 1 + 1e-6: they stand for
- * their directions, and it is the engine that divides.
+/* A batch of realizations. power = scales[r] |S|^2, S with weights w 2^-exponents[r] (NULL: 0); on
+ * the sphere |S|^2 is Q(l) = (4 pi / (2l + 1)) sum_m |c_lm|^2, whose expectation is sum w^2 for
+ * white noise, as that of |S|^2 on the torus. Points of the sphere are vectors of a length between
+ * 1 - 1e-6 and 1 + 1e-6: they stand for their directions, and it is the engine that divides.
  * should_stop, unless it is NULL, is asked every second or so; true ends the run with
  * PSPEC_ERROR_CANCELLED. */
 typedef struct ps_batch {
@@ -105,14 +105,15 @@ typedef struct ps_rows {
     ps_buffer device;        /* else rows in device memory, padded to a multiple of the lanes */
 } ps_rows;
 
-/* One realization whose points come in blocks, for sets larger than memory: begin, add any number of
- * times, finish. Bits are those of run. */
+/* One realization whose points come in blocks, for sets larger than memory: begin, add any number
+ * of times, finish. Bits are those of run. */
 typedef struct ps_engine_stream {
-    /* All blocks but the last have a multiple of so many points. 0: this state takes whole sets only. */
+    /* All blocks but the last have a multiple of so many points. 0: this state takes whole sets
+     * only. */
     size_t (*unit)(const void *state);
     pspec_status (*begin)(void *state, ps_error *);
-    /* The only pattern of the batch: more points. Its exponent is that of the whole set; scales are not
-     * looked at. */
+    /* The only pattern of the batch: more points. Its exponent is that of the whole set; scales are
+     * not looked at. */
     pspec_status (*add)(void *state, const ps_batch *block, ps_error *);
     pspec_status (*finish)(void *state, double scale, ps_rows *, ps_error *);
 } ps_engine_stream;
@@ -124,11 +125,11 @@ enum { PS_ON_TORUS = 1, PS_ON_SPHERE = 2 };
 typedef struct ps_survey {
     const char *why_not; /* a static sentence; NULL: applicable, else the rest is not there */
     ps_work work;
-    /* Expected error e of S in sqrt(mean |dS|^2) = e sqrt(sum w^2), mean over the frequencies, for sets of the expected
-     * power (ps_expected_power). On the sphere sqrt(4 pi mean |dc_lm|^2), mean over all degrees and orders.
-     * With sums_pairs instead the largest |dQ(l)| = e (sum |w|)^2 of all degrees. engines/error_units.h
-     * brings both to what the problem asks for.
-     * The formula and its measured slack are in the engine's page in docs/. */
+    /* Expected error e of S in sqrt(mean |dS|^2) = e sqrt(sum w^2), mean over the frequencies, for
+     * sets of the expected power (ps_expected_power). On the sphere sqrt(4 pi mean |dc_lm|^2), mean
+     * over all degrees and orders. With sums_pairs instead the largest |dQ(l)| = e (sum |w|)^2 of
+     * all degrees. engines/error_units.h brings both to what the problem asks for. The formula and
+     * its measured slack are in the engine's page in docs/. */
     double error;
 } ps_survey;
 
@@ -152,15 +153,17 @@ typedef struct ps_engine {
     void (*get_slots)(const void *state, uint32_t *slots);
     /* Entries in a row. */
     size_t (*get_stride)(const void *state);
-    /* The error of a survey again, for the problem that the state was made for and what was measured since: effective
-     * power averaged over the frequencies (1: white noise), and weight_share as a problem has it. */
+    /* The error of a survey again, for the problem that the state was made for and what was
+     * measured since: effective power averaged over the frequencies (1: white noise), and
+     * weight_share as a problem has it. */
     double (*error_of_state)(const void *state, double mean_power, double weight_share);
     pspec_status (*run)(void *state, const ps_batch *, ps_rows *, ps_error *);
     const ps_engine_stream *stream; /* NULL: whole sets only */
-    /* c_lm = sum w Y_lm(u) of a batch of one pattern for l = 0 .. L, 0 <= m <= l, as pairs (real, imaginary) at index
-     * m (2L + 1 - m) / 2 + l: the order of healpy, whose a_lm is the conjugate. Weights as they are, whatever the
-     * exponent. With only even degrees the others are 0. out has (L + 1)(L + 2) numbers. Unless rows is NULL also
-     * what run gives, to the bit, from the same sums; only then scales are looked at. NULL: an engine without. */
+    /* c_lm = sum w Y_lm(u) of a batch of one pattern for l = 0 .. L, 0 <= m <= l, as pairs (real,
+     * imaginary) at index m (2L + 1 - m) / 2 + l: the order of healpy, whose a_lm is the conjugate.
+     * Weights as they are, whatever the exponent. With only even degrees the others are 0. out has
+     * (L + 1)(L + 2) numbers. Unless rows is NULL also what run gives, to the bit, from the same
+     * sums; only then scales are looked at. NULL: an engine without. */
     pspec_status (*coefficients)(void *state, const ps_batch *one, ps_rows *rows, double *out,
                                  ps_error *);
     /* "(torus_direct precision=single split=33x32 lanes=16)" */
@@ -177,8 +180,8 @@ unsigned ps_problem_domain(const ps_problem *problem);
 /* All engines, ended by NULL, in the order in which plan lists them. */
 extern const ps_engine *const ps_engines[];
 
-/* Part of survey of every engine whose kernels know single and double precision: is there a device that
- * has this one? */
+/* Part of survey of every engine whose kernels know single and double precision: is there a device
+ * that has this one? */
 bool ps_engine_on_device(const ps_device_limits *limits, ps_precision precision,
                          const char **why_not);
 

@@ -79,9 +79,9 @@ static bool join_sixteen(const char *text, uint64_t *number) {
 }
 #endif
 
-/* Appends the digits at text to *digits, which wraps around when they are too many. Eight at a time,
- * the last ones behind zeros in front: how many there are decides no branch, which would be guessed
- * wrong for every other number. */
+/* Appends the digits at text to *digits, which wraps around when they are too many. Eight at a
+ * time, the last ones behind zeros in front: how many there are decides no branch, which would be
+ * guessed wrong for every other number. */
 static const char *scan_digits(const char *text, uint64_t *digits) {
     static const uint32_t power[] = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000};
     enum { BYTES = 8, BITS = 8 };

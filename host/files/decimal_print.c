@@ -1,5 +1,5 @@
-/* Printing has a fast path, exact by 128 bits, for numbers that need no exponent; the C library does
- * the rest. */
+/* Printing has a fast path, exact by 128 bits, for numbers that need no exponent; the C library
+ * does the rest. */
 #include "files/decimal_bits.h"
 
 #include <langinfo.h>

@@ -1,5 +1,5 @@
-/* Descriptors of files, with the sentences of what can go wrong: what plain and compressed input share. Private to
- * host/files but for ps_read_fail. */
+/* Descriptors of files, with the sentences of what can go wrong: what plain and compressed input
+ * share. Private to host/files but for ps_read_fail. */
 #ifndef PS_FILES_DESCRIPTOR_H
 #define PS_FILES_DESCRIPTOR_H
 
@@ -7,8 +7,8 @@
 
 #include <stddef.h>
 
-/* Opens path for reading, or standard input for "-" through a copy of its descriptor, so that closing it is ours to do;
- * below 0: errno says why not. */
+/* Opens path for reading, or standard input for "-" through a copy of its descriptor, so that
+ * closing it is ours to do; below 0: errno says why not. */
 int ps_descriptor_open(const char *path);
 
 /* Reads what is there, at most max_bytes; *count is 0 at the end only. name is for the message. */

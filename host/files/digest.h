@@ -1,4 +1,5 @@
-/* 128 bits that tell contents apart (XXH3), for caches and records: not against somebody hostile. */
+/* 128 bits that tell contents apart (XXH3), for caches and records: not against somebody hostile.
+ */
 #ifndef PS_FILES_DIGEST_H
 #define PS_FILES_DIGEST_H
 

@@ -8,8 +8,8 @@
 
 typedef struct ps_gzip ps_gzip;
 
-/* start: compressed bytes that were read already; copied. The descriptor, which gives the others, and the name for messages
- * stay the caller's. */
+/* start: compressed bytes that were read already; copied. The descriptor, which gives the others,
+ * and the name for messages stay the caller's. */
 pspec_status ps_gzip_create(ps_gzip **out, int descriptor, const char *name,
                             const unsigned char *start, size_t num_bytes,
                             ps_error *error) PS_MUST_CHECK;

@@ -245,8 +245,8 @@ static pspec_status close_stream(ps_output_file *file, ps_error *error) {
     return close_status == 0 ? PSPEC_OK : fail_write(file->name, errno, error);
 }
 
-/* A second descriptor keeps the lock until the file has its final name: without it another process could take it
- * for one that was left behind. */
+/* A second descriptor keeps the lock until the file has its final name: without it another process
+ * could take it for one that was left behind. */
 static pspec_status take_name(ps_output_file *file, ps_error *error) {
     const int lock = fcntl(fileno(file->stream), F_DUPFD_CLOEXEC, 0);
     if (lock < 0) {

@@ -23,8 +23,9 @@ FILE *ps_output_stream(ps_output_file *file);
 /* fwrite to the stream that remembers why it failed, for check and commit; for large blocks, which
  * stdio does not keep to try again. */
 void ps_output_write(ps_output_file *file, const void *data, size_t element_bytes, size_t count);
-/* For writers that come back to the beginning of their file: where the output cannot do that (a pipe),
- * the data wait in an unnamed temporary file until commit. To be called before the first write. */
+/* For writers that come back to the beginning of their file: where the output cannot do that (a
+ * pipe), the data wait in an unnamed temporary file until commit. To be called before the first
+ * write. */
 pspec_status ps_output_make_seekable(ps_output_file *file, ps_error *error) PS_MUST_CHECK;
 /* Goes back there; what is written then replaces what is there. */
 pspec_status ps_output_rewind(ps_output_file *file, ps_error *error) PS_MUST_CHECK;

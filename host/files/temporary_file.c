@@ -33,8 +33,8 @@ static bool is_ours(const char *name, const char *start) {
 
 /* ---- what dead processes left -------------------------------------------------------------- */
 
-/* Whether the name still belongs to the file that is open: its writer may have given it the final name in the meantime,
- * and may write the next one under the old name already. */
+/* Whether the name still belongs to the file that is open: its writer may have given it the final
+ * name in the meantime, and may write the next one under the old name already. */
 static bool has_name(int descriptor, int folder, const char *name) {
     struct stat file;
     struct stat named;
@@ -43,8 +43,9 @@ static bool has_name(int descriptor, int folder, const char *name) {
            file.st_uid == geteuid() && file.st_dev == named.st_dev && file.st_ino == named.st_ino;
 }
 
-/* Whoever writes to the file holds its lock, and takes its name away before the lock goes: with the lock in hand, the name
- * is looked at once more, and then stays as it is. Files that are no files, or that cannot be opened, stay. */
+/* Whoever writes to the file holds its lock, and takes its name away before the lock goes: with the
+ * lock in hand, the name is looked at once more, and then stays as it is. Files that are no files,
+ * or that cannot be opened, stay. */
 static void remove_if_dead(int folder, const char *folder_path, const char *name) {
     ps_text path = {0};
     ps_text_append(&path, "%s%s", folder_path, name);
@@ -59,7 +60,8 @@ static void remove_if_dead(int folder, const char *folder_path, const char *name
     ps_text_free(&path);
 }
 
-/* "START" and the number of this process, which is not dead: its files may be without a lock where one was not to be had. */
+/* "START" and the number of this process, which is not dead: its files may be without a lock where
+ * one was not to be had. */
 static void append_own(ps_text *out, const char *start) {
     ps_text_append(out, "%s%ld-", start, (long)getpid());
 }
@@ -80,8 +82,8 @@ static void remove_dead(const char *folder_path, const char *start, const char *
 
 /* ---- new files ----------------------------------------------------------------------------- */
 
-/* Another process may have taken the file for a dead one's before it was locked: it then has no name any more. Where
- * locks do not work nobody can do that. */
+/* Another process may have taken the file for a dead one's before it was locked: it then has no
+ * name any more. Where locks do not work nobody can do that. */
 static bool is_kept(int descriptor) {
     struct stat facts;
     if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {

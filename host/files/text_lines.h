@@ -60,8 +60,9 @@ bool ps_token_is_not_finite(const char *token, size_t length);
 
 /* ---- rows ---- */
 
-/* Reads the whole line at text as num_columns numbers, separated by blanks (separator ' ') or by one
- * comma each, blanks allowed (','). Returns the '\n', or NULL when the line is anything else. */
+/* Reads the whole line at text as num_columns numbers, separated by blanks (separator ' ') or by
+ * one comma each, blanks allowed (','). Returns the '\n', or NULL when the line is anything else.
+ */
 const char *ps_row_parse(const char *text, char separator, size_t num_columns, double *row);
 
 /* Counts the columns of the line at cursor; a token that is no number is an error. */

@@ -7,11 +7,12 @@
  * an EPYC, 2026-11; a thread parses 1.6 bytes per ns). */
 enum { LEAST_BYTES = 1 << 18 };
 
-/* Numbers that a worker has room for: half of a buffer of short ones, "0 1 ". Memory that is not used
- * is not there. */
+/* Numbers that a worker has room for: half of a buffer of short ones, "0 1 ". Memory that is not
+ * used is not there. */
 enum { SPARE_VALUES = 1 << 20 };
 
-/* The part of one thread: lines from begin to end, at most capacity rows; stop is where it stopped. */
+/* The part of one thread: lines from begin to end, at most capacity rows; stop is where it stopped.
+ */
 typedef struct piece {
     const char *begin, *end, *stop;
     double *rows;

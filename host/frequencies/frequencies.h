@@ -1,5 +1,5 @@
-/* What powers are computed of. On the torus integer frequencies: a list that somebody made, or the half
- * lattice of a box. On the sphere degrees.
+/* What powers are computed of. On the torus integer frequencies: a list that somebody made, or the
+ * half lattice of a box. On the sphere degrees.
  *
  * Real weights make |S(-k)| = |S(k)|, so a box |k_i| <= K is represented by its half lattice: the k
  * whose first non-zero component is positive, in lexicographic order, DC left out
@@ -50,12 +50,12 @@ typedef struct ps_frequencies {
     unsigned dimension;    /* coordinates of a point */
     int32_t max_frequency; /* K; for a list the largest |k_i| in it; L for degrees */
     size_t num;            /* exact but for balls that are not enumerated */
-    int32_t *
-        vectors; /* [num][ps_frequency_components]; NULL for boxes, balls and degrees not yet enumerated */
+    /* [num][ps_frequency_components]; NULL for boxes, balls and degrees not yet enumerated */
+    int32_t *vectors;
     int32_t degree_step; /* from degree to degree: 1, or 2 on the hemisphere; 0 on the torus */
 
-    /* A list that holds at most per_ring frequencies of every ring 1..K, or of every shell that these
-     * rings have (frequencies/frequency_sample.h). Otherwise 0, 0 and NULL. */
+    /* A list that holds at most per_ring frequencies of every ring 1..K, or of every shell that
+     * these rings have (frequencies/frequency_sample.h). Otherwise 0, 0 and NULL. */
     uint64_t per_ring;
     size_t num_rings;
     ps_sampled_ring *rings; /* ascending */
@@ -64,18 +64,19 @@ typedef struct ps_frequencies {
 /* Slots of results are 32-bit indices on the device, with padding and both signs. */
 #define PS_MAX_NUM_FREQUENCIES (((uint64_t)1 << 31) / 4)
 
-/* What a question may be asked of instead of all frequencies, for sentences that say what would help. */
+/* What a question may be asked of instead of all frequencies, for sentences that say what would
+ * help. */
 enum {
     PS_OFFER_RINGS = 1, /* a random subset of every ring */
     PS_OFFER_LISTS = 2
 };
 
-/* Counting rings up to K takes (d + 1) K^2 numbers of 64 bits and d K^3 additions: at this K, 200 MB and
- * some ten seconds. */
+/* Counting rings up to K takes (d + 1) K^2 numbers of 64 bits and d K^3 additions: at this K, 200
+ * MB and some ten seconds. */
 enum { PS_MAX_SAMPLED_RING = 2000 };
 
-/* Is there a subset of fewer frequencies than all up to K? In one dimension a ring has one, and beyond a K, or where
- * there are more than can be counted, nobody knows how many a ring has. */
+/* Is there a subset of fewer frequencies than all up to K? In one dimension a ring has one, and
+ * beyond a K, or where there are more than can be counted, nobody knows how many a ring has. */
 bool ps_frequencies_can_sample(unsigned dimension, int64_t max_frequency);
 
 /* A box or ball, not enumerated: costs nothing, whatever the size. dimension 1..6, K >= 1. More
@@ -88,8 +89,8 @@ pspec_status ps_frequencies_grid(ps_frequencies *out, unsigned dimension, int32_
 /* A list: takes vectors over ([num][dimension], allocated by malloc). */
 pspec_status ps_frequencies_list(ps_frequencies *out, unsigned dimension, size_t num,
                                  int32_t *vectors, ps_error *error) PS_MUST_CHECK;
-/* Degrees 1 .. max_degree, or with only_even 2, 4 .. max_degree, not enumerated. An L that leaves none or is
- * larger than PS_MAX_DEGREE is PSPEC_ERROR_INVALID_ARGUMENT. */
+/* Degrees 1 .. max_degree, or with only_even 2, 4 .. max_degree, not enumerated. An L that leaves
+ * none or is larger than PS_MAX_DEGREE is PSPEC_ERROR_INVALID_ARGUMENT. */
 pspec_status ps_frequencies_degrees(ps_frequencies *out, int64_t max_degree, bool only_even,
                                     ps_error *error) PS_MUST_CHECK;
 /* Numbers of a vector: the dimension, or 1 for degrees. */

@@ -1,4 +1,5 @@
-/* Which frequencies a question is about, on the torus: a part of questions as plan/specs.h has others. */
+/* Which frequencies a question is about, on the torus: a part of questions as plan/specs.h has
+ * others. */
 #ifndef PS_FREQUENCIES_FREQUENCIES_SPEC_H
 #define PS_FREQUENCIES_FREQUENCIES_SPEC_H
 

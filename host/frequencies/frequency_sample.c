@@ -143,9 +143,10 @@ static pspec_status make(ps_frequencies *out, const ps_frequency_sample *sample,
     return status;
 }
 
-/* No fewer frequencies than rings up to K have, when those up to a smaller one have num. Rings grow like b^(d-1), and from
- * FIRST on their sizes differ from that by far less than twice: where one has twice what is drawn, the later ones have
- * enough. Shells of one |k|^2 do not grow like that. */
+/* No fewer frequencies than rings up to K have, when those up to a smaller one have num. Rings grow
+ * like b^(d-1), and from FIRST on their sizes differ from that by far less than twice: where one
+ * has twice what is drawn, the later ones have enough. Shells of one |k|^2 do not grow like that.
+ */
 static uint64_t at_least(const ps_frequency_sample *sample, const ps_frequency_sample *part,
                          const ps_lattice *lattice, uint64_t num) {
     const uint64_t number = (uint64_t)part->max_frequency;
@@ -154,8 +155,8 @@ static uint64_t at_least(const ps_frequency_sample *sample, const ps_frequency_s
     return are_large ? num + ((uint64_t)sample->max_frequency - number) * sample->per_ring : num;
 }
 
-/* Counting all rings takes seconds where K is large: those of a smaller K, counted in an eighth of the time of
- * twice that K, tell mostly that there are too many. */
+/* Counting all rings takes seconds where K is large: those of a smaller K, counted in an eighth of
+ * the time of twice that K, tell mostly that there are too many. */
 static pspec_status refuse_soon(const ps_frequency_sample *sample, ps_error *error) {
     enum { FIRST = 125, TIMES = 2 };
     ps_frequency_sample part = *sample;

@@ -1,6 +1,6 @@
-/* Parts of every question about point sets, as the option table fills them (questions/options.c) and the program, scenes
- * and the C library hand them on: nested in the request, in the questions of jobs, and in what decides about needs, so that
- * a value is said once.
+/* Parts of every question about point sets, as the option table fills them (questions/options.c)
+ * and the program, scenes and the C library hand them on: nested in the request, in the questions
+ * of jobs, and in what decides about needs, so that a value is said once.
  */
 #ifndef PS_PLAN_SPECS_H
 #define PS_PLAN_SPECS_H
@@ -11,7 +11,8 @@
 typedef struct ps_accuracy_spec {
     double tolerance; /* of what, the question says */
     double floor;     /* powers down to it are right to 10 %; 0: none */
-    /* relative, of every bin above the floor, at which realizations stop (spectra/sequential.h); 0: all are done */
+    /* relative, of every bin above the floor, at which realizations stop (spectra/sequential.h); 0:
+     * all are done */
     double standard_error;
     bool no_skip;       /* what the question does not need is done all the same; symmetries stay */
     bool no_self_check; /* the referee recomputes nothing */

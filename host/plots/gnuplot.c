@@ -113,8 +113,8 @@ static void read_complaint(FILE *complaints, char shown[PS_TOKEN_BYTES]) {
     }
 }
 
-/* Reads to the end, even without memory to keep it: gnuplot must not wait for us. 0, or the errno of a
- * read that failed. */
+/* Reads to the end, even without memory to keep it: gnuplot must not wait for us. 0, or the errno
+ * of a read that failed. */
 static int read_picture(int source, ps_text *picture) {
     char block[1 << 14];
     ssize_t got = 0;

@@ -58,7 +58,8 @@ static pspec_status check_places(const char *name, const ps_figure *figure, ps_e
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: there is nothing to plot", name);
 }
 
-/* gnuplot writes texts as they are but for < and &; XML does not allow the end of a CDATA section outside of one. */
+/* gnuplot writes texts as they are but for < and &; XML does not allow the end of a CDATA section
+ * outside of one. */
 static pspec_status escape_ends(ps_text *svg, ps_error *error) {
     static const char end[] = "]]>";
     static const char section[] = "<![CDATA[";

@@ -8,11 +8,12 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Places of one thing in a panel; nan is a gap. Where axes are logarithmic what is not above 0 is a gap, too. */
+/* Places of one thing in a panel; nan is a gap. Where axes are logarithmic what is not above 0 is a
+ * gap, too. */
 typedef struct ps_series {
     const char *label; /* NULL: none */
-    size_t
-        kind; /* from 0; series of a kind look the same, and have the same label, in every panel */
+    /* From 0; series of a kind look the same, and have the same label, in every panel */
+    size_t kind;
     bool is_front; /* among marks: joined by a line, in grey, instead of marked */
     size_t num;
     const double *x, *y;
@@ -34,11 +35,13 @@ typedef struct ps_plot_image {
 } ps_plot_image;
 
 typedef enum ps_figure_form {
-    /* One panel of powers with bars against normalized frequencies, their anisotropy below it, the image beside it; on the
-     * sphere the powers once more with logarithmic axes instead. It labels its axes itself. */
+    /* One panel of powers with bars against normalized frequencies, their anisotropy below it, the
+     * image beside it; on the sphere the powers once more with logarithmic axes instead. It labels
+     * its axes itself. */
     PS_FIGURE_SPECTRA,
     PS_FIGURE_FRAME, /* one panel of lines, with the key below it */
-    PS_FIGURE_PANELS, /* panels of lines, three in a row, with the same axes and one key for all of them */
+    /* Panels of lines, three in a row, with the same axes and one key for all of them. */
+    PS_FIGURE_PANELS,
     PS_FIGURE_MARKS /* the same of marks that nothing joins, each panel with axes of its own */
 } ps_figure_form;
 
@@ -54,8 +57,9 @@ typedef struct ps_figure {
     bool on_sphere; /* normalized frequency is l / sqrt(N); anisotropy is not looked at */
 } ps_figure;
 
-/* Looks for the program that draws, as it is looked for to draw: an executable file gnuplot in a folder of PATH. *path is
- * its path; it is to be freed in either case. PSPEC_ERROR_IO with a sentence: there is none. */
+/* Looks for the program that draws, as it is looked for to draw: an executable file gnuplot in a
+ * folder of PATH. *path is its path; it is to be freed in either case. PSPEC_ERROR_IO with a
+ * sentence: there is none. */
 pspec_status ps_plot_find_gnuplot(ps_text *path, ps_error *error) PS_MUST_CHECK;
 /* Is the ending of path one that can be drawn (.png .svg .pdf)? */
 bool ps_plot_is_supported(const char *path);

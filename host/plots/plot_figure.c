@@ -30,7 +30,7 @@ static void print_data(const ps_figure *figure, FILE *stream) {
     }
 }
 
-/* ---- the script ------------------------------------------------------------------------------- */
+/* ---- the script ------------------------------------------------------------------------------ */
 
 static void print_page(const char *title, const char *terminal, int width, int height,
                        FILE *stream) {

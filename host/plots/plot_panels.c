@@ -127,7 +127,8 @@ static void widen(range *places, double value) {
     places->most = fmax(places->most, value);
 }
 
-/* A linear axis begins at 0, unless something is below it; a logarithmic one leaves out what rounding left. */
+/* A linear axis begins at 0, unless something is below it; a logarithmic one leaves out what
+ * rounding left. */
 static void print_range(const char *axis, range places, bool is_log, FILE *stream) {
     const double digits = 1e-16;
     const double margin = 1.05;

@@ -17,9 +17,10 @@ const char ps_script_ticks[] = "set xtics in mirror\nset ytics in mirror\n"
 
 /* ---- words ---------------------------------------------------------------------------------- */
 
-/* A text constant of gnuplot. Only letters, blanks and whole characters beyond ASCII stand as they are: everything else is
- * an octal number, so that no quote, backslash or backtick is left to be understood; digits, too, which would go on with
- * the number before them. What no text has (control characters, bytes that are not UTF-8) would spoil lines and XML. */
+/* A text constant of gnuplot. Only letters, blanks and whole characters beyond ASCII stand as they
+ * are: everything else is an octal number, so that no quote, backslash or backtick is left to be
+ * understood; digits, too, which would go on with the number before them. What no text has (control
+ * characters, bytes that are not UTF-8) would spoil lines and XML. */
 void ps_script_print_text(const char *text, FILE *stream) {
     putc('"', stream);
     while (text != NULL && *text != '\0') {

@@ -21,9 +21,10 @@ void ps_script_print_panels(const ps_figure *figure, FILE *stream);
 enum { PS_SCRIPT_WIDTH = 1000, PS_SCRIPT_HEIGHT = 700 };
 void ps_script_size_panels(const ps_figure *figure, int *width, int *height);
 
-/* ---- what all have ----------------------------------------------------------------------------- */
+/* ---- what all have --------------------------------------------------------------------------- */
 
-/* A text constant of gnuplot, "" for NULL; a number or NaN; colour and dashes of series of a kind. */
+/* A text constant of gnuplot, "" for NULL; a number or NaN; colour and dashes of series of a kind.
+ */
 void ps_script_print_text(const char *text, FILE *stream);
 void ps_script_print_value(double value, FILE *stream);
 void ps_script_print_colour(size_t kind, FILE *stream);

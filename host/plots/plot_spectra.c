@@ -38,14 +38,15 @@ typedef struct layout {
     double left, right, middle; /* of the curves; middle: between power and anisotropy */
 } layout;
 
-/* What the numbers of all curves lie in, those that are finite; most is not above least where there are none. */
+/* What the numbers of all curves lie in, those that are finite; most is not above least where there
+ * are none. */
 typedef struct range {
     double least, most;
 } range;
 
-static void widen(range *all, double value) {
+static void widen(range *covered, double value) {
     if (isfinite(value)) {
-        *all = (range){fmin(all->least, value), fmax(all->most, value)};
+        *covered = (range){fmin(covered->least, value), fmax(covered->most, value)};
     }
 }
 
@@ -82,7 +83,8 @@ static bool has_any(range all) {
     return all.most >= all.least;
 }
 
-/* In parts of the height of the panel: a line of the key, which must not lie on the curves, and the most that it may have. */
+/* In parts of the height of the panel: a line of the key, which must not lie on the curves, and the
+ * most that it may have. */
 static const double KEY_LINE = 0.075, MOST_KEY = 0.4;
 
 /* The largest power with its bar; white noise stays in sight, and there is room for the key. */

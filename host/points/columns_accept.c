@@ -164,7 +164,8 @@ static const char *show_number(char text[NUMBER_BYTES], double value) {
     return text;
 }
 
-/* Within a period of the torus: what lies further out is hardly a point that left it, and reduced it says nothing. */
+/* Within a period of the torus: what lies further out is hardly a point that left it, and reduced
+ * it says nothing. */
 static bool is_near(double coordinate) {
     return coordinate >= -1 && coordinate < 2;
 }

@@ -1,4 +1,5 @@
-/* How much a file of points holds, guessed from its size and its beginning, for `plan`: nothing is read to its end. */
+/* How much a file of points holds, guessed from its size and its beginning, for `plan`: nothing is
+ * read to its end. */
 #ifndef PS_POINTS_FILE_ESTIMATE_H
 #define PS_POINTS_FILE_ESTIMATE_H
 

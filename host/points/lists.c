@@ -14,9 +14,8 @@
 enum {
     MAX_FREQUENCY = 1 << 30,
     FIRST_VALUES = 1024,
-    FEW_MORE =
-        1
-        << 16 /* a list that is only somewhat too long is read on: the refusal then says how long it is */
+    /* A list that is only somewhat too long is read on: the refusal then says how long it is. */
+    FEW_MORE = 1 << 16
 };
 
 /* Numbers as they are read, row by row. */

@@ -51,7 +51,8 @@ const char *ps_points_format_by_ending(const char *path) {
 
 /* ---- detection --------------------------------------------------------------------------- */
 
-/* How many more bytes must be seen to tell whether the format's magic is there: 0 when they tell. */
+/* How many more bytes must be seen to tell whether the format's magic is there: 0 when they tell.
+ */
 static size_t missing_bytes(const ps_point_format *format, const unsigned char *bytes,
                             size_t num_bytes, bool *is_it) {
     const size_t length = format->magic != NULL ? strlen(format->magic) : 0;

@@ -2,10 +2,11 @@
  * (docs/user/formats.md), from files or standard input.
  *
  * A reader yields one set (realization) at a time, or one block of a set, and holds no more than
- * that (up to 64 MiB of sets, or half of the memory limit, for NPY arrays of several sets in Fortran
- * order, which lie scattered over the file). Sets, rows and lines are counted from 1 in messages. A read that a signal
- * interrupts is PSPEC_ERROR_CANCELLED; a handler installed with SA_RESTART does not interrupt.
- * Another format is another row in the table of formats in points.c and another file beside it.
+ * that (up to 64 MiB of sets, or half of the memory limit, for NPY arrays of several sets in
+ * Fortran order, which lie scattered over the file). Sets, rows and lines are counted from 1 in
+ * messages. A read that a signal interrupts is PSPEC_ERROR_CANCELLED; a handler installed with
+ * SA_RESTART does not interrupt. Another format is another row in the table of formats in points.c
+ * and another file beside it.
  */
 #ifndef PS_POINTS_POINTS_H
 #define PS_POINTS_POINTS_H
@@ -89,7 +90,8 @@ pspec_status ps_points_next_block(ps_point_reader *reader, ps_point_set *set, si
                                   bool *has_set, bool *ends_set, ps_error *error) PS_MUST_CHECK;
 /* Points of every set, when the input tells before they come and they are really there; else 0. */
 size_t ps_points_per_set(const ps_point_reader *reader);
-/* Would another ps_points_open of the same path give the same points? Not of standard input, nor of a pipe. */
+/* Would another ps_points_open of the same path give the same points? Not of standard input, nor of
+ * a pipe. */
 bool ps_points_can_reopen(const ps_point_reader *reader);
 /* Names of the format and of the columns in use, for the header of results; static storage. The
  * columns are known after the first set. */
@@ -133,13 +135,14 @@ void ps_points_discard(ps_point_writer *writer);
 
 /* Reads a list of integer frequency vectors, one per line, columns separated by blanks or commas,
  * '#' lines skipped; *vectors is [num_vectors][*dimension], freed by the caller. The dimension is
- * that of the first line (1 to 6). |k| <= 2^30. memory_limit: bytes that the list may take; 0: half of those free. */
+ * that of the first line (1 to 6). |k| <= 2^30. memory_limit: bytes that the list may take; 0: half
+ * of those free. */
 pspec_status ps_read_frequencies(const char *path, uint64_t memory_limit, int **vectors,
                                  size_t *num_vectors, unsigned *dimension,
                                  ps_error *error) PS_MUST_CHECK;
 
-/* Reads weights: one number per line or token, or a one-dimensional NPY array. num_wanted: how many the caller can use;
- * a file that goes on long after them is refused, since it may have no end. */
+/* Reads weights: one number per line or token, or a one-dimensional NPY array. num_wanted: how many
+ * the caller can use; a file that goes on long after them is refused, since it may have no end. */
 pspec_status ps_read_weights(const char *path, uint64_t num_wanted, double **weights,
                              size_t *num_weights, ps_error *error) PS_MUST_CHECK;
 
@@ -149,8 +152,8 @@ typedef struct ps_pair {
     size_t line;
 } ps_pair;
 
-/* Reads lines of two finite numbers separated by blanks or a comma, '#' lines skipped; *pairs is freed by the
- * caller. */
+/* Reads lines of two finite numbers separated by blanks or a comma, '#' lines skipped; *pairs is
+ * freed by the caller. */
 pspec_status ps_read_pairs(const char *path, ps_pair **pairs, size_t *num_pairs,
                            ps_error *error) PS_MUST_CHECK;
 

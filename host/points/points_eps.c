@@ -1,5 +1,5 @@
-/* EPS pictures as PSA draws them: the lines that are "x y p" hold points, all others are drawing. One
- * set per file. */
+/* EPS pictures as PSA draws them: the lines that are "x y p" hold points, all others are drawing.
+ * One set per file. */
 #include "files/decimal.h"
 #include "points/points_text.h"
 

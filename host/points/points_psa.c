@@ -1,6 +1,6 @@
-/* Text that begins with the number of points: psa-text (of PSA, and GBN in the plane), "N" and then N
- * times "x y" (or "x y w"); gbn, "N d" and then N times d numbers. What follows is ignored, as these
- * tools do; line breaks mean nothing. One set per file. */
+/* Text that begins with the number of points: psa-text (of PSA, and GBN in the plane), "N" and then
+ * N times "x y" (or "x y w"); gbn, "N d" and then N times d numbers. What follows is ignored, as
+ * these tools do; line breaks mean nothing. One set per file. */
 #include "base/memory.h"
 #include "files/decimal.h"
 #include "points/points_text.h"

@@ -140,8 +140,8 @@ static pspec_status fail_large(const ps_point_reader *reader, const ps_point_set
                    ps_size_show(size, limit), by, set->num_points, advice);
 }
 
-/* A stream may have no end, and its points are followed by the work: it gets half of what is free, where nobody said how
- * much it may take. Looked at when the set grows. */
+/* A stream may have no end, and its points are followed by the work: it gets half of what is free,
+ * where nobody said how much it may take. Looked at when the set grows. */
 static pspec_status check_stream(ps_point_reader *reader, const ps_point_set *set, double bytes,
                                  bool grows, ps_error *error) {
     const double least_checked = 16 << 20; /* looking takes 0.1 ms */

@@ -1,5 +1,6 @@
-/* Raw float32, little-endian, x0 y0 x1 y1 ..., no header: .rps of PSA, stdin.binary of pbrt's pspec.
- * Nothing in the file tells the number of points of a set (points_per_set) or the dimension (2). */
+/* Raw float32, little-endian, x0 y0 x1 y1 ..., no header: .rps of PSA, stdin.binary of pbrt's
+ * pspec. Nothing in the file tells the number of points of a set (points_per_set) or the dimension
+ * (2). */
 #include "base/memory.h"
 #include "files/elements.h"
 #include "points/points_format.h"

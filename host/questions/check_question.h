@@ -5,8 +5,8 @@
 #include "questions/question.h"
 #include "questions/saved_spectrum.h"
 
-/* The question is that of the saved spectrum, but for the seed: realizations must be independent of those
- * that were saved. */
+/* The question is that of the saved spectrum, but for the seed: realizations must be independent of
+ * those that were saved. */
 ps_request ps_check_request(const ps_request *arguments, const ps_saved_spectrum *saved);
 
 /* One question, of what ps_check_request gave; it borrows from `own`. */

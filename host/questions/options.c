@@ -22,8 +22,9 @@
 #define MOST_POINTS UINT64_C(10000000000)
 #define MOST_REALIZATIONS UINT64_C(1000000000000)
 
-/* Sets of takers that many options have: kinds of spectra, those of them on the sphere, kinds that look at point sets and
- * that have a lobe; commands that try engines, and those whose output is a table. */
+/* Sets of takers that many options have: kinds of spectra, those of them on the sphere, kinds that
+ * look at point sets and that have a lobe; commands that try engines, and those whose output is a
+ * table. */
 #define BIT PS_TAKER_BIT
 #define SPHERES (BIT(angular) | BIT(pairs))
 #define SPECTRA (BIT(power) | SPHERES)

@@ -1,13 +1,14 @@
-/* The options of all commands, which are the keys of scene files, one row per ps_option_id: parser, usage and
- * --help come from here.
+/* The options of all commands, which are the keys of scene files, one row per ps_option_id: parser,
+ * usage and --help come from here.
  */
 #ifndef PS_QUESTIONS_OPTIONS_H
 #define PS_QUESTIONS_OPTIONS_H
 
 #include "questions/request.h"
 
-/* Who takes options, in the order of --help: kinds of results (results/kind.h), each of which a command prints, and the
- * other commands. A new one is a name here, and a bit in the rows of the options that it takes. */
+/* Who takes options, in the order of --help: kinds of results (results/kind.h), each of which a
+ * command prints, and the other commands. A new one is a name here, and a bit in the rows of the
+ * options that it takes. */
 #define PS_TAKERS(KIND, OTHER)                                                                     \
     KIND(power)                                                                                    \
     KIND(angular)                                                                                  \
@@ -33,8 +34,8 @@ typedef uint32_t ps_takers;
 
 typedef struct ps_option ps_option;
 
-/* Stores value (NULL for a flag) in *arguments, or says what is wrong with it. shown is the option as it was said; words
- * are the values that the command at hand admits, "one|two". */
+/* Stores value (NULL for a flag) in *arguments, or says what is wrong with it. shown is the option
+ * as it was said; words are the values that the command at hand admits, "one|two". */
 typedef pspec_status ps_option_setter(const ps_option *option, const char *shown, const char *words,
                                       const char *value, ps_request *arguments, ps_error *error);
 
@@ -42,8 +43,8 @@ struct ps_option {
     const char *name;    /* without its dashes */
     const char *metavar; /* NULL: takes no value */
     const char *help;
-    ps_takers
-        questions; /* the kinds of results to whose question it belongs: it is a key of scenes there, too */
+    /* The kinds of results to whose question it belongs: it is a key of scenes there, too */
+    ps_takers questions;
     ps_takers commands; /* others that take it: how they compute, and what becomes of the results */
     ps_option_setter *set;
     size_t offset; /* of the field of ps_request, for setters that serve several options */
@@ -53,7 +54,8 @@ struct ps_option {
 
 extern const ps_option ps_options[PS_NUM_OPTIONS];
 
-/* An option as it was said, "-n", "--points" or the key "points"; the long form of one that was not. */
+/* An option as it was said, "-n", "--points" or the key "points"; the long form of one that was
+ * not. */
 typedef struct ps_shown_option {
     char text[32];
 } ps_shown_option;

@@ -5,7 +5,8 @@
 #include "jobs/quadrature/quadrature_setup.h"
 #include "questions/request.h"
 
-/* One question per sampler, or one for the files. The questions borrow from the arguments and from here. */
+/* One question per sampler, or one for the files. The questions borrow from the arguments and from
+ * here. */
 typedef struct ps_quadrature_list {
     ps_brdf *brdf;
     size_t num;
@@ -13,7 +14,8 @@ typedef struct ps_quadrature_list {
     ps_sampler_request requests[PS_MAX_SAMPLERS];
 } ps_quadrature_list;
 
-/* Checks that the options fit together. *out must not be moved; freed by ps_quadrature_list_free, also after an error. */
+/* Checks that the options fit together. *out must not be moved; freed by ps_quadrature_list_free,
+ * also after an error. */
 pspec_status ps_quadrature_list_make(ps_quadrature_list *out, const ps_request *arguments,
                                      ps_error *error) PS_MUST_CHECK;
 void ps_quadrature_list_free(ps_quadrature_list *list);

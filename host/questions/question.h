@@ -24,8 +24,8 @@ typedef enum ps_question_kind {
 pspec_status ps_questions_make(ps_question_list *out, const ps_request *arguments,
                                ps_question_kind kind, ps_error *error) PS_MUST_CHECK;
 
-/* What sampler number i_sampler is asked for: parsed, options that were not given left open, resolved
- * and checked. */
+/* What sampler number i_sampler is asked for: parsed, options that were not given left open,
+ * resolved and checked. */
 pspec_status ps_sampler_request_make(ps_sampler_request *out, const ps_request *arguments,
                                      size_t i_sampler, ps_error *error) PS_MUST_CHECK;
 

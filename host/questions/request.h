@@ -1,5 +1,5 @@
-/* What is asked for, by a command line or in a scene file, after parsing. One struct for all kinds of results
- * (results/kind.h), each of which lists the options that belong to it.
+/* What is asked for, by a command line or in a scene file, after parsing. One struct for all kinds
+ * of results (results/kind.h), each of which lists the options that belong to it.
  */
 #ifndef PS_QUESTIONS_REQUEST_H
 #define PS_QUESTIONS_REQUEST_H

@@ -1,5 +1,5 @@
-/* Spectra that the program or the library saved, with the question that they answer: tables of power and angular as
- * JSON, and files of pspec_spectrum_save. */
+/* Spectra that the program or the library saved, with the question that they answer: tables of
+ * power and angular as JSON, and files of pspec_spectrum_save. */
 #ifndef PS_QUESTIONS_SAVED_SPECTRUM_H
 #define PS_QUESTIONS_SAVED_SPECTRUM_H
 
@@ -31,8 +31,8 @@ typedef struct ps_saved_spectrum {
     ps_saved_bin *bins; /* ascending keys */
 } ps_saved_spectrum;
 
-/* What is no saved spectrum, damaged, or has no rings or degrees, is PSPEC_ERROR_INPUT with path in the
- * sentence. */
+/* What is no saved spectrum, damaged, or has no rings or degrees, is PSPEC_ERROR_INPUT with path in
+ * the sentence. */
 pspec_status ps_saved_spectrum_read(ps_saved_spectrum *out, const char *path,
                                     ps_error *error) PS_MUST_CHECK;
 void ps_saved_spectrum_free(ps_saved_spectrum *saved);

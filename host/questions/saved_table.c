@@ -199,7 +199,8 @@ static bool take_row(ps_saved_spectrum *out, const places *at, const cJSON *row,
     return true;
 }
 
-/* The mean |k| of a shell is the root of its key; that of a ring is not, but for single frequencies. */
+/* The mean |k| of a shell is the root of its key; that of a ring is not, but for single
+ * frequencies. */
 static bool is_shell(double frequency, int64_t key) {
     const double rounding = 1e-9;
     return fabs(frequency * frequency / (double)key - 1) < rounding;

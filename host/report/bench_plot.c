@@ -25,7 +25,8 @@ void ps_bench_rows_free(ps_bench_rows *rows) {
 
 /* ---- panels -------------------------------------------------------------------------------- */
 
-/* An engine in two precisions is a pair of kinds: one colour, filled and hollow marks. The front comes first, below. */
+/* An engine in two precisions is a pair of kinds: one colour, filled and hollow marks. The front
+ * comes first, below. */
 enum { MOST_SERIES = PS_FIGURES_ENGINES * 2 + 1 };
 
 typedef struct panel {

@@ -1,4 +1,5 @@
-/* What the tables of all kinds of jobs share: header lines, and the rows of one sampler after the other.
+/* What the tables of all kinds of jobs share: header lines, and the rows of one sampler after the
+ * other.
  */
 #ifndef PS_REPORT_JOB_TABLE_H
 #define PS_REPORT_JOB_TABLE_H

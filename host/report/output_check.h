@@ -1,4 +1,5 @@
-/* Outputs looked at before hours of work, not after: can they be written, is each a file of its own? */
+/* Outputs looked at before hours of work, not after: can they be written, is each a file of its
+ * own? */
 #ifndef PS_REPORT_OUTPUT_CHECK_H
 #define PS_REPORT_OUTPUT_CHECK_H
 

@@ -53,7 +53,8 @@ static pspec_status add_candidates(const ps_planner *planner, const ps_plan *pla
     return PSPEC_OK;
 }
 
-/* A header line; of several jobs a row, too: JSON does not keep which header line is of which job. */
+/* A header line; of several jobs a row, too: JSON does not keep which header line is of which job.
+ */
 static pspec_status add_skip(const ps_planner *planner, const ps_skip *skip, ps_error *error) {
     char text[sizeof(ps_skip) + 32]; /* with a number and separators */
     snprintf(text, sizeof text, "%s; %s; %.3g", skip->what, skip->why, skip->share);

@@ -11,8 +11,8 @@
 typedef struct ps_planner {
     ps_table *table;
     const char *job; /* what the rows begin with, where the table has that column; NULL otherwise */
-    ps_device
-        *device; /* borrowed; NULL: the one that a request names is opened where it is needed */
+    /* Borrowed; NULL: the one that a request names is opened where it is needed */
+    ps_device *device;
     const ps_figures *host; /* what was measured of the host; NULL: nothing */
     ps_begun begun;
     double seconds; /* of all jobs so far */
@@ -22,14 +22,15 @@ typedef struct ps_planner {
 /* has_jobs: rows begin with the job that they are of. */
 pspec_status ps_plan_table_create(ps_table **out, bool has_jobs, ps_error *error) PS_MUST_CHECK;
 
-/* Without any device the host's engines are planned, and the header says why there is none. A device that was named and
- * is not there is an error, as for the command itself. */
+/* Without any device the host's engines are planned, and the header says why there is none. A
+ * device that was named and is not there is an error, as for the command itself. */
 pspec_status ps_plan_table_find_lack(const ps_planner *planner,
                                      const ps_plan_constraints *constraints, bool *lacks_device,
                                      ps_error *error) PS_MUST_CHECK;
 
-/* What is asked by number `index` of the questions of a request, what is skipped and why, and what takes how long, as header
- * lines; every engine as a row. The seconds of a row are those of the whole job with that engine. */
+/* What is asked by number `index` of the questions of a request, what is skipped and why, and what
+ * takes how long, as header lines; every engine as a row. The seconds of a row are those of the
+ * whole job with that engine. */
 pspec_status ps_plan_table_add_power(ps_planner *planner, const ps_request *request,
                                      const ps_power_job *job, size_t index,
                                      ps_error *error) PS_MUST_CHECK;
@@ -37,7 +38,8 @@ pspec_status ps_plan_table_add_quadrature(ps_planner *planner, const ps_request 
                                           const ps_quadrature_question *question,
                                           const ps_quadrature_setup *setup, size_t index,
                                           ps_error *error) PS_MUST_CHECK;
-/* What the host does without a choice of engines, and why: phases that were begun here, as header lines and one row. */
+/* What the host does without a choice of engines, and why: phases that were begun here, as header
+ * lines and one row. */
 pspec_status ps_plan_table_add_host(ps_planner *planner, const ps_phases *phases,
                                     const char *reason, ps_error *error) PS_MUST_CHECK;
 ps_phases ps_plan_table_begin_phases(ps_planner *planner);

@@ -8,7 +8,8 @@
 
 /* ---- --full ------------------------------------------------------------------------------ */
 
-/* P(0) = N W^2 / W^2 = N, N being the mean over the realizations, a constant; or W^2 / V, which each has its own of. */
+/* P(0) = N W^2 / W^2 = N, N being the mean over the realizations, a constant; or W^2 / V, which
+ * each has its own of. */
 static ps_mean dc_power(const ps_request *arguments, const ps_spectrum *spectrum) {
     return arguments->effective ? spectrum->sample_size : (ps_mean){.mean = spectrum->mean_points};
 }

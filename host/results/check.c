@@ -40,7 +40,8 @@ static void discard(void *computed) {
     free(check);
 }
 
-/* Reads the saved spectrum and finds out what it asks of the measured side. *out is for discard, also after an error. */
+/* Reads the saved spectrum and finds out what it asks of the measured side. *out is for discard,
+ * also after an error. */
 static pspec_status ask(checked **out, const ps_request *request, ps_error *error) {
     PS_TRY(check_question(request, error));
     PS_TRY(PS_NEW(out, 1, "a check", error));

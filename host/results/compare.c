@@ -6,7 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Standard errors by which answers of other realizations may be apart: of some thousand rings one in a million runs is. */
+/* Standard errors by which answers of other realizations may be apart: of some thousand rings one
+ * in a million runs is. */
 static const double FAR = 7;
 
 static double meta_number(const ps_table *table, const char *key) {

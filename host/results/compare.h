@@ -1,5 +1,6 @@
-/* How far two answers to the same question are apart, made with other engines, or of other realizations: in units of what
- * their headers announce, so that 1 is what is allowed. Infinite where one has rows that the other lacks. */
+/* How far two answers to the same question are apart, made with other engines, or of other
+ * realizations: in units of what their headers announce, so that 1 is what is allowed. Infinite
+ * where one has rows that the other lacks. */
 #ifndef PS_RESULTS_COMPARE_H
 #define PS_RESULTS_COMPARE_H
 

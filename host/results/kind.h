@@ -1,9 +1,10 @@
 /* The interface of every kind of result, and the table that names them all.
  *
- * A kind of result is what can be asked for: a command of the same name prints one, a scene has several, and both go the
- * same way: check -> compute -> tabulate, with pictures and other files made of what was computed, or of the table. A kind
- * says which options belong to its question, what planning it comes to, and what its tables mean to who draws, sums up or
- * compares them. A new kind is a new file, a name and the rows of its options in questions/options.h and .c.
+ * A kind of result is what can be asked for: a command of the same name prints one, a scene has
+ * several, and both go the same way: check -> compute -> tabulate, with pictures and other files
+ * made of what was computed, or of the table. A kind says which options belong to its question,
+ * what planning it comes to, and what its tables mean to who draws, sums up or compares them. A new
+ * kind is a new file, a name and the rows of its options in questions/options.h and .c.
  */
 #ifndef PS_RESULTS_KIND_H
 #define PS_RESULTS_KIND_H
@@ -15,7 +16,8 @@
 #include "report/plan_table.h"
 #include "tables/table.h"
 
-/* Who is told of the work, and what there is already; {0}: nobody, and nothing. Each of the calls may be NULL. */
+/* Who is told of the work, and what there is already; {0}: nobody, and nothing. Each of the calls
+ * may be NULL. */
 typedef struct ps_answer_hooks {
     ps_watch watch;
     ps_device
@@ -49,14 +51,15 @@ void ps_answer_tell_missing(const ps_answer_hooks *hooks, const char *format, ..
 
 typedef struct ps_answer {
     ps_table *table;
-    double *
-        array; /* the averaged periodogram on the whole square, [side][side], where request->wants_picture
-                      and there is one; NULL: none */
+    /* The averaged periodogram on the whole square, [side][side], where request->wants_picture and
+     * there is one; NULL: none */
+    double *array;
     size_t side;
     ps_error verdict; /* PSPEC_ERROR_CHECK where differences were found; else status PSPEC_OK */
 } ps_answer;
 
-/* Two columns of a table, or two entries of its header, against each other: a line for each question. */
+/* Two columns of a table, or two entries of its header, against each other: a line for each
+ * question. */
 typedef struct ps_line_kind {
     const char *suffix; /* of the file's name; NULL ends a list of them */
     const char *what, *x, *y, *x_label, *y_label;
@@ -67,8 +70,8 @@ typedef struct ps_result_kind {
     const char *name;
 
     /* The question. */
-    ps_takers
-        taker; /* its bit in the table of options: which belong to the question, the same on every device */
+    /* Its bit in the table of options: which belong to the question, the same on every device */
+    ps_takers taker;
     const char *weights; /* words of --weights; NULL: equal|column|FILE */
     ps_domain samples;   /* which samplers it takes */
     const char *counted; /* what its work counts: "realizations" */
@@ -83,14 +86,15 @@ typedef struct ps_result_kind {
     /* Adds what computing it would come to. */
     pspec_status (*plan)(ps_planner *planner, const ps_request *request, ps_error *error);
 
-    /* The answer. All the work: *out is what the following are made of, given to discard, also after an error. It borrows
-     * from the request. */
+    /* The answer. All the work: *out is what the following are made of, given to discard, also
+     * after an error. It borrows from the request. */
     pspec_status (*compute)(void **out, const ps_request *request, const ps_answer_hooks *hooks,
                             ps_error *error);
     /* *out is {0} before, and freed by ps_answer_free, also after an error. */
     pspec_status (*tabulate)(ps_answer *out, const void *computed, const ps_request *request,
                              ps_error *error);
-    /* Writes the files that options besides --output and --plot ask for; NULL: there are no such options. */
+    /* Writes the files that options besides --output and --plot ask for; NULL: there are no such
+     * options. */
     pspec_status (*write_others)(const void *computed, const ps_request *request, ps_error *error);
     /* Draws the picture request->plot; NULL: there is no such option. */
     pspec_status (*draw)(const void *computed, const ps_request *request, ps_error *error);
@@ -100,10 +104,10 @@ typedef struct ps_result_kind {
     const char *const *summary;   /* header entries that are columns of a summary, ended by NULL */
     const ps_line_kind *spectrum; /* axes of the powers of spectra; NULL: it is none */
     const ps_line_kind *lines;    /* pictures of columns; NULL for spectra */
-    const ps_line_kind *
-        convergence; /* header entries against each other where numbers of points vary; NULL: none */
-    /* How far answers to questions with the same rows may be apart, and are: 1 is what is allowed, infinite where one has
-     * what the other lacks. */
+    /* Header entries against each other where numbers of points vary; NULL: none */
+    const ps_line_kind *convergence;
+    /* How far answers to questions with the same rows may be apart, and are: 1 is what is allowed,
+     * infinite where one has what the other lacks. */
     double (*compare)(const ps_table *a, const ps_table *b);
 } ps_result_kind;
 
@@ -120,8 +124,8 @@ static inline bool ps_result_asks(const ps_result_kind *kind, ps_option_id id) {
     return (ps_options[id].questions & kind->taker) != 0;
 }
 
-/* Computes and tabulates, and keeps nothing else. *out is freed by ps_answer_free, also after an error. A check that found
- * differences is no error: the answer has the verdict. */
+/* Computes and tabulates, and keeps nothing else. *out is freed by ps_answer_free, also after an
+ * error. A check that found differences is no error: the answer has the verdict. */
 pspec_status ps_answer_make(ps_answer *out, const ps_result_kind *kind, const ps_request *request,
                             const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
 void ps_answer_free(ps_answer *answer);

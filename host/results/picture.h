@@ -10,8 +10,8 @@
 pspec_status ps_picture_check(const ps_request *request, const ps_answer_hooks *hooks,
                               ps_error *error) PS_MUST_CHECK;
 
-/* After the numbers: what drawing came to, as what the answer comes to. A failure becomes a warning,
- * except for an interruption and where the picture is all. */
+/* After the numbers: what drawing came to, as what the answer comes to. A failure becomes a
+ * warning, except for an interruption and where the picture is all. */
 pspec_status ps_picture_settle(const ps_request *request, const ps_answer_hooks *hooks,
                                pspec_status drawn, ps_error *error) PS_MUST_CHECK;
 

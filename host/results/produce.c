@@ -1,4 +1,5 @@
-/* What a command that prints a kind of result does, and a public function that answers one: refuse early, compute, write. */
+/* What a command that prints a kind of result does, and a public function that answers one: refuse
+ * early, compute, write. */
 #include "questions/options.h"
 #include "report/output_check.h"
 #include "results/kind.h"

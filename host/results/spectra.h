@@ -1,4 +1,5 @@
-/* What kinds of results that are spectra of point sets share: power, angular and pairs, and the measured side of check. */
+/* What kinds of results that are spectra of point sets share: power, angular and pairs, and the
+ * measured side of check. */
 #ifndef PS_RESULTS_SPECTRA_H
 #define PS_RESULTS_SPECTRA_H
 
@@ -21,8 +22,9 @@ void ps_spectra_discard(void *computed);
 pspec_status ps_spectra_run_one(ps_power_job **job, ps_power_question *question,
                                 const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
 
-/* One device for several jobs, whose kernels are then built once. NULL where each job is to find its own: for a single job,
- * where none is needed, and for --profile, which is of one job. Closed by the caller, after the jobs. */
+/* One device for several jobs, whose kernels are then built once. NULL where each job is to find
+ * its own: for a single job, where none is needed, and for --profile, which is of one job. Closed
+ * by the caller, after the jobs. */
 pspec_status ps_answer_open_device(ps_device **out, const ps_request *request,
                                    const ps_plan_constraints *constraints, size_t num_jobs,
                                    const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;

@@ -23,7 +23,8 @@ enum { DEFAULT_DEGREE = 20, MOST_DEGREE = 10000 };
 static const double TOLERANCE = 1e-13;
 static const double BRACKET = 1e-4;
 
-/* Nine digits of sum b_l^2 must be those of the closed form; where a lobe jumps the sum has its bracket. */
+/* Nine digits of sum b_l^2 must be those of the closed form; where a lobe jumps the sum has its
+ * bracket. */
 static const double SUM_RULE = 1e-9;
 
 typedef struct truncation {
@@ -135,10 +136,10 @@ static void add_rule(const truncation *answer, ps_phases *phases, double num) {
                        num * num / 2, 1);
 }
 
-/* For every degree as many points as will have its error: E falls like N^(-s/2) from a rule that is cheap. (From 4096
- * points on, those of 31333 points were off by more than 4 %; from 8192 on, by less.) Each takes two rules of about so
- * many, or one where the second would be the first again, and all together the rungs of the ladder up to the highest: at
- * most so much. */
+/* For every degree as many points as will have its error: E falls like N^(-s/2) from a rule that is
+ * cheap. (From 4096 points on, those of 31333 points were off by more than 4 %; from 8192 on, by
+ * less.) Each takes two rules of about so many, or one where the second would be the first again,
+ * and all together the rungs of the ladder up to the highest: at most so much. */
 static pspec_status add_equal_points(truncation *answer, ps_phases *phases, ps_error *error) {
     enum { FEW = 8192, STEPS = 2 };
     const double s = answer->arguments->smoothness;
@@ -162,7 +163,8 @@ static pspec_status add_equal_points(truncation *answer, ps_phases *phases, ps_e
     return PSPEC_OK;
 }
 
-/* Steps of the conversion go as L X^2, X growing until the brackets are narrow enough: to where they usually are. */
+/* Steps of the conversion go as L X^2, X growing until the brackets are narrow enough: to where
+ * they usually are. */
 static void add_conversion(const truncation *answer, ps_phases *phases) {
     const double usual = 1000;
     const double x = fmax(usual, 4 * (double)answer->max_degree);
@@ -176,7 +178,8 @@ static pspec_status find_phases(const ps_request *arguments, ps_phases *phases, 
     const double loose = 0.5;
     truncation answer = begin(arguments);
     PS_TRY(check_question(arguments, error));
-    /* Errors of many degrees in hemispherical harmonics take their time: those in spherical ones are about as large. */
+    /* Errors of many degrees in hemispherical harmonics take their time: those in spherical ones
+     * are about as large. */
     const bool is_hemispherical = answer.is_hemispherical;
     answer.is_hemispherical = is_hemispherical && answer.max_degree <= FEW_DEGREES;
     pspec_status status = find_errors(&answer, loose, error);

@@ -29,7 +29,8 @@ struct ps_kernel_system {
 
 /* ---- the points ----------------------------------------------------------------------------- */
 
-/* Numbers the distinct points in the order of their first ones, and keeps which one every point is. */
+/* Numbers the distinct points in the order of their first ones, and keeps which one every point is.
+ */
 pspec_status ps_kernel_points_merge(ps_kernel_system *system, const double *points,
                                     ps_error *error) PS_MUST_CHECK;
 /* The distinct point nearest to one of them: what makes a matrix singular. */

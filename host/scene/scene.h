@@ -6,8 +6,9 @@
  *         samplers: [white, jittered]
  *         points: 256..4096
  *
- * A key of a result is an option of the command of that name. A list of values asks for every one of them: a result
- * has one question for each combination, of which the key that stands last in the file changes fastest.
+ * A key of a result is an option of the command of that name. A list of values asks for every one
+ * of them: a result has one question for each combination, of which the key that stands last in the
+ * file changes fastest.
  */
 #ifndef PS_SCENE_SCENE_H
 #define PS_SCENE_SCENE_H
@@ -19,8 +20,8 @@
 typedef struct ps_scene_value {
     size_t num_texts;
     const char **texts; /* paths relative to the current folder */
-    const char *
-        *originals; /* as the file has them; the first is what tables and pages call the value */
+    /* As the file has them; the first is what tables and pages call the value */
+    const char **originals;
     int line;
 } ps_scene_value;
 
@@ -41,15 +42,15 @@ typedef struct ps_scene_result {
     ps_scene_entry
         *entries;    /* of the result, then those of the defaults that it takes and does not say */
     bool wants_plot; /* unless the file says no */
-    bool
-        wants_pictures; /* of the averaged periodogram of every question: where the file asks for them */
+    /* Of the averaged periodogram of every question: where the file asks for them */
+    bool wants_pictures;
 } ps_scene_result;
 
 typedef struct ps_scene {
     const char *path;                /* borrowed */
     const char *title, *description; /* NULL: none */
-    const char *
-        folder; /* what relative paths of the scene are relative to, with its /; "" for the current one */
+    /* What relative paths of the scene are relative to, with its /; "" for the current one */
+    const char *folder;
     size_t num_results;
     ps_scene_result *results;
     /* of a record: what the questions, in their order, gave then; NULL in other scenes */
@@ -57,17 +58,19 @@ typedef struct ps_scene {
     const char **digests;
     const char *recorded_version, *recorded_device;
     size_t num_files;
-    const char **
-        files; /* that the run wrote, each "DIGEST NAME"; - for the digest of one that it did not finish */
+    /* That the run wrote, each "DIGEST NAME"; - for the digest of one that it did not finish */
+    const char **files;
     struct ps_scene_memory *memory; /* what the texts and arrays are in */
 } ps_scene;
 
-/* Complaints are PSPEC_ERROR_INPUT and begin with file and line. Every value was looked at by itself; whether those of a
- * question fit together is found out by who asks it. Freed by ps_scene_free, also after an error. */
+/* Complaints are PSPEC_ERROR_INPUT and begin with file and line. Every value was looked at by
+ * itself; whether those of a question fit together is found out by who asks it. Freed by
+ * ps_scene_free, also after an error. */
 pspec_status ps_scene_read(ps_scene *out, const char *path, ps_error *error) PS_MUST_CHECK;
 void ps_scene_free(ps_scene *scene);
 
-/* A limit of memory becomes a key of every result that could have it and does not, so that records keep it. */
+/* A limit of memory becomes a key of every result that could have it and does not, so that records
+ * keep it. */
 pspec_status ps_scene_limit_memory(ps_scene *scene, uint64_t bytes, ps_error *error) PS_MUST_CHECK;
 
 /* Every file that the scene reads: points, weights, frequencies, lobes, saved spectra. */
@@ -76,7 +79,8 @@ typedef pspec_status ps_scene_visit_input(void *payload, const ps_scene *scene,
                                           const char *path, ps_error *error);
 pspec_status ps_scene_visit_inputs(const ps_scene *scene, ps_scene_visit_input *visit,
                                    void *payload, ps_error *error) PS_MUST_CHECK;
-/* Refuses what is no regular file, or has no end, with its line and key, before anything is opened. */
+/* Refuses what is no regular file, or has no end, with its line and key, before anything is opened.
+ */
 pspec_status ps_scene_check_inputs(const ps_scene *scene, ps_error *error) PS_MUST_CHECK;
 
 /* One question of a result. */
@@ -102,8 +106,8 @@ const char *ps_scene_key(const ps_scene_entry *entry);
 /* The sentence in *error gets file, line and name of the result in front of it. */
 pspec_status ps_scene_blame(const ps_scene *scene, const ps_scene_result *result, ps_error *error);
 
-/* Appends the scene as JSON, which is YAML too: what ps_scene_read makes the same questions of, wherever the text lies.
- * Ends before the closing brace, so that a record can add to it. */
+/* Appends the scene as JSON, which is YAML too: what ps_scene_read makes the same questions of,
+ * wherever the text lies. Ends before the closing brace, so that a record can add to it. */
 void ps_scene_print(const ps_scene *scene, ps_text *out);
 /* A JSON string with its quotes. */
 void ps_scene_print_text(const char *text, ps_text *out);

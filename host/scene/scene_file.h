@@ -6,7 +6,8 @@
 
 #include <yaml.h>
 
-/* A text, or what a list or mapping holds, with its line. Lives as long as the scene, as its text does. */
+/* A text, or what a list or mapping holds, with its line. Lives as long as the scene, as its text
+ * does. */
 typedef enum ps_scene_node_kind { PS_NODE_TEXT, PS_NODE_LIST, PS_NODE_MAPPING } ps_scene_node_kind;
 typedef struct ps_scene_node {
     ps_scene_node_kind kind;
@@ -23,8 +24,8 @@ typedef struct ps_scene_file {
     ps_error *error;
 } ps_scene_file;
 
-/* The tree of the only document: no nest, anchor or mapping beyond what a scene can need, and no alias. The parser is at its
- * beginning, and is at its end then. */
+/* The tree of the only document: no nest, anchor or mapping beyond what a scene can need, and no
+ * alias. The parser is at its beginning, and is at its end then. */
 pspec_status ps_scene_build(ps_scene *scene, ps_scene_file *file,
                             yaml_parser_t *parser) PS_MUST_CHECK;
 /* What the parser objects to. */
@@ -87,7 +88,8 @@ enum { PS_SCENE_MOST_QUESTIONS = 10000 };
 pspec_status ps_scene_take_result(const ps_scene_reader *reader, const ps_scene_node *node,
                                   ps_scene_result *out) PS_MUST_CHECK;
 
-/* The word that a complaint may suggest: begins as {0}, and ends as the nearest of those considered. */
+/* The word that a complaint may suggest: begins as {0}, and ends as the nearest of those
+ * considered. */
 typedef struct ps_scene_nearest {
     const char *word;
     size_t distance;

@@ -1,11 +1,13 @@
-/* The files that a scene reads: what cannot be read twice, or to its end, is refused before it is opened. */
+/* The files that a scene reads: what cannot be read twice, or to its end, is refused before it is
+ * opened. */
 #include "scene/scene_file.h"
 
 #include <errno.h>
 #include <string.h>
 #include <sys/stat.h>
 
-/* A regular file of more is one of those that the system makes up, or all holes: reading it would not end. */
+/* A regular file of more is one of those that the system makes up, or all holes: reading it would
+ * not end. */
 #define MOST_BYTES (UINT64_C(1) << 40)
 
 typedef struct input {

@@ -1,7 +1,8 @@
 /* A scene as JSON. */
 #include "scene/scene_file.h"
 
-/* The character that text begins with, and its bytes; 0: they are not UTF-8, which paths need not be. */
+/* The character that text begins with, and its bytes; 0: they are not UTF-8, which paths need not
+ * be. */
 static size_t decode(const unsigned char *text, unsigned *code) {
     static const struct {
         unsigned char mask, lead;
@@ -24,7 +25,8 @@ static size_t decode(const unsigned char *text, unsigned *code) {
     return 0;
 }
 
-/* YAML refuses control characters and marks in a file, and takes some breaks of lines for blanks. */
+/* YAML refuses control characters and marks in a file, and takes some breaks of lines for blanks.
+ */
 static bool is_plain(unsigned code) {
     return (code >= ' ' && code < 0x7f) || (code >= 0xa0 && code != 0x2028 && code != 0x2029 &&
                                             code != 0xfeff && code != 0xfffe && code != 0xffff);

@@ -1,12 +1,13 @@
-/* The tree of a scene's file, built of the events of libyaml, which keeps none. What would cost the square of the file's size,
- * or more, is refused on the way: nests, anchors and long mappings. Aliases are refused altogether: a scene that says what it
- * asks for needs none, and a few lines of them can stand for gigabytes. */
+/* The tree of a scene's file, built of the events of libyaml, which keeps none. What would cost the
+ * square of the file's size, or more, is refused on the way: nests, anchors and long mappings.
+ * Aliases are refused altogether: a scene that says what it asks for needs none, and a few lines of
+ * them can stand for gigabytes. */
 #include "scene/scene_file.h"
 
 #include <string.h>
 
-/* A scene needs 6 levels (results, a result, files, lists of files); more keys and anchors than these nobody writes by hand, and
- * records have none. */
+/* A scene needs 6 levels (results, a result, files, lists of files); more keys and anchors than
+ * these nobody writes by hand, and records have none. */
 enum { MOST_DEPTH = 16, MOST_ANCHORS = 1000, MOST_KEYS = 1000 };
 
 typedef struct builder {

@@ -66,8 +66,8 @@ static bool has_single_members(const ps_bins *bins) {
 }
 
 /* Powers of tens of thousands of bins for each realization would cost as much as their transform (d
- * = 1, K = 32768: 0.2 ms of 0.7, docs/developer/performance.md). What is still asked of a realization is its
- * mean. */
+ * = 1, K = 32768: 0.2 ms of 0.7, docs/developer/performance.md). What is still asked of a
+ * realization is its mean. */
 static void form_one_bin(ps_accumulator *self) {
     const ps_bins *bins = self->options.bins;
     self->all = (ps_bin){.end = bins->num_members};

@@ -1,7 +1,8 @@
 /* One file of the cache of results: head, key, data.
  *
- * Numbers are in the byte order of the machine; the version has another value in the other order, so that a folder shared by
- * such machines only has misses. Checksums are XXH3 of 64 bits: they find damage, not intent.
+ * Numbers are in the byte order of the machine; the version has another value in the other order,
+ * so that a folder shared by such machines only has misses. Checksums are XXH3 of 64 bits: they
+ * find damage, not intent.
  */
 #ifndef PS_STORE_CACHE_ENTRY_H
 #define PS_STORE_CACHE_ENTRY_H
@@ -38,8 +39,9 @@ pspec_status ps_cache_entry_write(const char *path, const void *key, size_t key_
                                   const void *data, size_t data_bytes,
                                   ps_error *error) PS_MUST_CHECK;
 
-/* An entry of another user is PSPEC_ERROR_IO. With PS_CACHE_FOUND, *data is to be freed by the caller, and the file's time of modification is now, where the file
- * system allows it. Nothing is allocated before the sizes in the head were compared with that of the file. */
+/* An entry of another user is PSPEC_ERROR_IO. With PS_CACHE_FOUND, *data is to be freed by the
+ * caller, and the file's time of modification is now, where the file system allows it. Nothing is
+ * allocated before the sizes in the head were compared with that of the file. */
 pspec_status ps_cache_entry_read(const char *path, const void *key, size_t key_bytes, void **data,
                                  size_t *data_bytes, ps_cache_finding *finding,
                                  ps_error *error) PS_MUST_CHECK;

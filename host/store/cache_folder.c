@@ -133,7 +133,8 @@ static pspec_status add_files(cache_list *list, DIR *folder, ps_error *error) {
     }
 }
 
-/* *folder stays NULL where there is none. Both are to be given back by close_list, whatever the status. */
+/* *folder stays NULL where there is none. Both are to be given back by close_list, whatever the
+ * status. */
 static pspec_status open_list(cache_list *list, DIR **folder, const char *path, ps_error *error) {
     *list = (cache_list){.path = path};
     *folder = opendir(path);
@@ -223,7 +224,8 @@ pspec_status ps_cache_folder_shrink(const char *path, uint64_t max_bytes, ps_err
     return status;
 }
 
-/* Where locks do not work, two processes remove the same entries, which is no harm: -1 and not busy. */
+/* Where locks do not work, two processes remove the same entries, which is no harm: -1 and not
+ * busy. */
 static int take_lock(const char *path, bool *is_busy) {
     enum { MOST_TRIES = 50 };
     const struct timespec pause = {0, 2000000}; /* all tries: a tenth of a second */

@@ -1,8 +1,10 @@
-/* Measured figures of a device in a file of their own, one per device and driver: FOLDER/devices/HASH.txt.
+/* Measured figures of a device in a file of their own, one per device and driver:
+ * FOLDER/devices/HASH.txt.
  *
- * Text of "key value" lines, the last of which is a checksum of those before. What is not a whole file of this version of
- * pointspec about this device is as good as none: then the planner has the built-in figures, and the note says why.
- * Numbers outside of what a device can be are not taken either, so that no file makes times that are not above 0.
+ * Text of "key value" lines, the last of which is a checksum of those before. What is not a whole
+ * file of this version of pointspec about this device is as good as none: then the planner has the
+ * built-in figures, and the note says why. Numbers outside of what a device can be are not taken
+ * either, so that no file makes times that are not above 0.
  */
 #ifndef PS_STORE_FIGURES_FILE_H
 #define PS_STORE_FIGURES_FILE_H
@@ -19,8 +21,8 @@ pspec_status ps_figures_make_folder(const char *folder, ps_error *error) PS_MUST
 /* That, too; the file is there whole, or as it was. */
 pspec_status ps_figures_write(const char *folder, const ps_figures *figures,
                               const ps_device_limits *limits, ps_error *error) PS_MUST_CHECK;
-/* A file that is absent or not to be used gives the built-in figures with a note, no error: that is only for memory. folder
- * NULL: built-in. */
+/* A file that is absent or not to be used gives the built-in figures with a note, no error: that is
+ * only for memory. folder NULL: built-in. */
 pspec_status ps_figures_read(ps_figures *figures, const char *folder,
                              const ps_device_limits *limits, ps_error *error) PS_MUST_CHECK;
 

@@ -13,7 +13,8 @@
 
 #define MAGIC "pointspec-figures 1 " PS_VERSION
 
-/* What devices can be: from a slow simulator to a rack, and nothing that a planner could stumble over. */
+/* What devices can be: from a slow simulator to a rack, and nothing that a planner could stumble
+ * over. */
 static const double least_rate = 1e3, most_rate = 1e18;
 static const double least_scale = 1e-3, most_scale = 1e3;
 
@@ -105,7 +106,8 @@ static char *take_precision(char *text, int *precision) {
     return NULL;
 }
 
-/* Ends the word at the beginning; what follows its blank, NULL when there is no word or no blank. */
+/* Ends the word at the beginning; what follows its blank, NULL when there is no word or no blank.
+ */
 static char *cut_word(char *text) {
     char *const blank = strchr(text, ' ');
     if (blank == NULL || blank == text) {

@@ -100,7 +100,8 @@ pspec_status ps_cache_get(const ps_cache *cache, const void *key, size_t key_byt
     }
     *is_found = status == PSPEC_OK && finding == PS_CACHE_FOUND;
     if (status == PSPEC_OK && finding == PS_CACHE_BROKEN) {
-        /* In the meantime it may be a new one of another process: then that is computed once more. */
+        /* In the meantime it may be a new one of another process: then that is computed once more.
+         */
         (void)unlink(path.data);
     }
     ps_text_free(&path);

@@ -61,7 +61,7 @@ pspec_status ps_table_choose_format(ps_table_format *out, const char *name, cons
 pspec_status ps_table_write(const ps_table *table, const char *path, ps_table_format format,
                             ps_error *error) PS_MUST_CHECK;
 
-/* ---- reading it: texts belong to the table and stay as long as it does; indices must be below the numbers ---- */
+/* ---- reading: texts stay as long as the table does; indices must be below the numbers -------- */
 
 const char *ps_table_command(const ps_table *table);
 size_t ps_table_num_columns(const ps_table *table);
@@ -77,7 +77,8 @@ ps_cell ps_table_meta(const ps_table *table, size_t i, const char **key);
 ps_cell ps_table_find_meta(const ps_table *table, const char *key);
 /* A number, or nan. */
 double ps_cell_number(ps_cell cell);
-/* The column of that name as numbers, nan where there is none; all of them where there is no such column. */
+/* The column of that name as numbers, nan where there is none; all of them where there is no such
+ * column. */
 void ps_table_read_column(const ps_table *table, const char *name, double *out);
 
 /* NULL is allowed. */

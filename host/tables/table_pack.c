@@ -155,7 +155,8 @@ static pspec_status take_cell(packed *in, ps_cell *cell, ps_error *error) {
     return take_value(in, cell, error);
 }
 
-/* The table counts what is allocated, zeroes until it is filled, so that it can be destroyed at any time. */
+/* The table counts what is allocated, zeroes until it is filled, so that it can be destroyed at any
+ * time. */
 static pspec_status take_columns(packed *in, ps_table *table, ps_error *error) {
     size_t count = 0;
     PS_TRY(take_count(in, NUMBER_BYTES, &count, error));

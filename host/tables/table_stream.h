@@ -1,5 +1,5 @@
-/* Tables whose rows come over minutes: as CSV on standard output every row is there as soon as it is known. Files, and
- * other formats, are written at the end, as ps_table_write does. */
+/* Tables whose rows come over minutes: as CSV on standard output every row is there as soon as it
+ * is known. Files, and other formats, are written at the end, as ps_table_write does. */
 #ifndef PS_TABLES_TABLE_STREAM_H
 #define PS_TABLES_TABLE_STREAM_H
 
@@ -7,7 +7,8 @@
 
 typedef struct ps_table_stream ps_table_stream;
 
-/* The table has its header lines; it belongs to the caller and stays until the stream is closed or discarded. */
+/* The table has its header lines; it belongs to the caller and stays until the stream is closed or
+ * discarded. */
 pspec_status ps_table_stream_open(ps_table_stream **out, const ps_table *table, const char *path,
                                   ps_table_format format, ps_error *error) PS_MUST_CHECK;
 /* Shows the rows that were added since. */

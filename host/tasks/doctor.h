@@ -32,8 +32,9 @@ typedef struct ps_doctor {
 /* PSPEC_ERROR_CHECK when something is wrong. */
 pspec_status ps_doctor_examine(const ps_doctor *doctor, ps_error *error) PS_MUST_CHECK;
 
-/* The same as a table with the columns finding, topic and sentence; out->verdict says when something is wrong. device as
- * above. *out is {0} before, and freed by ps_answer_free, also after an error. */
+/* The same as a table with the columns finding, topic and sentence; out->verdict says when
+ * something is wrong. device as above. *out is {0} before, and freed by ps_answer_free, also after
+ * an error. */
 pspec_status ps_doctor_tabulate(ps_answer *out, const char *device, ps_error *error) PS_MUST_CHECK;
 
 /* Tells a finding, for the files of the doctor; false when it is not good. */

@@ -1,5 +1,5 @@
-/* What program and library can be asked to do by options, one table: the kinds of results, points of samplers, point
- * files, scenes. All of it can be planned.
+/* What program and library can be asked to do by options, one table: the kinds of results, points
+ * of samplers, point files, scenes. All of it can be planned.
  */
 #ifndef PS_TASKS_TASK_H
 #define PS_TASKS_TASK_H
@@ -34,8 +34,9 @@ const char *ps_task_words(const ps_task *task, ps_option_id id);
 /* The task of that name; NULL: there is none. */
 const ps_task *ps_task_find(const char *name);
 
-/* What the task would do with the request, as a table: every engine with its seconds, bytes and error, which is chosen and
- * why, what is skipped, how long each phase takes. Nothing is computed or timed. */
+/* What the task would do with the request, as a table: every engine with its seconds, bytes and
+ * error, which is chosen and why, what is skipped, how long each phase takes. Nothing is computed
+ * or timed. */
 pspec_status ps_task_plan(ps_table **out, const ps_task *task, const ps_request *request,
                           const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
 

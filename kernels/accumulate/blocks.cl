@@ -1,11 +1,12 @@
-/* Sums of powers in one pass over the rows: over realizations for every frequency, and over bins (rings,
- * shells) for every realization. Launch: (work-items of one group, blocks).
+/* Sums of powers in one pass over the rows: over realizations for every frequency, and over bins
+ * (rings, shells) for every realization. Launch: (work-items of one group, blocks).
  *
- * A block is BLOCK slots of a row. A work-group walks through the realizations of the batch in order,
- * LANES at a time. Frequencies are lanes at first and are added to the state. The square of LANES
- * realizations and LANES slots is turned, so that realizations are lanes, and goes to local memory, where
- * the members of each bin are added up: a piece of the bin, which accumulate/fold.cl puts together.
- * Every sum has a fixed order, so results do not depend on work-group sizes or on the batch.
+ * A block is BLOCK slots of a row. A work-group walks through the realizations of the batch in
+ * order, LANES at a time. Frequencies are lanes at first and are added to the state. The square of
+ * LANES realizations and LANES slots is turned, so that realizations are lanes, and goes to local
+ * memory, where the members of each bin are added up: a piece of the bin, which accumulate/fold.cl
+ * puts together. Every sum has a fixed order, so results do not depend on work-group sizes or on
+ * the batch.
  *
  *   power    [realization][stride], stride a multiple of LANES
  *   blocks   [block + 1]: first ring of every block
@@ -21,8 +22,8 @@
 #include "shared/pair.h"
 #include "shared/transpose.h"
 
-/* Fixed: sums depend on it. Long enough that pieces are few, short enough for the local memory of any
- * device and for the nearest cache of a core. host/spectra/accumulate_device.c knows it too. */
+/* Fixed: sums depend on it. Long enough that pieces are few, short enough for the local memory of
+ * any device and for the nearest cache of a core. host/spectra/accumulate_device.c knows it too. */
 #define BLOCK 512
 
 /* 0: sums alone, nobody asks for standard errors of frequencies. */
@@ -40,7 +41,8 @@ typedef struct state {
     __global real *sum, *sum_low, *square, *square_low;
 } state;
 
-/* The first `count` of LANES realizations; the others are left out of the state and are 0 in bins. */
+/* The first `count` of LANES realizations; the others are left out of the state and are 0 in bins.
+ */
 static inline void load_rows(realv *powers, __global const real *rows, const ulong stride,
                              const uint count) {
 #pragma unroll

@@ -1,5 +1,5 @@
-/* The pieces of every bin (accumulate/blocks.cl) in order, for LANES realizations side by side. Launch:
- * (bins, groups of LANES realizations), the first extent rounded up at will.
+/* The pieces of every bin (accumulate/blocks.cl) in order, for LANES realizations side by side.
+ * Launch: (bins, groups of LANES realizations), the first extent rounded up at will.
  *
  *   sums    [group][piece][high, low][LANES]
  *   bins    [bin]: first piece, one past the last

@@ -1,5 +1,5 @@
-/* Discrete Fourier transforms of 2, 3, 4, 5, 7 and 8 complex numbers in registers, LANES of them side
- * by side: x[k] <- sum_j x[j] exp(-2 pi i j k / r). Device only.
+/* Discrete Fourier transforms of 2, 3, 4, 5, 7 and 8 complex numbers in registers, LANES of them
+ * side by side: x[k] <- sum_j x[j] exp(-2 pi i j k / r). Device only.
  */
 #ifndef PS_NUFFT_BUTTERFLY_H
 #define PS_NUFFT_BUTTERFLY_H
@@ -69,9 +69,9 @@ static inline void butterfly_8(complexv *x) {
     x[7] = complex_subtract(even[3], odd[3]);
 }
 
-/* An odd prime r: with sums and differences of x[j] and x[r - j], half of the products of each kind.
- * cosines and sines of 2 pi j / r. Always inlined: loops of a copy for any r do not unroll, and users would see the
- * compiler's warnings. */
+/* An odd prime r: with sums and differences of x[j] and x[r - j], half of the products of each
+ * kind. cosines and sines of 2 pi j / r. Always inlined: loops of a copy for any r do not unroll,
+ * and users would see the compiler's warnings. */
 static inline __attribute__((always_inline)) void
 butterfly_odd(complexv *x, const int r, const real *cosines, const real *sines) {
     const int half_r = r / 2;

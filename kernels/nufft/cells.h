@@ -13,10 +13,11 @@ typedef PS_VECTOR(ulong) ulongv;
 typedef uintv unaligned_uintv __attribute__((aligned(sizeof(uint))));
 typedef ulongv unaligned_ulongv __attribute__((aligned(sizeof(ulong))));
 
-/* Where coordinates x, in units of 2^-64, fall on a fine grid of n cells. Of the `width` cells (2 .. n) that a window
- * centred at n x covers, the first is floor(y), y = n x + 1 - width/2, and the fraction f = y - floor(y) places the
- * window: cell i of them is i + 1 - width/2 - f away from n x. Integers throughout, so nothing is rounded but the
- * fraction, to as many bits as a word has, and nothing falls out of the grid. */
+/* Where coordinates x, in units of 2^-64, fall on a fine grid of n cells. Of the `width` cells (2
+ * .. n) that a window centred at n x covers, the first is floor(y), y = n x + 1 - width/2, and the
+ * fraction f = y - floor(y) places the window: cell i of them is i + 1 - width/2 - f away from n x.
+ * Integers throughout, so nothing is rounded but the fraction, to as many bits as a word has, and
+ * nothing falls out of the grid. */
 static inline uintv first_cells(const ulongv x, const uint n, const uint width, wordv *fraction) {
     const ulong half_cell = width % 2 != 0 ? (ulong)1 << 31 : 0;
     const ulongv low = (x & (ulongv)0xFFFFFFFF) * (ulongv)n;

@@ -1,5 +1,5 @@
-/* Points in chunks, on their way to a grid of real numbers: where they fall, and their windows on each axis.
- * Device only.
+/* Points in chunks, on their way to a grid of real numbers: where they fall, and their windows on
+ * each axis. Device only.
  */
 #ifndef PS_NUFFT_CHUNK_H
 #define PS_NUFFT_CHUNK_H
@@ -25,8 +25,8 @@ typedef struct chunk {
     __local uint *columns; /* [CHUNK]: the first of its row */
 } chunk;
 
-/* Windows of a point: along rows of cells, across them, and in three dimensions those of axis 0, of which one bin
- * counts. In one dimension there is only the first. */
+/* Windows of a point: along rows of cells, across them, and in three dimensions those of axis 0, of
+ * which one bin counts. In one dimension there is only the first. */
 typedef struct chunk_axes {
     window_axis outer, across, along;
     uint dimension, outer_bin;
@@ -49,7 +49,8 @@ static inline realv load_few_weights(__global const real *weights, const uint co
     return *(realv *)few;
 }
 
-/* LANES places from the points that `from` begins with, `num` of them at most. pitch: of rows of cells. */
+/* LANES places from the points that `from` begins with, `num` of them at most. pitch: of rows of
+ * cells. */
 static inline void place_lanes(const chunk to, const uint part, const uint pitch,
                                __global const ulong *from, const uint num, const realv weights,
                                const chunk_axes axes) {
@@ -140,8 +141,8 @@ static inline void make_windows(const chunk to, const uint count, const chunk_ax
 
 /* ---- both ----------------------------------------------------------------------------------- */
 
-/* `count` points, at most CHUNK; up to `made` of them, count or CHUNK, points without weight follow. All work-items
- * call it. */
+/* `count` points, at most CHUNK; up to `made` of them, count or CHUNK, points without weight
+ * follow. All work-items call it. */
 static inline void fill_chunk(const chunk to, __global const ulong *points,
                               __global const real *weights, const uint count, const uint made,
                               const uint pitch, const chunk_axes axes) {
@@ -161,8 +162,9 @@ static inline void fill_chunk(const chunk to, __global const ulong *points,
 
 /* ---- adding --------------------------------------------------------------------------------- */
 
-/* A point into num_rows rows `pitch` apart, by one work-item: values along a row are one vector, weighted row by
- * row by across. Four rows in a step: addresses and the loop are half of the instructions else. */
+/* A point into num_rows rows `pitch` apart, by one work-item: values along a row are one vector,
+ * weighted row by row by across. Four rows in a step: addresses and the loop are half of the
+ * instructions else. */
 #define ADD_ROWS(NAME, SPACE, BINS)                                                                \
     static inline void add_##NAME##_rows_##BINS(SPACE real *at, const size_t pitch,                \
                                                 __local const real *across,                        \

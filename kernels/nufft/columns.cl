@@ -1,5 +1,5 @@
-/* Columns of the transformed rows (nufft/rows.cl) into powers. Launch: (work-items of one group, tiles *
- * columns, realizations).
+/* Columns of the transformed rows (nufft/rows.cl) into powers. Launch: (work-items of one group,
+ * tiles * columns, realizations).
  *
  *   grid       [realization][tile][column][row][re, im][LANES], columns -K .. K of the axis along rows
  *   radices, twiddles, position, gains  of nufft/finish.h, of the axis across rows

@@ -8,11 +8,11 @@
  *   twiddles  [pass][t][j][cosine, sine] of -2 pi t j / length, j = 1 .. radix - 1, for the transforms
  *             of that pass: of the whole length first, then of a radix-th part, ...
  *
- * The result of frequency k stands in cell position[k] (host/engines/nufft/fft.c): putting it in order
- * would be a pass of its own. Nothing depends on what stands in other lanes.
+ * The result of frequency k stands in cell position[k] (host/engines/nufft/fft.c): putting it in
+ * order would be a pass of its own. Nothing depends on what stands in other lanes.
  *
- * Buffers are in local memory, or in global memory where FFT_IN_GLOBAL is defined before: one program has one
- * kind, since a second copy of all passes takes the compiler seconds.
+ * Buffers are in local memory, or in global memory where FFT_IN_GLOBAL is defined before: one
+ * program has one kind, since a second copy of all passes takes the compiler seconds.
  */
 #ifndef PS_NUFFT_FFT_H
 #define PS_NUFFT_FFT_H
@@ -50,9 +50,10 @@ static inline void store_global_complex(__global real *to, const size_t cell, co
     store_global(to, 2 * cell + 1, x.im);
 }
 
-/* One pass: transforms of length RADIX m, one behind the other, into RADIX transforms of length m each. Cells are
- * `apart` numbers from each other. The last pass, m = 1, has no factors but 1. Pointers and strides are kept instead of
- * indices: integer work would cost as much as the butterflies. */
+/* One pass: transforms of length RADIX m, one behind the other, into RADIX transforms of length m
+ * each. Cells are `apart` numbers from each other. The last pass, m = 1, has no factors but 1.
+ * Pointers and strides are kept instead of indices: integer work would cost as much as the
+ * butterflies. */
 #define FFT_PASS(RADIX)                                                                            \
     static inline void fft_pass_##RADIX(FFT_SPACE real *data, const size_t apart,                  \
                                         __global const real *twiddles, const size_t m,             \

@@ -1,5 +1,5 @@
-/* From rows of cells that are there (nufft/first.cl) to powers, or to the grid of nufft/columns.cl. Launch: (work-items
- * of one group, tiles * rows); one row where there is one transform left.
+/* From rows of cells that are there (nufft/first.cl) to powers, or to the grid of nufft/columns.cl.
+ * Launch: (work-items of one group, tiles * rows); one row where there is one transform left.
  *
  *   rows       [tile][row][n][re, im][LANES]
  *   radices, twiddles, position, gains, n, K  of nufft/finish.h, of the axis along rows

@@ -1,5 +1,5 @@
-/* From rows of cells to powers: the mean is taken off, the row transformed, results left where they belong.
- * Device only.
+/* From rows of cells to powers: the mean is taken off, the row transformed, results left where they
+ * belong. Device only.
  */
 #ifndef PS_NUFFT_FINISH_H
 #define PS_NUFFT_FINISH_H
@@ -15,8 +15,8 @@ typedef struct transform_axis {
     uint n, K;
 } transform_axis;
 
-/* Frequency 0, in lane 0 of tile 0, is known: mean times pattern[cell][cosine, sine] is what it leaves in
- * the cells. */
+/* Frequency 0, in lane 0 of tile 0, is known: mean times pattern[cell][cosine, sine] is what it
+ * leaves in the cells. */
 static inline void take_off_mean(FFT_SPACE real *row, const real mean, __global const real *pattern,
                                  const uint n) {
     for (uint i = get_local_id(0); i < n; i += get_local_size(0)) {

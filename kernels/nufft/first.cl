@@ -1,8 +1,8 @@
-/* The transform along axis 0 of a grid of real numbers (nufft/grid.cl). Launch: (work-items of one group, groups
- * of 2 LANES columns).
+/* The transform along axis 0 of a grid of real numbers (nufft/grid.cl). Launch: (work-items of one
+ * group, groups of 2 LANES columns).
  *
- * Lanes are neighbouring columns here (nufft/halves.h). The result is turned, so that lanes are frequencies, as
- * nufft/finish.cl wants it.
+ * Lanes are neighbouring columns here (nufft/halves.h). The result is turned, so that lanes are
+ * frequencies, as nufft/finish.cl wants it.
  *
  *   high, low  [cell of axis 0][column], some columns: cells of all other axes, a multiple of 2 LANES
  *   mean       taken off every cell: frequency 0

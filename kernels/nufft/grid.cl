@@ -1,8 +1,8 @@
 /* Points of one large set spread on the whole fine grid, as real numbers, a block of rows by each
  * work-group. Launch: (work-items of one group, outer cells * blocks).
  *
- * Rows lie along the last axis; blocks are BLOCK_ROWS cells of the axis before it. In three dimensions
- * axis 0 is the outer one; in two there is none: outer_n and outer_width are 1.
+ * Rows lie along the last axis; blocks are BLOCK_ROWS cells of the axis before it. In three
+ * dimensions axis 0 is the outer one; in two there is none: outer_n and outer_width are 1.
  *
  *   places, sorted, heights  of nufft/sort.cl, in parts
  *   starts    [part][outer_n block_n + 2]: places in the order of outer cells and cells of the block's axis
@@ -17,7 +17,8 @@
 
 #define BLOCK_ROWS 8
 
-/* Rows of a block that a window touches which begins `row_before + 1 - width` rows from the first. */
+/* Rows of a block that a window touches which begins `row_before + 1 - width` rows from the first.
+ */
 typedef struct touched_rows {
     uint first, end, first_bin;
 } touched_rows;

@@ -1,7 +1,9 @@
-/* What a transform along axis 0 of real numbers leaves, turned so that lanes are frequencies. Device only.
+/* What a transform along axis 0 of real numbers leaves, turned so that lanes are frequencies.
+ * Device only.
  *
- * Lanes of the transform are 2 LANES neighbouring columns, half of them in real parts, half in imaginary
- * parts: with Z = A + i B, A(k) = (Z(k) + conj Z(-k)) / 2 and B(k) = (Z(k) - conj Z(-k)) / 2i.
+ * Lanes of the transform are 2 LANES neighbouring columns, half of them in real parts, half in
+ * imaginary parts: with Z = A + i B, A(k) = (Z(k) + conj Z(-k)) / 2 and B(k) = (Z(k) - conj Z(-k))
+ * / 2i.
  */
 #ifndef PS_NUFFT_HALVES_H
 #define PS_NUFFT_HALVES_H
@@ -9,9 +11,9 @@
 #include "nufft/finish.h"
 #include "shared/transpose.h"
 
-/* Frequencies k .. k + LANES - 1 of 2 LANES columns, twice each: [column][re, im][LANES], beyond K anything. Times
- * half the root of their gain if there are gains, and 0 beyond K. Four turns one after the other: of all at once
- * the vectors would not fit into registers. */
+/* Frequencies k .. k + LANES - 1 of 2 LANES columns, twice each: [column][re, im][LANES], beyond K
+ * anything. Times half the root of their gain if there are gains, and 0 beyond K. Four turns one
+ * after the other: of all at once the vectors would not fit into registers. */
 static inline void turn_halves(FFT_SPACE const real *cells, const size_t apart,
                                const transform_axis axis, const uint k, __global real *rows) {
     size_t here[LANES], there[LANES];

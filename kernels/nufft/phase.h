@@ -1,8 +1,9 @@
-/* Phases of points mod 1 in fixed point, x in units of 2^-64: of a point for the lanes of a tile, of LANES points for
- * one k. Device only.
+/* Phases of points mod 1 in fixed point, x in units of 2^-64: of a point for the lanes of a tile,
+ * of LANES points for one k. Device only.
  *
- * exp(-2 pi i k x), k = 0 .. LANES - 1, takes cosines and sines of k = 1 .. LANES / 2 only, so that a vector has room
- * for those of two points; upper lanes are lower ones times exp(-2 pi i (LANES / 2) x).
+ * exp(-2 pi i k x), k = 0 .. LANES - 1, takes cosines and sines of k = 1 .. LANES / 2 only, so that
+ * a vector has room for those of two points; upper lanes are lower ones times exp(-2 pi i (LANES /
+ * 2) x).
  */
 #ifndef PS_NUFFT_PHASE_H
 #define PS_NUFFT_PHASE_H
@@ -13,8 +14,8 @@
 
 __constant word lane_numbers[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
-/* torus/phase.h has the reasons; off by at most 2 + 3 2^-24 k units of 2^-32 turns in single precision, exact in
- * double. */
+/* torus/phase.h has the reasons; off by at most 2 + 3 2^-24 k units of 2^-32 turns in single
+ * precision, exact in double. */
 static inline wordv phases_of_points(const uint k, const ulongv x) {
 #if PRECISION == 64
     return x * (ulongv)k;
@@ -56,8 +57,8 @@ static inline word in_a_word(const ulong x) {
 #endif
 }
 
-/* A half of the vectors for each of two points: k = LANES / 2, in the place of 0, where nothing need be computed, and
- * 1 .. LANES / 2 - 1. */
+/* A half of the vectors for each of two points: k = LANES / 2, in the place of 0, where nothing
+ * need be computed, and 1 .. LANES / 2 - 1. */
 static inline void lanes_of_two(const ulong x, const ulong next_x, complexv *lanes,
                                 complexv *next_lanes) {
     const wordv last = (wordv)(LANES / 2 - 1);

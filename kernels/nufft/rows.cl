@@ -1,5 +1,6 @@
-/* Rows of tiles of a problem with two fast transforms: what touches a row of cells is spread along it and
- * transformed; 2K + 1 columns are kept. Launch: (work-items of one group, groups of tiles * rows, realizations).
+/* Rows of tiles of a problem with two fast transforms: what touches a row of cells is spread along
+ * it and transformed; 2K + 1 columns are kept. Launch: (work-items of one group, groups of tiles *
+ * rows, realizations).
  *
  *   places, sorted, heights, starts  of nufft/sort.cl, sorted by rows and by cells along them
  *   row_*, num_rows  of nufft/window.h, of the axis across rows

@@ -1,6 +1,6 @@
-/* The last tile of realizations that one work-group does one after the other, where few of its lanes are asked for
- * (one of 16, if K is a multiple of 16): several realizations in a row, side by side. Nothing depends on what
- * stands in other lanes. Device only.
+/* The last tile of realizations that one work-group does one after the other, where few of its
+ * lanes are asked for (one of 16, if K is a multiple of 16): several realizations in a row, side by
+ * side. Nothing depends on what stands in other lanes. Device only.
  */
 #ifndef PS_NUFFT_SHARED_TILE_H
 #define PS_NUFFT_SHARED_TILE_H
@@ -24,7 +24,8 @@ static inline void put_lanes(__global real *to, const realv x) {
     }
 }
 
-/* Of 2 LANES columns, transformed at `cells`: what turn_halves() of nufft/halves.h makes of these lanes. */
+/* Of 2 LANES columns, transformed at `cells`: what turn_halves() of nufft/halves.h makes of these
+ * lanes. */
 static inline void collect_columns(const shared_tile to, const uint column,
                                    FFT_SPACE const real *cells, const size_t apart,
                                    const transform_axis axis) {
@@ -41,8 +42,8 @@ static inline void collect_columns(const shared_tile to, const uint column,
     }
 }
 
-/* Powers of the lanes from first_lane on, where they have a gain, to the first lanes of power. Loads go on into what
- * follows: there is a vector of room behind the row. */
+/* Powers of the lanes from first_lane on, where they have a gain, to the first lanes of power.
+ * Loads go on into what follows: there is a vector of room behind the row. */
 static inline void write_lanes(const shared_tile from, const transform_axis axis, const real scale,
                                __global const real *gains, __global real *power) {
     for (uint i = get_local_id(0); i < 2 * axis.K + 1; i += get_local_size(0)) {

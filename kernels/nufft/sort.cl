@@ -1,6 +1,6 @@
-/* Points of each realization in the order of the fine-grid cells where their windows begin: a counting
- * sort, stable, by one work-item for each realization. Launch: (realizations), rounded up at will. DIMENSION is a
- * constant: loops over axes would cost as much as all the rest.
+/* Points of each realization in the order of the fine-grid cells where their windows begin: a
+ * counting sort, stable, by one work-item for each realization. Launch: (realizations), rounded up
+ * at will. DIMENSION is a constant: loops over axes would cost as much as all the rest.
  *
  *   points, weights  [..][DIMENSION] fixed point, realization r at offsets[r] .. offsets[r + 1]
  *   places           where the sorted points of realization r begin
@@ -40,7 +40,8 @@ typedef union key_list {
     uint key[LANES];
 } key_list;
 
-/* Of points j .. j + LANES - 1; how many of them there are. Inlined, its constants stay in registers. */
+/* Of points j .. j + LANES - 1; how many of them there are. Inlined, its constants stay in
+ * registers. */
 __attribute__((always_inline)) static inline uint make_keys(key_list *to, const sorting_keys keys,
                                                             const point_list from, const uint j) {
     __global const ulong *points = from.points + (size_t)j * DIMENSION;

@@ -1,16 +1,16 @@
-/* Spreading: points times their windows into rows of cells [cell][re, im][LANES], one row for each tile of
- * a work-group. Device only.
+/* Spreading: points times their windows into rows of cells [cell][re, im][LANES], one row for each
+ * tile of a work-group. Device only.
  *
- * Lanes are frequencies of axis 0: the value of a point is exp(-2 pi i k x_0), k the first frequency of
- * the tile, times the phases of the lanes, which all tiles share.
+ * Lanes are frequencies of axis 0: the value of a point is exp(-2 pi i k x_0), k the first
+ * frequency of the tile, times the phases of the lanes, which all tiles share.
  *
- * A row has room for n + width + GAP cells: windows that begin near the end go on behind it, and fold_row()
- * adds that to the beginning.
+ * A row has room for n + width + GAP cells: windows that begin near the end go on behind it, and
+ * fold_row() adds that to the beginning.
  *
- * Points come in chunks: windows and phases are made for a chunk, which then goes into every tile. On CPUs one
- * work-item goes from point to point; the work-items of a group each own cells and go through the points
- * of the chunk. Every cell adds the same numbers in the same order either way, so results are equal
- * to the bit.
+ * Points come in chunks: windows and phases are made for a chunk, which then goes into every tile.
+ * On CPUs one work-item goes from point to point; the work-items of a group each own cells and go
+ * through the points of the chunk. Every cell adds the same numbers in the same order either way,
+ * so results are equal to the bit.
  */
 #ifndef PS_NUFFT_SPREAD_H
 #define PS_NUFFT_SPREAD_H
@@ -56,8 +56,8 @@ static inline void fill_places(const chunk to, const uint part, const ulongv alo
     store_local(to.weights, part, weights);
 }
 
-/* Windows and turns, LANES places at a time, and phases, once all places are filled. Tiles have the first
- * frequencies k, k + LANES, ... */
+/* Windows and turns, LANES places at a time, and phases, once all places are filled. Tiles have the
+ * first frequencies k, k + LANES, ... */
 static inline void finish_chunk(const chunk to, const window_axis axis, const uint k,
                                 const uint num_tiles) {
     const uint parts = CHUNK / LANES;
@@ -114,8 +114,8 @@ static inline void add_one(const tile_rows to, const chunk from, const uint i, c
     }
 }
 
-/* Neighbours i and i + 1 in one go, half the loads and stores, when they are `apart` <= GAP cells from each other.
- * To the bit the same as one after the other, since windows are zero outside. */
+/* Neighbours i and i + 1 in one go, half the loads and stores, when they are `apart` <= GAP cells
+ * from each other. To the bit the same as one after the other, since windows are zero outside. */
 static inline void add_two(const tile_rows to, const chunk from, const uint i, const uint width,
                            const uint apart) {
     const complexv phases = load_complex(from.phases, i);
@@ -175,8 +175,8 @@ static inline void add_four(const tile_rows to, const chunk from, const uint i, 
     }
 }
 
-/* A chunk in the order of cells. The lengths of loops depend on the points; the same points in all tiles one
- * after the other make them predictable. */
+/* A chunk in the order of cells. The lengths of loops depend on the points; the same points in all
+ * tiles one after the other make them predictable. */
 static inline void scatter_in_order(const tile_rows to, const chunk from, const uint width) {
     for (uint i = 0; i < CHUNK; i += 4) {
         if (from.cells[i + 3] - from.cells[i] <= GAP) {
@@ -229,8 +229,8 @@ static inline void clear_rows(__local real *rows, const uint num_cells) {
     barrier(CLK_LOCAL_MEM_FENCE);
 }
 
-/* A chunk whose places are filled, in the order of cells, into the rows of num_tiles tiles, whose first frequencies
- * are k, k + LANES, ... */
+/* A chunk whose places are filled, in the order of cells, into the rows of num_tiles tiles, whose
+ * first frequencies are k, k + LANES, ... */
 static inline void add_chunk(__local real *rows, const chunk from, const window_axis axis,
                              const uint k, const uint num_tiles) {
     const tile_rows to = {rows, row_cells(axis) * 2 * LANES, num_tiles};

@@ -1,5 +1,5 @@
-/* Tiles of a problem with one fast transform: LANES frequencies of axis 0 by direct phases, those of the
- * transform by spreading. Launch: (work-items of one group, groups of tiles, realizations).
+/* Tiles of a problem with one fast transform: LANES frequencies of axis 0 by direct phases, those
+ * of the transform by spreading. Launch: (work-items of one group, groups of tiles, realizations).
  *
  *   places, sorted, heights  of nufft/sort.cl
  *   coefficients, n, width, axis, factor, degree, bins, pitch  of nufft/window.h

@@ -1,9 +1,10 @@
-/* Whole realizations, one by each work-group: points are spread on a grid of real numbers, in any order; two
- * transforms, one behind the other, make powers of it. In two dimensions they are those of the axes. In one, the
- * grid of first_n second_n cells is read as rows of second_n: with cell m = m_1 second_n + m_2, frequency
- * k_1 + first_n k_2 is the transform over m_2, at k_2, of exp(-2 pi i k_1 m_2 / (first_n second_n)) times the transform
- * over m_1, at k_1. For CPUs: the grid and what the first transform leaves stay in the cache of a core, so a work-group
- * takes one realization after the other. Launch: (work-items of one group, groups).
+/* Whole realizations, one by each work-group: points are spread on a grid of real numbers, in any
+ * order; two transforms, one behind the other, make powers of it. In two dimensions they are those
+ * of the axes. In one, the grid of first_n second_n cells is read as rows of second_n: with cell m
+ * = m_1 second_n + m_2, frequency k_1 + first_n k_2 is the transform over m_2, at k_2, of exp(-2 pi
+ * i k_1 m_2 / (first_n second_n)) times the transform over m_1, at k_1. For CPUs: the grid and what
+ * the first transform leaves stay in the cache of a core, so a work-group takes one realization
+ * after the other. Launch: (work-items of one group, groups).
  *
  *   points, weights, offsets  of engines/torus/torus_points.h
  *   across_*, along_*  of nufft/window.h, of axis 0 and axis 1; in one dimension there is no window across, and
@@ -33,8 +34,9 @@ typedef struct whole_grid {
     bool is_line;     /* one dimension: rows follow each other without gaps */
 } whole_grid;
 
-/* A chunk by one work-item. (Not just its `count` points: what is known before a barrier and used in a loop behind it
- * is more than PoCL 3.1 can do here.) In one dimension there are no loops over rows. */
+/* A chunk by one work-item. (Not just its `count` points: what is known before a barrier and used
+ * in a loop behind it is more than PoCL 3.1 can do here.) In one dimension there are no loops over
+ * rows. */
 static inline void scatter(const whole_grid grid, const chunk from, const chunk_axes axes) {
     const uint bins = axes.along.bins;
     for (uint i = 0; i < CHUNK && grid.is_line; i++) {
@@ -70,8 +72,8 @@ static inline void clear_grid(const whole_grid grid, const real mean) {
     barrier_everywhere();
 }
 
-/* Cells behind the last row and column are the first ones again. (No barrier under a condition: PoCL would copy
- * all that follows.) */
+/* Cells behind the last row and column are the first ones again. (No barrier under a condition:
+ * PoCL would copy all that follows.) */
 static inline void fold_grid(const whole_grid grid, const real mean, const window_axis across,
                              const window_axis along, const uint n) {
     const uint behind = grid.is_line ? along.bins : across.width * grid.pitch;
@@ -89,8 +91,9 @@ static inline void fold_grid(const whole_grid grid, const real mean, const windo
     barrier_everywhere();
 }
 
-/* Where the first transform of 2 LANES columns is done, real and imaginary parts of a cell side by side: in the grid,
- * `apart` numbers from cell to cell. In one dimension the last columns go on into the next row: they are copied. */
+/* Where the first transform of 2 LANES columns is done, real and imaginary parts of a cell side by
+ * side: in the grid, `apart` numbers from cell to cell. In one dimension the last columns go on
+ * into the next row: they are copied. */
 typedef struct column_place {
     __global real *cells;
     size_t apart;
@@ -191,8 +194,8 @@ __kernel void nufft_whole(
             barrier_everywhere();
         }
         fold_grid(grid, means[r], across, along, dimension == 1 ? along.n : across.n * pitch);
-        /* First groups of columns, then tiles: one loop, since a second copy of all transforms takes the compiler
-         * seconds. */
+        /* First groups of columns, then tiles: one loop, since a second copy of all transforms
+         * takes the compiler seconds. */
         const uint groups = columns / (2 * LANES);
         const uint before =
             (uint)(r / get_global_size(1)) % sharing; /* others in the shared tile */

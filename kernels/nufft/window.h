@@ -8,18 +8,19 @@
 typedef PS_JOIN(REAL, 8) real8;
 typedef real8 unaligned_real8 __attribute__((aligned(sizeof(real)))); /* shared/lanes.h says why */
 
-/* An axis of the fine grid, and its window: bin i is a polynomial in u = 2 f - 1, f as in nufft/cells.h.
- * coefficients [degree + 1][bins], lowest degree first; bins, a multiple of 8, is at least the width, pitch at
- * least 2 GAP + width. The degree is odd; bin i is bin width - 1 - i at -u, to the bit. */
+/* An axis of the fine grid, and its window: bin i is a polynomial in u = 2 f - 1, f as in
+ * nufft/cells.h. coefficients [degree + 1][bins], lowest degree first; bins, a multiple of 8, is at
+ * least the width, pitch at least 2 GAP + width. The degree is odd; bin i is bin width - 1 - i at
+ * -u, to the bit. */
 typedef struct window_axis {
     __global const real *coefficients;
     uint n, width, axis, degree, bins, pitch;
     ulong factor; /* the coordinate is factor * x[axis] mod 1 */
 } window_axis;
 
-/* Pairs pair and pair + 1 of bins of LANES points, bins pair and width - 1 - pair, to[bin * apart]. Bins of a pair are
- * each other's mirror: one polynomial in u^2 and u times another, added and subtracted. Beyond the middle pairs
- * repeat, to the bit. */
+/* Pairs pair and pair + 1 of bins of LANES points, bins pair and width - 1 - pair, to[bin * apart].
+ * Bins of a pair are each other's mirror: one polynomial in u^2 and u times another, added and
+ * subtracted. Beyond the middle pairs repeat, to the bit. */
 static inline void make_two_pairs(const window_axis axis, const uint pair, const realv centre,
                                   const realv weight, __local real *to, const uint apart) {
     const realv square = centre * centre, weighted = centre * weight;

@@ -1,8 +1,8 @@
 /* Sums of w_i w_j |u_i - u_j|^(2 power) over pairs: kernels of Sobolev spaces
  * (docs/mathematics/quadrature.md#sobolev-kernel).
  *
- * One work-item owns a run of vectors of pairs. Launch: (runs, realizations) in work-groups of any size, runs rounded up;
- * no local memory. Equal points have the chord 0, exactly.
+ * One work-item owns a run of vectors of pairs. Launch: (runs, realizations) in work-groups of any
+ * size, runs rounded up; no local memory. Equal points have the chord 0, exactly.
  *
  *   points, counts  as in pairs/sums.cl
  *   power           one number; not looked at with ROOT, which is for power 1/2

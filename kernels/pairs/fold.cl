@@ -1,7 +1,7 @@
 /* Partial sums of the runs of pairs, added up in their order.
  *
- * One work-item owns LANES degrees of one realization. Launch: (vectors of degrees, realizations), the first rounded up
- * at will; no local memory.
+ * One work-item owns LANES degrees of one realization. Launch: (vectors of degrees, realizations),
+ * the first rounded up at will; no local memory.
  *
  *   partials  [realization][num_runs][high, low][num_degrees], without the low parts if PARTS is 1: degrees of
  *             pairs/sums.cl and nodes_sums.cl, moments of pairs/histogram.cl

@@ -1,12 +1,13 @@
-/* The chords of all pairs in a histogram with MOMENTS Chebyshev moments in each bin: nearly all the work of
- * pairs_histogram.
+/* The chords of all pairs in a histogram with MOMENTS Chebyshev moments in each bin: nearly all the
+ * work of pairs_histogram.
  *
- * A pair (u, v), or (u, -v) where u.v < 0, has the chord r = |u -+ v| in [0, sqrt 2]; bin b of either sign covers b <= r /
- * width < b + 1, where x goes from -1 to 1, and its moments are sum w_i w_j T_k(x), k < MOMENTS. Chords need a root where
- * angles would need an arc tangent, too, and come from differences: nothing is lost where points are close.
+ * A pair (u, v), or (u, -v) where u.v < 0, has the chord r = |u -+ v| in [0, sqrt 2]; bin b of
+ * either sign covers b <= r / width < b + 1, where x goes from -1 to 1, and its moments are sum w_i
+ * w_j T_k(x), k < MOMENTS. Chords need a root where angles would need an arc tangent, too, and come
+ * from differences: nothing is lost where points are close.
  *
- * One work-item owns a run of pairs and a histogram of its own. Launch: (runs, realizations) in work-groups of one item,
- * since local memory belongs to one.
+ * One work-item owns a run of pairs and a histogram of its own. Launch: (runs, realizations) in
+ * work-groups of one item, since local memory belongs to one.
  *
  *   points, counts  as in pairs/sums.cl
  *   partials        [realization][run of this launch][side +, side -][bin][MOMENTS]
@@ -17,12 +18,12 @@
 #include "pairs/layout.h"
 #include "pairs/rows.h"
 
-/* Vectors of pairs at a time: chords, their places, which wait for roots, and adding, which waits for memory, are loops of their
- * own, short enough that rounds overlap. */
+/* Vectors of pairs at a time: chords, their places, which wait for roots, and adding, which waits
+ * for memory, are loops of their own, short enough that rounds overlap. */
 #define CHUNK 32
 
-/* Moments of LANES pairs of places x, T_k(x) weight: T_(k+2) = 2 T_2 T_k - T_(k-2) waits for half as many products as
- * the recurrence by one. */
+/* Moments of LANES pairs of places x, T_k(x) weight: T_(k+2) = 2 T_2 T_k - T_(k-2) waits for half
+ * as many products as the recurrence by one. */
 PAIRS_INLINE void find_moments(const realv weight, const realv x, realv *a) {
     const realv twice = x + x;
     const realv second = fma(twice, x, (realv)-1);
@@ -44,8 +45,9 @@ PAIRS_INLINE void find_squares(const pair_place *at, __local real *weights, __lo
     store_local(squares, 0, square_of_pair(at, side) * side);
 }
 
-/* Squares become places in bins, and rows of the histogram, where they begin. Bins are found as integers of 32 bits in
- * either precision: doubles would become integers of their own width one by one, and floor() is long. */
+/* Squares become places in bins, and rows of the histogram, where they begin. Bins are found as
+ * integers of 32 bits in either precision: doubles would become integers of their own width one by
+ * one, and floor() is long. */
 PAIRS_INLINE void find_places(__local real *squares, __local int *rows, const real per_chord,
                               const real num_bins) {
     const realv square = load_local(squares, 0);

@@ -1,9 +1,10 @@
-/* Points of a realization on the device, for kernels that go through its pairs; host/engines/pairs/pairs_points.h has the same
- * numbers.
+/* Points of a realization on the device, for kernels that go through its pairs;
+ * host/engines/pairs/pairs_points.h has the same numbers.
  *
- * Pairs are (i, i + k mod N) for k = 1 .. N / 2, all i: every pair once, but for k = N / 2 with N even, where each comes
- * twice and counts half. Lanes are consecutive i, so both points of LANES pairs are consecutive numbers of the same
- * arrays, which go on behind N with the first points again.
+ * Pairs are (i, i + k mod N) for k = 1 .. N / 2, all i: every pair once, but for k = N / 2 with N
+ * even, where each comes twice and counts half. Lanes are consecutive i, so both points of LANES
+ * pairs are consecutive numbers of the same arrays, which go on behind N with the first points
+ * again.
  *
  *   points  [realization][POINT_ARRAYS][stride]: the unit vector in two parts (high, low), weights that go on like the
  *           points, and weights that are 0 from N on
@@ -35,7 +36,8 @@ PAIRS_INLINE ulong pair_vectors(const ulong num_points) {
     return num_points / 2 * ((num_points + LANES - 1) / LANES);
 }
 
-/* By a pointer: Oclgrind's compiler marks the place of a returned struct with a call that Oclgrind does not know. */
+/* By a pointer: Oclgrind's compiler marks the place of a returned struct with a call that Oclgrind
+ * does not know. */
 PAIRS_INLINE void pair_begin(pair_place *at, __global const real *points, const ulong stride,
                              const ulong num_points, const ulong index) {
     at->points = points;
@@ -71,8 +73,8 @@ PAIRS_INLINE realv difference_of_pair(const pair_place *at, const realv side, co
            fma(-side, second_of_pair(at, ARRAY_LOW + axis), first_of_pair(at, ARRAY_LOW + axis));
 }
 
-/* |u - v|^2 from differences of coordinates, which lose nothing where points are close. Written out, here and below:
- * loops over axes stay loops. */
+/* |u - v|^2 from differences of coordinates, which lose nothing where points are close. Written
+ * out, here and below: loops over axes stay loops. */
 PAIRS_INLINE realv square_of_pair(const pair_place *at, const realv side) {
     const realv x = difference_of_pair(at, side, 0);
     const realv y = difference_of_pair(at, side, 1);

@@ -4,8 +4,8 @@
  *
  * so that sum_j W_j f(x_j) is the sum over pairs of the polynomial that agrees with f at the nodes.
  *
- * One work-item owns a bin of one realization. Launch: (bins of both sides, realizations), bins rounded up at will; no
- * local memory.
+ * One work-item owns a bin of one realization. Launch: (bins of both sides, realizations), bins
+ * rounded up at will; no local memory.
  *
  *   moments  [realization][high, low][bin][MOMENTS]
  *   matrix   [j][k]

@@ -1,5 +1,5 @@
-/* Legendre sums over weighted nodes, sum_n W_n P_l(x_n), the same nodes for all realizations; as pairs/sums.cl, with nodes
- * instead of pairs.
+/* Legendre sums over weighted nodes, sum_n W_n P_l(x_n), the same nodes for all realizations; as
+ * pairs/sums.cl, with nodes instead of pairs.
  *
  * Launch: (runs, realizations) in work-groups of one item, since local memory belongs to one.
  *

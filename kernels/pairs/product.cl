@@ -1,10 +1,11 @@
-/* Products of a matrix of distances with a vector: sum_j x_j |u_i - u_j|^(2 power) for all i, the kernel of a Sobolev space
- * but for its constant (docs/mathematics/quadrature.md#sobolev-kernel,
+/* Products of a matrix of distances with a vector: sum_j x_j |u_i - u_j|^(2 power) for all i, the
+ * kernel of a Sobolev space but for its constant (docs/mathematics/quadrature.md#sobolev-kernel,
  * docs/mathematics/quadrature.md#optimal-weights). Nothing of the matrix is kept.
  *
- * One work-item owns LANES points i and a segment of points j, BLOCK of which are added up before they join the sum in two
- * parts: the same sums whatever the work-groups. Launch: (vectors of points i, segments) in work-groups of any size, the
- * vectors rounded up; no local memory. Equal points have the distance 0, exactly.
+ * One work-item owns LANES points i and a segment of points j, BLOCK of which are added up before
+ * they join the sum in two parts: the same sums whatever the work-groups. Launch: (vectors of
+ * points i, segments) in work-groups of any size, the vectors rounded up; no local memory. Equal
+ * points have the distance 0, exactly.
  *
  *   points    [3][stride]: coordinates, any numbers beyond the points; stride is a multiple of LANES and of BLOCK
  *   x         [stride]; 0 beyond the points

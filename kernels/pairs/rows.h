@@ -1,8 +1,8 @@
 /* Vectors of moments of LANES pairs, each added to the row of its bin.
  *
- * The transposition from vectors of pairs to rows of moments is written for registers of 128 bits side by side: shuffles
- * within them are one instruction on any CPU, and the parts are put together once. Rows go from registers to the sums: no
- * local memory in between.
+ * The transposition from vectors of pairs to rows of moments is written for registers of 128 bits
+ * side by side: shuffles within them are one instruction on any CPU, and the parts are put together
+ * once. Rows go from registers to the sums: no local memory in between.
  */
 #ifndef PS_PAIRS_ROWS_H
 #define PS_PAIRS_ROWS_H

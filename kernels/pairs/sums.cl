@@ -1,8 +1,9 @@
-/* Sums of w_i w_j P_l(u_i.u_j) over pairs: nearly all the work of pairs_direct. t = 1 - |u.v| = |u -+ v|^2 / 2 comes from
- * differences (pairs/layout.h), the polynomials from pairs/walk.h.
+/* Sums of w_i w_j P_l(u_i.u_j) over pairs: nearly all the work of pairs_direct. t = 1 - |u.v| = |u
+ * -+ v|^2 / 2 comes from differences (pairs/layout.h), the polynomials from pairs/walk.h.
  *
- * One work-item owns a run of pairs and goes through it in chunks of CHUNK vectors of LANES pairs. A chunk walks up the
- * degrees, DEGREES at a time: their sums are in registers while its pairs pass by, with the state of their recurrences.
+ * One work-item owns a run of pairs and goes through it in chunks of CHUNK vectors of LANES pairs.
+ * A chunk walks up the degrees, DEGREES at a time: their sums are in registers while its pairs pass
+ * by, with the state of their recurrences.
  *
  * Launch: (runs, realizations) in work-groups of one item, since local memory belongs to one.
  *

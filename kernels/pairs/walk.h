@@ -1,14 +1,15 @@
-/* Up the degrees of Legendre polynomials, many arguments side by side, with sums over all of them: what pairs/sums.cl
- * does with pairs of points, pairs/nodes_sums.cl with nodes of a histogram.
+/* Up the degrees of Legendre polynomials, many arguments side by side, with sums over all of them:
+ * what pairs/sums.cl does with pairs of points, pairs/nodes_sums.cl with nodes of a histogram.
  *
  * With t = 1 - |x| and differences, P_l(1 - t) has no cancellation
  * (docs/mathematics/numerics.md#legendre-sums):
  *
  *     E_l = l (P_l - P_{l-1}):   E_{l+1} = E_l - (2l + 1) t P_l,   P_{l+1} = P_l + E_{l+1} / (l + 1)
  *
- * P_0 is the weight, which so costs nothing further. (2l + 1) t goes up by 2 t from degree to degree and is made anew for
- * every block: four and a half operations for a degree, half of them fused, the others additions, for which CPUs have
- * units of their own. Arguments x < 0 have side -1: P_l(-x) = (-1)^l P_l(x).
+ * P_0 is the weight, which so costs nothing further. (2l + 1) t goes up by 2 t from degree to
+ * degree and is made anew for every block: four and a half operations for a degree, half of them
+ * fused, the others additions, for which CPUs have units of their own. Arguments x < 0 have side
+ * -1: P_l(-x) = (-1)^l P_l(x).
  */
 #ifndef PS_PAIRS_WALK_H
 #define PS_PAIRS_WALK_H
@@ -27,7 +28,8 @@
 #define ONLY_EVEN 0
 #endif
 
-/* Degrees of a block: as many sums as registers hold beside a state. Sums of lanes are made for two blocks at a time. */
+/* Degrees of a block: as many sums as registers hold beside a state. Sums of lanes are made for two
+ * blocks at a time. */
 #define DEGREES 8
 
 #define STATE_P 0

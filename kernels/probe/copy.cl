@@ -1,4 +1,5 @@
-/* The device's bandwidth: LANES numbers from one buffer to another by each work-item. Launch: (num / LANES).
+/* The device's bandwidth: LANES numbers from one buffer to another by each work-item. Launch: (num
+ * / LANES).
  *
  *   from, to   [num], num a multiple of LANES
  */

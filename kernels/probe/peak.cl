@@ -1,5 +1,5 @@
-/* The device's peak of fused multiply-adds: 16 independent chains of LANES numbers per work-item, long
- * enough to hide latency. Launch: (any); result keeps the compiler from dropping the work.
+/* The device's peak of fused multiply-adds: 16 independent chains of LANES numbers per work-item,
+ * long enough to hide latency. Launch: (any); result keeps the compiler from dropping the work.
  */
 #include "shared/real.h"
 

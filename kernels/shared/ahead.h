@@ -1,5 +1,6 @@
-/* Memory that is wanted soon, brought near. OpenCL C's own prefetch() does nothing in PoCL 3.1. Only where a work-group
- * has one item (shared/group.h): that is a CPU, whose address spaces are one. Device only.
+/* Memory that is wanted soon, brought near. OpenCL C's own prefetch() does nothing in PoCL 3.1.
+ * Only where a work-group has one item (shared/group.h): that is a CPU, whose address spaces are
+ * one. Device only.
  */
 #ifndef PS_SHARED_AHEAD_H
 #define PS_SHARED_AHEAD_H

@@ -1,6 +1,6 @@
-/* Work-groups. With ALONE a group has one work-item, as engines want it on CPUs, and the kernel has no barriers: at
- * each of them PoCL 3.1 cuts a kernel, and copies what lies between. sphere/nufft/orders.cl took 5 times as long to compile
- * and four times the code. Device only.
+/* Work-groups. With ALONE a group has one work-item, as engines want it on CPUs, and the kernel has
+ * no barriers: at each of them PoCL 3.1 cuts a kernel, and copies what lies between.
+ * sphere/nufft/orders.cl took 5 times as long to compile and four times the code. Device only.
  */
 #ifndef PS_SHARED_GROUP_H
 #define PS_SHARED_GROUP_H

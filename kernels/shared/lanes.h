@@ -1,6 +1,6 @@
-/* LANES numbers as one access of memory. vload and vstore of PoCL 3.1 fall into halves, down to pairs: half a
- * vector cannot be forwarded from the store to the next load of the whole, which waits for memory then (spreading
- * took 1.4 times as long). Nothing of it in C11.
+/* LANES numbers as one access of memory. vload and vstore of PoCL 3.1 fall into halves, down to
+ * pairs: half a vector cannot be forwarded from the store to the next load of the whole, which
+ * waits for memory then (spreading took 1.4 times as long). Nothing of it in C11.
  */
 #ifndef PS_SHARED_LANES_H
 #define PS_SHARED_LANES_H

@@ -1,4 +1,5 @@
-/* Sums in pairs (high, low): twice the digits of the working precision, on devices without fp64 too.
+/* Sums in pairs (high, low): twice the digits of the working precision, on devices without fp64
+ * too.
  *
  * high + low is the sum; every rounding error of high is caught exactly (Knuth's two-sum) and added
  * to low. Needs IEEE addition and no contraction, which shared/real.h switches off.

@@ -1,11 +1,13 @@
-/* x^q for distances of points, 0 <= x <= 4 and 0 < q < 1: x^q = 2^(q log2 x), x = 2^e m, sqrt(1/2) <= m < sqrt 2,
+/* x^q for distances of points, 0 <= x <= 4 and 0 < q < 1: x^q = 2^(q log2 x), x = 2^e m, sqrt(1/2)
+ * <= m < sqrt 2,
  *
  *     log2 m = (2/ln 2) (f + f^3/3 + f^5/5 + ..),   f = (m-1)/(m+1),   |f| <= 0.172
  *     2^z = 2^k e^t,   k = round(z),   t = (z-k) ln 2,   |t| <= 0.347
  *
- * Numbers below the smallest normal one become 0. In double precision the error is below 1e-15 (tests/math/test_sobolev.c); series
- * end where terms are below 1e-17. No branches and no conversions, so that compilers make vectors of it on the host, where
- * pow of libm takes four times as long; PoCL's exp and log take 1.3 times as long (bench_weights). In single precision on a
+ * Numbers below the smallest normal one become 0. In double precision the error is below 1e-15
+ * (tests/math/test_sobolev.c); series end where terms are below 1e-17. No branches and no
+ * conversions, so that compilers make vectors of it on the host, where pow of libm takes four times
+ * as long; PoCL's exp and log take 1.3 times as long (bench_weights). In single precision on a
  * device: its own functions.
  */
 #ifndef PS_SHARED_POWER_H

@@ -1,8 +1,9 @@
 /* The number types of a kernel, for OpenCL C 1.2 and for C11.
  *
  * PRECISION 32 or 64 chooses float or double; LANES (OpenCL only) how many numbers travel together:
- * the native vector width on CPUs, a few on GPUs, where it means work per work-item. In C every type
- * is a scalar, so that shared headers can be tested on the host, one precision per source file.
+ * the native vector width on CPUs, a few on GPUs, where it means work per work-item. In C every
+ * type is a scalar, so that shared headers can be tested on the host, one precision per source
+ * file.
  *
  *   real, realv    a number, a vector of LANES numbers
  *   word, wordv    unsigned integers of the same width: fractions of a turn

@@ -1,5 +1,5 @@
-/* A square of LANES vectors of LANES numbers, turned: v[i][j] <-> v[j][i], in registers. Nothing of it in C11.
- * One shuffle for each vector and each factor of two of LANES.
+/* A square of LANES vectors of LANES numbers, turned: v[i][j] <-> v[j][i], in registers. Nothing of
+ * it in C11. One shuffle for each vector and each factor of two of LANES.
  */
 #ifndef PS_SHARED_TRANSPOSE_H
 #define PS_SHARED_TRANSPOSE_H
@@ -28,9 +28,9 @@
              (a).sd, (b).sd, (a).se, (b).se, (a).sf, (b).sf))
 #endif
 
-/* Of doubles two by two, then whole blocks of two, the even ones and the odd ones of two vectors: the shuffles that
- * processors do fastest (sums over rings took 0.9 of the time, Zen 5, PoCL 3.1). Of floats LLVM 14 makes several
- * shuffles for each when they are asked for like that. */
+/* Of doubles two by two, then whole blocks of two, the even ones and the odd ones of two vectors:
+ * the shuffles that processors do fastest (sums over rings took 0.9 of the time, Zen 5, PoCL 3.1).
+ * Of floats LLVM 14 makes several shuffles for each when they are asked for like that. */
 #if PRECISION == 64 && LANES == 8
 #define BLOCK_LANES 2
 #define NUMBERS_LOW(a, b) ((realv)((a).s0, (b).s0, (a).s2, (b).s2, (a).s4, (b).s4, (a).s6, (b).s6))
@@ -77,8 +77,8 @@ static inline __attribute__((always_inline)) void transpose(realv *v) {
 
 #else
 
-/* Any number: interleaving the first half of the vectors with the second half, log2(LANES) times, is the
- * transposition. */
+/* Any number: interleaving the first half of the vectors with the second half, log2(LANES) times,
+ * is the transposition. */
 static inline void transpose(realv *v) {
 #if LANES == 1
     (void)v;

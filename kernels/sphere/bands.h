@@ -1,6 +1,6 @@
-/* The fine grid of the sphere in bands of longitudes, each with room behind it for windows that begin in it. Band b
- * has the longitudes ceil(b n / bands) .. ceil((b + 1) n / bands) - 1, no fewer than a window is wide, or all are one
- * band. In memory: [band][band_rows][pitch]. Device only.
+/* The fine grid of the sphere in bands of longitudes, each with room behind it for windows that
+ * begin in it. Band b has the longitudes ceil(b n / bands) .. ceil((b + 1) n / bands) - 1, no fewer
+ * than a window is wide, or all are one band. In memory: [band][band_rows][pitch]. Device only.
  */
 #ifndef PS_SPHERE_BANDS_H
 #define PS_SPHERE_BANDS_H

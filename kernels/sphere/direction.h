@@ -1,9 +1,9 @@
-/* The direction of a vector that is nearly a unit vector: what the sums over spherical harmonics need of it, in
- * double precision without cancellation (docs/mathematics/numerics.md#high-order). PRECISION is 64,
- * also in C11.
+/* The direction of a vector that is nearly a unit vector: what the sums over spherical harmonics
+ * need of it, in double precision without cancellation (docs/mathematics/numerics.md#high-order).
+ * PRECISION is 64, also in C11.
  *
- * Measured on the host (tests/kernels/sphere_header_cases.h): relative errors of t and rho below 5e-16, of the azimuth
- * below 7e-17 turns.
+ * Measured on the host (tests/kernels/sphere_header_cases.h): relative errors of t and rho below
+ * 5e-16, of the azimuth below 7e-17 turns.
  */
 #ifndef PS_SPHERE_DIRECTION_H
 #define PS_SPHERE_DIRECTION_H
@@ -14,7 +14,8 @@
 #define DIRECTION_SMALLEST(precision)                                                              \
     ((precision) == 64 ? 7.888609052210118e-31 : 5.421010862427522e-20)
 
-/* Fixed point is made of 2^62 ths of a turn, so that half a turn does not overflow a signed word. */
+/* Fixed point is made of 2^62 ths of a turn, so that half a turn does not overflow a signed word.
+ */
 #define DIRECTION_QUARTER_WORDS 4.611686018427387904e18 /* 2^62 */
 
 typedef struct direction {
@@ -24,8 +25,8 @@ typedef struct direction {
     wordv turn;         /* the azimuth */
 } direction;
 
-/* arctan(q) / (2 pi q) for 0 <= q <= 1 in powers of s = q^2: interpolated at 22 Chebyshev nodes in 60 digits, error
- * 1.4e-19. */
+/* arctan(q) / (2 pi q) for 0 <= q <= 1 in powers of s = q^2: interpolated at 22 Chebyshev nodes in
+ * 60 digits, error 1.4e-19. */
 static inline realv direction_arctangent(const realv s) {
     realv sum = (realv)-1.3158924037923228018e-6;
     sum = fma(sum, s, (realv)0.000015881134049239378366);

@@ -1,9 +1,9 @@
-/* What all lanes say together: sums over the lanes of several vectors, and whether a lane is negative. Nothing of it
- * in C11.
+/* What all lanes say together: sums over the lanes of several vectors, and whether a lane is
+ * negative. Nothing of it in C11.
  *
- * Adding the two halves of two vectors interleaved leaves one vector with half the terms of either sum: after
- * log2(LANES) rounds one vector has the sum of a vector in each lane, in their order. Everything is written out:
- * vectors stay in registers only where no loop has to be unrolled first.
+ * Adding the two halves of two vectors interleaved leaves one vector with half the terms of either
+ * sum: after log2(LANES) rounds one vector has the sum of a vector in each lane, in their order.
+ * Everything is written out: vectors stay in registers only where no loop has to be unrolled first.
  */
 #ifndef PS_SPHERE_LANE_SUMS_H
 #define PS_SPHERE_LANE_SUMS_H

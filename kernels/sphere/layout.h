@@ -5,8 +5,8 @@
  *   ORDERS   orders of one work-item: azimuth and sin^m begin exactly at the first, then go by multiplication
  *   DEGREES  degrees of a block, whose sums stay in registers. 8: 16 sums of 32 registers
  *
- * A block of the table is BLOCK_REALS numbers: -kappa[8], epsilon[8], ratio[8], the two factors of the state, and
- * nothing. See sphere/sums.cl.
+ * A block of the table is BLOCK_REALS numbers: -kappa[8], epsilon[8], ratio[8], the two factors of
+ * the state, and nothing. See sphere/sums.cl.
  */
 #ifndef PS_SPHERE_LAYOUT_H
 #define PS_SPHERE_LAYOUT_H

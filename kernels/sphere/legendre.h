@@ -1,19 +1,19 @@
 /* The recurrence over degrees at a fixed order m, in the form of differences
- * (docs/mathematics/numerics.md#high-order), DEGREES at a time. With t = 1 - |cos theta| and
- * p_mm = 1, D_mm = 0,
+ * (docs/mathematics/numerics.md#high-order), DEGREES at a time. With t = 1 - |cos theta| and p_mm =
+ * 1, D_mm = 0,
  *
  *     D_l = alpha_l D_{l-1} - kappa_l t p_{l-1},   p_l = p_{l-1} + D_l,
  *     alpha_l = (l - m - 1) / (l + m),   kappa_l = (2l - 1) / (l + m),
  *     Y_lm = C_m sin^m(theta) e^{i m phi} G_l p_l,
  *     G_l = G_{l-1} sqrt((2l + 1)(l + m) / ((2l - 1)(l - m))),   G_m = 1.
  *
- * Within a block that begins at degree l_0, D_l = epsilon_l E_l with epsilon the product of alphas from l_0 on: three
- * operations for a degree,
+ * Within a block that begins at degree l_0, D_l = epsilon_l E_l with epsilon the product of alphas
+ * from l_0 on: three operations for a degree,
  *
  *     E_l = E_{l-1} - (kappa_l / epsilon_l) t p_{l-1},   p_l = p_{l-1} + epsilon_l E_l.
  *
- * From block to block p takes G up, so that it keeps the size of Y_lm, and E becomes D. The table of a block
- * (sphere/layout.h) is made by host/engines/sphere/sphere_table.c.
+ * From block to block p takes G up, so that it keeps the size of Y_lm, and E becomes D. The table
+ * of a block (sphere/layout.h) is made by host/engines/sphere/sphere_table.c.
  */
 #ifndef PS_SPHERE_LEGENDRE_H
 #define PS_SPHERE_LEGENDRE_H

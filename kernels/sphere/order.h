@@ -1,5 +1,5 @@
-/* How an order begins in sphere/sums.cl: w exp(i m phi) and sin^m(theta) of the points of a chunk. Nothing of it in
- * C11.
+/* How an order begins in sphere/sums.cl: w exp(i m phi) and sin^m(theta) of the points of a chunk.
+ * Nothing of it in C11.
  */
 #ifndef PS_SPHERE_ORDER_H
 #define PS_SPHERE_ORDER_H
@@ -13,7 +13,8 @@
 
 #ifdef __OPENCL_C_VERSION__
 
-/* Local memory of a work-item: what the points of a chunk carry from degree to degree and from order to order. */
+/* Local memory of a work-item: what the points of a chunk carry from degree to degree and from
+ * order to order. */
 #define LOCAL_P 0
 #define LOCAL_E (LOCAL_P + CHUNK)
 #define LOCAL_COSINE (LOCAL_E + CHUNK) /* times the weight */

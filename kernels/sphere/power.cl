@@ -1,7 +1,7 @@
 /* sum_m |c_lm|^2 over the orders of sphere/sums.cl, in pairs, order after order.
  *
- * One work-item owns LANES degrees of one realization. Launch: (stride / LANES, realizations), the first rounded up
- * at will; no local memory.
+ * One work-item owns LANES degrees of one realization. Launch: (stride / LANES, realizations), the
+ * first rounded up at will; no local memory.
  *
  *   sums    of sphere/sums.cl, LANES a part of its alignment
  *   powers  [realization][high, low][stride]: |c_l0|^2 / 2 + sum_{m > 0} |c_lm|^2; begun by the pass whose first_order

@@ -1,4 +1,5 @@
-/* Directions of points, in double precision, as sphere/sums.cl wants them: one array for each quantity.
+/* Directions of points, in double precision, as sphere/sums.cl wants them: one array for each
+ * quantity.
  *
  * One work-item owns LANES points. Launch: vectors, rounded up at will; no local memory.
  *
@@ -6,8 +7,8 @@
  *   values  [NUM_ARRAYS][capacity] in the precision of the sums: t, side, rho, its rest, cos, sin
  *   turns   [capacity]
  *
- * side is -1 where z < 0 and 1 elsewhere. With ONLY_EVEN a point u with z < 0 becomes -u, which has the same even
- * degrees, and side is 1.
+ * side is -1 where z < 0 and 1 elsewhere. With ONLY_EVEN a point u with z < 0 becomes -u, which has
+ * the same even degrees, and side is 1.
  */
 #define PRECISION 64
 #include "sphere/direction.h"

@@ -1,6 +1,6 @@
-/* Numbers too small for a float or a double: (high + low) 2^(SCALE_BITS scale), in pairs for powers that keep
- * their digits. sin^m(theta) needs them (docs/mathematics/numerics.md#high-order). Works in either
- * precision, in C11 too.
+/* Numbers too small for a float or a double: (high + low) 2^(SCALE_BITS scale), in pairs for powers
+ * that keep their digits. sin^m(theta) needs them (docs/mathematics/numerics.md#high-order). Works
+ * in either precision, in C11 too.
  *
  * A normalised number has SCALED_LOW <= high < SCALED_HIGH, or is 0.
  */
@@ -23,8 +23,8 @@
 #define SCALED_HIGH 65536.0f               /* 2^16 */
 #endif
 
-/* The smallest number that one normalisation takes back into range after a product, and all that matters of sin theta:
- * |Y_lm| < rho l^(3/2) for m > 0. */
+/* The smallest number that one normalisation takes back into range after a product, and all that
+ * matters of sin theta: |Y_lm| < rho l^(3/2) for m > 0. */
 #if PRECISION == 64
 #define SCALED_SMALLEST 7.888609052210118e-31 /* 2^-100 */
 #else
@@ -36,7 +36,8 @@ typedef struct scaled {
     swordv scale;
 } scaled;
 
-/* Out through pointers: Oclgrind does not know what inlining makes of structures that are returned. */
+/* Out through pointers: Oclgrind does not know what inlining makes of structures that are returned.
+ */
 static inline void scaled_normalize(scaled *x) {
     const realv high = x->high;
     const realv raise = high < (realv)SCALED_LOW ? (realv)SCALED_UP : (realv)1;
@@ -73,8 +74,8 @@ static inline void scaled_step(scaled *x, const realv high, const realv low) {
     x->high = product < (realv)SCALED_LOW ? raised : product;
 }
 
-/* out = base^exponent, by squaring: relative error about exponent times that of the pair. From the top bit down: the
- * base need not be squared. */
+/* out = base^exponent, by squaring: relative error about exponent times that of the pair. From the
+ * top bit down: the base need not be squared. */
 static inline void scaled_power(scaled *out, const scaled *base, const uint exponent) {
     uint bit = 1;
     while (bit <= exponent / 2) {

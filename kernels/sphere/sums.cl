@@ -1,10 +1,12 @@
 /* Coefficients c_lm = sum_j w_j Y_lm(u_j), m >= 0: nearly all the work of sphere_direct.
  *
- * One work-item owns ORDERS orders of one realization, and goes through its points in chunks. For an order it makes
- * w cos(m phi), w sin(m phi) and sin^m(theta) of the points of a chunk, then walks up the degrees, DEGREES at a time:
- * their sums are in registers while the points, LANES side by side, pass by with the state of their recurrences.
+ * One work-item owns ORDERS orders of one realization, and goes through its points in chunks. For
+ * an order it makes w cos(m phi), w sin(m phi) and sin^m(theta) of the points of a chunk, then
+ * walks up the degrees, DEGREES at a time: their sums are in registers while the points, LANES side
+ * by side, pass by with the state of their recurrences.
  *
- * Launch: (tiles of orders, realizations) in work-groups of one item, since local memory belongs to one.
+ * Launch: (tiles of orders, realizations) in work-groups of one item, since local memory belongs to
+ * one.
  *
  *   values, turns  of sphere/prepare.cl
  *   weights        one per point, 0 for padding
@@ -16,9 +18,10 @@
  *                  back to a multiple of SUM_ALIGNMENT; up to DEGREES - 1 behind max_degree are overwritten
  *   is_first       sums begin anew; else they are added to
  *
- * sin^m(theta) underflows. Points where it does carry an exponent: the true state is 2^(SCALE_BITS scale) times what
- * is there. With scale 0 all is as usual; at -1 what it adds is scaled down, which underflows at worst where nothing is
- * lost; below, it adds nothing. The state takes a scale up when it reaches SCALED_HIGH.
+ * sin^m(theta) underflows. Points where it does carry an exponent: the true state is 2^(SCALE_BITS
+ * scale) times what is there. With scale 0 all is as usual; at -1 what it adds is scaled down,
+ * which underflows at worst where nothing is lost; below, it adds nothing. The state takes a scale
+ * up when it reaches SCALED_HIGH.
  */
 #include "shared/real.h"
 #include "shared/lanes.h"

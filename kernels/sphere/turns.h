@@ -1,5 +1,5 @@
-/* Directions as places on a torus: turns of the longitude and of the angle from the north pole, in units of 2^-64.
- * Device only.
+/* Directions as places on a torus: turns of the longitude and of the angle from the north pole, in
+ * units of 2^-64. Device only.
  */
 #ifndef PS_SPHERE_TURNS_H
 #define PS_SPHERE_TURNS_H
@@ -12,16 +12,16 @@ typedef PS_VECTOR(double) doublev;
 #define TO_LONGV(x) PS_JOIN(convert_, PS_VECTOR(long))(x)
 #define AS_ULONGV(x) PS_JOIN(as_, PS_VECTOR(ulong))(x)
 
-/* An angle between -pi and pi. Two bits fewer than there are, so that half a turn still is a signed number; an
- * angle in double precision has no more. */
+/* An angle between -pi and pi. Two bits fewer than there are, so that half a turn still is a signed
+ * number; an angle in double precision has no more. */
 static inline ulongv turns_of(const doublev angle) {
     const doublev turns = angle * (doublev)0.15915494309189533577;
     const doublev units = turns * (doublev)4611686018427387904.0;
     return AS_ULONGV(TO_LONGV(units)) << (ulongv)2;
 }
 
-/* LANES points from `first` on, the last of num_points again behind the end: turns [point][2], room for whole vectors.
- * shift is added to the angle from the pole. */
+/* LANES points from `first` on, the last of num_points again behind the end: turns [point][2], room
+ * for whole vectors. shift is added to the angle from the pole. */
 static inline __attribute__((always_inline)) void
 make_turns(__global const double *points, __global ulong *turns, const size_t first,
            const size_t num_points, const ulong shift) {

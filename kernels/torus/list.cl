@@ -4,8 +4,8 @@
  * one chunk of its points: it walks through the points, forms w cos(2 pi k.x) and w sin(2 pi k.x),
  * adds them up and, when STORE_TABLE is set, also writes them down for torus/product.cl.
  *
- * Launch: (tiles, half as many without a table; chunks; realizations), the first rounded up at will;
- * no local memory.
+ * Launch: (tiles, half as many without a table; chunks; realizations), the first rounded up at
+ * will; no local memory.
  *
  *   points       [..][DIMENSION] fixed point, realization r at offsets[r] .. offsets[r + 1]
  *   weights      one per point
@@ -30,8 +30,9 @@
 #define STORE_TABLE 0
 #endif
 
-/* In a table of factors the first weighted_tiles look at the axes before LEFT_AXES only and the others
- * at the rest (all at the same one in one dimension): elsewhere their frequencies are zero. */
+/* In a table of factors the first weighted_tiles look at the axes before LEFT_AXES only and the
+ * others at the rest (all at the same one in one dimension): elsewhere their frequencies are zero.
+ */
 #ifndef LEFT_AXES
 #define LEFT_AXES DIMENSION
 #endif
@@ -41,8 +42,8 @@
 #define RIGHT_BEGIN 0
 #endif
 
-/* Tiles of one work-item. Sums alone take two, which share the work on the coordinates of a point; a
- * table is written by one, since its two factors look at different axes. */
+/* Tiles of one work-item. Sums alone take two, which share the work on the coordinates of a point;
+ * a table is written by one, since its two factors look at different axes. */
 #define SIDE_BY_SIDE (STORE_TABLE ? 1 : 2)
 
 /* Adds the points begin .. end - 1 up over the axes given, constants in every call, so that loops

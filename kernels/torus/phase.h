@@ -1,10 +1,11 @@
-/* Phases k.x mod 1 in fixed point, for one point and LANES frequencies, over the axes begin .. end - 1.
+/* Phases k.x mod 1 in fixed point, for one point and LANES frequencies, over the axes begin .. end
+ * - 1.
  *
- * A coordinate is X = round(x 2^64). Double: k X wraps mod 2^64 and is exact. Float: the top 32 bits
- * of k X are wanted. With X = high 2^32 + low they are k high, which wraps and is exact, plus the
- * integer part of k low / 2^32; that part is below |k| and only needs to be right to a few units
- * (2^-32 turns each), so a float product is enough while the sum of |k| over the axes is below 2^31:
- * the phase is off by at most 2 + (2 + d) 2^-24 sum |k| units.
+ * A coordinate is X = round(x 2^64). Double: k X wraps mod 2^64 and is exact. Float: the top 32
+ * bits of k X are wanted. With X = high 2^32 + low they are k high, which wraps and is exact, plus
+ * the integer part of k low / 2^32; that part is below |k| and only needs to be right to a few
+ * units (2^-32 turns each), so a float product is enough while the sum of |k| over the axes is
+ * below 2^31: the phase is off by at most 2 + (2 + d) 2^-24 sum |k| units.
  */
 #ifndef PS_TORUS_PHASE_H
 #define PS_TORUS_PHASE_H

@@ -25,8 +25,9 @@
 #include "shared/pair.h"
 #include "torus/layout.h"
 
-/* With two operands, 4 STRIP accumulators are to fit into registers: 32 of them where vectors have 512 bits, else
- * 16 (half the time on AVX2, at N = 256 and K = 64). Results are equal to the bit. */
+/* With two operands, 4 STRIP accumulators are to fit into registers: 32 of them where vectors have
+ * 512 bits, else 16 (half the time on AVX2, at N = 256 and K = 64). Results are equal to the bit.
+ */
 #ifndef STRIP
 #if PRECISION * LANES > 256
 #define STRIP 4

@@ -6,8 +6,8 @@
 
 #define COUNT(options) (sizeof(options) / sizeof(options)[0])
 
-/* Runs the program in this folder; returns its exit status. What it prints is in the file "printed", what it says on
- * standard error in "said". */
+/* Runs the program in this folder; returns its exit status. What it prints is in the file
+ * "printed", what it says on standard error in "said". */
 int test_ask_program(const char *command, const pspec_option *options, size_t num);
 
 /* The bytes of a file, with a zero behind them; freed by the caller. */

@@ -19,8 +19,8 @@ pspec_spectrum *test_public_spectrum(pspec_context *context, const pspec_power_r
 /* To the bit; powers of single frequencies only when asked for. */
 bool test_is_same_spectrum(const pspec_spectrum *a, const pspec_spectrum *b, bool with_powers);
 
-/* Installs an error handler of GSL's that counts. At the end of a program, as a test: it is still there,
- * after everything that the library did, and nobody called it. */
+/* Installs an error handler of GSL's that counts. At the end of a program, as a test: it is still
+ * there, after everything that the library did, and nobody called it. */
 void test_watch_gsl(void);
 void test_gsl_is_left_alone(void **state);
 

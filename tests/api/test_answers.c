@@ -1,5 +1,5 @@
-/* Answers of the library are those of the program, byte for byte: the same options, by names to one and as words to the
- * other, give the same files. */
+/* Answers of the library are those of the program, byte for byte: the same options, by names to one
+ * and as words to the other, give the same files. */
 #include "harness_program.h"
 
 #include <math.h>
@@ -26,7 +26,8 @@ static pspec_table *ask_library(pspec_context *context, const char *kind,
     return table;
 }
 
-/* Both write the files named, the program first; the table is the option "output", which is files[0]. */
+/* Both write the files named, the program first; the table is the option "output", which is
+ * files[0]. */
 static void compare(const char *kind, const pspec_option *options, size_t num,
                     const char *const *files, size_t num_files) {
     pspec_context *const context = test_public_context();
@@ -176,7 +177,7 @@ static void memory_limits(void **state) {
     pspec_context_destroy(context);
 }
 
-/* ---- all --------------------------------------------------------------------------------------- */
+/* ---- all ------------------------------------------------------------------------------------- */
 
 static void write_points(const char *path, uint64_t seed) {
     FILE *const file = fopen(path, "w");

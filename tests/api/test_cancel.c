@@ -1,4 +1,5 @@
-/* The progress callback: long phases of the host have a name, and end soon after it has asked them to. */
+/* The progress callback: long phases of the host have a name, and end soon after it has asked them
+ * to. */
 #include "base/clock.h"
 #include "harness_quadrature.h"
 

@@ -1,5 +1,5 @@
-/* What makes files and what looks at the machine, from the library: points, scenes, plans, devices, the doctor. They are
- * those of the program, byte for byte. */
+/* What makes files and what looks at the machine, from the library: points, scenes, plans, devices,
+ * the doctor. They are those of the program, byte for byte. */
 #include "harness_program.h"
 
 #include <math.h>

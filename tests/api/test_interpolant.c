@@ -1,4 +1,5 @@
-/* Kernel interpolation through the public library: laws of reproducing kernels, either way of solving, and nonsense. */
+/* Kernel interpolation through the public library: laws of reproducing kernels, either way of
+ * solving, and nonsense. */
 #include "harness.h"
 
 #include "math/pi.h"
@@ -24,7 +25,8 @@ static void make_points(size_t num, double *points) {
     }
 }
 
-/* f = 3 K(., a) - 2 K(., b): with a and b among the points f^ is f, and |f|^2 = 9 c - 12 K(a, b) + 4 c. */
+/* f = 3 K(., a) - 2 K(., b): with a and b among the points f^ is f, and |f|^2 = 9 c - 12 K(a, b) +
+ * 4 c. */
 static void known_functions(void **state) {
     static const uint64_t limits[] = {0, 1}; /* of memory: Cholesky, conjugate gradients */
     double points[3 * NUM], at[3 * TESTS], values[NUM], found[NUM];
@@ -64,7 +66,8 @@ static void known_functions(void **state) {
     }
 }
 
-/* Other values: met at the points, and a function of H^s, K(., v) with v not among them, is within its bound. */
+/* Other values: met at the points, and a function of H^s, K(., v) with v not among them, is within
+ * its bound. */
 static void bounds_hold(void **state) {
     double points[3 * NUM], at[3 * TESTS], values[NUM], found[NUM], bounds[TESTS];
     const double s = 1.5, v[3] = {0.6, 0, 0.8};

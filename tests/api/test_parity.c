@@ -1,5 +1,5 @@
-/* The library answers as the program does: for the same patterns the same engine, described in the same words, and the
- * same bits of the spectrum. */
+/* The library answers as the program does: for the same patterns the same engine, described in the
+ * same words, and the same bits of the spectrum. */
 #include "harness_public.h"
 
 #include "api/public_objects.h"
@@ -23,8 +23,8 @@ typedef struct answer {
     double bins[MOST_ROWS], powers[MOST_ROWS], errors[MOST_ROWS];
 } answer;
 
-/* Uniform in a cube of that size, on which depends how large powers are: a small cube is a single point at low
- * frequencies. */
+/* Uniform in a cube of that size, on which depends how large powers are: a small cube is a single
+ * point at low frequencies. */
 typedef struct cloud {
     unsigned dimension;
     size_t num_points;
@@ -97,7 +97,7 @@ static void write_patterns(const pspec_pattern *patterns) {
     }
 }
 
-/* ---- the program ------------------------------------------------------------------------------- */
+/* ---- the program ----------------------------------------------------------------------------- */
 
 /* Of a row "a,b,...", column i. */
 static double read_column(const char *row, int i) {
@@ -155,7 +155,7 @@ static answer *ask_program(const char *words, const char *power, const char *err
     return out;
 }
 
-/* ---- the same ---------------------------------------------------------------------------------- */
+/* ---- the same -------------------------------------------------------------------------------- */
 
 static void check_number(const char *what, size_t row, double found, double expected) {
     if (!(found == expected) && !(isnan(found) && isnan(expected))) {
@@ -233,7 +233,7 @@ static void compare_angular(const cloud *shape, const pspec_angular_request *req
     free(expected);
 }
 
-/* ---- questions --------------------------------------------------------------------------------- */
+/* ---- questions ------------------------------------------------------------------------------- */
 
 static void on_the_torus(void **state) {
     (void)state;

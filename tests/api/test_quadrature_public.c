@@ -1,4 +1,5 @@
-/* Quadrature, truncation and C_l^2 through the public library, against closed forms, the job behind the program, and themselves. */
+/* Quadrature, truncation and C_l^2 through the public library, against closed forms, the job behind
+ * the program, and themselves. */
 #include "harness_angular.h"
 #include "harness_quadrature.h"
 
@@ -95,7 +96,8 @@ static void realizations(void **state) {
     pspec_context_destroy(context);
 }
 
-/* Optimal weights make E smaller; two equal points are one; the rest below the horizon is left out on demand. */
+/* Optimal weights make E smaller; two equal points are one; the rest below the horizon is left out
+ * on demand. */
 static void weights(void **state) {
     (void)state;
     static const double points[] = {0, 0, 1, 0, 0, 1, 0.6, 0, 0.8, 0, -0.8, 0.6, 0, 0.6, -0.8};

@@ -1,4 +1,5 @@
-/* Tables that answers come as, options that they take, and nonsense, which one clear sentence refuses. */
+/* Tables that answers come as, options that they take, and nonsense, which one clear sentence
+ * refuses. */
 #include "harness_public.h"
 
 #include <math.h>
@@ -173,7 +174,7 @@ static void callbacks(void **state) {
     pspec_context_destroy(context);
 }
 
-/* ---- all --------------------------------------------------------------------------------------- */
+/* ---- all ------------------------------------------------------------------------------------- */
 
 static void write_points(const char *path, uint64_t seed) {
     FILE *const file = fopen(path, "w");

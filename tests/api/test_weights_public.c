@@ -1,5 +1,5 @@
-/* Weights at the ends of the range of doubles through the public library: results that are numbers, or PSPEC_ERROR_INPUT and
- * a sentence with the limit. */
+/* Weights at the ends of the range of doubles through the public library: results that are numbers,
+ * or PSPEC_ERROR_INPUT and a sentence with the limit. */
 #include "harness_angular.h"
 #include "harness_public.h"
 

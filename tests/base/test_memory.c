@@ -1,4 +1,5 @@
-/* Memory as it is announced: the buffers that a job has on the device, within 10 % of what plan counted. */
+/* Memory as it is announced: the buffers that a job has on the device, within 10 % of what plan
+ * counted. */
 #include "harness.h"
 
 #include "jobs/parts/estimator.h"

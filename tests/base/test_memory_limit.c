@@ -1,4 +1,5 @@
-/* Limits of memory, found in folders that look like /proc and /sys/fs/cgroup, and sizes that people type. */
+/* Limits of memory, found in folders that look like /proc and /sys/fs/cgroup, and sizes that people
+ * type. */
 #include "harness.h"
 
 #include "base/memory.h"
@@ -214,7 +215,8 @@ static void long_lines(void **state) {
     assert_int_equal(limits.least, PS_MEMORY_CGROUP_MAX);
 }
 
-/* Limits of the process, and that arrays beyond them are refused before they are used: the system would give them. */
+/* Limits of the process, and that arrays beyond them are refused before they are used: the system
+ * would give them. */
 static void limits_of_the_process(void **state) {
     (void)state;
     const struct {

@@ -1,6 +1,6 @@
-/* Faults on demand in the program built for tests: the linker sends the calls of our own code to the
- * wrappers of this folder (--wrap), which ask here whether this is the call that has to fail, and
- * tell here what was taken and given back. Calls inside libraries are not touched. */
+/* Faults on demand in the program built for tests: the linker sends the calls of our own code to
+ * the wrappers of this folder (--wrap), which ask here whether this is the call that has to fail,
+ * and tell here what was taken and given back. Calls inside libraries are not touched. */
 #ifndef PS_TESTS_FAULTS_H
 #define PS_TESTS_FAULTS_H
 

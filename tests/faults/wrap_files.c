@@ -109,7 +109,8 @@ WRAPPER(fcntl64, int, (int descriptor, int command, ...)) {
     return result;
 }
 
-/* Files that the system makes up, apart in reports: limits in them that cannot be read are left out. */
+/* Files that the system makes up, apart in reports: limits in them that cannot be read are left
+ * out. */
 static const char *name_of_read(int descriptor) {
     char link[64];
     char target[8] = "";

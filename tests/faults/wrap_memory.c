@@ -1,5 +1,5 @@
-/* Memory: what our code takes, also through functions of the C library and of cJSON that give memory
- * away. */
+/* Memory: what our code takes, also through functions of the C library and of cJSON that give
+ * memory away. */
 #include "faults.h"
 
 #include <zlib.h>

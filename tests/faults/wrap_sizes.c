@@ -1,5 +1,5 @@
-/* Small input in the ways of large input, so that these have faults as well: what the product takes from the device
- * or has as a constant comes from the environment here.
+/* Small input in the ways of large input, so that these have faults as well: what the product takes
+ * from the device or has as a constant comes from the environment here.
  *
  *     POINTSPEC_FAULT_WHOLE_BYTES        larger sets of files come in blocks (PS_SOURCE_WHOLE_BYTES)
  *     POINTSPEC_FAULT_PLANNED_POINTS     torus_nufft chooses for so many points: millions go on a grid

@@ -13,8 +13,8 @@
 int __real_fcntl64(int descriptor, int command, ...);
 int __real_fstat64(int descriptor, struct stat *facts);
 
-/* Reports tell what is closed: after reading, without a name, and still empty (the trial of an output)
- * there is nothing to lose. */
+/* Reports tell what is closed: after reading, without a name, and still empty (the trial of an
+ * output) there is nothing to lose. */
 static const char *name_of_close(FILE *stream) {
     struct stat facts;
     if ((__real_fcntl64(fileno(stream), F_GETFL) & O_ACCMODE) == O_RDONLY) {

@@ -186,7 +186,8 @@ static void threads_find_the_same_rows(void **state) {
     free(text);
 }
 
-/* Every thing once, whatever the number of threads: one more than a multiple of many of them, and few. */
+/* Every thing once, whatever the number of threads: one more than a multiple of many of them, and
+ * few. */
 typedef struct counted {
     size_t num;
     unsigned char *times;

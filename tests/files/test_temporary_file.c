@@ -1,4 +1,5 @@
-/* Temporary files: what a dead process left goes, what is being written stays, with its lock or without. */
+/* Temporary files: what a dead process left goes, what is being written stays, with its lock or
+ * without. */
 #include "files/temporary_file.h"
 #include "test_folder.h"
 
@@ -73,7 +74,8 @@ static void files_of_others_stay_while_locked(void **state) {
 
 /* ---- several processes --------------------------------------------------------------------- */
 
-/* Makes files and gives them their final name, as outputs are made. 0: every file was there until then. */
+/* Makes files and gives them their final name, as outputs are made. 0: every file was there until
+ * then. */
 static int make_and_rename(const test_folder *folder, unsigned number) {
     enum { NUM_FILES = 4000 };
     char name[32];

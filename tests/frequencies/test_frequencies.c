@@ -55,7 +55,8 @@ static void check_lattice(unsigned dimension, int32_t max_frequency, bool is_bal
     if (!is_ball) {
         assert_int_equal(promised, expected);
     }
-    /* Of the right size and number, in the half lattice and ascending: then they are the lattice. */
+    /* Of the right size and number, in the half lattice and ascending: then they are the lattice.
+     */
     const int64_t limit = (int64_t)max_frequency * max_frequency + max_frequency;
     for (size_t i = 0; i < set.num; i++) {
         const int32_t *k = set.vectors + i * dimension;

@@ -1,4 +1,5 @@
-/* Files with figures of a device. The first byte says whether the input gets a right checksum, which hardly any would have. */
+/* Files with figures of a device. The first byte says whether the input gets a right checksum,
+ * which hardly any would have. */
 #include "fuzz.h"
 #include "store/figures_file.h"
 #include "store/figures_text.h"

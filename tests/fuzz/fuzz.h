@@ -1,6 +1,6 @@
-/* Fuzzing: every target is a function that takes any bytes and checks, beyond "no sanitizer objects",
- * what the code promises of them. The same functions run under libFuzzer (libfuzzer.c, preset fuzz) and
- * over the files of corpus/ in every build (replay.c, the test fuzz_corpus). */
+/* Fuzzing: every target is a function that takes any bytes and checks, beyond "no sanitizer
+ * objects", what the code promises of them. The same functions run under libFuzzer (libfuzzer.c,
+ * preset fuzz) and over the files of corpus/ in every build (replay.c, the test fuzz_corpus). */
 #ifndef PS_TESTS_FUZZ_H
 #define PS_TESTS_FUZZ_H
 
@@ -39,8 +39,8 @@ void *fuzz_allocate(void *old, size_t count, size_t element_bytes);
 /* A promise was broken: says so and aborts. */
 void fuzz_fail(const char *format, ...) PS_PRINTF(1, 2) __attribute__((noreturn));
 
-/* Whether the words of a message may hold what the input holds: only the command line, whose control
- * characters main() replaces. */
+/* Whether the words of a message may hold what the input holds: only the command line, whose
+ * control characters main() replaces. */
 typedef enum fuzz_quotes { FUZZ_PRINTABLE, FUZZ_QUOTES_INPUT } fuzz_quotes;
 
 /* A status other than PSPEC_OK must be one of those that input can cause, with a sentence. */

@@ -69,9 +69,9 @@ static bool is_good(const fuzz_reading *reading) {
     return reading->status == PSPEC_OK && !reading->was_cut;
 }
 
-/* One way to read gives the points of the other. A pipe, whose length is not known, may bring points
- * before it fails; it also cannot hold large arrays in Fortran order. Sentences are not compared: of a
- * file with two faults the size of the blocks decides which is met first. */
+/* One way to read gives the points of the other. A pipe, whose length is not known, may bring
+ * points before it fails; it also cannot hold large arrays in Fortran order. Sentences are not
+ * compared: of a file with two faults the size of the blocks decides which is met first. */
 static void compare_ways(const fuzz_reading *whole, const fuzz_reading *blocks,
                          const fuzz_choices *choices) {
     const bool same_source = choices->whole_from_pipe == choices->blocks_from_pipe;

@@ -1,5 +1,5 @@
-/* replay CORPUS: runs the files CORPUS/TARGET/... through their targets. replay TARGET FILE...: runs
- * these, for a look at a crash with any compiler and debugger. */
+/* replay CORPUS: runs the files CORPUS/TARGET/... through their targets. replay TARGET FILE...:
+ * runs these, for a look at a crash with any compiler and debugger. */
 #include "fuzz.h"
 
 #include <dirent.h>

@@ -1,5 +1,6 @@
-/* Spectrum files. The first byte: does the harness append the right checksum? Without that hardly an
- * input would come past it. What is read must come back, bit by bit, when it is written and read again.
+/* Spectrum files. The first byte: does the harness append the right checksum? Without that hardly
+ * an input would come past it. What is read must come back, bit by bit, when it is written and read
+ * again.
  */
 #include "fuzz.h"
 

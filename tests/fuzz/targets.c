@@ -1,4 +1,5 @@
-/* The table of targets. A new one is a function in fuzz.h, a row here and seeds in make_corpus.sh. */
+/* The table of targets. A new one is a function in fuzz.h, a row here and seeds in make_corpus.sh.
+ */
 #include "fuzz.h"
 
 #include <string.h>

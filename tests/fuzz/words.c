@@ -73,7 +73,8 @@ static void check_coefficients(const ps_brdf *brdf) {
     }
 }
 
-/* The first byte is 0: a table of a lobe follows. Else: the text of a BRDF, which finds no files. */
+/* The first byte is 0: a table of a lobe follows. Else: the text of a BRDF, which finds no files.
+ */
 void fuzz_brdf(const char *argument, fuzz_bytes input) {
     (void)argument;
     const bool is_table = fuzz_take(&input) == 0;
@@ -157,8 +158,8 @@ static void parse_words(const ps_command *command, int num_words, char **words) 
     ps_arguments_free(&arguments);
 }
 
-/* The first byte is the number of the command; where there is none of that number, the first word is
- * its name. */
+/* The first byte is the number of the command; where there is none of that number, the first word
+ * is its name. */
 void fuzz_arguments(const char *argument, fuzz_bytes input) {
     (void)argument;
     const unsigned number = fuzz_take(&input);

@@ -17,8 +17,8 @@
 /* Exit status that CTest counts as skipped. */
 enum { TEST_SKIPPED = 77 };
 
-/* Runs a call whose last argument is written `error`, and shows its sentence when it fails. (Callers
- * may have an `error` of their own for calls that must fail: hence the pragma.) */
+/* Runs a call whose last argument is written `error`, and shows its sentence when it fails.
+ * (Callers may have an `error` of their own for calls that must fail: hence the pragma.) */
 #define assert_ok(call)                                                                            \
     do {                                                                                           \
         _Pragma("GCC diagnostic push") _Pragma("GCC diagnostic ignored \"-Wshadow\"");             \

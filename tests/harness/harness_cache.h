@@ -21,7 +21,8 @@ pspec_status harness_cache_put(const ps_cache *cache, unsigned number, size_t mo
 /* 1: the data of this number came, 0: nothing came, -1: an error, or other data. */
 int harness_cache_get(const ps_cache *cache, unsigned number, size_t most_bytes, ps_error *error);
 
-/* The cache in the folder of a test; and the same as above, where what does not work is a failure of the test. */
+/* The cache in the folder of a test; and the same as above, where what does not work is a failure
+ * of the test. */
 ps_cache *harness_cache_open(void **state, uint64_t max_bytes);
 void harness_cache_must_put(const ps_cache *cache, unsigned number, size_t most_bytes);
 int harness_cache_must_get(const ps_cache *cache, unsigned number, size_t most_bytes);

@@ -8,8 +8,8 @@
 long double *test_pair_sums(const pspec_pattern *pattern, int32_t max_degree);
 double test_weight_sizes(const pspec_pattern *pattern);
 
-/* Q(l) of any engine for l = 1 .. max_degree, pair sums being asked for to a tolerance: [pattern][degree], freed by the
- * caller. */
+/* Q(l) of any engine for l = 1 .. max_degree, pair sums being asked for to a tolerance:
+ * [pattern][degree], freed by the caller. */
 double *test_run_pairs(const ps_engine *engine, ps_precision precision, double tolerance,
                        ps_device *device, int32_t max_degree, const pspec_pattern *patterns,
                        size_t num_patterns, size_t batch);

@@ -1,4 +1,5 @@
-/* Sets of points on the sphere of every kind, those of `pointspec stress`, and coefficients in extended precision. */
+/* Sets of points on the sphere of every kind, those of `pointspec stress`, and coefficients in
+ * extended precision. */
 #ifndef TESTS_HARNESS_SPHERE_SHAPES_H
 #define TESTS_HARNESS_SPHERE_SHAPES_H
 
@@ -32,11 +33,12 @@ void test_sphere_clustered(double *u, uint64_t *state);
 /* Twelve decades, of either sign. */
 double test_wild_weight(uint64_t *state);
 
-/* c_lm, m >= 0, l = 0 .. max_degree in steps: pairs at index 2 (m (2L + 1 - m) / 2 + l); others are 0. */
+/* c_lm, m >= 0, l = 0 .. max_degree in steps: pairs at index 2 (m (2L + 1 - m) / 2 + l); others are
+ * 0. */
 double *test_sphere_coefficients(const pspec_pattern *pattern, int32_t max_degree, int32_t step);
 
-/* sqrt(4 pi mean |dc_lm|^2) / sqrt(sum w^2), mean over both signs of m; and the mean power of what was expected,
- * without degree 0, relative to white noise. */
+/* sqrt(4 pi mean |dc_lm|^2) / sqrt(sum w^2), mean over both signs of m; and the mean power of what
+ * was expected, without degree 0, relative to white noise. */
 double test_sphere_error(const double *found, const double *expected, int32_t max_degree,
                          int32_t step, const pspec_pattern *pattern, double *mean_power);
 

@@ -234,7 +234,8 @@ static int leave_folder(void **state) {
     return test_folder_remove(state) == 0 ? chdir("/") : -1;
 }
 
-/* z from 0 to 1 is the diffuse lobe; the same at falling angles, and with a part below the horizon. */
+/* z from 0 to 1 is the diffuse lobe; the same at falling angles, and with a part below the horizon.
+ */
 static void zonal(void **state) {
     enum { LAST = 500 };
     (void)state;

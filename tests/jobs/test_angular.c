@@ -1,5 +1,5 @@
-/* Angular spectra through the public library and through files: closed forms, every way of saying the same,
- * errors with sentences. Numbers against the reference are in test_sphere_reference.c.
+/* Angular spectra through the public library and through files: closed forms, every way of saying
+ * the same, errors with sentences. Numbers against the reference are in test_sphere_reference.c.
  */
 #include "harness_angular.h"
 

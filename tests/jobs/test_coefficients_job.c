@@ -1,5 +1,6 @@
-/* Coefficients beside a spectrum: of the same sums, to the bit; stopped like it; within the memory that was planned.
- * What the numbers are is tested in test_coefficients.c and test_sphere_reference.c.
+/* Coefficients beside a spectrum: of the same sums, to the bit; stopped like it; within the memory
+ * that was planned. What the numbers are is tested in test_coefficients.c and
+ * test_sphere_reference.c.
  */
 #include "harness_estimator.h"
 #include "harness_sphere_shapes.h"

@@ -1,5 +1,5 @@
-/* The streaming estimator: bits that depend on nothing but the realizations, laws of the periodogram,
- * different numbers of points, weights.
+/* The streaming estimator: bits that depend on nothing but the realizations, laws of the
+ * periodogram, different numbers of points, weights.
  */
 #include "harness_estimator.h"
 
@@ -53,8 +53,8 @@ static void same_bits_for_every_batch(void **state) {
     ps_frequencies_free(&grid);
 }
 
-/* A device that allows no buffer larger than a row of powers: sums of all modes and of their squares, four times as
- * much, are in several. */
+/* A device that allows no buffer larger than a row of powers: sums of all modes and of their
+ * squares, four times as much, are in several. */
 static void same_bits_in_small_buffers(void **state) {
     (void)state;
     ps_frequencies grid = test_make_lattice(2, 100, false);
@@ -100,8 +100,8 @@ static void same_bits_for_large_sets(void **state) {
 
 /* ---- one dimension --------------------------------------------------------------------------- */
 
-/* Rings have one frequency each: the device's sums are the same numbers, whether anybody asks for frequencies or
- * not, and those of the referee, which forms rings by themselves. */
+/* Rings have one frequency each: the device's sums are the same numbers, whether anybody asks for
+ * frequencies or not, and those of the referee, which forms rings by themselves. */
 static void rings_of_one_frequency(void **state) {
     (void)state;
     ps_frequencies grid = test_make_lattice(1, 700, false);
@@ -286,9 +286,9 @@ static void different_numbers_of_points(void **state) {
     ps_frequencies_free(&grid);
 }
 
-/* White noise, exactly at finite N: <P> = 1, Var P = (N-1)/N, variance of a ring mean of n_b lattice
- * points 2 (N-1) / (N n_b) (docs/mathematics/torus.md#white-noise). 4 standard errors of the
- * estimates. */
+/* White noise, exactly at finite N: <P> = 1, Var P = (N-1)/N, variance of a ring mean of n_b
+ * lattice points 2 (N-1) / (N n_b) (docs/mathematics/torus.md#white-noise). 4 standard errors of
+ * the estimates. */
 static void white_noise(void **state) {
     (void)state;
     enum { M = 4000, N = 5 };

@@ -62,8 +62,8 @@ static void bad_patterns(void **state) {
         PSPEC_OK);
 }
 
-/* Engines look at coordinates while they convert them: what is said is what a look at one set after the other
- * would say, and the batches before stay in the sums. */
+/* Engines look at coordinates while they convert them: what is said is what a look at one set after
+ * the other would say, and the batches before stay in the sums. */
 static void check_first_bad(const ps_engine *engine, bool weighted, const char *expected) {
     enum { SETS = 5, POINTS = 40 };
     double x[SETS][2 * POINTS];

@@ -1,5 +1,5 @@
-/* Expected spectra that are known exactly: jittered and Latin hypercube (reference/tables.json), grids.
- * Through the whole job, M = 2000, fixed seeds, 4 standard errors.
+/* Expected spectra that are known exactly: jittered and Latin hypercube (reference/tables.json),
+ * grids. Through the whole job, M = 2000, fixed seeds, 4 standard errors.
  */
 #include "harness.h"
 

@@ -1,5 +1,5 @@
-/* Plans of the public library: calls of any size give the same bits, failures have a number and a way out,
- * callbacks are called.
+/* Plans of the public library: calls of any size give the same bits, failures have a number and a
+ * way out, callbacks are called.
  */
 #include "harness_public.h"
 

@@ -1,4 +1,5 @@
-/* The quadrature job: the same bits in any batches, the same answer by any route, the tolerance kept. */
+/* The quadrature job: the same bits in any batches, the same answer by any route, the tolerance
+ * kept. */
 #include "harness.h"
 
 #include "jobs/quadrature/quadrature_job.h"
@@ -72,7 +73,8 @@ static void batches(void **state) {
     }
 }
 
-/* Sums over pairs against coefficients: |dC_l^2| <= (2l + 1) / (4 pi) tol (sum |w|)^2, and so do d_l^2 and e_l^2 follow. */
+/* Sums over pairs against coefficients: |dC_l^2| <= (2l + 1) / (4 pi) tol (sum |w|)^2, and so do
+ * d_l^2 and e_l^2 follow. */
 static void near(const ps_quadrature_result *a, const ps_quadrature_result *b, double tolerance) {
     double e = 0;
     for (size_t l = 0; l <= LAST; l++) {
@@ -104,8 +106,8 @@ static void two_routes(void **state) {
     }
 }
 
-/* Points in a heap, which no lobe predicts: the plan is made again with the powers that were measured, and what comes
- * out is within the tolerance. */
+/* Points in a heap, which no lobe predicts: the plan is made again with the powers that were
+ * measured, and what comes out is within the tolerance. */
 static void replanned(void **state) {
     static const double tolerances[] = {5e-7, 7e-7, 1e-6,
                                         2e-6}; /* near what single precision has */
@@ -159,7 +161,8 @@ static void looks(void **state) {
     assert_true(look.bin == PS_LOOK_AT_NOTHING && look.corrected == 0);
 }
 
-/* Ends at a look, whatever the batch, with the bits of a job of so many realizations; and what it says is true. */
+/* Ends at a look, whatever the batch, with the bits of a job of so many realizations; and what it
+ * says is true. */
 static void stops(void **state) {
     static const size_t sizes[] = {0, 5, 100};
     static const ps_rule_weights weights[] = {PS_WEIGHTS_EQUAL, PS_WEIGHTS_OPTIMAL};

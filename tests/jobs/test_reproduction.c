@@ -1,6 +1,6 @@
-/* What Marques et al. measured with random sets, and the two forms of the worst-case error for every sampler of the
- * hemisphere. Their sets without randomness are in test_optimal_weights.c and test_worst_case.c, Table 1 is in
- * test_truncation.c. */
+/* What Marques et al. measured with random sets, and the two forms of the worst-case error for
+ * every sampler of the hemisphere. Their sets without randomness are in test_optimal_weights.c and
+ * test_worst_case.c, Table 1 is in test_truncation.c. */
 #include "harness_quadrature.h"
 #include "harness_sphere.h"
 
@@ -134,8 +134,8 @@ static void coefficients_of(size_t num, const double *points, int32_t last, doub
 enum { MOST_DEGREES = 100, NUM_SMOOTHNESS = 3 };
 static const double smoothness[NUM_SMOOTHNESS] = {1.1, 1.5, 1.9};
 
-/* Numbers of points and degrees; where these reach far beyond sqrt N, the model of the rest is right within a factor 3,
- * since phases are as good as random there. */
+/* Numbers of points and degrees; where these reach far beyond sqrt N, the model of the rest is
+ * right within a factor 3, since phases are as good as random there. */
 typedef struct extent {
     size_t num;
     int32_t last;

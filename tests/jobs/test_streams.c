@@ -1,5 +1,5 @@
-/* Sets that come in blocks: the same bits as sets in memory, whatever the blocks, in any file; one clear error
- * for what is wrong in the middle of them.
+/* Sets that come in blocks: the same bits as sets in memory, whatever the blocks, in any file; one
+ * clear error for what is wrong in the middle of them.
  */
 #include "harness_estimator.h"
 

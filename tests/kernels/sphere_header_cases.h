@@ -1,5 +1,5 @@
-/* The headers of kernels/sphere, compiled as C in the precision that the including file defines: directions, numbers
- * with exponents, and the recurrence, against long double.
+/* The headers of kernels/sphere, compiled as C in the precision that the including file defines:
+ * directions, numbers with exponents, and the recurrence, against long double.
  */
 #ifndef PRECISION
 #error "define PRECISION first"
@@ -79,7 +79,8 @@ static void steps_follow_powers(void **state) {
     }
 }
 
-/* Lambda_lm of an order from its table, from sin^m(theta) = 1 on where that is small: against the referee. */
+/* Lambda_lm of an order from its table, from sin^m(theta) = 1 on where that is small: against the
+ * referee. */
 static void check_order(int32_t m, int32_t last, double theta) {
     const size_t num = ps_sphere_blocks(last, m);
     double *table = calloc(num, PS_SPHERE_BLOCK_REALS * sizeof *table);

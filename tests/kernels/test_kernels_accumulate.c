@@ -38,8 +38,8 @@ static void for_all_builds(void (*check)(const build *)) {
 
 /* ---- rings of blocks --------------------------------------------------------------------- */
 
-/* Rings of any length in every block, one of them empty; members in any order, some of them twice; pieces
- * in an order of their own. */
+/* Rings of any length in every block, one of them empty; members in any order, some of them twice;
+ * pieces in an order of their own. */
 enum { RINGS_OF_BLOCK = 9, MEMBERS_OF_RING = 41 };
 
 typedef struct ring_table {
@@ -86,7 +86,8 @@ static void free_table(ring_table *table) {
 /* Sums of frequencies, as the kernel has them: of powers and of squares, in pairs. */
 enum { NUM_STATES = 4 };
 
-/* What a launch is given; states NULL: bins alone; mean_only: no squares, the last two are not touched. */
+/* What a launch is given; states NULL: bins alone; mean_only: no squares, the last two are not
+ * touched. */
 typedef struct launch {
     const build *one;
     size_t group, stride;

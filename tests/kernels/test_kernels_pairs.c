@@ -27,7 +27,8 @@ typedef struct pairs_data {
     test_memory on_device, counts;
 } pairs_data;
 
-/* What pairs_points.c makes, without low parts: exact in double precision, and near enough for these tests. */
+/* What pairs_points.c makes, without low parts: exact in double precision, and near enough for
+ * these tests. */
 static pairs_data make_data(const pairs_case *one) {
     pairs_data data = {.stride = ps_pairs_stride(MOST, one->lanes)};
     double *host = calloc(SETS * ARRAYS * data.stride, sizeof(double));

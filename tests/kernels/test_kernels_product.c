@@ -1,4 +1,5 @@
-/* The kernel of products with distances on its own: segments, every number of lanes, work-groups of any size. */
+/* The kernel of products with distances on its own: segments, every number of lanes, work-groups of
+ * any size. */
 #include "harness_kernels.h"
 #include "harness_pairs.h"
 

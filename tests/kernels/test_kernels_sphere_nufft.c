@@ -1,5 +1,6 @@
-/* The kernels of sphere_nufft and of sphere_grid, one after the other as the engines run them, on problems that are small enough for
- * Oclgrind: a few realizations side by side, weights, poles, both precisions, all degrees and even ones.
+/* The kernels of sphere_nufft and of sphere_grid, one after the other as the engines run them, on
+ * problems that are small enough for Oclgrind: a few realizations side by side, weights, poles,
+ * both precisions, all degrees and even ones.
  */
 #include "harness_sphere.h"
 

@@ -1,5 +1,5 @@
-/* torus/product.cl, fold.cl and power.cl alone, with whole numbers chosen so that every sum is exact
- * in a pair and beyond the reach of one number: results must be equal, not near.
+/* torus/product.cl, fold.cl and power.cl alone, with whole numbers chosen so that every sum is
+ * exact in a pair and beyond the reach of one number: results must be equal, not near.
  */
 #include "harness_kernels.h"
 

@@ -1,5 +1,5 @@
-/* Cholesky factors: against the definition, the same bits on any number of threads and with any vectors, what is not
- * definite, condition numbers, and how soon an interrupt is heard. */
+/* Cholesky factors: against the definition, the same bits on any number of threads and with any
+ * vectors, what is not definite, condition numbers, and how soon an interrupt is heard. */
 #include "harness.h"
 
 #include "base/clock.h"
@@ -16,7 +16,8 @@ static double next_number(uint64_t *state) {
     return (double)(int64_t)*state * 0x1p-63;
 }
 
-/* 1 on the diagonal, less and less beside it, and a little of everything; NAN where nothing may be read. */
+/* 1 on the diagonal, less and less beside it, and a little of everything; NAN where nothing may be
+ * read. */
 static double *make_matrix(size_t n) {
     double *const matrix = calloc(n * n, sizeof *matrix);
     uint64_t seed = n;
@@ -115,7 +116,8 @@ static void same_bits_on_threads(void **state) {
     free(shared);
 }
 
-/* Vectors of 512 and 256 bits make the same; what any processor can do differs by roundings at most. */
+/* Vectors of 512 and 256 bits make the same; what any processor can do differs by roundings at
+ * most. */
 static void products_agree(void **state) {
     enum { NUM = 37, STRIDE = 29, SIZE = NUM * PS_TILE_ROWS, OUT = PS_TILE_COLUMNS * STRIDE };
     double left[SIZE];
@@ -168,8 +170,8 @@ static void not_definite(void **state) {
     }
 }
 
-/* Second differences, n = 600: the inverse is known, min(i, j) (n + 1 - max(i, j)) / (n + 1), and its 1-norm is that of a
- * column in the middle, (n + 1)^2 / 8 about; the matrix's is 4. */
+/* Second differences, n = 600: the inverse is known, min(i, j) (n + 1 - max(i, j)) / (n + 1), and
+ * its 1-norm is that of a column in the middle, (n + 1)^2 / 8 about; the matrix's is 4. */
 static void condition_of_differences(void **state) {
     enum { NUM = 601 };
     double *const matrix = calloc((size_t)NUM * NUM, sizeof *matrix);

@@ -66,8 +66,8 @@ static void probabilities_of_student(void **state) {
     }
 }
 
-/* Anything that a spectrum may lead to: probabilities that fall with the score, and no call of GSL's error
- * handler (the last test). */
+/* Anything that a spectrum may lead to: probabilities that fall with the score, and no call of
+ * GSL's error handler (the last test). */
 static void extreme_arguments(void **state) {
     (void)state;
     static const double freedoms[] = {0,  1e-300, 1e-6, 1e-3, 0.5,   1,

@@ -116,8 +116,8 @@ static void counts_are_those_of_jacobi(void **state) {
     ps_lattice_free(&four);
 }
 
-/* Far beyond what can be listed: points lie where they should, neighbours in rank are neighbours in order,
- * and the mirror image has the mirrored rank. */
+/* Far beyond what can be listed: points lie where they should, neighbours in rank are neighbours in
+ * order, and the mirror image has the mirrored rank. */
 static void large_shells(void **state) {
     (void)state;
     enum { RING = 120 };

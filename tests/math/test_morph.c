@@ -1,4 +1,5 @@
-/* Importance morphing: t against long double, distributions of morphed sets, the words of samplers. */
+/* Importance morphing: t against long double, distributions of morphed sets, the words of samplers.
+ */
 #include "harness.h"
 
 #include "math/morph.h"
@@ -9,8 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* t by the textbook's formula with more digits than are asked for: long double has 64 bits, and -log1p(-v) loses those of
- * v near 1, where t is not small and 1 - v is known. height and polar are exact numbers. */
+/* t by the textbook's formula with more digits than are asked for: long double has 64 bits, and
+ * -log1p(-v) loses those of v near 1, where t is not small and 1 - v is known. height and polar are
+ * exact numbers. */
 static long double exact_polar(const ps_morph *morph, long double height, long double polar) {
     const long double n = (long double)morph->exponent;
     switch (morph->kind) {

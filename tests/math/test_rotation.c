@@ -13,7 +13,8 @@ static void assert_angle(ps_turns angle, long double turns) {
     double cosine = 0;
     double sine = 0;
     ps_turns_cosine_sine(angle, &cosine, &sine);
-    /* 2^-53 is a unit in the last place of numbers in [1/2, 1]; the largest error of 2e6 was 1.33. */
+    /* 2^-53 is a unit in the last place of numbers in [1/2, 1]; the largest error of 2e6 was 1.33.
+     */
     const double allowed = 1.4 * 0x1p-53;
     assert_true(fabsl(cosine - cosl(PS_TWO_PI_L * turns)) <= allowed);
     assert_true(fabsl(sine - sinl(PS_TWO_PI_L * turns)) <= allowed);
@@ -89,8 +90,9 @@ static void assert_mean(double sum, double expected, double variance) {
     assert_true(fabs(sum / NUM_ROTATIONS - expected) <= NUM_SIGMAS * sigma);
 }
 
-/* Haar measure: every entry is uniform on [-1,1]; the trace has moments 0, 1, 3 of order 1, 2, 4, which
- * uniform angles about uniform axes would not have. One rotation of each realization, as they are used. */
+/* Haar measure: every entry is uniform on [-1,1]; the trace has moments 0, 1, 3 of order 1, 2, 4,
+ * which uniform angles about uniform axes would not have. One rotation of each realization, as they
+ * are used. */
 static void random_rotations_are_uniform(void **state) {
     (void)state;
     double first[3][3] = {{0}};

@@ -1,5 +1,5 @@
-/* The Sobolev kernel, Gauss-Legendre rules and the conversion of hemispherical harmonics against tests/reference and
- * against laws. */
+/* The Sobolev kernel, Gauss-Legendre rules and the conversion of hemispherical harmonics against
+ * tests/reference and against laws. */
 #include "harness.h"
 
 #include "math/gauss_legendre.h"

@@ -1,4 +1,5 @@
-/* What plans take: memory, its limits, time. Planning is a pure function: no device is opened here. */
+/* What plans take: memory, its limits, time. Planning is a pure function: no device is opened here.
+ */
 #include "harness_plan.h"
 
 #include "engines/nufft/choose.h"
@@ -74,10 +75,10 @@ static void batches(void **state) {
 
 /* ---- cost ---------------------------------------------------------------------------------- */
 
-/* More points or realizations, or twice the frequency with as many points for each of them, never cost less,
- * by any engine that applies. (With the points of the smaller grid, peaks of a lattice would do less harm to
- * the mean over the larger one, and windows could be narrower. Whole tiles make estimates uneven: 2 % here, up to
- * 20 % from one frequency to the next.) */
+/* More points or realizations, or twice the frequency with as many points for each of them, never
+ * cost less, by any engine that applies. (With the points of the smaller grid, peaks of a lattice
+ * would do less harm to the mean over the larger one, and windows could be narrower. Whole tiles
+ * make estimates uneven: 2 % here, up to 20 % from one frequency to the next.) */
 static void check_not_cheaper(const ps_problem *small, const ps_problem *large,
                               const ps_device_limits *limits, double slack) {
     ps_plan plans[2];
@@ -121,9 +122,9 @@ static void cost_grows_with_the_problem(void **state) {
 
 /* ---- parts of fast transforms -------------------------------------------------------------- */
 
-/* Every part that has cycles is counted somewhere: tiles in two and three dimensions, a large grid, a whole
- * realization on a small grid and on one beyond the nearest cache. What is not counted is never measured either
- * (bench/cycles.c). */
+/* Every part that has cycles is counted somewhere: tiles in two and three dimensions, a large grid,
+ * a whole realization on a small grid and on one beyond the nearest cache. What is not counted is
+ * never measured either (bench/cycles.c). */
 static void every_part_is_counted(void **state) {
     (void)state;
     static const struct {

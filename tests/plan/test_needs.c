@@ -130,7 +130,8 @@ static void everything_is_done_on_request(void **state) {
     assert_int_equal(needs.num_skips, 1);
 }
 
-/* Those of rings come from rings; a list, one dimension and arrays have frequencies of their own. */
+/* Those of rings come from rings; a list, one dimension and arrays have frequencies of their own.
+ */
 static void errors_of_frequencies(void **state) {
     (void)state;
     ps_needs_question question = ordinary();
@@ -220,7 +221,8 @@ static void share_is_of_the_job(void **state) {
     assert_true(beside > 0 && beside < alone);
 }
 
-/* What nobody could turn on is for `plan`, not for headers; planning again does not list things twice. */
+/* What nobody could turn on is for `plan`, not for headers; planning again does not list things
+ * twice. */
 static void matters_of_course(void **state) {
     (void)state;
     planned of;

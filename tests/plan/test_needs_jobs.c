@@ -16,8 +16,8 @@ static double pick_power(uint64_t *state, double low, double high) {
     return low * pow(high / low, test_uniform(state));
 }
 
-/* Every third job takes what the planner takes, which has kernels of its own for each size and tolerance: building them is
- * what this test takes. */
+/* Every third job takes what the planner takes, which has kernels of its own for each size and
+ * tolerance: building them is what this test takes. */
 static const char *pick_engine(size_t job, const char *direct) {
     return job % 3 == 0 ? NULL : direct;
 }
@@ -45,7 +45,8 @@ static ps_power_job *run_power(ps_power_question *question, bool no_skip) {
     return job;
 }
 
-/* sqrt(P) of a bin is within e / sqrt(its share of the modes) (docs/user/conventions.md), on both sides. */
+/* sqrt(P) of a bin is within e / sqrt(its share of the modes) (docs/user/conventions.md), on both
+ * sides. */
 static double allowed(const ps_spectrum_bin *bin, double modes, double tolerance) {
     const double e = 2 * tolerance * sqrt(modes / (double)bin->num_computed);
     return 2 * sqrt(bin->power) * e + e * e;
@@ -140,7 +141,8 @@ static void sphere(void **state) {
     assert_true(skipped > JOBS / 2);
 }
 
-/* A target that is reached ends a job sooner: both answers are that far from each other, six standard errors. */
+/* A target that is reached ends a job sooner: both answers are that far from each other, six
+ * standard errors. */
 static void statistics(void **state) {
     const double six = 6;
     ps_sampler_request request;
@@ -179,8 +181,8 @@ static ps_quadrature_result run_rule(ps_quadrature_question *question, bool no_s
     return result;
 }
 
-/* E^2 is the kernel form in both; e_l^2 are compared in units of c, as the tolerance is meant, and what the degrees that were
- * left out are together is within it. */
+/* E^2 is the kernel form in both; e_l^2 are compared in units of c, as the tolerance is meant, and
+ * what the degrees that were left out are together is within it. */
 static void compare_rules(const ps_quadrature_result *lean, const ps_quadrature_result *full,
                           double tolerance) {
     const double most =
@@ -244,9 +246,10 @@ static void quadrature(void **state) {
     assert_true(fewer_degrees > 0 && fewer_sets > 0);
 }
 
-/* ---- standard errors of single frequencies ------------------------------------------------------ */
+/* ---- standard errors of single frequencies --------------------------------------------------- */
 
-/* Without those of frequencies everything else has the same bits, in one dimension, where rings are frequencies, too. */
+/* Without those of frequencies everything else has the same bits, in one dimension, where rings are
+ * frequencies, too. */
 static void check_bins_only(const ps_frequencies *set, const ps_engine *engine,
                             ps_precision precision, ps_device *device) {
     test_sample what = test_make_sample(23, set->dimension, 40, 3, true);

@@ -23,7 +23,8 @@ static void same_question_same_answer(void **state) {
     }
 }
 
-/* What is chosen keeps every tolerance, is the cheapest that does, and everybody else has a reason. */
+/* What is chosen keeps every tolerance, is the cheapest that does, and everybody else has a reason.
+ */
 static void check_tolerances(const ps_problem *base, const ps_device_limits *limits,
                              double mean_power, int per_decade) {
     const ps_plan_constraints constraints = {.precision = -1};

@@ -1,4 +1,5 @@
-/* What memory is free never changes what is chosen, only how much of it is done at a time, or whether it is done. */
+/* What memory is free never changes what is chosen, only how much of it is done at a time, or
+ * whether it is done. */
 #include "harness_plan.h"
 
 #include <math.h>
@@ -49,7 +50,8 @@ static void rooms_change_no_choice(void **state) {
     }
 }
 
-/* A CPU is the same kind of device in a small machine and in a large one; a card with less memory is another. */
+/* A CPU is the same kind of device in a small machine and in a large one; a card with less memory
+ * is another. */
 static void machines_change_no_choice(void **state) {
     (void)state;
     const ps_frequencies set = test_lattice(2, 500);
@@ -117,8 +119,8 @@ static bool offers_rings(const ps_problem *problem, double bytes, unsigned offer
     return strstr(said.message, "--per-ring") != NULL;
 }
 
-/* A subset is offered where the question may be asked of one, there is one, and frequencies are what there is too much
- * of. */
+/* A subset is offered where the question may be asked of one, there is one, and frequencies are
+ * what there is too much of. */
 static void subsets_that_help(void **state) {
     (void)state;
     const ps_frequencies plane = test_lattice(2, 2000);

@@ -37,7 +37,8 @@ static bool has_gnuplot(void) {
     return system("gnuplot --version >/dev/null 2>&1") == 0;
 }
 
-/* Texts that gnuplot, a shell, enhanced texts, XML or UTF-8 could misunderstand. Every one is a title and a label. */
+/* Texts that gnuplot, a shell, enhanced texts, XML or UTF-8 could misunderstand. Every one is a
+ * title and a label. */
 static const char *const hostile[] = {"'lead",
                                       "''",
                                       "'''a''b'",
@@ -106,7 +107,8 @@ static void hostile_texts_are_drawn_as_they_are(void **state) {
     }
 }
 
-/* What is drawn needs two files; their folder is TMPDIR, and where that cannot be had the sentence names it. */
+/* What is drawn needs two files; their folder is TMPDIR, and where that cannot be had the sentence
+ * names it. */
 static void temporary_files_are_where_tmpdir_says(void **state) {
     example data;
     char path[TEST_PATH_BYTES];

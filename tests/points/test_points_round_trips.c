@@ -1,4 +1,5 @@
-/* Every format writes what it reads: round trips to the bit, and what is said where bits are lost. */
+/* Every format writes what it reads: round trips to the bit, and what is said where bits are lost.
+ */
 #include "harness_points.h"
 
 #include <setjmp.h>

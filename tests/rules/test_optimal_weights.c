@@ -1,4 +1,5 @@
-/* Optimal weights: golden values, slopes of their errors, duplicates, and conjugate gradients beside Cholesky. */
+/* Optimal weights: golden values, slopes of their errors, duplicates, and conjugate gradients
+ * beside Cholesky. */
 #include "harness_quadrature.h"
 
 #include "rules/optimal_weights.h"
@@ -138,8 +139,8 @@ static void one_point(void **state) {
     ps_representer_destroy(&r);
 }
 
-/* No memory for a matrix: the same weights by conjugate gradients, on the device or not, with duplicates and with the sum
- * imposed. */
+/* No memory for a matrix: the same weights by conjugate gradients, on the device or not, with
+ * duplicates and with the sum imposed. */
 static void compare_ways(const ps_representer *r, size_t num, double *points, ps_device *device,
                          bool sum_to_one) {
     const ps_kernel_options options = {.memory_limit = 1, .device = device};
@@ -229,7 +230,8 @@ static void gradients_that_end(void **state) {
     ps_representer_destroy(&r);
 }
 
-/* Points near each other: the condition says so either way, and what is singular is refused by name. */
+/* Points near each other: the condition says so either way, and what is singular is refused by
+ * name. */
 static void ill_conditioned(void **state) {
     enum { NUM = 300 };
     ps_representer r = test_representer("diffuse", 1.9, 1e-12);

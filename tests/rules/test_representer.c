@@ -148,7 +148,8 @@ static void estimates(void **state) {
     }
 }
 
-/* Without odd degrees that are 0 and degrees behind the decay kappa is what it was; other lobes keep their terms. */
+/* Without odd degrees that are 0 and degrees behind the decay kappa is what it was; other lobes
+ * keep their terms. */
 static void left_out(void **state) {
     static const struct {
         const char *lobe;

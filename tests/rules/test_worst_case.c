@@ -1,4 +1,5 @@
-/* Worst-case errors, optimal weights and kernel interpolation against tests/reference, and against each other. */
+/* Worst-case errors, optimal weights and kernel interpolation against tests/reference, and against
+ * each other. */
 #include "harness_quadrature.h"
 #include "harness_sphere.h"
 

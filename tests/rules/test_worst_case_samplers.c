@@ -1,4 +1,5 @@
-/* Worst-case errors of samplers: golden values, means of random sets, and the two forms beside each other. */
+/* Worst-case errors of samplers: golden values, means of random sets, and the two forms beside each
+ * other. */
 #include "harness_quadrature.h"
 #include "harness_sphere.h"
 
@@ -107,8 +108,9 @@ static void two_forms(void **state) {
     }
 }
 
-/* The mean of the rest beyond degree `last`, over independent points of the lobe's density, is the model's, also where
- * the lobe itself has most of its spectrum beyond, and with weights whose sum is not 1. */
+/* The mean of the rest beyond degree `last`, over independent points of the lobe's density, is the
+ * model's, also where the lobe itself has most of its spectrum beyond, and with weights whose sum
+ * is not 1. */
 static void mean_rest(const char *sampler, const ps_representer *r, const double *weights,
                       int32_t last) {
     enum { NUM = 32, SETS = 300, LAST = 8 };

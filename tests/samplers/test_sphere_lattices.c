@@ -1,5 +1,5 @@
-/* Strata and lattices of the sphere: HEALPix, z-phi cells, Fibonacci points, Bauer's spiral, against
- * formulas of their own and reference/sphere.json. */
+/* Strata and lattices of the sphere: HEALPix, z-phi cells, Fibonacci points, Bauer's spiral,
+ * against formulas of their own and reference/sphere.json. */
 #include "harness.h"
 #include "test_samplers.h"
 
@@ -37,8 +37,8 @@ static long double turns_of(const double *point) {
 static const long long SIDES[] = {1, 2, 3, 4, 5, 7, 8, 16, 61};
 enum { NUM_SIDES = sizeof SIDES / sizeof SIDES[0] };
 
-/* Gorski et al. 2005, equations 2 to 9: pixel k of ring i, both from 1. Every second ring of the belt
- * begins at the azimuth 0, as in all HEALPix programs. */
+/* Gorski et al. 2005, equations 2 to 9: pixel k of ring i, both from 1. Every second ring of the
+ * belt begins at the azimuth 0, as in all HEALPix programs. */
 static void assert_centre(const double *point, long long nside, long long i, long long k) {
     const long long south = 4 * nside - i;
     const long long pole = i < south ? i : south;
@@ -106,8 +106,8 @@ static void every_pixel_has_its_point(void **state) {
     }
 }
 
-/* Uniform within the pixels, hence on the sphere, if pixels have equal areas: z and the azimuth have
- * the moments of white noise, in every realization up to the jitter of single points. */
+/* Uniform within the pixels, hence on the sphere, if pixels have equal areas: z and the azimuth
+ * have the moments of white noise, in every realization up to the jitter of single points. */
 static void jittered_pixels_have_equal_areas(void **state) {
     (void)state;
     enum { M = 2000, NSIDE = 2, N = 12 * NSIDE * NSIDE, BANDS = 32 };

@@ -1,4 +1,5 @@
-/* Samplers of the sphere and hemisphere: requests, unit length, lifts, rotations, reproducibility. */
+/* Samplers of the sphere and hemisphere: requests, unit length, lifts, rotations, reproducibility.
+ */
 #include "test_samplers.h"
 
 #include <math.h>

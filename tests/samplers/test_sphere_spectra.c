@@ -1,6 +1,6 @@
-/* Angular power of the sphere's samplers, as P(l) = (1/N) sum_ij P_l(u_i.u_j): exact expectations of
- * white noise and of stratified points (reference/tables.json), zeros of HEALPix, invariance under
- * rotation. */
+/* Angular power of the sphere's samplers, as P(l) = (1/N) sum_ij P_l(u_i.u_j): exact expectations
+ * of white noise and of stratified points (reference/tables.json), zeros of HEALPix, invariance
+ * under rotation. */
 #include "harness.h"
 #include "test_samplers.h"
 

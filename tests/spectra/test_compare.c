@@ -1,7 +1,8 @@
-/* The comparison of two averages: false alarms and power, counted; exact cases; numbers that are none.
+/* The comparison of two averages: false alarms and power, counted; exact cases; numbers that are
+ * none.
  *
- * Counts have binomial limits of 4 standard deviations, with fixed seeds: a test that passes once passes
- * always. */
+ * Counts have binomial limits of 4 standard deviations, with fixed seeds: a test that passes once
+ * passes always. */
 #include "harness.h"
 
 #include "math/pi.h"
@@ -32,7 +33,8 @@ static void assert_near(double found, double expected, double tolerance) {
 
 enum { NUM_BINS = 20, LARGEST_M = 100 };
 
-/* Of mean 1 and shape twice / 2: twice / 2 exponential variables, and the square of a normal one. */
+/* Of mean 1 and shape twice / 2: twice / 2 exponential variables, and the square of a normal one.
+ */
 static double draw_gamma(ps_random *random, unsigned twice) {
     double product = 1;
     double sum = 0;
@@ -105,9 +107,9 @@ static counts run_experiment(const experiment *what, double rate) {
 
 static const double rate = 0.05;
 
-/* Few and many realizations, one set against many, rings of one, three halves, four and ten frequencies. Where many
- * realizations tell the scatter the rate is not only a bound. Rare events are no gamma variables: there it
- * is exceeded, by less than 3. */
+/* Few and many realizations, one set against many, rings of one, three halves, four and ten
+ * frequencies. Where many realizations tell the scatter the rate is not only a bound. Rare events
+ * are no gamma variables: there it is exceeded, by less than 3. */
 static void false_alarms(void **state) {
     (void)state;
     static const struct {

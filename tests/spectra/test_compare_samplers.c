@@ -1,5 +1,5 @@
-/* pspec_spectrum_compare on spectra of samplers: how often it raises a false alarm, what it finds, what
- * it refuses. */
+/* pspec_spectrum_compare on spectra of samplers: how often it raises a false alarm, what it finds,
+ * what it refuses. */
 #include "harness_public.h"
 
 #include "questions/saved_spectrum.h"
@@ -164,7 +164,8 @@ static void refusals(void **state) {
     pspec_context_destroy(context);
 }
 
-/* A set twice has standard error 0: another one differs in the ring where it does, however little. */
+/* A set twice has standard error 0: another one differs in the ring where it does, however little.
+ */
 static void deterministic_sets(void **state) {
     (void)state;
     enum { POINTS = 9 };

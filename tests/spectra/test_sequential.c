@@ -57,7 +57,8 @@ static double exponential(uint64_t *state) {
     return -log(1 - test_uniform(state));
 }
 
-/* Realizations until the rule, or the same without its correction, stops; powers as of white noise. */
+/* Realizations until the rule, or the same without its correction, stops; powers as of white noise.
+ */
 static uint64_t simulate(uint64_t *state, double standard_error, bool is_corrected) {
     ps_bin memory[3];
     const ps_bins bins = make_bins(memory);

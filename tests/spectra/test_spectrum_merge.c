@@ -1,4 +1,5 @@
-/* Spectra of spectra: parts that are merged are the whole, what does not belong together is refused. */
+/* Spectra of spectra: parts that are merged are the whole, what does not belong together is
+ * refused. */
 #include "harness_public.h"
 
 #include <math.h>

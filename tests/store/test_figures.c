@@ -1,5 +1,6 @@
-/* Measured figures of a device: written, read, refused when anything is wrong with them; and what the planner makes of
- * them. No device is opened: planning is a function of problem, limits and figures. */
+/* Measured figures of a device: written, read, refused when anything is wrong with them; and what
+ * the planner makes of them. No device is opened: planning is a function of problem, limits and
+ * figures. */
 #include "harness_plan.h"
 
 #include "plan/host_cost.h"
@@ -297,7 +298,8 @@ static void planner_scales_seconds(void **state) {
     assert_true(seconds_of(&limits, "torus_direct", PS_SINGLE, &now) == direct);
 }
 
-/* What decides is the built-in model, so that results have the same bits on every machine of a kind, measured or not. */
+/* What decides is the built-in model, so that results have the same bits on every machine of a
+ * kind, measured or not. */
 static void planner_does_not_choose_by_them(void **state) {
     (void)state;
     ps_device_limits limits = some_device();

@@ -1,4 +1,5 @@
-/* The cache of results in one process: what is put comes back, old entries go, folders of others are not taken. */
+/* The cache of results in one process: what is put comes back, old entries go, folders of others
+ * are not taken. */
 #define _XOPEN_SOURCE 700 /* mkfifo, setenv */
 
 #include "harness_cache.h"

@@ -1,4 +1,5 @@
-/* The cache of results in one process: an entry that is broken, or no file, is a miss, and gone or replaced. */
+/* The cache of results in one process: an entry that is broken, or no file, is a miss, and gone or
+ * replaced. */
 #define _XOPEN_SOURCE 700 /* mkfifo */
 
 #include "harness_cache.h"
@@ -105,7 +106,8 @@ static void what_is_no_file_is_a_miss(void **state) {
     ps_cache_close(cache);
 }
 
-/* Every kind of thing that can have a name, in place of an entry; none is read, waited for or written into. */
+/* Every kind of thing that can have a name, in place of an entry; none is read, waited for or
+ * written into. */
 static void put_in_place(const char *path, const char *kind, const char *target) {
     struct sockaddr_un address = {.sun_family = AF_UNIX};
     if (strcmp(kind, "pipe") == 0) {

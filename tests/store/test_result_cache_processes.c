@@ -1,5 +1,5 @@
-/* The cache of results among processes: several at once, processes that are killed while they write, disks that are full and
- * folders that may not be written to. */
+/* The cache of results among processes: several at once, processes that are killed while they
+ * write, disks that are full and folders that may not be written to. */
 #define _DEFAULT_SOURCE /* setgroups */
 
 #include "harness_cache.h"
@@ -29,7 +29,8 @@ static ps_cache *open_cache(const test_folder *folder) {
     return cache;
 }
 
-/* Runs a test in a process of its own, which ends with 0 when all is well; other numbers say what is not. */
+/* Runs a test in a process of its own, which ends with 0 when all is well; other numbers say what
+ * is not. */
 static pid_t start(int (*run)(const test_folder *, unsigned), const test_folder *folder,
                    unsigned number) {
     fflush(stdout);

@@ -175,7 +175,8 @@ static void cut_and_long_bytes_are_refused(void **state) {
     ps_table_destroy(table);
 }
 
-/* Every byte becomes every other: refused, or another table, which packs to the very bytes it came from. */
+/* Every byte becomes every other: refused, or another table, which packs to the very bytes it came
+ * from. */
 static void changed_bytes_are_refused_or_another_table(void **state) {
     (void)state;
     static const char *const columns[] = {"x"};
@@ -209,7 +210,8 @@ static void changed_bytes_are_refused_or_another_table(void **state) {
             bytes[i] ^= (unsigned char)change;
         }
     }
-    /* magic, six lengths and counts, each of 8 bytes, in which at most a smaller number can be meant */
+    /* magic, six lengths and counts, each of 8 bytes, in which at most a smaller number can be
+     * meant */
     assert_true(num_refused > 56 * 250);
     free(memory);
 }

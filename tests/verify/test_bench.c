@@ -196,7 +196,8 @@ static void stops_when_asked(void **state) {
 
 /* ---- calibration --------------------------------------------------------------------------- */
 
-/* Factors of all engines that the case has, against the built-in model whatever figures the device has by then. */
+/* Factors of all engines that the case has, against the built-in model whatever figures the device
+ * has by then. */
 static void calibration(void **state) {
     (void)state;
     const bool has_fp64 = ps_device_get_limits(device)->has_fp64;

@@ -192,8 +192,8 @@ static void referees_agree(void **state) {
     }
 }
 
-/* Sorted points, whose partial sums are a million times their sum: (1 + i k / N)-like sums in closed form do not
- * exist, but adding the points backwards must give the same. */
+/* Sorted points, whose partial sums are a million times their sum: (1 + i k / N)-like sums in
+ * closed form do not exist, but adding the points backwards must give the same. */
 static void referee_is_compensated(void **state) {
     (void)state;
     enum { NUM = 200000 };

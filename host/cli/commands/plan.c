@@ -47,7 +47,8 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
     ps_shown shown = {.arguments = arguments, .speaker = "pointspec"};
     const ps_answer_hooks hooks = ps_shown_hooks(&shown);
     PS_TRY(take_command(&inner, &task, arguments, error));
-    /* Where points are written -o and --format are about the points: the plan must not stand in their place. */
+    /* Where points are written -o and --format are about the points: the plan must not stand in
+     * their place. */
     const char *const path = task->makes_points ? "-" : arguments->output;
     PS_TRY(ps_table_choose_format(&format, task->makes_points ? NULL : arguments->format, path,
                                   error));

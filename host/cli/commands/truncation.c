@@ -1,5 +1,5 @@
-/* pointspec truncation: the error of shading integrals as truncated products in harmonics, and how many points of a
- * rule have the same. */
+/* pointspec truncation: the error of shading integrals as truncated products in harmonics, and how
+ * many points of a rule have the same. */
 #include "cli/command.h"
 
 const ps_command ps_command_truncation = {

@@ -1,10 +1,11 @@
-/* The referee goes from order to order at a fixed degree, where the device engines go from degree to degree at
- * a fixed order: two recurrences that share no step. With Lambda_m = N_lm P_l^m(cos theta),
+/* The referee goes from order to order at a fixed degree, where the device engines go from degree
+ * to degree at a fixed order: two recurrences that share no step. With Lambda_m = N_lm P_l^m(cos
+ * theta),
  *
  *     sqrt((l + m)(l - m + 1)) Lambda_{m-1} = -2 m cot(theta) Lambda_m - sqrt((l - m)(l + m + 1)) Lambda_{m+1}
  *
- * is stable downwards. It begins with 1 instead of sin^l(theta), which underflows, and is normalised by the
- * addition theorem, Lambda_0^2 + 2 sum_{m > 0} Lambda_m^2 = (2l + 1) / (4 pi)
+ * is stable downwards. It begins with 1 instead of sin^l(theta), which underflows, and is
+ * normalised by the addition theorem, Lambda_0^2 + 2 sum_{m > 0} Lambda_m^2 = (2l + 1) / (4 pi)
  * (docs/mathematics/sphere.md#harmonics, docs/mathematics/numerics.md#high-order).
  */
 #include "engines/host/host_degree.h"

@@ -12,9 +12,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* k x mod 1, in [-1/2, 1/2]. x = high + low with high a multiple of 2^-32 (2^-25 where long double is
- * double), so that k high is exact for |k| <= 2^28 and its whole part can be dropped without error;
- * k low is below 2^-5 (4) and rounds at 2^-69 (2^-51). */
+/* k x mod 1, in [-1/2, 1/2]. x = high + low with high a multiple of 2^-32 (2^-25 where long double
+ * is double), so that k high is exact for |k| <= 2^28 and its whole part can be dropped without
+ * error; k low is below 2^-5 (4) and rounds at 2^-69 (2^-51). */
 static long double reduced_phase(int32_t k, double x) {
     const long double scale = LDBL_MANT_DIG >= 64 ? 4294967296.0L : 33554432.0L;
     const long double high = rintl((long double)x * scale) / scale;
@@ -23,16 +23,17 @@ static long double reduced_phase(int32_t k, double x) {
     return whole - rintl(whole) + (long double)k * low;
 }
 
-/* Ten million sorted points add up to a few thousandths, but their partial sums to millions, whose rounding would be
- * larger than that of engines that sum in pairs: Neumaier's sum. */
+/* Ten million sorted points add up to a few thousandths, but their partial sums to millions, whose
+ * rounding would be larger than that of engines that sum in pairs: Neumaier's sum. */
 typedef struct compensated {
     long double sum, rest;
 } compensated;
 
-static void add(compensated *to, long double term) {
-    const long double sum = to->sum + term;
-    to->rest += fabsl(to->sum) >= fabsl(term) ? (to->sum - sum) + term : (term - sum) + to->sum;
-    to->sum = sum;
+static void add(compensated *total, long double term) {
+    const long double sum = total->sum + term;
+    total->rest +=
+        fabsl(total->sum) >= fabsl(term) ? (total->sum - sum) + term : (term - sum) + total->sum;
+    total->sum = sum;
 }
 
 void ps_host_sum(const pspec_pattern *pattern, const int32_t *k, long double *re, long double *im) {

@@ -1,14 +1,16 @@
-/* How torus_nufft treats a problem: which frequencies are summed by direct phases, on which axes points are
- * spread, the fine grid and the window of each. A function of the problem, the precision and the kind of device
- * alone, so that results depend on nothing else. docs/engines/torus_nufft.md.
+/* How torus_nufft treats a problem: which frequencies are summed by direct phases, on which axes
+ * points are spread, the fine grid and the window of each. A function of the problem, the precision
+ * and the kind of device alone, so that results depend on nothing else.
+ * docs/engines/torus_nufft.md.
  *
- * A tile is `lanes` neighbouring frequencies of axis 0, by direct phases; a fast transform makes all
- * frequencies of the other axes. Where axis 0 itself needs one (one dimension, very many points), its
- * frequencies are k_0 = stride (q + K) + t lanes + lane: the transform makes q from stride x_0 mod 1.
+ * A tile is `lanes` neighbouring frequencies of axis 0, by direct phases; a fast transform makes
+ * all frequencies of the other axes. Where axis 0 itself needs one (one dimension, very many
+ * points), its frequencies are k_0 = stride (q + K) + t lanes + lane: the transform makes q from
+ * stride x_0 mod 1.
  *
- * One very large set is spread on all axes instead, as real numbers, chunk by chunk; a transform along axis 0
- * makes the tiles, and the rest is the same. So are, on CPUs, realizations with many points for their frequencies,
- * in one and two dimensions, each in one go by one work-group, whole.
+ * One very large set is spread on all axes instead, as real numbers, chunk by chunk; a transform
+ * along axis 0 makes the tiles, and the rest is the same. So are, on CPUs, realizations with many
+ * points for their frequencies, in one and two dimensions, each in one go by one work-group, whole.
  */
 #ifndef PS_ENGINES_NUFFT_CHOICE_H
 #define PS_ENGINES_NUFFT_CHOICE_H

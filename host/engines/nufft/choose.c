@@ -8,7 +8,8 @@
 
 #include <math.h>
 
-/* Fine grids from sigma = n / 2K on. Below 1.2 windows become wider than 16, above 4 they hardly shrink. */
+/* Fine grids from sigma = n / 2K on. Below 1.2 windows become wider than 16, above 4 they hardly
+ * shrink. */
 static const double least_sigma = 1.2;
 static const double largest_sigma = 4;
 
@@ -21,8 +22,8 @@ enum { MOST_CELLS = 1 << 17 };
 /* Grids take one set at a time: never worth while for fewer points. */
 static const double least_gridded_points = 30000;
 
-/* Sets of more points always go on a grid, in two and three dimensions: the places of all others take memory for
- * every point, up to 96 bytes of it. */
+/* Sets of more points always go on a grid, in two and three dimensions: the places of all others
+ * take memory for every point, up to 96 bytes of it. */
 static const double most_sorted_points = 1 << 23;
 
 /* Realizations that are done whole come to the device in one piece, and one core has each. */
@@ -34,11 +35,12 @@ enum { MOST_TILES = 64 };
 /* Lengths between the two sigmas, twice. */
 enum { MAX_CANDIDATES = 128 };
 
-/* Of long ones only some: they differ by this part at least, so that all sigmas are among the candidates. */
+/* Of long ones only some: they differ by this part at least, so that all sigmas are among the
+ * candidates. */
 enum { NEXT_LENGTH = 64 };
 
-/* Mean power to choose for at least: that of white sets, half of whose modes are independent, stays within
- * four standard deviations. */
+/* Mean power to choose for at least: that of white sets, half of whose modes are independent, stays
+ * within four standard deviations. */
 static double power_of(const ps_problem *problem) {
     const double most = 1.5;
     const double nominal = fmin(most, 1 + 4 * sqrt(2 / ps_nufft_modes(problem)));
@@ -126,9 +128,9 @@ static bool is_hopeless(const axis_search *search, const ps_nufft_axis *axis) {
            search->best->flops;
 }
 
-/* Of a length: the narrowest window that keeps the tolerance. Losses take microseconds, and there are hundreds of
- * lengths: only of windows that a bound leaves, and that would be cheaper than what there is. False: it has no
- * such window. */
+/* Of a length: the narrowest window that keeps the tolerance. Losses take microseconds, and there
+ * are hundreds of lengths: only of windows that a bound leaves, and that would be cheaper than what
+ * there is. False: it has no such window. */
 static bool find_narrowest(const axis_search *search, uint32_t n, ps_nufft_axis *out) {
     const double tolerance = share_of_tolerance(search);
     for (unsigned width = PS_NUFFT_MIN_WIDTH; width <= PS_NUFFT_MAX_WIDTH; width++) {
@@ -221,8 +223,8 @@ static void consider(best_choice *best, const ps_nufft_choice *choice, const ps_
     }
 }
 
-/* Points added up before their sums go into pairs: so that what the mean of the cells rounds off stays small
- * (about so many windows on a cell), without going over the grid too often. */
+/* Points added up before their sums go into pairs: so that what the mean of the cells rounds off
+ * stays small (about so many windows on a cell), without going over the grid too often. */
 static uint64_t choose_chunk(const ps_nufft_choice *choice) {
     const double windows_on_a_cell = 16;
     const double least = 4096;

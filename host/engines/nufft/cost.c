@@ -12,7 +12,8 @@
 /* Two fused operations in a cycle. */
 static const double flops_per_lane = 4;
 
-/* Local memory for rows to choose for, whatever the device has; the rest is for a chunk of points. */
+/* Local memory for rows to choose for, whatever the device has; the rest is for a chunk of points.
+ */
 static const double nominal_local_bytes = (1 << 20) - (8 << 10);
 
 /* The nearest cache of a core (Zen 5), nominal as well. */
@@ -38,7 +39,8 @@ static double sum_cycles(const ps_nufft_counts *counts) {
 
 /* ---- tiles ------------------------------------------------------------------------------- */
 
-/* Four neighbours are added together: to cells from the first of one window to the last of another. */
+/* Four neighbours are added together: to cells from the first of one window to the last of another.
+ */
 static double touched_cells(const ps_nufft_axis *axis, double num_points) {
     const double between = 3 * (double)axis->n / num_points;
     return axis->window.width + fmin(between, axis->window.width);
@@ -66,7 +68,8 @@ static void count_tiles(ps_nufft_counts *counts, const ps_nufft_choice *choice, 
     }
 }
 
-/* Places that are filled for the num_points points of a list, in mean: lists go through whole chunks. */
+/* Places that are filled for the num_points points of a list, in mean: lists go through whole
+ * chunks. */
 static double filled_places(double num_points) {
     const double half = 0.5; /* of a chunk is empty at the end of a long list */
     const double is_not_empty = -expm1(-num_points);

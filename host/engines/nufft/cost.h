@@ -1,4 +1,5 @@
-/* How many parts of each kind a realization of a choice has, and what that costs by the table of cycles.h.
+/* How many parts of each kind a realization of a choice has, and what that costs by the table of
+ * cycles.h.
  */
 #ifndef PS_ENGINES_NUFFT_COST_H
 #define PS_ENGINES_NUFFT_COST_H
@@ -14,7 +15,8 @@ typedef struct ps_nufft_counts {
 ps_nufft_counts ps_nufft_count(const ps_nufft_choice *choice, ps_precision precision,
                                double num_points);
 
-/* What a device of its lanes would do at its peak while it works on one realization of num_points points. */
+/* What a device of its lanes would do at its peak while it works on one realization of num_points
+ * points. */
 double ps_nufft_flops(const ps_nufft_choice *choice, ps_precision precision, double num_points);
 
 /* Cycles of the two transforms of a whole realization, to choose their lengths by. */

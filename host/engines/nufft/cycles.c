@@ -1,15 +1,16 @@
 #include "engines/nufft/cycles.h"
 
-/* Zen 5, PoCL 3.1, 2026-11: profiles of bench_nufft, of kernels with parts left out in turn, and transforms of
- * lengths 392, 512 and 1024 (5800, 6100, 12600 cycles). `./dev bench calibrate` measures all of them on another
- * device and prints this table. Vectors are of as many numbers as the device has lanes. */
+/* Zen 5, PoCL 3.1, 2026-11: profiles of bench_nufft, of kernels with parts left out in turn, and
+ * transforms of lengths 392, 512 and 1024 (5800, 6100, 12600 cycles). `./dev bench calibrate`
+ * measures all of them on another device and prints this table. Vectors are of as many numbers as
+ * the device has lanes. */
 const double ps_nufft_cycles[PS_NUFFT_NUM_PARTS] = {
     /* transforms: an operation on vectors; a cell on its way through a pass */
     [PS_NUFFT_OPERATION] = 0.27,
     [PS_NUFFT_PASSED] = 0.8,
-    /* tiles: a point to be sorted; its phases, once for all tiles whose rows are in local memory together, and its
-     * windows, where a fused operation makes a value of a vector of points; a point in a tile, and a cell that it
-     * touches there; a cell cleared; a frequency written */
+    /* tiles: a point to be sorted; its phases, once for all tiles whose rows are in local memory
+     * together, and its windows, where a fused operation makes a value of a vector of points; a
+     * point in a tile, and a cell that it touches there; a cell cleared; a frequency written */
     [PS_NUFFT_SORTED] = 8,
     [PS_NUFFT_PHASE] = 13,
     [PS_NUFFT_COEFFICIENT] = 0.5,
@@ -17,16 +18,16 @@ const double ps_nufft_cycles[PS_NUFFT_NUM_PARTS] = {
     [PS_NUFFT_TOUCHED] = 1,
     [PS_NUFFT_CLEARED] = 2.3,
     [PS_NUFFT_POWER] = 12,
-    /* grids of large sets: a point on its way to a block of rows, and a row of the block; four bytes of a cell
-     * cleared and fetched by the transform, and taken into pairs for every chunk */
+    /* grids of large sets: a point on its way to a block of rows, and a row of the block; four
+     * bytes of a cell cleared and fetched by the transform, and taken into pairs for every chunk */
     [PS_NUFFT_GRID_BLOCK] = 40,
     [PS_NUFFT_GRID_ROW] = 4,
     [PS_NUFFT_GRID_CELL] = 5,
     [PS_NUFFT_GRID_PAIR] = 1,
-    /* whole realizations (4096 points and K = 64 in the plane): a point to be placed; a vector of polynomials,
-     * mirrored ones half; a vector added to a row in the nearest cache, and beyond; a column of cells fetched, and a
-     * vector turned into a tile, a quarter; a cell of a lane put into a shared tile; a vector of powers written; a
-     * vector of the grid cleared */
+    /* whole realizations (4096 points and K = 64 in the plane): a point to be placed; a vector of
+     * polynomials, mirrored ones half; a vector added to a row in the nearest cache, and beyond; a
+     * column of cells fetched, and a vector turned into a tile, a quarter; a cell of a lane put
+     * into a shared tile; a vector of powers written; a vector of the grid cleared */
     [PS_NUFFT_WHOLE_POINT] = 7,
     [PS_NUFFT_WHOLE_POLYNOMIAL] = 0.45,
     [PS_NUFFT_WHOLE_ROW] = 1.5,

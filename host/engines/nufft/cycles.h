@@ -1,5 +1,5 @@
-/* What the parts of a fast transform of scattered points cost, one table for torus and sphere. Nominal figures of one
- * CPU, whatever the device, so that choices depend on nothing else.
+/* What the parts of a fast transform of scattered points cost, one table for torus and sphere.
+ * Nominal figures of one CPU, whatever the device, so that choices depend on nothing else.
  */
 #ifndef PS_ENGINES_NUFFT_CYCLES_H
 #define PS_ENGINES_NUFFT_CYCLES_H

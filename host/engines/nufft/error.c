@@ -1,6 +1,6 @@
-/* The error formula of torus_nufft: docs/engines/torus_nufft.md has the reasons. All errors are in units of the root of
- * sum w^2; constants were measured, and are held, by tests/engines/torus/test_tolerance_sweep.c and
- * tests/engines/torus/test_tolerance_regular.c. */
+/* The error formula of torus_nufft: docs/engines/torus_nufft.md has the reasons. All errors are in
+ * units of the root of sum w^2; constants were measured, and are held, by
+ * tests/engines/torus/test_tolerance_sweep.c and tests/engines/torus/test_tolerance_regular.c. */
 #include "engines/nufft/error.h"
 
 #include "engines/nufft/plan.h"
@@ -9,14 +9,15 @@
 
 static const double unit_roundoff[2] = {0x1p-24, 0x1p-53};
 
-/* A set that is regular along an axis may have all its power at the frequency that aliases harm most, at K and
- * at -K. */
+/* A set that is regular along an axis may have all its power at the frequency that aliases harm
+ * most, at K and at -K. */
 static const double in_step = 2;
 
-/* Of rounding, in units of roundoff: of points and powers, whatever the grid; of windows and phases, of each
- * pass of the transforms on both axes, of sums in dense cells (root of the number of terms; where axis 0 has
- * frequency 0, terms are in step and it is the number of points in a cell that counts, and columns of equal
- * terms round the same way every time), of coincident points. */
+/* Of rounding, in units of roundoff: of points and powers, whatever the grid; of windows and
+ * phases, of each pass of the transforms on both axes, of sums in dense cells (root of the number
+ * of terms; where axis 0 has frequency 0, terms are in step and it is the number of points in a
+ * cell that counts, and columns of equal terms round the same way every time), of coincident
+ * points. */
 static const double point_roundings = 2;
 static const double window_roundings = 7;
 static const double roundings_per_pass = 1;
@@ -64,8 +65,8 @@ static whole_loss add_axes(const ps_nufft_choice *choice, uint64_t num_points) {
     return sum;
 }
 
-/* Peaks of lattices, of power N, come in pairs: 2^(d-1) of them fit on a line of aliases, more than K from each
- * other, so that none is in the band; in one dimension one at each end of the band. */
+/* Peaks of lattices, of power N, come in pairs: 2^(d-1) of them fit on a line of aliases, more than
+ * K from each other, so that none is in the band; in one dimension one at each end of the band. */
 static double aliasing_of(const ps_nufft_choice *choice, const ps_problem *problem,
                           const whole_loss *loss, double power) {
     const double peaks = choice->stride != 0 ? 4 : pow(2, problem->frequencies->dimension);

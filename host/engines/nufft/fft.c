@@ -8,8 +8,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Large radices first: the fewest passes over memory. Additions and multiplications (a fused operation is
- * two) of each butterfly as kernels/nufft/butterfly.h writes it. */
+/* Large radices first: the fewest passes over memory. Additions and multiplications (a fused
+ * operation is two) of each butterfly as kernels/nufft/butterfly.h writes it. */
 static const struct {
     uint32_t radix;
     double flops;
@@ -83,8 +83,8 @@ double ps_fft_cycles(uint32_t length) {
            ps_nufft_cycles[PS_NUFFT_PASSED] * ps_fft_passed(length);
 }
 
-/* Lengths from least to last, visited in any order: 2^a times every product of 3, 5 and 7 that is small enough.
- * Going through the integers instead took 14 ms for a plan of 32768 frequencies. */
+/* Lengths from least to last, visited in any order: 2^a times every product of 3, 5 and 7 that is
+ * small enough. Going through the integers instead took 14 ms for a plan of 32768 frequencies. */
 typedef struct lengths {
     uint64_t least, last, odd;
     uint64_t threes, fives; /* of odd: the powers that it ends with */
@@ -139,8 +139,8 @@ uint32_t ps_fft_good_length(uint64_t least) {
     return (uint32_t)best;
 }
 
-/* Cosine and sine of -2 pi t / n, the angle reduced to an eighth of a turn so that symmetric factors
- * are equal to the bit. */
+/* Cosine and sine of -2 pi t / n, the angle reduced to an eighth of a turn so that symmetric
+ * factors are equal to the bit. */
 static void twiddle(uint32_t t, uint32_t n, long double *cosine, long double *sine) {
     const uint64_t eighths = 8 * (uint64_t)t;
     const uint64_t octant = eighths / n;

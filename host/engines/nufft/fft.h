@@ -1,5 +1,5 @@
-/* Plans of Fourier transforms (kernels/nufft/fft.h): lengths without prime factors above 7, the radices
- * of their passes, their twiddle factors, what they cost.
+/* Plans of Fourier transforms (kernels/nufft/fft.h): lengths without prime factors above 7, the
+ * radices of their passes, their twiddle factors, what they cost.
  */
 #ifndef PS_ENGINES_NUFFT_FFT_H
 #define PS_ENGINES_NUFFT_FFT_H

@@ -17,7 +17,8 @@ static pspec_status create_polynomials(ps_nufft_plan *plan, double tolerance,
                                        ps_precision precision, ps_device *device, ps_error *error) {
     const ps_nufft_axis *axis = &plan->axis;
     double coefficients[(PS_NUFFT_MAX_DEGREE + 1) * PS_NUFFT_MAX_WIDTH];
-    /* When all bins are off together, they are divided by the transform at the largest frequency. */
+    /* When all bins are off together, they are divided by the transform at the largest frequency.
+     */
     const double rounding = precision == PS_SINGLE ? 0x1p-24 : 0x1p-53;
     const double edge = (double)axis->max_frequency / axis->n;
     const double divisor = ps_nufft_window_transform(&axis->window, edge) / axis->window.width;

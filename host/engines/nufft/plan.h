@@ -1,12 +1,14 @@
-/* One axis of the fine grid on the device: its transform, its window as polynomials, what undoes the window. */
+/* One axis of the fine grid on the device: its transform, its window as polynomials, what undoes
+ * the window. */
 #ifndef PS_ENGINES_NUFFT_PLAN_H
 #define PS_ENGINES_NUFFT_PLAN_H
 
 #include "engines/nufft/axis.h"
 #include "engines/nufft/fft.h"
 
-/* Part of the tolerance (or of roundoff, if that is more) that polynomials of windows may be off by: little,
- * since it adds up in step in sets as regular as the grid. One degree more costs a percent. */
+/* Part of the tolerance (or of roundoff, if that is more) that polynomials of windows may be off
+ * by: little, since it adds up in step in sets as regular as the grid. One degree more costs a
+ * percent. */
 #define PS_NUFFT_POLYNOMIAL_SHARE 0.01
 
 typedef struct ps_nufft_plan {
@@ -31,8 +33,8 @@ typedef struct ps_nufft_target {
     size_t realization;
 } ps_nufft_target;
 
-/* Work-groups of one item on CPUs, where lanes are vectors; of several that share a row on GPUs, and where
- * tests say so. */
+/* Work-groups of one item on CPUs, where lanes are vectors; of several that share a row on GPUs,
+ * and where tests say so. */
 ps_range ps_nufft_group_range(const ps_device *device, size_t num_groups, size_t num_realizations,
                               double flops);
 

@@ -6,12 +6,13 @@
 
 #include <math.h>
 
-/* The grid stays in the cache of a core (1 MB, Zen 5), or nearly. Nominal, whatever the device has, so that choices
- * depend on nothing else. */
+/* The grid stays in the cache of a core (1 MB, Zen 5), or nearly. Nominal, whatever the device has,
+ * so that choices depend on nothing else. */
 static const double most_bytes = 1.25 * (1 << 20);
 
-/* In one dimension: the factors of the grid, by what the transforms take. The optimum is flat (first lengths of 128 to
- * 4096 of 131072 cells take the same time within 5 %), so it is looked for up to twice the root. */
+/* In one dimension: the factors of the grid, by what the transforms take. The optimum is flat
+ * (first lengths of 128 to 4096 of 131072 cells take the same time within 5 %), so it is looked for
+ * up to twice the root. */
 static void choose_lengths(ps_nufft_choice *choice) {
     const uint32_t n = choice->axes[0].n;
     double least = HUGE_VAL;

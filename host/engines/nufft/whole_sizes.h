@@ -1,5 +1,5 @@
-/* Sizes of realizations that one work-group does whole (kernels/nufft/whole.cl): what their two transforms keep,
- * memory.
+/* Sizes of realizations that one work-group does whole (kernels/nufft/whole.cl): what their two
+ * transforms keep, memory.
  */
 #ifndef PS_ENGINES_NUFFT_WHOLE_SIZES_H
 #define PS_ENGINES_NUFFT_WHOLE_SIZES_H
@@ -17,11 +17,13 @@ typedef struct ps_nufft_whole_sizes {
     size_t window_reals; /* of a chunk */
 } ps_nufft_whole_sizes;
 
-/* Of the two transforms of a whole realization: the largest frequency that each keeps. In one dimension, frequency
- * k_1 + lengths[0] k_2, |k_1| <= kept[0], is k_1 of the first and k_2 of the second. */
+/* Of the two transforms of a whole realization: the largest frequency that each keeps. In one
+ * dimension, frequency k_1 + lengths[0] k_2, |k_1| <= kept[0], is k_1 of the first and k_2 of the
+ * second. */
 void ps_nufft_whole_kept(const ps_nufft_choice *choice, uint32_t kept[2]);
 
-/* Lanes of the last tile that realizations share; 0: they do not. lanes: those of the device, or fewer. */
+/* Lanes of the last tile that realizations share; 0: they do not. lanes: those of the device, or
+ * fewer. */
 uint32_t ps_nufft_whole_shared(const ps_nufft_choice *choice, unsigned lanes);
 
 ps_nufft_whole_sizes ps_nufft_whole_measure(const ps_nufft_choice *choice, unsigned lanes);

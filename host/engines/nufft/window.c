@@ -17,10 +17,11 @@ static long double bessel_i0(long double x) {
     return sum;
 }
 
-/* beta = pi w (1 - K/n) would put the edge of the main lobe on the nearest alias of K. With the alias this
- * far beyond the edge (the first zero is at pi) the largest frequency loses no more than the others: sets that
- * are regular along an axis may have all their power there. Best values for the mean plus the largest of the
- * squares of aliases, 1.7 to 2, were 2.5 .. 2.9 for w = 2 .. 16 and sigma = 1.2 .. 4; the optimum is flat. */
+/* beta = pi w (1 - K/n) would put the edge of the main lobe on the nearest alias of K. With the
+ * alias this far beyond the edge (the first zero is at pi) the largest frequency loses no more than
+ * the others: sets that are regular along an axis may have all their power there. Best values for
+ * the mean plus the largest of the squares of aliases, 1.7 to 2, were 2.5 .. 2.9 for w = 2 .. 16
+ * and sigma = 1.2 .. 4; the optimum is flat. */
 static const double beyond_edge = 2.7;
 
 ps_nufft_window ps_nufft_window_make(unsigned width, int32_t max_frequency, uint32_t n) {

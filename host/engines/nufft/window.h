@@ -1,6 +1,6 @@
-/* The window that spreads points over the cells of a fine grid: Kaiser-Bessel,
- * phi(t) = I_0(beta sqrt(1 - (2t/w)^2)) / I_0(beta) for |t| <= w/2 cells, whose Fourier transform is known
- * in closed form. Everything is per axis; windows are products over the axes.
+/* The window that spreads points over the cells of a fine grid: Kaiser-Bessel, phi(t) = I_0(beta
+ * sqrt(1 - (2t/w)^2)) / I_0(beta) for |t| <= w/2 cells, whose Fourier transform is known in closed
+ * form. Everything is per axis; windows are products over the axes.
  */
 #ifndef PS_ENGINES_NUFFT_WINDOW_H
 #define PS_ENGINES_NUFFT_WINDOW_H
@@ -35,8 +35,9 @@ double ps_nufft_window_least_worst(const ps_nufft_window *window, int32_t max_fr
 ps_nufft_loss ps_nufft_window_loss(const ps_nufft_window *window, int32_t max_frequency,
                                    uint32_t n);
 
-/* Bin i of the window at fraction f (kernels/nufft/cells.h) as a polynomial in u = 2 f - 1. The degree at
- * which Chebyshev series of all bins are cut with an error below `error`, at most the largest; odd, since kernels/nufft/window.h takes even and odd powers in pairs. */
+/* Bin i of the window at fraction f (kernels/nufft/cells.h) as a polynomial in u = 2 f - 1. The
+ * degree at which Chebyshev series of all bins are cut with an error below `error`, at most the
+ * largest; odd, since kernels/nufft/window.h takes even and odd powers in pairs. */
 unsigned ps_nufft_window_degree(const ps_nufft_window *window, double error);
 /* coefficients[degree + 1][bins], lowest degree first; zeros in bins from the width on. */
 void ps_nufft_window_polynomials(const ps_nufft_window *window, unsigned degree, unsigned bins,

@@ -6,7 +6,8 @@
 
 static const double sqrt2 = 1.4142135623730951;
 
-/* moments[k] >= sum_j a_j |max_degree - 2 j|^k for k <= K: see pairs_bins.h. Those of odd k lie between their neighbours. */
+/* moments[k] >= sum_j a_j |max_degree - 2 j|^k for k <= K: see pairs_bins.h. Those of odd k lie
+ * between their neighbours. */
 static void find_moments_of_orders(int32_t max_degree, double *moments) {
     double even[PS_PAIRS_MOMENTS / 2 + 1] = {0};
     double first = 1, last = 1; /* binom(2j, j) / 4^j for j and max_degree - j */

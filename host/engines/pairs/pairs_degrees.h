@@ -1,22 +1,24 @@
-/* What engines of pair sums have in common behind their kernels: partial sums of degrees, added up on the device, and
- * Q(l) = sum w^2 + 2 sum over pairs.
+/* What engines of pair sums have in common behind their kernels: partial sums of degrees, added up
+ * on the device, and Q(l) = sum w^2 + 2 sum over pairs.
  */
 #ifndef PS_ENGINES_PAIRS_PAIRS_DEGREES_H
 #define PS_ENGINES_PAIRS_PAIRS_DEGREES_H
 
 #include "engines/pairs/pairs_points.h"
 
-/* As in kernels/pairs/walk.h. Vectors of a chunk: their state, four numbers each, stays in the first-level cache (16 KiB
- * with vectors of 64 bytes). Chunks of a run: enough work for a work-item, and enough work-items. */
+/* As in kernels/pairs/walk.h. Vectors of a chunk: their state, four numbers each, stays in the
+ * first-level cache (16 KiB with vectors of 64 bytes). Chunks of a run: enough work for a
+ * work-item, and enough work-items. */
 enum { PS_PAIRS_CHUNK = 64, PS_PAIRS_RUN_CHUNKS = 16, PS_PAIRS_RUN = 1024 };
 
 /* Sums of runs come in two parts, high and low. */
 enum { PS_PAIRS_PARTS = 2 };
 
-/* Rounding of pair sums in units of (sum |w|)^2: hypot(begin, step sqrt(L)) for one pair, which is the worst there is,
- * since errors of many average out: that of t grows like the slope of the polynomials. And drift L for the share of
- * (sum |w|)^2 that is in pairs so close that P_l stays near 1: its steps are then all rounded alike. That share is the mean
- * of Q(l) / (sum |w|)^2. Measured, with slack, by tests/engines/pairs/test_pairs_error.c; docs/engines/pairs_direct.md. */
+/* Rounding of pair sums in units of (sum |w|)^2: hypot(begin, step sqrt(L)) for one pair, which is
+ * the worst there is, since errors of many average out: that of t grows like the slope of the
+ * polynomials. And drift L for the share of (sum |w|)^2 that is in pairs so close that P_l stays
+ * near 1: its steps are then all rounded alike. That share is the mean of Q(l) / (sum |w|)^2.
+ * Measured, with slack, by tests/engines/pairs/test_pairs_error.c; docs/engines/pairs_direct.md. */
 typedef struct ps_pairs_error_law {
     double begin, step, drift;
 } ps_pairs_error_law;
@@ -48,7 +50,8 @@ pspec_status ps_pairs_degrees_create(ps_pairs_degrees *out, const ps_problem *pr
                                      ps_device *device, ps_error *error) PS_MUST_CHECK;
 void ps_pairs_degrees_free(ps_pairs_degrees *degrees);
 
-/* Adds partials[num_patterns][num_runs][high, low][num_degrees] to the sums, which begin anew with is_first. */
+/* Adds partials[num_patterns][num_runs][high, low][num_degrees] to the sums, which begin anew with
+ * is_first. */
 pspec_status ps_pairs_degrees_fold(ps_pairs_degrees *degrees, const ps_buffer *partials,
                                    size_t num_patterns, size_t num_runs, bool is_first,
                                    ps_error *error) PS_MUST_CHECK;

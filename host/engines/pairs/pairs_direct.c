@@ -1,4 +1,5 @@
-/* The engine: runs of pairs in slabs; for each slab sums over its runs, which are added to those of the slabs before. */
+/* The engine: runs of pairs in slabs; for each slab sums over its runs, which are added to those of
+ * the slabs before. */
 #include "engines/pairs/pairs_direct.h"
 
 #include "base/memory.h"
@@ -10,8 +11,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Sums of the runs of a slab, for one realization: also about a tenth of a second of two cores, since nothing stops a
- * kernel. */
+/* Sums of the runs of a slab, for one realization: also about a tenth of a second of two cores,
+ * since nothing stops a kernel. */
 static const double slab_bytes = 4.0 * 1024 * 1024;
 
 typedef struct run_layout {

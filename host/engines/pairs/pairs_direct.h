@@ -1,4 +1,5 @@
-/* The engine pairs_direct: Legendre polynomials of all pairs of points, docs/engines/pairs_direct.md. */
+/* The engine pairs_direct: Legendre polynomials of all pairs of points,
+ * docs/engines/pairs_direct.md. */
 #ifndef PS_ENGINES_PAIRS_PAIRS_DIRECT_H
 #define PS_ENGINES_PAIRS_PAIRS_DIRECT_H
 

@@ -1,5 +1,5 @@
-/* The engine: runs of pairs in slabs, each run into a histogram of its own, all added up; then weights of nodes from the
- * moments of the bins, and Legendre sums over the nodes. */
+/* The engine: runs of pairs in slabs, each run into a histogram of its own, all added up; then
+ * weights of nodes from the moments of the bins, and Legendre sums over the nodes. */
 #include "engines/pairs/pairs_histogram.h"
 
 #include "base/memory.h"
@@ -16,13 +16,13 @@
 /* Histograms of the runs of a slab, for one realization. */
 static const double slab_bytes = 8.0 * 1024 * 1024;
 
-/* Pairs of a run at least, for each number of its histogram, which is cleared and added up: a tenth of the time of the
- * pairs; and for a work-item to be worth it. */
+/* Pairs of a run at least, for each number of its histogram, which is cleared and added up: a tenth
+ * of the time of the pairs; and for a work-item to be worth it. */
 enum { PAIRS_PER_NUMBER = 4, LEAST_RUN = 1 << 14 };
 
-/* Of the tolerance, what bins may lose: more leaves too little for the rounding of single precision at 1e-5 and L = 500,
- * and a quarter takes a tenth more bins than a half; but not less than precision does, nor so much that it shows in a
- * plot. */
+/* Of the tolerance, what bins may lose: more leaves too little for the rounding of single precision
+ * at 1e-5 and L = 500, and a quarter takes a tenth more bins than a half; but not less than
+ * precision does, nor so much that it shows in a plot. */
 static const double share_of_bins = 0.25;
 static const double least_bound[] = {[PS_SINGLE] = 1e-7, [PS_DOUBLE] = 1e-15};
 static const double largest_bound = 1e-3;
@@ -88,7 +88,8 @@ static double largest_buffer(const histogram_layout *layout) {
                 (double)layout->node_runs * layout->row_bytes);
 }
 
-/* What a set costs besides, as pairs: 1 us for the kernels and 2 us of the host at N = 64 .. 256 (Zen 5, PoCL 3.1). */
+/* What a set costs besides, as pairs: 1 us for the kernels and 2 us of the host at N = 64 .. 256
+ * (Zen 5, PoCL 3.1). */
 static const double pairs_per_set = 2500;
 
 static ps_work work_of(const histogram_layout *layout, const ps_problem *problem) {
@@ -117,8 +118,9 @@ static ps_work work_of(const histogram_layout *layout, const ps_problem *problem
         .largest_buffer_per_realization = largest_buffer(layout)};
 }
 
-/* The bound of the bins, and rounding, mostly of the place in a bin. Pairs of the same chord go into one bin, where a run
- * adds them up one by one: if all are alike, each addition may round by half a unit, the same way. */
+/* The bound of the bins, and rounding, mostly of the place in a bin. Pairs of the same chord go
+ * into one bin, where a run adds them up one by one: if all are alike, each addition may round by
+ * half a unit, the same way. */
 static const ps_pairs_error_law error_laws[] = {
     [PS_SINGLE] = {1e-6, 2e-7, 3e-8}, [PS_DOUBLE] = {5e-15, 4e-16, 6e-17}};
 

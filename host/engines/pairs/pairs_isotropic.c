@@ -128,7 +128,8 @@ static pspec_status make_histogram(sums_of_pairs *self, ps_precision precision, 
     return status;
 }
 
-/* In the cheapest precision whose error is within the tolerance, also with the powers that are measured. */
+/* In the cheapest precision whose error is within the tolerance, also with the powers that are
+ * measured. */
 static pspec_status fill_histogram(sums_of_pairs *self, ps_error *error) {
     const ps_device_limits *const limits = ps_device_get_limits(self->device);
     double best = INFINITY;

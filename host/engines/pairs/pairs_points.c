@@ -116,11 +116,11 @@ typedef struct task {
 
 /* The points of some realizations, which go on with the first ones again. */
 static void put_some(void *payload, unsigned index, unsigned count) {
-    const task *all = payload;
-    ps_pairs_points *self = all->points;
-    for (size_t r = index; r < all->batch->num_patterns; r += count) {
-        const pspec_pattern *pattern = &all->batch->patterns[r];
-        const int exponent = all->batch->exponents != NULL ? all->batch->exponents[r] : 0;
+    const task *shared = payload;
+    ps_pairs_points *self = shared->points;
+    for (size_t r = index; r < shared->batch->num_patterns; r += count) {
+        const pspec_pattern *pattern = &shared->batch->patterns[r];
+        const int exponent = shared->batch->exponents != NULL ? shared->batch->exponents[r] : 0;
         const size_t first = r * PS_PAIRS_ARRAYS * self->stride;
         const size_t num = ps_pairs_stride(pattern->num_points, self->lanes);
         for (size_t at = 0; at < num; at++) {
@@ -134,8 +134,8 @@ static void put_some(void *payload, unsigned index, unsigned count) {
 pspec_status ps_pairs_points_upload(ps_pairs_points *self, const ps_batch *batch, ps_error *error) {
     const size_t bytes =
         batch->num_patterns * PS_PAIRS_ARRAYS * self->stride * ps_real_bytes(self->precision);
-    task all = {self, batch};
-    ps_workers_share(batch->num_patterns * self->stride, put_some, &all);
+    task shared = {self, batch};
+    ps_workers_share(batch->num_patterns * self->stride, put_some, &shared);
     PS_TRY(ps_buffer_write(self->device, &self->points, 0, self->host_points, bytes, error));
     return ps_buffer_write(self->device, &self->counts, 0, self->host_counts,
                            batch->num_patterns * sizeof(uint64_t), error);

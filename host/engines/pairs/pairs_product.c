@@ -8,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Points of a segment: some 20 microseconds of a work-item, and few enough segments for the host to add up. */
+/* Points of a segment: some 20 microseconds of a work-item, and few enough segments for the host to
+ * add up. */
 enum { SEGMENT = 4096, AXES = 3, PARTS = 2 };
 /* Strides are multiples of all numbers of lanes and of the kernel's BLOCK. */
 enum { UNIT = 16 };
@@ -150,8 +151,8 @@ static pspec_status launch(ps_pairs_product *self, size_t first, size_t num, ps_
     return ps_device_finish(self->device, error);
 }
 
-/* In launches that take about a tenth of a second, between which the watch is told. What the last one of a launch
- * rounds up to, the next one does again: the same bits. */
+/* In launches that take about a tenth of a second, between which the watch is told. What the last
+ * one of a launch rounds up to, the next one does again: the same bits. */
 static pspec_status launch_all(ps_pairs_product *self, const ps_watch *watch, ps_error *error) {
     const double first_pairs = 1 << 26; /* some hundredths of a second of two cores */
     const double enough =

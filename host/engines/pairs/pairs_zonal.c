@@ -14,7 +14,8 @@ typedef struct lanes {
     double t[LANES], side[LANES], p[LANES], e[LANES];
 } lanes;
 
-/* Points first .. first + LANES - 1; behind the last, poles of weight 0. t = 1 - |cos theta| without cancellation. */
+/* Points first .. first + LANES - 1; behind the last, poles of weight 0. t = 1 - |cos theta|
+ * without cancellation. */
 static void begin(lanes *at, const pspec_pattern *pattern, size_t first, int exponent) {
     *at = (lanes){0};
     for (size_t i = 0; i < LANES && first + i < pattern->num_points; i++) {

@@ -17,8 +17,8 @@
 
 /* Doubles of working memory for degrees to max_degree. */
 size_t ps_zonal_scratch(int32_t max_degree);
-/* out[l], l = 0 .. max_degree, with weights w 2^-exponent (1 where there are none). Points need not have exactly
- * length 1. */
+/* out[l], l = 0 .. max_degree, with weights w 2^-exponent (1 where there are none). Points need not
+ * have exactly length 1. */
 void ps_zonal_sums(const pspec_pattern *pattern, int exponent, int32_t max_degree, double *scratch,
                    double *out);
 

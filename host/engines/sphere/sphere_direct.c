@@ -1,4 +1,5 @@
-/* Orders in passes, points in slabs: for each directions and sums over points, after the last slab sums over orders. */
+/* Orders in passes, points in slabs: for each directions and sums over points, after the last slab
+ * sums over orders. */
 #include "engines/sphere/sphere_direct.h"
 
 #include "base/memory.h"

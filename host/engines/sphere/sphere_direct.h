@@ -1,4 +1,5 @@
-/* sphere_direct: direct sums of spherical harmonics on the device, for any degree (docs/engines/sphere_direct.md). */
+/* sphere_direct: direct sums of spherical harmonics on the device, for any degree
+ * (docs/engines/sphere_direct.md). */
 #ifndef PS_ENGINES_SPHERE_SPHERE_DIRECT_H
 #define PS_ENGINES_SPHERE_SPHERE_DIRECT_H
 

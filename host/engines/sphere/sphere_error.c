@@ -2,15 +2,17 @@
 
 #include <math.h>
 
-/* Errors of S in units of sqrt(sum w^2), by precision: hypot(begin, step L). begin is the rounding of w, azimuth,
- * sin^m(theta) and sums; step that of t = 1 - |cos theta|, which shifts theta and so every degree a little more.
+/* Errors of S in units of sqrt(sum w^2), by precision: hypot(begin, step L). begin is the rounding
+ * of w, azimuth, sin^m(theta) and sums; step that of t = 1 - |cos theta|, which shifts theta and so
+ * every degree a little more.
  *  random:   of every point on its own, as white noise has it: measured up to 3.3e-7 and 8.9e-9 L (1.1e-8 L for points at
  *            the equator, where it is largest); 2e-15 and 7.0e-17 L (1.1e-16 L).
  *  coherent: of points at one place, which err alike: measured up to 5.2e-7 and 2.3e-8 L; 1.2e-15 and 1.6e-17 L at two
  *            places, where a place may have several times the mean.
  *  leak:     the constants of the recurrence are rounded, so the sphere as a whole, sqrt(N) of it, shows in every
  *            degree: measured up to 1.9e-9 and 3.4e-17. A set of weights has less of it.
- * Measured, with slack, by tests/engines/sphere/test_sphere_error.c; docs/engines/sphere_direct.md. */
+ * Measured, with slack, by tests/engines/sphere/test_sphere_error.c; docs/engines/sphere_direct.md.
+ */
 typedef struct error_law {
     double random_begin, random_step, coherent_begin, coherent_step, leak;
 } error_law;

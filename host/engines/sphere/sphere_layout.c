@@ -8,19 +8,20 @@
 /* Rows of power kernels are whole vectors, and the last block of degrees may reach behind L. */
 enum { ROW_UNIT = 16 };
 
-/* Sums and table of a pass, for one realization: all orders to L = 2000 in single precision. Larger ones would only
- * take memory: a pass costs nothing but its table, which is made anew for every batch then. */
+/* Sums and table of a pass, for one realization: all orders to L = 2000 in single precision. Larger
+ * ones would only take memory: a pass costs nothing but its table, which is made anew for every
+ * batch then. */
 static const double pass_bytes = 64.0 * 1024 * 1024;
 
 /* Points of a slab at most: 50 bytes each. */
 enum { SLAB_CHUNKS = 256 };
 
-/* Harmonics of a slab and a pass, as far as a slab has several chunks: nothing stops a kernel, and these take two cores
- * about a second (3e9 to 9e9 in a second, docs/engines/sphere_direct.md). */
+/* Harmonics of a slab and a pass, as far as a slab has several chunks: nothing stops a kernel, and
+ * these take two cores about a second (3e9 to 9e9 in a second, docs/engines/sphere_direct.md). */
 static const double launch_harmonics = 4e9;
 
-/* Numbers of a point on the device: of its direction and its weight; besides, its azimuth and coordinates, which the
- * host keeps, too. */
+/* Numbers of a point on the device: of its direction and its weight; besides, its azimuth and
+ * coordinates, which the host keeps, too. */
 enum { REALS_PER_POINT = PS_SPHERE_ARRAYS + 1 };
 
 static size_t find_pass_orders(const ps_sphere_layout *layout) {

@@ -4,12 +4,14 @@
 
 #include "engines/engine.h"
 
-/* As in kernels/sphere/layout.h. Points of a chunk: their state (8 numbers and two exponents each, 20 KiB in single
- * precision) stays in the first-level cache as far as a block of degrees needs it. ORDERS: more orders of a work-item
- * spread the cost of an exact beginning, but each multiplies its rounding errors on. */
+/* As in kernels/sphere/layout.h. Points of a chunk: their state (8 numbers and two exponents each,
+ * 20 KiB in single precision) stays in the first-level cache as far as a block of degrees needs it.
+ * ORDERS: more orders of a work-item spread the cost of an exact beginning, but each multiplies its
+ * rounding errors on. */
 enum { PS_SPHERE_CHUNK = 512, PS_SPHERE_ORDERS = 16 };
 
-/* Numbers of a point that kernels/sphere/prepare.cl makes, of a coefficient and of a power: (re, im) and high, low. */
+/* Numbers of a point that kernels/sphere/prepare.cl makes, of a coefficient and of a power: (re,
+ * im) and high, low. */
 enum { PS_SPHERE_ARRAYS = 6, PS_SPHERE_SUMS = 4, PS_SPHERE_POWERS = 2 };
 
 typedef struct ps_sphere_layout {

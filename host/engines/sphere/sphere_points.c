@@ -80,7 +80,8 @@ void ps_sphere_points_free(ps_sphere_points *self) {
     *self = (ps_sphere_points){0};
 }
 
-/* Points of a pattern from first on, to the place given and filled up to whole vectors; returns how many. */
+/* Points of a pattern from first on, to the place given and filled up to whole vectors; returns how
+ * many. */
 static size_t copy_pattern(ps_sphere_points *self, size_t at, const pspec_pattern *pattern,
                            int exponent, size_t first) {
     static const double pole[PS_SPHERE_DIMENSION] = {0, 0, 1};

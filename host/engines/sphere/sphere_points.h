@@ -1,5 +1,5 @@
-/* Points of the sphere on their way to the device, which makes directions of them: one slab of every realization at
- * a time, so that memory does not grow with the number of points.
+/* Points of the sphere on their way to the device, which makes directions of them: one slab of
+ * every realization at a time, so that memory does not grow with the number of points.
  */
 #ifndef PS_ENGINES_SPHERE_SPHERE_POINTS_H
 #define PS_ENGINES_SPHERE_SPHERE_POINTS_H
@@ -26,12 +26,14 @@ pspec_status ps_sphere_points_create(ps_sphere_points *out, const ps_sphere_layo
                                      ps_error *error) PS_MUST_CHECK;
 void ps_sphere_points_free(ps_sphere_points *points);
 
-/* Uploads points first .. first + slab - 1 of every pattern of the batch (fewer or none where a pattern is shorter),
- * each pattern padded with points of weight 0 to whole vectors, and makes their directions. */
+/* Uploads points first .. first + slab - 1 of every pattern of the batch (fewer or none where a
+ * pattern is shorter), each pattern padded with points of weight 0 to whole vectors, and makes
+ * their directions. */
 pspec_status ps_sphere_points_upload(ps_sphere_points *points, const ps_batch *batch, size_t first,
                                      ps_error *error) PS_MUST_CHECK;
 
-/* What kernels/sphere/prepare.cl does, on the host: num points to values[array * capacity + point]. */
+/* What kernels/sphere/prepare.cl does, on the host: num points to values[array * capacity + point].
+ */
 void ps_sphere_prepare(const double *points, size_t num, bool only_even, ps_precision precision,
                        size_t capacity, void *values, uint64_t *turns);
 

@@ -1,4 +1,5 @@
-/* Directions on the host, for devices without double precision: the arithmetic of kernels/sphere/prepare.cl. */
+/* Directions on the host, for devices without double precision: the arithmetic of
+ * kernels/sphere/prepare.cl. */
 #define PRECISION 64
 #include "sphere/direction.h"
 #include "sphere/layout.h"

@@ -31,10 +31,11 @@ typedef struct torus_direct {
 /* ---- what the planner asks --------------------------------------------------------------- */
 
 /* Errors of S in units of sqrt(sum w^2). Cosines and sines round independently from point to point,
- * and runs of L = PS_TORUS_RUN terms in a far-apart order (torus_points.h) like sums of white noise:
- * together random_error, measured up to 1.8e-7 and 3e-16. Terms that are all equal (coincident points,
- * lattices at their peaks) round the same way and add up to L u / 4 of S itself (u = 2^-24, 2^-53):
- * coherent_error. Measured, with slack, in tests/engines/torus/test_tolerance.c; docs/engines/torus_direct.md. */
+ * and runs of L = PS_TORUS_RUN terms in a far-apart order (torus_points.h) like sums of white
+ * noise: together random_error, measured up to 1.8e-7 and 3e-16. Terms that are all equal
+ * (coincident points, lattices at their peaks) round the same way and add up to L u / 4 of S itself
+ * (u = 2^-24, 2^-53): coherent_error. Measured, with slack, in
+ * tests/engines/torus/test_tolerance.c; docs/engines/torus_direct.md. */
 static const double random_error[2] = {2.2e-7, 4.0e-16};
 static const double coherent_error[2] = {4.8e-7, 9.0e-16};
 
@@ -46,9 +47,9 @@ static const char *refuse(const ps_torus_layout *layout, const ps_device_limits 
     return layout->max_stride > UINT32_MAX ? "too many frequencies for 32-bit slots" : NULL;
 }
 
-/* What the product of the tables of num_points points takes, in points of an endless pattern: each begun run is
- * added to the sums in memory, at the end powers are made of them. CPU time of 1 to 128 points, K = 64 in
- * the plane, AVX2, PoCL 3.1, 2026-11. */
+/* What the product of the tables of num_points points takes, in points of an endless pattern: each
+ * begun run is added to the sums in memory, at the end powers are made of them. CPU time of 1 to
+ * 128 points, K = 64 in the plane, AVX2, PoCL 3.1, 2026-11. */
 static double product_points(double num_points) {
     const double points_per_run = 22;
     const double points_per_pattern = 10;
@@ -90,8 +91,9 @@ static ps_work work_of(const ps_torus_layout *layout, const ps_problem *problem)
 
 static double error_of(const ps_frequencies *frequencies, ps_precision precision,
                        double mean_power) {
-    /* Fixed-point phases: 2 + (2 + d) 2^-24 sum |k| units of 2^-32 turns (float, torus/phase.h), 2^-65 |k|
-     * turns (coordinates below 2^-11). Uniform errors: standard deviation 1/sqrt(12) of a unit. */
+    /* Fixed-point phases: 2 + (2 + d) 2^-24 sum |k| units of 2^-32 turns (float, torus/phase.h),
+     * 2^-65 |k| turns (coordinates below 2^-11). Uniform errors: standard deviation 1/sqrt(12) of a
+     * unit. */
     const double dimension = frequencies->dimension;
     const double sum_k = frequencies->max_frequency * dimension;
     const double phase = precision == PS_SINGLE
@@ -299,8 +301,8 @@ static size_t longest_pattern(const ps_batch *batch) {
     return longest;
 }
 
-/* One group of realizations, slab after slab. All groups of a batch have as many slabs as its longest
- * pattern needs, so that one fold serves all of them when that is one. */
+/* One group of realizations, slab after slab. All groups of a batch have as many slabs as its
+ * longest pattern needs, so that one fold serves all of them when that is one. */
 static pspec_status run_group(torus_direct *self, const ps_batch *group, size_t first_row,
                               size_t num_slabs, ps_error *error) {
     for (size_t slab = 0; slab < num_slabs; slab++) {

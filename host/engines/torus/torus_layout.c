@@ -4,13 +4,14 @@
 #include "device/reals.h"
 #include "engines/torus/torus_split.h"
 
-/* Share of a CPU's cache that the tables of a group of realizations, one slab of each, may take with
- * their sums: flat optimum around 1/2 of a 32 MB L3 (Zen 5, 2 cores, PoCL 3.1, 2026-11, bench_torus:
- * 7 % slower at 1/4, 15 % at 1). */
+/* Share of a CPU's cache that the tables of a group of realizations, one slab of each, may take
+ * with their sums: flat optimum around 1/2 of a 32 MB L3 (Zen 5, 2 cores, PoCL 3.1, 2026-11,
+ * bench_torus: 7 % slower at 1/4, 15 % at 1). */
 static const double group_share = 0.5;
 
 /* Realizations that a slab should leave room for, when there are so many: short slabs of many
- * realizations keep both cores busy to the end of a launch. Files do not tell how many there are. */
+ * realizations keep both cores busy to the end of a launch. Files do not tell how many there are.
+ */
 enum { ROOM_FOR_REALIZATIONS = 16, ROOM_WHEN_UNKNOWN = 4 };
 
 /* On GPUs a group must fill the device: bytes of tables and sums of a group. */

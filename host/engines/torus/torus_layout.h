@@ -8,8 +8,8 @@
 enum { PS_TORUS_CHUNK = 1024 };
 
 /* Points summed in working precision before a pair takes the sum (kernels/torus/layout.h), in
- * products and in lists; errors and times against the length of a run are in docs/engines/torus_direct.md.
- * They divide PS_TORUS_CHUNK. */
+ * products and in lists; errors and times against the length of a run are in
+ * docs/engines/torus_direct.md. They divide PS_TORUS_CHUNK. */
 enum { PS_TORUS_RUN = 32, PS_TORUS_LIST_RUN = 8 };
 
 typedef struct ps_torus_layout {

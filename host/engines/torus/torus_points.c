@@ -15,10 +15,10 @@ static uint64_t bits_of(double x) {
     return bits;
 }
 
-/* Without branches and conversions, since every point passes here: adding 1 leaves the upper 52 bits
- * of x in the mantissa; what that rounds off is below 2^-52, exact, and goes through the mantissa of
- * another sum, which rounds it to whole units of 2^-64. 1 + x may round up to 2: the upper part then
- * is 0, the rest negative, and the sum wraps as it should. */
+/* Without branches and conversions, since every point passes here: adding 1 leaves the upper 52
+ * bits of x in the mantissa; what that rounds off is below 2^-52, exact, and goes through the
+ * mantissa of another sum, which rounds it to whole units of 2^-64. 1 + x may round up to 2: the
+ * upper part then is 0, the rest negative, and the sum wraps as it should. */
 uint64_t ps_fixed_point(double x) {
     enum { EXPONENT_BITS = 12 };
     const double two_to_64 = 18446744073709551616.0;
@@ -120,16 +120,16 @@ uint64_t ps_torus_point_step(uint64_t n) {
     return step > 0 ? step : 1;
 }
 
-/* The sign bit says that x is in [0,1), without a branch: bits are in the order of numbers, and those of 1
- * taken off wrap around below 1; -0 + 0 is 0. */
+/* The sign bit says that x is in [0,1), without a branch: bits are in the order of numbers, and
+ * those of 1 taken off wrap around below 1; -0 + 0 is 0. */
 static inline uint64_t is_inside(double x) {
     const uint64_t bits = bits_of(x + 0.0);
     return (bits - bits_of(1)) & ~bits;
 }
 
-/* Fixed-point coordinates of count points, from point j on in steps; dimension is a constant in every
- * call, so that the inner loop unrolls. The sign bit says whether all are in [0,1): checked here since points
- * of large sets come from memory, where a second reading would take as long. */
+/* Fixed-point coordinates of count points, from point j on in steps; dimension is a constant in
+ * every call, so that the inner loop unrolls. The sign bit says whether all are in [0,1): checked
+ * here since points of large sets come from memory, where a second reading would take as long. */
 static inline uint64_t convert_points(uint64_t *out, const double *points, unsigned dimension,
                                       size_t count, uint64_t j, uint64_t step, uint64_t n) {
     uint64_t inside = UINT64_MAX;
@@ -165,8 +165,8 @@ static uint64_t convert_coordinates(uint64_t *out, const pspec_pattern *pattern,
     }
 }
 
-/* Points first .. of a pattern, in the order of steps, to place `at` on; how many there were. The sign bit of
- * *inside stays where all are in [0,1). */
+/* Points first .. of a pattern, in the order of steps, to place `at` on; how many there were. The
+ * sign bit of *inside stays where all are in [0,1). */
 static size_t convert_pattern(ps_torus_points *points, uint64_t *out, size_t at,
                               const pspec_pattern *pattern, int exponent, size_t first,
                               uint64_t *inside) {

@@ -13,13 +13,14 @@ typedef struct ps_torus_points {
     bool far_apart;        /* order of the points, see ps_torus_point_step */
     bool is_unified;       /* ps_device_limits.has_unified_memory */
     bool has_unit_weights; /* on the device; so it stays until a pattern has weights */
-    uint64_t *
-        host_points; /* [batch * slab][dimension], where host and device have memory of their own */
+    /* [batch * slab][dimension], where host and device have memory of their own */
+    uint64_t *host_points;
     void *host_weights;     /* [batch * slab] float or double */
     uint64_t *host_offsets; /* [batch + 1] */
     ps_buffer points;       /* what was uploaded: one of the buffers below */
     ps_buffer weights, offsets;
-    /* Filled in turns: one by the host while the device reads the other. Without unified memory there is one. */
+    /* Filled in turns: one by the host while the device reads the other. Without unified memory
+     * there is one. */
     ps_buffer buffers[2];
     ps_mapping mapping; /* of the next one */
     unsigned next;
@@ -31,14 +32,15 @@ pspec_status ps_torus_points_create(ps_torus_points *out, unsigned dimension, si
 void ps_torus_points_free(ps_torus_points *points);
 
 /* Points go to the device in steps of about N / golden ratio, so that the points of a run of the
- * kernels lie far apart whatever the order of the pattern: in sorted patterns, neighbours would add up
- * in step at low frequencies and round the same way. A step without common factor with n visits every
- * point once. (Runs of lists are so short that they do without, and read large patterns in order.) */
+ * kernels lie far apart whatever the order of the pattern: in sorted patterns, neighbours would add
+ * up in step at low frequencies and round the same way. A step without common factor with n visits
+ * every point once. (Runs of lists are so short that they do without, and read large patterns in
+ * order.) */
 uint64_t ps_torus_point_step(uint64_t n);
 
 /* Uploads points first .. first + slab - 1, in that order, of every pattern of the batch (fewer or
- * none where a pattern is shorter). *num_points is their number over all patterns. A coordinate outside
- * [0,1) is PSPEC_ERROR_INPUT (ps_engine.checks_points). */
+ * none where a pattern is shorter). *num_points is their number over all patterns. A coordinate
+ * outside [0,1) is PSPEC_ERROR_INPUT (ps_engine.checks_points). */
 pspec_status ps_torus_points_upload(ps_torus_points *points, ps_device *device,
                                     const ps_batch *batch, size_t first, size_t *num_points,
                                     ps_error *error) PS_MUST_CHECK;

@@ -28,7 +28,8 @@ typedef struct ps_split {
     uint32_t *pair_of_tiles; /* [left tile][right tile] -> pair, or UINT32_MAX */
 } ps_split;
 
-/* Axes of the left factor; the others are the right one's, in one dimension both have the only one. */
+/* Axes of the left factor; the others are the right one's, in one dimension both have the only one.
+ */
 unsigned ps_split_left_axes(unsigned dimension);
 
 /* Numbers of frequencies of the two sides, without enumerating anything. */

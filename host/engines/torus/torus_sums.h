@@ -29,8 +29,8 @@ pspec_status ps_torus_sums_create(ps_torus_sums *out, const ps_torus_layout *lay
                                   ps_error *error) PS_MUST_CHECK;
 void ps_torus_sums_free(ps_torus_sums *sums);
 
-/* Sums of the uploaded slab, chunk by chunk, for rows first_row .. , and its table. num_points: of all
- * patterns in the slab, for the profile. */
+/* Sums of the uploaded slab, chunk by chunk, for rows first_row .. , and its table. num_points: of
+ * all patterns in the slab, for the profile. */
 pspec_status ps_torus_sums_add(ps_torus_sums *sums, const ps_torus_points *points, size_t first_row,
                                size_t num_patterns, size_t num_points, ps_device *device,
                                ps_error *error) PS_MUST_CHECK;

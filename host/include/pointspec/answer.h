@@ -23,8 +23,8 @@ extern "C" {
  *
  * Device, memory limit, progress and cancelling are those of the context. The folder of measured
  * figures and of the cache of results is that of the environment, as for the program. Point files
- * are values of the option "files", which may be given several times. Nothing is read from
- * standard input or written to standard output: "-" is no file here.
+ * are values of the option "files", which may be given several times. Nothing is read from standard
+ * input or written to standard output: "-" is no file here.
  * @{ */
 
 /** An option and its value: both are borrowed for the call. */

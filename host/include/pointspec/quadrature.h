@@ -19,10 +19,10 @@ extern "C" {
  *     E^2 = sum_ij w_i w_j K(u_i, u_j) - 2 sum_j w_j kappa(u_j) + kappa_0         (kernel)
  *         = sum_l a_l (d_l^2 + C_l^2),   d_l = b_l - c_l0,   C_l^2 = 2 sum_{m > 0} |c_lm|^2 (spectral)
  *
- * with K(u,v) = c - |u-v|^(2s-2) = sum_l a_l (2l+1)/(4 pi) P_l(u.v), c = 2^(2s-1)/s, b_l = int
- * phat Y_l0 dS, c_lm = sum_j w_j Y_lm(u_j), kappa = sum_l a_l b_l Y_l0, kappa_0 = sum_l a_l b_l^2.
- * Lobes are named as on the command line: "diffuse", "glossy:n=30", "glossy:n=2,cut=none",
- * "phong:n=8", "zonal:file=NAME".
+ * with K(u,v) = c - |u-v|^(2s-2) = sum_l a_l (2l+1)/(4 pi) P_l(u.v), c = 2^(2s-1)/s, b_l = int phat
+ * Y_l0 dS, c_lm = sum_j w_j Y_lm(u_j), kappa = sum_l a_l b_l Y_l0, kappa_0 = sum_l a_l b_l^2. Lobes
+ * are named as on the command line: "diffuse", "glossy:n=30", "glossy:n=2,cut=none", "phong:n=8",
+ * "zonal:file=NAME".
  * @{ */
 
 /** What to compute of rules. Begin with #PSPEC_QUADRATURE_REQUEST_INIT and set what differs. */

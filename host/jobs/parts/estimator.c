@@ -158,7 +158,8 @@ static pspec_status prepare(ps_estimator *self, const pspec_pattern *patterns,
     return PSPEC_OK;
 }
 
-/* Effective power of every realization, mean over all frequencies but DC: what the error formula needs. */
+/* Effective power of every realization, mean over all frequencies but DC: what the error formula
+ * needs. */
 static void measure_powers(ps_estimator *self, const double *mean_powers, size_t num_patterns) {
     for (size_t r = 0; r < num_patterns; r++) {
         const double power = mean_powers[r] / (self->scales[r] * self->sums[r].weight_square_sum);
@@ -244,8 +245,8 @@ pspec_status ps_estimator_check_beginning(ps_estimator *self, const pspec_patter
     return status;
 }
 
-/* Runs the engine on one batch that fits; makes a smaller engine when memory is refused (drivers may
- * allocate no sooner than at the first use). */
+/* Runs the engine on one batch that fits; makes a smaller engine when memory is refused (drivers
+ * may allocate no sooner than at the first use). */
 static pspec_status run_batch(ps_estimator *self, const pspec_pattern *patterns,
                               size_t *num_patterns, ps_rows *rows, ps_error *error) {
     for (;;) {

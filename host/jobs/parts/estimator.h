@@ -29,8 +29,8 @@ typedef struct ps_estimator_options {
     ps_pair_observer observer; /* with want_c2: told of every realization */
     bool self_check;
     pspec_normalization normalization;
-    /* [ps_num_coefficients(L)] or NULL: where a realization that comes alone in its batch leaves its coefficients, of
-     * problem.harmonics; what there is to sum twice is summed once */
+    /* [ps_num_coefficients(L)] or NULL: where a realization that comes alone in its batch leaves
+     * its coefficients, of problem.harmonics; what there is to sum twice is summed once */
     double *coefficients;
     bool (*should_stop)(void *payload); /* asked every second or so; may be NULL, see ps_batch */
     void *payload;
@@ -40,14 +40,14 @@ typedef struct ps_estimator_options {
 /* The numerical side of a result. */
 typedef struct ps_accuracy {
     double error; /* bound of the engine's formula with the powers that were measured */
-    double
-        length_error; /* largest | |u| - 1 | of the vectors on the sphere, which were divided by |u| */
+    /* Largest | |u| - 1 | of the vectors on the sphere, which were divided by |u| */
+    double length_error;
     double largest_share;      /* largest sum w^2 / (sum |w|)^2 of a realization */
     double largest_mean_power; /* largest effective power of a realization, mean over frequencies */
     bool was_checked;
-    double
-        self_check; /* largest deviation from the referee, of |S| in units of sqrt(sum w^2), of pair
-                          sums in (sum |w|)^2 */
+    /* Largest deviation from the referee, of |S| in units of sqrt(sum w^2), of pair sums in (sum
+     * |w|)^2 */
+    double self_check;
 } ps_accuracy;
 
 /* device may be NULL for engines that need none. */
@@ -70,13 +70,14 @@ pspec_status ps_estimator_check(const ps_estimator *estimator, const pspec_patte
                                 uint64_t realization, ps_pattern_sums *sums,
                                 ps_error *error) PS_MUST_CHECK;
 
-/* A pattern that is never in memory as a whole. What its scale needs is known before its points come. */
+/* A pattern that is never in memory as a whole. What its scale needs is known before its points
+ * come. */
 typedef struct ps_pattern_stream {
     unsigned dimension;
     uint64_t num_points;
     ps_pattern_sums sums;
-    /* The next block: a multiple of `unit` points, any number of them at the end of the pattern, and none
-     * behind it. */
+    /* The next block: a multiple of `unit` points, any number of them at the end of the pattern,
+     * and none behind it. */
     pspec_status (*next)(void *payload, size_t unit, pspec_pattern *block, ps_error *error);
     void *payload;
 } ps_pattern_stream;
@@ -87,15 +88,16 @@ bool ps_estimator_can_stream(const ps_estimator *estimator);
 pspec_status ps_estimator_add_stream(ps_estimator *estimator, const ps_pattern_stream *stream,
                                      ps_error *error) PS_MUST_CHECK;
 
-/* Coefficients of one pattern as ps_engine.coefficients has them, out[ps_num_coefficients(L)]; the averages do not
- * change. Hemispherical harmonics are for points with z >= 0. PSPEC_ERROR_INVALID_ARGUMENT where the engine has none,
- * as on the torus. should_stop is asked as while realizations are added. */
+/* Coefficients of one pattern as ps_engine.coefficients has them, out[ps_num_coefficients(L)]; the
+ * averages do not change. Hemispherical harmonics are for points with z >= 0.
+ * PSPEC_ERROR_INVALID_ARGUMENT where the engine has none, as on the torus. should_stop is asked as
+ * while realizations are added. */
 pspec_status ps_estimator_coefficients(ps_estimator *estimator, const pspec_pattern *pattern,
                                        ps_harmonics harmonics, double *out,
                                        ps_error *error) PS_MUST_CHECK;
 
-/* Forgets all realizations, and any failure: what follows has the bits of a new estimator. Allocates
- * nothing. */
+/* Forgets all realizations, and any failure: what follows has the bits of a new estimator.
+ * Allocates nothing. */
 pspec_status ps_estimator_reset(ps_estimator *estimator, ps_error *error) PS_MUST_CHECK;
 
 /* Realizations that one call of ps_estimator_add takes best. */
@@ -107,7 +109,8 @@ pspec_status ps_estimator_spectrum(ps_estimator *estimator, ps_spectrum *out,
 /* The sums behind the averages, with the error bound; bins are ps_estimator_bins. */
 pspec_status ps_estimator_sums(ps_estimator *estimator, ps_spectrum_sums *out,
                                ps_error *error) PS_MUST_CHECK;
-/* Mean and standard error of every bin so far, in the units of the result: means[ps_estimator_bins()->num]. */
+/* Mean and standard error of every bin so far, in the units of the result:
+ * means[ps_estimator_bins()->num]. */
 pspec_status ps_estimator_bin_means(ps_estimator *estimator, ps_mean *means,
                                     ps_error *error) PS_MUST_CHECK;
 /* C_l^2 of pair sums, mean and standard error: means[number of degrees]; with want_c2 only. */

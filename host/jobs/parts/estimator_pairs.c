@@ -43,10 +43,11 @@ typedef struct task {
     const ps_batch *batch;
 } task;
 
-/* Realizations in turns. A thread beyond those that have memory does nothing, and the others its share. */
+/* Realizations in turns. A thread beyond those that have memory does nothing, and the others its
+ * share. */
 static void sum_some(void *payload, unsigned index, unsigned count) {
-    const task *all = payload;
-    ps_pair_sums *self = all->self;
+    const task *shared = payload;
+    ps_pair_sums *self = shared->self;
     const int32_t last = self->frequencies->max_frequency;
     const unsigned most = self->batch < MOST_THREADS ? (unsigned)self->batch : MOST_THREADS;
     const unsigned threads = count < most ? count : most;
@@ -54,9 +55,9 @@ static void sum_some(void *payload, unsigned index, unsigned count) {
         return;
     }
     double *scratch = (double *)self->scratch + index * ps_zonal_scratch(last);
-    for (size_t r = index; r < all->batch->num_patterns; r += threads) {
-        const int exponent = all->batch->exponents != NULL ? all->batch->exponents[r] : 0;
-        ps_zonal_sums(&all->batch->patterns[r], exponent, last, scratch,
+    for (size_t r = index; r < shared->batch->num_patterns; r += threads) {
+        const int exponent = shared->batch->exponents != NULL ? shared->batch->exponents[r] : 0;
+        ps_zonal_sums(&shared->batch->patterns[r], exponent, last, scratch,
                       self->zonal + r * ((size_t)last + 1));
     }
 }

@@ -1,4 +1,5 @@
-/* What pair sums have besides Q(l): C_l^2 = 2 sum_{m > 0} |c_lm|^2 of every realization, on average. */
+/* What pair sums have besides Q(l): C_l^2 = 2 sum_{m > 0} |c_lm|^2 of every realization, on
+ * average. */
 #ifndef PS_JOBS_PARTS_ESTIMATOR_PAIRS_H
 #define PS_JOBS_PARTS_ESTIMATOR_PAIRS_H
 
@@ -6,8 +7,8 @@
 #include "spectra/accumulate.h"
 #include "spectra/sums.h"
 
-/* Told of the realizations, one after the other in their order: Z(l) = sum_j w_j P_l(z_j) and C_l^2 for l = 0 .. L,
- * borrowed until it returns. */
+/* Told of the realizations, one after the other in their order: Z(l) = sum_j w_j P_l(z_j) and C_l^2
+ * for l = 0 .. L, borrowed until it returns. */
 typedef struct ps_pair_observer {
     void (*tell)(void *payload, const double *zonal, const double *c2); /* NULL: nobody asks */
     void *payload;

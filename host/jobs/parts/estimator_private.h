@@ -30,7 +30,8 @@ void ps_estimator_halve_batch(ps_estimator *self);
 pspec_status ps_estimator_get_ready(ps_estimator *self, uint64_t num_points,
                                     ps_error *error) PS_MUST_CHECK;
 
-/* Of the engine, for sets of some mean power (ps_survey.error), in the units of the problem's tolerance. */
+/* Of the engine, for sets of some mean power (ps_survey.error), in the units of the problem's
+ * tolerance. */
 double ps_estimator_error_at(const ps_estimator *self, double mean_power);
 /* The same for one pattern. */
 double ps_estimator_error_of(const ps_estimator *self, double mean_power,
@@ -45,16 +46,18 @@ void ps_estimator_measure_share(ps_estimator *self, const ps_pattern_sums *sums)
 ps_batch ps_estimator_make_batch(const ps_estimator *self, const pspec_pattern *patterns,
                                  size_t num_patterns);
 
-/* A pattern too large for long double sums is checked by its first points, in a run of their own. */
+/* A pattern too large for long double sums is checked by its first points, in a run of their own.
+ */
 pspec_status ps_estimator_check_beginning(ps_estimator *self, const pspec_pattern *beginning,
                                           ps_error *error) PS_MUST_CHECK;
 
-/* The engine's rows of a batch of one pattern, and its coefficients to options.coefficients: in one go where they
- * are of the same sums. */
+/* The engine's rows of a batch of one pattern, and its coefficients to options.coefficients: in one
+ * go where they are of the same sums. */
 pspec_status ps_estimator_run_with_coefficients(ps_estimator *self, const ps_batch *one,
                                                 ps_rows *rows, ps_error *error) PS_MUST_CHECK;
 
-/* Adds the rows of a batch to the averages; of the patterns only their numbers of points are looked at. */
+/* Adds the rows of a batch to the averages; of the patterns only their numbers of points are looked
+ * at. */
 pspec_status ps_estimator_take(ps_estimator *self, const ps_rows *rows,
                                const pspec_pattern *patterns, size_t num_patterns,
                                ps_error *error) PS_MUST_CHECK;

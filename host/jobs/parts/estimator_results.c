@@ -2,7 +2,8 @@
 #include "engines/error_units.h"
 #include "jobs/parts/estimator_private.h"
 
-/* In the engine's units; of an engine that is still to be made again, what is planned for such powers. */
+/* In the engine's units; of an engine that is still to be made again, what is planned for such
+ * powers. */
 static double own_error(const ps_estimator *self, double mean_power, double share) {
     const ps_engine *engine = self->options.engine;
     if (self->engine_state != NULL) {

@@ -21,8 +21,8 @@ bool ps_estimator_can_stream(const ps_estimator *estimator) {
            stream_of(estimator)->unit(estimator->engine_state) > 0;
 }
 
-/* Drivers may refuse memory no sooner than at the first use: a smaller engine begins anew, while there is
- * nothing to lose. */
+/* Drivers may refuse memory no sooner than at the first use: a smaller engine begins anew, while
+ * there is nothing to lose. */
 static pspec_status begin(ps_estimator *self, ps_error *error) {
     for (;;) {
         const pspec_status status = stream_of(self)->begin(self->engine_state, error);

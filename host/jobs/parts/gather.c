@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Enough for thousands of patterns of a thousand points. Where a batch needs more, a single pattern is
- * so large that the engine has work enough with fewer. */
+/* Enough for thousands of patterns of a thousand points. Where a batch needs more, a single pattern
+ * is so large that the engine has work enough with fewer. */
 enum { MOST_BYTES = 64 << 20 };
 
 struct ps_gather {

@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* As much as the source keeps of a file (PS_SOURCE_WHOLE_BYTES): a thousand sets of four thousand points in the plane. */
+/* As much as the source keeps of a file (PS_SOURCE_WHOLE_BYTES): a thousand sets of four thousand
+ * points in the plane. */
 static const uint64_t most_by_default = (uint64_t)64 << 20;
 
 /* Patterns that `room` numbers are enough for. Smaller ones than were announced may be more. */

@@ -1,5 +1,6 @@
-/* Copies of the patterns that an average has had, for who cannot be asked for them again: a second plan begins with the
- * first of them. Allocates all its room at once; what does not fit is not kept, and then nothing can be had again.
+/* Copies of the patterns that an average has had, for who cannot be asked for them again: a second
+ * plan begins with the first of them. Allocates all its room at once; what does not fit is not
+ * kept, and then nothing can be had again.
  */
 #ifndef PS_JOBS_PARTS_KEPT_PATTERNS_H
 #define PS_JOBS_PARTS_KEPT_PATTERNS_H

@@ -38,7 +38,8 @@ static pspec_status check_coordinates(const ps_pattern_count *count, const pspec
     return PSPEC_OK;
 }
 
-/* The exponent of the largest |w| so far; sums are kept in step, which changes none of their bits. */
+/* The exponent of the largest |w| so far; sums are kept in step, which changes none of their bits.
+ */
 static pspec_status raise_exponent(ps_pattern_count *count, const double *weights,
                                    size_t num_weights, ps_error *error) {
     double largest = count->largest;

@@ -7,12 +7,13 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Pairs and quadrature measure errors in the units of the weights: their fourth powers, summed over points and
- * realizations for a standard error, must be numbers. The range of the largest |w| of a set. */
+/* Pairs and quadrature measure errors in the units of the weights: their fourth powers, summed over
+ * points and realizations for a standard error, must be numbers. The range of the largest |w| of a
+ * set. */
 #define PS_LEAST_ABSOLUTE_WEIGHT 1e-60
 #define PS_MOST_ABSOLUTE_WEIGHT 1e60
-/* Of sum |w| elsewhere: W summed over the 2^53 realizations that there may be, and c_lm, up to a hundred times the sum, are
- * numbers. */
+/* Of sum |w| elsewhere: W summed over the 2^53 realizations that there may be, and c_lm, up to a
+ * hundred times the sum, are numbers. */
 #define PS_MOST_WEIGHT_SUM 1e290
 
 /* Weights count as w 2^-exponent, which makes the largest |w| a number in [1/2, 1): so neither the
@@ -26,8 +27,8 @@ typedef struct ps_pattern_sums {
     double length_error;      /* largest | |u| - 1 | of vectors; 0 on the torus */
 } ps_pattern_sums;
 
-/* What is known of a pattern of which some points have been seen; {.realization = r} before the first.
- * realization counts from 0 and is only for messages. */
+/* What is known of a pattern of which some points have been seen; {.realization = r} before the
+ * first. realization counts from 0 and is only for messages. */
 typedef struct ps_pattern_count {
     uint64_t realization;
     bool on_sphere; /* points are unit vectors */
@@ -38,7 +39,8 @@ typedef struct ps_pattern_count {
     long double sum, squares, sizes; /* of w, w^2, |w|, divided by powers of two as in the sums */
 } ps_pattern_count;
 
-/* Checks coordinates and counts points and weights of a block. Results do not depend on the blocks. */
+/* Checks coordinates and counts points and weights of a block. Results do not depend on the blocks.
+ */
 pspec_status ps_pattern_count_add(ps_pattern_count *count, const pspec_pattern *block,
                                   ps_error *error) PS_MUST_CHECK;
 /* The same for weights that come without points. */
@@ -49,12 +51,13 @@ pspec_status ps_pattern_count_finish(const ps_pattern_count *count,
                                      pspec_normalization normalization, ps_pattern_sums *sums,
                                      ps_error *error) PS_MUST_CHECK;
 
-/* Is the largest |w| of a set what pairs and quadrature can do? 0 passes: that is for ps_pattern_count_finish. */
+/* Is the largest |w| of a set what pairs and quadrature can do? 0 passes: that is for
+ * ps_pattern_count_finish. */
 pspec_status ps_pattern_check_largest(double largest, uint64_t realization,
                                       ps_error *error) PS_MUST_CHECK;
 
-/* How far from 1 the length of a vector may be that stands for a point on the sphere: what single precision and
- * printed coordinates leave. */
+/* How far from 1 the length of a vector may be that stands for a point on the sphere: what single
+ * precision and printed coordinates leave. */
 #define PS_UNIT_LENGTH_SLACK 1e-6
 
 /* All of it, for a pattern in memory whose spectrum at these frequencies is asked for. */

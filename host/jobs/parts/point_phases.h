@@ -13,7 +13,8 @@ void ps_phases_sample(ps_phases *phases, const ps_sampler_request *request, doub
 double ps_phases_read(ps_phases *phases, const char *const *paths, size_t num_paths,
                       const char *format, unsigned columns);
 
-/* Of so many numbers, coordinates and weights: the phase "writing". format NULL: by the ending of the path. */
+/* Of so many numbers, coordinates and weights: the phase "writing". format NULL: by the ending of
+ * the path. */
 void ps_phases_write(ps_phases *phases, const char *path, const char *format, double numbers);
 
 #endif

@@ -25,7 +25,8 @@ pspec_status ps_runner_start(ps_runner *runner, ps_error *error) {
     return runner->kind->begin(runner->job, error);
 }
 
-/* All realizations, or as many as the standard error needs. Looks, and so what ends a job, do not depend on batches. */
+/* All realizations, or as many as the standard error needs. Looks, and so what ends a job, do not
+ * depend on batches. */
 static pspec_status add_all(ps_runner *runner, ps_error *error) {
     const ps_runner_kind *const kind = runner->kind;
     const bool can_look = kind->look != NULL && runner->standard_error > 0;

@@ -6,8 +6,8 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Entries to look at, and the most long double terms to spend on them; those of a degree, one for each order
- * and point, take a tenth of the time. */
+/* Entries to look at, and the most long double terms to spend on them; those of a degree, one for
+ * each order and point, take a tenth of the time. */
 enum { MOST_ENTRIES = 8, MOST_TERMS = 1 << 20, MOST_DEGREE_TERMS = 10 * MOST_TERMS };
 
 /* How far one entry may lie outside the engine's root-mean-square error before something is wrong:
@@ -81,7 +81,8 @@ static pspec_status check_entry(const ps_self_check_input *input, size_t entry, 
     return PSPEC_OK;
 }
 
-/* Entries that may be chosen, and how many of them: of degrees the low ones, whose sums are short. */
+/* Entries that may be chosen, and how many of them: of degrees the low ones, whose sums are short.
+ */
 static size_t choose_entries(const ps_frequencies *set, size_t num_points, size_t *num_candidates) {
     size_t affordable = MOST_TERMS / num_points;
     *num_candidates = set->num;

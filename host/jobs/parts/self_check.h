@@ -19,13 +19,14 @@ typedef struct ps_self_check_input {
     double engine_error; /* of the engine's formula, for powers of 1, in the units of the problem */
 } ps_self_check_input;
 
-/* Terms that it sums up in long double: (point, frequency), or with *is_of_degrees (point, degree, order). */
+/* Terms that it sums up in long double: (point, frequency), or with *is_of_degrees (point, degree,
+ * order). */
 double ps_self_check_count(const ps_frequencies *frequencies, uint64_t num_points,
                            bool *is_of_degrees);
 
-/* Compares entries with long double direct sums; *deviation is the largest
- * | |S| - |S_referee| | / sqrt(V), of pair sums | Q - Q_referee | / (sum |w|)^2. Fails with PSPEC_ERROR_CHECK when an entry is off by more than is
- * explicable by the engine's error. */
+/* Compares entries with long double direct sums; *deviation is the largest | |S| - |S_referee| | /
+ * sqrt(V), of pair sums | Q - Q_referee | / (sum |w|)^2. Fails with PSPEC_ERROR_CHECK when an entry
+ * is off by more than is explicable by the engine's error. */
 pspec_status ps_self_check(const ps_self_check_input *input, ps_device *device, double *deviation,
                            ps_error *error) PS_MUST_CHECK;
 

@@ -1,7 +1,8 @@
-/* Where realizations come from: a sampler, point files one after the other, or unit vectors in memory.
+/* Where realizations come from: a sampler, point files one after the other, or unit vectors in
+ * memory.
  *
- * A source yields point sets in order. It can be rewound unless it reads standard input. Sets of files that
- * are too large to be in memory come in blocks.
+ * A source yields point sets in order. It can be rewound unless it reads standard input. Sets of
+ * files that are too large to be in memory come in blocks.
  */
 #ifndef PS_JOBS_PARTS_SOURCE_H
 #define PS_JOBS_PARTS_SOURCE_H
@@ -14,13 +15,13 @@
 
 typedef struct ps_source ps_source;
 
-/* The sampler's realizations 0 .. num_realizations - 1, with torus coordinates or unit vectors; request is
- * resolved, and copied. */
+/* The sampler's realizations 0 .. num_realizations - 1, with torus coordinates or unit vectors;
+ * request is resolved, and copied. */
 pspec_status ps_source_sampler(ps_source **out, const ps_sampler_request *request,
                                uint64_t num_realizations, ps_error *error) PS_MUST_CHECK;
 
-/* Bytes of a set that is read as a whole: some million points. Larger ones come in blocks of about so many
- * bytes, which are enough to keep a device busy. */
+/* Bytes of a set that is read as a whole: some million points. Larger ones come in blocks of about
+ * so many bytes, which are enough to keep a device busy. */
 #define PS_SOURCE_WHOLE_BYTES ((uint64_t)64 << 20)
 
 typedef struct ps_source_options {
@@ -46,8 +47,9 @@ typedef struct ps_source_part {
     ps_pattern_count count; /* of all of that set, ahead of the points */
 } ps_source_part;
 
-/* The next set, or *has_set false. A set that is too large comes without its end, if it can be known
- * beforehand: when its size stands in the file and it has no weights, or the file can be read twice. */
+/* The next set, or *has_set false. A set that is too large comes without its end, if it can be
+ * known beforehand: when its size stands in the file and it has no weights, or the file can be read
+ * twice. */
 pspec_status ps_source_next(ps_source *source, ps_point_set *set, ps_source_part *part,
                             bool *has_set, ps_error *error) PS_MUST_CHECK;
 /* Appends at most max_points more of the set that came last, or *ends. */

@@ -279,7 +279,8 @@ static void tell_profile(const quadrature_job *job) {
     }
 }
 
-/* The spectral form may not exceed the kernel form, nor the rest its rigorous bound, by more than rounding. */
+/* The spectral form may not exceed the kernel form, nor the rest its rigorous bound, by more than
+ * rounding. */
 static pspec_status check_forms(const quadrature_job *job, ps_error *error) {
     const ps_quadrature_result *const result = job->out;
     const double slack = result->numerical_bound + job->question->accuracy.tolerance *
@@ -325,8 +326,8 @@ static pspec_status prepare(quadrature_job *job, ps_error *error) {
     return allocate(job, error);
 }
 
-/* Errors of coefficients do not depend on powers: it is sums of squares that are off by more where powers are larger
- * than was expected. */
+/* Errors of coefficients do not depend on powers: it is sums of squares that are off by more where
+ * powers are larger than was expected. */
 static pspec_status run(quadrature_job *job, ps_error *error) {
     PS_TRY(prepare(job, error));
     job->runner = (ps_runner){.kind = &kind,

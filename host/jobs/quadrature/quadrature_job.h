@@ -1,7 +1,7 @@
-/* Worst-case error and quadrature spectrum of rules for a BRDF, averaged over realizations: source of point sets ->
- * weights -> c_l0 and C_l^2 by an engine of the sphere -> spectral form, and the kernel form beside
- * it (docs/mathematics/quadrature.md). Several rules go in batches; results have the same bits
- * whatever the batch. */
+/* Worst-case error and quadrature spectrum of rules for a BRDF, averaged over realizations: source
+ * of point sets -> weights -> c_l0 and C_l^2 by an engine of the sphere -> spectral form, and the
+ * kernel form beside it (docs/mathematics/quadrature.md). Several rules go in batches; results have
+ * the same bits whatever the batch. */
 #ifndef PS_JOBS_QUADRATURE_QUADRATURE_JOB_H
 #define PS_JOBS_QUADRATURE_QUADRATURE_JOB_H
 
@@ -28,13 +28,14 @@ typedef struct ps_quadrature_question {
     const char *const *paths;
     size_t num_paths;
     ps_point_options point_options;
-    bool
-        drops_below_horizon; /* points of files for a lobe that ends there; else they are refused */
-    size_t
-        max_degree; /* 0: where the bound of what is beyond meets the tolerance, at most ceil(4 sqrt N) */
-    /* The tolerance is of E^2, in units of c (sum |w|)^2, c = 2^(2s-1)/s: |dQ(l)| <= tolerance (sum |w|)^2. The standard error
-     * is that of the means of E^2 and of every e_l^2 above the tolerance. Without skips all realizations are done, all
-     * degrees to ceil(4 sqrt N), in double precision. There is no floor. */
+    /* Points of files for a lobe that ends there; else they are refused */
+    bool drops_below_horizon;
+    /* 0: where the bound of what is beyond meets the tolerance, at most ceil(4 sqrt N) */
+    size_t max_degree;
+    /* The tolerance is of E^2, in units of c (sum |w|)^2, c = 2^(2s-1)/s: |dQ(l)| <= tolerance (sum
+     * |w|)^2. The standard error is that of the means of E^2 and of every e_l^2 above the
+     * tolerance. Without skips all realizations are done, all degrees to ceil(4 sqrt N), in double
+     * precision. There is no floor. */
     ps_accuracy_spec accuracy;
     ps_limits_spec limits;
     size_t batch; /* rules at a time, the results the same; 0: what the plan and memory say */
@@ -67,17 +68,17 @@ typedef struct ps_quadrature_result {
     uint64_t num_dropped;     /* points below the horizon, in all sets */
     double largest_condition; /* of kernel matrices; nan without optimal weights */
     bool is_ill_conditioned;
-    bool
-        has_matrices; /* Cholesky, or else conjugate gradients, whose condition is a bound from below */
+    /* Cholesky, or else conjugate gradients, whose condition is a bound from below */
+    bool has_matrices;
     char weights_by[128]; /* how optimal weights were made */
-    uint64_t
-        num_duplicates; /* points less than were given, in all sets, that optimal weights saw */
-    char engine[160];   /* "(sphere_direct ..)" */
+    /* Points less than were given, in all sets, that optimal weights saw */
+    uint64_t num_duplicates;
+    char engine[160]; /* "(sphere_direct ..)" */
     char device[160];
     const char *precision;
-    ps_sequential_look
-        look; /* of the largest standard error when the realizations ended; its bin is a degree or
-                                jobs/quadrature/quadrature_looks.h's */
+    /* Of the largest standard error when the realizations ended; its bin is a degree or
+     * jobs/quadrature/quadrature_looks.h's */
+    ps_sequential_look look;
     bool has_look; /* false without question.accuracy.standard_error, and for one realization */
     bool was_replanned;     /* the first run missed the tolerance */
     char degrees_note[192]; /* why the degrees end where they do; "" when L was asked for */
@@ -85,8 +86,9 @@ typedef struct ps_quadrature_result {
     ps_representer representer;
 } ps_quadrature_result;
 
-/* Runs everything; *out is freed by ps_quadrature_free, also after an error. Points below the horizon of a lobe that ends
- * there are PSPEC_ERROR_INPUT with their number; kernel and spectral form that contradict each other PSPEC_ERROR_CHECK. */
+/* Runs everything; *out is freed by ps_quadrature_free, also after an error. Points below the
+ * horizon of a lobe that ends there are PSPEC_ERROR_INPUT with their number; kernel and spectral
+ * form that contradict each other PSPEC_ERROR_CHECK. */
 pspec_status ps_quadrature_run(ps_quadrature_result *out, const ps_quadrature_question *question,
                                ps_error *error) PS_MUST_CHECK;
 void ps_quadrature_free(ps_quadrature_result *result);

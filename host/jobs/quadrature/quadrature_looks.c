@@ -7,7 +7,8 @@ static double count_independent(size_t degree) {
     return (double)degree + 0.5;
 }
 
-/* E^2 is a sum over degrees. Its excess kurtosis is at most that of the lowest which has a part in it, 1. */
+/* E^2 is a sum over degrees. Its excess kurtosis is at most that of the lowest which has a part in
+ * it, 1. */
 static const double least_of_sum = 1.5;
 
 static ps_mean finish(const ps_sums *sums, uint64_t num) {

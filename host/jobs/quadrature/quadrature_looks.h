@@ -8,8 +8,8 @@
 /* Keys of looks: degrees are 0 .. L. */
 enum { PS_LOOK_AT_E2 = -1, PS_LOOK_AT_NOTHING = -2 };
 
-/* What is looked at after so many realizations, the numbers above which it must be `least`: E^2 itself, and e_l^2 of the
- * degrees that matter. Means over the same realizations. */
+/* What is looked at after so many realizations, the numbers above which it must be `least`: E^2
+ * itself, and e_l^2 of the degrees that matter. Means over the same realizations. */
 typedef struct ps_quadrature_sums {
     size_t num_degrees;
     const ps_sums *degrees; /* [num_degrees][stride] */

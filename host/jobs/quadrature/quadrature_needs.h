@@ -6,13 +6,14 @@
 
 /* From the question: realizations. Sets num_realizations, too. */
 void ps_quadrature_needs_find(ps_quadrature_setup *setup, const ps_quadrature_question *question);
-/* What the representer is to be made to: looser for many small rules, whose work its degrees would be. */
+/* What the representer is to be made to: looser for many small rules, whose work its degrees would
+ * be. */
 double ps_quadrature_needs_accuracy(const ps_quadrature_setup *setup,
                                     const ps_quadrature_question *question, bool has_several);
 /* Leaves out terms of kappa that cannot matter beside `accuracy`. */
 void ps_quadrature_needs_terms(ps_quadrature_setup *setup, double accuracy);
-/* Makes the plan, and lists what it skips, degrees and terms of kappa among it. held: bytes of the machine's memory that
- * the plan need not count as taken. */
+/* Makes the plan, and lists what it skips, degrees and terms of kappa among it. held: bytes of the
+ * machine's memory that the plan need not count as taken. */
 pspec_status ps_quadrature_needs_plan(ps_quadrature_setup *setup,
                                       const ps_quadrature_question *question, uint64_t held,
                                       ps_error *error) PS_MUST_CHECK;

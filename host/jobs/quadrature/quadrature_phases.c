@@ -5,7 +5,8 @@
 
 #include <math.h>
 
-/* Conjugate gradients take 10 to 18 steps for most sets, 34 to 43 where s is near its limits (docs/user/quadrature.md). */
+/* Conjugate gradients take 10 to 18 steps for most sets, 34 to 43 where s is near its limits
+ * (docs/user/quadrature.md). */
 static const double most_steps = 18, most_steps_of_powers = 43;
 
 static bool needs_powers(const ps_quadrature_question *question) {

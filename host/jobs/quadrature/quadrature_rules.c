@@ -315,11 +315,11 @@ typedef struct work {
 
 /* What a rule gives does not depend on who does it. */
 static void do_small(void *payload, size_t r) {
-    const work *const all = payload;
-    ps_weighted_rule *const rule = &all->rules->batch[r];
-    ps_representer_kappa(all->representer, rule->set.num_points, rule->set.points, rule->kappa);
-    rule->is_complete = all->rules->question->weights != PS_WEIGHTS_OPTIMAL &&
-                        find_kernel_form(all->representer, rule, NULL, NULL) == PSPEC_OK;
+    const work *const shared = payload;
+    ps_weighted_rule *const rule = &shared->rules->batch[r];
+    ps_representer_kappa(shared->representer, rule->set.num_points, rule->set.points, rule->kappa);
+    rule->is_complete = shared->rules->question->weights != PS_WEIGHTS_OPTIMAL &&
+                        find_kernel_form(shared->representer, rule, NULL, NULL) == PSPEC_OK;
 }
 
 /* kappa, of a number of points at a time. */

@@ -1,4 +1,5 @@
-/* The rules of a quadrature job on their way from the source: points above the horizon, weights, kernel form. */
+/* The rules of a quadrature job on their way from the source: points above the horizon, weights,
+ * kernel form. */
 #ifndef PS_JOBS_QUADRATURE_QUADRATURE_RULES_H
 #define PS_JOBS_QUADRATURE_QUADRATURE_RULES_H
 
@@ -40,18 +41,21 @@ typedef struct ps_rules {
     ps_rule_facts facts;
 } ps_rules;
 
-/* {.question}: opens the source and says what is known of the rules. Freed by ps_rules_free, also after an error. */
+/* {.question}: opens the source and says what is known of the rules. Freed by ps_rules_free, also
+ * after an error. */
 pspec_status ps_rules_open(ps_rules *rules, ps_rule_shape *shape, ps_error *error) PS_MUST_CHECK;
 void ps_rules_free(ps_rules *rules);
 /* Room for batches of so many, instead of what there was. */
 pspec_status ps_rules_allocate(ps_rules *rules, size_t capacity, ps_error *error) PS_MUST_CHECK;
-/* The next batch, complete, of num_rules at most, and of rules->most in all; rules->num is 0 behind the last. */
+/* The next batch, complete, of num_rules at most, and of rules->most in all; rules->num is 0 behind
+ * the last. */
 pspec_status ps_rules_next(ps_rules *rules, const ps_representer *representer, uint64_t num_rules,
                            ps_error *error) PS_MUST_CHECK;
 /* Back to the first rule; what is there for the result is forgotten. */
 pspec_status ps_rules_rewind(ps_rules *rules, ps_error *error) PS_MUST_CHECK;
 
-/* How optimal weights of so many points will be made and in what memory, for `plan`; "" without such weights. */
+/* How optimal weights of so many points will be made and in what memory, for `plan`; "" without
+ * such weights. */
 void ps_rules_plan_weights(const ps_quadrature_question *question, size_t num_points,
                            const ps_device *device, char *text, size_t size);
 /* How they were made. */

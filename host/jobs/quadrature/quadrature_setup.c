@@ -66,8 +66,8 @@ static void choose_degrees(ps_quadrature_setup *out, double tolerance, size_t mo
 
 /* ---- engine -------------------------------------------------------------------------------- */
 
-/* N Q(l) of points with the density of the lobe is 1 + (N - 1) 4 pi / (2l + 1) b_l^2: what the errors of engines that
- * sum squares depend on, with a margin. */
+/* N Q(l) of points with the density of the lobe is 1 + (N - 1) 4 pi / (2l + 1) b_l^2: what the
+ * errors of engines that sum squares depend on, with a margin. */
 static double expect_power(const ps_representer *representer, size_t last, size_t num_points) {
     const double margin = 2;
     double sum = 0;

@@ -21,8 +21,8 @@ typedef struct ps_quadrature_setup {
     ps_needs needs;
     uint64_t num_realizations;     /* that are computed, at most; 0: unknown */
     uint64_t planned_realizations; /* that a standard error is expected to take of them */
-    /* C_l^2 = (2l+1)/(4 pi) Q(l) - c_l0^2 in batches by any engine; else from the c_lm of one rule at a time, which loses
-     * no digits where C_l^2 is next to nothing */
+    /* C_l^2 = (2l+1)/(4 pi) Q(l) - c_l0^2 in batches by any engine; else from the c_lm of one rule
+     * at a time, which loses no digits where C_l^2 is next to nothing */
     bool by_pairs;
     size_t max_degree;
     size_t most_degree;     /* that would be there if no degree were skipped */
@@ -31,17 +31,19 @@ typedef struct ps_quadrature_setup {
     char weights_note[256]; /* how optimal weights will be made; "" without */
 } ps_quadrature_setup;
 
-/* What can be wrong without a set having been read, which takes long: names, files that are not there, the device that
- * was asked for. First of all; *out must not be moved; freed by ps_quadrature_setup_free, also after an error. */
+/* What can be wrong without a set having been read, which takes long: names, files that are not
+ * there, the device that was asked for. First of all; *out must not be moved; freed by
+ * ps_quadrature_setup_free, also after an error. */
 pspec_status ps_quadrature_setup_begin(ps_quadrature_setup *out,
                                        const ps_quadrature_question *question,
                                        ps_error *error) PS_MUST_CHECK;
-/* Opens the device unless no engine that may be chosen needs it, and plans. Nothing feasible is no error here
- * (ps_plan_require). */
+/* Opens the device unless no engine that may be chosen needs it, and plans. Nothing feasible is no
+ * error here (ps_plan_require). */
 pspec_status ps_quadrature_setup_make(ps_quadrature_setup *out,
                                       const ps_quadrature_question *question,
                                       const ps_rule_shape *shape, ps_error *error) PS_MUST_CHECK;
-/* Plans once more, for the powers that the problem has by now; held: bytes that the estimator of the plan before has. */
+/* Plans once more, for the powers that the problem has by now; held: bytes that the estimator of
+ * the plan before has. */
 pspec_status ps_quadrature_setup_plan_again(ps_quadrature_setup *setup,
                                             const ps_quadrature_question *question, uint64_t held,
                                             ps_error *error) PS_MUST_CHECK;

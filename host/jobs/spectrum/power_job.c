@@ -12,7 +12,8 @@
 
 /* ---- source ------------------------------------------------------------------------------ */
 
-/* The sampler as it is needed: without shifts that nobody sees, one realization that stands for all. */
+/* The sampler as it is needed: without shifts that nobody sees, one realization that stands for
+ * all. */
 static pspec_status open_sampler(ps_power_job *job, ps_error *error) {
     const ps_power_question *question = job->question;
     job->request = *question->sampler;
@@ -26,8 +27,8 @@ static pspec_status report_progress(const ps_power_job *job, ps_error *error) {
                          job->num_realizations, NULL, error);
 }
 
-/* Asked by the engine while it works, and while points are counted: progress has not changed since the last
- * batch. */
+/* Asked by the engine while it works, and while points are counted: progress has not changed since
+ * the last batch. */
 static bool should_stop(void *payload) {
     return report_progress(payload, NULL) != PSPEC_OK;
 }
@@ -88,7 +89,8 @@ static pspec_status open_device(ps_power_job *job, ps_error *error) {
     return status == PSPEC_ERROR_NO_DEVICE && question->may_lack_device ? PSPEC_OK : status;
 }
 
-/* Names that can be wrong are looked at before anything that takes long: sets are read, and rings counted, in seconds. */
+/* Names that can be wrong are looked at before anything that takes long: sets are read, and rings
+ * counted, in seconds. */
 static pspec_status check_names(ps_power_job *job, ps_error *error) {
     const ps_power_question *question = job->question;
     PS_TRY(ps_plan_check_engine(question->limits.constraints.engine,

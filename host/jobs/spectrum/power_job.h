@@ -1,9 +1,11 @@
-/* The averaged power spectrum, on the torus or on the sphere, as one job: source of realizations -> plan -> batches -> spectrum.
+/* The averaged power spectrum, on the torus or on the sphere, as one job: source of realizations ->
+ * plan -> batches -> spectrum.
  *
- * The tolerance is a contract. The plan predicts the error for sets like white noise; afterwards the
- * error formula is evaluated again with the powers that were measured (docs/user/conventions.md). When it
- * then exceeds the tolerance, the job runs once more with what the plan chooses for those powers, or
- * fails with PSPEC_ERROR_TOLERANCE when nothing reaches it or the input cannot be read twice.
+ * The tolerance is a contract. The plan predicts the error for sets like white noise; afterwards
+ * the error formula is evaluated again with the powers that were measured
+ * (docs/user/conventions.md). When it then exceeds the tolerance, the job runs once more with what
+ * the plan chooses for those powers, or fails with PSPEC_ERROR_TOLERANCE when nothing reaches it or
+ * the input cannot be read twice.
  */
 #ifndef PS_JOBS_SPECTRUM_POWER_JOB_H
 #define PS_JOBS_SPECTRUM_POWER_JOB_H
@@ -51,8 +53,8 @@ typedef struct ps_power_question {
 /* A job that is planned but not yet run. */
 typedef struct ps_power_job ps_power_job;
 
-/* Reads the first set, opens the device unless no engine that may be chosen needs it, and plans. The
- * question must outlive the job. With nothing feasible the job exists all the same, and only
+/* Reads the first set, opens the device unless no engine that may be chosen needs it, and plans.
+ * The question must outlive the job. With nothing feasible the job exists all the same, and only
  * ps_power_job_run fails: `plan` shows why. */
 pspec_status ps_power_job_create(ps_power_job **out, const ps_power_question *question,
                                  ps_error *error) PS_MUST_CHECK;
@@ -60,8 +62,8 @@ void ps_power_job_destroy(ps_power_job *job);
 
 pspec_status ps_power_job_run(ps_power_job *job, ps_error *error) PS_MUST_CHECK;
 
-/* For who shows the shares of skips: makes those that depend on the plan better than from counts, by planning again,
- * which takes milliseconds. Before run. */
+/* For who shows the shares of skips: makes those that depend on the plan better than from counts,
+ * by planning again, which takes milliseconds. Before run. */
 void ps_power_job_rate_skips(ps_power_job *job);
 
 /* What is known after create. */
@@ -78,10 +80,11 @@ const ps_spectrum *ps_power_job_spectrum(const ps_power_job *job);
 const ps_accuracy *ps_power_job_accuracy(const ps_power_job *job);
 /* "(torus_direct ...)" */
 const char *ps_power_job_description(const ps_power_job *job);
-/* c_lm as ps_engine.coefficients has them, [ps_num_coefficients(L)]; NULL unless they were asked for. */
+/* c_lm as ps_engine.coefficients has them, [ps_num_coefficients(L)]; NULL unless they were asked
+ * for. */
 const double *ps_power_job_coefficients(const ps_power_job *job);
-/* The bin of the largest standard error when the realizations ended; NULL unless question.accuracy.standard_error was asked for,
- * and with one realization that stands for all. */
+/* The bin of the largest standard error when the realizations ended; NULL unless
+ * question.accuracy.standard_error was asked for, and with one realization that stands for all. */
 const ps_sequential_look *ps_power_job_look(const ps_power_job *job);
 /* C_l^2 of pair sums, [number of degrees]; NULL unless they were asked for. */
 const ps_mean *ps_power_job_c2(const ps_power_job *job);

@@ -1,7 +1,7 @@
 #include "jobs/spectrum/power_needs.h"
 
-/* Rotated points of the hemisphere that go below it become their antipodes. That changes no even degree, but
- * the odd ones, which points have when they are taken as points of the sphere. */
+/* Rotated points of the hemisphere that go below it become their antipodes. That changes no even
+ * degree, but the odd ones, which points have when they are taken as points of the sphere. */
 static bool folding_matters(const ps_power_question *question) {
     const ps_sampler_request *sampler = question->sampler;
     return sampler != NULL && sampler->homogenize && ps_sampler_is_on_hemisphere(sampler) &&
@@ -71,7 +71,8 @@ void ps_power_job_rate_skips(ps_power_job *job) {
     }
 }
 
-/* What the job holds already of what a plan counts: the set that was read, and the engine of a plan before. */
+/* What the job holds already of what a plan counts: the set that was read, and the engine of a plan
+ * before. */
 static uint64_t find_held(const ps_power_job *job) {
     const ps_point_set *const set = &job->sets.next;
     return (set->points_capacity + set->weights_capacity) * sizeof(double) +

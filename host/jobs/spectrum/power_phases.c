@@ -93,14 +93,14 @@ static void add_check(const ps_power_job *job, ps_phases *phases) {
     ps_phases_say(phases, "self-check", "%.3g terms in long double", terms);
 }
 
-static void add_averages(const ps_power_job *job, const amounts *all, ps_phases *phases) {
+static void add_averages(const ps_power_job *job, const amounts *amount, ps_phases *phases) {
     const double num = (double)job->frequencies.num;
-    ps_phases_add(phases, "averages", PS_HOST_ACCUMULATE, num * all->sets);
+    ps_phases_add(phases, "averages", PS_HOST_ACCUMULATE, num * amount->sets);
     if (job->question->wants_pair_sums) {
         ps_phases_add(phases, "averages", PS_HOST_ZONAL,
-                      all->points * job->frequencies.max_frequency);
+                      amount->points * job->frequencies.max_frequency);
     }
-    ps_phases_say(phases, "averages", "%.4g powers of %.4g realizations", num, all->sets);
+    ps_phases_say(phases, "averages", "%.4g powers of %.4g realizations", num, amount->sets);
 }
 
 /* The whole array has its corners and both signs. */
@@ -118,13 +118,14 @@ static void add_results(const ps_power_job *job, ps_phases *phases) {
     ps_phases_say(phases, "results", "tables and arrays");
 }
 
-/* Engines are measured on sets that stay in caches; these do not, where they lie in no order (measured: 1e6 white points of
- * the sphere, L = 64 .. 1000; on the torus there is no such difference). */
-static double scattered_points(const ps_power_job *job, const amounts *all) {
+/* Engines are measured on sets that stay in caches; these do not, where they lie in no order
+ * (measured: 1e6 white points of the sphere, L = 64 .. 1000; on the torus there is no such
+ * difference). */
+static double scattered_points(const ps_power_job *job, const amounts *amount) {
     enum { MANY_POINTS = 1 << 18, MANY_DEGREES = 300 };
     const bool is_large = job->question->on_sphere && job->num_points >= MANY_POINTS &&
                           job->frequencies.max_frequency >= MANY_DEGREES;
-    return is_large ? all->points : 0;
+    return is_large ? amount->points : 0;
 }
 
 double ps_power_job_phases(const ps_power_job *job, ps_phases *phases) {

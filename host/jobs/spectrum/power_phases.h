@@ -5,12 +5,12 @@
 #include "jobs/spectrum/power_job.h"
 #include "plan/phases.h"
 
-/* Adds those of a job that is made and not yet run. Returns by what the seconds of its engines are to be multiplied: files do
- * not say beforehand how many sets they have. */
+/* Adds those of a job that is made and not yet run. Returns by what the seconds of its engines are
+ * to be multiplied: files do not say beforehand how many sets they have. */
 double ps_power_job_phases(const ps_power_job *job, ps_phases *phases);
 
-/* Adds the beginning of a program: its libraries, and where the chosen engine needs a device, that and its kernels, which the
- * driver's cache has. NULL: no engine is needed. */
+/* Adds the beginning of a program: its libraries, and where the chosen engine needs a device, that
+ * and its kernels, which the driver's cache has. NULL: no engine is needed. */
 void ps_phases_start(ps_phases *phases, const ps_candidate *chosen);
 
 #endif

@@ -33,7 +33,8 @@ pspec_status ps_power_sets_read_weights(ps_power_sets *sets, const char *path, u
 pspec_status ps_power_sets_allocate(ps_power_sets *sets, size_t capacity, ps_error *error) {
     void *memory = NULL;
     free_batch(sets);
-    if (!sets->has_next) { /* of the run before: a job that plans again would have one set more than announced */
+    /* Of the run before: a job that plans again would have one set more than announced. */
+    if (!sets->has_next) {
         ps_point_set_free(&sets->next);
     }
     PS_TRY(ps_allocate(&memory, capacity, sizeof(pspec_pattern), "patterns", error));
@@ -72,7 +73,8 @@ static pspec_status check_weights(const ps_power_sets *sets, uint64_t num_points
                          sets->num_weights, (unsigned long long)num_points);
 }
 
-/* Points first .. end - 1 of a set, of which number `first` is that of the whole set's point `position`. */
+/* Points first .. end - 1 of a set, of which number `first` is that of the whole set's point
+ * `position`. */
 static pspec_pattern show(const ps_power_sets *sets, const ps_point_set *set, size_t first,
                           size_t end, uint64_t position) {
     const double *const own = set->has_weights ? set->weights + first : NULL;

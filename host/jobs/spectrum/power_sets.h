@@ -1,5 +1,5 @@
-/* The point sets of a power job on their way from the source to the estimator: batches of sets that are in
- * memory, and sets that are not, in blocks.
+/* The point sets of a power job on their way from the source to the estimator: batches of sets that
+ * are in memory, and sets that are not, in blocks.
  */
 #ifndef PS_JOBS_SPECTRUM_POWER_SETS_H
 #define PS_JOBS_SPECTRUM_POWER_SETS_H
@@ -35,8 +35,8 @@ pspec_status ps_power_sets_rewind(ps_power_sets *sets, ps_error *error) PS_MUST_
 pspec_status ps_power_sets_peek(ps_power_sets *sets, bool *has_set, ps_error *error) PS_MUST_CHECK;
 uint64_t ps_power_sets_next_points(const ps_power_sets *sets);
 
-/* Gives the estimator the next batch, of `most` sets at most, or the next set if that is too large for one; *num sets
- * were given, 0 at the end. */
+/* Gives the estimator the next batch, of `most` sets at most, or the next set if that is too large
+ * for one; *num sets were given, 0 at the end. */
 pspec_status ps_power_sets_give(ps_power_sets *sets, ps_estimator *estimator,
                                 pspec_normalization normalization, uint64_t most, size_t *num,
                                 ps_error *error) PS_MUST_CHECK;

@@ -10,7 +10,8 @@
 
 /* ---- the cache ---------------------------------------------------------------- */
 
-/* The program is one of the things that results depend on; where the system does not show it, nothing is kept. */
+/* The program is one of the things that results depend on; where the system does not show it,
+ * nothing is kept. */
 static bool identify_program(ps_text *out) {
     char digest[PS_DIGEST_BYTES];
     ps_error ignored = {0};
@@ -75,7 +76,8 @@ pspec_status ps_run_open_cache(ps_run *run, ps_error *error) {
 
 /* ---- keys of the cache ------------------------------------------------------------------- */
 
-/* Everything that the bits of an answer depend on: the program, the device, the question, and what is in the files. */
+/* Everything that the bits of an answer depend on: the program, the device, the question, and what
+ * is in the files. */
 static pspec_status add_file(ps_text *key, const char *path, ps_error *error) {
     char digest[PS_DIGEST_BYTES];
     PS_TRY(ps_digest_file(path, digest, error));

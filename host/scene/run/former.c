@@ -1,4 +1,5 @@
-/* The former run in the folder: what of it goes when another scene takes its place, and what is nobody's to write over. */
+/* The former run in the folder: what of it goes when another scene takes its place, and what is
+ * nobody's to write over. */
 #include "scene/run/run.h"
 
 #include <errno.h>
@@ -9,8 +10,8 @@
 /* Stands for the digest of a file that a run was to write. */
 static const char unfinished[] = "-";
 
-/* The name in "DIGEST NAME" of a record; NULL where there is none, or one that would lead out of the folder or is hidden:
- * no run writes such, but whoever edits a record may. */
+/* The name in "DIGEST NAME" of a record; NULL where there is none, or one that would lead out of
+ * the folder or is hidden: no run writes such, but whoever edits a record may. */
 static const char *name_in(const char *entry) {
     const char *const space = strchr(entry, ' ');
     const char *const name = space != NULL ? space + 1 : "";

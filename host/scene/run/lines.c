@@ -1,5 +1,5 @@
-/* Pictures of curves, in one frame or in panels: spectra, columns against the degree, worst-case errors against the number of
- * points. */
+/* Pictures of curves, in one frame or in panels: spectra, columns against the degree, worst-case
+ * errors against the number of points. */
 #include "base/memory.h"
 #include "scene/run/drawing.h"
 
@@ -9,13 +9,15 @@
 
 /* ---- labels ------------------------------------------------------------------------------ */
 
-/* Values of the entries that vary, but for the number of points, that of the picture, and that of the panel. */
+/* Values of the entries that vary, but for the number of points, that of the picture, and that of
+ * the panel. */
 static bool is_told(const ps_scene_result *asked, const ps_picture *what, size_t entry) {
     return entry != what->group && entry != what->points && entry != what->panel &&
            ps_run_varies(&asked->entries[entry]);
 }
 
-/* Where no entry has panels of its own, that is the one that changes fastest; the others tell panels apart. */
+/* Where no entry has panels of its own, that is the one that changes fastest; the others tell
+ * panels apart. */
 static size_t find_fastest(const ps_scene_result *asked, const ps_picture *what) {
     size_t fastest = asked->num_entries;
     for (size_t i = 0; i < asked->num_entries; i++) {

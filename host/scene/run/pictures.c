@@ -5,18 +5,18 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Of one picture; a page of more is longer than anyone scrolls. Where panels do not share their curves the key has one
- * line for each, and room for fewer. */
+/* Of one picture; a page of more is longer than anyone scrolls. Where panels do not share their
+ * curves the key has one line for each, and room for fewer. */
 enum { MOST_PANELS = 12, MOST_PANELS_OF_OTHERS = 3 };
 
 bool ps_run_varies(const ps_scene_entry *entry) {
     return entry->num_values > 1;
 }
 
-/* ---- which curves go together ------------------------------------------------------------------ */
+/* ---- which curves go together ---------------------------------------------------------------- */
 
-/* How curves are dealt out: to pictures by the values of entry `group`, to panels by those of `panel`, or in turn, `chunk`
- * at a time. Entries: num_entries is none. */
+/* How curves are dealt out: to pictures by the values of entry `group`, to panels by those of
+ * `panel`, or in turn, `chunk` at a time. Entries: num_entries is none. */
 typedef struct layout {
     size_t points, group, panel;
     size_t num_curves; /* of a picture */
@@ -31,7 +31,8 @@ static bool is_free(const ps_scene_result *asked, const layout *how, size_t entr
     return entry != how->points && entry != how->group && ps_run_varies(&asked->entries[entry]);
 }
 
-/* The entry with the fewest values that leaves few enough curves, and not a single one, for each of them. */
+/* The entry with the fewest values that leaves few enough curves, and not a single one, for each of
+ * them. */
 static size_t find_panels(const ps_scene_result *asked, const layout *how) {
     size_t best = asked->num_entries;
     for (size_t i = 0; i < asked->num_entries; i++) {
@@ -55,8 +56,8 @@ static size_t find_chunk(const ps_scene_result *asked, const layout *how) {
     return (num + num_chunks - 1) / num_chunks;
 }
 
-/* Too many curves for a frame: a picture for each value of the first entry that varies, unless that alone would be the
- * curve; then panels. */
+/* Too many curves for a frame: a picture for each value of the first entry that varies, unless that
+ * alone would be the curve; then panels. */
 static layout find_layout(const ps_scene_result *asked, size_t points, bool has_singles) {
     const size_t none = asked->num_entries;
     layout how = {points, none, none, 0, 0};

@@ -1,4 +1,5 @@
-/* Which pictures a result has, and under which names: known before any work, and the one list by which they are drawn. */
+/* Which pictures a result has, and under which names: known before any work, and the one list by
+ * which they are drawn. */
 #ifndef PS_SCENE_RUN_PICTURES_H
 #define PS_SCENE_RUN_PICTURES_H
 
@@ -20,12 +21,13 @@ typedef struct ps_picture {
     char suffix[PS_SUFFIX_BYTES]; /* of the file: NAME + suffix + .svg */
     ps_picture_form form;
     const ps_line_kind *lines; /* of columns and of errors */
-    const ps_scene_value *
-        value; /* what its questions have and those of other pictures do not; NULL: there are no others */
-    /* Entries of the result: of that value, of the numbers of points along a line, and of the value that a panel has for
-     * itself. num_entries: none. */
+    /* What its questions have and those of other pictures do not; NULL: there are no others */
+    const ps_scene_value *value;
+    /* Entries of the result: of that value, of the numbers of points along a line, and of the value
+     * that a panel has for itself. num_entries: none. */
     size_t group, points, panel;
-    /* Questions, a curve each, those of a panel together; panel i ends before ends[i]. One panel: a frame without others. */
+    /* Questions, a curve each, those of a panel together; panel i ends before ends[i]. One panel: a
+     * frame without others. */
     size_t num_curves, num_panels;
     size_t *curves, *ends;
 } ps_picture;
@@ -35,8 +37,8 @@ typedef struct ps_pictures {
     ps_picture *all;
 } ps_pictures;
 
-/* Those that the answers may lead to: of some there turns out to be nothing to draw. Freed by ps_pictures_free, also after an
- * error. */
+/* Those that the answers may lead to: of some there turns out to be nothing to draw. Freed by
+ * ps_pictures_free, also after an error. */
 pspec_status ps_pictures_list(ps_pictures *out, const ps_scene_result *asked,
                               ps_error *error) PS_MUST_CHECK;
 /* Why it has panels, and of what. */

@@ -1,4 +1,5 @@
-/* The record of a run: the scene as JSON, which can be run again, with what it gave, by what, and where. */
+/* The record of a run: the scene as JSON, which can be run again, with what it gave, by what, and
+ * where. */
 #include "pointspec_version.h"
 #include "scene/run/run.h"
 
@@ -58,7 +59,8 @@ static void print_all(const ps_run *run, bool are_digests, ps_text *out) {
     }
 }
 
-/* Paths of the record are those of the scene: this is the folder they are relative to, wherever the record lies. */
+/* Paths of the record are those of the scene: this is the folder they are relative to, wherever the
+ * record lies. */
 static pspec_status print_folder(const ps_run *run, ps_text *out, ps_error *error) {
     const char *const folder = run->scene->folder;
     char *const absolute = realpath(folder[0] != '\0' ? folder : ".", NULL);

@@ -15,7 +15,8 @@ pspec_status ps_run_read_scene(ps_scene *out, const ps_request *arguments, ps_er
                : PSPEC_OK;
 }
 
-/* Before the work, while there is time to install it. Memory that is refused says nothing about gnuplot. */
+/* Before the work, while there is time to install it. Memory that is refused says nothing about
+ * gnuplot. */
 static void warn_of_gnuplot(const ps_run *run) {
     ps_text path = {0};
     ps_error reason = {0};

@@ -1,4 +1,5 @@
-/* A scene answered, and what becomes of the answers, in this order: prepare, answer, write, judge. Each file is one part:
+/* A scene answered, and what becomes of the answers, in this order: prepare, answer, write, judge.
+ * Each file is one part:
  *
  *     run.c        the whole of it, its beginning and end
  *     answers.c    every question from the cache or computed
@@ -68,24 +69,25 @@ typedef struct ps_run {
     bool is_written;    /* all files are there, but for the last record */
 } ps_run;
 
-/* All of it: the scene arguments->files[0], with its results in the folder arguments->output, or in one of the scene's
- * name. *out has the overview, and the verdict on records and checks; it is freed by ps_answer_free, also after an
- * error. */
+/* All of it: the scene arguments->files[0], with its results in the folder arguments->output, or in
+ * one of the scene's name. *out has the overview, and the verdict on records and checks; it is
+ * freed by ps_answer_free, also after an error. */
 pspec_status ps_run_produce(ps_answer *out, const ps_request *arguments,
                             const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
 
-/* ---- the steps of it --------------------------------------------------------------------------- */
+/* ---- the steps of it ------------------------------------------------------------------------- */
 
-/* Reads the scene and gives it the limit of memory of the command, if there is one. A record repeats what was typed then:
- * POINTSPEC_MEMORY of today is not for it. */
+/* Reads the scene and gives it the limit of memory of the command, if there is one. A record
+ * repeats what was typed then: POINTSPEC_MEMORY of today is not for it. */
 pspec_status ps_run_read_scene(ps_scene *out, const ps_request *arguments,
                                ps_error *error) PS_MUST_CHECK;
 /* All that can be found out before the work: questions, folder, former run, cache. */
 pspec_status ps_run_prepare(ps_run *run, ps_error *error) PS_MUST_CHECK;
-/* Writes all files. The record comes first: with it the folder is one of a run, whatever happens next. A picture that
- * cannot be drawn is no error: run->num_undrawn. */
+/* Writes all files. The record comes first: with it the folder is one of a run, whatever happens
+ * next. A picture that cannot be drawn is no error: run->num_undrawn. */
 pspec_status ps_run_write(ps_run *run, ps_error *error) PS_MUST_CHECK;
-/* PSPEC_ERROR_CHECK where the scene is a record whose digests are others, or a check found another spectrum. */
+/* PSPEC_ERROR_CHECK where the scene is a record whose digests are others, or a check found another
+ * spectrum. */
 pspec_status ps_run_judge(const ps_run *run, ps_error *error) PS_MUST_CHECK;
 
 /* ---- the steps of these ---------------------------------------------------------------------- */
@@ -96,12 +98,13 @@ pspec_status ps_run_answer(ps_run *run, ps_error *error) PS_MUST_CHECK;
 /* The device of all questions: its programs are built once. None where the result needs none. */
 pspec_status ps_run_open_device(ps_run *run, const ps_run_result *result,
                                 ps_error *error) PS_MUST_CHECK;
-/* Finds out who we are, and opens the cache unless the arguments say that there is none. A cache that cannot be had is no
- * error, but a warning. */
+/* Finds out who we are, and opens the cache unless the arguments say that there is none. A cache
+ * that cannot be had is no error, but a warning. */
 pspec_status ps_run_open_cache(ps_run *run, ps_error *error) PS_MUST_CHECK;
 pspec_status ps_run_keep(ps_run *run, const ps_run_question *question, double seconds,
                          ps_error *error) PS_MUST_CHECK;
-/* Is the answer in the cache? *out is to be freed in either case; *seconds is what computing it took. */
+/* Is the answer in the cache? *out is to be freed in either case; *seconds is what computing it
+ * took. */
 pspec_status ps_run_fetch(ps_run *run, const ps_run_question *question, ps_answer *out,
                           double *seconds, bool *is_found, ps_error *error) PS_MUST_CHECK;
 /* What is wrong with the cache keeps nobody from computing: it is told once, and forgotten. */
@@ -115,11 +118,12 @@ pspec_status ps_run_make_plots(ps_run *run, ps_run_result *result, ps_error *err
 /* Whole texts: HTML and JSON. */
 pspec_status ps_run_page(const ps_run *run, ps_text *out, ps_error *error) PS_MUST_CHECK;
 pspec_status ps_run_record(const ps_run *run, ps_text *out, ps_error *error) PS_MUST_CHECK;
-/* A row for each result: how many questions, how many from the cache, seconds. *out is also to be destroyed after an
- * error. */
+/* A row for each result: how many questions, how many from the cache, seconds. *out is also to be
+ * destroyed after an error. */
 pspec_status ps_run_overview(ps_table **out, const ps_run *run, ps_error *error) PS_MUST_CHECK;
 
-/* What tells a question from the others of its result, "jittered, 1024"; the kind where nothing does. */
+/* What tells a question from the others of its result, "jittered, 1024"; the kind where nothing
+ * does. */
 void ps_run_label(const ps_run_result *result, size_t number, ps_text *out);
 
 /* The plan of the scene request->files[0]: one block for every question. */

@@ -1,4 +1,5 @@
-/* The tables of a scene: of every result the rows of all its questions, and a summary with a row for each. */
+/* The tables of a scene: of every result the rows of all its questions, and a summary with a row
+ * for each. */
 #include "base/memory.h"
 #include "pointspec_version.h"
 #include "scene/run/run.h"
@@ -131,7 +132,8 @@ static bool have_same_columns(const ps_table *a, const ps_table *b) {
     return is_same;
 }
 
-/* Spectra on the torus and on the sphere have other columns, and so may files with other domains. */
+/* Spectra on the torus and on the sphere have other columns, and so may files with other domains.
+ */
 static pspec_status check_columns(const ps_run *run, const ps_run_result *result, ps_error *error) {
     const ps_table *const first = result->questions[0].answer.table;
     for (size_t q = 1; q < result->num; q++) {

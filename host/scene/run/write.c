@@ -89,8 +89,9 @@ static pspec_status write_pictures(ps_run *run, ps_run_result *result, ps_error 
     return PSPEC_OK;
 }
 
-/* The record comes first: with it the folder is one of a run, whatever happens next. Numbers come before pictures. The
- * record of the end names what was written; files of the former run go before it, for it no longer names them. */
+/* The record comes first: with it the folder is one of a run, whatever happens next. Numbers come
+ * before pictures. The record of the end names what was written; files of the former run go before
+ * it, for it no longer names them. */
 pspec_status ps_run_write(ps_run *run, ps_error *error) {
     PS_TRY(ps_run_make_folder(run->folder, error));
     PS_TRY(write_text(run, ps_run_record_name, ps_run_record, error));

@@ -1,7 +1,8 @@
 /* Run time against error: every engine in every precision at tolerances from loose to tight, on
  * cases that stand for what people ask. The error is measured against the long double referee, in
- * the units of the tolerance contract (docs/user/conventions.md#tolerance), on the first realization;
- * where everything would take minutes on frequencies or degrees evenly spread over all.
+ * the units of the tolerance contract (docs/user/conventions.md#tolerance), on the first
+ * realization; where everything would take minutes on frequencies or degrees evenly spread over
+ * all.
  *
  * The time is that of a realization, from points in host memory to powers on the device: the median
  * of nine runs of many realizations each, three at a time, in turn with the other rows of the case;

@@ -42,7 +42,8 @@ static pspec_status sample(ps_probe_data *data, const ps_probe *what, double *pr
 
 static pspec_status write_points(ps_probe_data *data, const ps_probe *what, double *predicted,
                                  ps_error *error) {
-    /* So many that making the file durable, some 10 ms whatever its size, weighs little: 42 MB, and 2.6 MB of text. */
+    /* So many that making the file durable, some 10 ms whatever its size, weighs little: 42 MB, and
+     * 2.6 MB of text. */
     enum { AXES = 2, BINARY_SETS = 20, TEXT_SETS = 5 };
     const uint32_t num_sets = what->kind == PS_HOST_WRITE_BINARY ? BINARY_SETS : TEXT_SETS;
     ps_point_writer *writer = NULL;

@@ -21,8 +21,8 @@ static inline bool is_nothing(__global const real *angle, const uint vectors) {
     return !is_more;
 }
 
-/* Where angles begin that are more than nothing, run by run; [order][even, odd l - m][most_runs]. LANES is that of
- * the table. Launch: (orders, 2). */
+/* Where angles begin that are more than nothing, run by run; [order][even, odd l - m][most_runs].
+ * LANES is that of the table. Launch: (orders, 2). */
 __kernel void sphere_grid_begins(__global const real *restrict table,
                                  __global const ulong *restrict offsets,
                                  __global uint *restrict begins, const uint most_runs, const uint L,

@@ -1,6 +1,7 @@
-/* From values on angles to sum_m |c_lm|^2, by the table of grid_table.cl: lanes are degrees of one parity, so that a
- * vector of the table serves all realizations. A work-group has the orders that are its number modulo the number of
- * groups, so that what it adds up does not depend on the device. Launch: (work-items of one group, groups).
+/* From values on angles to sum_m |c_lm|^2, by the table of grid_table.cl: lanes are degrees of one
+ * parity, so that a vector of the table serves all realizations. A work-group has the orders that
+ * are its number modulo the number of groups, so that what it adds up does not depend on the
+ * device. Launch: (work-items of one group, groups).
  *
  *   values   [order][value_sets][even, odd l - m][vector of angles][re, im][LANES] of grid_values.cl
  *   table    [order][even, odd l - m][run][angle][vector of degrees][LANES] (grid_table.h)
@@ -18,7 +19,8 @@
 #include "sphere/nufft/grid_table.h"
 #include "sphere/values.h"
 
-/* Vectors of degrees in registers: with real and imaginary parts of two realizations half of 32 of them, or 8 of 16. */
+/* Vectors of degrees in registers: with real and imaginary parts of two realizations half of 32 of
+ * them, or 8 of 16. */
 #ifndef RUN_VECTORS
 #define RUN_VECTORS 4
 #endif
@@ -31,8 +33,8 @@ typedef struct table_rows {
     double weight;  /* of |c|^2: orders m and -m */
 } table_rows;
 
-/* NUM realizations, VECTORS vectors of degrees. values: of the first angle, realizations `apart` numbers apart; powers
- * [realization], `powers_apart` from each other. */
+/* NUM realizations, VECTORS vectors of degrees. values: of the first angle, realizations `apart`
+ * numbers apart; powers [realization], `powers_apart` from each other. */
 #define PRODUCT(NUM, VECTORS)                                                                      \
     static inline __attribute__((always_inline)) void product_##NUM##_##VECTORS(                   \
         const table_rows rows, __global const real *values, const size_t apart,                    \

@@ -1,9 +1,10 @@
-/* The table of sphere_grid: what a cell of the grid counts in c_lm (docs/engines/sphere_grid.md). Lambda_lm on rings, as
- * orders_sum.cl makes it, times filters from rings to angles of the grid, which undo the window. In double precision
- * whatever the precision of the table, so that its
+/* The table of sphere_grid: what a cell of the grid counts in c_lm (docs/engines/sphere_grid.md).
+ * Lambda_lm on rings, as orders_sum.cl makes it, times filters from rings to angles of the grid,
+ * which undo the window. In double precision whatever the precision of the table, so that its
  * numbers are rounded once, or once for each block of rings.
  *
- * Launch: (work-items of one group, groups). A work-group has the orders that are its number modulo the number of groups.
+ * Launch: (work-items of one group, groups). A work-group has the orders that are its number modulo
+ * the number of groups.
  *
  *   starts ... equatorial, block, states ... diagonal_scales, coefficients, begins  of orders_sum.cl, rows its table
  *   filters  [order modulo 2][even, odd l - m][num_rings][angle_pitch], angle_pitch a multiple of ANGLES
@@ -46,7 +47,8 @@ typedef struct make_rows {
     uint angle_pitch, num_angles;
 } make_rows;
 
-/* LANES degrees of ANGLES angles: vector v of the run. to, of the first of these angles; others `apart` further. */
+/* LANES degrees of ANGLES angles: vector v of the run. to, of the first of these angles; others
+ * `apart` further. */
 static inline void make_angles(const make_rows from, const uint v, const uint angle,
                                __global target *to, const size_t apart) {
     doublev sums[ANGLES];

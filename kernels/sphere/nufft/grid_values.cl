@@ -1,8 +1,10 @@
-/* Realizations on the sphere, from points to values on the angles of the grid itself: sums over points of
- * w exp(-i m phi), spread over theta. What a cell counts in c_lm is in a table (docs/engines/sphere_grid.md). Points are spread
- * on a grid of real numbers, longitude across rows, theta along them.
+/* Realizations on the sphere, from points to values on the angles of the grid itself: sums over
+ * points of w exp(-i m phi), spread over theta. What a cell counts in c_lm is in a table
+ * (docs/engines/sphere_grid.md). Points are spread on a grid of real numbers, longitude across
+ * rows, theta along them.
  *
- * Launch: (work-items of one group, slots). LANES is 2 at least. A slot does the realizations slot, slot + slots, ...
+ * Launch: (work-items of one group, slots). LANES is 2 at least. A slot does the realizations slot,
+ * slot + slots, ...
  *
  *   points     [..][2] of orders_turns.cl, weights [..], offsets  realization r at offsets[r] .. offsets[r + 1]
  *   window, n, width, degree, bins  of nufft/window.h, the same on both axes; n is even
@@ -40,8 +42,8 @@ static inline realv cells_of(const orders_grid grid, const uint row, const uint 
     return row < width ? cells + load_global(at + n * (size_t)grid.pitch, 0) : cells;
 }
 
-/* Angles first, first + 1, ... from both poles, of one longitude. A cell behind a pole is one in front of it on the
- * opposite longitude. */
+/* Angles first, first + 1, ... from both poles, of one longitude. A cell behind a pole is one in
+ * front of it on the opposite longitude. */
 typedef struct both_ends {
     realv north, south;
 } both_ends;
@@ -70,8 +72,9 @@ static inline void load_ends(both_ends *to, const orders_grid grid, const uint p
     }
 }
 
-/* All longitudes, two of which are one complex number: sums of both ends, and behind them differences. With even
- * degrees only the sum of a point and the one opposite to it, which has both. */
+/* All longitudes, two of which are one complex number: sums of both ends, and behind them
+ * differences. With even degrees only the sum of a point and the one opposite to it, which has
+ * both. */
 static inline void load_angles(__global real *data, const orders_grid grid, const uint pole,
                                const uint n, const uint width, const uint first,
                                const uint only_even) {
@@ -89,8 +92,8 @@ static inline void load_angles(__global real *data, const orders_grid grid, cons
     }
 }
 
-/* Whether cells of an order count in some degree at angles below `end`: towards the poles only those of low orders do.
- * begins: of its `num` runs. */
+/* Whether cells of an order count in some degree at angles below `end`: towards the poles only
+ * those of low orders do. begins: of its `num` runs. */
 static inline bool is_wanted(__global const uint *begins, const uint num, const uint end) {
     bool is_there = false;
     for (uint run = 0; run < num; run++) {
@@ -99,7 +102,8 @@ static inline bool is_wanted(__global const uint *begins, const uint num, const 
     return is_there;
 }
 
-/* Orders first_order, + step, ... of a transform, to [order][..], that count at angles below `end`. */
+/* Orders first_order, + step, ... of a transform, to [order][..], that count at angles below `end`.
+ */
 static inline void write_orders(__global real *to, const size_t order_apart,
                                 __global const real *data, __global const uint *position,
                                 const uint middle, const uint L, __global const real *gains,

@@ -1,10 +1,13 @@
-/* Realizations on the sphere, from points to values on rings: sums over points of w exp(-i m phi) spread over theta
- * are transformed to and fro, so that c_lm is a sum over rings (docs/engines/sphere_nufft.md). Points are spread on a grid of
- * real numbers, longitude across rows, theta along them, in any order; the transform around the axis makes tiles of
- * orders; orders_rings.h does the rest. For CPUs: one work-group can do a realization whole, in the cache of its core.
+/* Realizations on the sphere, from points to values on rings: sums over points of w exp(-i m phi)
+ * spread over theta are transformed to and fro, so that c_lm is a sum over rings
+ * (docs/engines/sphere_nufft.md). Points are spread on a grid of real numbers, longitude across
+ * rows, theta along them, in any order; the transform around the axis makes tiles of orders;
+ * orders_rings.h does the rest. For CPUs: one work-group can do a realization whole, in the cache
+ * of its core.
  *
- * Launch: (work-items of one group, slots * shares). LANES is 2 at least. A slot does realizations first_realization +
- * slot, + slots more, ... before end_realization; where shares is more than 1, each share does some columns or tiles of it, and steps come in launches of their own.
+ * Launch: (work-items of one group, slots * shares). LANES is 2 at least. A slot does realizations
+ * first_realization + slot, + slots more, ... before end_realization; where shares is more than 1,
+ * each share does some columns or tiles of it, and steps come in launches of their own.
  *
  *   points     [..][2] of orders_turns.cl, weights [..], offsets  realization r at offsets[r] .. offsets[r + 1]
  *   window, n, width, degree, bins  of nufft/window.h, the same on both axes; n is even
@@ -45,8 +48,8 @@ static inline uint share_of(const uint num, const uint share, const uint shares)
     return num > share ? (num - share + shares - 1) / shares : 0;
 }
 
-/* Strips first_strip .. end_strip - 1, and those from `lead` on, whose windows reach there, are spread; a grid that is
- * whole counts as one. */
+/* Strips first_strip .. end_strip - 1, and those from `lead` on, whose windows reach there, are
+ * spread; a grid that is whole counts as one. */
 typedef struct share_work {
     uint share, shares, strip;
     bool is_whole, is_spread;
@@ -84,7 +87,8 @@ typedef struct some_points {
     __global const uint *starts;
 } some_points;
 
-/* Spreads what group `group` of columns needs, one after the other: a strip before its first group. */
+/* Spreads what group `group` of columns needs, one after the other: a strip before its first group.
+ */
 static inline void spread_for_group(const share_work work, const uint group, const orders_grid grid,
                                     const chunk chunk, const some_points points,
                                     const chunk_axes axes) {
@@ -201,8 +205,8 @@ __kernel void sphere_orders(
                            offsets[r + 1] - offsets[r], along, strip, work.lead, work.end_strip);
         }
         barrier_everywhere();
-        /* Groups of columns, then to and fro for each pair of tiles, even frequencies and odd ones: one loop, since a
-         * second copy of all transforms takes the compiler seconds. */
+        /* Groups of columns, then to and fro for each pair of tiles, even frequencies and odd ones:
+         * one loop, since a second copy of all transforms takes the compiler seconds. */
         for (uint step = 0; step < last_step; step++) {
             const bool is_around = step < work.groups, is_idle = step >= num_steps;
             const uint phase = is_around ? 0 : (step - work.groups) % transforms;

@@ -1,5 +1,6 @@
-/* Sorted points of a large set spread on the fine grid, a band of longitudes by each work-group: part by part, so that
- * every cell adds the same numbers in the same order. Launch: (work-items of one group, bands).
+/* Sorted points of a large set spread on the fine grid, a band of longitudes by each work-group:
+ * part by part, so that every cell adds the same numbers in the same order. Launch: (work-items of
+ * one group, bands).
  *
  *   sorted, heights, starts  of orders_sort.cl, in parts of part_points
  *   window, n, width, degree, bins, pitch  of orders.cl

@@ -3,20 +3,22 @@
  *     cos^2(theta) Lambda_l = h_{l+2} Lambda_{l+2} + D_l Lambda_l + h_l Lambda_{l-2},
  *     e_l^2 = (l^2 - m^2) / (4 l^2 - 1),   h_l = e_l e_{l-1},   D_l = e_{l+1}^2 + e_l^2
  *
- * With Lambda_l = alpha_l p_l, alpha_l = -(h_{l-2} / h_l) alpha_{l-4} and alpha = 1 for the first two of a parity, a
- * degree takes two fused operations,
+ * With Lambda_l = alpha_l p_l, alpha_l = -(h_{l-2} / h_l) alpha_{l-4} and alpha = 1 for the first
+ * two of a parity, a degree takes two fused operations,
  *
  *     p_{l+2} = (A_l cos^2(theta) - A_l D_l) p_l + p_{l-2},   A_l = alpha_l / (h_{l+2} alpha_{l+2}),
  *
  * and sums over rings take alpha_l at the end. A degree's alpha is between 1 and about 1 / sqrt(m).
  *
- * The bracket is A_l (1 - D_l) - A_l sin^2(theta) towards the pole, so that it keeps its digits there. At the pole and
- * at the equator themselves, where it is close to 2 and to -2, errors of it still grow with L^2: the first and the last
- * rings have the recurrence of differences (orders_table.h). At L = 2000 Lambda_lm would be off by 4e-14 to 1e-13
- * without them, depending on the order, in the mean over rings of white sets; by differences everywhere by 3e-14.
+ * The bracket is A_l (1 - D_l) - A_l sin^2(theta) towards the pole, so that it keeps its digits
+ * there. At the pole and at the equator themselves, where it is close to 2 and to -2, errors of it
+ * still grow with L^2: the first and the last rings have the recurrence of differences
+ * (orders_table.h). At L = 2000 Lambda_lm would be off by 4e-14 to 1e-13 without them, depending on
+ * the order, in the mean over rings of white sets; by differences everywhere by 3e-14.
  *
- * In double precision, whatever is summed: in single precision the recurrence is off by 6e-5 at l = 512. A number stands
- * for p 2^(-100 s), s >= 0, since sin^m(theta) underflows. Where s > 0 it is taken for zero. LANES is 2 at least.
+ * In double precision, whatever is summed: in single precision the recurrence is off by 6e-5 at l =
+ * 512. A number stands for p 2^(-100 s), s >= 0, since sin^m(theta) underflows. Where s > 0 it is
+ * taken for zero. LANES is 2 at least.
  */
 #ifndef PS_SPHERE_ORDERS_CHAINS_H
 #define PS_SPHERE_ORDERS_CHAINS_H
@@ -26,21 +28,23 @@
 #include "shared/transpose.h"
 #include "sphere/doubles.h"
 
-/* 2^-100 is far below what counts in either precision, and a normal number in both. Numbers grow by a factor of
- * 2^8 at most from degree to degree (g_l at l = m + 1 = 2^15), so it is enough to look every few degrees. */
+/* 2^-100 is far below what counts in either precision, and a normal number in both. Numbers grow by
+ * a factor of 2^8 at most from degree to degree (g_l at l = m + 1 = 2^15), so it is enough to look
+ * every few degrees. */
 #define SCALE_DOWN 7.888609052210118e-31 /* 2^-100 */
 #define SCALE_UP 1.2676506002282294e30   /* 2^100 */
 #define DEGREES_BETWEEN_LOOKS 4
 
-/* Degrees are done in runs of 2 RUN_VECTORS LANES: RUN_VECTORS vectors of even l - m, and of odd l - m. */
+/* Degrees are done in runs of 2 RUN_VECTORS LANES: RUN_VECTORS vectors of even l - m, and of odd l
+ * - m. */
 #ifndef RUN_VECTORS
 #define RUN_VECTORS 4
 #endif
 #define RUN_DEGREES (2 * RUN_VECTORS * LANES)
 #define TABLE_ROW (RUN_VECTORS * LANES)
 
-/* Rings are done in units of so many vectors: each step of the recurrence waits for the one before, and in single
- * precision a vector of its doubles is two of the processor's. */
+/* Rings are done in units of so many vectors: each step of the recurrence waits for the one before,
+ * and in single precision a vector of its doubles is two of the processor's. */
 #if PRECISION == 64
 #define RING_VECTORS 2
 #else
@@ -48,8 +52,8 @@
 #endif
 #define RING_UNIT (RING_VECTORS * LANES)
 
-/* Rings below this (2^-40, 2^-70) in the last degrees of a run count as zeros in all of it: towards the poles
- * Lambda_lm falls faster than exponentially, and grows with l. */
+/* Rings below this (2^-40, 2^-70) in the last degrees of a run count as zeros in all of it: towards
+ * the poles Lambda_lm falls faster than exponentially, and grows with l. */
 #if PRECISION == 64
 #define NEGLIGIBLE 8.470329472543003e-22
 #else
@@ -93,8 +97,8 @@ static inline doublev squared_ratio(const doublev l, const doublev m) {
     return (l - m) * (l + m) / (((doublev)2 * l - (doublev)1) * ((doublev)2 * l + (doublev)1));
 }
 
-/* alpha_l over alpha_{l-4} in place of the alphas of `num` degrees from first + 2 on. Those that have none in front of
- * them begin with 1, as the four before the run do. */
+/* alpha_l over alpha_{l-4} in place of the alphas of `num` degrees from first + 2 on. Those that
+ * have none in front of them begin with 1, as the four before the run do. */
 static inline void make_alpha_ratios(__local double *chain, const uint first, const uint m,
                                      const uint num) {
     const doublev order = (doublev)(double)m, one = (doublev)1;
@@ -148,7 +152,8 @@ static inline void make_steps(__local double *to, const uint first, const uint m
     }
 }
 
-/* Of `num` degrees, a multiple of 2 LANES, from `first` on. All work-items call it, and see them when it returns. */
+/* Of `num` degrees, a multiple of 2 LANES, from `first` on. All work-items call it, and see them
+ * when it returns. */
 static inline void make_coefficients(__local double *to, const uint first, const uint m,
                                      const uint num) {
     if (own_item() == 0) {

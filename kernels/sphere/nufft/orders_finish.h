@@ -9,8 +9,8 @@
 #define KEEP 0
 #endif
 
-/* |c|^2 of both signs of the order, whose weight is 2 or 1, in double precision, to what lower orders left; or c,
- * imaginary parts powers_apart further. */
+/* |c|^2 of both signs of the order, whose weight is 2 or 1, in double precision, to what lower
+ * orders left; or c, imaginary parts powers_apart further. */
 static inline void finish_sums(__global double *powers, const size_t powers_apart,
                                const double weight, const bool is_lowest, const doublev a,
                                const doublev b) {

@@ -1,8 +1,8 @@
 #include "sphere/doubles.h"
 
-/* powers [group][..] of all groups into those of the first: num of each, LANES degrees of one parity at a time. Degree
- * l has orders, and powers, of groups up to l. Launch: (num / LANES), rounded up at will; half_pitch is a multiple of
- * LANES. */
+/* powers [group][..] of all groups into those of the first: num of each, LANES degrees of one
+ * parity at a time. Degree l has orders, and powers, of groups up to l. Launch: (num / LANES),
+ * rounded up at will; half_pitch is a multiple of LANES. */
 __kernel void sphere_orders_fold(__global double *restrict powers, const uint groups,
                                  const ulong num, const uint half_pitch) {
     const size_t i = get_global_id(0) * LANES;

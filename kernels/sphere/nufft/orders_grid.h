@@ -1,7 +1,9 @@
-/* The grid of a realization on the sphere, and what its transform around the axis leaves. Device only.
+/* The grid of a realization on the sphere, and what its transform around the axis leaves. Device
+ * only.
  *
- * A row of the grid has the cells of one longitude: angles from the pole from `pole` cells in front of the north
- * pole to as many behind the south pole, where windows of points near the poles still reach. Rows go all around.
+ * A row of the grid has the cells of one longitude: angles from the pole from `pole` cells in front
+ * of the north pole to as many behind the south pole, where windows of points near the poles still
+ * reach. Rows go all around.
  */
 #ifndef PS_SPHERE_ORDERS_GRID_H
 #define PS_SPHERE_ORDERS_GRID_H
@@ -71,8 +73,8 @@ static inline void clear_cells(__global real *cells, const size_t num) {
 
 /* ---- around the axis ------------------------------------------------------------------------ */
 
-/* LANES columns of the grid, n rows in bands, as n / 2 complex numbers: even rows are real parts, odd rows imaginary
- * ones. The first rows of a band are also those behind the band before it. */
+/* LANES columns of the grid, n rows in bands, as n / 2 complex numbers: even rows are real parts,
+ * odd rows imaginary ones. The first rows of a band are also those behind the band before it. */
 static inline void load_columns(__global real *data, const orders_grid grid,
                                 const uint first_column, const uint n, const uint width,
                                 const uint bands) {
@@ -96,9 +98,9 @@ static inline void load_columns(__global real *data, const orders_grid grid,
     }
 }
 
-/* Order m of LANES columns. The transform Z of half the length n gives that of all rows, X(m) = S / 2 +
- * exp(-2 pi i m / n) D / 2i with S, D = Z(m) +- conj Z(n/2 - m). gains [L + 1][3] have the factors of S and D (re, im),
- * and undo the window. */
+/* Order m of LANES columns. The transform Z of half the length n gives that of all rows, X(m) = S /
+ * 2 + exp(-2 pi i m / n) D / 2i with S, D = Z(m) +- conj Z(n/2 - m). gains [L + 1][3] have the
+ * factors of S and D (re, im), and undo the window. */
 static inline __attribute__((always_inline)) void
 order_of_columns(complexv *to, __global const real *data, __global const uint *position,
                  const uint middle, __global const real *gains, const uint m) {
@@ -111,8 +113,8 @@ order_of_columns(complexv *to, __global const real *data, __global const uint *p
     to->im = fma(sum.im, (realv)gains[3 * m], turned.im);
 }
 
-/* Orders first_order, first_order + 2, ... of LANES columns, turned so that lanes are orders: [column][re, im][LANES].
- * Orders above L are zeros. */
+/* Orders first_order, first_order + 2, ... of LANES columns, turned so that lanes are orders:
+ * [column][re, im][LANES]. Orders above L are zeros. */
 static inline __attribute__((always_inline)) void
 turn_orders(__global const real *data, __global const uint *position, const uint middle,
             const uint L, __global const real *gains, const uint first_order, __global real *to) {

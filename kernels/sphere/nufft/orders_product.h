@@ -1,5 +1,5 @@
-/* Sums over rings of Lambda_lm times values on rings: lanes are degrees of one parity, so that a row of the table
- * serves all realizations. Device only.
+/* Sums over rings of Lambda_lm times values on rings: lanes are degrees of one parity, so that a
+ * row of the table serves all realizations. Device only.
  */
 #ifndef PS_SPHERE_ORDERS_PRODUCT_H
 #define PS_SPHERE_ORDERS_PRODUCT_H
@@ -7,8 +7,8 @@
 #include "sphere/nufft/orders_finish.h"
 #include "sphere/nufft/orders_table.h"
 
-/* A table [ring][TABLE_ROW], rings first .. end - 1 of it; the sums so far are 0 where these are the first rings, and
- * complete where they are the last. */
+/* A table [ring][TABLE_ROW], rings first .. end - 1 of it; the sums so far are 0 where these are
+ * the first rings, and complete where they are the last. */
 typedef struct product_rows {
     __local const real *table;
     uint first, end;
@@ -18,8 +18,9 @@ typedef struct product_rows {
     __local const double *alphas; /* of the degrees: what Lambda_lm is in terms of the table */
 } product_rows;
 
-/* NUM realizations, VECTORS vectors of degrees. values: of the first ring of the table, realizations `apart` numbers
- * apart. sums [realization][RUN_VECTORS][re, im][LANES], powers [realization], `powers_apart` from each other. */
+/* NUM realizations, VECTORS vectors of degrees. values: of the first ring of the table,
+ * realizations `apart` numbers apart. sums [realization][RUN_VECTORS][re, im][LANES], powers
+ * [realization], `powers_apart` from each other. */
 #define PRODUCT(NUM, VECTORS)                                                                      \
     static inline __attribute__((always_inline)) void product_##NUM##_##VECTORS(                   \
         const product_rows rows, __global const real *values, const size_t apart,                  \

@@ -1,18 +1,20 @@
 /* From pole to pole: two tiles of LANES orders in one transform, to values on rings. Device only.
  *
- * Lambda_lm(theta) has the parity of m when theta goes on behind the pole. So only that part of the grid counts:
- * even tiles (orders m, m + 2, ...) are continued evenly, odd ones (m + 1, m + 3, ...) oddly. The sum of both is
- * transformed, and taken apart again by parity afterwards.
+ * Lambda_lm(theta) has the parity of m when theta goes on behind the pole. So only that part of the
+ * grid counts: even tiles (orders m, m + 2, ...) are continued evenly, odd ones (m + 1, m + 3, ...)
+ * oddly. The sum of both is transformed, and taken apart again by parity afterwards.
  *
- * Rings theta = 2 pi i / rings; the northern quarter of them is kept, since Lambda_lm has the parity of l + m under
- * north <-> south: sums (for even l + m) and differences (odd) of a ring and its mirror image.
+ * Rings theta = 2 pi i / rings; the northern quarter of them is kept, since Lambda_lm has the
+ * parity of l + m under north <-> south: sums (for even l + m) and differences (odd) of a ring and
+ * its mirror image.
  */
 #ifndef PS_SPHERE_ORDERS_RINGS_H
 #define PS_SPHERE_ORDERS_RINGS_H
 
 #include "sphere/nufft/orders_grid.h"
 
-/* Cells `pole + i` and `pole - i` of a tile continued behind both poles, i = 0 .. n / 2; sign is its parity. */
+/* Cells `pole + i` and `pole - i` of a tile continued behind both poles, i = 0 .. n / 2; sign is
+ * its parity. */
 static inline complexv continued(__global const real *tile, const uint pole, const uint n,
                                  const uint i, const real sign) {
     const uint south = n / 2 - i;
@@ -30,10 +32,11 @@ static inline complexv continued(__global const real *tile, const uint pole, con
     return sum;
 }
 
-/* The sum x of two tiles all around the circle, twice what it is, which gains know, on its way to a transform of
- * length n, which is two of half the length: x(i) + x(i + n/2) for even frequencies, [0 .. n/2 - 1] of data, and
- * (x(i) - x(i + n/2)) exp(-2 pi i i / n) for odd ones, behind them. turns [n/2][cosine, sine]. With a, b the tiles of
- * even and odd orders, x(i) = a(i) + b(i), x(n - i) = a(i) - b(i). */
+/* The sum x of two tiles all around the circle, twice what it is, which gains know, on its way to a
+ * transform of length n, which is two of half the length: x(i) + x(i + n/2) for even frequencies,
+ * [0 .. n/2 - 1] of data, and (x(i) - x(i + n/2)) exp(-2 pi i i / n) for odd ones, behind them.
+ * turns [n/2][cosine, sine]. With a, b the tiles of even and odd orders, x(i) = a(i) + b(i), x(n -
+ * i) = a(i) - b(i). */
 static inline void load_meridians(__global real *data, __global const real *even,
                                   __global const real *odd, const uint pole, const uint n,
                                   __global const real *turns) {
@@ -56,8 +59,9 @@ static inline void load_meridians(__global real *data, __global const real *even
     }
 }
 
-/* Frequencies k of one parity, |k| <= L, of a transform of length `middle` to the places of one of length `half_rings`,
- * times their gains [L + 1]. k = 2 q + parity is number q of both, modulo their lengths. */
+/* Frequencies k of one parity, |k| <= L, of a transform of length `middle` to the places of one of
+ * length `half_rings`, times their gains [L + 1]. k = 2 q + parity is number q of both, modulo
+ * their lengths. */
 static inline void copy_spectrum(__global real *to, const uint half_rings,
                                  __global const real *from, __global const uint *position,
                                  const uint middle, const uint L, const uint parity,
@@ -96,13 +100,15 @@ static inline __attribute__((always_inline)) void write_tile(realv *rings, __glo
     }
 }
 
-/* LANES / 2 rings from `first` on of both tiles. F, the transform of the frequencies of one parity, gives
- * f(i) = F(i) for even and exp(-2 pi i i / rings) F(i) for odd ones. The value at theta is f(-i) + f(i) where orders are
- * even and f(-i) - f(i) where they are odd; at pi - theta it is the same for even frequencies and even orders or for
- * odd ones and odd orders, and the opposite else. So even frequencies make the sums of a ring and its mirror image for
- * even orders and the differences for odd ones, and the other way round. turns [num_rings][cosine, sine].
+/* LANES / 2 rings from `first` on of both tiles. F, the transform of the frequencies of one parity,
+ * gives f(i) = F(i) for even and exp(-2 pi i i / rings) F(i) for odd ones. The value at theta is
+ * f(-i) + f(i) where orders are even and f(-i) - f(i) where they are odd; at pi - theta it is the
+ * same for even frequencies and even orders or for odd ones and odd orders, and the opposite else.
+ * So even frequencies make the sums of a ring and its mirror image for even orders and the
+ * differences for odd ones, and the other way round. turns [num_rings][cosine, sine].
  *
- * A ring counts twice, once where it is its own mirror image, which gains do not know; they know the two of a sum. */
+ * A ring counts twice, once where it is its own mirror image, which gains do not know; they know
+ * the two of a sum. */
 static inline __attribute__((always_inline)) void
 write_some_rings(__global const real *data, __global const uint *position, const uint half_rings,
                  const uint num_rings, const uint first, const uint parity,

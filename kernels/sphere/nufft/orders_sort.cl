@@ -1,5 +1,6 @@
-/* Points of a large set in the order of bands of longitudes, within them of tiles of angles from the pole: a counting
- * sort, stable, of each part by one work-item. Launch: (parts), rounded up at will.
+/* Points of a large set in the order of bands of longitudes, within them of tiles of angles from
+ * the pole: a counting sort, stable, of each part by one work-item. Launch: (parts), rounded up at
+ * will.
  *
  *   points, weights  [num_points][3], [num_points]
  *   part_points      of each part but the last, a multiple of LANES

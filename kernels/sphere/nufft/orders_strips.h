@@ -1,5 +1,6 @@
-/* The grid strip by strip: so many angles from the pole and all longitudes, small enough for the cache of a core. Points
- * come sorted by strips, and what their windows leave behind the end of one is carried to the next. Device only.
+/* The grid strip by strip: so many angles from the pole and all longitudes, small enough for the
+ * cache of a core. Points come sorted by strips, and what their windows leave behind the end of one
+ * is carried to the next. Device only.
  *
  * A grid that is small enough is one strip, whose points come in any order.
  */
@@ -8,8 +9,9 @@
 
 #include "sphere/nufft/orders_grid.h"
 
-/* Points of a realization by strips `first` .. end - 1: strip s has points starts[s] .. starts[s + 1]. Counting sort,
- * stable, by one work-item: they are few, and cost little beside their windows. */
+/* Points of a realization by strips `first` .. end - 1: strip s has points starts[s] .. starts[s +
+ * 1]. Counting sort, stable, by one work-item: they are few, and cost little beside their windows.
+ */
 typedef struct strip_points {
     __global ulong *turns; /* [..][2], room for whole vectors */
     __global real *weights;
@@ -64,7 +66,8 @@ static inline void sort_by_strips(const strip_points to, __global const ulong *t
     to.starts[first] = 0;
 }
 
-/* The first columns of the next strip are those from `strip` on; the others are cleared. strip = pitch: all are. */
+/* The first columns of the next strip are those from `strip` on; the others are cleared. strip =
+ * pitch: all are. */
 static inline void carry_cells(const orders_grid grid, const uint strip) {
     const uint kept = grid.pitch - strip;
     for (uint row = own_item(); row < grid.rows; row += num_items()) {

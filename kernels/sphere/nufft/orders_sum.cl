@@ -1,6 +1,7 @@
-/* From values on rings to sum_m |c_lm|^2. A work-group has the orders that are its number modulo the number of
- * groups, so that what it adds up does not depend on the device. For each order, Lambda_lm is made for a run of degrees
- * and a block of rings at a time, and used by all realizations. Launch: (work-items of one group, groups).
+/* From values on rings to sum_m |c_lm|^2. A work-group has the orders that are its number modulo
+ * the number of groups, so that what it adds up does not depend on the device. For each order,
+ * Lambda_lm is made for a run of degrees and a block of rings at a time, and used by all
+ * realizations. Launch: (work-items of one group, groups).
  *
  *   values     [order][value_sets, realizations][even, odd l - m][ring_pitch][re, im] of orders.cl: side by side, so
  *              that what an order needs comes in a row

@@ -1,8 +1,8 @@
 /* Lambda_lm over alpha_l (orders_chains.h) of rings, for a run of degrees at a time. Device only.
  *
- * The rings next to the pole and to the equator by differences: with t = 1 - cos(theta) and D = the part of Lambda_lm
- * that is not just Lambda_{l-1,m} normalised anew (docs/mathematics/numerics.md#high-order,
- * multiplied by the norm),
+ * The rings next to the pole and to the equator by differences: with t = 1 - cos(theta) and D = the
+ * part of Lambda_lm that is not just Lambda_{l-1,m} normalised anew
+ * (docs/mathematics/numerics.md#high-order, multiplied by the norm),
  *
  *     D_l = a_l D_{l-1} + b_l t Lambda_{l-1},   Lambda_l = g_l Lambda_{l-1} + D_l
  *     g_l = sqrt((2l+1)(l+m) / ((2l-1)(l-m))),  a_l = g_l (l-m-1)/(l+m),  b_l = -g_l (2l-1)/(l+m)
@@ -14,16 +14,16 @@
 
 #include "sphere/nufft/orders_chains.h"
 
-/* Of the rings of a work-group, between two runs: [even, odd l - m][ring_pitch] each. By differences, the even ones are
- * Lambda_lm and D. */
+/* Of the rings of a work-group, between two runs: [even, odd l - m][ring_pitch] each. By
+ * differences, the even ones are Lambda_lm and D. */
 typedef struct ring_states {
     __global double *value, *before; /* p_l, p_{l-2} */
     __global int *scale;
     size_t parity_apart;
 } ring_states;
 
-/* [ring]. Rings below `polar` and from `equatorial` on go by differences; those below `crossing` have the bracket of the
- * pole. Multiples of RING_UNIT. */
+/* [ring]. Rings below `polar` and from `equatorial` on go by differences; those below `crossing`
+ * have the bracket of the pole. Multiples of RING_UNIT. */
 typedef struct ring_angles {
     __global const double *distances; /* 1 - cos(theta) */
     __global const double *squares;   /* -sin^2(theta), from `crossing` on cos^2(theta) */
@@ -185,8 +185,9 @@ chain_square(chain_state *states, const doublev *squares, __local const double *
     store_square(of, table);
 }
 
-/* Without a table: whether there is more than zeros at the end; if not, the states go on. Between two looks numbers
- * may grow beyond 2^100 here (by 2^200 at m = 2^15, and less from look to look): in the end all come down. */
+/* Without a table: whether there is more than zeros at the end; if not, the states go on. Between
+ * two looks numbers may grow beyond 2^100 here (by 2^200 at m = 2^15, and less from look to look):
+ * in the end all come down. */
 static inline bool try_chain(chain_state *states, const doublev *squares,
                              __local const double *steps, __local const double *rests,
                              const uint num) {
@@ -259,7 +260,8 @@ static inline bool make_chain_run(const ring_states states, const ring_angles an
     return is_there;
 }
 
-/* A run of RING_UNIT rings from `ring` on, `vectors` of it; whether there is more than zeros in it. */
+/* A run of RING_UNIT rings from `ring` on, `vectors` of it; whether there is more than zeros in it.
+ */
 static inline bool make_run(const ring_states states, const ring_angles angles, const uint ring,
                             __local const double *coefficients, __local real *even,
                             __local real *odd, const uint vectors) {

@@ -1,4 +1,5 @@
-/* Lambda_lm of the orders of a work-group, for all rings: from order to order, and block by block. Device only. */
+/* Lambda_lm of the orders of a work-group, for all rings: from order to order, and block by block.
+ * Device only. */
 #ifndef PS_SPHERE_ORDERS_WORK_H
 #define PS_SPHERE_ORDERS_WORK_H
 
@@ -12,7 +13,8 @@ static inline void normalize(double *value, int *scale) {
     }
 }
 
-/* What a work-group has of rings. Those below `alive` are nothing in all degrees, and stay so in higher orders. */
+/* What a work-group has of rings. Those below `alive` are nothing in all degrees, and stay so in
+ * higher orders. */
 typedef struct ring_work {
     ring_states states;
     ring_angles angles;
@@ -41,7 +43,8 @@ typedef struct order_starts {
     __global const double *ratios, *cosines;
 } order_starts;
 
-/* Degrees m and m + 1 of all rings up to ring_pitch, the first order of a group or from the one before. */
+/* Degrees m and m + 1 of all rings up to ring_pitch, the first order of a group or from the one
+ * before. */
 static inline void begin_order(const ring_work work, const order_starts from, const uint m,
                                const uint group, const uint ring_pitch) {
     const double second = sqrt(2 * (double)m + 3);
@@ -55,7 +58,8 @@ static inline void begin_order(const ring_work work, const order_starts from, co
     }
 }
 
-/* The table of a block of rings; the first ring of it that is more than zeros, `here` if there is none. */
+/* The table of a block of rings; the first ring of it that is more than zeros, `here` if there is
+ * none. */
 static inline uint make_block(const ring_work work, const uint ring, const uint here,
                               __local const double *coefficients, __local real *table,
                               __local uint *begins, const uint vectors) {

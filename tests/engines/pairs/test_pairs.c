@@ -1,4 +1,5 @@
-/* Laws of pair sums by the engines that sum over pairs: closed forms, rotations, batches, kernel sums, designs. */
+/* Laws of pair sums by the engines that sum over pairs: closed forms, rotations, batches, kernel
+ * sums, designs. */
 #include "harness_pairs.h"
 
 #include "engines/pairs/pairs_bins.h"
@@ -42,7 +43,8 @@ static double *run(const way *by, int32_t last, const pspec_pattern *patterns, s
                           batch);
 }
 
-/* One point 1; two antipodal ones 4 and 0; a point given twice is one of twice the weight; weights of either sign. */
+/* One point 1; two antipodal ones 4 and 0; a point given twice is one of twice the weight; weights
+ * of either sign. */
 static void closed_forms(void **state) {
     (void)state;
     enum { LAST = 37 };
@@ -82,7 +84,8 @@ static void close_pairs(void **state) {
         test_sphere_point(points + 3, theta + 3e-10, 2, 1);
         size_t i = 0;
         for (const way *by = next_way(&i); by != NULL; by = next_way(&i)) {
-            /* 1 - P_l = l^2 theta^2 / 4; what P_l near 1 gathers of rounding: see ps_pairs_error_law */
+            /* 1 - P_l = l^2 theta^2 / 4; what P_l near 1 gathers of rounding: see
+             * ps_pairs_error_law */
             const double drift = by->precision == PS_SINGLE ? 3e-8 * LAST : 6e-17 * LAST;
             double *q = run(by, LAST, &pattern, 1, 1);
             for (int l = 1; l <= LAST; l++) {
@@ -147,7 +150,8 @@ static void white_mean(void **state) {
     free(points);
 }
 
-/* The same bits whatever the batch, and beside larger sets, for as many runs and slabs as there are. */
+/* The same bits whatever the batch, and beside larger sets, for as many runs and slabs as there
+ * are. */
 static void batches(void **state) {
     (void)state;
     enum { SETS = 5, LAST = 33 };
@@ -171,7 +175,8 @@ static void batches(void **state) {
     free(points);
 }
 
-/* The bound of the bins holds for polynomials in between, at the ends of bins, and is no more than 20 times what happens. */
+/* The bound of the bins holds for polynomials in between, at the ends of bins, and is no more than
+ * 20 times what happens. */
 static void bound_of_bins(void **state) {
     (void)state;
     enum { LAST = 60, SAMPLES = 2000 };
@@ -261,8 +266,8 @@ static void chord_sums(void **state) {
     free(points);
 }
 
-/* Womersley's design t = 19 with 201 points: no power to degree 19, and 4/3 - mean distance is E^2 of s = 3/2,
- * .8191 N^-3/2 (docs/mathematics/samplers.md#lattices-of-the-sphere). */
+/* Womersley's design t = 19 with 201 points: no power to degree 19, and 4/3 - mean distance is E^2
+ * of s = 3/2, .8191 N^-3/2 (docs/mathematics/samplers.md#lattices-of-the-sphere). */
 static void designs(void **state) {
     (void)state;
     enum { NUM = 201, DEGREE = 19 };

@@ -1,5 +1,5 @@
-/* The error formulas of pair sums hold, by every route: point sets of every kind against long double sums over pairs,
- * degree by degree.
+/* The error formulas of pair sums hold, by every route: point sets of every kind against long
+ * double sums over pairs, degree by degree.
  */
 #include "harness_pairs.h"
 #include "harness_sphere_shapes.h"

@@ -1,5 +1,5 @@
-/* Sums of isotropic kernels over pairs, from one histogram: against sums over pairs in long double, the direct chord sums of the
- * device, and the series of the Sobolev kernel. */
+/* Sums of isotropic kernels over pairs, from one histogram: against sums over pairs in long double,
+ * the direct chord sums of the device, and the series of the Sobolev kernel. */
 #include "harness_pairs.h"
 
 #include "engines/pairs/pairs_chords.h"
@@ -114,7 +114,8 @@ static void direct_sums(void **state) {
     free(points);
 }
 
-/* Kernels by their coefficients: single degrees, and c - |u - v|^(2s - 2) as its own series; all from one histogram. */
+/* Kernels by their coefficients: single degrees, and c - |u - v|^(2s - 2) as its own series; all
+ * from one histogram. */
 static void zonal_kernels(void **state) {
     (void)state;
     enum { LAST = 80 };
@@ -158,7 +159,8 @@ static void zonal_kernels(void **state) {
     free(points);
 }
 
-/* The public library: weights as they are, however large, or 1/N; bounds in the units of the sums. */
+/* The public library: weights as they are, however large, or 1/N; bounds in the units of the sums.
+ */
 static void public_library(void **state) {
     (void)state;
     double *points = test_sphere_white_set(NUM, &seed);

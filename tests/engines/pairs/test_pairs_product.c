@@ -1,4 +1,5 @@
-/* Products with distances on the device against long double and against the host, sizes around segments. */
+/* Products with distances on the device against long double and against the host, sizes around
+ * segments. */
 #include "harness.h"
 #include "harness_pairs.h"
 

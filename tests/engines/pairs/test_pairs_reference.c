@@ -1,5 +1,5 @@
-/* Pair sums by every route against the exact values of tests/reference: Q(l), and C_l^2 from them. Tolerances are those of
- * the reference (measured there, times four).
+/* Pair sums by every route against the exact values of tests/reference: Q(l), and C_l^2 from them.
+ * Tolerances are those of the reference (measured there, times four).
  */
 #include "harness_pairs.h"
 

@@ -1,5 +1,5 @@
-/* Coefficients on the sphere through the public library, by the referee: closed forms, laws, errors. Numbers against
- * the reference are in test_sphere_reference.c.
+/* Coefficients on the sphere through the public library, by the referee: closed forms, laws,
+ * errors. Numbers against the reference are in test_sphere_reference.c.
  */
 #include "harness_angular.h"
 

@@ -23,7 +23,8 @@ static double *run(ps_precision precision, const ps_frequencies *degrees,
     return test_run_engine(&ps_sphere_direct, precision, device, degrees, patterns, num, batch);
 }
 
-/* One point has P = 1 for every degree: the addition theorem. Every power of every sin theta is in it. */
+/* One point has P = 1 for every degree: the addition theorem. Every power of every sin theta is in
+ * it. */
 static void addition_theorem(ps_precision precision, const int32_t last, double begin,
                              double step) {
     static const double angles[] = {0,   1e-200, 1e-30, 1e-8, 1e-5, 1e-3, 0.01, 0.03,
@@ -204,7 +205,8 @@ static void batches_change_no_bit(void **state) {
     ps_frequencies_free(&degrees);
 }
 
-/* Slabs as large as a set, and of whole chunks, with sets of several slabs and of less beside each other. */
+/* Slabs as large as a set, and of whole chunks, with sets of several slabs and of less beside each
+ * other. */
 static void slabs_change_no_bit(void **state) {
     (void)state;
     enum { SETS = 3, LARGEST = 1700 };

@@ -1,5 +1,5 @@
-/* The error formula of sphere_direct holds, and is no more than a few times too large: point sets of every kind
- * against the referee, c_lm by c_lm. */
+/* The error formula of sphere_direct holds, and is no more than a few times too large: point sets
+ * of every kind against the referee, c_lm by c_lm. */
 #include "harness_sphere.h"
 #include "harness_sphere_shapes.h"
 

@@ -1,5 +1,6 @@
-/* Coefficients of the engines of the sphere against the associated Legendre functions of GSL, which somebody else
- * wrote: degree by degree at fixed order, like the device engines, in double precision.
+/* Coefficients of the engines of the sphere against the associated Legendre functions of GSL, which
+ * somebody else wrote: degree by degree at fixed order, like the device engines, in double
+ * precision.
  */
 #include "harness_sphere.h"
 

@@ -1,5 +1,6 @@
-/* sphere_nufft and sphere_grid against sums in extended precision: sets of every kind, degrees and numbers of points beside whole
- * vectors, exact values of others, the same bits whatever the batch and the work-groups.
+/* sphere_nufft and sphere_grid against sums in extended precision: sets of every kind, degrees and
+ * numbers of points beside whole vectors, exact values of others, the same bits whatever the batch
+ * and the work-groups.
  */
 #include "harness_sphere.h"
 #include "harness_sphere_shapes.h"
@@ -172,8 +173,8 @@ static void powers_are_those_of_coefficients(void **state) {
     }
 }
 
-/* Even degrees, to the bit, are those of the whole sphere up to the same degree. (Not of sphere_grid, which adds a point
- * and the one opposite to it for them.) */
+/* Even degrees, to the bit, are those of the whole sphere up to the same degree. (Not of
+ * sphere_grid, which adds a point and the one opposite to it for them.) */
 static void hemisphere_is_half_of_the_sphere(void **state) {
     engine = *state;
     for (size_t i = 0; i < NUM_CASES; i++) {
@@ -203,7 +204,8 @@ static void hemisphere_is_half_of_the_sphere(void **state) {
 
 /* ---- exact values ------------------------------------------------------------------------ */
 
-/* Q(l) to l = 2000, errors of its root by error(); of one degree, which may be off by more than the mean. */
+/* Q(l) to l = 2000, errors of its root by error(); of one degree, which may be off by more than the
+ * mean. */
 static void check_exact(const test_set *set, const sphere_case *what) {
     const double of_one_degree = 4;
     ps_frequencies degrees = degrees_of(what);

@@ -1,5 +1,6 @@
-/* sphere_nufft at high degree: of one point all Q(l) are 1, by the addition theorem, wherever it is. At the pole, at the
- * equator and between them Lambda_lm comes from recurrences of different form (docs/engines/sphere_nufft.md).
+/* sphere_nufft at high degree: of one point all Q(l) are 1, by the addition theorem, wherever it
+ * is. At the pole, at the equator and between them Lambda_lm comes from recurrences of different
+ * form (docs/engines/sphere_nufft.md).
  */
 #include "harness_sphere.h"
 
@@ -18,7 +19,8 @@ static const double angles[] = {0,    1e-8,  1e-3,   0.008,  0.03,
                                 1.55, 1.56,  1.5685, 1.5706, 1.5707963267948966};
 enum { NUM_ANGLES = sizeof angles / sizeof angles[0] };
 
-/* sqrt of the sum over l of (2l + 1) (d sqrt Q(l))^2, over that of white noise: no more than the tolerance. */
+/* sqrt of the sum over l of (2l + 1) (d sqrt Q(l))^2, over that of white noise: no more than the
+ * tolerance. */
 static double error_of_row(const ps_frequencies *degrees, const double *row) {
     double sum = 0;
     double num = 0;

@@ -1,5 +1,5 @@
-/* sphere_nufft on sets so large that points are sorted, spread in bands of longitudes and come in chunks: copies of a
- * small set, whose coefficients are known, in turn.
+/* sphere_nufft on sets so large that points are sorted, spread in bands of longitudes and come in
+ * chunks: copies of a small set, whose coefficients are known, in turn.
  */
 #include "harness_sphere.h"
 #include "harness_sphere_shapes.h"
@@ -34,7 +34,8 @@ static double *coefficients_of(const ps_problem *problem, ps_precision precision
     return found;
 }
 
-/* Point i is point i modulo DISTINCT. Weights of copies are a half and one and a half in turn, if there are any. */
+/* Point i is point i modulo DISTINCT. Weights of copies are a half and one and a half in turn, if
+ * there are any. */
 static pspec_pattern make_copies(const pspec_pattern *small, bool has_weights) {
     double *points = malloc(sizeof(double) * 3 * NUM_POINTS);
     double *weights = has_weights ? malloc(sizeof(double) * NUM_POINTS) : NULL;

@@ -1,5 +1,6 @@
-/* The error of sphere_nufft and of sphere_grid over all tolerances, eight to a decade, against what it announces: sets of every kind, and
- * circles of points made for the grid that is chosen. Prints the smallest slack of each.
+/* The error of sphere_nufft and of sphere_grid over all tolerances, eight to a decade, against what
+ * it announces: sets of every kind, and circles of points made for the grid that is chosen. Prints
+ * the smallest slack of each.
  */
 #include "harness_sphere_shapes.h"
 

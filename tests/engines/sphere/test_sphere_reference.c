@@ -1,5 +1,5 @@
-/* sphere_direct in both precisions, and the referee, against the exact values of tests/reference. Tolerances are
- * those of the reference (measured there, times four). */
+/* sphere_direct in both precisions, and the referee, against the exact values of tests/reference.
+ * Tolerances are those of the reference (measured there, times four). */
 #include "harness_sphere.h"
 
 #include "engines/host/host_direct.h"
@@ -73,7 +73,8 @@ static void check_powers(const judge *by, const test_set *set, const cJSON *rows
     ps_frequencies_free(&degrees);
 }
 
-/* The referee goes from order to order and takes as long for all degrees as for the last: it stops earlier. */
+/* The referee goes from order to order and takes as long for all degrees as for the last: it stops
+ * earlier. */
 static int32_t last_degree(const judge *by, int32_t last) {
     const int32_t patience = 512;
     return by->engine == &ps_host_direct && last > patience ? patience : last;

@@ -1,7 +1,8 @@
-/* The tolerance contract on the sphere from the planner to the coefficients, eight tolerances to a decade, sets of every
- * kind against the referee: each engine and precision that the planner would take has an error below what it announces
- * for the power of the set, and where that power was known beforehand, this is below the tolerance. Where nothing is
- * chosen, nothing could be, and it is refused.
+/* The tolerance contract on the sphere from the planner to the coefficients, eight tolerances to a
+ * decade, sets of every kind against the referee: each engine and precision that the planner would
+ * take has an error below what it announces for the power of the set, and where that power was
+ * known beforehand, this is below the tolerance. Where nothing is chosen, nothing could be, and it
+ * is refused.
  */
 #include "harness_sphere.h"
 #include "harness_sphere_shapes.h"

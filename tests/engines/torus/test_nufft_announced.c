@@ -66,8 +66,8 @@ static void run_case(const ps_problem *problem, ps_precision precision) {
     free(patterns);
 }
 
-/* Of three copies of points and weights that are announced two are on the device, and a page for small tables
- * of each axis. */
+/* Of three copies of points and weights that are announced two are on the device, and a page for
+ * small tables of each axis. */
 static void check_case(const announced_case *what, ps_precision precision) {
     const double page = 4096;
     ps_frequencies set = {0};
@@ -111,7 +111,8 @@ static double created_for(const ps_problem *problem, uint64_t num_realizations) 
     return bytes_created;
 }
 
-/* Memory of a batch is that of its realizations, however many were planned: tiles, rows, whole realizations. */
+/* Memory of a batch is that of its realizations, however many were planned: tiles, rows, whole
+ * realizations. */
 static void batches_of_one(void **state) {
     (void)state;
     static const announced_case smaller[] = {

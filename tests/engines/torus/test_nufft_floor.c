@@ -16,8 +16,8 @@ static size_t num_precisions(void) {
     return ps_device_get_limits(device)->has_fp64 ? 2 : 1;
 }
 
-/* Between the peaks of a lattice powers are 0; what is left there in units of white noise is below the square
- * of what the floor asks of S. */
+/* Between the peaks of a lattice powers are 0; what is left there in units of white noise is below
+ * the square of what the floor asks of S. */
 static void floor_of_lattices(void **state) {
     (void)state;
     enum { SIDE = 32, POINTS = SIDE * SIDE, K = 31 };

@@ -1,5 +1,6 @@
-/* Very large sets through torus_nufft: spread on a grid of all axes, chunk by chunk, against torus_direct in
- * double precision. Plans for millions of points choose the grid; the sets of the tests are smaller.
+/* Very large sets through torus_nufft: spread on a grid of all axes, chunk by chunk, against
+ * torus_direct in double precision. Plans for millions of points choose the grid; the sets of the
+ * tests are smaller.
  */
 #include "harness.h"
 
@@ -179,7 +180,8 @@ static void split_grids(void **state) {
     }
 }
 
-/* Memory does not grow with the points, but for finer grids: lattices of so many points have high peaks. */
+/* Memory does not grow with the points, but for finer grids: lattices of so many points have high
+ * peaks. */
 static void memory_does_not_grow(void **state) {
     (void)state;
     const double bytes_per_point = 2 * sizeof(double);

@@ -1,6 +1,6 @@
-/* Realizations that torus_nufft does whole, each by one work-group, against direct sums in extended precision:
- * sets of every kind, numbers of points beside whole chunks and vectors, the same bits whatever the batch and the
- * work-groups.
+/* Realizations that torus_nufft does whole, each by one work-group, against direct sums in extended
+ * precision: sets of every kind, numbers of points beside whole chunks and vectors, the same bits
+ * whatever the batch and the work-groups.
  */
 #include "harness_shapes.h"
 
@@ -146,8 +146,8 @@ static void same_bits(void **state) {
     }
 }
 
-/* In one dimension the grid is the product of the lengths, both transforms keep less than they have, and every
- * frequency has a place of its own. */
+/* In one dimension the grid is the product of the lengths, both transforms keep less than they
+ * have, and every frequency has a place of its own. */
 static void lengths_of_lines(void **state) {
     (void)state;
     for (int32_t k = 1; k < 3000; k += 1 + k / 3) {

@@ -1,5 +1,5 @@
-/* Sampled rings through the whole of the library: against complete rings, white noise and lattices in four
- * to six dimensions; saved, loaded, merged; requests that cannot be meant.
+/* Sampled rings through the whole of the library: against complete rings, white noise and lattices
+ * in four to six dimensions; saved, loaded, merged; requests that cannot be meant.
  */
 #include "harness_public.h"
 #include "test_folder.h"
@@ -46,8 +46,8 @@ static void complete_rings_have_the_same_bits(void **state) {
     pspec_context_destroy(context);
 }
 
-/* Rings with few frequencies are complete: their means are those of the whole. The others hold the powers that
- * the whole has at the same frequencies. */
+/* Rings with few frequencies are complete: their means are those of the whole. The others hold the
+ * powers that the whole has at the same frequencies. */
 static void small_rings_are_complete(void **state) {
     (void)state;
     enum { PER_RING = 30 };
@@ -105,8 +105,8 @@ static void white_noise_in_many_dimensions(void **state) {
     pspec_context_destroy(context);
 }
 
-/* A grid of 2^d points: power N where all k_i are even, else 0. Shells of odd |k|^2 hold nothing, that of
- * |k|^2 = 4 in six dimensions 12 peaks among 252 frequencies. */
+/* A grid of 2^d points: power N where all k_i are even, else 0. Shells of odd |k|^2 hold nothing,
+ * that of |k|^2 = 4 in six dimensions 12 peaks among 252 frequencies. */
 static void peaks_of_a_grid(void **state) {
     (void)state;
     enum { DIMENSION = 6, NUM = 64, SEEDS = 200 };

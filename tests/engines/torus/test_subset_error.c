@@ -1,7 +1,9 @@
-/* The standard error of a ring of which only a random subset was computed: is it the error that is made?
+/* The standard error of a ring of which only a random subset was computed: is it the error that is
+ * made?
  *
- * Many trials, each with a subset of its own. The mean square of the deviations must be the mean of the
- * squares of the standard errors, and two standard errors must hold as many deviations as they should.
+ * Many trials, each with a subset of its own. The mean square of the deviations must be the mean of
+ * the squares of the standard errors, and two standard errors must hold as many deviations as they
+ * should.
  */
 #include "harness.h"
 
@@ -16,9 +18,9 @@
 
 enum { DIMENSION = 4, RING = 3, NUM_POINTS = 16, MOST_REALIZATIONS = 8, PER_RING = 40 };
 
-/* Points with independent coordinates, x_i uniform in [0, width_i): P(k) = 1 + (N - 1) prod sinc^2(k_i
- * width_i), which is white noise for widths 1. Otherwise frequencies of a ring differ by a factor of 10, and
- * the noise of neighbours is correlated. */
+/* Points with independent coordinates, x_i uniform in [0, width_i): P(k) = 1 + (N - 1) prod
+ * sinc^2(k_i width_i), which is white noise for widths 1. Otherwise frequencies of a ring differ by
+ * a factor of 10, and the noise of neighbours is correlated. */
 typedef struct widths {
     double of_axis[DIMENSION];
 } widths;
@@ -147,8 +149,8 @@ static void note(calibration *c, double deviation, double standard_error) {
     c->num_within += fabs(deviation) <= 2 * standard_error;
 }
 
-/* least, most: of mean square deviation over mean square standard error. coverage: least share of deviations
- * within two standard errors. */
+/* least, most: of mean square deviation over mean square standard error. coverage: least share of
+ * deviations within two standard errors. */
 static void check(const char *name, const calibration *c, double least, double most,
                   double coverage) {
     const double num = (double)c->num;
@@ -183,8 +185,8 @@ static calibration try_process(const widths *w, size_t num_realizations, size_t 
     return c;
 }
 
-/* 1500 trials: the ratio has a standard deviation of 4 %, more where deviations have longer tails. What is
- * below one is the price of never stating less than the error over the realizations. */
+/* 1500 trials: the ratio has a standard deviation of 4 %, more where deviations have longer tails.
+ * What is below one is the price of never stating less than the error over the realizations. */
 enum { TRIALS = 1500 };
 
 static void of_white_noise(void **state) {
@@ -260,8 +262,9 @@ static void of_one_set(void **state) {
     check("one anisotropic set", &of_flat, 0.85, 1.15, 0.85);
 }
 
-/* Peaks of power N at even frequencies, nothing elsewhere. The error is right on average; single subsets
- * with few peaks cannot know of the others, and fewer deviations are within two standard errors. */
+/* Peaks of power N at even frequencies, nothing elsewhere. The error is right on average; single
+ * subsets with few peaks cannot know of the others, and fewer deviations are within two standard
+ * errors. */
 static void of_a_lattice(void **state) {
     (void)state;
     double points[NUM_POINTS][DIMENSION];

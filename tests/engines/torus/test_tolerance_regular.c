@@ -1,10 +1,11 @@
-/* The error formula of torus_nufft for the sets that harm it most: regular along an axis, with peaks where
- * aliases are strongest for the fine grid that is chosen; and for larger sets of the kinds of
- * test_tolerance_sweep.c.
+/* The error formula of torus_nufft for the sets that harm it most: regular along an axis, with
+ * peaks where aliases are strongest for the fine grid that is chosen; and for larger sets of the
+ * kinds of test_tolerance_sweep.c.
  *
- * Of a comb of m points along the last axis, frequencies k and k + m are the same. With m = n - K all that it
- * has at k = 0, be that a peak or the power of all its rows, comes back at K and -K; with m a divisor of n
- * aliases are in step. torus_direct in double precision stands for the referee, which is too slow here.
+ * Of a comb of m points along the last axis, frequencies k and k + m are the same. With m = n - K
+ * all that it has at k = 0, be that a peak or the power of all its rows, comes back at K and -K;
+ * with m a divisor of n aliases are in step. torus_direct in double precision stands for the
+ * referee, which is too slow here.
  */
 #include "harness_shapes.h"
 
@@ -53,7 +54,8 @@ static pspec_pattern make_comb(const regular_case *what, size_t num_teeth) {
     return (pspec_pattern){d, num, points, NULL};
 }
 
-/* Where nothing was expected the difference is the error itself, else the part of it in step with S. */
+/* Where nothing was expected the difference is the error itself, else the part of it in step with
+ * S. */
 static double error_between(const double *found, const double *expected, size_t num) {
     double sum = 0;
     for (size_t i = 0; i < num; i++) {

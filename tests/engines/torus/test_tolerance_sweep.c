@@ -1,10 +1,10 @@
-/* The tolerance contract of every engine, swept 8 per decade: where its formula says that a tolerance is
- * kept, for white noise beforehand and for the power that was measured afterwards, the error is below it;
- * sets of every kind, against the referee. What the planner chooses keeps the tolerance by its formula, and
- * it refuses what nothing keeps.
+/* The tolerance contract of every engine, swept 8 per decade: where its formula says that a
+ * tolerance is kept, for white noise beforehand and for the power that was measured afterwards, the
+ * error is below it; sets of every kind, against the referee. What the planner chooses keeps the
+ * tolerance by its formula, and it refuses what nothing keeps.
  *
- * As in test_tolerance.c, sqrt(2) times the root mean square of | |S| - |S_ref| | stands for |dS|. All kinds of
- * sets go through an engine in one batch.
+ * As in test_tolerance.c, sqrt(2) times the root mean square of | |S| - |S_ref| | stands for |dS|.
+ * All kinds of sets go through an engine in one batch.
  */
 #include "harness_shapes.h"
 

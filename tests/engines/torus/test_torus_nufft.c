@@ -1,5 +1,5 @@
-/* The engine torus_nufft: what must not change a bit of its results, and what its powers must obey. Tolerances
- * are swept in test_tolerance_sweep.c, small powers are in test_nufft_floor.c.
+/* The engine torus_nufft: what must not change a bit of its results, and what its powers must obey.
+ * Tolerances are swept in test_tolerance_sweep.c, small powers are in test_nufft_floor.c.
  */
 #include "harness_shapes.h"
 
@@ -77,8 +77,9 @@ static void batches(void **state) {
     }
 }
 
-/* One work-item goes from point to point, the items of a group from cell to cell: few and many points in a
- * cell take different ways. (Not groups of fewer items than lanes: PoCL 3.1 gets them wrong, docs/engines/torus_nufft.md.) */
+/* One work-item goes from point to point, the items of a group from cell to cell: few and many
+ * points in a cell take different ways. (Not groups of fewer items than lanes: PoCL 3.1 gets them
+ * wrong, docs/engines/torus_nufft.md.) */
 static void work_groups(void **state) {
     (void)state;
     static const size_t most[] = {20, 150, 1500};

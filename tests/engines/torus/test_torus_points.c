@@ -53,8 +53,8 @@ static void steps(void **state) {
 
 static ps_device *device;
 
-/* A few batches after another: coordinates of every point in the buffer of its upload, which keeps them while the
- * next one is filled. */
+/* A few batches after another: coordinates of every point in the buffer of its upload, which keeps
+ * them while the next one is filled. */
 static void check_uploads(size_t num_points, bool far_apart) {
     enum { BATCHES = 5, DIMENSION = 3 };
     double *x = calloc(BATCHES * num_points * DIMENSION, sizeof *x);

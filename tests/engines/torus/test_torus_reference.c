@@ -1,7 +1,7 @@
 /* Every row of every set of reference/torus.json, by the referee and by torus_direct in both
- * precisions, as lists of frequencies and on full grids; rings too. By torus_nufft in both precisions, the
- * rings and the rows within a box. Tolerances: those of the reference's README, "suggested acceptance
- * tolerances".
+ * precisions, as lists of frequencies and on full grids; rings too. By torus_nufft in both
+ * precisions, the rings and the rows within a box. Tolerances: those of the reference's README,
+ * "suggested acceptance tolerances".
  */
 #include "harness.h"
 
@@ -18,7 +18,8 @@
 static cJSON *reference;
 static ps_device *device;
 
-/* e with |dS| <= e sum|w|. Coordinates below 2^-11 that are not multiples of 2^-64 add their part. */
+/* e with |dS| <= e sum|w|. Coordinates below 2^-11 that are not multiples of 2^-64 add their part.
+ */
 static double tolerance_of(ps_precision precision, const int32_t *k, unsigned dimension) {
     const double base = precision == PS_SINGLE ? 4e-7 : precision == PS_DOUBLE ? 4e-15 : 1e-17;
     double sum_k = 0;

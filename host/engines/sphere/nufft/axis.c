@@ -1,4 +1,5 @@
-/* Which fine grid, window and rings sphere_nufft and sphere_grid take: the cheapest that keep the tolerance. */
+/* Which fine grid, window and rings sphere_nufft and sphere_grid take: the cheapest that keep the
+ * tolerance. */
 #include "engines/nufft/fft.h"
 #include "engines/nufft/kernels.h"
 #include "engines/nufft/plan.h"
@@ -19,14 +20,15 @@ enum { MOST_CELLS = 1 << 16 };
 /* Of candidates, each longer than the one before by this part at least. */
 enum { NEXT_LENGTH = 32 };
 
-/* An even length from `least` on; 0: beyond 32 bits. By rings the cheapest to transform; by cells any, since transforms
- * are the smaller part. */
+/* An even length from `least` on; 0: beyond 32 bits. By rings the cheapest to transform; by cells
+ * any, since transforms are the smaller part. */
 static uint32_t even_length(uint64_t least, ps_sphere_route route) {
     const uint64_t half = (least + 1) / 2;
     return 2 * (route == PS_SPHERE_BY_RINGS ? ps_fft_good_length(half) : ps_fft_length(half));
 }
 
-/* A few more than the least where the two transforms of half the length are cheaper by more than products take. */
+/* A few more than the least where the two transforms of half the length are cheaper by more than
+ * products take. */
 uint32_t ps_sphere_ring_length(int32_t max_degree) {
     const double cycles_of_products =
         0.44; /* for a degree and a ring, where transforms have one order */
@@ -69,8 +71,8 @@ static unsigned hopeful_width(const ps_problem *problem, uint32_t n) {
                                         : PS_NUFFT_MIN_WIDTH;
 }
 
-/* Of widths first .. last of a length, into best if it is more exact: the narrowest window that keeps the tolerance,
- * else the most exact one. */
+/* Of widths first .. last of a length, into best if it is more exact: the narrowest window that
+ * keeps the tolerance, else the most exact one. */
 static void try_widths(ps_nufft_axis *best, const ps_problem *problem, uint32_t n,
                        ps_precision precision, ps_sphere_route route, unsigned first, unsigned last,
                        double *least_error) {

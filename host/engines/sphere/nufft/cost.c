@@ -9,9 +9,9 @@
 
 /* ---- what depends on the grid ------------------------------------------------------------ */
 
-/* Cycles on a core (Zen 5, PoCL 3.1, 2026-11, steps of the kernels left out in turn, N = 1024 L = 128 and N = 4096
- * L = 256; by cells 0.9 to 1.3 times that of batches of L = 64, 128 and 256 at 1e-5 and 1e-12); spreading as in
- * engines/nufft/whole_shape.c, and two arc tangents. */
+/* Cycles on a core (Zen 5, PoCL 3.1, 2026-11, steps of the kernels left out in turn, N = 1024 L =
+ * 128 and N = 4096 L = 256; by cells 0.9 to 1.3 times that of batches of L = 64, 128 and 256 at
+ * 1e-5 and 1e-12); spreading as in engines/nufft/whole_shape.c, and two arc tangents. */
 static const double cycles_per_cell = 3; /* of a vector: cleared, fetched */
 
 static double spreading_cycles(const ps_nufft_axis *axis, double lanes, double num_points) {
@@ -61,9 +61,9 @@ double ps_sphere_grid_cycles(const ps_nufft_axis *axis, ps_precision precision, 
 
 /* ---- all --------------------------------------------------------------------------------- */
 
-/* Cycles, by CPU time of the kernels on a machine that others used (Zen 5, PoCL 3.1, 2026-11):
- * 0.7 to 1.2 times what it says, of white sets from N = 256, L = 64 to N = 1e6, L = 1000 and 4096, 2000, alone and in
- * batches, at 1e-3, 1e-5 and 1e-12. */
+/* Cycles, by CPU time of the kernels on a machine that others used (Zen 5, PoCL 3.1, 2026-11): 0.7
+ * to 1.2 times what it says, of white sets from N = 256, L = 64 to N = 1e6, L = 1000 and 4096,
+ * 2000, alone and in batches, at 1e-3, 1e-5 and 1e-12. */
 double ps_sphere_nufft_flops(const ps_sphere_shape *shape, ps_precision precision,
                              double num_points, double num_realizations) {
     const double flops_per_lane = 4;     /* two fused operations in a cycle */

@@ -1,5 +1,6 @@
-/* The error formula of sphere_nufft and sphere_grid: docs/engines/sphere_nufft.md has the reasons. All errors are in units of the root of
- * sum w^2; constants were measured, and are held, by tests/engines/sphere/test_sphere_nufft_sweep.c. */
+/* The error formula of sphere_nufft and sphere_grid: docs/engines/sphere_nufft.md has the reasons.
+ * All errors are in units of the root of sum w^2; constants were measured, and are held, by
+ * tests/engines/sphere/test_sphere_nufft_sweep.c. */
 #include "engines/nufft/plan.h"
 #include "engines/sphere/nufft/shape.h"
 #include "math/pi.h"
@@ -8,16 +9,17 @@
 
 static const double unit_roundoff[2] = {0x1p-24, 0x1p-53};
 
-/* A set that is regular along an axis, circles of n - m points or as many circles, may have all its power where
- * aliases harm most: order 0 (or k = 0) comes back at m and -m. */
+/* A set that is regular along an axis, circles of n - m points or as many circles, may have all its
+ * power where aliases harm most: order 0 (or k = 0) comes back at m and -m. */
 static const double in_step = 1;
 
 /* Peaks of lattices, of power N: on a line of aliases, two, of both signs (nufft_error.c). */
 static const double peaks = 4;
 
-/* Of rounding, in units of roundoff: of points and coefficients, whatever the grid; of windows; of each pass of
- * the transforms, three by rings and one by cells; of sums in dense cells; of coincident points; of the recurrence of Lambda_lm and of sums over
- * rings, for the root of their number. */
+/* Of rounding, in units of roundoff: of points and coefficients, whatever the grid; of windows; of
+ * each pass of the transforms, three by rings and one by cells; of sums in dense cells; of
+ * coincident points; of the recurrence of Lambda_lm and of sums over rings, for the root of their
+ * number. */
 static const double point_roundings = 2;
 static const double window_roundings = 4;
 static const double cell_roundings = 3.5; /* the same by cells, and of the table */
@@ -27,14 +29,14 @@ static const double dense_roundings =
 static const double coherent_roundings = 0.3;
 static const double ring_roundings = 0.3;
 
-/* Angles are made of vectors in double precision: half a unit in the last place of a number below pi or so, times the
- * order or degree. In single precision next to nothing. */
+/* Angles are made of vectors in double precision: half a unit in the last place of a number below
+ * pi or so, times the order or degree. In single precision next to nothing. */
 static const double angle_roundings = 1.5;
 
 /* ---- aliases ----------------------------------------------------------------------------- */
 
-/* What aliases k + i n make of frequency k, |k| <= n / 2: the sum of their squares, and the square of the sum of their
- * sizes. */
+/* What aliases k + i n make of frequency k, |k| <= n / 2: the sum of their squares, and the square
+ * of the sum of their sizes. */
 static void aliases_of(const ps_nufft_axis *axis, double k, double *squares, double *square) {
     enum {
         ALIASES = 8
@@ -51,9 +53,10 @@ static void aliases_of(const ps_nufft_axis *axis, double k, double *squares, dou
     *square = sum * sum;
 }
 
-/* Frequencies count by their share in Y_lm, mean over all l <= L and m: order x L by how many degrees it has,
- * 2 (1 - x); frequency x L of theta by 4 / pi sqrt(1 - x^2), since the mean of |Lambda_lm|^2 over m is that of
- * P_l. Both are small at the edge, where aliases are largest. x = sin(t) for a smooth integrand. */
+/* Frequencies count by their share in Y_lm, mean over all l <= L and m: order x L by how many
+ * degrees it has, 2 (1 - x); frequency x L of theta by 4 / pi sqrt(1 - x^2), since the mean of
+ * |Lambda_lm|^2 over m is that of P_l. Both are small at the edge, where aliases are largest. x =
+ * sin(t) for a smooth integrand. */
 void ps_sphere_nufft_loss(const ps_nufft_axis *axis, double *aliasing, double *worst) {
     enum { STEPS = 24 };
     double worst_around = 0;
@@ -74,8 +77,8 @@ void ps_sphere_nufft_loss(const ps_nufft_axis *axis, double *aliasing, double *w
     *worst = worst_around + worst_along;
 }
 
-/* Few degrees are less of a mean than many: points at the poles, all of whose aliases are in step, were off by 1.25
- * times the rest of the formula at L = 3, by no more from L = 9 on. */
+/* Few degrees are less of a mean than many: points at the poles, all of whose aliases are in step,
+ * were off by 1.25 times the rest of the formula at L = 3, by no more from L = 9 on. */
 static const double few_degrees = 3;
 
 static double aliasing_of(const ps_nufft_axis *axis, const ps_problem *problem, double power) {

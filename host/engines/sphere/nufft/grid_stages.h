@@ -1,5 +1,6 @@
-/* From points on the device to values on the angles of the grid (kernels/sphere/nufft/grid_values.cl), and from these to
- * powers or coefficients (kernels/sphere/nufft/grid_sums.cl).
+/* From points on the device to values on the angles of the grid
+ * (kernels/sphere/nufft/grid_values.cl), and from these to powers or coefficients
+ * (kernels/sphere/nufft/grid_sums.cl).
  */
 #ifndef PS_ENGINES_SPHERE_NUFFT_GRID_STAGES_H
 #define PS_ENGINES_SPHERE_NUFFT_GRID_STAGES_H

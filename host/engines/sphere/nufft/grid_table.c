@@ -28,13 +28,15 @@ typedef struct making {
 
 /* ---- filters ------------------------------------------------------------------------------ */
 
-/* From Lambda_lm on a circle of n' rings to V on the angles t_i of the grid, where the window is undone:
+/* From Lambda_lm on a circle of n' rings to V on the angles t_i of the grid, where the window is
+ * undone:
  *
  *     V(t) = sum_j Lambda(s_j) h(t - s_j),   h(t) = sum_|k|<=L g_k cos(k t) / n',   g_k = 1 / window^(k)
  *
- * Rings s, -s, pi - s and pi + s are one by the parities of m and of l + m: what is left of cos(k (t - s)) is
- * 4 cos(k t) cos(k s) for even m, 4 sin(k t) sin(k s) for odd ones, for frequencies k of one parity, and half of that
- * where a ring is its own mirror image. An angle that is its own, at the equator, is two of one place: it counts half. */
+ * Rings s, -s, pi - s and pi + s are one by the parities of m and of l + m: what is left of cos(k
+ * (t - s)) is 4 cos(k t) cos(k s) for even m, 4 sin(k t) sin(k s) for odd ones, for frequencies k
+ * of one parity, and half of that where a ring is its own mirror image. An angle that is its own,
+ * at the equator, is two of one place: it counts half. */
 typedef struct waves {
     double *angles; /* [cosine, sine][L + 1][angle_pitch], with g_k / n' */
     double *rings;  /* [cosine, sine][L + 1][num_rings], with 4 or 2 */
@@ -105,18 +107,18 @@ static pspec_status create_waves(waves *out, const making *self, ps_error *error
 }
 
 /* [order modulo 2][even, odd l - m][ring][angle_pitch] */
-static void fill_filters(double *out, const waves *from) {
-    const size_t num = from->num_frequencies;
+static void fill_filters(double *out, const waves *parts) {
+    const size_t num = parts->num_frequencies;
     for (size_t i = 0; i < 4; i++) {
         const size_t is_sine = i / 2;
-        const double *angles = from->angles + is_sine * num * from->num_angles;
-        const double *rings = from->rings + is_sine * num * from->num_rings;
-        for (size_t j = 0; j < from->num_rings; j++) {
-            double *row = out + (i * from->num_rings + j) * from->num_angles;
+        const double *angles = parts->angles + is_sine * num * parts->num_angles;
+        const double *rings = parts->rings + is_sine * num * parts->num_rings;
+        for (size_t j = 0; j < parts->num_rings; j++) {
+            double *row = out + (i * parts->num_rings + j) * parts->num_angles;
             for (size_t k = (i + is_sine) % 2; k < num; k += 2) {
-                const double factor = rings[k * from->num_rings + j];
-                for (size_t angle = 0; angle < from->num_angles; angle++) {
-                    row[angle] += factor * angles[k * from->num_angles + angle];
+                const double factor = rings[k * parts->num_rings + j];
+                for (size_t angle = 0; angle < parts->num_angles; angle++) {
+                    row[angle] += factor * angles[k * parts->num_angles + angle];
                 }
             }
         }
@@ -297,8 +299,8 @@ static pspec_status make(ps_sphere_grid_table *table, making *self, ps_error *er
     return find_begins(table, self, error);
 }
 
-/* Where Lambda_lm is made: all rings in one block if local memory has room for them, as on CPUs, since numbers of the
- * table are rounded once for each block. */
+/* Where Lambda_lm is made: all rings in one block if local memory has room for them, as on CPUs,
+ * since numbers of the table are rounded once for each block. */
 static ps_sphere_shape choose_rings(int32_t max_degree, const ps_device_limits *limits) {
     const ps_sphere_shape rings = ps_sphere_rings_shape(max_degree, limits, PS_DOUBLE);
     ps_sphere_shape whole = rings;

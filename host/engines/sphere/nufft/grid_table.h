@@ -1,4 +1,5 @@
-/* The table of sphere_grid on the device: what a cell of the grid counts in c_lm, for all degrees and orders. */
+/* The table of sphere_grid on the device: what a cell of the grid counts in c_lm, for all degrees
+ * and orders. */
 #ifndef PS_ENGINES_SPHERE_NUFFT_GRID_TABLE_H
 #define PS_ENGINES_SPHERE_NUFFT_GRID_TABLE_H
 
@@ -10,7 +11,8 @@ typedef struct ps_sphere_grid_table {
     ps_buffer offsets, begins;
 } ps_sphere_grid_table;
 
-/* With only_even the parts of odd degrees stay empty. Needs a device with double precision, in which it is made. */
+/* With only_even the parts of odd degrees stay empty. Needs a device with double precision, in
+ * which it is made. */
 pspec_status ps_sphere_grid_table_create(ps_sphere_grid_table *out, const ps_sphere_shape *shape,
                                          bool only_even, ps_precision precision, ps_device *device,
                                          ps_error *error) PS_MUST_CHECK;

@@ -58,8 +58,8 @@ static pspec_status upload_unit_weights(ps_sphere_places *self, ps_error *error)
                            self->most_points * ps_real_bytes(self->precision), error);
 }
 
-/* The north pole is cell `pole` of a row, or, by cells, half a cell in front of it: no angle is its own mirror image
- * then, but for one at the equator. */
+/* The north pole is cell `pole` of a row, or, by cells, half a cell in front of it: no angle is its
+ * own mirror image then, but for one at the equator. */
 static uint64_t shift_of(const ps_sphere_shape *shape) {
     const bool by_cells = shape->route == PS_SPHERE_BY_CELLS;
     return (uint64_t)(((wide)(2 * (uint64_t)shape->pole - by_cells) << 63) / shape->axis.n);
@@ -120,8 +120,8 @@ static void copy_points(ps_sphere_places *self, double *vectors, const ps_batch 
     self->host_offsets[batch->num_patterns] = at;
 }
 
-/* All patterns in one go: a write of its own for each woke a thread of the driver for each, which took as long as the
- * transforms of 256 points. */
+/* All patterns in one go: a write of its own for each woke a thread of the driver for each, which
+ * took as long as the transforms of 256 points. */
 static pspec_status upload_points(ps_sphere_places *self, const ps_batch *batch, ps_error *error) {
     ps_mapping mapping = {0};
     PS_TRY(ps_mapping_begin(self->device, &mapping, &self->vectors, error));

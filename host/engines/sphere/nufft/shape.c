@@ -22,23 +22,25 @@ static uint32_t choose_block(const ps_sphere_shape *shape, size_t real_bytes) {
     return (uint32_t)ps_divide_up(chunks, blocks) * unit;
 }
 
-/* Sums of two realizations, real and imaginary parts of each vector of degrees, stay in 16 registers when there are
- * two, in 32 when there are four. With three in 16 they went through memory: 1.1 to 1.2 times the time of all at
- * L = 2000, R = 10 (Zen 3, PoCL 3.1). */
+/* Sums of two realizations, real and imaginary parts of each vector of degrees, stay in 16
+ * registers when there are two, in 32 when there are four. With three in 16 they went through
+ * memory: 1.1 to 1.2 times the time of all at L = 2000, R = 10 (Zen 3, PoCL 3.1). */
 static uint32_t choose_run_vectors(const ps_sphere_shape *shape, const ps_device_limits *limits,
                                    size_t real_bytes) {
     const size_t bytes_of_32 = 64; /* of a vector: AVX-512 */
     return limits->has_dedicated_local_memory || shape->lanes * real_bytes >= bytes_of_32 ? 4 : 2;
 }
 
-/* Bytes of a band of longitudes: with the tiles that its points are sorted by, the second cache holds what they touch. */
+/* Bytes of a band of longitudes: with the tiles that its points are sorted by, the second cache
+ * holds what they touch. */
 static const size_t band_bytes = 384 << 10;
 
 /* Windows behind a band end in the next one. */
 enum { LEAST_BAND = PS_NUFFT_MAX_WIDTH };
 
-/* Where windows of points cover every cell a few times. Not measured near the limit: 1e7 points on 4096 x 2100 cells,
- * which cover each 170 times, took a third of the time of one core and cells in any order (Zen 3, PoCL 3.1). */
+/* Where windows of points cover every cell a few times. Not measured near the limit: 1e7 points on
+ * 4096 x 2100 cells, which cover each 170 times, took a third of the time of one core and cells in
+ * any order (Zen 3, PoCL 3.1). */
 static const double least_covers = 2;
 
 static void choose_bands(ps_sphere_shape *shape, double points, size_t real_bytes) {
@@ -99,9 +101,9 @@ static void measure(ps_sphere_shape *shape, const ps_device_limits *limits, doub
         by_rings ? 2 * (uint64_t)shape->pairs * shape->columns * unit * real_bytes : 0;
 }
 
-/* Rings at the pole and at the equator whose Lambda_lm goes by differences. The rest is off by 6e-13 of the first ring
- * and by 6e-14 of the 16th at L = 2000, and by 1e-13 of the 8th from the equator; the error formula allows 3e-13
- * for all together. */
+/* Rings at the pole and at the equator whose Lambda_lm goes by differences. The rest is off by
+ * 6e-13 of the first ring and by 6e-14 of the 16th at L = 2000, and by 1e-13 of the 8th from the
+ * equator; the error formula allows 3e-13 for all together. */
 enum { POLAR_RINGS = 16, EQUATORIAL_RINGS = 12 };
 
 static void choose_recurrences(ps_sphere_shape *shape, ps_precision precision) {
@@ -165,23 +167,25 @@ bool ps_sphere_rings_fit(const ps_sphere_shape *shape, const ps_device_limits *l
 
 /* ---- memory ------------------------------------------------------------------------------ */
 
-/* Values on rings of so many realizations share one table of Lambda_lm: more of them cost no less, unless they are so
- * small that launches count (L = 64: 0.86 of the time; L = 128, where 64 leave the last cache: 1.2). */
+/* Values on rings of so many realizations share one table of Lambda_lm: more of them cost no less,
+ * unless they are so small that launches count (L = 64: 0.86 of the time; L = 128, where 64 leave
+ * the last cache: 1.2). */
 enum { MOST_AT_ONCE = 32, MOST_SMALL_AT_ONCE = 64 };
 static const double small_values = 4 << 20;
 
-/* Bytes for all points on the device, all grids, and all points of realizations at once on the host, unless one needs
- * more. */
+/* Bytes for all points on the device, all grids, and all points of realizations at once on the
+ * host, unless one needs more. */
 static const double point_budget = 128 << 20;
 static const double grid_budget = 256 << 20;
 static const double set_budget = 128 << 20;
 
-/* Values on rings are part of the fixed memory as long as they fit here; else each realization of a batch brings its
- * own, so that a limit on memory makes batches smaller. */
+/* Values on rings are part of the fixed memory as long as they fit here; else each realization of a
+ * batch brings its own, so that a limit on memory makes batches smaller. */
 static const double fixed_budget = 128 << 20;
 static const double value_budget = 768 << 20;
 
-/* Work-groups for each core: so few that grids stay in the cache, so many that no core waits long for another. */
+/* Work-groups for each core: so few that grids stay in the cache, so many that no core waits long
+ * for another. */
 enum { GROUPS_PER_CORE = 4 };
 
 static size_t fitting(double budget, uint64_t bytes, size_t most) {
@@ -251,7 +255,8 @@ ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_byt
         .table = shape->table_reals * real_bytes};
 }
 
-/* Of sphere_nufft_tables.c: for a cell of the transforms twiddles, turns and a place; gains; what Lambda_mm begins with. */
+/* Of sphere_nufft_tables.c: for a cell of the transforms twiddles, turns and a place; gains; what
+ * Lambda_mm begins with. */
 static uint64_t table_bytes(const ps_sphere_shape *shape, size_t real_bytes) {
     const bool by_rings = shape->route == PS_SPHERE_BY_RINGS;
     const uint64_t cells = (shape->axis.n + (uint64_t)(by_rings ? shape->rings : 0)) / 2;

@@ -1,6 +1,6 @@
-/* How sphere_nufft and sphere_grid treat a problem: the fine grid of longitude and angle from the pole, rings, sizes of what is
- * in memory, error and cost. A function of the problem, the precision and the device. docs/engines/sphere_nufft.md and
- * docs/engines/sphere_grid.md.
+/* How sphere_nufft and sphere_grid treat a problem: the fine grid of longitude and angle from the
+ * pole, rings, sizes of what is in memory, error and cost. A function of the problem, the precision
+ * and the device. docs/engines/sphere_nufft.md and docs/engines/sphere_grid.md.
  */
 #ifndef PS_ENGINES_SPHERE_NUFFT_SHAPE_H
 #define PS_ENGINES_SPHERE_NUFFT_SHAPE_H
@@ -8,8 +8,9 @@
 #include "engines/engine.h"
 #include "engines/nufft/axis.h"
 
-/* Of orders, in kernels/sphere/nufft/orders_sum.cl, grid_sums.cl and grid_table.cl: each adds up those of its own. A number of its own, whatever the
- * device, since sums depend on it; enough that all cores have work to the end. */
+/* Of orders, in kernels/sphere/nufft/orders_sum.cl, grid_sums.cl and grid_table.cl: each adds up
+ * those of its own. A number of its own, whatever the device, since sums depend on it; enough that
+ * all cores have work to the end. */
 enum { PS_SPHERE_GROUPS = 32 };
 
 /* How c_lm is made of the grid. */
@@ -52,8 +53,8 @@ typedef struct ps_sphere_shape {
     uint64_t grid_bytes;  /* of a grid, or of a strip */
     uint64_t row_bytes;   /* of the rows of a realization */
     uint64_t value_bytes; /* of values on rings, or on angles of the grid, of a realization */
-    uint64_t
-        each_bytes; /* of a realization of a batch; what depends on at_once is there or in fixed_bytes */
+    /* Of a realization of a batch; what depends on at_once is there or in fixed_bytes */
+    uint64_t each_bytes;
     uint64_t fixed_bytes, host_bytes, largest_buffer;
 } ps_sphere_shape;
 
@@ -82,8 +83,8 @@ static inline bool ps_sphere_has_strips(const ps_sphere_shape *shape) {
 /* For batches of no more than `batch` realizations. */
 void ps_sphere_shape_shrink(ps_sphere_shape *shape, size_t batch);
 
-/* Its parts, of axis.c and cost.c. The grid, the same on both axes; the most exact one when none keeps the tolerance,
- * n == 0: L is too large. */
+/* Its parts, of axis.c and cost.c. The grid, the same on both axes; the most exact one when none
+ * keeps the tolerance, n == 0: L is too large. */
 ps_nufft_axis ps_sphere_choose_axis(const ps_problem *problem, ps_precision precision,
                                     ps_sphere_route route);
 
@@ -94,8 +95,8 @@ uint32_t ps_sphere_ring_length(int32_t max_degree);
 double ps_sphere_grid_cycles(const ps_nufft_axis *axis, ps_precision precision, double num_points,
                              ps_sphere_route route);
 
-/* Of the buffers, as kernels/sphere/ names them; values, powers and sums for each of at_once realizations, sums for one
- * more. */
+/* Of the buffers, as kernels/sphere/ names them; values, powers and sums for each of at_once
+ * realizations, sums for one more. */
 typedef struct ps_sphere_bytes {
     uint64_t vectors, turns, weights; /* sorted points have turns and weights twice */
     uint64_t keys, starts;
@@ -108,7 +109,8 @@ typedef struct ps_sphere_bytes {
 } ps_sphere_bytes;
 ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_bytes);
 
-/* axis.loss for the sphere: mean square of what aliases do, and the most when all power is in step. */
+/* axis.loss for the sphere: mean square of what aliases do, and the most when all power is in step.
+ */
 void ps_sphere_nufft_loss(const ps_nufft_axis *axis, double *aliasing, double *worst);
 
 /* Expected error for sets of a mean power (ps_survey.error). */
@@ -119,14 +121,16 @@ double ps_sphere_nufft_error(const ps_nufft_axis *axis, const ps_problem *proble
 double ps_sphere_nufft_flops(const ps_sphere_shape *shape, ps_precision precision,
                              double num_points, double num_realizations);
 
-/* Local memory in bytes: of orders.cl, orders_bands.cl and grid_values.cl, and of orders_sum.cl and grid_table.cl. */
+/* Local memory in bytes: of orders.cl, orders_bands.cl and grid_values.cl, and of orders_sum.cl and
+ * grid_table.cl. */
 typedef struct ps_sphere_local {
     size_t windows, cells;
     size_t table, coefficients, begins;
 } ps_sphere_local;
 ps_sphere_local ps_sphere_local_bytes(const ps_sphere_shape *shape, size_t real_bytes);
 
-/* Points that are sorted together, and parts of a chunk of a large set. Sums depend on them: the same on all devices. */
+/* Points that are sorted together, and parts of a chunk of a large set. Sums depend on them: the
+ * same on all devices. */
 enum { PS_SPHERE_PART_POINTS = 1 << 16, PS_SPHERE_PARTS = 16 };
 
 /* Numbers that kernels/sphere/ agrees on, as it names them. */

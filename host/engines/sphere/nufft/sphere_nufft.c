@@ -63,8 +63,8 @@ static const char *refuse_cells(const ps_problem *problem) {
                : NULL;
 }
 
-/* Points, sums of orders and degrees; the bands of sorted points, or the table of cells; coefficients come by another build
- * of the kernel of degrees. */
+/* Points, sums of orders and degrees; the bands of sorted points, or the table of cells;
+ * coefficients come by another build of the kernel of degrees. */
 static double kernels_of(const ps_sphere_shape *shape, const ps_problem *problem) {
     const double of_all = 4;
     const double of_table = 2;
@@ -217,12 +217,12 @@ static ps_batch part_of(const ps_batch *batch, size_t first, size_t most) {
 static pspec_status add_points(sphere_nufft *self, const ps_batch *one, bool is_first,
                                ps_error *error) {
     const size_t most = self->shape.most_points;
-    const pspec_pattern *all = one->patterns;
-    for (size_t at = 0; at < all->num_points; at += most) {
-        pspec_pattern chunk = *all;
+    const pspec_pattern *pattern = one->patterns;
+    for (size_t at = 0; at < pattern->num_points; at += most) {
+        pspec_pattern chunk = *pattern;
         chunk.points += at * PS_SPHERE_DIMENSION;
-        chunk.weights = all->weights != NULL ? all->weights + at : NULL;
-        chunk.num_points = all->num_points - at < most ? all->num_points - at : most;
+        chunk.weights = pattern->weights != NULL ? pattern->weights + at : NULL;
+        chunk.num_points = pattern->num_points - at < most ? pattern->num_points - at : most;
         ps_batch some = *one;
         some.patterns = &chunk;
         PS_TRY(ps_batch_go_on(one, error));

@@ -1,5 +1,5 @@
-/* From sums of orders to powers or coefficients: what sphere_nufft and sphere_grid have in common behind their kernels
- * of sums, and the options that both compile with.
+/* From sums of orders to powers or coefficients: what sphere_nufft and sphere_grid have in common
+ * behind their kernels of sums, and the options that both compile with.
  */
 #ifndef PS_ENGINES_SPHERE_NUFFT_SPHERE_POWERS_H
 #define PS_ENGINES_SPHERE_NUFFT_SPHERE_POWERS_H
@@ -28,15 +28,16 @@ pspec_status ps_sphere_kernel_create(const ps_sphere_powers *self, cl_kernel *ou
 /* Work-groups of one item on CPUs, where lanes are vectors. */
 ps_range ps_sphere_group_range(const ps_device *device, bool is_alone, size_t groups, double flops);
 
-/* Of num realizations, whose groups a kernel has left in `sums`, to powers [realization][even, odd degrees][half_pitch]. */
+/* Of num realizations, whose groups a kernel has left in `sums`, to powers [realization][even, odd
+ * degrees][half_pitch]. */
 pspec_status ps_sphere_powers_read(const ps_sphere_powers *self, size_t num, double *powers,
                                    ps_error *error) PS_MUST_CHECK;
 
 /* Launches a kernel of sums for the first num realizations. */
 typedef pspec_status (*ps_sphere_launch_sums)(void *stages, cl_kernel kernel, const ps_buffer *to,
                                               size_t num, ps_error *error);
-/* The conjugates of c_lm of the first to [order][even, odd l - m][re, im][half_pitch]. Kernel and room are there only as long as
- * they are needed. */
+/* The conjugates of c_lm of the first to [order][even, odd l - m][re, im][half_pitch]. Kernel and
+ * room are there only as long as they are needed. */
 pspec_status ps_sphere_keep(const ps_sphere_powers *self, const char *file, const char *name,
                             ps_sphere_launch_sums launch, void *stages, double *coefficients,
                             ps_error *error) PS_MUST_CHECK;

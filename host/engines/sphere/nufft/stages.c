@@ -124,8 +124,8 @@ static pspec_status run_steps(ps_sphere_stages *self, some_realizations some, un
         PS_BUFFER(self->scratch), PS_LOCAL(local.windows), PS_LOCAL(local.cells));
 }
 
-/* All steps in one go where there is a realization for every work-group; else slot by slot, each shared. Strips are
- * spread by who transforms them. */
+/* All steps in one go where there is a realization for every work-group; else slot by slot, each
+ * shared. Strips are spread by who transforms them. */
 pspec_status ps_sphere_stages_make_values(ps_sphere_stages *self, size_t first_value, size_t num,
                                           ps_error *error) {
     const ps_sphere_shape *shape = self->shape;

@@ -1,5 +1,5 @@
-/* From points on the device to values on rings (kernels/sphere/nufft/orders.cl), and from these to powers or coefficients
- * (kernels/sphere/nufft/orders_sum.cl).
+/* From points on the device to values on rings (kernels/sphere/nufft/orders.cl), and from these to
+ * powers or coefficients (kernels/sphere/nufft/orders_sum.cl).
  */
 #ifndef PS_ENGINES_SPHERE_NUFFT_STAGES_H
 #define PS_ENGINES_SPHERE_NUFFT_STAGES_H
@@ -29,10 +29,12 @@ pspec_status ps_sphere_stages_create(ps_sphere_stages *out, const ps_sphere_shap
                                      ps_error *error) PS_MUST_CHECK;
 void ps_sphere_stages_free(ps_sphere_stages *stages);
 
-/* Values on rings, from first_value on, of the first num realizations whose points are on the device. */
+/* Values on rings, from first_value on, of the first num realizations whose points are on the
+ * device. */
 pspec_status ps_sphere_stages_make_values(ps_sphere_stages *stages, size_t first_value, size_t num,
                                           ps_error *error) PS_MUST_CHECK;
-/* The same of one realization whose sorted points come in chunks: the sums of all since is_first, ... */
+/* The same of one realization whose sorted points come in chunks: the sums of all since is_first,
+ * ... */
 pspec_status ps_sphere_stages_add_sorted(ps_sphere_stages *stages, bool is_first,
                                          ps_error *error) PS_MUST_CHECK;
 /* ... and their values on rings. */

@@ -94,7 +94,7 @@ typedef struct host_tables {
     size_t num_starts, num_rings, num_orders;
 } host_tables;
 
-static void fill_ring(host_tables *to, const ps_sphere_shape *shape, uint32_t ring) {
+static void fill_ring(host_tables *host, const ps_sphere_shape *shape, uint32_t ring) {
     const long double angle = PS_TWO_PI_L * ring / shape->rings;
     const long double sine = sinl(angle);
     const long double cosine = cosl(angle);
@@ -104,23 +104,23 @@ static void fill_ring(host_tables *to, const ps_sphere_shape *shape, uint32_t ri
     for (int32_t m = 0; m < PS_SPHERE_GROUPS; m++) {
         start = m > 0 ? multiply(start, ratio(m) * sine) : start;
         step = multiply(step, sine);
-        to->starts[(size_t)m * to->num_rings + ring] = (double)start.value;
-        to->start_scales[(size_t)m * to->num_rings + ring] = start.scale;
+        host->starts[(size_t)m * host->num_rings + ring] = (double)start.value;
+        host->start_scales[(size_t)m * host->num_rings + ring] = start.scale;
     }
-    to->steps[ring] = (double)step.value;
-    to->step_scales[ring] = step.scale;
-    to->cosines[ring] = (double)cosine;
-    to->distances[ring] = (double)(2 * half * half);
-    to->squares[ring] = (double)(ring < shape->crossing ? -sine * sine : cosine * cosine);
+    host->steps[ring] = (double)step.value;
+    host->step_scales[ring] = step.scale;
+    host->cosines[ring] = (double)cosine;
+    host->distances[ring] = (double)(2 * half * half);
+    host->squares[ring] = (double)(ring < shape->crossing ? -sine * sine : cosine * cosine);
 }
 
-static void fill_ratios(host_tables *to) {
-    for (size_t m = 0; m < to->num_orders; m++) {
+static void fill_ratios(host_tables *host) {
+    for (size_t m = 0; m < host->num_orders; m++) {
         long double product = 1;
         for (size_t i = 0; i < PS_SPHERE_GROUPS && i < m; i++) {
             product *= ratio((int32_t)(m - i));
         }
-        to->ratios[m] = (double)product;
+        host->ratios[m] = (double)product;
     }
 }
 
@@ -130,18 +130,18 @@ static pspec_status upload(ps_device *device, ps_buffer *out, const void *data, 
     return ps_buffer_write(device, out, 0, data, bytes, error);
 }
 
-static pspec_status upload_all(ps_sphere_starts *self, const host_tables *from, ps_device *device,
+static pspec_status upload_all(ps_sphere_starts *self, const host_tables *host, ps_device *device,
                                ps_error *error) {
-    const size_t starts = from->num_starts * sizeof(double);
-    const size_t rings = from->num_rings * sizeof(double);
-    PS_TRY(upload(device, &self->starts, from->starts, starts, error));
-    PS_TRY(upload(device, &self->start_scales, from->start_scales, starts / 2, error));
-    PS_TRY(upload(device, &self->steps, from->steps, rings, error));
-    PS_TRY(upload(device, &self->step_scales, from->step_scales, rings / 2, error));
-    PS_TRY(upload(device, &self->cosines, from->cosines, rings, error));
-    PS_TRY(upload(device, &self->distances, from->distances, rings, error));
-    PS_TRY(upload(device, &self->squares, from->squares, rings, error));
-    return upload(device, &self->ratios, from->ratios, from->num_orders * sizeof(double), error);
+    const size_t starts = host->num_starts * sizeof(double);
+    const size_t rings = host->num_rings * sizeof(double);
+    PS_TRY(upload(device, &self->starts, host->starts, starts, error));
+    PS_TRY(upload(device, &self->start_scales, host->start_scales, starts / 2, error));
+    PS_TRY(upload(device, &self->steps, host->steps, rings, error));
+    PS_TRY(upload(device, &self->step_scales, host->step_scales, rings / 2, error));
+    PS_TRY(upload(device, &self->cosines, host->cosines, rings, error));
+    PS_TRY(upload(device, &self->distances, host->distances, rings, error));
+    PS_TRY(upload(device, &self->squares, host->squares, rings, error));
+    return upload(device, &self->ratios, host->ratios, host->num_orders * sizeof(double), error);
 }
 
 pspec_status ps_sphere_starts_create(ps_sphere_starts *out, const ps_sphere_shape *shape,

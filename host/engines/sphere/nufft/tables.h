@@ -11,7 +11,8 @@ typedef struct ps_sphere_starts {
     ps_buffer cosines, distances, squares;
 } ps_sphere_starts;
 
-/* Names of kernels/sphere/nufft/orders.cl. By cells of the grid rings, turns and what belongs to rings are not there. */
+/* Names of kernels/sphere/nufft/orders.cl. By cells of the grid rings, turns and what belongs to
+ * rings are not there. */
 typedef struct ps_sphere_tables {
     ps_nufft_plan plan; /* of the grid: its window */
     ps_fft_plan halves; /* transforms of half its length */

@@ -28,8 +28,9 @@ void ps_nufft_grid_free(ps_nufft_grid *grid);
 
 /* An empty grid. */
 void ps_nufft_grid_begin(ps_nufft_grid *grid);
-/* Any number of points more, the only pattern of the batch; it may be cancelled. Bits are the same in several
- * calls if all but the last have a multiple of layout->parts * layout->part_points of them. */
+/* Any number of points more, the only pattern of the batch; it may be cancelled. Bits are the same
+ * in several calls if all but the last have a multiple of layout->parts * layout->part_points of
+ * them. */
 pspec_status ps_nufft_grid_add(ps_nufft_grid *grid, const ps_batch *batch,
                                ps_error *error) PS_MUST_CHECK;
 /* means: a buffer whose first number is taken off every cell. */

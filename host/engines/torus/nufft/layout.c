@@ -7,8 +7,8 @@
 
 #include <math.h>
 
-/* Places and grids of the realizations that are worked on at a time: on CPUs a share of the last-level
- * cache, on GPUs enough to fill the device. */
+/* Places and grids of the realizations that are worked on at a time: on CPUs a share of the
+ * last-level cache, on GPUs enough to fill the device. */
 static const double work_share = 0.25;
 static const double gpu_work_bytes = 512.0 * 1024 * 1024;
 enum { DEFAULT_CACHE_BYTES = 8 << 20, MOST_AT_ONCE = 1024 };
@@ -20,7 +20,8 @@ static uint64_t starts_bytes(const ps_nufft_layout *layout) {
     return ((uint64_t)layout->num_keys + 2) * sizeof(uint32_t);
 }
 
-/* Points sorted together: on the host, as they came and sorted; where cells, places and points begin. */
+/* Points sorted together: on the host, as they came and sorted; where cells, places and points
+ * begin. */
 static uint64_t part_bytes(const ps_nufft_layout *layout, unsigned dimension) {
     enum { COPIES = 3, BEGINNINGS = 4, MEANS = 2 };
     const uint64_t point = dimension * sizeof(uint64_t) + layout->real_bytes;
@@ -28,8 +29,8 @@ static uint64_t part_bytes(const ps_nufft_layout *layout, unsigned dimension) {
            (BEGINNINGS + MEANS) * sizeof(uint64_t);
 }
 
-/* For one point of every part, of the copy that the host keeps (engines/torus_points): weights; coordinates where
- * the device cannot read them there, else they are a second copy of its own. */
+/* For one point of every part, of the copy that the host keeps (engines/torus_points): weights;
+ * coordinates where the device cannot read them there, else they are a second copy of its own. */
 static uint64_t host_point_bytes(const ps_nufft_layout *layout, const ps_problem *problem,
                                  const ps_device_limits *limits) {
     const uint64_t coordinates =
@@ -37,8 +38,8 @@ static uint64_t host_point_bytes(const ps_nufft_layout *layout, const ps_problem
     return layout->parts * (coordinates + layout->real_bytes);
 }
 
-/* Whatever the number of points: plans of the axes (twiddles and pattern, gains, positions; polynomials and
- * radices are small). */
+/* Whatever the number of points: plans of the axes (twiddles and pattern, gains, positions;
+ * polynomials and radices are small). */
 static uint64_t table_bytes(const ps_nufft_layout *layout) {
     enum { SMALL = 1536 };
     uint64_t bytes = 0;
@@ -58,8 +59,8 @@ static uint64_t largest_of(const uint64_t *numbers, size_t num) {
     return largest;
 }
 
-/* Realizations at a time whose `each` bytes of work stay in the cache or fill the device, in whole units, no more
- * than there are. */
+/* Realizations at a time whose `each` bytes of work stay in the cache or fill the device, in whole
+ * units, no more than there are. */
 static size_t fitting_parts(const ps_problem *problem, const ps_device_limits *limits, double each,
                             size_t unit) {
     const double cache =
@@ -116,7 +117,8 @@ static void measure_axes(ps_nufft_layout *layout) {
     }
 }
 
-/* Equal shares of a whole, at most `most` each and whole units; one unit when not even that fits. */
+/* Equal shares of a whole, at most `most` each and whole units; one unit when not even that fits.
+ */
 static uint64_t share_out(uint64_t whole, uint64_t most, uint64_t unit) {
     const uint64_t fitting = most / unit > 0 ? most / unit * unit : unit;
     const uint64_t shares = ps_divide_up(whole, fitting);
@@ -124,8 +126,9 @@ static uint64_t share_out(uint64_t whole, uint64_t most, uint64_t unit) {
     return share < whole ? share : whole;
 }
 
-/* The grid of a large set in buffers that the device allows: slabs of axis 0 where points are spread, which are
- * copied together for strips of columns where axis 0 is transformed, into some tiles at a time. */
+/* The grid of a large set in buffers that the device allows: slabs of axis 0 where points are
+ * spread, which are copied together for strips of columns where axis 0 is transformed, into some
+ * tiles at a time. */
 static void split_grid(ps_nufft_layout *layout, uint64_t limit) {
     enum { STRIPS = 16 };
     const uint64_t n = layout->choice.axes[0].n;
@@ -146,7 +149,8 @@ static void split_grid(ps_nufft_layout *layout, uint64_t limit) {
     }
 }
 
-/* Memory of a large set: a chunk of points, the grid in pairs, rows of tiles, what two transforms leave. */
+/* Memory of a large set: a chunk of points, the grid in pairs, rows of tiles, what two transforms
+ * leave. */
 static void measure_grid(ps_nufft_layout *layout, const ps_problem *problem, uint64_t limit) {
     split_grid(layout, limit);
     const uint64_t vector_bytes = 2 * layout->lanes * layout->real_bytes;
@@ -186,8 +190,8 @@ static size_t chunk_bytes(const ps_nufft_layout *layout) {
            PS_NUFFT_CHUNK * (sizeof(uint64_t) + sizeof(uint32_t));
 }
 
-/* Tiles of a work-group share windows and phases. One on GPUs, where there is little local memory; on CPUs
- * what it holds, in groups of equal size, but work for all cores. */
+/* Tiles of a work-group share windows and phases. One on GPUs, where there is little local memory;
+ * on CPUs what it holds, in groups of equal size, but work for all cores. */
 static uint32_t choose_group(const ps_nufft_layout *layout, const ps_problem *problem,
                              const ps_device_limits *limits) {
     if (limits->has_dedicated_local_memory) {
@@ -201,7 +205,8 @@ static uint32_t choose_group(const ps_nufft_layout *layout, const ps_problem *pr
     return (uint32_t)ps_divide_up(layout->num_tiles, groups);
 }
 
-/* Work-groups for each core: so few that grids stay in the cache, so many that no core waits long for another. */
+/* Work-groups for each core: so few that grids stay in the cache, so many that no core waits long
+ * for another. */
 enum { GROUPS_PER_CORE = 4 };
 
 /* Gains, turns of one dimension, plans of the windows and of the two transforms. */
@@ -222,8 +227,8 @@ static bool fits_whole(const ps_nufft_layout *layout, const ps_device_limits *li
            limits->local_bytes;
 }
 
-/* Points on the host and on the device, grids and rows of the work-groups, tables. Parts are realizations: as many
- * as keep all cores at work. */
+/* Points on the host and on the device, grids and rows of the work-groups, tables. Parts are
+ * realizations: as many as keep all cores at work. */
 static void count_whole(ps_nufft_layout *layout, const ps_problem *problem,
                         const ps_device_limits *limits) {
     const size_t cores = limits->compute_units > 0 ? limits->compute_units : 1;

@@ -21,8 +21,8 @@ typedef struct ps_nufft_layout {
     size_t stride;      /* powers in a row */
     size_t grid_cells;  /* of a realization between two transforms, [..][re, im][lanes] */
     size_t grid_reals;  /* cells of the grid of a large set */
-    uint32_t
-        slab_rows; /* cells of axis 0 whose part of that grid is in one buffer; all, where that fits */
+    /* Cells of axis 0 whose part of that grid is in one buffer; all, where that fits */
+    uint32_t slab_rows;
     uint32_t num_slabs;
     size_t strip_columns;   /* cells of the other axes transformed along axis 0 at a time; 0: all */
     uint32_t tiles_at_once; /* made of the grid at a time */

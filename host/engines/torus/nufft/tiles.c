@@ -26,8 +26,8 @@ static pspec_status create_kernels(ps_nufft_tiles *self, ps_precision precision,
                             options, error);
 }
 
-/* How frequency 0 turns from cell to cell of the first axis: by -K turns around it where that axis makes
- * frequencies of axis 0 (its frequency -K is that one), not at all otherwise. */
+/* How frequency 0 turns from cell to cell of the first axis: by -K turns around it where that axis
+ * makes frequencies of axis 0 (its frequency -K is that one), not at all otherwise. */
 static pspec_status create_pattern(ps_nufft_tiles *self, ps_precision precision, ps_error *error) {
     const ps_nufft_choice *choice = &self->layout->choice;
     const uint32_t n = choice->axes[0].n;

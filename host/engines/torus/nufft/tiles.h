@@ -1,5 +1,6 @@
-/* Realizations whose places are there, into powers: tiles of frequencies of axis 0 by direct phases, those of
- * the other axes by spreading and transforms (kernels/nufft/tile.cl, rows.cl, columns.cl).
+/* Realizations whose places are there, into powers: tiles of frequencies of axis 0 by direct
+ * phases, those of the other axes by spreading and transforms (kernels/nufft/tile.cl, rows.cl,
+ * columns.cl).
  */
 #ifndef PS_ENGINES_TORUS_NUFFT_TILES_H
 #define PS_ENGINES_TORUS_NUFFT_TILES_H
@@ -24,8 +25,8 @@ pspec_status ps_nufft_tiles_create(ps_nufft_tiles *out, const ps_nufft_layout *l
                                    ps_error *error) PS_MUST_CHECK;
 void ps_nufft_tiles_free(ps_nufft_tiles *tiles);
 
-/* The realizations that places hold, into rows from target->realization on. means: what frequency 0 leaves
- * in a cell, of each of them. */
+/* The realizations that places hold, into rows from target->realization on. means: what frequency 0
+ * leaves in a cell, of each of them. */
 pspec_status ps_nufft_tiles_run(ps_nufft_tiles *tiles, size_t num_realizations,
                                 const ps_buffer *means, const ps_nufft_target *target,
                                 ps_error *error) PS_MUST_CHECK;

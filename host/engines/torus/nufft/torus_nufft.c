@@ -1,5 +1,5 @@
-/* The engine: for some realizations at a time, sort points by cells of the fine grid, make their windows and
- * phases, spread and transform tiles into powers. docs/engines/torus_nufft.md. */
+/* The engine: for some realizations at a time, sort points by cells of the fine grid, make their
+ * windows and phases, spread and transform tiles into powers. docs/engines/torus_nufft.md. */
 #include "engines/torus/nufft/torus_nufft.h"
 
 #include "base/memory.h"
@@ -61,8 +61,8 @@ static const char *refuse_layout(const ps_nufft_layout *layout, const ps_device_
     return has_large_buffer ? "needs a larger buffer than the device allows" : NULL;
 }
 
-/* Sorting, then one or two launches that spread and transform, for some realizations at a time; for a large set
- * sorting and spreading of every chunk, then a launch for each axis. */
+/* Sorting, then one or two launches that spread and transform, for some realizations at a time; for
+ * a large set sorting and spreading of every chunk, then a launch for each axis. */
 static double launches_of(const ps_nufft_layout *layout, double num_points, double realizations) {
     unsigned num_last = 0;
     ps_nufft_last_axes(&layout->choice, &num_last);
@@ -74,7 +74,8 @@ static double launches_of(const ps_nufft_layout *layout, double num_points, doub
     return realizations * (2 * chunks + 1 + num_last);
 }
 
-/* whole.cl alone; else the sort, and rows and columns of tiles, or all that makes tiles of a grid. */
+/* whole.cl alone; else the sort, and rows and columns of tiles, or all that makes tiles of a grid.
+ */
 static double kernels_of(const ps_nufft_choice *choice) {
     const double of_tiles = choice->num_axes == 1 ? 2 : 3;
     const double of_grid = 5;

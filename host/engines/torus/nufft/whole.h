@@ -1,4 +1,5 @@
-/* Realizations done whole, each by one work-group: spread on a grid, transformed twice (kernels/nufft/whole.cl).
+/* Realizations done whole, each by one work-group: spread on a grid, transformed twice
+ * (kernels/nufft/whole.cl).
  */
 #ifndef PS_ENGINES_TORUS_NUFFT_WHOLE_H
 #define PS_ENGINES_TORUS_NUFFT_WHOLE_H
@@ -26,8 +27,8 @@ pspec_status ps_nufft_whole_create(ps_nufft_whole *out, const ps_nufft_layout *l
                                    ps_device *device, ps_error *error) PS_MUST_CHECK;
 void ps_nufft_whole_free(ps_nufft_whole *whole);
 
-/* The realizations of a batch, and then their powers, into rows from target->realization on. means: what
- * frequency 0 leaves in a cell, of each of them. */
+/* The realizations of a batch, and then their powers, into rows from target->realization on. means:
+ * what frequency 0 leaves in a cell, of each of them. */
 pspec_status ps_nufft_whole_upload(ps_nufft_whole *whole, const ps_batch *batch,
                                    ps_error *error) PS_MUST_CHECK;
 pspec_status ps_nufft_whole_run(ps_nufft_whole *whole, size_t num_realizations,

@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# check_gates.sh [ROOT]: what goes through one place stays there, receivers have names, and comments fit.
+set -euo pipefail
+cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"
+
+bad=0
+forbid() { # WHY PATTERN [FILE ALLOWED]...: an extended regular expression that no file of host/ has
+    local why=$1 pattern=$2 found allowed
+    shift 2
+    allowed=$(IFS='|' && echo "${*:-none}")
+    if found=$(grep -rnE --include='*.[ch]' -e "$pattern" host | grep -vE "^($allowed):"); then
+        printf '%s\n' "$why" "$found" >&2
+        bad=1
+    fi
+}
+
+forbid "a kind of result is asked through its interface (results/kind.h), not by its name:" '[!=]= &ps_result_'
+forbid "estimators are made by the runner (jobs/parts/runner.c), which plans again where it must:" \
+    'ps_estimator_create\(' host/jobs/parts/estimator.c host/jobs/parts/estimator.h host/jobs/parts/runner.c \
+    host/verify/stress_device.c
+forbid "a receiver is named for the thing:" '(^|[^[:alnum:]_])(of|from|to|over|all)->'
+
+# Formulas and tables in comments are indented, and strings may be long.
+if found=$(find host kernels tests bench \( -name '*.[ch]' -o -name '*.cl' \) -print0 | xargs -0 awk '
+    length > 100 && !/^ \*  / && !/"/ { printf "%s:%d: %d columns\n", FILENAME, FNR, length; found = 1 }
+    END { exit !found }'); then
+    printf '%s\n' "lines have at most 100 columns:" "$found" >&2
+    bad=1
+fi
+exit $bad
