@@ -48,7 +48,7 @@ static pspec_status make_question(ps_quadrature_question *out, pspec_context *co
                                   const pspec_quadrature_request *request, ps_error *error) {
     *out = (ps_quadrature_question){
         .smoothness = request->smoothness,
-        .weights = request->optimal_weights != 0 ? PS_WEIGHTS_OPTIMAL : PS_WEIGHTS_GIVEN,
+        .weights.kind = request->optimal_weights != 0 ? PS_WEIGHTS_OPTIMAL : PS_WEIGHTS_GIVEN,
         .drops_below_horizon = request->drop_below_horizon != 0,
         .max_degree = (size_t)request->max_degree,
         .accuracy = {.tolerance = request->tolerance, .no_skip = request->no_skip != 0},

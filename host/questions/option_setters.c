@@ -217,12 +217,28 @@ pspec_status ps_set_word(const ps_option *option, const char *shown, const char 
     return ps_set_text(option, shown, words, value, arguments, error);
 }
 
-/* One of the words, or the name of a file where FILE is one of them. */
+ps_weights_kind ps_weights_find(const char *words, const char *value) {
+    static const char *const names[] = {[PS_WEIGHTS_EQUAL] = "equal",
+                                        [PS_WEIGHTS_COLUMN] = "column",
+                                        [PS_WEIGHTS_OPTIMAL] = "optimal"};
+    for (size_t kind = 0; kind < sizeof names / sizeof names[0]; kind++) {
+        if (names[kind] != NULL && strcmp(value, names[kind]) == 0 &&
+            strstr(words, names[kind]) != NULL) {
+            return (ps_weights_kind)kind;
+        }
+    }
+    return strstr(words, "FILE") != NULL ? PS_WEIGHTS_FILE : PS_WEIGHTS_GIVEN;
+}
+
 pspec_status ps_set_weights(const ps_option *option, const char *shown, const char *words,
                             const char *value, ps_request *arguments, ps_error *error) {
-    return strstr(words, "FILE") != NULL
-               ? ps_set_text(option, shown, words, value, arguments, error)
-               : ps_set_word(option, shown, words, value, arguments, error);
+    (void)option;
+    const ps_weights_kind kind = ps_weights_find(words, value);
+    if (kind == PS_WEIGHTS_GIVEN) {
+        return fail_word(shown, words, value, error);
+    }
+    arguments->weights = (ps_weights_spec){kind, kind == PS_WEIGHTS_FILE ? value : NULL};
+    return PSPEC_OK;
 }
 
 /* The words stand in the order of ps_domain. */

@@ -133,7 +133,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                            .help = "equal: all 1, weights of the files are dropped; column: the "
                                    "last one of the files (default: those that the format or "
                                    "--columns has, else all 1)",
-                           .set = ps_set_weights, .offset = offsetof(ps_request, weights)},
+                           .set = ps_set_weights},
     [PS_OPTION_INPUT_FORMAT] = {NAMED("input-format", 0, PS_POINT_FORMATS), OF(SETS, BIT(convert)),
                                 .help = "format of the point files (default: detected)",
                                 WORD(input_format)},

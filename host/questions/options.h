@@ -65,6 +65,10 @@ ps_shown_option ps_option_show(const ps_request *request, ps_option_id id);
 pspec_status ps_option_set(ps_request *request, ps_option_id id, const char *words,
                            const char *value, ps_error *error) PS_MUST_CHECK;
 
+/* What a value of --weights is where these words are admitted, "equal|column|FILE": the name of a
+ * file where it is none of the others and FILE is admitted; PS_WEIGHTS_GIVEN: nothing. */
+ps_weights_kind ps_weights_find(const char *words, const char *value);
+
 /* How far a name that somebody typed is from a known one. 0: that very name; a beginning of it
  * counts as one letter. */
 size_t ps_name_distance(const char *typed, const char *known);

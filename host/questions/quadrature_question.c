@@ -18,8 +18,7 @@ static pspec_status check_source(const ps_request *arguments, ps_error *error) {
                            ? "points come from a --sampler or from files, not from both"
                            : "no rule: name point files (- for standard input) or a --sampler");
     }
-    const bool is_column = arguments->weights != NULL && strcmp(arguments->weights, "column") == 0;
-    return is_column && arguments->num_samplers > 0
+    return arguments->weights.kind == PS_WEIGHTS_COLUMN && arguments->num_samplers > 0
                ? ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                          "--weights column does not go with --sampler: samplers make points only")
                : PSPEC_OK;
@@ -51,22 +50,6 @@ static pspec_status make_request(ps_sampler_request *request, const ps_request *
     return PSPEC_OK;
 }
 
-static ps_rule_weights choose_weights(const ps_request *arguments, const char **path) {
-    const char *const weights = arguments->weights;
-    *path = NULL;
-    if (weights == NULL || strcmp(weights, "column") == 0) {
-        return PS_WEIGHTS_GIVEN; /* those that the files have; else they are equal */
-    }
-    if (strcmp(weights, "equal") == 0) {
-        return PS_WEIGHTS_EQUAL;
-    }
-    if (strcmp(weights, "optimal") == 0) {
-        return PS_WEIGHTS_OPTIMAL;
-    }
-    *path = weights;
-    return PS_WEIGHTS_GIVEN;
-}
-
 static ps_quadrature_question make_question(const ps_request *arguments, const ps_brdf *brdf) {
     ps_quadrature_question out = {
         .brdf = brdf,
@@ -74,6 +57,7 @@ static ps_quadrature_question make_question(const ps_request *arguments, const p
         .num_realizations = arguments->num_samplers > 0 ? ps_num_realizations_asked(arguments) : 0,
         .paths = arguments->files,
         .num_paths = arguments->num_files,
+        .weights = arguments->weights,
         .point_options = ps_point_options_make(arguments),
         .drops_below_horizon = arguments->drop_below_horizon,
         .max_degree = (size_t)arguments->max_degree,
@@ -83,12 +67,9 @@ static ps_quadrature_question make_question(const ps_request *arguments, const p
     if (!arguments->is_given[PS_OPTION_TOLERANCE]) {
         out.accuracy.tolerance = TOLERANCE;
     }
-    out.weights = choose_weights(arguments, &out.weights_path);
     out.point_options.domain = PS_DOMAIN_SPHERE;
     out.point_options.above_horizon =
         !arguments->drop_below_horizon && !ps_brdf_is_below_horizon(brdf);
-    out.point_options.ignore_weights =
-        arguments->weights != NULL && strcmp(arguments->weights, "column") != 0;
     return out;
 }
 

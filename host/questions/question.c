@@ -56,8 +56,7 @@ static pspec_status check_source(const ps_request *arguments, ps_error *error) {
                              error);
     }
     PS_TRY(check_other_source(arguments, error));
-    if (arguments->weights != NULL && strcmp(arguments->weights, "column") == 0 &&
-        arguments->num_samplers > 0) {
+    if (arguments->weights.kind == PS_WEIGHTS_COLUMN && arguments->num_samplers > 0) {
         return fail_conflict("--weights column", "--sampler", "samplers make points only", error);
     }
     return PSPEC_OK;
@@ -96,8 +95,7 @@ static pspec_status check_results(const ps_request *arguments, ps_error *error) 
 
 /* Weights of the files are used where their columns name them, unless others are given. */
 ps_point_options ps_point_options_make(const ps_request *arguments) {
-    const char *const weights = arguments->weights;
-    const bool is_column = weights != NULL && strcmp(weights, "column") == 0;
+    const ps_weights_kind weights = arguments->weights.kind;
     return (ps_point_options){
         .format = arguments->input_format,
         .columns = arguments->columns,
@@ -105,8 +103,8 @@ ps_point_options ps_point_options_make(const ps_request *arguments) {
         .points_per_set = arguments->is_given[PS_OPTION_POINTS] ? (size_t)arguments->num_points : 0,
         .sets = arguments->sets,
         .domain = arguments->domain,
-        .weight_column = is_column,
-        .ignore_weights = weights != NULL && !is_column,
+        .weight_column = weights == PS_WEIGHTS_COLUMN,
+        .ignore_weights = weights != PS_WEIGHTS_GIVEN && weights != PS_WEIGHTS_COLUMN,
         .wrap = arguments->wrap,
         .normalize_vectors = arguments->normalize_vectors,
         .memory_limit = arguments->limits.constraints.memory_limit,
@@ -115,12 +113,9 @@ ps_point_options ps_point_options_make(const ps_request *arguments) {
 
 static void fill_points(ps_power_question *question, const ps_request *arguments,
                         ps_domain domain) {
-    const char *const weights = arguments->weights;
-    const bool is_word =
-        weights == NULL || strcmp(weights, "column") == 0 || strcmp(weights, "equal") == 0;
     question->paths = arguments->files;
     question->num_paths = arguments->num_files;
-    question->weights_path = is_word ? NULL : weights;
+    question->weights = arguments->weights;
     question->point_options = ps_point_options_make(arguments);
     question->point_options.domain = domain;
 }

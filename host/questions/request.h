@@ -8,6 +8,7 @@
 #include "frequencies/frequencies_spec.h"
 #include "plan/specs.h"
 #include "points/points.h"
+#include "points/weights_spec.h"
 #include "samplers/sampler.h"
 
 #include <stdbool.h>
@@ -89,6 +90,7 @@ typedef struct ps_request {
     size_t num_samplers;
     const char *samplers[PS_MAX_SAMPLERS];
     /* Zeros unless given: the defaults of docs/user/conventions.md. */
+    ps_weights_spec weights;
     ps_frequencies_spec frequencies;
     uint64_t max_degree;
     ps_accuracy_spec accuracy; /* tolerance 1e-6 unless given */
@@ -98,10 +100,10 @@ typedef struct ps_request {
     uint64_t cache_bytes;          /* 1e9 unless given */
     const char *against;           /* NULL unless given */
     double false_alarm_rate;       /* 1e-3 unless given */
-    const char *brdf, *coefficients, *harmonics, *full, *weights, *input_format, *columns,
-        *to_columns, *case_name, *output, *format, *plot; /* NULL unless given */
-    ps_domain domain;                                     /* PS_DOMAIN_ANY unless given */
-    ps_point_range sets, points;                          /* {0} unless given */
+    const char *brdf, *coefficients, *harmonics, *full, *input_format, *columns, *to_columns,
+        *case_name, *output, *format, *plot; /* NULL unless given */
+    ps_domain domain;                        /* PS_DOMAIN_ANY unless given */
+    ps_point_range sets, points;             /* {0} unless given */
     bool homogenize, hemisphere, wrap, normalize_vectors, drop_below_horizon, merge, calibrate,
         quick, scenes, quiet, verbose;
     /* Of the averaged periodogram on the whole square; no option asks for it. */

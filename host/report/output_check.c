@@ -51,12 +51,8 @@ static pspec_status check_pair(const named_path *output, const named_path *other
 
 static pspec_status check_inputs(const named_path *output, const ps_request *arguments,
                                  ps_error *error) {
-    const char *weights = arguments->weights;
-    const bool is_file = weights != NULL && strcmp(weights, "column") != 0 &&
-                         strcmp(weights, "equal") != 0 &&
-                         !(arguments->brdf != NULL && strcmp(weights, "optimal") == 0);
-    if (is_file) {
-        PS_TRY(check_pair(output, &(named_path){"--weights", weights}, error));
+    if (arguments->weights.path != NULL) {
+        PS_TRY(check_pair(output, &(named_path){"--weights", arguments->weights.path}, error));
     }
     if (arguments->frequencies.path != NULL) {
         PS_TRY(

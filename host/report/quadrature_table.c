@@ -14,13 +14,15 @@ static pspec_status add_remark(ps_table *table, const char *key, const char *tex
 }
 
 static const char *name_weights(const ps_quadrature_question *question) {
-    switch (question->weights) {
+    switch (question->weights.kind) {
     case PS_WEIGHTS_OPTIMAL:
         return "optimal";
+    case PS_WEIGHTS_FILE:
+        return question->weights.path;
     case PS_WEIGHTS_GIVEN:
-        return question->weights_path != NULL ? question->weights_path
-               : question->sampler != NULL    ? "equal"
-                                              : "those of the files, equal where they have none";
+    case PS_WEIGHTS_COLUMN:
+        return question->sampler != NULL ? "equal"
+                                         : "those of the files, equal where they have none";
     case PS_WEIGHTS_EQUAL:
         break;
     }

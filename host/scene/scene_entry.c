@@ -29,11 +29,6 @@ static pspec_status resolve(ps_scene *scene, const ps_scene_file *file, const ps
     return is_absolute(*path) ? PSPEC_OK : ps_scene_copy(scene, folder, *path, path, file->error);
 }
 
-static bool is_weight_word(const char *text) {
-    return strcmp(text, "equal") == 0 || strcmp(text, "column") == 0 ||
-           strcmp(text, "optimal") == 0;
-}
-
 /* The table of a lobe, "zonal:file=PATH". */
 static pspec_status resolve_lobe(ps_scene *scene, const ps_scene_file *file,
                                  ps_scene_value *value) {
@@ -58,14 +53,17 @@ static pspec_status resolve_lobe(ps_scene *scene, const ps_scene_file *file,
     return status;
 }
 
-bool ps_scene_is_path(int option, const char *text) {
+bool ps_scene_is_path(const ps_result_kind *kind, int option, const char *text) {
+    if (option == PS_OPTION_WEIGHTS) {
+        return ps_weights_find(ps_result_words(kind, PS_OPTION_WEIGHTS), text) == PS_WEIGHTS_FILE;
+    }
     return option == PS_SCENE_FILES || option == PS_OPTION_FREQUENCIES ||
-           option == PS_OPTION_AGAINST || (option == PS_OPTION_WEIGHTS && !is_weight_word(text));
+           option == PS_OPTION_AGAINST;
 }
 
-static pspec_status resolve_paths(ps_scene *scene, const ps_scene_file *file, int option,
-                                  ps_scene_value *value) {
-    const bool is_path = ps_scene_is_path(option, value->texts[0]);
+static pspec_status resolve_paths(ps_scene *scene, const ps_scene_file *file,
+                                  const ps_result_kind *kind, int option, ps_scene_value *value) {
+    const bool is_path = ps_scene_is_path(kind, option, value->texts[0]);
     for (size_t i = 0; is_path && i < value->num_texts; i++) {
         PS_TRY(resolve(scene, file, value, &value->texts[i]));
     }
@@ -229,7 +227,7 @@ pspec_status ps_scene_take_entry(ps_scene *scene, const ps_scene_file *file,
         PS_TRY(take_values(scene, file, key, value, out));
     }
     for (size_t i = 0; i < out->num_values; i++) {
-        PS_TRY(resolve_paths(scene, file, option, &out->values[i]));
+        PS_TRY(resolve_paths(scene, file, kind, option, &out->values[i]));
         PS_TRY(check_value(file, kind, option, key, &out->values[i]));
     }
     return PSPEC_OK;

@@ -69,9 +69,9 @@ pspec_status ps_scene_visit_inputs(const ps_scene *scene, ps_scene_visit_input *
                 const ps_scene_value *const value = &entry->values[v];
                 const char *const found =
                     entry->option == PS_OPTION_BRDF ? strstr(value->texts[0], lobe) : NULL;
-                for (size_t i = 0;
-                     ps_scene_is_path(entry->option, value->texts[0]) && i < value->num_texts;
-                     i++) {
+                const bool is_path =
+                    ps_scene_is_path(scene->results[r].kind, entry->option, value->texts[0]);
+                for (size_t i = 0; is_path && i < value->num_texts; i++) {
                     PS_TRY(visit(payload, scene, entry, value, value->texts[i], error));
                 }
                 if (found != NULL) {

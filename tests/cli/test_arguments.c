@@ -268,7 +268,8 @@ static void weights_are_words_where_no_file_is_taken(void **state) {
     line l;
     must_refuse(&words_only, bad, 1);
     must_parse(&l, "--weights file.txt");
-    assert_string_equal(l.arguments.weights, "file.txt");
+    assert_int_equal(l.arguments.weights.kind, PS_WEIGHTS_FILE);
+    assert_string_equal(l.arguments.weights.path, "file.txt");
     ps_arguments_free(&l.arguments);
 }
 

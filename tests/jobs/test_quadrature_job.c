@@ -165,13 +165,13 @@ static void looks(void **state) {
  * says is true. */
 static void stops(void **state) {
     static const size_t sizes[] = {0, 5, 100};
-    static const ps_rule_weights weights[] = {PS_WEIGHTS_EQUAL, PS_WEIGHTS_OPTIMAL};
+    static const ps_weights_kind weights[] = {PS_WEIGHTS_EQUAL, PS_WEIGHTS_OPTIMAL};
     const double wanted = 0.2;
     (void)state;
     for (size_t i = 0; i < sizeof weights / sizeof weights[0]; i++) {
         asked of;
         ask(&of, "white-hemisphere:morph=diffuse", 16, 5000, "pairs_direct");
-        of.question.weights = weights[i];
+        of.question.weights.kind = weights[i];
         of.question.accuracy.standard_error = wanted;
         ps_quadrature_result whole = run(&of.question);
         const uint64_t num = whole.num_realizations;

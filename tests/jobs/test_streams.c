@@ -66,7 +66,7 @@ static pspec_status run(uint64_t whole_bytes, bool weight_column, uint64_t most_
         .num_paths = 1,
         .point_options = {.weight_column = weight_column},
         .whole_bytes = whole_bytes,
-        .weights_path = weights_path,
+        .weights = {.path = weights_path},
         .frequencies.max_frequency = K,
         .accuracy.tolerance = 1e-4,
         .limits.constraints = {.engine = "torus_nufft", .precision = PS_SINGLE},

@@ -227,7 +227,7 @@ static void quadrature(void **state) {
             .smoothness = 1.2 + 0.7 * test_uniform(&random),
             .sampler = &request,
             .num_realizations = test_uniform(&random) < 0.3 ? 1 : 6,
-            .weights = test_uniform(&random) < 0.3 ? PS_WEIGHTS_OPTIMAL : PS_WEIGHTS_EQUAL,
+            .weights.kind = test_uniform(&random) < 0.3 ? PS_WEIGHTS_OPTIMAL : PS_WEIGHTS_EQUAL,
             .max_degree = test_uniform(&random) < 0.6 ? 0 : 20,
             .accuracy.tolerance = i % 2 == 0 ? 1e-2 : pick_tolerance(&random, i, 1e-10, 1e-2),
             .open_device = device,

@@ -123,7 +123,8 @@ static void paths(void **state) {
               POWER "    files: [[a b, /c], d]\n    weights: w\n    frequencies: f\n"
                     "  - {result: check, against: s.json, samplers: white}\n"
                     "  - {result: quadrature, brdf: 'zonal:file=x.lobe', weights: [optimal, w]}\n"
-                    "  - {result: quadrature, brdf: 'zonal:file=/x.lobe', weights: equal}\n",
+                    "  - {result: quadrature, brdf: 'zonal:file=/x.lobe', weights: equal}\n"
+                    "  - {result: power, files: /c, weights: optimal}\n", /* a file there */
               path);
     const char *const at = folder->path;
     snprintf(expected, sizeof expected,
@@ -141,6 +142,8 @@ static void paths(void **state) {
              "pointspec quadrature --brdf zonal:file=%s/x.lobe --weights %s/w", at, at);
     assert_command(&scene, 2, 1, expected);
     assert_command(&scene, 3, 0, "pointspec quadrature --brdf zonal:file=/x.lobe --weights equal");
+    snprintf(expected, sizeof expected, "pointspec power --weights %s/optimal /c", at);
+    assert_command(&scene, 4, 0, expected);
     assert_string_equal(scene.results[0].entries[0].values[0].originals[0], "a b");
     ps_scene_free(&scene);
 }
@@ -181,7 +184,8 @@ static void assert_same_request(const ps_request *a, const ps_request *b) {
     assert_int_equal(a->frequencies.max_frequency, b->frequencies.max_frequency);
     assert_int_equal(a->frequencies.exact_shells, b->frequencies.exact_shells);
     assert_true(a->accuracy.tolerance == b->accuracy.tolerance);
-    assert_true(is_same_text(a->weights, b->weights) &&
+    assert_true(a->weights.kind == b->weights.kind &&
+                is_same_text(a->weights.path, b->weights.path) &&
                 is_same_text(a->limits.constraints.engine, b->limits.constraints.engine));
     assert_int_equal(a->num_samplers, b->num_samplers);
     for (size_t i = 0; i < a->num_samplers; i++) {

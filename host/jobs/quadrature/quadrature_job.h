@@ -9,17 +9,10 @@
 #include "rules/kernel_system.h"
 #include "rules/representer.h"
 
-typedef enum ps_rule_weights {
-    PS_WEIGHTS_EQUAL = 0, /* 1/N */
-    PS_WEIGHTS_GIVEN,     /* those of the files, or of weights_path */
-    PS_WEIGHTS_OPTIMAL
-} ps_rule_weights;
-
 typedef struct ps_quadrature_question {
     const ps_brdf *brdf;
     double smoothness;
-    ps_rule_weights weights;
-    const char *weights_path; /* NULL: none; the same weights for every set */
+    ps_weights_spec weights;
     const ps_sampler_request
         *sampler;              /* NULL: files; resolved, morphed to the BRDF if that is wanted */
     uint64_t num_realizations; /* of the sampler */

@@ -63,7 +63,7 @@ static void add_rules(const ps_quadrature_setup *setup, const ps_quadrature_ques
     const double terms = (double)setup->representer.num_terms;
     ps_phases_add_sets(phases, "kappa", PS_HOST_KAPPA, points * terms, sets);
     ps_phases_say(phases, "kappa", "%.4g points, %.4g terms", sets * points, terms);
-    if (question->weights == PS_WEIGHTS_OPTIMAL) {
+    if (question->weights.kind == PS_WEIGHTS_OPTIMAL) {
         if (ps_kernel_system_is_dense((size_t)points, question->limits.constraints.memory_limit)) {
             add_matrices(question, points, sets, phases);
         } else {

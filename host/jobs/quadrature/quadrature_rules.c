@@ -57,9 +57,9 @@ pspec_status ps_rules_open(ps_rules *rules, ps_rule_shape *shape, ps_error *erro
     if (shape->num_points == 0) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "set 1 has no points");
     }
-    return question->weights_path == NULL
+    return question->weights.path == NULL
                ? PSPEC_OK
-               : ps_read_weights(question->weights_path, shape->num_points, &rules->file_weights,
+               : ps_read_weights(question->weights.path, shape->num_points, &rules->file_weights,
                                  &rules->num_file_weights, error);
 }
 
@@ -141,11 +141,11 @@ static pspec_status copy_weights(const ps_rules *rules, ps_weighted_rule *rule, 
     if (rules->file_weights != NULL) {
         if (rules->num_file_weights != num) {
             return ps_fail(error, PSPEC_ERROR_INPUT, "%s has %zu weights for %zu points",
-                           rules->question->weights_path, rules->num_file_weights, num);
+                           rules->question->weights.path, rules->num_file_weights, num);
         }
         given = rules->file_weights;
     }
-    *is_equal = rules->question->weights == PS_WEIGHTS_EQUAL || given == NULL;
+    *is_equal = rules->question->weights.kind == PS_WEIGHTS_EQUAL || given == NULL;
     for (size_t j = 0; j < num; j++) {
         rule->weights[j] = *is_equal ? 1 : given[j];
     }
@@ -249,7 +249,7 @@ void ps_rules_plan_weights(const ps_quadrature_question *question, size_t num_po
     const double dense = (double)ps_kernel_system_bytes(num_points, true);
     const double sparse = (double)ps_kernel_system_bytes(num_points, false);
     text[0] = '\0';
-    if (question->weights != PS_WEIGHTS_OPTIMAL) {
+    if (question->weights.kind != PS_WEIGHTS_OPTIMAL) {
         return;
     }
     if (ps_kernel_system_is_dense(num_points, limit)) {
@@ -293,7 +293,7 @@ static pspec_status begin_rule(ps_rules *rules, ps_weighted_rule *rule, ps_error
     for (size_t j = 0; is_equal && j < rule->set.num_points; j++) {
         rule->weights[j] = 1 / (double)rule->set.num_points;
     }
-    return rules->question->weights == PS_WEIGHTS_OPTIMAL
+    return rules->question->weights.kind == PS_WEIGHTS_OPTIMAL
                ? PSPEC_OK
                : check_largest(rule, rules->num_read, error);
 }
@@ -318,7 +318,7 @@ static void do_small(void *payload, size_t r) {
     const work *const shared = payload;
     ps_weighted_rule *const rule = &shared->rules->batch[r];
     ps_representer_kappa(shared->representer, rule->set.num_points, rule->set.points, rule->kappa);
-    rule->is_complete = shared->rules->question->weights != PS_WEIGHTS_OPTIMAL &&
+    rule->is_complete = shared->rules->question->weights.kind != PS_WEIGHTS_OPTIMAL &&
                         find_kernel_form(shared->representer, rule, NULL, NULL) == PSPEC_OK;
 }
 
@@ -358,7 +358,7 @@ static pspec_status complete(ps_rules *rules, const ps_representer *representer,
     for (size_t r = 0; r < rules->num; r++) {
         ps_weighted_rule *const rule = &rules->batch[r];
         PS_TRY(most > SMALL ? find_kappa(rules, representer, rule, error) : PSPEC_OK);
-        if (rules->question->weights == PS_WEIGHTS_OPTIMAL) {
+        if (rules->question->weights.kind == PS_WEIGHTS_OPTIMAL) {
             PS_TRY(find_optimal(rules, representer, rule, error));
         }
         PS_TRY(rule->is_complete ? PSPEC_OK : find_kernel_form(representer, rule, watch, error));

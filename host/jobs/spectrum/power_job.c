@@ -96,7 +96,7 @@ static pspec_status check_names(ps_power_job *job, ps_error *error) {
     PS_TRY(ps_plan_check_engine(question->limits.constraints.engine,
                                 question->on_sphere ? PS_ON_SPHERE : PS_ON_TORUS, error));
     PS_TRY(ps_inputs_check(question->paths, question->num_paths, error));
-    PS_TRY(ps_inputs_check(&question->weights_path, 1, error));
+    PS_TRY(ps_inputs_check(&question->weights.path, 1, error));
     PS_TRY(ps_inputs_check(&question->frequencies.path, 1, error));
     return question->limits.device != NULL ? open_device(job, error) : PSPEC_OK;
 }
@@ -105,9 +105,9 @@ static pspec_status prepare(ps_power_job *job, ps_error *error) {
     const ps_power_question *question = job->question;
     PS_TRY(check_names(job, error));
     PS_TRY(find_shape(job, error));
-    if (question->weights_path != NULL) {
+    if (question->weights.path != NULL) {
         PS_TRY(
-            ps_power_sets_read_weights(&job->sets, question->weights_path, job->num_points, error));
+            ps_power_sets_read_weights(&job->sets, question->weights.path, job->num_points, error));
     }
     PS_TRY(ps_power_frequencies(&job->frequencies, question, job->dimension,
                                 (size_t)job->num_points, error));

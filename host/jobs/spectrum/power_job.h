@@ -16,6 +16,7 @@
 #include "jobs/parts/source.h"
 #include "plan/needs.h"
 #include "plan/specs.h"
+#include "points/weights_spec.h"
 #include "spectra/sequential.h"
 
 typedef struct ps_power_question {
@@ -25,8 +26,8 @@ typedef struct ps_power_question {
     const char *const *paths;
     size_t num_paths;
     ps_point_options point_options;
-    const char *weights_path; /* NULL: none; the same weights for every set */
-    uint64_t whole_bytes;     /* of a set of a file, see ps_source_options */
+    ps_weights_spec weights; /* never optimal */
+    uint64_t whole_bytes;    /* of a set of a file, see ps_source_options */
 
     /* degrees, where points are on the sphere; frequencies are then not looked at */
     bool on_sphere;

@@ -90,10 +90,8 @@ static pspec_status add_files(ps_text *key, const ps_request *request, ps_error 
     for (size_t i = 0; i < request->num_files; i++) {
         PS_TRY(add_file(key, request->files[i], error));
     }
-    const char *const weights = request->weights;
-    if (weights != NULL && strcmp(weights, "equal") != 0 && strcmp(weights, "column") != 0 &&
-        strcmp(weights, "optimal") != 0) {
-        PS_TRY(add_file(key, weights, error));
+    if (request->weights.path != NULL) {
+        PS_TRY(add_file(key, request->weights.path, error));
     }
     if (request->frequencies.path != NULL) {
         PS_TRY(add_file(key, request->frequencies.path, error));
