@@ -35,14 +35,14 @@ typedef struct ps_problem {
     bool has_weights;
     ps_measure measure;
     double tolerance; /* as the measure says */
-    /* Of pair sums: powers, relative to white noise, that are to be right to 10 %; 0: none */
+    /* Powers, relative to white noise, that pair sums are to have right to 10 %; 0: none */
     double floor;
     double weight_share;   /* largest sum w^2 / (sum |w|)^2 of a set; 0: not known, 1 / N */
     double expected_power; /* mean effective power of the sets; 0: not known, 1 as of white noise */
     /* num_points when the job was planned, which later growth leaves alone, for choices that must
      * be the same for all of it; 0: num_points */
     uint64_t planned_points;
-    /* Of a set in host memory at a time, where the engine allows it; 0: all */
+    /* Points of a set in host memory at a time, where the engine allows it; 0: all */
     uint64_t block_points;
     ps_harmonics harmonics; /* whose coefficients are wanted, too, of the only set */
 } ps_problem;

@@ -29,14 +29,14 @@ static const double most_sorted_points = 1 << 23;
 /* Realizations that are done whole come to the device in one piece, and one core has each. */
 static const double most_whole_points[PS_NUFFT_MAX_AXES] = {1 << 20, 1 << 18, 0};
 
-/* In one dimension, where more tiles mean shorter transforms. */
+/* One dimension has at most so many tiles; more of them mean shorter transforms. */
 enum { MOST_TILES = 64 };
 
 /* Lengths between the two sigmas, twice. */
 enum { MAX_CANDIDATES = 128 };
 
-/* Of long ones only some: they differ by this part at least, so that all sigmas are among the
- * candidates. */
+/* Long lengths are tried only where they differ by this part at least, so that all sigmas are among
+ * the candidates. */
 enum { NEXT_LENGTH = 64 };
 
 /* Mean power to choose for at least: that of white sets, half of whose modes are independent, stays
@@ -47,7 +47,7 @@ static double power_of(const ps_problem *problem) {
     return fmax(nominal, ps_expected_power(problem));
 }
 
-/* Without its loss, but for a lower bound. */
+/* Makes an axis without its loss, of which it has a lower bound alone. */
 static ps_nufft_axis begin_axis(const ps_nufft_axis *what, uint32_t n, unsigned width) {
     ps_nufft_axis axis = *what;
     uint32_t radices[PS_FFT_MAX_PASSES];
@@ -71,7 +71,7 @@ static ps_nufft_axis make_axis(const ps_nufft_axis *what, uint32_t n, unsigned w
 
 /* ---- windows ----------------------------------------------------------------------------- */
 
-/* The best so far. */
+/* The best choice that was found so far. */
 typedef struct best_choice {
     ps_nufft_choice choice;
     double error, flops;
@@ -114,7 +114,7 @@ static bool keeps_tolerance(const best_choice *best, const ps_problem *problem) 
     return best->choice.num_axes > 0 && best->error <= problem->tolerance;
 }
 
-/* With one axis: a choice that keeps the tolerance costs no more than this one. */
+/* Says whether, with one axis, a choice that keeps the tolerance costs no more than this one. */
 static bool is_hopeless(const axis_search *search, const ps_nufft_axis *axis) {
     ps_nufft_choice choice = *search->whole;
     if (choice.num_axes > 1 || !keeps_tolerance(search->best, search->problem)) {
@@ -128,9 +128,9 @@ static bool is_hopeless(const axis_search *search, const ps_nufft_axis *axis) {
            search->best->flops;
 }
 
-/* Of a length: the narrowest window that keeps the tolerance. Losses take microseconds, and there
- * are hundreds of lengths: only of windows that a bound leaves, and that would be cheaper than what
- * there is. False: it has no such window. */
+/* Finds the narrowest window of a length that keeps the tolerance. Losses take microseconds, and
+ * there are hundreds of lengths: they are computed only for windows that a bound leaves and that
+ * would be cheaper than what there is. False says that the length has no such window. */
 static bool find_narrowest(const axis_search *search, uint32_t n, ps_nufft_axis *out) {
     const double tolerance = share_of_tolerance(search);
     for (unsigned width = PS_NUFFT_MIN_WIDTH; width <= PS_NUFFT_MAX_WIDTH; width++) {

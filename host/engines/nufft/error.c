@@ -13,11 +13,11 @@ static const double unit_roundoff[2] = {0x1p-24, 0x1p-53};
  * most, at K and at -K. */
 static const double in_step = 2;
 
-/* Of rounding, in units of roundoff: of points and powers, whatever the grid; of windows and
- * phases, of each pass of the transforms on both axes, of sums in dense cells (root of the number
- * of terms; where axis 0 has frequency 0, terms are in step and it is the number of points in a
- * cell that counts, and columns of equal terms round the same way every time), of coincident
- * points. */
+/* What follows is rounding in units of roundoff: of points and powers, whatever the grid; of
+ * windows and phases, of each pass of the transforms on both axes, of sums in dense cells (root of
+ * the number of terms; where axis 0 has frequency 0, terms are in step and it is the number of
+ * points in a cell that counts, and columns of equal terms round the same way every time), of
+ * coincident points. */
 static const double point_roundings = 2;
 static const double window_roundings = 7;
 static const double roundings_per_pass = 1;
@@ -32,7 +32,7 @@ double ps_nufft_modes(const ps_problem *problem) {
     return pow(2.0 * problem->frequencies->max_frequency + 1, problem->frequencies->dimension);
 }
 
-/* Of all axes together. */
+/* What all axes lose together. */
 typedef struct whole_loss {
     double aliasing, worst, amplification, passes;
     double density;  /* points in a cell, */
@@ -74,7 +74,7 @@ static double aliasing_of(const ps_nufft_choice *choice, const ps_problem *probl
     return sqrt(loss->aliasing + loss->worst * (in_step * power + peaks * points_per_mode));
 }
 
-/* In units of roundoff, where terms are in step. */
+/* Rounding at frequency 0, where terms are in step, counts in units of roundoff. */
 static double rounding_at_zero(const ps_nufft_choice *choice, const whole_loss *loss) {
     const double columns = choice->stride == 0 ? column_roundings * loss->touching : 0;
     return choice->is_gridded

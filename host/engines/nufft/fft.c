@@ -90,7 +90,7 @@ typedef struct lengths {
     uint64_t threes, fives; /* of odd: the powers that it ends with */
 } lengths;
 
-/* Of the next odd part the first length; 0 at the end. */
+/* Advances to the next odd part and returns its first length, 0 when none is left. */
 static uint64_t next_length(lengths *self) {
     if (self->odd == 0) {
         self->odd = self->threes = self->fives = 1;

@@ -10,7 +10,7 @@
  * so that choices depend on nothing else. */
 static const double most_bytes = 1.25 * (1 << 20);
 
-/* In one dimension: the factors of the grid, by what the transforms take. The optimum is flat
+/* Chooses the factors of the grid of one dimension by what the transforms take. The optimum is flat
  * (first lengths of 128 to 4096 of 131072 cells take the same time within 5 %), so it is looked for
  * up to twice the root. */
 static void choose_lengths(ps_nufft_choice *choice) {

@@ -17,7 +17,7 @@ typedef struct ps_nufft_whole_sizes {
     size_t window_reals; /* of a chunk */
 } ps_nufft_whole_sizes;
 
-/* Of the two transforms of a whole realization: the largest frequency that each keeps. In one
+/* Gives the largest frequency that each of the two transforms of a whole realization keeps. In one
  * dimension, frequency k_1 + lengths[0] k_2, |k_1| <= kept[0], is k_1 of the first and k_2 of the
  * second. */
 void ps_nufft_whole_kept(const ps_nufft_choice *choice, uint32_t kept[2]);

@@ -40,7 +40,7 @@ double ps_nufft_window_value(const ps_nufft_window *window, double t) {
     return (double)value(window, t);
 }
 
-/* Without the constant factor w / I_0(beta), for ratios. */
+/* The constant factor w / I_0(beta) is left out: only ratios are taken of these numbers. */
 static double relative_transform(const ps_nufft_window *window, double f) {
     const double z = PS_PI * window->width * f;
     const double square = window->beta * window->beta - z * z;

@@ -7,7 +7,7 @@
 
 #include <stdlib.h>
 
-/* Of pairs, for a work-item: some 10 microseconds. */
+/* A work-item has so many vectors of pairs, some 10 microseconds of work. */
 enum { RUN_VECTORS = 4096, PARTS = 2 };
 
 typedef struct chords {

@@ -6,9 +6,9 @@
 
 #include "engines/pairs/pairs_points.h"
 
-/* As in kernels/pairs/walk.h. Vectors of a chunk: their state, four numbers each, stays in the
- * first-level cache (16 KiB with vectors of 64 bytes). Chunks of a run: enough work for a
- * work-item, and enough work-items. */
+/* The sizes are those of kernels/pairs/walk.h. Vectors of a chunk: their state, four numbers each,
+ * stays in the first-level cache (16 KiB with vectors of 64 bytes). Chunks of a run: enough work
+ * for a work-item, and enough work-items. */
 enum { PS_PAIRS_CHUNK = 64, PS_PAIRS_RUN_CHUNKS = 16, PS_PAIRS_RUN = 1024 };
 
 /* Sums of runs come in two parts, high and low. */

@@ -20,9 +20,9 @@ static const double slab_bytes = 8.0 * 1024 * 1024;
  * of the time of the pairs; and for a work-item to be worth it. */
 enum { PAIRS_PER_NUMBER = 4, LEAST_RUN = 1 << 14 };
 
-/* Of the tolerance, what bins may lose: more leaves too little for the rounding of single precision
- * at 1e-5 and L = 500, and a quarter takes a tenth more bins than a half; but not less than
- * precision does, nor so much that it shows in a plot. */
+/* Bins may lose this part of the tolerance: more leaves too little for the rounding of single
+ * precision at 1e-5 and L = 500, and a quarter takes a tenth more bins than a half; but not less
+ * than precision does, nor so much that it shows in a plot. */
 static const double share_of_bins = 0.25;
 static const double least_bound[] = {[PS_SINGLE] = 1e-7, [PS_DOUBLE] = 1e-15};
 static const double largest_bound = 1e-3;

@@ -128,8 +128,8 @@ static pspec_status make_histogram(sums_of_pairs *self, ps_precision precision, 
     return status;
 }
 
-/* In the cheapest precision whose error is within the tolerance, also with the powers that are
- * measured. */
+/* Fills the histogram in the cheapest precision whose error is within the tolerance, also with the
+ * powers that are measured. */
 static pspec_status fill_histogram(sums_of_pairs *self, ps_error *error) {
     const ps_device_limits *const limits = ps_device_get_limits(self->device);
     double best = INFINITY;
@@ -188,7 +188,7 @@ static double falling(double x, int k) {
     return out;
 }
 
-/* Of g'''''''' below rho, in units of rho^(2 power - 8). */
+/* Bounds g'''''''' below rho, in units of rho^(2 power - 8). */
 static double bound_below(const chord *shape) {
     double sum = 0;
     for (int j = PS_PAIRS_MOMENTS / 2; j < TERMS; j++) {

@@ -5,7 +5,7 @@
 
 #include "engines/engine.h"
 
-/* As in kernels/pairs/layout.h. */
+/* The arrays are those of kernels/pairs/layout.h. */
 enum { PS_PAIRS_ARRAYS = 8 };
 
 typedef struct ps_pairs_points {

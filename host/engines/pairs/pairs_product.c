@@ -151,8 +151,8 @@ static pspec_status launch(ps_pairs_product *self, size_t first, size_t num, ps_
     return ps_device_finish(self->device, error);
 }
 
-/* In launches that take about a tenth of a second, between which the watch is told. What the last
- * one of a launch rounds up to, the next one does again: the same bits. */
+/* Launches take about a tenth of a second, and between them the watch is told. What the last
+ * work-group of a launch rounds up to, the next launch does again, which gives the same bits. */
 static pspec_status launch_all(ps_pairs_product *self, const ps_watch *watch, ps_error *error) {
     const double first_pairs = 1 << 26; /* some hundredths of a second of two cores */
     const double enough =

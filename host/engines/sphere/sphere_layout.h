@@ -4,10 +4,10 @@
 
 #include "engines/engine.h"
 
-/* As in kernels/sphere/layout.h. Points of a chunk: their state (8 numbers and two exponents each,
- * 20 KiB in single precision) stays in the first-level cache as far as a block of degrees needs it.
- * ORDERS: more orders of a work-item spread the cost of an exact beginning, but each multiplies its
- * rounding errors on. */
+/* The sizes are those of kernels/sphere/layout.h. Points of a chunk: their state (8 numbers and two
+ * exponents each, 20 KiB in single precision) stays in the first-level cache as far as a block of
+ * degrees needs it. ORDERS: more orders of a work-item spread the cost of an exact beginning, but
+ * each multiplies its rounding errors on. */
 enum { PS_SPHERE_CHUNK = 512, PS_SPHERE_ORDERS = 16 };
 
 /* Numbers of a point that kernels/sphere/prepare.cl makes, of a coefficient and of a power: (re,

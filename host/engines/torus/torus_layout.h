@@ -31,7 +31,7 @@ typedef struct ps_torus_layout {
     uint64_t largest_buffer_per_realization; /* of the others */
 } ps_torus_layout;
 
-/* Without enumerating frequencies: cheap for planning. */
+/* Enumerates no frequencies, and so is cheap for planning. */
 ps_torus_layout ps_torus_layout_make(const ps_problem *problem, const ps_device_limits *limits,
                                      ps_precision precision);
 

@@ -15,10 +15,10 @@ static uint64_t bits_of(double x) {
     return bits;
 }
 
-/* Without branches and conversions, since every point passes here: adding 1 leaves the upper 52
- * bits of x in the mantissa; what that rounds off is below 2^-52, exact, and goes through the
- * mantissa of another sum, which rounds it to whole units of 2^-64. 1 + x may round up to 2: the
- * upper part then is 0, the rest negative, and the sum wraps as it should. */
+/* There are neither branches nor conversions, since every point passes here: adding 1 leaves the
+ * upper 52 bits of x in the mantissa; what that rounds off is below 2^-52, exact, and goes through
+ * the mantissa of another sum, which rounds it to whole units of 2^-64. 1 + x may round up to 2:
+ * the upper part then is 0, the rest negative, and the sum wraps as it should. */
 uint64_t ps_fixed_point(double x) {
     enum { EXPONENT_BITS = 12 };
     const double two_to_64 = 18446744073709551616.0;
@@ -239,7 +239,7 @@ pspec_status ps_torus_points_upload(ps_torus_points *points, ps_device *device,
     }
     PS_TRY(ps_buffer_write(device, &points->offsets, 0, points->host_offsets,
                            (batch->num_patterns + 1) * sizeof(uint64_t), error));
-    /* Before the launch that reads this buffer, so that it need not be waited for. */
+    /* This goes before the launch that reads the buffer, so that it need not be waited for. */
     return points->is_unified
                ? ps_mapping_begin(device, &points->mapping, &points->buffers[points->next], error)
                : PSPEC_OK;

@@ -17,7 +17,7 @@ enum { LEAST_CELLS = 4 * PS_NUFFT_MAX_WIDTH };
 /* A grid of all cells has 32-bit indices. */
 enum { MOST_CELLS = 1 << 16 };
 
-/* Of candidates, each longer than the one before by this part at least. */
+/* Each candidate is longer than the one before by this part at least. */
 enum { NEXT_LENGTH = 32 };
 
 /* An even length from `least` on; 0: beyond 32 bits. By rings the cheapest to transform; by cells
@@ -60,7 +60,7 @@ static ps_nufft_axis make_axis(int32_t max_degree, uint32_t n, unsigned width) {
     return axis;
 }
 
-/* Where to begin: aliases fall about as exp(-pi w sqrt(1 - 1 / sigma)). */
+/* Returns the width to begin with: aliases fall about as exp(-pi w sqrt(1 - 1 / sigma)). */
 static unsigned hopeful_width(const ps_problem *problem, uint32_t n) {
     const double margin =
         3; /* wider than needed would cost; narrower ones are tried if nothing else will do */
@@ -71,8 +71,8 @@ static unsigned hopeful_width(const ps_problem *problem, uint32_t n) {
                                         : PS_NUFFT_MIN_WIDTH;
 }
 
-/* Of widths first .. last of a length, into best if it is more exact: the narrowest window that
- * keeps the tolerance, else the most exact one. */
+/* Tries the widths first .. last of a length: the narrowest window that keeps the tolerance, else
+ * the most exact one, becomes the best if it is more exact than that. */
 static void try_widths(ps_nufft_axis *best, const ps_problem *problem, uint32_t n,
                        ps_precision precision, ps_sphere_route route, unsigned first, unsigned last,
                        double *least_error) {

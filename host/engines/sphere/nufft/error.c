@@ -16,10 +16,10 @@ static const double in_step = 1;
 /* Peaks of lattices, of power N: on a line of aliases, two, of both signs (nufft_error.c). */
 static const double peaks = 4;
 
-/* Of rounding, in units of roundoff: of points and coefficients, whatever the grid; of windows; of
- * each pass of the transforms, three by rings and one by cells; of sums in dense cells; of
- * coincident points; of the recurrence of Lambda_lm and of sums over rings, for the root of their
- * number. */
+/* What follows is rounding in units of roundoff: of points and coefficients, whatever the grid; of
+ * windows; of each pass of the transforms, three by rings and one by cells; of sums in dense cells;
+ * of coincident points; of the recurrence of Lambda_lm and of sums over rings, for the root of
+ * their number. */
 static const double point_roundings = 2;
 static const double window_roundings = 4;
 static const double cell_roundings = 3.5; /* the same by cells, and of the table */

@@ -3,7 +3,7 @@
 #include "device/reals.h"
 #include "engines/nufft/fft.h"
 
-/* Of powers, and of coefficients. */
+/* One kernel sums powers, another coefficients. */
 static const char sums_file[] = "sphere/nufft/grid_sums.cl";
 static const char sums_name[] = "sphere_grid_sums";
 

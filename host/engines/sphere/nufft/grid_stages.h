@@ -31,7 +31,7 @@ pspec_status ps_sphere_grid_stages_create(ps_sphere_grid_stages *out, const ps_s
                                           ps_error *error) PS_MUST_CHECK;
 void ps_sphere_grid_stages_free(ps_sphere_grid_stages *stages);
 
-/* As those of sphere_nufft_stages.h. */
+/* These do what those of stages.h do for rings. */
 pspec_status ps_sphere_grid_make_values(ps_sphere_grid_stages *stages, size_t first_value,
                                         size_t num, ps_error *error) PS_MUST_CHECK;
 pspec_status ps_sphere_grid_sum(ps_sphere_grid_stages *stages, size_t num, double *powers,

@@ -57,7 +57,7 @@ static pspec_status create_turns(double **out, uint32_t length, ps_error *error)
     return PSPEC_OK;
 }
 
-/* At angles of 2 i + odd half cells. */
+/* Fills waves at angles of 2 i + odd half cells. */
 static pspec_status fill_waves(double *out, size_t pitch, uint32_t length, bool odd, size_t num,
                                const double *factors, size_t num_frequencies, ps_error *error) {
     double *turns = NULL;
@@ -177,7 +177,7 @@ static size_t num_begins(const ps_sphere_shape *shape) {
     return 2 * ((size_t)shape->max_degree + 1) * shape->most_runs;
 }
 
-/* Of runs that an order does not have: no angle counts. */
+/* Runs that an order does not have begin where no angle counts. */
 static pspec_status create_begins(ps_sphere_grid_table *table, const making *self,
                                   ps_error *error) {
     const size_t bytes = num_begins(self->shape) * sizeof(uint32_t);
@@ -299,8 +299,8 @@ static pspec_status make(ps_sphere_grid_table *table, making *self, ps_error *er
     return find_begins(table, self, error);
 }
 
-/* Where Lambda_lm is made: all rings in one block if local memory has room for them, as on CPUs,
- * since numbers of the table are rounded once for each block. */
+/* Chooses the rings where Lambda_lm is made: all rings in one block if local memory has room for
+ * them, as on CPUs, since numbers of the table are rounded once for each block. */
 static ps_sphere_shape choose_rings(int32_t max_degree, const ps_device_limits *limits) {
     const ps_sphere_shape rings = ps_sphere_rings_shape(max_degree, limits, PS_DOUBLE);
     ps_sphere_shape whole = rings;

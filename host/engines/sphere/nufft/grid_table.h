@@ -11,8 +11,8 @@ typedef struct ps_sphere_grid_table {
     ps_buffer offsets, begins;
 } ps_sphere_grid_table;
 
-/* With only_even the parts of odd degrees stay empty. Needs a device with double precision, in
- * which it is made. */
+/* With only_even the parts of odd degrees stay empty. The device must have double precision, in
+ * which the table is made. */
 pspec_status ps_sphere_grid_table_create(ps_sphere_grid_table *out, const ps_sphere_shape *shape,
                                          bool only_even, ps_precision precision, ps_device *device,
                                          ps_error *error) PS_MUST_CHECK;

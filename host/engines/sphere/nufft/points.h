@@ -27,7 +27,7 @@ pspec_status ps_sphere_places_create(ps_sphere_places *out, const ps_sphere_shap
                                      ps_error *error) PS_MUST_CHECK;
 void ps_sphere_places_free(ps_sphere_places *points);
 
-/* At most shape->together patterns, of shape->most_points points together. */
+/* Makes the places of at most shape->together patterns, of shape->most_points points together. */
 pspec_status ps_sphere_places_make(ps_sphere_places *points, const ps_batch *batch,
                                    ps_error *error) PS_MUST_CHECK;
 

@@ -38,9 +38,9 @@ static const size_t band_bytes = 384 << 10;
 /* Windows behind a band end in the next one. */
 enum { LEAST_BAND = PS_NUFFT_MAX_WIDTH };
 
-/* Where windows of points cover every cell a few times. Not measured near the limit: 1e7 points on
- * 4096 x 2100 cells, which cover each 170 times, took a third of the time of one core and cells in
- * any order (Zen 3, PoCL 3.1). */
+/* A set has bands where its windows cover every cell a few times. Not measured near the limit:
+ * 1e7 points on 4096 x 2100 cells, which cover each 170 times, took a third of the time of one core
+ * and cells in any order (Zen 3, PoCL 3.1). */
 static const double least_covers = 2;
 
 static void choose_bands(ps_sphere_shape *shape, double points, size_t real_bytes) {
@@ -126,7 +126,7 @@ static void measure_sums(ps_sphere_shape *shape, size_t real_bytes) {
         4 * (uint64_t)shape->ring_pitch * ((size_t)shape->max_degree + 1) * real_bytes;
 }
 
-/* As kernels/sphere/nufft/grid_table.h lays it out. */
+/* Measures the table as kernels/sphere/nufft/grid_table.h lays it out. */
 static void measure_table(ps_sphere_shape *shape, size_t real_bytes) {
     const uint64_t num_orders = (uint64_t)shape->max_degree + 1;
     uint64_t vectors = 0;
@@ -225,10 +225,10 @@ ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_byt
     const bool has_strips = ps_sphere_has_strips(shape);
     const uint64_t work_groups = shape->slots * shape->shares;
     const uint64_t strips = ps_divide_up(shape->columns, shape->strip);
-    /* Without strips just not empty, which no buffer may be. */
+    /* No buffer may be empty, so that one place is there without strips, too. */
     const uint64_t strip_points =
         has_strips ? work_groups * ps_round_up(shape->set_points, shape->lanes) : 1;
-    /* By cells rings are there only while the table is made, before most of the rest. */
+    /* On the way by cells rings are there only while the table is made, before most of the rest. */
     const uint64_t rings = shape->route == PS_SPHERE_BY_RINGS ? shape->rings : 0;
     const uint64_t pitch = rings > 0 ? shape->ring_pitch : 0;
     const uint64_t run = (uint64_t)shape->run_vectors * shape->lanes;
@@ -255,7 +255,7 @@ ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_byt
         .table = shape->table_reals * real_bytes};
 }
 
-/* Of sphere_nufft_tables.c: for a cell of the transforms twiddles, turns and a place; gains; what
+/* The tables of tables.c take for a cell of the transforms twiddles, turns and a place; gains; what
  * Lambda_mm begins with. */
 static uint64_t table_bytes(const ps_sphere_shape *shape, size_t real_bytes) {
     const bool by_rings = shape->route == PS_SPHERE_BY_RINGS;

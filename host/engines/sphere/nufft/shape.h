@@ -8,8 +8,8 @@
 #include "engines/engine.h"
 #include "engines/nufft/axis.h"
 
-/* Of orders, in kernels/sphere/nufft/orders_sum.cl, grid_sums.cl and grid_table.cl: each adds up
- * those of its own. A number of its own, whatever the device, since sums depend on it; enough that
+/* Groups of orders in kernels/sphere/nufft/orders_sum.cl, grid_sums.cl and grid_table.cl: each adds
+ * up those of its own. There are so many whatever the device, since sums depend on it; enough that
  * all cores have work to the end. */
 enum { PS_SPHERE_GROUPS = 32 };
 
@@ -53,7 +53,7 @@ typedef struct ps_sphere_shape {
     uint64_t grid_bytes;  /* of a grid, or of a strip */
     uint64_t row_bytes;   /* of the rows of a realization */
     uint64_t value_bytes; /* of values on rings, or on angles of the grid, of a realization */
-    /* Of a realization of a batch; what depends on at_once is there or in fixed_bytes */
+    /* What a realization of a batch takes; what depends on at_once is there or in fixed_bytes */
     uint64_t each_bytes;
     uint64_t fixed_bytes, host_bytes, largest_buffer;
 } ps_sphere_shape;
@@ -80,7 +80,7 @@ static inline bool ps_sphere_has_strips(const ps_sphere_shape *shape) {
     return shape->strip < shape->columns;
 }
 
-/* For batches of no more than `batch` realizations. */
+/* Makes the shape fit for batches of no more than `batch` realizations. */
 void ps_sphere_shape_shrink(ps_sphere_shape *shape, size_t batch);
 
 /* Its parts, of axis.c and cost.c. The grid, the same on both axes; the most exact one when none
@@ -95,8 +95,8 @@ uint32_t ps_sphere_ring_length(int32_t max_degree);
 double ps_sphere_grid_cycles(const ps_nufft_axis *axis, ps_precision precision, double num_points,
                              ps_sphere_route route);
 
-/* Of the buffers, as kernels/sphere/ names them; values, powers and sums for each of at_once
- * realizations, sums for one more. */
+/* Bytes of the buffers, which have the names of kernels/sphere/; values, powers and sums for each
+ * of at_once realizations, sums for one more. */
 typedef struct ps_sphere_bytes {
     uint64_t vectors, turns, weights; /* sorted points have turns and weights twice */
     uint64_t keys, starts;

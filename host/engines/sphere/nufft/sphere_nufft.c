@@ -52,7 +52,7 @@ static const char *refuse_shape(const ps_sphere_shape *shape, const ps_device_li
                : NULL;
 }
 
-/* Before axes are tried, which takes long where tables would be far too large anyway. */
+/* Refuses before axes are tried, which takes long where tables would be far too large anyway. */
 static const char *refuse_cells(const ps_problem *problem) {
     const int32_t most_degree = 1024;
     if (problem->frequencies->max_frequency > most_degree) {
@@ -286,7 +286,7 @@ static int largest_exponent(const pspec_pattern *pattern) {
     return exponent;
 }
 
-/* From [order][even, odd l - m][re, im][half_pitch]; the kernels sum conjugates. */
+/* Reads [order][even, odd l - m][re, im][half_pitch]; the kernels sum conjugates. */
 static void write_coefficients(const sphere_nufft *self, const double *from, int exponent,
                                double *out) {
     const size_t L = (size_t)self->shape.max_degree;

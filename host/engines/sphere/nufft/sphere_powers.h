@@ -28,8 +28,8 @@ pspec_status ps_sphere_kernel_create(const ps_sphere_powers *self, cl_kernel *ou
 /* Work-groups of one item on CPUs, where lanes are vectors. */
 ps_range ps_sphere_group_range(const ps_device *device, bool is_alone, size_t groups, double flops);
 
-/* Of num realizations, whose groups a kernel has left in `sums`, to powers [realization][even, odd
- * degrees][half_pitch]. */
+/* Reads what a kernel has left in `sums` for the groups of num realizations and writes their powers
+ * [realization][even, odd degrees][half_pitch]. */
 pspec_status ps_sphere_powers_read(const ps_sphere_powers *self, size_t num, double *powers,
                                    ps_error *error) PS_MUST_CHECK;
 

@@ -7,7 +7,7 @@
 /* Bits of kernels/sphere/nufft/orders.cl. */
 enum { STEP_SPREAD = 1, STEP_AROUND = 2, STEP_RINGS = 4 };
 
-/* Of powers, and of coefficients. */
+/* One kernel sums powers, another coefficients. */
 static const char sums_file[] = "sphere/nufft/orders_sum.cl";
 static const char sums_name[] = "sphere_orders_sum";
 
@@ -86,13 +86,13 @@ void ps_sphere_stages_free(ps_sphere_stages *stages) {
 
 /* ---- run --------------------------------------------------------------------------------- */
 
-/* Of those whose points are on the device. */
+/* Some of the realizations whose points are on the device. */
 typedef struct some_realizations {
     size_t first, end;
     size_t first_value; /* where values of the first of all of them go */
 } some_realizations;
 
-/* As many at a time as there are slots. */
+/* Runs the steps for as many realizations at a time as there are slots. */
 static pspec_status run_steps(ps_sphere_stages *self, some_realizations some, unsigned steps,
                               size_t shares, ps_error *error) {
     const ps_sphere_shape *shape = self->shape;

@@ -40,10 +40,11 @@ pspec_status ps_sphere_stages_add_sorted(ps_sphere_stages *stages, bool is_first
 /* ... and their values on rings. */
 pspec_status ps_sphere_stages_finish_sorted(ps_sphere_stages *stages, size_t value,
                                             ps_error *error) PS_MUST_CHECK;
-/* Of these, sum_m |c_lm|^2 to powers [realization][even, odd degrees][half_pitch]. */
+/* Sums |c_lm|^2 over m for these values and writes powers [realization][even, odd
+ * degrees][half_pitch]. */
 pspec_status ps_sphere_stages_sum(ps_sphere_stages *stages, size_t num, double *powers,
                                   ps_error *error) PS_MUST_CHECK;
-/* Of one, the conjugates of c_lm to [order][even, odd l - m][re, im][half_pitch]. */
+/* Writes the conjugates of c_lm of one realization: [order][even, odd l - m][re, im][half_pitch]. */
 pspec_status ps_sphere_stages_keep(ps_sphere_stages *stages, double *coefficients,
                                    ps_error *error) PS_MUST_CHECK;
 

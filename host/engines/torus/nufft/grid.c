@@ -286,7 +286,7 @@ static pspec_status finish_rows(ps_nufft_grid *self, extent tiles, const ps_nuff
                      PS_LOCAL(cells_bytes(self, across)));
 }
 
-/* Without a point, nothing was stored. */
+/* Clears a grid in which nothing was stored because there was no point. */
 static pspec_status clear_if_empty(ps_nufft_grid *self, ps_error *error) {
     for (uint32_t slab = 0; self->is_empty && slab < self->layout->num_slabs; slab++) {
         PS_TRY(ps_buffer_clear(self->device, &self->high[slab], error));

@@ -29,8 +29,9 @@ static uint64_t part_bytes(const ps_nufft_layout *layout, unsigned dimension) {
            (BEGINNINGS + MEANS) * sizeof(uint64_t);
 }
 
-/* For one point of every part, of the copy that the host keeps (engines/torus_points): weights;
- * coordinates where the device cannot read them there, else they are a second copy of its own. */
+/* Counts what one point of every part takes in the copy that the host keeps
+ * (engines/torus/torus_points.h): weights, and coordinates where the device cannot read them there,
+ * else they are a second copy of its own. */
 static uint64_t host_point_bytes(const ps_nufft_layout *layout, const ps_problem *problem,
                                  const ps_device_limits *limits) {
     const uint64_t coordinates =
@@ -179,12 +180,12 @@ static void measure_grid(ps_nufft_layout *layout, const ps_problem *problem, uin
                                  : largest_of(buffers, sizeof buffers / sizeof buffers[0]);
 }
 
-/* Of a tile: its row, and how much each point of a chunk turns. */
+/* A tile takes its row, and how much each point of a chunk turns. */
 static size_t tile_bytes(const ps_nufft_layout *layout) {
     return layout->row_bytes + TURN_REALS * layout->real_bytes;
 }
 
-/* Without turns. */
+/* Counts what a chunk takes without its turns. */
 static size_t chunk_bytes(const ps_nufft_layout *layout) {
     return layout->chunk_reals * layout->real_bytes +
            PS_NUFFT_CHUNK * (sizeof(uint64_t) + sizeof(uint32_t));

@@ -40,7 +40,8 @@ typedef struct ps_nufft_layout {
 ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_limits *limits,
                                      ps_precision precision);
 
-/* Of a smaller batch than was planned: places, grids and tiles for so many realizations. */
+/* Leaves room for places, grids and tiles of so many realizations, where a batch is smaller than
+ * was planned. */
 void ps_nufft_layout_shrink(ps_nufft_layout *layout, size_t batch);
 
 /* Where the power of a frequency stands in a row. */
