@@ -141,6 +141,8 @@ typedef struct ps_argument {
 #define PS_BUFFER(buffer) ((ps_argument){sizeof(cl_mem), &(buffer).memory})
 #define PS_U32(x) ((ps_argument){sizeof(cl_uint), &(cl_uint){(cl_uint)(x)}})
 #define PS_U64(x) ((ps_argument){sizeof(cl_ulong), &(cl_ulong){(cl_ulong)(x)}})
+/* A struct that kernels/ declares for both sides (kernels/shared/fixed.h). */
+#define PS_STRUCT(object) ((ps_argument){sizeof(object), &(object)})
 #define PS_LOCAL(num_bytes) ((ps_argument){(num_bytes), NULL})
 
 /* What one launch covers, and the work it counts as in the profile. */

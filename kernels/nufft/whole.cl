@@ -6,10 +6,10 @@
  * the first transform leaves stay in the cache of a core, so a work-group takes one realization
  * after the other. Launch: (work-items of one group, groups).
  *
+ *   numbers    of nufft/whole.h; their names are used here
  *   points, weights, offsets  of engines/torus/torus_points.h
- *   across_*, along_*  of nufft/window.h, of axis 0 and axis 1; in one dimension there is no window across, and
- *              across_width is 1
- *   first_*, second_*  transforms of nufft/finish.h, K the largest frequency of which is kept
+ *   across_window, along_window  of nufft/window.h; in one dimension there is none across
+ *   first_*, second_*  of transforms, nufft/finish.h
  *   lane_turns [second_n][re, im][LANES], tile_turns [tile][second_n][re, im]: in one dimension, the factors
  *              above of k_1 = lane and of k_1 = tile LANES
  *   gains      [tile][2 second_K + 1][LANES]: 1 / squared transform of the window, a quarter of it (frequencies are
@@ -20,13 +20,13 @@
  *   grids      [group][grid_reals]: rows of `pitch`, some more than cells: windows go on behind them
  *   rows       [group][cell][re, im][LANES]: a row of a tile, columns cells (second_n, up to a multiple of 2 LANES);
  *              behind it, in one dimension, room for the last columns, first_n cells; in two, for the shared tile
- *   shared_lanes  of the last tile, of each realization (nufft/shared_tile.h); 0: it is as the others
  *   windows, cells  local, of a chunk: nufft/chunk.h
  */
 #define FFT_IN_GLOBAL
 #include "nufft/chunk.h"
 #include "nufft/halves.h"
 #include "nufft/shared_tile.h"
+#include "nufft/whole.h"
 
 typedef struct whole_grid {
     __global real *cells;
@@ -146,35 +146,40 @@ static inline void write_row(__global const real *row, const transform_axis seco
     }
 }
 
+static inline window_axis make_window(__global const real *coefficients, const whole_window window,
+                                      const uint axis) {
+    return (window_axis){
+        coefficients, window.n, window.width, axis, window.degree, window.bins, 0, 1};
+}
+
 __kernel void nufft_whole(
-    __global const ulong *restrict points, __global const real *restrict weights,
-    __global const ulong *restrict offsets, const uint num_realizations,
-    __global const real *restrict across_window, const uint across_n, const uint across_width,
-    const uint across_degree, const uint across_bins, __global const real *restrict along_window,
-    const uint along_n, const uint along_width, const uint along_degree, const uint along_bins,
+    const whole_numbers numbers, __global const ulong *restrict points,
+    __global const real *restrict weights, __global const ulong *restrict offsets,
+    __global const real *restrict across_window, __global const real *restrict along_window,
     __global const uint *restrict first_radices, __global const real *restrict first_twiddles,
-    __global const uint *restrict first_position, const uint first_n, const uint first_K,
-    __global const uint *restrict second_radices, __global const real *restrict second_twiddles,
-    __global const uint *restrict second_position, const uint second_n, const uint second_K,
+    __global const uint *restrict first_position, __global const uint *restrict second_radices,
+    __global const real *restrict second_twiddles, __global const uint *restrict second_position,
     __global const real *restrict lane_turns, __global const real *restrict tile_turns,
     __global const real *restrict gains, __global const real *restrict means,
-    __global const real *restrict scales, __global real *restrict power, const uint first_row,
-    const ulong stride, const uint num_tiles, const uint dimension, const uint pitch,
-    const uint grid_rows, const ulong grid_reals, __global real *restrict grids,
-    const ulong row_reals, __global real *restrict rows, const uint shared_lanes,
-    __local real *windows, __local uint *cells) {
+    __global const real *restrict scales, __global real *restrict power,
+    __global real *restrict grids, __global real *restrict rows, __local real *windows,
+    __local uint *cells) {
+    const uint num_realizations = numbers.num_realizations, first_row = numbers.first_row;
+    const uint dimension = numbers.dimension, pitch = numbers.pitch;
+    const uint num_tiles = numbers.num_tiles, shared_lanes = numbers.shared_lanes;
+    const uint first_n = numbers.first.n, second_n = numbers.second.n;
+    const uint second_K = numbers.second.K;
+    const ulong stride = numbers.stride;
     const uint columns = (second_n + 2 * LANES - 1) / (2 * LANES) * (2 * LANES);
-    const window_axis across = {
-        across_window, across_n, across_width, 0, across_degree, across_bins, 0, 1};
-    const window_axis along = {along_window, along_n,    along_width, dimension - 1,
-                               along_degree, along_bins, 0,           1};
+    const window_axis across = make_window(across_window, numbers.across, 0);
+    const window_axis along = make_window(along_window, numbers.along, dimension - 1);
     const transform_axis first = {first_radices, first_twiddles, first_position, 0,
-                                  first_n,       first_K};
+                                  first_n,       numbers.first.K};
     const transform_axis second = {second_radices, second_twiddles, second_position, 0,
                                    second_n,       second_K};
-    const whole_grid grid = {grids + get_global_id(1) * grid_reals, pitch, grid_rows,
-                             dimension == 1};
-    __global real *row = rows + get_global_id(1) * row_reals;
+    const whole_grid grid = {grids + get_global_id(1) * numbers.grid_reals, pitch,
+                             numbers.grid_rows, dimension == 1};
+    __global real *row = rows + get_global_id(1) * numbers.row_reals;
     __global real *spare = row + columns * 2 * LANES;
     const chunk_axes axes = {across, across, along, dimension, 0};
     const chunk chunk = make_chunk(windows, cells, across, along);

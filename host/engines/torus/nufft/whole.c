@@ -4,6 +4,7 @@
 #include "device/reals.h"
 #include "engines/nufft/kernels.h"
 #include "math/pi.h"
+#include "nufft/whole.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -15,7 +16,7 @@ static double gain(const ps_nufft_axis *axis, uint32_t k) {
     return k <= (uint32_t)axis->max_frequency ? ps_nufft_gain(axis, k) : 0;
 }
 
-/* Of frequency k_1 of the first transform and k_2 of the second. */
+/* Returns the gain of frequency k_1 of the first transform and k_2 of the second. */
 static double gain_of(const ps_nufft_choice *choice, uint32_t k_1, int64_t k_2) {
     if (choice->num_axes == 1) {
         const int64_t k = k_1 + choice->lengths[0] * k_2;
@@ -131,13 +132,13 @@ void ps_nufft_whole_free(ps_nufft_whole *whole) {
 
 /* ---- run --------------------------------------------------------------------------------- */
 
-/* Arguments of a window and of a transform, as kernels/nufft/whole.cl has them. */
-#define WHOLE_WINDOW(plan)                                                                         \
-    PS_BUFFER((plan)->coefficients), PS_U32((plan)->axis.n), PS_U32((plan)->axis.window.width),    \
-        PS_U32((plan)->degree), PS_U32((plan)->bins)
-#define WHOLE_TRANSFORM(fft, length, kept)                                                         \
-    PS_BUFFER((fft)->radices), PS_BUFFER((fft)->twiddles), PS_BUFFER((fft)->position),             \
-        PS_U32(length), PS_U32(kept)
+/* The arguments of a transform, as kernels/nufft/whole.cl has them. */
+#define WHOLE_TRANSFORM(fft)                                                                       \
+    PS_BUFFER((fft)->radices), PS_BUFFER((fft)->twiddles), PS_BUFFER((fft)->position)
+
+static whole_window window_of(const ps_nufft_plan *plan) {
+    return (whole_window){plan->axis.n, plan->axis.window.width, plan->degree, plan->bins};
+}
 
 static ps_range range_of(const ps_nufft_whole *self, size_t num_realizations, size_t num_points) {
     const ps_nufft_choice *choice = &self->layout->choice;
@@ -160,30 +161,48 @@ pspec_status ps_nufft_whole_upload(ps_nufft_whole *whole, const ps_batch *batch,
                                   error);
 }
 
+static whole_numbers numbers_of(const ps_nufft_whole *self, const ps_nufft_plan *across,
+                                const ps_nufft_plan *along, size_t num_realizations,
+                                size_t first_row) {
+    const ps_nufft_layout *layout = self->layout;
+    const ps_nufft_whole_sizes *sizes = &layout->whole;
+    uint32_t kept[2];
+    ps_nufft_whole_kept(&layout->choice, kept);
+    return (whole_numbers){.stride = layout->stride,
+                           .grid_reals = sizes->grid_reals,
+                           .row_reals = sizes->row_reals,
+                           .across = window_of(across),
+                           .along = window_of(along),
+                           .first = {layout->choice.lengths[0], kept[0]},
+                           .second = {layout->choice.lengths[1], kept[1]},
+                           .dimension = layout->choice.num_axes,
+                           .num_realizations = (uint32_t)num_realizations,
+                           .first_row = (uint32_t)first_row,
+                           .num_tiles = layout->num_tiles,
+                           .pitch = (uint32_t)sizes->pitch,
+                           .grid_rows = (uint32_t)sizes->grid_rows,
+                           .shared_lanes = sizes->shared};
+}
+
 pspec_status ps_nufft_whole_run(ps_nufft_whole *whole, size_t num_realizations,
                                 const ps_buffer *means, const ps_nufft_target *target,
                                 ps_error *error) {
-    const ps_nufft_layout *layout = whole->layout;
-    const ps_nufft_choice *choice = &layout->choice;
-    const ps_nufft_whole_sizes *sizes = &layout->whole;
-    const ps_nufft_plan *along = &whole->plans[choice->num_axes - 1];
+    const unsigned num_axes = whole->layout->choice.num_axes;
+    const ps_nufft_plan *along = &whole->plans[num_axes - 1];
     const ps_nufft_plan none = {
         .coefficients = along->coefficients, .bins = 1, .axis = {.n = 1, .window = {.width = 1}}};
-    const ps_nufft_plan *across = choice->num_axes == 2 ? &whole->plans[0] : &none;
-    uint32_t kept[2];
-    ps_nufft_whole_kept(choice, kept);
+    const ps_nufft_plan *across = num_axes == 2 ? &whole->plans[0] : &none;
+    const whole_numbers numbers =
+        numbers_of(whole, across, along, num_realizations, target->realization);
     const ps_range range = range_of(whole, num_realizations, whole->num_points);
-    return PS_LAUNCH(whole->device, whole->kernel, &range, error, PS_BUFFER(whole->points.points),
-                     PS_BUFFER(whole->points.weights), PS_BUFFER(whole->points.offsets),
-                     PS_U32(num_realizations), WHOLE_WINDOW(across), WHOLE_WINDOW(along),
-                     WHOLE_TRANSFORM(&whole->transforms[0], choice->lengths[0], kept[0]),
-                     WHOLE_TRANSFORM(&whole->transforms[1], choice->lengths[1], kept[1]),
-                     PS_BUFFER(whole->lane_turns), PS_BUFFER(whole->tile_turns),
-                     PS_BUFFER(whole->gains), PS_BUFFER(*means), PS_BUFFER(*target->scales),
-                     PS_BUFFER(*target->power), PS_U32(target->realization), PS_U64(layout->stride),
-                     PS_U32(layout->num_tiles), PS_U32(choice->num_axes), PS_U32(sizes->pitch),
-                     PS_U32(sizes->grid_rows), PS_U64(sizes->grid_reals), PS_BUFFER(whole->grids),
-                     PS_U64(sizes->row_reals), PS_BUFFER(whole->rows), PS_U32(sizes->shared),
-                     PS_LOCAL(sizes->window_reals * layout->real_bytes),
+    return PS_LAUNCH(whole->device, whole->kernel, &range, error, PS_STRUCT(numbers),
+                     PS_BUFFER(whole->points.points), PS_BUFFER(whole->points.weights),
+                     PS_BUFFER(whole->points.offsets), PS_BUFFER(across->coefficients),
+                     PS_BUFFER(along->coefficients), WHOLE_TRANSFORM(&whole->transforms[0]),
+                     WHOLE_TRANSFORM(&whole->transforms[1]), PS_BUFFER(whole->lane_turns),
+                     PS_BUFFER(whole->tile_turns), PS_BUFFER(whole->gains), PS_BUFFER(*means),
+                     PS_BUFFER(*target->scales), PS_BUFFER(*target->power), PS_BUFFER(whole->grids),
+                     PS_BUFFER(whole->rows),
+                     PS_LOCAL(whole->layout->whole.window_reals * whole->layout->real_bytes),
                      PS_LOCAL(2 * PS_NUFFT_CHUNK * sizeof(uint32_t)));
 }
