@@ -1,6 +1,6 @@
-/* Integers of a fixed width in structs that host and device share: arguments of a kernel in one piece, the
- * same bytes on both sides. Members of such a struct are sorted by size, widest first, so that
- * nobody puts gaps between them; SAME_SIZE holds its size on both sides.
+/* Integers of a fixed width, for structs that host and device share: arguments of a kernel in one
+ * piece, the same bytes on both sides. Members of such a struct stand by their size, widest first,
+ * so that there are no gaps between them; SAME_SIZE holds its size on both sides.
  */
 #ifndef PS_SHARED_FIXED_H
 #define PS_SHARED_FIXED_H

@@ -44,7 +44,7 @@ pspec_status ps_sphere_stages_finish_sorted(ps_sphere_stages *stages, size_t val
  * degrees][half_pitch]. */
 pspec_status ps_sphere_stages_sum(ps_sphere_stages *stages, size_t num, double *powers,
                                   ps_error *error) PS_MUST_CHECK;
-/* Writes the conjugates of c_lm of one realization: [order][even, odd l - m][re, im][half_pitch]. */
+/* Writes the conjugates of c_lm of a realization: [order][even, odd l - m][re, im][half_pitch]. */
 pspec_status ps_sphere_stages_keep(ps_sphere_stages *stages, double *coefficients,
                                    ps_error *error) PS_MUST_CHECK;
 
