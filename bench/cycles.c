@@ -130,7 +130,7 @@ static size_t enough_realizations(double cycles_of_one, double cycles_per_second
 /* Is it chosen as the shape wants it? */
 static bool is_of_kind(const ps_nufft_choice *choice, kind wanted) {
     return choice->is_whole == (wanted == WHOLE) &&
-           ps_nufft_is_large(choice) == (wanted == GRIDS || wanted == BOXES);
+           (ps_nufft_way_of(choice) == PS_NUFFT_LARGE) == (wanted == GRIDS || wanted == BOXES);
 }
 
 static double measure_cycles(ps_device *device, const ps_problem *problem, ps_precision precision,

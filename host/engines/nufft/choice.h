@@ -32,9 +32,16 @@ typedef struct ps_nufft_choice {
     ps_nufft_axis axes[PS_NUFFT_MAX_AXES];
 } ps_nufft_choice;
 
-/* One set at a time, chunk by chunk. */
-static inline bool ps_nufft_is_large(const ps_nufft_choice *choice) {
-    return choice->is_gridded && !choice->is_whole;
+/* The three ways of a choice: variants of the engine, which keeps a table of functions by them. */
+typedef enum ps_nufft_way {
+    PS_NUFFT_TILES, /* sorted points are spread on rows of tiles */
+    PS_NUFFT_LARGE, /* one set at a time is spread on a grid, chunk by chunk */
+    PS_NUFFT_WHOLE, /* each realization is done in one go */
+    PS_NUFFT_NUM_WAYS
+} ps_nufft_way;
+
+static inline ps_nufft_way ps_nufft_way_of(const ps_nufft_choice *choice) {
+    return choice->is_whole ? PS_NUFFT_WHOLE : choice->is_gridded ? PS_NUFFT_LARGE : PS_NUFFT_TILES;
 }
 
 /* The axes whose transforms make powers of tiles: all, but for axis 0 of a grid. */

@@ -272,6 +272,55 @@ static void measure_whole(ps_nufft_layout *layout, const ps_problem *problem,
     count_whole(layout, problem, limits);
 }
 
+/* Measures rows in as many lanes as local memory has room for; false: it has no room for one. */
+static bool measure_rows(ps_nufft_layout *layout, const ps_problem *problem,
+                         const ps_device_limits *limits) {
+    measure_axes(layout);
+    while (layout->lanes > 0 && tile_bytes(layout) + chunk_bytes(layout) > limits->local_bytes) {
+        layout->lanes /= 2;
+        measure_axes(layout);
+    }
+    if (layout->lanes == 0) {
+        return false;
+    }
+    layout->group = choose_group(layout, problem, limits);
+    layout->chunk_reals += layout->group * TURN_REALS;
+    layout->bytes_per_realization = layout->stride * layout->real_bytes;
+    layout->largest_buffer_per_realization = layout->bytes_per_realization;
+    return true;
+}
+
+static void set_part_points(ps_nufft_layout *layout, size_t part_points) {
+    layout->part_points = part_points;
+    layout->part_places = ps_round_up(part_points, PS_NUFFT_PLACE_UNIT);
+}
+
+static void measure_tiles(ps_nufft_layout *layout, const ps_problem *problem,
+                          const ps_device_limits *limits) {
+    if (measure_rows(layout, problem, limits)) {
+        set_part_points(layout, problem->num_points);
+        choose_at_once(layout, problem, limits);
+        layout->host_bytes = host_point_bytes(layout, problem, limits) * layout->part_places;
+    }
+}
+
+static void measure_large(ps_nufft_layout *layout, const ps_problem *problem,
+                          const ps_device_limits *limits) {
+    const uint64_t most = layout->choice.chunk / PS_NUFFT_MOST_PARTS;
+    if (measure_rows(layout, problem, limits)) {
+        set_part_points(layout, problem->num_points < most ? problem->num_points : most);
+        measure_grid(layout, problem, limits->max_allocation_bytes);
+        layout->host_bytes = host_point_bytes(layout, problem, limits) * layout->part_places;
+    }
+}
+
+/* Each fills the layout of its way, or leaves it without lanes. */
+static void (*const measures[PS_NUFFT_NUM_WAYS])(ps_nufft_layout *, const ps_problem *,
+                                                 const ps_device_limits *) = {
+    [PS_NUFFT_TILES] = measure_tiles,
+    [PS_NUFFT_LARGE] = measure_large,
+    [PS_NUFFT_WHOLE] = measure_whole};
+
 ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_limits *limits,
                                      ps_precision precision) {
     ps_nufft_layout layout = {.choice = ps_nufft_choose(problem, limits, precision),
@@ -279,41 +328,14 @@ ps_nufft_layout ps_nufft_layout_make(const ps_problem *problem, const ps_device_
                               .real_bytes = ps_real_bytes(precision)};
     if (layout.choice.num_axes == 0) {
         layout.lanes = 0;
-        return layout;
-    }
-    if (layout.choice.is_whole) {
-        measure_whole(&layout, problem, limits);
-        return layout;
-    }
-    measure_axes(&layout);
-    while (layout.lanes > 0 && tile_bytes(&layout) + chunk_bytes(&layout) > limits->local_bytes) {
-        layout.lanes /= 2;
-        measure_axes(&layout);
-    }
-    if (layout.lanes == 0) {
-        return layout;
-    }
-    layout.group = choose_group(&layout, problem, limits);
-    layout.chunk_reals += layout.group * TURN_REALS;
-    layout.part_points = problem->num_points;
-    if (ps_nufft_is_large(&layout.choice) &&
-        layout.part_points > layout.choice.chunk / PS_NUFFT_MOST_PARTS) {
-        layout.part_points = layout.choice.chunk / PS_NUFFT_MOST_PARTS;
-    }
-    layout.part_places = ps_round_up(layout.part_points, PS_NUFFT_PLACE_UNIT);
-    layout.bytes_per_realization = layout.stride * layout.real_bytes;
-    layout.largest_buffer_per_realization = layout.bytes_per_realization;
-    if (ps_nufft_is_large(&layout.choice)) {
-        measure_grid(&layout, problem, limits->max_allocation_bytes);
     } else {
-        choose_at_once(&layout, problem, limits);
+        measures[ps_nufft_way_of(&layout.choice)](&layout, problem, limits);
     }
-    layout.host_bytes = host_point_bytes(&layout, problem, limits) * layout.part_places;
     return layout;
 }
 
 void ps_nufft_layout_shrink(ps_nufft_layout *layout, size_t batch) {
-    if (!ps_nufft_is_large(&layout->choice)) {
+    if (ps_nufft_way_of(&layout->choice) != PS_NUFFT_LARGE) {
         layout->parts = layout->parts < batch ? layout->parts : batch;
         layout->groups = layout->groups < batch ? layout->groups : batch;
     }

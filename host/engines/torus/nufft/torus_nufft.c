@@ -3,36 +3,15 @@
 #include "engines/torus/nufft/torus_nufft.h"
 
 #include "base/memory.h"
-#include "base/round.h"
 #include "device/reals.h"
 #include "engines/nufft/choose.h"
 #include "engines/nufft/cost.h"
 #include "engines/nufft/error.h"
 #include "engines/nufft/plan.h"
-#include "engines/torus/nufft/grid.h"
-#include "engines/torus/nufft/layout.h"
-#include "engines/torus/nufft/places.h"
-#include "engines/torus/nufft/tiles.h"
-#include "engines/torus/nufft/whole.h"
+#include "engines/torus/nufft/variants.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-typedef struct torus_nufft {
-    ps_device *device;
-    ps_problem problem;
-    ps_precision precision;
-    ps_nufft_layout layout;
-    size_t batch;
-    ps_nufft_plan plans[PS_NUFFT_MAX_AXES];
-    ps_nufft_places places;
-    ps_nufft_grid large;  /* gridded choices only */
-    ps_nufft_whole whole; /* whole realizations */
-    ps_nufft_tiles tiles; /* all others */
-    ps_buffer means, scales, power;
-    double *means_of_parts;
-    double large_sum; /* of the weights added so far */
-} torus_nufft;
 
 /* ---- what the planner asks --------------------------------------------------------------- */
 
@@ -61,42 +40,22 @@ static const char *refuse_layout(const ps_nufft_layout *layout, const ps_device_
     return has_large_buffer ? "needs a larger buffer than the device allows" : NULL;
 }
 
-/* Sorting, then one or two launches that spread and transform, for some realizations at a time; for
- * a large set sorting and spreading of every chunk, then a launch for each axis. */
-static double launches_of(const ps_nufft_layout *layout, double num_points, double realizations) {
-    unsigned num_last = 0;
-    ps_nufft_last_axes(&layout->choice, &num_last);
-    if (!ps_nufft_is_large(&layout->choice)) {
-        const double rounds = ceil(realizations / (double)layout->parts);
-        return rounds * (layout->choice.is_whole ? 1 : 1 + num_last);
-    }
-    const double chunks = ceil(num_points / ((double)layout->parts * (double)layout->part_points));
-    return realizations * (2 * chunks + 1 + num_last);
-}
-
-/* whole.cl alone; else the sort, and rows and columns of tiles, or all that makes tiles of a grid.
- */
-static double kernels_of(const ps_nufft_choice *choice) {
-    const double of_tiles = choice->num_axes == 1 ? 2 : 3;
-    const double of_grid = 5;
-    return choice->is_whole ? 1 : choice->is_gridded ? of_grid : of_tiles;
-}
-
 static ps_work work_of(const ps_nufft_layout *layout, const ps_problem *problem,
                        ps_precision precision) {
+    const ps_nufft_variant *const way = &ps_nufft_variants[ps_nufft_way_of(&layout->choice)];
     const double realizations =
         problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
     return (ps_work){
         .transform_flops =
             realizations * ps_nufft_flops(&layout->choice, precision, (double)problem->num_points),
-        .launches = launches_of(layout, (double)problem->num_points, realizations),
-        .kernels = kernels_of(&layout->choice),
+        .launches = way->count_launches(layout, (double)problem->num_points, realizations),
+        .kernels = way->kernels[layout->choice.num_axes > 1],
         .fixed_bytes = (double)layout->fixed_bytes,
         .host_bytes = (double)layout->host_bytes,
         .bytes_per_realization = (double)layout->bytes_per_realization,
         .row_bytes = (double)layout->bytes_per_realization,
         .largest_buffer_per_realization = (double)layout->largest_buffer_per_realization,
-        .takes_blocks = ps_nufft_is_large(&layout->choice)};
+        .takes_blocks = way->takes_one};
 }
 
 static ps_survey survey(const ps_problem *problem, const ps_device_limits *limits,
@@ -117,7 +76,7 @@ static ps_survey survey(const ps_problem *problem, const ps_device_limits *limit
 }
 
 static double error_of_state(const void *state, double mean_power, double weight_share) {
-    const torus_nufft *self = state;
+    const ps_nufft_state *self = state;
     (void)weight_share;
     return ps_nufft_error(&self->layout.choice, &self->problem, self->precision, mean_power);
 }
@@ -125,7 +84,7 @@ static double error_of_state(const void *state, double mean_power, double weight
 /* ---- create and destroy ------------------------------------------------------------------ */
 
 static void destroy(void *state) {
-    torus_nufft *self = state;
+    ps_nufft_state *self = state;
     if (self == NULL) {
         return;
     }
@@ -135,15 +94,12 @@ static void destroy(void *state) {
     for (unsigned i = 0; i < PS_NUFFT_MAX_AXES; i++) {
         ps_nufft_plan_free(&self->plans[i]);
     }
-    ps_nufft_grid_free(&self->large);
-    ps_nufft_whole_free(&self->whole);
-    ps_nufft_tiles_free(&self->tiles);
-    ps_nufft_places_free(&self->places);
+    self->variant->free(self);
     free(self->means_of_parts);
     free(self);
 }
 
-static pspec_status create_buffers(torus_nufft *self, size_t rows, ps_error *error) {
+static pspec_status create_buffers(ps_nufft_state *self, size_t rows, ps_error *error) {
     const ps_nufft_layout *layout = &self->layout;
     PS_TRY(ps_buffer_create(self->device, &self->means, layout->parts * layout->real_bytes, "means",
                             error));
@@ -154,43 +110,33 @@ static pspec_status create_buffers(torus_nufft *self, size_t rows, ps_error *err
     return ps_buffer_clear(self->device, &self->power, error);
 }
 
-static pspec_status create_parts(torus_nufft *self, const ps_problem *problem, ps_error *error) {
+static pspec_status create_parts(ps_nufft_state *self, const ps_problem *problem, ps_error *error) {
     const ps_nufft_choice *choice = &self->layout.choice;
     void *memory = NULL;
     PS_TRY(ps_allocate(&memory, self->layout.parts, sizeof(double), "means", error));
     self->means_of_parts = memory;
     for (unsigned i = 0; i < choice->num_axes; i++) {
-        PS_TRY(ps_nufft_plan_create(&self->plans[i], &choice->axes[i], !choice->is_whole,
-                                    problem->tolerance, self->precision, self->device, error));
+        PS_TRY(ps_nufft_plan_create(&self->plans[i], &choice->axes[i],
+                                    self->variant->has_transforms, problem->tolerance,
+                                    self->precision, self->device, error));
     }
     PS_TRY(create_buffers(self, self->batch, error));
-    if (choice->is_whole) {
-        return ps_nufft_whole_create(&self->whole, &self->layout, self->plans, self->precision,
-                                     self->device, error);
-    }
-    PS_TRY(ps_nufft_places_create(&self->places, &self->layout,
-                                  self->problem.frequencies->dimension, self->precision,
-                                  self->device, error));
-    if (ps_nufft_is_large(choice)) {
-        return ps_nufft_grid_create(&self->large, &self->layout, self->plans, &self->places,
-                                    self->precision, self->device, error);
-    }
-    return ps_nufft_tiles_create(&self->tiles, &self->layout, self->plans, &self->places,
-                                 self->precision, self->device, error);
+    return self->variant->create(self, error);
 }
 
 static pspec_status create(void **state, const ps_problem *problem, ps_precision precision,
                            size_t batch, ps_device *device, ps_error *error) {
     void *memory = NULL;
     *state = NULL;
-    PS_TRY(ps_allocate(&memory, 1, sizeof(torus_nufft), "an engine", error));
-    torus_nufft *self = memory;
+    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_nufft_state), "an engine", error));
+    ps_nufft_state *self = memory;
     self->device = device;
     self->problem = *problem;
     self->precision = precision;
     self->batch = batch;
     self->layout = ps_nufft_layout_make(problem, ps_device_get_limits(device), precision);
     ps_nufft_layout_shrink(&self->layout, batch);
+    self->variant = &ps_nufft_variants[ps_nufft_way_of(&self->layout.choice)];
     const pspec_status status = create_parts(self, problem, error);
     if (status != PSPEC_OK) {
         destroy(self);
@@ -201,7 +147,7 @@ static pspec_status create(void **state, const ps_problem *problem, ps_precision
 }
 
 static void get_slots(const void *state, uint32_t *slots) {
-    const torus_nufft *self = state;
+    const ps_nufft_state *self = state;
     const ps_frequencies *set = self->problem.frequencies;
     for (size_t i = 0; i < set->num; i++) {
         slots[i] = ps_nufft_slot(&self->layout, set->vectors + i * set->dimension, set->dimension);
@@ -209,90 +155,17 @@ static void get_slots(const void *state, uint32_t *slots) {
 }
 
 static size_t get_stride(const void *state) {
-    return ((const torus_nufft *)state)->layout.stride;
+    return ((const ps_nufft_state *)state)->layout.stride;
 }
 
 /* ---- run --------------------------------------------------------------------------------- */
 
-/* A sum of weights, and more of them. */
-static double add_weights(double sum, const pspec_pattern *pattern, int exponent) {
-    if (pattern->weights == NULL) {
-        return sum + (double)pattern->num_points;
-    }
-    for (size_t j = 0; j < pattern->num_points; j++) {
-        sum += ldexp(pattern->weights[j], -exponent);
-    }
-    return sum;
-}
-
-/* What frequency 0 leaves in a cell, to be taken off: it then does not round into the others. */
-static double mean_of_cells(const torus_nufft *self, double weight_sum) {
-    const ps_nufft_choice *choice = &self->layout.choice;
-    double mean = weight_sum;
-    for (unsigned i = 0; i < choice->num_axes; i++) {
-        const ps_nufft_axis *axis = &choice->axes[i];
-        const double q = i == 0 && choice->stride != 0 ? axis->max_frequency : 0;
-        mean *= ps_nufft_window_transform(&axis->window, q / axis->n) / axis->n;
-    }
-    return mean;
-}
-
-static int exponent_of(const ps_batch *batch, size_t pattern) {
-    return batch->exponents != NULL ? batch->exponents[pattern] : 0;
-}
-
-static pspec_status upload_means(torus_nufft *self, const ps_batch *some, ps_error *error) {
-    for (size_t r = 0; r < some->num_patterns; r++) {
-        self->means_of_parts[r] =
-            mean_of_cells(self, add_weights(0, &some->patterns[r], exponent_of(some, r)));
-    }
-    return ps_reals_write(self->device, &self->means, self->precision, self->means_of_parts,
-                          some->num_patterns, error);
-}
-
-static pspec_status run_some(torus_nufft *self, const ps_batch *some, const ps_nufft_target *target,
-                             ps_error *error) {
-    const bool is_whole = self->layout.choice.is_whole;
-    /* Points first: what is written after them waits for the launch before. */
-    PS_TRY(is_whole ? ps_nufft_whole_upload(&self->whole, some, error)
-                    : ps_nufft_places_upload(&self->places, some, error));
-    PS_TRY(upload_means(self, some, error));
-    if (is_whole) {
-        return ps_nufft_whole_run(&self->whole, some->num_patterns, &self->means, target, error);
-    }
-    PS_TRY(ps_nufft_places_sort(&self->places, some->num_patterns, error));
-    return ps_nufft_tiles_run(&self->tiles, some->num_patterns, &self->means, target, error);
-}
-
-/* ---- very large sets --------------------------------------------------------------------- */
-
-static pspec_status begin_large(void *state, ps_error *error) {
-    torus_nufft *self = state;
-    (void)error;
-    self->large_sum = 0;
-    ps_nufft_grid_begin(&self->large);
-    return PSPEC_OK;
-}
-
-static pspec_status add_large(void *state, const ps_batch *block, ps_error *error) {
-    torus_nufft *self = state;
-    self->large_sum = add_weights(self->large_sum, &block->patterns[0], exponent_of(block, 0));
-    return ps_nufft_grid_add(&self->large, block, error);
-}
-
-static pspec_status end_large(torus_nufft *self, const ps_nufft_target *target, ps_error *error) {
-    const double mean = mean_of_cells(self, self->large_sum);
-    PS_TRY(ps_reals_write(self->device, &self->means, self->precision, &mean, 1, error));
-    return ps_nufft_grid_finish(&self->large, &self->means, target, error);
-}
-
 static size_t stream_unit(const void *state) {
-    const torus_nufft *self = state;
-    return ps_nufft_is_large(&self->layout.choice) ? self->layout.parts * self->layout.part_points
-                                                   : 0;
+    const ps_nufft_state *self = state;
+    return self->variant->takes_one ? self->layout.parts * self->layout.part_points : 0;
 }
 
-static ps_rows show_rows(const torus_nufft *self, size_t num_rows) {
+static ps_rows show_rows(const ps_nufft_state *self, size_t num_rows) {
     return (ps_rows){.num_rows = num_rows,
                      .stride = self->layout.stride,
                      .precision = self->precision,
@@ -300,29 +173,31 @@ static ps_rows show_rows(const torus_nufft *self, size_t num_rows) {
 }
 
 static pspec_status finish_large(void *state, double scale, ps_rows *rows, ps_error *error) {
-    torus_nufft *self = state;
+    ps_nufft_state *self = state;
     const ps_nufft_target target = {&self->power, &self->scales, 0};
     PS_TRY(ps_reals_write(self->device, &self->scales, self->precision, &scale, 1, error));
     *rows = show_rows(self, 1);
-    return end_large(self, &target, error);
+    return ps_nufft_large_end(self, &target, error);
+}
+
+static pspec_status begin_large(void *state, ps_error *error) {
+    (void)error;
+    ps_nufft_large_begin(state);
+    return PSPEC_OK;
+}
+
+static pspec_status add_large(void *state, const ps_batch *block, ps_error *error) {
+    return ps_nufft_large_add(state, block, error);
 }
 
 static const ps_engine_stream stream = {
     .unit = stream_unit, .begin = begin_large, .add = add_large, .finish = finish_large};
 
-static pspec_status run_large(torus_nufft *self, const ps_batch *one, const ps_nufft_target *target,
-                              ps_error *error) {
-    PS_TRY(begin_large(self, error));
-    PS_TRY(add_large(self, one, error));
-    return end_large(self, target, error);
-}
-
 static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_error *error) {
-    torus_nufft *self = state;
+    ps_nufft_state *self = state;
     PS_TRY(ps_reals_write(self->device, &self->scales, self->precision, batch->scales,
                           batch->num_patterns, error));
-    const bool is_large = ps_nufft_is_large(&self->layout.choice);
-    const size_t at_once = is_large ? 1 : self->layout.parts;
+    const size_t at_once = self->variant->takes_one ? 1 : self->layout.parts;
     for (size_t row = 0; row < batch->num_patterns; row += at_once) {
         const size_t rest = batch->num_patterns - row;
         ps_batch some = *batch;
@@ -331,15 +206,14 @@ static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_er
         some.exponents = batch->exponents != NULL ? batch->exponents + row : NULL;
         PS_TRY(ps_batch_go_on(batch, error));
         const ps_nufft_target target = {&self->power, &self->scales, row};
-        PS_TRY(is_large ? run_large(self, &some, &target, error)
-                        : run_some(self, &some, &target, error));
+        PS_TRY(self->variant->run(self, &some, &target, error));
     }
     *rows = show_rows(self, batch->num_patterns);
     return PSPEC_OK;
 }
 
 static void describe(const void *state, ps_text *text) {
-    const torus_nufft *self = state;
+    const ps_nufft_state *self = state;
     const ps_nufft_choice *choice = &self->layout.choice;
     ps_text_append(text, "(torus_nufft precision=%s lanes=%u tiles=%lu",
                    ps_precision_name(self->precision), self->layout.lanes,
@@ -350,14 +224,7 @@ static void describe(const void *state, ps_text *text) {
                        axis->n / (2.0 * axis->max_frequency), axis->window.width,
                        self->plans[i].degree);
     }
-    if (choice->is_whole) {
-        ps_text_append(text, " whole=%lux%lu", (unsigned long)choice->lengths[0],
-                       (unsigned long)choice->lengths[1]);
-    } else if (choice->is_gridded) {
-        ps_text_append(text, " gridded");
-    } else {
-        ps_text_append(text, " group=%lu", (unsigned long)self->layout.group);
-    }
+    self->variant->describe(self, text);
     ps_text_append(text, " at_once=%zu)", self->layout.parts);
 }
 
