@@ -5,7 +5,8 @@
 
 #include <math.h>
 
-/* Of kappa_0; the brackets of hemispherical sums, relative to E. As of `pointspec truncation`. */
+/* How far apart the brackets of hemispherical sums may be, relative to E; as in `pointspec
+ * truncation`. */
 static const double BRACKET = 1e-4;
 enum { MOST_DEGREE = 10000 };
 

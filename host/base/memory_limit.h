@@ -58,7 +58,7 @@ typedef struct ps_memory_room {
     char by[PS_MEMORY_PLACE];
 } ps_memory_room;
 
-/* Of this machine; what the asker holds already, and counts, is added. */
+/* Finds the room that this machine has; what the asker holds already, and counts, is added. */
 void ps_memory_room_find(ps_memory_room *out, uint64_t held);
 
 /* Units of sizes are powers of 1024. */

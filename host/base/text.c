@@ -205,7 +205,7 @@ ps_suggestion ps_text_suggest(const char *typed, const char *known, size_t dista
 
 /* ---- characters -------------------------------------------------------------------------- */
 
-/* Of the character that begins with that byte; 0: none does. */
+/* The bytes of the UTF-8 character that begins with that byte; 0: none does. */
 static size_t count_bytes(unsigned char first) {
     return first < 0x80   ? 1
            : first < 0xc2 ? 0

@@ -82,8 +82,8 @@ void ps_progress_update(ps_progress *progress, uint64_t done, uint64_t total);
 void ps_progress_part(ps_progress *progress, const char *format, ...) PS_PRINTF(2, 3);
 void ps_progress_hide(ps_progress *progress); /* until the next update: something else is printed */
 void ps_progress_end(ps_progress *progress);
-/* Of a ps_watch whose payload is a progress line or NULL: other phases than `what` are shown, too,
- * with a rate of their own or their detail; an interrupt cancels. */
+/* The call of a ps_watch whose payload is a progress line or NULL: other phases than `what` are
+ * shown, too, with a rate of their own or their detail; an interrupt cancels. */
 int ps_progress_tell(const ps_watch_report *report, void *progress);
 
 #endif

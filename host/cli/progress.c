@@ -68,7 +68,7 @@ static const char *find_things(const char *phase) {
     return colon != NULL ? colon + 2 : phase;
 }
 
-/* Of things, the first of which is not done yet. */
+/* While the first thing is not done there is no rate: the line has the time that passed. */
 static void append_first(ps_text *line, const char *things, uint64_t total, double seconds) {
     char passed[DURATION_BYTES];
     format_duration(passed, sizeof passed, seconds);

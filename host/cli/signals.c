@@ -19,8 +19,8 @@ static volatile sig_atomic_t exit_code = PS_EXIT_INTERRUPTED;
 static timer_t patience; /* ends when the command had its time to end by itself */
 static volatile sig_atomic_t has_patience = 0;
 
-/* Of the second that the end of the program may take: what remains is for the end of the process,
- * which gives gigabytes back. */
+/* How long work may take to stop, out of the second that the program has to end: what remains is
+ * for the end of the process, which gives gigabytes back. */
 static const struct timespec PATIENCE = {0, 700000000};
 
 enum {

@@ -98,7 +98,7 @@ static bool are_angles(ps_angle_order order, const double *row) {
            fabs(phi) <= PS_TWO_PI + ANGLE_SLACK;
 }
 
-/* Of a row on the sphere. */
+/* Is the point of this row of the sphere below the horizon? */
 static bool is_below_horizon(const ps_layout *layout, const double *row) {
     switch (layout->angles) {
     case PS_LON_LAT:

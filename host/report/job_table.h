@@ -16,7 +16,7 @@ typedef struct ps_job_table {
                              const char *sampler, ps_error *);
 } ps_job_table;
 
-/* Of num jobs that have run. */
+/* Makes the table of num jobs that have run. */
 pspec_status ps_job_table_make(ps_table **out, const ps_job_table *kind,
                                const ps_request *arguments, const ps_power_job *const *jobs,
                                size_t num, ps_error *error) PS_MUST_CHECK;

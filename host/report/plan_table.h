@@ -46,10 +46,10 @@ ps_phases ps_plan_table_begin_phases(ps_planner *planner);
 /* A picture needs gnuplot, which takes its time whatever is in it. */
 void ps_plan_table_add_picture(ps_phases *phases, const ps_request *request);
 
-/* Of a question that the cache of results answers. */
+/* Says that the cache of results answers the question. */
 pspec_status ps_plan_table_add_cached(ps_planner *planner, ps_error *error) PS_MUST_CHECK;
 
-/* Of points that are made or rewritten: there is nothing to choose. */
+/* Say what making points, or rewriting them, takes: there is nothing to choose. */
 pspec_status ps_plan_table_add_sample(ps_planner *planner, const ps_request *request,
                                       ps_error *error) PS_MUST_CHECK;
 pspec_status ps_plan_table_add_convert(ps_planner *planner, const ps_request *request,

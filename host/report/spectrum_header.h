@@ -8,7 +8,7 @@
 /* What all jobs have in common. */
 pspec_status ps_header_begin(ps_table *table, const ps_request *arguments,
                              const ps_power_job *first, ps_error *error) PS_MUST_CHECK;
-/* Of job number `index`, which has run. */
+/* Adds what is to be said of job number `index`, which has run. */
 pspec_status ps_header_add_job(ps_table *table, const ps_request *arguments,
                                const ps_power_job *job, size_t index,
                                ps_error *error) PS_MUST_CHECK;

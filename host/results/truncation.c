@@ -19,7 +19,8 @@
 
 enum { DEFAULT_DEGREE = 20, MOST_DEGREE = 10000 };
 
-/* Of kappa and kappa_0, and so of E^2; the brackets of hemispherical sums, relative to E. */
+/* How exact kappa and kappa_0 are, and so E^2; how far apart the brackets of hemispherical sums may
+ * be, relative to E. */
 static const double TOLERANCE = 1e-13;
 static const double BRACKET = 1e-4;
 

@@ -42,7 +42,7 @@ typedef struct ps_scene_result {
     ps_scene_entry
         *entries;    /* of the result, then those of the defaults that it takes and does not say */
     bool wants_plot; /* unless the file says no */
-    /* Of the averaged periodogram of every question: where the file asks for them */
+    /* The file asks for pictures of the averaged periodogram of every question. */
     bool wants_pictures;
 } ps_scene_result;
 

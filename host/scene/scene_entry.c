@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-/* Of one key; lists are typed by people. */
+/* A key has at most so many values: lists are typed by people. */
 enum { MOST_VALUES = 1000 };
 
 /* ---- paths ------------------------------------------------------------------------------- */

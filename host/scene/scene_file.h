@@ -81,7 +81,8 @@ typedef struct ps_scene_reader {
     const ps_scene_node *defaults; /* NULL: none */
 } ps_scene_reader;
 
-/* Of a scene: pages of more are of no use to anyone, and a record of more could not be read. */
+/* A scene asks at most so many questions: pages of more are of no use to anyone, and a record of
+ * more could not be read. */
 enum { PS_SCENE_MOST_QUESTIONS = 10000 };
 
 /* One of the results, but for a name that the file does not say. */

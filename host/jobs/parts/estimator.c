@@ -132,7 +132,7 @@ static pspec_status check_all(const ps_estimator *self, const pspec_pattern *pat
     return status;
 }
 
-/* Of a pattern without weights. */
+/* What sums of weights are where all weights are 1. */
 static ps_pattern_sums plain_sums(const pspec_pattern *pattern) {
     const double num = (double)pattern->num_points;
     return (ps_pattern_sums){

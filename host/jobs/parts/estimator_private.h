@@ -30,8 +30,8 @@ void ps_estimator_halve_batch(ps_estimator *self);
 pspec_status ps_estimator_get_ready(ps_estimator *self, uint64_t num_points,
                                     ps_error *error) PS_MUST_CHECK;
 
-/* Of the engine, for sets of some mean power (ps_survey.error), in the units of the problem's
- * tolerance. */
+/* The error of the engine for sets of that mean power (ps_survey.error), in the units of the
+ * problem's tolerance. */
 double ps_estimator_error_at(const ps_estimator *self, double mean_power);
 /* The same for one pattern. */
 double ps_estimator_error_of(const ps_estimator *self, double mean_power,
@@ -39,7 +39,8 @@ double ps_estimator_error_of(const ps_estimator *self, double mean_power,
 
 /* Sums, scale and exponent of a pattern of the batch. */
 void ps_estimator_set_sums(ps_estimator *self, size_t pattern, const ps_pattern_sums *sums);
-/* Of the weights that the normalization means: 1/N under that of pairs where there are none. */
+/* W of the weights that the normalization means: where there are none, 1/N each under that of
+ * pairs. */
 double ps_estimator_weight_sum(const ps_estimator *self, const ps_pattern_sums *sums);
 /* Keeps the largest sum w^2 / (sum |w|)^2. */
 void ps_estimator_measure_share(ps_estimator *self, const ps_pattern_sums *sums);

@@ -12,8 +12,8 @@
  * set. */
 #define PS_LEAST_ABSOLUTE_WEIGHT 1e-60
 #define PS_MOST_ABSOLUTE_WEIGHT 1e60
-/* Of sum |w| elsewhere: W summed over the 2^53 realizations that there may be, and c_lm, up to a
- * hundred times the sum, are numbers. */
+/* Where weights are not scaled, sum |w| is at most this: then W summed over the 2^53 realizations
+ * that there may be, and c_lm, up to a hundred times the sum, are finite. */
 #define PS_MOST_WEIGHT_SUM 1e290
 
 /* Weights count as w 2^-exponent, which makes the largest |w| a number in [1/2, 1): so neither the

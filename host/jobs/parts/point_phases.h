@@ -6,15 +6,16 @@
 #include "points/points.h"
 #include "samplers/sampler.h"
 
-/* Of so many realizations of a sampler: the phase "points". */
+/* Adds the phase "points": so many realizations of a sampler are made. */
 void ps_phases_sample(ps_phases *phases, const ps_sampler_request *request, double realizations);
 
-/* Of all files, whole: the phase "reading". Returns their points, 0 where that cannot be known. */
+/* Adds the phase "reading": all files are read whole. Returns their number of points, 0 where that
+ * cannot be known. */
 double ps_phases_read(ps_phases *phases, const char *const *paths, size_t num_paths,
                       const char *format, unsigned columns);
 
-/* Of so many numbers, coordinates and weights: the phase "writing". format NULL: by the ending of
- * the path. */
+/* Adds the phase "writing": so many coordinates and weights are written. format NULL: by the ending
+ * of the path. */
 void ps_phases_write(ps_phases *phases, const char *path, const char *format, double numbers);
 
 #endif

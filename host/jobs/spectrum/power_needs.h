@@ -6,7 +6,8 @@
 
 /* Fills job->needs, once dimension and frequencies are known. */
 void ps_power_needs_find(ps_power_job *job);
-/* Of the problem: what tolerance, standard error and floor ask for together. */
+/* The tolerance that the problem gets: what tolerance, standard error and floor ask for
+ * together. */
 double ps_power_needs_tolerance(const ps_power_question *question);
 /* That the plan is made for. */
 uint64_t ps_power_needs_realizations(const ps_power_job *job);

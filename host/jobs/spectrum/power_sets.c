@@ -33,7 +33,7 @@ pspec_status ps_power_sets_read_weights(ps_power_sets *sets, const char *path, u
 pspec_status ps_power_sets_allocate(ps_power_sets *sets, size_t capacity, ps_error *error) {
     void *memory = NULL;
     free_batch(sets);
-    /* Of the run before: a job that plans again would have one set more than announced. */
+    /* When a job plans again, a set that is left of the run before is one more than announced. */
     if (!sets->has_next) {
         ps_point_set_free(&sets->next);
     }
@@ -97,7 +97,7 @@ static pspec_status take_next(ps_power_sets *sets, size_t at, ps_error *error) {
     return check_weights(sets, set->num_points, error);
 }
 
-/* Of a set that is too large, all the same, for engines that want it whole. */
+/* Reads the rest of a set that came in part because it is large: some engines want it whole. */
 static pspec_status load_next(ps_power_sets *sets, ps_error *error) {
     return ps_source_more(sets->source, &sets->next, SIZE_MAX, &sets->part.is_whole, error);
 }

@@ -121,7 +121,7 @@ static pspec_status take_columns(const ps_artist *artist, line_set *set, size_t 
     return PSPEC_OK;
 }
 
-/* Of log y over log x, least squares; nan for fewer than two places. */
+/* The slope of log y over log x by least squares; nan for fewer than two places. */
 static double slope(const double *x, const double *y, size_t num) {
     double sx = 0;
     double sy = 0;

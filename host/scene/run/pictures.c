@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Of one picture; a page of more is longer than anyone scrolls. Where panels do not share their
- * curves the key has one line for each, and room for fewer. */
+/* A picture has at most so many panels: a page of more is longer than anyone scrolls. Where panels
+ * do not share their curves the key has one line for each, and room for fewer. */
 enum { MOST_PANELS = 12, MOST_PANELS_OF_OTHERS = 3 };
 
 bool ps_run_varies(const ps_scene_entry *entry) {

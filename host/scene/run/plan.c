@@ -35,7 +35,7 @@ static pspec_status add_block(ps_run *run, const ps_run_result *result, size_t n
     return result->asked->kind->plan(planner, &question->asked.request, error);
 }
 
-/* Of all results; those that are in the cache take no time. */
+/* Pictures of all results are drawn; those that are in the cache take no time. */
 static pspec_status add_pictures(const ps_run *run, ps_planner *planner, ps_error *error) {
     ps_phases phases = {.host = planner->host};
     ps_pictures pictures = {0};
