@@ -238,6 +238,8 @@ pspec_status ps_set_weights(const ps_option *option, const char *shown, const ch
         return fail_word(shown, words, value, error);
     }
     arguments->weights = (ps_weights_spec){kind, kind == PS_WEIGHTS_FILE ? value : NULL};
+    arguments->reading.weight_column = kind == PS_WEIGHTS_COLUMN;
+    arguments->reading.ignore_weights = kind != PS_WEIGHTS_COLUMN; /* others replace them */
     return PSPEC_OK;
 }
 
@@ -247,7 +249,7 @@ pspec_status ps_set_domain(const ps_option *option, const char *shown, const cha
     (void)option;
     int index = 0;
     PS_TRY(find_word(shown, words, value, &index, error));
-    arguments->domain = (ps_domain)index;
+    arguments->reading.domain = (ps_domain)index;
     return PSPEC_OK;
 }
 

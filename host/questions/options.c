@@ -136,23 +136,23 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                            .set = ps_set_weights},
     [PS_OPTION_INPUT_FORMAT] = {NAMED("input-format", 0, PS_POINT_FORMATS), OF(SETS, BIT(convert)),
                                 .help = "format of the point files (default: detected)",
-                                WORD(input_format)},
+                                WORD(reading.format)},
     [PS_OPTION_COLUMNS] = {NAMED("columns", 0, PS_POINT_COLUMNS), OF(SETS, BIT(convert)),
                            .help = "what the columns of the point files are, w being the weight "
                                    "(default: found out; angles are in radians but lon-lat, "
                                    "degrees)",
-                           WORD(columns)},
+                           WORD(reading.columns)},
     [PS_OPTION_DOMAIN] = {NAMED("domain", 0, "torus|sphere"), OF(0, BIT(convert)),
                           .help = "where the points lie (default: found out)",
                           .set = ps_set_domain},
     [PS_OPTION_WRAP] = {NAMED("wrap", 0, NULL), OF(BIT(power) | BIT(check), BIT(convert)),
                         .help = "reduce coordinates outside [0,1) mod 1 instead of refusing them",
-                        FLAG(wrap)},
+                        FLAG(reading.wrap)},
     [PS_OPTION_NORMALIZE_VECTORS] = {NAMED("normalize-vectors", 0, NULL),
                                      OF(SPHERES | BIT(quadrature) | BIT(check), BIT(convert)),
                                      .help = "divide vectors by their length instead of refusing "
                                              "those of another length than 1",
-                                     FLAG(normalize_vectors)},
+                                     FLAG(reading.normalize_vectors)},
     [PS_OPTION_DROP_BELOW] = {NAMED("drop-below-horizon", 0, NULL), OF(BIT(quadrature), 0),
                               .help = "leave points below the horizon out where the lobe "
                                       "ends there",
@@ -160,7 +160,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_SELECT_SETS] = {NAMED("select-sets", 0, "A..B"), OF(SETS, BIT(convert)),
                                .help = "only these sets of each file, counted from 1; also A, A.., "
                                        "..B",
-                               RANGE(sets)},
+                               RANGE(reading.sets)},
     [PS_OPTION_SELECT_POINTS] = {NAMED("select-points", 0, "A..B"), OF(0, BIT(convert)),
                                  .help = "only these points of each set, counted from 1; also A, "
                                          "A.., ..B",

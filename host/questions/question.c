@@ -93,22 +93,13 @@ static pspec_status check_results(const ps_request *arguments, ps_error *error) 
     return PSPEC_OK;
 }
 
-/* Weights of the files are used where their columns name them, unless others are given. */
 ps_point_options ps_point_options_make(const ps_request *arguments) {
-    const ps_weights_kind weights = arguments->weights.kind;
-    return (ps_point_options){
-        .format = arguments->input_format,
-        .columns = arguments->columns,
-        .dimension = arguments->is_given[PS_OPTION_DIMENSION] ? arguments->dimension : 0,
-        .points_per_set = arguments->is_given[PS_OPTION_POINTS] ? (size_t)arguments->num_points : 0,
-        .sets = arguments->sets,
-        .domain = arguments->domain,
-        .weight_column = weights == PS_WEIGHTS_COLUMN,
-        .ignore_weights = weights != PS_WEIGHTS_GIVEN && weights != PS_WEIGHTS_COLUMN,
-        .wrap = arguments->wrap,
-        .normalize_vectors = arguments->normalize_vectors,
-        .memory_limit = arguments->limits.constraints.memory_limit,
-    };
+    ps_point_options options = arguments->reading;
+    options.dimension = arguments->is_given[PS_OPTION_DIMENSION] ? arguments->dimension : 0;
+    options.points_per_set =
+        arguments->is_given[PS_OPTION_POINTS] ? (size_t)arguments->num_points : 0;
+    options.memory_limit = arguments->limits.constraints.memory_limit;
+    return options;
 }
 
 static void fill_points(ps_power_question *question, const ps_request *arguments,

@@ -100,12 +100,14 @@ typedef struct ps_request {
     uint64_t cache_bytes;          /* 1e9 unless given */
     const char *against;           /* NULL unless given */
     double false_alarm_rate;       /* 1e-3 unless given */
-    const char *brdf, *coefficients, *harmonics, *full, *input_format, *columns, *to_columns,
-        *case_name, *output, *format, *plot; /* NULL unless given */
-    ps_domain domain;                        /* PS_DOMAIN_ANY unless given */
-    ps_point_range sets, points;             /* {0} unless given */
-    bool homogenize, hemisphere, wrap, normalize_vectors, drop_below_horizon, merge, calibrate,
-        quick, scenes, quiet, verbose;
+    const char *brdf, *coefficients, *harmonics, *full, *to_columns, *case_name, *output, *format,
+        *plot; /* NULL unless given */
+    /* How point files are read. What is of samplers or engines, too (dimension, number of points,
+     * memory), stands in it no sooner than ps_point_options_make hands it on. */
+    ps_point_options reading;
+    ps_point_range points; /* of each set; {0} unless given */
+    bool homogenize, hemisphere, drop_below_horizon, merge, calibrate, quick, scenes, quiet,
+        verbose;
     /* Of the averaged periodogram on the whole square; no option asks for it. */
     bool wants_picture;
     bool effective;    /* --normalize effective */

@@ -255,8 +255,8 @@ pspec_status ps_plan_table_add_convert(ps_planner *planner, const ps_request *re
     if (status == PSPEC_OK) {
         const unsigned numbers = set.dimension + (set.has_weights ? 1 : 0);
         ps_phases_start(&phases, NULL);
-        const double points = ps_phases_read(&phases, request->files, request->num_files,
-                                             request->input_format, numbers);
+        const double points =
+            ps_phases_read(&phases, request->files, request->num_files, options.format, numbers);
         ps_phases_write(&phases, request->output != NULL ? request->output : "-", request->format,
                         points * numbers);
         status = ps_plan_table_add_host(planner, &phases, "a block of points at a time", error);

@@ -107,11 +107,12 @@ static void every_option_finds_its_field(void **state) {
     ps_arguments_free(&l.arguments);
     must_parse(&l, "--shells --homogenize --wrap --no-self-check --profile --quiet --verbose "
                    "--format json --input-format npy --precision auto -o out=1 --plot= x");
-    assert_true(l.arguments.frequencies.exact_shells && l.arguments.homogenize && l.arguments.wrap);
+    assert_true(l.arguments.frequencies.exact_shells && l.arguments.homogenize &&
+                l.arguments.reading.wrap);
     assert_true(l.arguments.accuracy.no_self_check && l.arguments.limits.profile);
     assert_true(l.arguments.quiet && l.arguments.verbose && !l.arguments.accuracy.no_skip);
     assert_string_equal(l.arguments.format, "json");
-    assert_string_equal(l.arguments.input_format, "npy");
+    assert_string_equal(l.arguments.reading.format, "npy");
     assert_string_equal(l.arguments.output, "out=1");
     assert_string_equal(l.arguments.plot, "");
     assert_int_equal(l.arguments.limits.constraints.precision, -1);
@@ -242,8 +243,8 @@ static void ranges_have_ends(void **state) {
         snprintf(text, sizeof text, "--select-sets %s --select-points=%s", good[i].text,
                  good[i].text);
         must_parse(&l, text);
-        assert_int_equal(l.arguments.sets.first, good[i].first);
-        assert_int_equal(l.arguments.sets.last, good[i].last);
+        assert_int_equal(l.arguments.reading.sets.first, good[i].first);
+        assert_int_equal(l.arguments.reading.sets.last, good[i].last);
         assert_int_equal(l.arguments.points.first, good[i].first);
         assert_int_equal(l.arguments.points.last, good[i].last);
         ps_arguments_free(&l.arguments);

@@ -103,8 +103,8 @@ static pspec_status add_files(ps_text *key, const ps_request *request, ps_error 
     return lobe != NULL ? add_file(key, lobe + strlen(table_of_lobe), error) : PSPEC_OK;
 }
 
-static pspec_status make_key(const ps_run *run, const ps_run_question *question, ps_text *key,
-                             ps_error *error) {
+static pspec_status make_key(const ps_run *run, ps_run_question *question, ps_error *error) {
+    ps_text *const key = &question->key;
     const ps_request *const request = &question->asked.request;
     ps_text_append(key, "%s%s\npicture %d\nno-skip %d\n", ps_text_string(&run->identity),
                    request->command_line, request->wants_picture, request->accuracy.no_skip);
@@ -168,9 +168,9 @@ void ps_run_warn_of_cache(const ps_run *run, ps_error *reason) {
     *reason = (ps_error){0};
 }
 
-pspec_status ps_run_fetch(ps_run *run, const ps_run_question *question, ps_answer *out,
-                          double *seconds, bool *is_found, ps_error *error) {
-    ps_text key = {0};
+pspec_status ps_run_fetch(ps_run *run, ps_run_question *question, ps_answer *out, double *seconds,
+                          bool *is_found, ps_error *error) {
+    const ps_text *const key = &question->key;
     void *bytes = NULL;
     size_t num = 0;
     ps_error reason = {0};
@@ -179,9 +179,9 @@ pspec_status ps_run_fetch(ps_run *run, const ps_run_question *question, ps_answe
     if (run->cache == NULL) {
         return PSPEC_OK;
     }
-    pspec_status status = make_key(run, question, &key, error);
-    if (status == PSPEC_OK && ps_cache_get(run->cache, key.data, key.length, &bytes, &num, is_found,
-                                           &reason) != PSPEC_OK) {
+    PS_TRY(make_key(run, question, error));
+    if (ps_cache_get(run->cache, key->data, key->length, &bytes, &num, is_found, &reason) !=
+        PSPEC_OK) {
         ps_run_warn_of_cache(run, &reason);
     }
     if (*is_found && unpack(out, seconds, bytes, num, &reason) != PSPEC_OK) {
@@ -190,27 +190,22 @@ pspec_status ps_run_fetch(ps_run *run, const ps_run_question *question, ps_answe
         *is_found = false;
     }
     free(bytes);
-    ps_text_free(&key);
-    return status;
+    return PSPEC_OK;
 }
 
 pspec_status ps_run_keep(ps_run *run, const ps_run_question *question, double seconds,
                          ps_error *error) {
-    ps_text key = {0};
+    const ps_text *const key = &question->key;
     ps_text bytes = {0};
     ps_error reason = {0};
-    pspec_status status = PSPEC_OK;
     if (run->cache == NULL) {
         return PSPEC_OK;
     }
-    PS_TRY_OUT(status, make_key(run, question, &key, error));
-    PS_TRY_OUT(status, pack(&question->answer, seconds, &bytes, error));
-    if (ps_cache_put(run->cache, key.data, key.length, bytes.data, bytes.length, &reason) !=
-        PSPEC_OK) {
+    const pspec_status status = pack(&question->answer, seconds, &bytes, error);
+    if (status == PSPEC_OK && ps_cache_put(run->cache, key->data, key->length, bytes.data,
+                                           bytes.length, &reason) != PSPEC_OK) {
         ps_run_warn_of_cache(run, &reason);
     }
-out:
-    ps_text_free(&key);
     ps_text_free(&bytes);
     return status;
 }

@@ -12,7 +12,7 @@ static pspec_status add_block(ps_run *run, const ps_run_result *result, size_t n
     ps_answer answer = {0};
     double seconds = 0;
     bool is_cached = false;
-    const ps_run_question *const question = &result->questions[number];
+    ps_run_question *const question = &result->questions[number];
     snprintf(job, sizeof job, "%s:%zu", result->asked->name, number + 1);
     PS_TRY(ps_table_add_meta(table, "job", PS_TEXT(job), error));
     PS_TRY(

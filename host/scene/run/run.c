@@ -48,6 +48,7 @@ static void free_result(ps_run_result *result) {
     for (size_t q = 0; q < result->num; q++) {
         ps_scene_question_free(&result->questions[q].asked);
         ps_answer_free(&result->questions[q].answer);
+        ps_text_free(&result->questions[q].key);
     }
     for (size_t p = 0; p < result->num_plots; p++) {
         free(result->plots[p].svg);

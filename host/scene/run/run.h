@@ -27,6 +27,7 @@
 
 typedef struct ps_run_question {
     ps_scene_question asked;
+    ps_text key; /* of the cache; made once, since all inputs are read for it; empty before */
     ps_answer answer;
     double seconds; /* that it took to compute, also when the cache has it */
     bool is_cached;
@@ -101,12 +102,13 @@ pspec_status ps_run_open_device(ps_run *run, const ps_run_result *result,
 /* Finds out who we are, and opens the cache unless the arguments say that there is none. A cache
  * that cannot be had is no error, but a warning. */
 pspec_status ps_run_open_cache(ps_run *run, ps_error *error) PS_MUST_CHECK;
+/* Keeps the answer under the key that ps_run_fetch made of the inputs before it was computed. */
 pspec_status ps_run_keep(ps_run *run, const ps_run_question *question, double seconds,
                          ps_error *error) PS_MUST_CHECK;
 /* Is the answer in the cache? *out is to be freed in either case; *seconds is what computing it
  * took. */
-pspec_status ps_run_fetch(ps_run *run, const ps_run_question *question, ps_answer *out,
-                          double *seconds, bool *is_found, ps_error *error) PS_MUST_CHECK;
+pspec_status ps_run_fetch(ps_run *run, ps_run_question *question, ps_answer *out, double *seconds,
+                          bool *is_found, ps_error *error) PS_MUST_CHECK;
 /* What is wrong with the cache keeps nobody from computing: it is told once, and forgotten. */
 void ps_run_warn_of_cache(const ps_run *run, ps_error *reason);
 void ps_run_free(ps_run *run);
