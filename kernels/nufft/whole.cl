@@ -146,8 +146,8 @@ static inline void write_row(__global const real *row, const transform_axis seco
     }
 }
 
-static inline window_axis make_window(__global const real *coefficients, const whole_window window,
-                                      const uint axis) {
+static inline window_axis make_window(__global const real *coefficients,
+                                      const window_numbers window, const uint axis) {
     return (window_axis){
         coefficients, window.n, window.width, axis, window.degree, window.bins, 0, 1};
 }

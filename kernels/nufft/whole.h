@@ -2,24 +2,13 @@
 #ifndef PS_NUFFT_WHOLE_H
 #define PS_NUFFT_WHOLE_H
 
-#include "shared/fixed.h"
-
-/* A window: cells of its axis, its width, the degree and the bins of its polynomials
- * (nufft/window.h). */
-typedef struct whole_window {
-    ps_u32 n, width, degree, bins;
-} whole_window;
-
-/* A transform: its length, the largest frequency of which is kept. */
-typedef struct whole_transform {
-    ps_u32 n, K;
-} whole_transform;
+#include "nufft/numbers.h"
 
 typedef struct whole_numbers {
     ps_u64 stride;                /* of rows of powers */
     ps_u64 grid_reals, row_reals; /* of a work-group */
-    whole_window across, along;   /* of axis 0 and axis 1; in one dimension the width across is 1 */
-    whole_transform first, second; /* one behind the other */
+    window_numbers across, along; /* of axis 0 and axis 1; in one dimension the width across is 1 */
+    transform_numbers first, second; /* one behind the other */
     ps_u32 dimension, num_realizations;
     ps_u32 first_row; /* of powers and scales */
     ps_u32 num_tiles;

@@ -10,14 +10,13 @@
  * each share does some columns or tiles of it, and steps come in launches of their own.
  *
  *   points     [..][2] of orders_turns.cl, weights [..], offsets  realization r at offsets[r] .. offsets[r + 1]
- *   window, n, width, degree, bins  of nufft/window.h, the same on both axes; n is even
+ *   numbers    of orders.h; their names are used here
+ *   window     of nufft/window.h, the same on both axes
  *   radices, twiddles, position        of nufft/fft.h, of length n / 2
  *   ring_radices, ring_twiddles, ring_position  of length `rings` / 2, above L
  *   turns, ring_turns  [n / 2], [num_rings] [cosine, sine] of -2 pi i / n, -2 pi i / rings
  *   around_gains [L + 1][3]: g, and g exp(-2 pi i m / n) / i, with g = 1/2 over the transform of the window
  *   along_gains  [L + 1]: 1/2 over the transform of the window and over `rings`
- *   steps      bits: 1 spread, 2 around the axis, 4 rings
- *   strip      columns of a strip (orders_strips.h), a multiple of LANES
  *   grids      where strip is `columns` at least, [slot][grid_rows][pitch], in bands of sphere/bands.h; the north pole
  *              is cell `pole` of a row. What this kernel spreads is one band. Else [group][grid_rows][pitch], one strip
  *              at a time: spreading comes with the transform around the axis, for a share of the strips
@@ -25,11 +24,10 @@
  *              twice; [group][strips + 1]
  *   all_rows   [slot][tile][columns][re, im][LANES], columns a multiple of LANES; tiles: pairs of an even and an odd one
  *   values     [order][value_sets][sum, difference][ring_pitch][re, im] (values.h), realizations from first_value on
- *   num_rings  rings / 4 + 1
- *   only_even  even degrees only: the values of others are left alone
  *   scratch    [group][n + rings / 2][re, im][LANES]
  *   windows, cells  local, of a chunk: nufft/chunk.h
  */
+#include "sphere/nufft/orders.h"
 #include "sphere/nufft/orders_rings.h"
 #include "sphere/nufft/orders_strips.h"
 #include "sphere/values.h"
@@ -143,29 +141,31 @@ static inline void write_rings(const ring_target target, __global const real *sp
 }
 
 __kernel void sphere_orders(
-    __global const ulong *restrict points, __global const real *restrict weights,
-    __global const ulong *restrict offsets, const uint first_realization,
-    const uint end_realization, __global const real *restrict window, const uint n,
-    const uint width, const uint degree, const uint bins, __global const uint *restrict radices,
+    const orders_numbers numbers, __global const ulong *restrict points,
+    __global const real *restrict weights, __global const ulong *restrict offsets,
+    __global const real *restrict window, __global const uint *restrict radices,
     __global const real *restrict twiddles, __global const uint *restrict position,
     __global const uint *restrict ring_radices, __global const real *restrict ring_twiddles,
-    __global const uint *restrict ring_position, const uint rings,
-    __global const real *restrict turns, __global const real *restrict ring_turns,
-    __global const real *restrict around_gains, __global const real *restrict along_gains,
-    const uint L, const uint only_even, const uint steps, const uint shares, const uint pitch,
-    const uint grid_rows, const uint bands, const uint pole, const uint columns,
-    const uint num_rings, const uint ring_pitch, const uint strip, const ulong most_points,
-    __global ulong *restrict sorted, __global real *restrict heights,
-    __global uint *restrict strips, __global uint *restrict starts, __global real *restrict grids,
-    __global real *restrict all_rows, __global real *restrict values, const uint first_value,
-    const uint value_sets, __global real *restrict scratch, __local real *windows,
-    __local uint *cells) {
+    __global const uint *restrict ring_position, __global const real *restrict turns,
+    __global const real *restrict ring_turns, __global const real *restrict around_gains,
+    __global const real *restrict along_gains, __global ulong *restrict sorted,
+    __global real *restrict heights, __global uint *restrict strips, __global uint *restrict starts,
+    __global real *restrict grids, __global real *restrict all_rows, __global real *restrict values,
+    __global real *restrict scratch, __local real *windows, __local uint *cells) {
+    const uint n = numbers.window.n, width = numbers.window.width;
+    const uint degree = numbers.window.degree, bins = numbers.window.bins;
+    const uint end_realization = numbers.end_realization, steps = numbers.steps;
+    const uint shares = numbers.shares, L = numbers.L, pitch = numbers.pitch;
+    const uint grid_rows = numbers.grid_rows, bands = numbers.bands, pole = numbers.pole;
+    const uint columns = numbers.columns, strip = numbers.strip, rings = numbers.rings;
+    const uint num_rings = numbers.num_rings, ring_pitch = numbers.ring_pitch;
+    const uint first_value = numbers.first_value, value_sets = numbers.value_sets;
     const uint slot = get_global_id(1) / shares, slots = get_global_size(1) / shares;
     const uint pairs = L / (2 * LANES) + 1;
-    const uint transforms = only_even != 0 ? 2 : 4; /* of a pair of tiles */
+    const uint transforms = numbers.only_even != 0 ? 2 : 4; /* of a pair of tiles */
     const uint num_strips = (columns + strip - 1) / strip;
     const size_t group = get_global_id(1), row_reals = (size_t)columns * 2 * LANES;
-    const size_t room = (most_points + LANES - 1) / LANES * LANES;
+    const size_t room = (numbers.most_points + LANES - 1) / LANES * LANES;
     const window_axis across = {window, n, width, 0, degree, bins, 0, 1};
     const window_axis along = {window, n, width, 1, degree, bins, 0, 1};
     const chunk_axes axes = {across, across, along, 2, 0};
@@ -194,7 +194,7 @@ __kernel void sphere_orders(
         passes++;
     }
     const half_plan nothing = {radices + passes, twiddles, position, 0};
-    for (uint r = first_realization + slot; r < end_realization; r += slots) {
+    for (uint r = numbers.first_realization + slot; r < end_realization; r += slots) {
         const some_points whole = {points, weights, offsets[r], offsets[r + 1], starts};
         const some_points by_strips = {sorting.turns, sorting.weights, 0, 0, sorting.starts};
         const ring_target target = {values + (first_value + r) * 4 * (size_t)ring_pitch,

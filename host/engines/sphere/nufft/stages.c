@@ -3,6 +3,7 @@
 #include "base/round.h"
 #include "device/reals.h"
 #include "engines/nufft/fft.h"
+#include "sphere/nufft/orders.h"
 
 /* Bits of kernels/sphere/nufft/orders.cl. */
 enum { STEP_SPREAD = 1, STEP_AROUND = 2, STEP_RINGS = 4 };
@@ -92,36 +93,57 @@ typedef struct some_realizations {
     size_t first_value; /* where values of the first of all of them go */
 } some_realizations;
 
+static orders_numbers numbers_of(const ps_sphere_stages *self, some_realizations some,
+                                 unsigned steps, size_t shares) {
+    const ps_sphere_shape *shape = self->shape;
+    const ps_nufft_plan *plan = &self->tables->plan;
+    return (orders_numbers){
+        .most_points = shape->set_points,
+        .window = {plan->axis.n, plan->axis.window.width, plan->degree, plan->bins},
+        .first_realization = (uint32_t)some.first,
+        .end_realization = (uint32_t)some.end,
+        .steps = steps,
+        .shares = (uint32_t)shares,
+        .L = (uint32_t)shape->max_degree,
+        .only_even = self->only_even,
+        .pitch = (uint32_t)shape->pitch,
+        .grid_rows = (uint32_t)shape->grid_rows,
+        .bands = (uint32_t)shape->bands,
+        .pole = (uint32_t)shape->pole,
+        .columns = (uint32_t)shape->columns,
+        .strip = (uint32_t)shape->strip,
+        .rings = (uint32_t)shape->rings,
+        .num_rings = (uint32_t)shape->num_rings,
+        .ring_pitch = (uint32_t)shape->ring_pitch,
+        .first_value = (uint32_t)some.first_value,
+        .value_sets = (uint32_t)shape->at_once};
+}
+
 /* Runs the steps for as many realizations at a time as there are slots. */
 static pspec_status run_steps(ps_sphere_stages *self, some_realizations some, unsigned steps,
                               size_t shares, ps_error *error) {
     const ps_sphere_shape *shape = self->shape;
     const ps_sphere_tables *tables = self->tables;
-    const ps_nufft_plan *plan = &tables->plan;
     const ps_sphere_local local = ps_sphere_local_bytes(shape, ps_real_bytes(self->precision));
+    const orders_numbers numbers = numbers_of(self, some, steps, shares);
     const size_t num = some.end - some.first;
     const size_t slots = num < shape->slots ? num : shape->slots;
     const double transforms = (double)num * shape->pairs * 4.0 * shape->lanes;
     const ps_range range =
         ps_sphere_group_range(self->device, self->powers.is_alone, slots * shares,
                               transforms * ps_fft_flops(shape->axis.n));
-    return PS_LAUNCH(
-        self->device, self->orders, &range, error, PS_BUFFER(self->points->turns),
-        PS_BUFFER(self->points->weights), PS_BUFFER(self->points->offsets), PS_U32(some.first),
-        PS_U32(some.end), PS_BUFFER(plan->coefficients), PS_U32(plan->axis.n),
-        PS_U32(plan->axis.window.width), PS_U32(plan->degree), PS_U32(plan->bins),
-        PS_BUFFER(tables->halves.radices), PS_BUFFER(tables->halves.twiddles),
-        PS_BUFFER(tables->halves.position), PS_BUFFER(tables->rings.radices),
-        PS_BUFFER(tables->rings.twiddles), PS_BUFFER(tables->rings.position), PS_U32(shape->rings),
-        PS_BUFFER(tables->turns), PS_BUFFER(tables->ring_turns), PS_BUFFER(tables->around_gains),
-        PS_BUFFER(tables->along_gains), PS_U32(shape->max_degree), PS_U32(self->only_even),
-        PS_U32(steps), PS_U32(shares), PS_U32(shape->pitch), PS_U32(shape->grid_rows),
-        PS_U32(shape->bands), PS_U32(shape->pole), PS_U32(shape->columns), PS_U32(shape->num_rings),
-        PS_U32(shape->ring_pitch), PS_U32(shape->strip), PS_U64(shape->set_points),
-        PS_BUFFER(self->strip_turns), PS_BUFFER(self->strip_weights), PS_BUFFER(self->strips),
-        PS_BUFFER(self->strip_starts), PS_BUFFER(self->grids), PS_BUFFER(self->rows),
-        PS_BUFFER(self->values), PS_U32(some.first_value), PS_U32(shape->at_once),
-        PS_BUFFER(self->scratch), PS_LOCAL(local.windows), PS_LOCAL(local.cells));
+    return PS_LAUNCH(self->device, self->orders, &range, error, PS_STRUCT(numbers),
+                     PS_BUFFER(self->points->turns), PS_BUFFER(self->points->weights),
+                     PS_BUFFER(self->points->offsets), PS_BUFFER(tables->plan.coefficients),
+                     PS_BUFFER(tables->halves.radices), PS_BUFFER(tables->halves.twiddles),
+                     PS_BUFFER(tables->halves.position), PS_BUFFER(tables->rings.radices),
+                     PS_BUFFER(tables->rings.twiddles), PS_BUFFER(tables->rings.position),
+                     PS_BUFFER(tables->turns), PS_BUFFER(tables->ring_turns),
+                     PS_BUFFER(tables->around_gains), PS_BUFFER(tables->along_gains),
+                     PS_BUFFER(self->strip_turns), PS_BUFFER(self->strip_weights),
+                     PS_BUFFER(self->strips), PS_BUFFER(self->strip_starts), PS_BUFFER(self->grids),
+                     PS_BUFFER(self->rows), PS_BUFFER(self->values), PS_BUFFER(self->scratch),
+                     PS_LOCAL(local.windows), PS_LOCAL(local.cells));
 }
 
 /* All steps in one go where there is a realization for every work-group; else slot by slot, each

@@ -136,8 +136,8 @@ void ps_nufft_whole_free(ps_nufft_whole *whole) {
 #define WHOLE_TRANSFORM(fft)                                                                       \
     PS_BUFFER((fft)->radices), PS_BUFFER((fft)->twiddles), PS_BUFFER((fft)->position)
 
-static whole_window window_of(const ps_nufft_plan *plan) {
-    return (whole_window){plan->axis.n, plan->axis.window.width, plan->degree, plan->bins};
+static window_numbers window_of(const ps_nufft_plan *plan) {
+    return (window_numbers){plan->axis.n, plan->axis.window.width, plan->degree, plan->bins};
 }
 
 static ps_range range_of(const ps_nufft_whole *self, size_t num_realizations, size_t num_points) {
