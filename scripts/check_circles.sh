@@ -12,15 +12,14 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 for folder in pointspec_objects pointspec_program; do
     root=$build/CMakeFiles/$folder.dir/host
-    find "$root" -name '*.c.o' -printf '%P\n' | sed 's/\.o$//' | while IFS= read -r file; do
-        [[ -f host/$file ]] || continue # an object of a file that is gone
-        nm "$root/$file.o" | awk -v file="$file" '
-            NF == 2 && $1 == "U" { print "needs", file, $2 }
-            NF == 3 && $2 ~ /^[TDBRV]$/ { print "has", file, $3 }'
-    done
+    find "$root" -name '*.c.o' -printf '%P\n' | while IFS= read -r object; do
+        if [[ -f host/${object%.o} ]]; then echo "$object"; fi # no object of a file that is gone
+    done >"$scratch/objects"
+    (cd "$root" && xargs -r nm -A <"$scratch/objects") # FILE.o:[VALUE] KIND SYMBOL
 done >"$scratch/symbols"
-awk '$1 == "has" { owner[$3] = $2 }
-     $1 == "needs" { from[++num] = $2; symbol[num] = $3 }
+awk '{ file = $1; sub(/\.o:.*/, "", file) }
+     $(NF - 1) == "U" { from[++num] = file; symbol[num] = $NF }
+     $(NF - 1) ~ /^[TDBRV]$/ { owner[$NF] = file }
      END { for (i = 1; i <= num; i++)
                if (symbol[i] in owner && owner[symbol[i]] != from[i]) print from[i], owner[symbol[i]] }' \
     "$scratch/symbols" | sort -u >"$scratch/edges"
@@ -37,8 +36,17 @@ while read -r from to; do
     fi
 done <"$scratch/edges"
 
-# An edge is part of a circle where its end needs its beginning.
-awk '{ from[++num] = $1; to[num] = $2; needs[$1] = needs[$1] " " $2 }
+# What needs no file that is left, or is needed by none, is in no circle and is left out, over and over. An edge that is
+# left is part of a circle where its end needs its beginning.
+awk '{ from[++num] = $1; to[num] = $2; is_left[num] = 1 }
+     function leave_out(   i, is_less) {
+         split("", needs)
+         split("", is_needed)
+         for (i = 1; i <= num; i++) if (is_left[i]) { needs[from[i]] = needs[from[i]] " " to[i]; is_needed[to[i]] = 1 }
+         for (i = 1; i <= num; i++)
+             if (is_left[i] && !(to[i] in needs && from[i] in is_needed)) { is_left[i] = 0; is_less = 1 }
+         return is_less
+     }
      function reaches(begin, end,   queue, seen, list, first, last, i, n) {
          queue[last = 1] = begin
          for (first = 1; first <= last; first++) {
@@ -50,7 +58,9 @@ awk '{ from[++num] = $1; to[num] = $2; needs[$1] = needs[$1] " " $2 }
          }
          return 0
      }
-     END { for (i = 1; i <= num; i++) if (reaches(to[i], from[i])) print "    host/" from[i] " -> host/" to[i] }' \
+     END { while (leave_out()) continue
+           for (i = 1; i <= num; i++)
+               if (is_left[i] && reaches(to[i], from[i])) print "    host/" from[i] " -> host/" to[i] }' \
     "$scratch/edges" >"$scratch/circles"
 if [[ -s $scratch/circles ]]; then
     echo "files that need each other in a circle:" >&2
