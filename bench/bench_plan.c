@@ -63,12 +63,12 @@ static yardstick run_yardstick(void) {
     enum { TRIES = 3 };
     yardstick out = {HUGE_VAL, HUGE_VAL};
     for (int i = 0; i < TRIES; i++) {
-        yard_sums of = {{0}};
+        yard_sums sums = {{0}};
         const size_t many = (size_t)1 << 40;
         const double begin = bench_seconds();
-        measure_yard(&of, 0, 1);
+        measure_yard(&sums, 0, 1);
         const double middle = bench_seconds();
-        ps_workers_share(many, measure_yard, &of);
+        ps_workers_share(many, measure_yard, &sums);
         out.single = fmin(out.single, middle - begin);
         out.all = fmin(out.all, bench_seconds() - middle);
     }
@@ -276,26 +276,26 @@ static double factor_of(const answer *found) {
     return found->is_at_most ? 1 / ratio : fmax(ratio, 1 / ratio);
 }
 
-static void ask_all(battery *of) {
+static void ask_all(battery *series) {
     printf("        planned measured  ratio    yardstick processors  question\n");
-    for (size_t i = 0; of->questions[i] != NULL; i++) {
-        const char *const line = of->questions[i];
-        if (strstr(line, of->part) == NULL) {
+    for (size_t i = 0; series->questions[i] != NULL; i++) {
+        const char *const line = series->questions[i];
+        if (strstr(line, series->part) == NULL) {
             continue;
         }
-        const answer found = ask(of->program, line, &of->usual, of->repeats);
+        const answer found = ask(series->program, line, &series->usual, series->repeats);
         const double off = factor_of(&found);
-        const char *const mark = off > of->bad ? "!!" : off > of->good ? "!" : "";
+        const char *const mark = off > series->bad ? "!!" : off > series->good ? "!" : "";
         printf("%7s %7.3g %8.3g %6.2f %-2s %9.2f %10.1f  %s\n", found.is_at_most ? "at most" : "",
                found.planned, found.measured, found.planned / found.measured, mark, found.yard,
                found.cpu, line);
         fflush(stdout);
-        of->num++;
-        of->num_good += off <= of->good;
-        of->num_bad += !(off <= of->bad);
+        series->num++;
+        series->num_good += off <= series->good;
+        series->num_bad += !(off <= series->bad);
     }
-    printf("# %zu of %zu within a factor of %g, %zu beyond %g\n", of->num_good, of->num, of->good,
-           of->num_bad, of->bad);
+    printf("# %zu of %zu within a factor of %g, %zu beyond %g\n", series->num_good, series->num,
+           series->good, series->num_bad, series->bad);
 }
 
 int main(int argc, char **argv) {

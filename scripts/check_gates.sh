@@ -4,21 +4,22 @@ set -euo pipefail
 cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"
 
 bad=0
-forbid() { # WHY PATTERN [FILE ALLOWED]...: an extended regular expression that no file of host/ has
-    local why=$1 pattern=$2 found allowed
-    shift 2
+forbid() { # WHY FOLDERS PATTERN [FILE ALLOWED]...: an extended regular expression that no file of the folders has
+    local why=$1 folders=$2 pattern=$3 found allowed
+    shift 3
     allowed=$(IFS='|' && echo "${*:-none}")
-    if found=$(grep -rnE --include='*.[ch]' -e "$pattern" host | grep -vE "^($allowed):"); then
+    # shellcheck disable=SC2086 # several folders
+    if found=$(grep -rnE --include='*.[ch]' -e "$pattern" $folders | grep -vE "^($allowed):"); then
         printf '%s\n' "$why" "$found" >&2
         bad=1
     fi
 }
 
-forbid "a kind of result is asked through its interface (results/kind.h), not by its name:" '[!=]= &ps_result_'
-forbid "estimators are made by the runner (jobs/parts/runner.c), which plans again where it must:" \
+forbid "a kind of result is asked through its interface (results/kind.h), not by its name:" host '[!=]= &ps_result_'
+forbid "estimators are made by the runner (jobs/parts/runner.c), which plans again where it must:" host \
     'ps_estimator_create\(' host/jobs/parts/estimator.c host/jobs/parts/estimator.h host/jobs/parts/runner.c \
     host/verify/stress_device.c
-forbid "a receiver is named for the thing:" '(^|[^[:alnum:]_])(of|from|to|over|all)->'
+forbid "a receiver is named for the thing:" "host bench tests" '(^|[^[:alnum:]_])(of|from|to|over|all)->'
 
 # Formulas and tables in comments are indented, and strings may be long.
 if found=$(find host kernels tests bench \( -name '*.[ch]' -o -name '*.cl' \) -print0 | xargs -0 awk '

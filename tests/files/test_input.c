@@ -194,10 +194,10 @@ typedef struct counted {
 } counted;
 
 static void count_some(void *payload, unsigned index, unsigned count) {
-    const counted *all = payload;
-    const size_t end = ps_share_begin(all->num, index + 1, count);
-    for (size_t i = ps_share_begin(all->num, index, count); i < end; i++) {
-        all->times[i]++;
+    const counted *counts = payload;
+    const size_t end = ps_share_begin(counts->num, index + 1, count);
+    for (size_t i = ps_share_begin(counts->num, index, count); i < end; i++) {
+        counts->times[i]++;
     }
 }
 
@@ -205,16 +205,16 @@ static void every_thing_once(void **state) {
     (void)state;
     static const size_t nums[] = {0, 1, 5, 100, (1 << 17) - 1, 720721};
     for (size_t i = 0; i < sizeof nums / sizeof nums[0]; i++) {
-        counted all = {nums[i], calloc(nums[i] + 1, 1)};
-        ps_workers_share(nums[i], count_some, &all);
+        counted counts = {nums[i], calloc(nums[i] + 1, 1)};
+        ps_workers_share(nums[i], count_some, &counts);
         for (size_t j = 0; j <= nums[i]; j++) {
-            assert_int_equal(all.times[j], j < nums[i] ? 1 : 0);
+            assert_int_equal(counts.times[j], j < nums[i] ? 1 : 0);
         }
         for (unsigned count = 1; count < 20; count++) {
             assert_int_equal(ps_share_begin(nums[i], 0, count), 0);
             assert_int_equal(ps_share_begin(nums[i], count, count), nums[i]);
         }
-        free(all.times);
+        free(counts.times);
     }
 }
 

@@ -26,18 +26,19 @@ static void append(fuzz_reading *out, const ps_point_set *set, size_t first) {
         return;
     }
     check_shape(out, set);
-    ps_point_set *const all = &out->all;
+    ps_point_set *const joined = &out->all;
     const unsigned d = set->dimension;
-    all->coordinates = set->coordinates;
-    all->dimension = d;
-    all->has_weights = set->has_weights;
-    all->points = fuzz_allocate(all->points, (all->num_points + num) * d, sizeof(double));
-    memcpy(all->points + all->num_points * d, set->points + first * d, num * d * sizeof(double));
+    joined->coordinates = set->coordinates;
+    joined->dimension = d;
+    joined->has_weights = set->has_weights;
+    joined->points = fuzz_allocate(joined->points, (joined->num_points + num) * d, sizeof(double));
+    memcpy(joined->points + joined->num_points * d, set->points + first * d,
+           num * d * sizeof(double));
     if (set->has_weights) {
-        all->weights = fuzz_allocate(all->weights, all->num_points + num, sizeof(double));
-        memcpy(all->weights + all->num_points, set->weights + first, num * sizeof(double));
+        joined->weights = fuzz_allocate(joined->weights, joined->num_points + num, sizeof(double));
+        memcpy(joined->weights + joined->num_points, set->weights + first, num * sizeof(double));
     }
-    all->num_points += num;
+    joined->num_points += num;
 }
 
 static void end_set(fuzz_reading *out) {

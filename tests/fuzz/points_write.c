@@ -66,16 +66,16 @@ static bool write_all(const fuzz_reading *reading, const char *path, const char 
 /* ---- reading again ----------------------------------------------------------------------- */
 
 static ps_point_options options_for_again(const fuzz_reading *reading, const char *format) {
-    const ps_point_set *const all = &reading->all;
-    const bool is_torus = all->coordinates == PS_TORUS_COORDINATES;
+    const ps_point_set *const joined = &reading->all;
+    const bool is_torus = joined->coordinates == PS_TORUS_COORDINATES;
     ps_point_options options = {.format = format,
                                 .domain = is_torus ? PS_DOMAIN_TORUS : PS_DOMAIN_SPHERE,
-                                .dimension = is_torus ? all->dimension : 0,
+                                .dimension = is_torus ? joined->dimension : 0,
                                 .points_per_set = common_size(reading),
-                                .weight_column = all->has_weights};
-    if (all->coordinates == PS_ANGLES) {
+                                .weight_column = joined->has_weights};
+    if (joined->coordinates == PS_ANGLES) {
         options.keep_angles = true;
-        options.columns = all->has_weights ? "theta-phi-w" : "theta-phi";
+        options.columns = joined->has_weights ? "theta-phi-w" : "theta-phi";
     }
     if (strcmp(format, "utk-binary") == 0) { /* which asks about sets that repeat the first */
         options.sets = (ps_point_range){1, reading->num_sets};

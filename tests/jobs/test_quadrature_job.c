@@ -19,17 +19,17 @@ typedef struct asked {
     ps_quadrature_question question;
 } asked;
 
-/* *of must not be moved. */
-static void ask(asked *of, const char *sampler, size_t num_points, uint64_t num_realizations,
+/* *job must not be moved. */
+static void ask(asked *job, const char *sampler, size_t num_points, uint64_t num_realizations,
                 const char *engine) {
-    *of = (asked){.request = {.num_points = num_points, .seed = 7}};
-    assert_ok(ps_brdf_parse(&of->brdf, "diffuse", error));
-    assert_ok(ps_sampler_parse(&of->request, sampler, error));
-    assert_ok(ps_sampler_resolve(&of->request, error));
-    of->question =
-        (ps_quadrature_question){.brdf = of->brdf,
+    *job = (asked){.request = {.num_points = num_points, .seed = 7}};
+    assert_ok(ps_brdf_parse(&job->brdf, "diffuse", error));
+    assert_ok(ps_sampler_parse(&job->request, sampler, error));
+    assert_ok(ps_sampler_resolve(&job->request, error));
+    job->question =
+        (ps_quadrature_question){.brdf = job->brdf,
                                  .smoothness = 1.5,
-                                 .sampler = &of->request,
+                                 .sampler = &job->request,
                                  .num_realizations = num_realizations,
                                  .max_degree = LAST,
                                  .accuracy.tolerance = 1e-10,
@@ -58,18 +58,18 @@ static void batches(void **state) {
     static const size_t sizes[] = {1, 3, 7};
     (void)state;
     for (size_t i = 0; i < sizeof engines / sizeof engines[0]; i++) {
-        asked of;
-        ask(&of, "white-hemisphere:morph=diffuse", 24, 10, engines[i]);
-        ps_quadrature_result whole = run(&of.question);
+        asked job;
+        ask(&job, "white-hemisphere:morph=diffuse", 24, 10, engines[i]);
+        ps_quadrature_result whole = run(&job.question);
         assert_true(strstr(whole.engine, engines[i]) != NULL);
         for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; k++) {
-            of.question.batch = sizes[k];
-            ps_quadrature_result parts = run(&of.question);
+            job.question.batch = sizes[k];
+            ps_quadrature_result parts = run(&job.question);
             same_bits(&whole, &parts);
             ps_quadrature_free(&parts);
         }
         ps_quadrature_free(&whole);
-        ps_brdf_destroy(of.brdf);
+        ps_brdf_destroy(job.brdf);
     }
 }
 
@@ -93,16 +93,16 @@ static void two_routes(void **state) {
                                            "white-hemisphere:morph=none"};
     (void)state;
     for (size_t i = 0; i < 2; i++) {
-        asked of;
-        ask(&of, samplers[i], 64, 1, "host_direct");
-        ps_quadrature_result coefficients = run(&of.question);
-        of.question.limits.constraints.engine = "pairs_direct";
-        ps_quadrature_result pairs = run(&of.question);
+        asked job;
+        ask(&job, samplers[i], 64, 1, "host_direct");
+        ps_quadrature_result coefficients = run(&job.question);
+        job.question.limits.constraints.engine = "pairs_direct";
+        ps_quadrature_result pairs = run(&job.question);
         assert_true(strstr(pairs.engine, "pairs_direct") != NULL);
         near(&coefficients, &pairs, 1e-14);
         ps_quadrature_free(&coefficients);
         ps_quadrature_free(&pairs);
-        ps_brdf_destroy(of.brdf);
+        ps_brdf_destroy(job.brdf);
     }
 }
 
@@ -114,18 +114,18 @@ static void replanned(void **state) {
     int num_replanned = 0;
     (void)state;
     for (size_t i = 0; i < sizeof tolerances / sizeof tolerances[0]; i++) {
-        asked of;
-        ask(&of, "white-hemisphere:morph=glossy,n=5000", 64, 4, "sphere_nufft");
-        of.question.accuracy.tolerance = tolerances[i];
-        ps_quadrature_result result = run(&of.question);
-        of.question.limits.constraints.engine = "host_direct";
-        ps_quadrature_result exact = run(&of.question);
+        asked job;
+        ask(&job, "white-hemisphere:morph=glossy,n=5000", 64, 4, "sphere_nufft");
+        job.question.accuracy.tolerance = tolerances[i];
+        ps_quadrature_result result = run(&job.question);
+        job.question.limits.constraints.engine = "host_direct";
+        ps_quadrature_result exact = run(&job.question);
         near(&exact, &result, tolerances[i]);
         assert_false(exact.was_replanned);
         num_replanned += result.was_replanned ? 1 : 0;
         ps_quadrature_free(&exact);
         ps_quadrature_free(&result);
-        ps_brdf_destroy(of.brdf);
+        ps_brdf_destroy(job.brdf);
     }
     assert_true(num_replanned > 0);
 }
@@ -169,54 +169,54 @@ static void stops(void **state) {
     const double wanted = 0.2;
     (void)state;
     for (size_t i = 0; i < sizeof weights / sizeof weights[0]; i++) {
-        asked of;
-        ask(&of, "white-hemisphere:morph=diffuse", 16, 5000, "pairs_direct");
-        of.question.weights.kind = weights[i];
-        of.question.accuracy.standard_error = wanted;
-        ps_quadrature_result whole = run(&of.question);
+        asked job;
+        ask(&job, "white-hemisphere:morph=diffuse", 16, 5000, "pairs_direct");
+        job.question.weights.kind = weights[i];
+        job.question.accuracy.standard_error = wanted;
+        ps_quadrature_result whole = run(&job.question);
         const uint64_t num = whole.num_realizations;
         assert_true(num > PS_LEAST_REALIZATIONS && num < 1000);
         assert_int_equal(ps_sequential_next_look(num - 1), num);
         assert_true(whole.has_look && whole.look.corrected <= wanted);
         assert_true(whole.squared.standard_error <= wanted * whole.squared.mean);
-        const double least = of.question.accuracy.tolerance * whole.representer.constant *
+        const double least = job.question.accuracy.tolerance * whole.representer.constant *
                              whole.weight_size * whole.weight_size;
         for (size_t l = 0; l <= LAST; l++) {
             const ps_mean e2 = whole.degrees[l].e2;
             assert_true(e2.mean <= least || e2.standard_error <= wanted * e2.mean);
         }
         for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; k++) {
-            of.question.batch = sizes[k];
-            ps_quadrature_result parts = run(&of.question);
+            job.question.batch = sizes[k];
+            ps_quadrature_result parts = run(&job.question);
             same_bits(&whole, &parts);
             ps_quadrature_free(&parts);
         }
-        of.question.accuracy.standard_error = 0;
-        of.question.num_realizations = num;
-        ps_quadrature_result exactly = run(&of.question);
+        job.question.accuracy.standard_error = 0;
+        job.question.num_realizations = num;
+        ps_quadrature_result exactly = run(&job.question);
         same_bits(&whole, &exactly);
         assert_false(exactly.has_look);
         ps_quadrature_free(&exactly);
         ps_quadrature_free(&whole);
-        ps_brdf_destroy(of.brdf);
+        ps_brdf_destroy(job.brdf);
     }
 }
 
 /* A deterministic rule is done once; without skips all there are, which is said. */
 static void one_is_enough(void **state) {
-    asked of;
+    asked job;
     (void)state;
-    ask(&of, "fibonacci-hemisphere:morph=diffuse", 24, 20, NULL);
-    of.question.accuracy.standard_error = 0.01;
-    ps_quadrature_result once = run(&of.question);
+    ask(&job, "fibonacci-hemisphere:morph=diffuse", 24, 20, NULL);
+    job.question.accuracy.standard_error = 0.01;
+    ps_quadrature_result once = run(&job.question);
     assert_true(once.num_realizations == 1 && !once.has_look);
-    of.question.accuracy.no_skip = true;
-    ps_quadrature_result all = run(&of.question);
+    job.question.accuracy.no_skip = true;
+    ps_quadrature_result all = run(&job.question);
     assert_true(all.num_realizations == 20 && all.has_look && all.look.corrected < 1e-12);
     assert_true(fabs(once.squared.mean - all.squared.mean) <= 1e-15);
     ps_quadrature_free(&once);
     ps_quadrature_free(&all);
-    ps_brdf_destroy(of.brdf);
+    ps_brdf_destroy(job.brdf);
 }
 
 int main(void) {

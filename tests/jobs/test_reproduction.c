@@ -57,10 +57,10 @@ static curve measure(const ps_representer *r, const char *sampler, bool is_optim
 }
 
 /* Of log E over log N, by least squares. */
-static double slope_of(const curve *of) {
+static double slope_of(const curve *measured) {
     double slope = 0;
     for (int k = 0; k < SIZES; k++) {
-        slope += (k - 1.5) * log2(of->mean[k]) / 2 / 5; /* sum (k - 1.5)^2 = 5 */
+        slope += (k - 1.5) * log2(measured->mean[k]) / 2 / 5; /* sum (k - 1.5)^2 = 5 */
     }
     return slope;
 }
@@ -143,24 +143,26 @@ typedef struct extent {
 } extent;
 
 /* The bracket of the rest is [0, bound]. */
-static void compare_forms(const ps_representer *representers, const extent *of,
+static void compare_forms(const ps_representer *representers, const extent *sizes,
                           const double *points) {
     double c_l0[MOST_DEGREES + 1];
     double c2[MOST_DEGREES + 1];
-    const ps_rule rule = {of->num, points, NULL};
+    const ps_rule rule = {sizes->num, points, NULL};
     const ps_weight_sums weights = ps_rule_weight_sums(&rule);
-    coefficients_of(of->num, points, of->last, c_l0, c2);
+    coefficients_of(sizes->num, points, sizes->last, c_l0, c2);
     for (int k = 0; k < NUM_SMOOTHNESS; k++) {
         const ps_representer *const r = &representers[k];
         ps_spectral_error e;
-        assert_ok(ps_spectral_error_of(r, (size_t)of->last, c_l0, c2, &weights, NULL, &e, error));
-        const double rest = test_squared_error(r, of->num, points, NULL) - e.zonal - e.anisotropic;
+        assert_ok(
+            ps_spectral_error_of(r, (size_t)sizes->last, c_l0, c2, &weights, NULL, &e, error));
+        const double rest =
+            test_squared_error(r, sizes->num, points, NULL) - e.zonal - e.anisotropic;
         if (!(rest >= -1e-13 && rest <= e.tail_bound)) {
-            fail_msg("N %zu, s %.1f: rest %.4g, not in [0, %.4g]", of->num, r->smoothness, rest,
+            fail_msg("N %zu, s %.1f: rest %.4g, not in [0, %.4g]", sizes->num, r->smoothness, rest,
                      e.tail_bound);
         }
-        if (of->is_far && !(rest > e.tail_model / 3 && rest < 3 * e.tail_model)) {
-            fail_msg("N %zu, s %.1f: rest %.4g, model %.4g", of->num, r->smoothness, rest,
+        if (sizes->is_far && !(rest > e.tail_model / 3 && rest < 3 * e.tail_model)) {
+            fail_msg("N %zu, s %.1f: rest %.4g, model %.4g", sizes->num, r->smoothness, rest,
                      e.tail_model);
         }
     }

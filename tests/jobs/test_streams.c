@@ -146,13 +146,13 @@ typedef struct blocks {
 } blocks;
 
 static pspec_status next_block(void *payload, size_t unit, pspec_pattern *block, ps_error *error) {
-    blocks *from = payload;
+    blocks *source = payload;
     (void)error;
-    const size_t left = from->pattern.num_points - from->position;
-    *block = from->pattern;
+    const size_t left = source->pattern.num_points - source->position;
+    *block = source->pattern;
     block->num_points = left < unit ? left : unit;
-    block->points += from->position * block->dimension;
-    from->position += block->num_points;
+    block->points += source->position * block->dimension;
+    source->position += block->num_points;
     return PSPEC_OK;
 }
 
@@ -170,10 +170,10 @@ static void sets_that_change(void **state) {
     assert_true(ps_estimator_can_stream(estimator));
     for (uint64_t announced = SOME - 1; announced <= SOME + 1; announced++) {
         ps_error error = {0};
-        blocks from = {.pattern = what.patterns[0]};
+        blocks source = {.pattern = what.patterns[0]};
         const double sum = (double)announced;
         const ps_pattern_stream stream = {
-            2, announced, {0, true, sum, sum, sum, 0}, next_block, &from};
+            2, announced, {0, true, sum, sum, sum, 0}, next_block, &source};
         const bool is_right = announced == SOME;
         assert_int_equal(ps_estimator_add_stream(estimator, &stream, &error),
                          is_right ? PSPEC_OK : PSPEC_ERROR_INPUT);

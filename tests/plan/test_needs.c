@@ -158,65 +158,65 @@ typedef struct planned {
     ps_plan plan;
 } planned;
 
-static ps_needs plan(planned *of, double tolerance, double strict_tolerance, bool has_double,
+static ps_needs plan(planned *job, double tolerance, double strict_tolerance, bool has_double,
                      bool no_skip) {
     ps_needs_question question = ordinary();
     question.accuracy.no_skip = no_skip;
     ps_needs needs = ps_needs_find(&question);
-    *of = (planned){.limits = test_cpu(), .constraints = {.precision = -1}};
-    of->limits.has_fp64 = has_double;
-    assert_ok(ps_frequencies_lattice(&of->frequencies, 2, 64, true, error));
-    of->problem = (ps_problem){.frequencies = &of->frequencies,
-                               .num_points = 1024,
-                               .num_realizations = 100,
-                               .tolerance = tolerance};
-    of->strict.tolerance = strict_tolerance;
-    assert_ok(ps_needs_plan(&needs, &of->plan, &of->problem, &of->limits, &of->constraints,
-                            &of->strict, error));
-    assert_non_null(of->plan.chosen);
+    *job = (planned){.limits = test_cpu(), .constraints = {.precision = -1}};
+    job->limits.has_fp64 = has_double;
+    assert_ok(ps_frequencies_lattice(&job->frequencies, 2, 64, true, error));
+    job->problem = (ps_problem){.frequencies = &job->frequencies,
+                                .num_points = 1024,
+                                .num_realizations = 100,
+                                .tolerance = tolerance};
+    job->strict.tolerance = strict_tolerance;
+    assert_ok(ps_needs_plan(&needs, &job->plan, &job->problem, &job->limits, &job->constraints,
+                            &job->strict, error));
+    assert_non_null(job->plan.chosen);
     return needs;
 }
 
 static void precision(void **state) {
     (void)state;
-    planned of;
-    ps_needs needs = plan(&of, 1e-4, 1e-4, true, false);
-    const ps_candidate *const exact = ps_plan_cheapest(&of.plan, PS_DOUBLE);
+    planned job;
+    ps_needs needs = plan(&job, 1e-4, 1e-4, true, false);
+    const ps_candidate *const exact = ps_plan_cheapest(&job.plan, PS_DOUBLE);
     const ps_skip *const skip = find_skip(&needs, "double precision");
-    assert_int_equal(of.plan.chosen->precision, PS_SINGLE);
+    assert_int_equal(job.plan.chosen->precision, PS_SINGLE);
     assert_non_null(strstr(skip->why, "within the tolerance"));
-    assert_true(fabs(skip->share - (1 - of.plan.chosen->seconds / exact->seconds)) < 1e-12);
-    needs = plan(&of, 1e-4, 1e-4, true, true); /* and with --no-skip it is what is done */
-    assert_int_equal(of.plan.chosen->precision, PS_DOUBLE);
+    assert_true(fabs(skip->share - (1 - job.plan.chosen->seconds / exact->seconds)) < 1e-12);
+    needs = plan(&job, 1e-4, 1e-4, true, true); /* and with --no-skip it is what is done */
+    assert_int_equal(job.plan.chosen->precision, PS_DOUBLE);
     assert_null(find_skip(&needs, "precision"));
-    needs = plan(&of, 1e-4, 1e-4, false, true); /* as far as there is any */
-    assert_int_equal(of.plan.chosen->precision, PS_SINGLE);
-    needs = plan(&of, 1e-4, 1e-4, false, false);
+    needs = plan(&job, 1e-4, 1e-4, false, true); /* as far as there is any */
+    assert_int_equal(job.plan.chosen->precision, PS_SINGLE);
+    needs = plan(&job, 1e-4, 1e-4, false, false);
     assert_null(find_skip(&needs, "precision"));
-    needs = plan(&of, 1e-12, 1e-12, true, false); /* double precision is needed */
-    assert_int_equal(of.plan.chosen->precision, PS_DOUBLE);
+    needs = plan(&job, 1e-12, 1e-12, true, false); /* double precision is needed */
+    assert_int_equal(job.plan.chosen->precision, PS_DOUBLE);
     assert_null(find_skip(&needs, "precision"));
 }
 
 /* A statistical target that is looser than the tolerance. */
 static void digits(void **state) {
     (void)state;
-    planned of;
-    ps_needs needs = plan(&of, 1e-3, 1e-6, true, false);
+    planned job;
+    ps_needs needs = plan(&job, 1e-3, 1e-6, true, false);
     assert_non_null(strstr(find_skip(&needs, "double precision")->why, "--standard-error"));
-    needs = plan(&of, 1e-9, 1e-12, true, false); /* double precision both times */
+    needs = plan(&job, 1e-9, 1e-12, true, false); /* double precision both times */
     assert_non_null(strstr(find_skip(&needs, "digits beyond")->why, "--floor"));
 }
 
 /* Beside other work the share is less. */
 static void share_is_of_the_job(void **state) {
     (void)state;
-    planned of;
-    ps_needs needs = plan(&of, 1e-4, 1e-4, true, false);
+    planned job;
+    ps_needs needs = plan(&job, 1e-4, 1e-4, true, false);
     const double alone = find_skip(&needs, "double precision")->share;
-    of.strict.other_seconds = of.plan.chosen->seconds;
-    assert_ok(ps_needs_plan(&needs, &of.plan, &of.problem, &of.limits, &of.constraints, &of.strict,
-                            error));
+    job.strict.other_seconds = job.plan.chosen->seconds;
+    assert_ok(ps_needs_plan(&needs, &job.plan, &job.problem, &job.limits, &job.constraints,
+                            &job.strict, error));
     const double beside = find_skip(&needs, "double precision")->share;
     assert_true(beside > 0 && beside < alone);
 }
@@ -225,20 +225,20 @@ static void share_is_of_the_job(void **state) {
  * twice. */
 static void matters_of_course(void **state) {
     (void)state;
-    planned of;
+    planned job;
     ps_text text = {0};
-    ps_needs needs = plan(&of, 1e-4, 1e-4, true, false);
+    ps_needs needs = plan(&job, 1e-4, 1e-4, true, false);
     const size_t num = needs.num_skips;
     assert_true(find_skip(&needs, "kernels of other engines")->is_matter_of_course);
-    assert_ok(ps_needs_plan(&needs, &of.plan, &of.problem, &of.limits, &of.constraints, &of.strict,
-                            error));
+    assert_ok(ps_needs_plan(&needs, &job.plan, &job.problem, &job.limits, &job.constraints,
+                            &job.strict, error));
     assert_int_equal(needs.num_skips, num);
     ps_needs_describe(&needs, &text);
     assert_null(strstr(ps_text_string(&text), "kernels"));
     ps_text_free(&text);
-    of.constraints.engine = "host_direct";
+    job.constraints.engine = "host_direct";
     assert_ok(
-        ps_needs_plan(&needs, &of.plan, &of.problem, NULL, &of.constraints, &of.strict, error));
+        ps_needs_plan(&needs, &job.plan, &job.problem, NULL, &job.constraints, &job.strict, error));
     assert_non_null(find_skip(&needs, "OpenCL devices"));
     assert_null(find_skip(&needs, "kernels"));
 }

@@ -39,33 +39,34 @@ typedef struct ring {
 } ring;
 
 static long double on_ring(const void *payload, long double phi) {
-    const ring *const of = payload;
-    const long double z = of->x + of->y * cosl(phi);
-    return ps_brdf_density(of->brdf, (double)fmaxl(z, 0));
+    const ring *const circle = payload;
+    const long double z = circle->x + circle->y * cosl(phi);
+    return ps_brdf_density(circle->brdf, (double)fmaxl(z, 0));
 }
 
 /* |u-v|^(2s-2) phat over the ring of radius g around u. */
 static long double of_ring(const void *payload, long double g) {
-    ring of = *(const ring *)payload;
-    of.x = of.cosine * cosl(g);
-    of.y = of.sine * sinl(g);
-    if (of.x <= -of.y) {
+    ring circle = *(const ring *)payload;
+    circle.x = circle.cosine * cosl(g);
+    circle.y = circle.sine * sinl(g);
+    if (circle.x <= -circle.y) {
         return 0;
     }
-    const long double last = of.x >= of.y ? PS_PI_L : acosl(-of.x / of.y); /* above the horizon */
-    const long double mean = integrate(on_ring, &of, 0, last);
-    return powl(2 * sinl(g / 2), 2 * of.smoothness - 2) * 2 * mean * sinl(g);
+    const long double last =
+        circle.x >= circle.y ? PS_PI_L : acosl(-circle.x / circle.y); /* above the horizon */
+    const long double mean = integrate(on_ring, &circle, 0, last);
+    return powl(2 * sinl(g / 2), 2 * circle.smoothness - 2) * 2 * mean * sinl(g);
 }
 
 /* D(u) = int |u-v|^(2s-2) phat(v) dS(v), split where rings begin and end to cross the horizon. */
 static long double distance_from(const ps_brdf *brdf, double smoothness, long double z) {
-    ring of = {
+    ring circle = {
         .brdf = brdf, .smoothness = smoothness, .cosine = z, .sine = sqrtl((1 - z) * (1 + z))};
     const long double theta = acosl(z);
     const long double first = fabsl(PS_PI_L / 2 - theta);
     const long double second = theta <= PS_PI_L / 2 ? PS_PI_L / 2 + theta : 3 * PS_PI_L / 2 - theta;
-    return integrate(of_ring, &of, 0, first) + integrate(of_ring, &of, first, second) +
-           integrate(of_ring, &of, second, PS_PI_L);
+    return integrate(of_ring, &circle, 0, first) + integrate(of_ring, &circle, first, second) +
+           integrate(of_ring, &circle, second, PS_PI_L);
 }
 
 /* ---- tests ----------------------------------------------------------------------------------- */

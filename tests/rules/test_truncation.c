@@ -19,22 +19,23 @@ typedef struct subject {
 } subject;
 
 static subject *make(const char *text, double s, bool on_hemisphere) {
-    subject *of = calloc(1, sizeof *of);
-    assert_ok(ps_brdf_parse(&of->brdf, text, error));
-    assert_ok(ps_representer_create(&of->representer, of->brdf, s, 1e-13, 4 * LAST, error));
+    subject *lobe = calloc(1, sizeof *lobe);
+    assert_ok(ps_brdf_parse(&lobe->brdf, text, error));
+    assert_ok(ps_representer_create(&lobe->representer, lobe->brdf, s, 1e-13, 4 * LAST, error));
     if (on_hemisphere) {
-        assert_ok(ps_truncation_hemispherical(of->brdf, s, LAST, 1e-3, of->errors, of->bounds,
-                                              &of->sh_degree, error));
+        assert_ok(ps_truncation_hemispherical(lobe->brdf, s, LAST, 1e-3, lobe->errors, lobe->bounds,
+                                              &lobe->sh_degree, error));
     } else {
-        assert_ok(ps_truncation_spherical(&of->representer, LAST, of->errors, of->bounds, error));
+        assert_ok(
+            ps_truncation_spherical(&lobe->representer, LAST, lobe->errors, lobe->bounds, error));
     }
-    return of;
+    return lobe;
 }
 
-static void drop(subject *of) {
-    ps_brdf_destroy(of->brdf);
-    ps_representer_destroy(&of->representer);
-    free(of);
+static void drop(subject *lobe) {
+    ps_brdf_destroy(lobe->brdf);
+    ps_representer_destroy(&lobe->representer);
+    free(lobe);
 }
 
 static double cell(const cJSON *row, int column) {
@@ -78,17 +79,17 @@ static void hemispherical_reference(void **state) {
     const cJSON *table = NULL;
     (void)state;
     cJSON_ArrayForEach(table, tables) {
-        subject *of = make("glossy:n=30", test_field(table, "s"), true);
+        subject *lobe = make("glossy:n=30", test_field(table, "s"), true);
         const cJSON *row = NULL;
         cJSON_ArrayForEach(row, cJSON_GetObjectItem(table, "rows")) {
             const size_t l = (size_t)cell(row, 0);
             const double low = cell(row, 1);
             const double high = sqrt(low * low + cell(row, 2) * cell(row, 2));
             assert_true(l <= LAST);
-            assert_true(of->errors[l] >= low - of->bounds[l] - 1e-12);
-            assert_true(of->errors[l] <= high + of->bounds[l] + 1e-12);
+            assert_true(lobe->errors[l] >= low - lobe->bounds[l] - 1e-12);
+            assert_true(lobe->errors[l] <= high + lobe->bounds[l] + 1e-12);
         }
-        drop(of);
+        drop(lobe);
     }
     cJSON_Delete(json);
 }
@@ -103,10 +104,10 @@ typedef struct value {
 /* The documents round to the digits that they print: relative tells how far. */
 static void check_values(const char *brdf, bool on_hemisphere, const value *values, size_t num,
                          double relative, double points_relative) {
-    subject *of = make(brdf, 1.5, on_hemisphere);
-    ps_equal_error equal = {.representer = &of->representer, .morph = ps_brdf_morph(of->brdf)};
+    subject *lobe = make(brdf, 1.5, on_hemisphere);
+    ps_equal_error equal = {.representer = &lobe->representer, .morph = ps_brdf_morph(lobe->brdf)};
     for (size_t i = 0; i < num; i++) {
-        const double error_of_degree = of->errors[values[i].degree];
+        const double error_of_degree = lobe->errors[values[i].degree];
         assert_near(error_of_degree, values[i].error, relative, 0);
         if (values[i].points > 0) {
             double points = 0;
@@ -114,7 +115,7 @@ static void check_values(const char *brdf, bool on_hemisphere, const value *valu
             assert_near(points, values[i].points, points_relative, 0.5);
         }
     }
-    drop(of);
+    drop(lobe);
 }
 
 static void printed_values(void **state) {
@@ -149,18 +150,19 @@ static void table_1(void **state) {
                 {"glossy:n=30", true, 9, 1072}};
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        subject *of = make(rows[i].brdf, 1.5, rows[i].on_hemisphere);
-        ps_equal_error equal = {.representer = &of->representer, .morph = ps_brdf_morph(of->brdf)};
+        subject *lobe = make(rows[i].brdf, 1.5, rows[i].on_hemisphere);
+        ps_equal_error equal = {.representer = &lobe->representer,
+                                .morph = ps_brdf_morph(lobe->brdf)};
         double points = 0;
         size_t l = 0;
-        while (of->errors[l] > 2.7e-3) {
+        while (lobe->errors[l] > 2.7e-3) {
             l++;
         }
         assert_int_equal(l, rows[i].degree);
         assert_ok(ps_equal_error_points(&equal, 2.5e-3, &points, error));
         print_message("%s: L = %zu, N = %.1f\n", rows[i].brdf, l, points);
         assert_near(points, rows[i].points, 0.01, 0);
-        drop(of);
+        drop(lobe);
     }
 }
 
@@ -220,15 +222,15 @@ static void refusals(void **state) {
 
 /* Errors that no ladder reaches, and those that one point has. */
 static void ends_of_the_ladder(void **state) {
-    subject *of = make("diffuse", 1.5, false);
-    ps_equal_error equal = {.representer = &of->representer, .morph = ps_brdf_morph(of->brdf)};
+    subject *lobe = make("diffuse", 1.5, false);
+    ps_equal_error equal = {.representer = &lobe->representer, .morph = ps_brdf_morph(lobe->brdf)};
     double points = 0;
     (void)state;
     assert_ok(ps_equal_error_points(&equal, 10, &points, error));
     assert_true(points == 1);
     assert_ok(ps_equal_error_points(&equal, 1e-5, &points, error));
     assert_true(isnan(points));
-    drop(of);
+    drop(lobe);
 }
 
 int main(void) {

@@ -146,11 +146,11 @@ static void job_stops(void **state) {
         assert_true(spectrum->bins[b].standard_error <= 0.1 * spectrum->bins[b].power);
     }
     ps_power_job *same = run(0, num, false);
-    const ps_spectrum *all = ps_power_job_spectrum(same);
+    const ps_spectrum *whole = ps_power_job_spectrum(same);
     assert_null(ps_power_job_look(same));
     for (size_t b = 0; b < spectrum->num_bins; b++) {
-        assert_true(spectrum->bins[b].power == all->bins[b].power);
-        assert_true(spectrum->bins[b].standard_error == all->bins[b].standard_error);
+        assert_true(spectrum->bins[b].power == whole->bins[b].power);
+        assert_true(spectrum->bins[b].standard_error == whole->bins[b].standard_error);
     }
     ps_power_job_destroy(same);
     ps_power_job_destroy(job);

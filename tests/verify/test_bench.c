@@ -94,42 +94,43 @@ typedef struct collection {
 } collection;
 
 static pspec_status collect(void *payload, const ps_bench_row *rows, size_t num, ps_error *error) {
-    collection *const all = payload;
+    collection *const collected = payload;
     (void)error;
     assert_true(num <= MOST_ROWS);
-    memcpy(all->rows, rows, num * sizeof *rows);
-    all->num = num;
-    all->num_reports++;
+    memcpy(collected->rows, rows, num * sizeof *rows);
+    collected->num = num;
+    collected->num_reports++;
     return PSPEC_OK;
 }
 
 static bool ask_to_stop(void *payload) {
-    const collection *const all = payload;
-    return all->stops;
+    const collection *const collected = payload;
+    return collected->stops;
 }
 
-static ps_bench_options quick_options(const char *name, collection *all) {
+static ps_bench_options quick_options(const char *name, collection *collected) {
     return (ps_bench_options){.case_name = name,
                               .precision = -1,
                               .quick = true,
                               .should_stop = ask_to_stop,
                               .report = collect,
-                              .payload = all};
+                              .payload = collected};
 }
 
-static size_t count_rows(const collection *all, const char *engine, ps_precision precision) {
+static size_t count_rows(const collection *collected, const char *engine, ps_precision precision) {
     size_t num = 0;
-    for (size_t i = 0; i < all->num; i++) {
-        num += strcmp(all->rows[i].engine->name, engine) == 0 && all->rows[i].precision == precision
+    for (size_t i = 0; i < collected->num; i++) {
+        num += strcmp(collected->rows[i].engine->name, engine) == 0 &&
+                       collected->rows[i].precision == precision
                    ? 1
                    : 0;
     }
     return num;
 }
 
-static bool is_beaten(const collection *all, const ps_bench_row *row) {
-    for (size_t i = 0; i < all->num; i++) {
-        const ps_bench_row *by = &all->rows[i];
+static bool is_beaten(const collection *collected, const ps_bench_row *row) {
+    for (size_t i = 0; i < collected->num; i++) {
+        const ps_bench_row *by = &collected->rows[i];
         if ((by->seconds < row->seconds && by->error <= row->error) ||
             (by->seconds <= row->seconds && by->error < row->error)) {
             return true;
@@ -138,7 +139,7 @@ static bool is_beaten(const collection *all, const ps_bench_row *row) {
     return false;
 }
 
-static void check_row(const collection *all, const ps_bench_row *row) {
+static void check_row(const collection *collected, const ps_bench_row *row) {
     const double bytes = row->precision == PS_SINGLE ? sizeof(float) : sizeof(double);
     const double least = 256 * 2 * sizeof(double) + 32 * 66 * bytes; /* points, half lattice */
     assert_string_equal(row->what->what.name, "plane-many");
@@ -146,7 +147,7 @@ static void check_row(const collection *all, const ps_bench_row *row) {
     assert_true(isfinite(row->predicted_seconds) && row->predicted_seconds > 0);
     assert_true(row->error >= 0 && row->error <= row->tolerance); /* the contract */
     assert_true(row->predicted_error > 0 && row->predicted_error <= row->tolerance);
-    assert_int_equal(row->is_pareto, !is_beaten(all, row));
+    assert_int_equal(row->is_pareto, !is_beaten(collected, row));
     if (!row->engine->needs_device) {
         assert_true(isnan(row->fraction_of_peak) && isnan(row->fraction_of_bandwidth));
         return;
@@ -159,39 +160,40 @@ static void check_row(const collection *all, const ps_bench_row *row) {
 static void rows_of_a_case(void **state) {
     (void)state;
     const bool has_fp64 = ps_device_get_limits(device)->has_fp64;
-    collection all = {0};
-    const ps_bench_options options = quick_options("plane-many", &all);
+    collection collected = {0};
+    const ps_bench_options options = quick_options("plane-many", &collected);
     assert_ok(ps_bench_run(&options, device, copied_bytes, error));
-    assert_int_equal(all.num_reports, 1);
-    for (size_t i = 0; i < all.num; i++) {
-        check_row(&all, &all.rows[i]);
+    assert_int_equal(collected.num_reports, 1);
+    for (size_t i = 0; i < collected.num; i++) {
+        check_row(&collected, &collected.rows[i]);
     }
     /* as exactly as they are asked to, or always as exactly: one row then */
-    assert_true(count_rows(&all, "torus_nufft", PS_SINGLE) >= 3);
-    assert_int_equal(count_rows(&all, "torus_direct", PS_SINGLE), 1);
-    assert_int_equal(count_rows(&all, "torus_direct", PS_DOUBLE), has_fp64 ? 1 : 0);
-    assert_int_equal(count_rows(&all, "torus_nufft", PS_DOUBLE), has_fp64 ? 6 : 0);
+    assert_true(count_rows(&collected, "torus_nufft", PS_SINGLE) >= 3);
+    assert_int_equal(count_rows(&collected, "torus_direct", PS_SINGLE), 1);
+    assert_int_equal(count_rows(&collected, "torus_direct", PS_DOUBLE), has_fp64 ? 1 : 0);
+    assert_int_equal(count_rows(&collected, "torus_nufft", PS_DOUBLE), has_fp64 ? 6 : 0);
 }
 
 static void choice_of_rows(void **state) {
     (void)state;
-    collection all = {0};
-    ps_bench_options options = quick_options("pairs", &all);
+    collection collected = {0};
+    ps_bench_options options = quick_options("pairs", &collected);
     options.engine = "pairs_direct";
     options.precision = PS_SINGLE;
     assert_ok(ps_bench_run(&options, device, copied_bytes, error));
-    assert_int_equal(all.num, 1);
-    assert_int_equal(count_rows(&all, "pairs_direct", PS_SINGLE), 1);
-    assert_true(all.rows[0].error <= all.rows[0].tolerance && all.rows[0].is_pareto);
+    assert_int_equal(collected.num, 1);
+    assert_int_equal(count_rows(&collected, "pairs_direct", PS_SINGLE), 1);
+    assert_true(collected.rows[0].error <= collected.rows[0].tolerance &&
+                collected.rows[0].is_pareto);
 }
 
 static void stops_when_asked(void **state) {
     (void)state;
-    collection all = {.stops = true};
-    const ps_bench_options options = quick_options("plane-many", &all);
+    collection collected = {.stops = true};
+    const ps_bench_options options = quick_options("plane-many", &collected);
     ps_error said = {0};
     assert_int_equal(ps_bench_run(&options, device, copied_bytes, &said), PSPEC_ERROR_CANCELLED);
-    assert_int_equal(all.num_reports, 0);
+    assert_int_equal(collected.num_reports, 0);
 }
 
 /* ---- calibration --------------------------------------------------------------------------- */
@@ -201,8 +203,8 @@ static void stops_when_asked(void **state) {
 static void calibration(void **state) {
     (void)state;
     const bool has_fp64 = ps_device_get_limits(device)->has_fp64;
-    collection all = {0};
-    const ps_bench_options options = quick_options("list", &all);
+    collection collected = {0};
+    const ps_bench_options options = quick_options("list", &collected);
     ps_figures figures;
     ps_figures absurd = {.is_measured = true};
     ps_figures_row(&absurd, "torus_direct")->scales[PS_SINGLE] = 1e3;

@@ -56,30 +56,30 @@ static void give_weights(test_set *set) {
 }
 
 static reference run_reference(const judge *by, const char *name, void (*prepare)(test_set *set)) {
-    reference of = {.file = test_read_reference(name)};
+    reference exact = {.file = test_read_reference(name)};
     pspec_pattern patterns[MOST_SETS];
     const cJSON *one = NULL;
-    cJSON_ArrayForEach(one, cJSON_GetObjectItem(of.file, "sets")) {
-        assert_true(of.num < MOST_SETS);
-        of.json[of.num] = one;
-        of.sets[of.num] = test_read_sphere_set(one);
+    cJSON_ArrayForEach(one, cJSON_GetObjectItem(exact.file, "sets")) {
+        assert_true(exact.num < MOST_SETS);
+        exact.json[exact.num] = one;
+        exact.sets[exact.num] = test_read_sphere_set(one);
         if (prepare != NULL) {
-            prepare(&of.sets[of.num]);
+            prepare(&exact.sets[exact.num]);
         }
-        patterns[of.num] = test_pattern(&of.sets[of.num]);
-        of.num++;
+        patterns[exact.num] = test_pattern(&exact.sets[exact.num]);
+        exact.num++;
     }
-    of.q = test_run_pairs(by->engine, by->precision, by->asked, device, LAST, patterns, of.num,
-                          of.num);
-    return of;
+    exact.q = test_run_pairs(by->engine, by->precision, by->asked, device, LAST, patterns,
+                             exact.num, exact.num);
+    return exact;
 }
 
-static void free_reference(reference *of) {
-    for (size_t r = 0; r < of->num; r++) {
-        test_free_set(&of->sets[r]);
+static void free_reference(reference *exact) {
+    for (size_t r = 0; r < exact->num; r++) {
+        test_free_set(&exact->sets[r]);
     }
-    cJSON_Delete(of->file);
-    free(of->q);
+    cJSON_Delete(exact->file);
+    free(exact->q);
 }
 
 /* rows: [l, Q, ..]. */
@@ -134,21 +134,22 @@ static void check_c2(const judge *by, const test_set *set, const cJSON *rows, co
 }
 
 static void check_sphere(const judge *by) {
-    reference of = run_reference(by, "sphere.json", NULL);
-    for (size_t r = 0; r < of.num; r++) {
-        check_sums(by, &of.sets[r], cJSON_GetObjectItem(of.json[r], "pl"), of.q + r * LAST);
+    reference exact = run_reference(by, "sphere.json", NULL);
+    for (size_t r = 0; r < exact.num; r++) {
+        check_sums(by, &exact.sets[r], cJSON_GetObjectItem(exact.json[r], "pl"),
+                   exact.q + r * LAST);
     }
-    free_reference(&of);
+    free_reference(&exact);
 }
 
 static void check_hemisphere(const judge *by) {
-    reference of = run_reference(by, "hemisphere_m18.json", give_weights);
-    for (size_t r = 0; r < of.num; r++) {
-        const double *q = of.q + r * LAST;
-        check_c2(by, &of.sets[r], cJSON_GetObjectItem(of.json[r], "l"), q);
-        check_sums(by, &of.sets[r], cJSON_GetObjectItem(of.json[r], "Q_high"), q);
+    reference exact = run_reference(by, "hemisphere_m18.json", give_weights);
+    for (size_t r = 0; r < exact.num; r++) {
+        const double *q = exact.q + r * LAST;
+        check_c2(by, &exact.sets[r], cJSON_GetObjectItem(exact.json[r], "l"), q);
+        check_sums(by, &exact.sets[r], cJSON_GetObjectItem(exact.json[r], "Q_high"), q);
     }
-    free_reference(&of);
+    free_reference(&exact);
 }
 
 static void check_all(ps_precision precision) {

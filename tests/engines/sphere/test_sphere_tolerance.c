@@ -95,7 +95,7 @@ static void free_sweep(sweep *self) {
 /* ---- one candidate ----------------------------------------------------------------------- */
 
 static void check_sample(sweep *self, const sample *one, const ps_problem *problem,
-                         const ps_candidate *candidate, void *state, record *to) {
+                         const ps_candidate *candidate, void *state, record *smallest) {
     const size_t L = (size_t)self->degrees.max_frequency;
     double *found = calloc((L + 1) * (L + 2), sizeof *found);
     double power = 0;
@@ -111,26 +111,26 @@ static void check_sample(sweep *self, const sample *one, const ps_problem *probl
                  one->name, L, self->what->num_points, one->power, candidate->engine->name,
                  ps_precision_name(candidate->precision), problem->tolerance, error, bound);
     }
-    to->slack = error > 0 ? fmin(to->slack, bound / error) : to->slack;
-    to->num_runs++;
+    smallest->slack = error > 0 ? fmin(smallest->slack, bound / error) : smallest->slack;
+    smallest->num_runs++;
     free(found);
 }
 
 /* only: NULL, or the sample that the problem knows the power of. */
 static void check_candidate(sweep *self, const ps_problem *problem, const ps_candidate *candidate,
-                            const sample *only, record *to) {
+                            const sample *only, record *smallest) {
     void *state = NULL;
-    if (to->num_runs > 0 && strcmp(to->engine, "sphere_direct") == 0) {
+    if (smallest->num_runs > 0 && strcmp(smallest->engine, "sphere_direct") == 0) {
         return; /* it does not look at the tolerance */
     }
-    if (to->num_runs == 0) {
-        *to = (record){candidate->engine->name, candidate->precision, 0, HUGE_VAL};
+    if (smallest->num_runs == 0) {
+        *smallest = (record){candidate->engine->name, candidate->precision, 0, HUGE_VAL};
     }
     assert_ok(candidate->engine->create(&state, problem, candidate->precision, candidate->batch,
                                         device, error));
     for (size_t s = 0; s < SHAPES; s++) {
         if (only == NULL || only == &self->samples[s]) {
-            check_sample(self, &self->samples[s], problem, candidate, state, to);
+            check_sample(self, &self->samples[s], problem, candidate, state, smallest);
         }
     }
     candidate->engine->destroy(state);
