@@ -106,8 +106,8 @@ static pspec_status give_kept(void *payload, uint64_t most, size_t *num, ps_erro
     const size_t rest = plan->kept.num - plan->num_again;
     *num = rest < batch ? rest : batch;
     *num = *num < most ? *num : (size_t)most;
-    PS_TRY(ps_estimator_add(plan->runner.estimator, plan->kept.patterns + plan->num_again, *num,
-                            error));
+    PS_TRY(ps_estimator_add(plan->runner.estimator, plan->kept.patterns + plan->num_again, NULL,
+                            *num, error));
     plan->num_again += *num;
     return PSPEC_OK;
 }

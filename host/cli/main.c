@@ -93,25 +93,45 @@ static pspec_status take_memory(const ps_command *command, ps_request *arguments
     return ps_text_check(line, error);
 }
 
-static pspec_status run_parsed(const ps_command *command, ps_request *arguments, ps_error *error) {
+/* The request that the words make, and the whole line, which results keep. */
+static pspec_status parse(const ps_command *command, int num_words, char **words,
+                          ps_request *arguments, ps_text *line, ps_error *error) {
+    ps_text rest = {0};
+    ps_text_append(line, "pointspec");
+    ps_text_append_word(line, words[0]);
+    for (int i = 1; i < num_words; i++) {
+        ps_text_append_word(&rest, words[i]); /* before the parser, which cuts words */
+    }
+    pspec_status status = ps_arguments_parse(arguments, command, num_words - 1, words + 1, error);
+    if (status == PSPEC_OK && !arguments->is_given[PS_OPTION_HELP]) {
+        status = take_memory(command, arguments, line, error);
+    }
+    ps_text_append_bytes(line, ps_text_string(&rest), rest.length);
+    line->failed = line->failed || rest.failed;
+    ps_text_free(&rest);
+    arguments->command_line = ps_text_string(line);
+    return status == PSPEC_OK ? ps_text_check(line, error) : status;
+}
+
+/* Finds what the words left open: where output goes, the device, and the cache, in *folder. */
+static pspec_status complete(const ps_command *command, ps_request *arguments, ps_text *folder,
+                             ps_error *error) {
     if (arguments->output == NULL && !command->makes_folder) {
         arguments->output = "-"; /* in the library NULL is no output */
     }
     if (!arguments->is_given[PS_OPTION_DEVICE]) {
         arguments->limits.device = getenv("POINTSPEC_DEVICE");
     }
-    ps_text folder = {0};
-    pspec_status status = ps_cache_default_directory(&folder, error);
+    const pspec_status status = ps_cache_default_directory(folder, error);
     if (status == PSPEC_OK) {
-        trust_cache(command, arguments, ps_text_string(&folder));
+        trust_cache(command, arguments, ps_text_string(folder));
     }
-    if (status != PSPEC_ERROR_MEMORY) { /* there need not be one */
-        status = command->run != NULL ? command->run(arguments, error)
-                                      : ps_shown_answer(command->result, arguments, error);
-    }
-    ps_text_free(&folder);
-    /* A signal may make anything fail that was going on (a compiler in the driver, a read): what
-     * the user did is the reason, not what it led to. */
+    return status == PSPEC_ERROR_MEMORY ? status : PSPEC_OK; /* there need not be a cache */
+}
+
+/* A signal may make anything fail that was going on (a compiler in the driver, a read): what the
+ * user did is the reason, not what it led to. */
+static pspec_status blame_signal(pspec_status status, ps_error *error) {
     static const char reason[] = "interrupted";
     return status != PSPEC_OK && ps_interrupted &&
                    strncmp(error->message, reason, sizeof reason - 1) != 0
@@ -124,32 +144,24 @@ static int run_command(int num_words, char **words) {
     ps_error error = {0};
     ps_request arguments;
     ps_text line = {0};
-    ps_text rest = {0};
+    ps_text folder = {0};
     const ps_command *const command = ps_command_find(words[0], &error);
     if (command == NULL) {
         return report("", error.status, &error);
     }
-    ps_text_append(&line, "pointspec");
-    ps_text_append_word(&line, words[0]);
-    for (int i = 1; i < num_words; i++) {
-        ps_text_append_word(&rest, words[i]); /* before the parser, which cuts words */
-    }
-    pspec_status status = ps_arguments_parse(&arguments, command, num_words - 1, words + 1, &error);
+    pspec_status status = parse(command, num_words, words, &arguments, &line, &error);
     const bool wants_help = status == PSPEC_OK && arguments.is_given[PS_OPTION_HELP];
-    if (status == PSPEC_OK && !wants_help) {
-        status = take_memory(command, &arguments, &line, &error);
-    }
-    ps_text_append_bytes(&line, ps_text_string(&rest), rest.length);
-    line.failed = line.failed || rest.failed;
     if (wants_help) {
         ps_help_command(stdout, command);
-    } else if (status == PSPEC_OK && (status = ps_text_check(&line, &error)) == PSPEC_OK) {
-        arguments.command_line = ps_text_string(&line);
-        status = run_parsed(command, &arguments, &error);
+    } else if (status == PSPEC_OK &&
+               (status = complete(command, &arguments, &folder, &error)) == PSPEC_OK) {
+        status = command->run != NULL ? command->run(&arguments, &error)
+                                      : ps_shown_answer(command->result, &arguments, &error);
+        status = blame_signal(status, &error);
     }
     ps_arguments_free(&arguments);
+    ps_text_free(&folder);
     ps_text_free(&line);
-    ps_text_free(&rest);
     if (status == PSPEC_OK) {
         ps_signals_end(PS_EXIT_DONE);
     }

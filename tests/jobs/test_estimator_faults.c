@@ -21,7 +21,7 @@ static pspec_status add_one(pspec_pattern pattern, pspec_normalization normaliza
     ps_estimator_options options = test_make_options(&grid, &ps_torus_direct, PS_SINGLE, 4, 1);
     options.normalization = normalization;
     assert_int_equal(ps_estimator_create(&estimator, &options, device, error), PSPEC_OK);
-    const pspec_status status = ps_estimator_add(estimator, &pattern, 1, error);
+    const pspec_status status = ps_estimator_add(estimator, &pattern, NULL, 1, error);
     ps_estimator_destroy(estimator);
     ps_frequencies_free(&grid);
     return status;
@@ -88,10 +88,10 @@ static void check_first_bad(const ps_engine *engine, bool weighted, const char *
     ps_estimator_options options = test_make_options(&grid, engine, precision, POINTS, 3);
     ps_estimator *estimator = NULL;
     assert_int_equal(ps_estimator_create(&estimator, &options, device, &error), PSPEC_OK);
-    assert_int_equal(ps_estimator_add(estimator, patterns, SETS, &error), PSPEC_ERROR_INPUT);
+    assert_int_equal(ps_estimator_add(estimator, patterns, NULL, SETS, &error), PSPEC_ERROR_INPUT);
     assert_string_equal(error.message, expected);
     assert_int_equal(ps_estimator_num_realizations(estimator), 3);
-    assert_int_equal(ps_estimator_add(estimator, patterns, 3, &error), PSPEC_OK);
+    assert_int_equal(ps_estimator_add(estimator, patterns, NULL, 3, &error), PSPEC_OK);
     assert_int_equal(ps_estimator_num_realizations(estimator), 6);
     ps_estimator_destroy(estimator);
     ps_frequencies_free(&grid);
@@ -173,7 +173,8 @@ static void the_self_check_finds_a_wrong_device(void **state) {
     ps_estimator *estimator = NULL;
     ps_error error = {0};
     assert_ok(ps_estimator_create(&estimator, &options, device, error));
-    assert_int_equal(ps_estimator_add(estimator, what.patterns, 2, &error), PSPEC_ERROR_CHECK);
+    assert_int_equal(ps_estimator_add(estimator, what.patterns, NULL, 2, &error),
+                     PSPEC_ERROR_CHECK);
     assert_non_null(strstr(error.message, "self-check failed"));
     ps_estimator_destroy(estimator);
     test_free_sample(&what);

@@ -267,22 +267,6 @@ static pspec_status run_batch(ps_estimator *self, const pspec_pattern *patterns,
     }
 }
 
-/* The engine's rows of a batch, the first of the job compared with the referee. */
-static pspec_status run_checked(ps_estimator *self, const pspec_pattern *patterns,
-                                size_t *num_patterns, ps_rows *rows, ps_error *error) {
-    const bool is_due = self->options.self_check && !self->accuracy.was_checked;
-    const bool is_large = patterns[0].num_points > PS_SELF_CHECK_POINTS;
-    if (is_due && is_large) {
-        PS_TRY(ps_estimator_check_beginning(self, patterns, error));
-    }
-    PS_TRY(run_batch(self, patterns, num_patterns, rows, error));
-    if (is_due && !is_large) {
-        PS_TRY(compare_with_referee(self, rows, patterns, error));
-    }
-    self->accuracy.was_checked = self->accuracy.was_checked || is_due;
-    return PSPEC_OK;
-}
-
 pspec_status ps_estimator_take(ps_estimator *self, const ps_rows *rows,
                                const pspec_pattern *patterns, size_t num_patterns,
                                ps_error *error) {
@@ -297,32 +281,42 @@ pspec_status ps_estimator_take(ps_estimator *self, const ps_rows *rows,
     return PSPEC_OK;
 }
 
-static pspec_status add_batch(ps_estimator *self, const pspec_pattern *patterns,
-                              const ps_pattern_sums *sums, size_t *num_patterns, ps_error *error) {
-    uint64_t longest = 0;
-    ps_rows rows = {0};
-    PS_TRY(prepare(self, patterns, sums, *num_patterns, &longest, error));
-    PS_TRY(ps_estimator_get_ready(self, longest, error));
-    PS_TRY(run_checked(self, patterns, num_patterns, &rows, error));
-    return ps_estimator_take(self, &rows, patterns, *num_patterns, error);
+/* The first batch of a job is compared with the referee once it has run. Of a large pattern only
+ * the beginning is compared, and before the pattern runs. */
+static bool is_check_due(const ps_estimator *self, const pspec_pattern *patterns, bool is_large) {
+    return self->options.self_check && !self->accuracy.was_checked &&
+           (patterns[0].num_points > PS_SELF_CHECK_POINTS) == is_large;
 }
 
-pspec_status ps_estimator_add_checked(ps_estimator *estimator, const pspec_pattern *patterns,
-                                      const ps_pattern_sums *sums, size_t num_patterns,
-                                      ps_error *error) {
-    for (size_t done = 0; done < num_patterns;) {
-        const size_t rest = num_patterns - done;
-        size_t taken = rest < estimator->batch ? rest : estimator->batch;
-        PS_TRY(add_batch(estimator, patterns + done, sums != NULL ? sums + done : NULL, &taken,
-                         error));
-        done += taken;
+/* Compares what is due of a batch: before it runs, when rows is NULL, and after it. */
+static pspec_status check_itself(ps_estimator *self, const pspec_pattern *patterns,
+                                 const ps_rows *rows, ps_error *error) {
+    if (!is_check_due(self, patterns, rows == NULL)) {
+        return PSPEC_OK;
     }
+    PS_TRY(rows == NULL ? ps_estimator_check_beginning(self, patterns, error)
+                        : compare_with_referee(self, rows, patterns, error));
+    self->accuracy.was_checked = true;
     return PSPEC_OK;
 }
 
 pspec_status ps_estimator_add(ps_estimator *estimator, const pspec_pattern *patterns,
-                              size_t num_patterns, ps_error *error) {
-    return ps_estimator_add_checked(estimator, patterns, NULL, num_patterns, error);
+                              const ps_pattern_sums *sums, size_t num_patterns, ps_error *error) {
+    for (size_t done = 0; done < num_patterns;) {
+        const pspec_pattern *const next = patterns + done;
+        const size_t rest = num_patterns - done;
+        size_t taken = rest < estimator->batch ? rest : estimator->batch;
+        uint64_t longest = 0;
+        ps_rows rows = {0};
+        PS_TRY(prepare(estimator, next, sums != NULL ? sums + done : NULL, taken, &longest, error));
+        PS_TRY(ps_estimator_get_ready(estimator, longest, error));
+        PS_TRY(check_itself(estimator, next, NULL, error));
+        PS_TRY(run_batch(estimator, next, &taken, &rows, error));
+        PS_TRY(check_itself(estimator, next, &rows, error));
+        PS_TRY(ps_estimator_take(estimator, &rows, next, taken, error));
+        done += taken;
+    }
+    return PSPEC_OK;
 }
 
 pspec_status ps_estimator_reset(ps_estimator *estimator, ps_error *error) {

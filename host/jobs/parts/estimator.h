@@ -56,15 +56,12 @@ pspec_status ps_estimator_create(ps_estimator **out, const ps_estimator_options 
 void ps_estimator_destroy(ps_estimator *estimator);
 
 /* Adds realizations, in order; any number at a time gives the same bits. A pattern larger than
- * problem.num_points is taken all the same (the engine is made anew). Checks every coordinate and
- * weight. A self-check that fails is PSPEC_ERROR_CHECK. */
+ * problem.num_points is taken all the same (the engine is made anew). Every coordinate and
+ * weight is checked, unless sums is there: sums[num_patterns] of ps_estimator_check, which was
+ * asked of each pattern before. A self-check that fails is PSPEC_ERROR_CHECK. */
 pspec_status ps_estimator_add(ps_estimator *estimator, const pspec_pattern *patterns,
-                              size_t num_patterns, ps_error *error) PS_MUST_CHECK;
-
-/* The same for patterns that were checked before, with sums[num_patterns] from the check. */
-pspec_status ps_estimator_add_checked(ps_estimator *estimator, const pspec_pattern *patterns,
-                                      const ps_pattern_sums *sums, size_t num_patterns,
-                                      ps_error *error) PS_MUST_CHECK;
+                              const ps_pattern_sums *sums, size_t num_patterns,
+                              ps_error *error) PS_MUST_CHECK;
 /* Checks a pattern that will be realization number `realization`, counted from 0. */
 pspec_status ps_estimator_check(const ps_estimator *estimator, const pspec_pattern *pattern,
                                 uint64_t realization, ps_pattern_sums *sums,

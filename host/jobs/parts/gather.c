@@ -70,7 +70,7 @@ void ps_gather_destroy(ps_gather *gather) {
 static pspec_status run(ps_gather *self, const pspec_pattern *patterns, const ps_pattern_sums *sums,
                         size_t num_patterns, ps_error *error) {
     const ps_gather_options *options = &self->options;
-    PS_TRY(ps_estimator_add_checked(options->estimator, patterns, sums, num_patterns, error));
+    PS_TRY(ps_estimator_add(options->estimator, patterns, sums, num_patterns, error));
     return options->after_batch != NULL ? options->after_batch(options->payload, error) : PSPEC_OK;
 }
 

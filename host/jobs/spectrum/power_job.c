@@ -237,8 +237,15 @@ static pspec_status tell(void *payload, ps_error *error) {
 
 static pspec_status give(void *payload, uint64_t most, size_t *num, ps_error *error) {
     ps_power_job *const job = payload;
-    PS_TRY(ps_power_sets_give(&job->sets, job->runner.estimator, job->question->normalization, most,
-                              num, error));
+    ps_power_sets *const sets = &job->sets;
+    ps_estimator *const estimator = job->runner.estimator;
+    PS_TRY(ps_power_sets_fill(sets, ps_estimator_can_stream(estimator), most, num, error));
+    if (*num == 0 && sets->has_next) {
+        *num = 1;
+        PS_TRY(ps_power_sets_stream(sets, estimator, job->question->normalization, error));
+    } else {
+        PS_TRY(ps_estimator_add(estimator, sets->patterns, NULL, *num, error));
+    }
     return require_one_set(job, job->runner.num_done + *num, error);
 }
 

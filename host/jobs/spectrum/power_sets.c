@@ -102,9 +102,8 @@ static pspec_status load_next(ps_power_sets *sets, ps_error *error) {
     return ps_source_more(sets->source, &sets->next, SIZE_MAX, &sets->part.is_whole, error);
 }
 
-/* A batch, up to the next set that comes in blocks. */
-static pspec_status fill_batch(ps_power_sets *sets, bool can_stream, uint64_t most, size_t *num,
-                               ps_error *error) {
+pspec_status ps_power_sets_fill(ps_power_sets *sets, bool can_stream, uint64_t most, size_t *num,
+                                ps_error *error) {
     for (*num = 0; *num < sets->capacity && *num < most; (*num)++) {
         bool has_set = false;
         if (!sets->has_next) { /* read to where it will stay */
@@ -167,8 +166,8 @@ static pspec_status sum_next(ps_power_sets *sets, pspec_normalization normalizat
     return ps_pattern_count_finish(&count, normalization, sums, error);
 }
 
-static pspec_status stream_next(ps_power_sets *sets, ps_estimator *estimator,
-                                pspec_normalization normalization, ps_error *error) {
+pspec_status ps_power_sets_stream(ps_power_sets *sets, ps_estimator *estimator,
+                                  pspec_normalization normalization, ps_error *error) {
     ps_pattern_stream stream = {.dimension = sets->next.dimension,
                                 .num_points = sets->part.count.num_points,
                                 .next = next_block,
@@ -179,15 +178,4 @@ static pspec_status stream_next(ps_power_sets *sets, ps_estimator *estimator,
     PS_TRY(ps_estimator_add_stream(estimator, &stream, error));
     sets->has_next = false;
     return PSPEC_OK;
-}
-
-pspec_status ps_power_sets_give(ps_power_sets *sets, ps_estimator *estimator,
-                                pspec_normalization normalization, uint64_t most, size_t *num,
-                                ps_error *error) {
-    PS_TRY(fill_batch(sets, ps_estimator_can_stream(estimator), most, num, error));
-    if (*num == 0 && sets->has_next) {
-        *num = 1;
-        return stream_next(sets, estimator, normalization, error);
-    }
-    return ps_estimator_add(estimator, sets->patterns, *num, error);
 }

@@ -35,10 +35,13 @@ pspec_status ps_power_sets_rewind(ps_power_sets *sets, ps_error *error) PS_MUST_
 pspec_status ps_power_sets_peek(ps_power_sets *sets, bool *has_set, ps_error *error) PS_MUST_CHECK;
 uint64_t ps_power_sets_next_points(const ps_power_sets *sets);
 
-/* Gives the estimator the next batch, of `most` sets at most, or the next set if that is too large
- * for one; *num sets were given, 0 at the end. */
-pspec_status ps_power_sets_give(ps_power_sets *sets, ps_estimator *estimator,
-                                pspec_normalization normalization, uint64_t most, size_t *num,
+/* Fills patterns[*num] with the next sets, `most` at most. The batch ends before a set that comes
+ * in blocks, if the estimator can stream. Where *num is 0 and has_next is true, the next set is
+ * such a one, for ps_power_sets_stream; where has_next is false, there are no more. */
+pspec_status ps_power_sets_fill(ps_power_sets *sets, bool can_stream, uint64_t most, size_t *num,
                                 ps_error *error) PS_MUST_CHECK;
+/* Gives the estimator the next set in blocks. */
+pspec_status ps_power_sets_stream(ps_power_sets *sets, ps_estimator *estimator,
+                                  pspec_normalization normalization, ps_error *error) PS_MUST_CHECK;
 
 #endif
