@@ -43,9 +43,8 @@ static int compare_doubles(const void *a, const void *b) {
  * the rest dark, and never below 2, so that white noise looks alike in all pictures. */
 static pspec_status choose_maximum(ps_plot_raster *raster, ps_error *error) {
     const size_t count = raster->size * raster->size;
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, count, sizeof(double), "picture", error));
-    double *const sorted = memory;
+    double *sorted = NULL;
+    PS_TRY(PS_NEW(&sorted, count, "picture", error));
     size_t num_finite = 0;
     for (size_t i = 0; i < count; i++) {
         if (isfinite(raster->power[i])) {
@@ -66,9 +65,7 @@ pspec_status ps_plot_raster_make(ps_plot_raster *out, const ps_plot_image *image
     const ptrdiff_t half = (half_image + (ptrdiff_t)(block / 2)) / (ptrdiff_t)block;
     out->size = 2 * (size_t)half + 1;
     out->pixel = (double)block / image->unit;
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, out->size * out->size, sizeof(double), "picture", error));
-    out->power = memory;
+    PS_TRY(PS_NEW(&out->power, out->size * out->size, "picture", error));
     const ptrdiff_t first = half_image - (ptrdiff_t)(block / 2) - half * (ptrdiff_t)block;
     for (size_t row = 0; row < out->size; row++) {
         for (size_t column = 0; column < out->size; column++) {

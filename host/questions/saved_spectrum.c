@@ -12,9 +12,7 @@
 
 static pspec_status copy_bins(ps_saved_spectrum *out, const ps_spectrum *averages,
                               ps_error *error) {
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, averages->num_bins, sizeof *out->bins, "saved bins", error));
-    out->bins = memory;
+    PS_TRY(PS_NEW(&out->bins, averages->num_bins, "saved bins", error));
     out->num_bins = averages->num_bins;
     for (size_t b = 0; b < averages->num_bins; b++) {
         const ps_spectrum_bin *const bin = &averages->bins[b];

@@ -212,14 +212,11 @@ static pspec_status read_rows(const reader *source) {
     ps_saved_spectrum *const out = source->out;
     places at = {0};
     double frequency = 0;
-    void *memory = NULL;
     PS_TRY(find_places(source, &at));
     if (!cJSON_IsArray(rows) || rows->child == NULL) {
         return fail_damaged(source, "there are no \"rows\"");
     }
-    PS_TRY(ps_allocate(&memory, (size_t)cJSON_GetArraySize(rows), sizeof *out->bins, "saved bins",
-                       source->error));
-    out->bins = memory;
+    PS_TRY(PS_NEW(&out->bins, (size_t)cJSON_GetArraySize(rows), "saved bins", source->error));
     cJSON_ArrayForEach(row, rows) {
         if (!take_row(out, &at, row, &frequency)) {
             return ps_fail(source->error, PSPEC_ERROR_INPUT,

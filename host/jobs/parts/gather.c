@@ -30,21 +30,16 @@ static size_t find_capacity(const ps_gather_options *options, size_t batch) {
 }
 
 static pspec_status allocate(ps_gather *self, ps_error *error) {
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, self->batch, sizeof(pspec_pattern), "pending patterns", error));
-    self->pending = memory;
-    PS_TRY(ps_allocate(&memory, self->batch, sizeof(ps_pattern_sums), "pending patterns", error));
-    self->sums = memory;
-    PS_TRY(ps_allocate(&memory, self->capacity, sizeof(double), "pending patterns", error));
-    self->numbers = memory;
+    PS_TRY(PS_NEW(&self->pending, self->batch, "pending patterns", error));
+    PS_TRY(PS_NEW(&self->sums, self->batch, "pending patterns", error));
+    PS_TRY(PS_NEW(&self->numbers, self->capacity, "pending patterns", error));
     return PSPEC_OK;
 }
 
 pspec_status ps_gather_create(ps_gather **out, const ps_gather_options *options, ps_error *error) {
-    void *memory = NULL;
     *out = NULL;
-    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_gather), "pending patterns", error));
-    ps_gather *self = memory;
+    ps_gather *self = NULL;
+    PS_TRY(PS_NEW(&self, 1, "pending patterns", error));
     self->options = *options;
     self->batch = ps_estimator_batch(options->estimator);
     self->capacity = find_capacity(options, self->batch);

@@ -37,14 +37,10 @@ static size_t count_numbers(const ps_kept_shape *shape, size_t columns) {
 pspec_status ps_kept_patterns_create(ps_kept_patterns *kept, const ps_kept_shape *shape,
                                      ps_error *error) {
     const size_t columns = shape->dimension + 1; /* with a weight */
-    void *memory = NULL;
     *kept = (ps_kept_patterns){.room = count_numbers(shape, columns)};
     kept->capacity = count_patterns(shape, columns, kept->room);
-    PS_TRY(ps_allocate(&memory, kept->room, sizeof(double), "patterns for a second plan", error));
-    kept->numbers = memory;
-    PS_TRY(ps_allocate(&memory, kept->capacity, sizeof *kept->patterns,
-                       "patterns for a second plan", error));
-    kept->patterns = memory;
+    PS_TRY(PS_NEW(&kept->numbers, kept->room, "patterns for a second plan", error));
+    PS_TRY(PS_NEW(&kept->patterns, kept->capacity, "patterns for a second plan", error));
     return PSPEC_OK;
 }
 

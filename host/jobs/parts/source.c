@@ -33,9 +33,7 @@ enum { SCOUT_POINTS = 32768 };
 enum { FIRST_POINTS = 1024 };
 
 static pspec_status create(ps_source **out, ps_error *error) {
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_source), "a source of points", error));
-    *out = memory;
+    PS_TRY(PS_NEW(out, 1, "a source of points", error));
     return PSPEC_OK;
 }
 

@@ -94,12 +94,9 @@ pspec_status ps_rules_rewind(ps_rules *rules, ps_error *error) {
 }
 
 pspec_status ps_rules_allocate(ps_rules *rules, size_t capacity, ps_error *error) {
-    void *memory = NULL;
     free_batch(rules);
-    PS_TRY(ps_allocate(&memory, capacity, sizeof(pspec_pattern), "rules", error));
-    rules->patterns = memory;
-    PS_TRY(ps_allocate(&memory, capacity, sizeof(ps_weighted_rule), "rules", error));
-    rules->batch = memory;
+    PS_TRY(PS_NEW(&rules->patterns, capacity, "rules", error));
+    PS_TRY(PS_NEW(&rules->batch, capacity, "rules", error));
     rules->capacity = capacity;
     return PSPEC_OK;
 }

@@ -135,10 +135,9 @@ static pspec_status prepare(ps_power_job *job, ps_error *error) {
 
 pspec_status ps_power_job_create(ps_power_job **out, const ps_power_question *question,
                                  ps_error *error) {
-    void *memory = NULL;
     *out = NULL;
-    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_power_job), "a job", error));
-    ps_power_job *job = memory;
+    ps_power_job *job = NULL;
+    PS_TRY(PS_NEW(&job, 1, "a job", error));
     job->question = question;
     const pspec_status status = prepare(job, error);
     if (status != PSPEC_OK) {
@@ -187,15 +186,13 @@ static ps_estimator_options choose_options(void *payload) {
 
 /* What can be refused is refused before the work. */
 static pspec_status make_room_for_coefficients(ps_power_job *job, ps_error *error) {
-    void *memory = NULL;
     if (job->num_realizations > 1) { /* of a sampler; how many sets files have is not known yet */
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "coefficients are of one set, but there are %llu realizations",
                        (unsigned long long)job->num_realizations);
     }
-    PS_TRY(ps_allocate(&memory, ps_num_coefficients(job->frequencies.max_frequency), sizeof(double),
-                       "the coefficients", error));
-    job->coefficients = memory;
+    PS_TRY(PS_NEW(&job->coefficients, ps_num_coefficients(job->frequencies.max_frequency),
+                  "the coefficients", error));
     return PSPEC_OK;
 }
 
@@ -210,10 +207,8 @@ static pspec_status require_one_set(const ps_power_job *job, uint64_t num_sets, 
 static pspec_status look_at_errors(void *payload, double *largest, ps_error *error) {
     ps_power_job *const job = payload;
     const ps_bins *bins = ps_estimator_bins(job->runner.estimator);
-    void *memory = NULL;
     if (job->means == NULL) {
-        PS_TRY(ps_allocate(&memory, bins->num, sizeof *job->means, "means of bins", error));
-        job->means = memory;
+        PS_TRY(PS_NEW(&job->means, bins->num, "means of bins", error));
     }
     PS_TRY(ps_estimator_bin_means(job->runner.estimator, job->means, error));
     job->look =
@@ -277,12 +272,10 @@ static const ps_runner_kind kind = {.plan = plan,
 
 static pspec_status find_c2(ps_power_job *job, ps_error *error) {
     const size_t num = job->frequencies.num;
-    void *memory = NULL;
     if (!job->question->wants_pair_sums) {
         return PSPEC_OK;
     }
-    PS_TRY(ps_allocate(&memory, num, sizeof *job->c2, "C_l^2", error));
-    job->c2 = memory;
+    PS_TRY(PS_NEW(&job->c2, num, "C_l^2", error));
     ps_estimator_c2(job->runner.estimator, job->c2);
     for (size_t i = 0; job->needs.one_realization && i < num; i++) {
         job->c2[i].standard_error = 0;

@@ -31,16 +31,13 @@ pspec_status ps_power_sets_read_weights(ps_power_sets *sets, const char *path, u
 }
 
 pspec_status ps_power_sets_allocate(ps_power_sets *sets, size_t capacity, ps_error *error) {
-    void *memory = NULL;
     free_batch(sets);
     /* When a job plans again, a set that is left of the run before is one more than announced. */
     if (!sets->has_next) {
         ps_point_set_free(&sets->next);
     }
-    PS_TRY(ps_allocate(&memory, capacity, sizeof(pspec_pattern), "patterns", error));
-    sets->patterns = memory;
-    PS_TRY(ps_allocate(&memory, capacity, sizeof(ps_point_set), "patterns", error));
-    sets->sets = memory;
+    PS_TRY(PS_NEW(&sets->patterns, capacity, "patterns", error));
+    PS_TRY(PS_NEW(&sets->sets, capacity, "patterns", error));
     sets->capacity = capacity;
     return PSPEC_OK;
 }

@@ -25,18 +25,15 @@ static pspec_status ask_one(ps_run *run, ps_run_result *result, size_t number, p
 }
 
 pspec_status ps_run_ask(ps_run *run, ps_error *error) {
-    void *memory = NULL;
     PS_TRY(ps_scene_check_inputs(run->scene, error));
-    PS_TRY(ps_allocate(&memory, run->scene->num_results, sizeof *run->results, "results", error));
-    run->results = memory;
+    PS_TRY(PS_NEW(&run->results, run->scene->num_results, "results", error));
     run->num_results = run->scene->num_results;
     for (size_t i = 0; i < run->num_results; i++) {
         ps_run_result *const result = &run->results[i];
         result->asked = &run->scene->results[i];
         PS_TRY(ps_pictures_list(&result->pictures, result->asked, error));
         const size_t num = ps_scene_num_questions(result->asked);
-        PS_TRY(ps_allocate(&memory, num, sizeof *result->questions, "questions", error));
-        result->questions = memory;
+        PS_TRY(PS_NEW(&result->questions, num, "questions", error));
         for (size_t q = 0; q < num; q++) {
             PS_TRY(ask_one(run, result, q, error));
         }

@@ -77,13 +77,9 @@ static void free_lines(line_set *set) {
 }
 
 static pspec_status allocate_lines(line_set *set, size_t num, ps_error *error) {
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, num, sizeof *set->lines, "curves", error));
-    set->lines = memory;
-    PS_TRY(ps_allocate(&memory, num, sizeof *set->labels, "curves", error));
-    set->labels = memory;
-    PS_TRY(ps_allocate(&memory, num, sizeof *set->numbers, "curves", error));
-    set->numbers = memory;
+    PS_TRY(PS_NEW(&set->lines, num, "curves", error));
+    PS_TRY(PS_NEW(&set->labels, num, "curves", error));
+    PS_TRY(PS_NEW(&set->numbers, num, "curves", error));
     set->num = num;
     return PSPEC_OK;
 }

@@ -120,9 +120,7 @@ static void fill(ps_picture *picture, const ps_scene_result *asked, const layout
 /* ---- the list -------------------------------------------------------------------------------- */
 
 static pspec_status allocate_curves(ps_picture *picture, size_t num, ps_error *error) {
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, 2 * num, sizeof(size_t), "a picture", error));
-    picture->curves = memory;
+    PS_TRY(PS_NEW(&picture->curves, 2 * num, "a picture", error));
     picture->ends = picture->curves + num;
     return PSPEC_OK;
 }
