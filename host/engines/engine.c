@@ -39,6 +39,15 @@ pspec_status ps_batch_go_on(const ps_batch *batch, ps_error *error) {
                : PSPEC_OK;
 }
 
+size_t ps_batch_longest(const ps_batch *batch) {
+    size_t longest = 1;
+    for (size_t r = 0; r < batch->num_patterns; r++) {
+        const size_t num_points = batch->patterns[r].num_points;
+        longest = num_points > longest ? num_points : longest;
+    }
+    return longest;
+}
+
 size_t ps_num_coefficients(int32_t max_degree) {
     const size_t last = (size_t)max_degree;
     return (last + 1) * (last + 2);

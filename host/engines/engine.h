@@ -96,6 +96,8 @@ enum { PS_PAIR_BEGIN_DEGREES = 12 };
 
 /* PSPEC_ERROR_CANCELLED when the batch is to stop. */
 pspec_status ps_batch_go_on(const ps_batch *batch, ps_error *error) PS_MUST_CHECK;
+/* Points of the largest pattern, 1 at least. */
+size_t ps_batch_longest(const ps_batch *batch);
 
 /* Rows of powers, borrowed from the engine until its next run. */
 typedef struct ps_rows {

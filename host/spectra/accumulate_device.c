@@ -1,5 +1,6 @@
 #include "spectra/accumulate_device.h"
 
+#include "accumulate/blocks.h"
 #include "base/memory.h"
 #include "base/round.h"
 #include "base/workers.h"
@@ -193,9 +194,8 @@ static double power_flops(const ps_accumulator_options *options) {
 }
 
 #define BLOCK_ARGUMENTS(self, rows)                                                                \
-    PS_BUFFER((rows)->device), PS_U32((rows)->num_rows), PS_U64((rows)->stride),                   \
-        PS_BUFFER((self)->first_rings), PS_BUFFER((self)->rings), PS_BUFFER((self)->members),      \
-        PS_BUFFER((self)->piece_sums), PS_U64((self)->num_pieces)
+    PS_BUFFER((rows)->device), PS_BUFFER((self)->first_rings), PS_BUFFER((self)->rings),           \
+        PS_BUFFER((self)->members), PS_BUFFER((self)->piece_sums)
 
 /* Kernels want a buffer in every place: without squares, that of the sums, which is not touched
  * there. */
@@ -208,15 +208,18 @@ static pspec_status sum_blocks(ps_device_accumulator *self, const ps_rows *rows,
     const ps_range range =
         ps_range_heavy(self->device, 1, self->num_blocks, 1, power_flops(&self->options) * powers,
                        powers * (double)self->real_bytes);
+    const blocks_numbers numbers = {.stride = rows->stride,
+                                    .num_pieces = self->num_pieces,
+                                    .num_realizations = (uint32_t)rows->num_rows};
     const ps_argument block = PS_LOCAL(block_bytes(self->options.lanes, self->real_bytes));
     if (!self->options.want_frequencies) {
-        return PS_LAUNCH(self->device, self->blocks, &range, error, BLOCK_ARGUMENTS(self, rows),
-                         block);
+        return PS_LAUNCH(self->device, self->blocks, &range, error, PS_STRUCT(numbers),
+                         BLOCK_ARGUMENTS(self, rows), block);
     }
-    return PS_LAUNCH(self->device, self->blocks, &range, error, BLOCK_ARGUMENTS(self, rows),
-                     PS_BUFFER(*state_of(self, SUM)), PS_BUFFER(*state_of(self, SUM_LOW)),
-                     PS_BUFFER(*state_of(self, SQUARE)), PS_BUFFER(*state_of(self, SQUARE_LOW)),
-                     block);
+    return PS_LAUNCH(self->device, self->blocks, &range, error, PS_STRUCT(numbers),
+                     BLOCK_ARGUMENTS(self, rows), PS_BUFFER(*state_of(self, SUM)),
+                     PS_BUFFER(*state_of(self, SUM_LOW)), PS_BUFFER(*state_of(self, SQUARE)),
+                     PS_BUFFER(*state_of(self, SQUARE_LOW)), block);
 }
 
 static pspec_status fold(ps_device_accumulator *self, size_t num_groups, ps_error *error) {

@@ -8,7 +8,8 @@
  * puts together. Every sum has a fixed order, so results do not depend on work-group sizes or on
  * the batch.
  *
- *   power    [realization][stride], stride a multiple of LANES
+ *   numbers  of accumulate/blocks.h; their names are used here
+ *   power    [realization][stride]
  *   blocks   [block + 1]: first ring of every block
  *   rings    members of one bin in one block, and the piece that they make
  *   members  slots within their block
@@ -18,6 +19,7 @@
  *            that they need no larger buffer; the last two are not touched without SQUARES
  *   block    local, [BLOCK][LANES]
  */
+#include "accumulate/blocks.h"
 #include "shared/lanes.h"
 #include "shared/pair.h"
 #include "shared/transpose.h"
@@ -108,11 +110,12 @@ static inline void add_rings(__global real *sums, __local const real *block,
     }
 }
 
-static inline void add_block(__global const real *power, const uint num_realizations,
-                             const ulong stride, __global const uint *blocks,
-                             __global const ring *rings, __global const ushort *members,
-                             __global real *sums, const ulong num_pieces, const state frequencies,
-                             __local real *block) {
+static inline void add_block(const blocks_numbers numbers, __global const real *power,
+                             __global const uint *blocks, __global const ring *rings,
+                             __global const ushort *members, __global real *sums,
+                             const state frequencies, __local real *block) {
+    const uint num_realizations = numbers.num_realizations;
+    const ulong stride = numbers.stride, num_pieces = numbers.num_pieces;
     const size_t index = get_global_id(1), first_slot = index * BLOCK;
     const uint num_slots = (uint)min((ulong)BLOCK, stride - first_slot);
     for (uint first = 0; first < num_realizations; first += LANES) {
@@ -125,23 +128,20 @@ static inline void add_block(__global const real *power, const uint num_realizat
     }
 }
 
-__kernel void accumulate_bins(__global const real *restrict power, const uint num_realizations,
-                              const ulong stride, __global const uint *restrict blocks,
+__kernel void accumulate_bins(const blocks_numbers numbers, __global const real *restrict power,
+                              __global const uint *restrict blocks,
                               __global const ring *restrict rings,
                               __global const ushort *restrict members, __global real *restrict sums,
-                              const ulong num_pieces, __local real *block) {
+                              __local real *block) {
     const state none = {0, 0, 0, 0};
-    add_block(power, num_realizations, stride, blocks, rings, members, sums, num_pieces, none,
-              block);
+    add_block(numbers, power, blocks, rings, members, sums, none, block);
 }
 
 __kernel void accumulate_bins_and_frequencies(
-    __global const real *restrict power, const uint num_realizations, const ulong stride,
+    const blocks_numbers numbers, __global const real *restrict power,
     __global const uint *restrict blocks, __global const ring *restrict rings,
-    __global const ushort *restrict members, __global real *restrict sums, const ulong num_pieces,
-    __global real *sum, __global real *sum_low, __global real *square, __global real *square_low,
-    __local real *block) {
+    __global const ushort *restrict members, __global real *restrict sums, __global real *sum,
+    __global real *sum_low, __global real *square, __global real *square_low, __local real *block) {
     const state frequencies = {sum, sum_low, square, square_low};
-    add_block(power, num_realizations, stride, blocks, rings, members, sums, num_pieces,
-              frequencies, block);
+    add_block(numbers, power, blocks, rings, members, sums, frequencies, block);
 }

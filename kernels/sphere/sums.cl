@@ -8,15 +8,15 @@
  * Launch: (tiles of orders, realizations) in work-groups of one item, since local memory belongs to
  * one.
  *
+ *   numbers        of sphere/sums.h; their names are used here
  *   values, turns  of sphere/prepare.cl
  *   weights        one per point, 0 for padding
  *   offsets        first vector of each realization, one more than realizations
  *   table          blocks, see sphere/legendre.h
  *   first_blocks   of each order in the table
  *   sums           [realization][order][re, im, re low, im low][stride], orders first_order .. of them; the low
- *                  parts only with has_low, which realizations of several chunks need. Entries below degree m are 0
- *                  back to a multiple of SUM_ALIGNMENT; up to DEGREES - 1 behind max_degree are overwritten
- *   is_first       sums begin anew; else they are added to
+ *                  parts only with has_low. Entries below degree m are 0 back to a multiple of SUM_ALIGNMENT; up to
+ *                  DEGREES - 1 behind max_degree are overwritten
  *
  * sin^m(theta) underflows. Points where it does carry an exponent: the true state is 2^(SCALE_BITS
  * scale) times what is there. With scale 0 all is as usual; at -1 what it adds is scaled down,
@@ -31,6 +31,7 @@
 #include "sphere/layout.h"
 #include "sphere/legendre.h"
 #include "sphere/order.h"
+#include "sphere/sums.h"
 
 #define VECTORS (CHUNK / LANES)
 #define SUMS (2 * DEGREES)
@@ -175,12 +176,13 @@ INLINE void add_order(const chunk *at, TABLE *block, __global real *row, const u
 }
 
 __kernel __attribute__((reqd_work_group_size(1, 1, 1))) void
-sphere_sums(__global const real *restrict values, __global const ulong *restrict turns,
-            __global const real *restrict weights, __global const ulong *restrict offsets,
-            __global const real *restrict table, __global const uint *restrict first_blocks,
-            __global real *restrict sums, const uint first_order, const uint num_orders,
-            const uint max_degree, const ulong stride, const ulong capacity, const uint has_low,
-            const uint is_first) {
+sphere_sums(const sums_numbers numbers, __global const real *restrict values,
+            __global const ulong *restrict turns, __global const real *restrict weights,
+            __global const ulong *restrict offsets, __global const real *restrict table,
+            __global const uint *restrict first_blocks, __global real *restrict sums) {
+    const uint num_orders = numbers.num_orders, max_degree = numbers.max_degree;
+    const uint has_low = numbers.has_low;
+    const ulong stride = numbers.stride;
     __local real memory[LOCAL_REALS];
     __local SWORD scales[2 * CHUNK];
     __local uint is_scaled[VECTORS];
@@ -196,11 +198,11 @@ sphere_sums(__global const real *restrict values, __global const ulong *restrict
         at.memory = memory;
         at.scales = scales;
         at.is_scaled = is_scaled;
-        at.capacity = capacity;
+        at.capacity = numbers.capacity;
         at.num_vectors = min(end - from, (ulong)VECTORS);
-        const int begins = is_first && from == begin;
+        const int begins = numbers.is_first && from == begin;
         for (uint order = first; order < last; order++) {
-            const uint m = first_order + order;
+            const uint m = numbers.first_order + order;
             __global real *row = sums + (realization * num_orders + order) * 4 * stride;
             for (size_t v = 0; v < at.num_vectors; v++) {
                 begin_order(&at, v, m, order == first);

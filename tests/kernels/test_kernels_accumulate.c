@@ -3,6 +3,7 @@
  */
 #include "harness_kernels.h"
 
+#include "accumulate/blocks.h"
 #include "spectra/accumulate_blocks.h"
 
 #include <math.h>
@@ -111,19 +112,20 @@ static void launch_blocks(const launch *with, const double *power, size_t num_ro
         test_memory_create(device, table->rings, table->num_rings * sizeof *table->rings);
     test_memory members =
         test_memory_create(device, table->members, table->num_members * sizeof *table->members);
+    const blocks_numbers numbers = {.stride = with->stride,
+                                    .num_pieces = table->num_rings,
+                                    .num_realizations = (uint32_t)num_rows};
     const ps_argument block = PS_LOCAL(BLOCK * one->lanes * one->precision / 8);
     if (with->states != NULL) {
-        TEST_LAUNCH(device, kernel, with->group, 1, table->num_blocks, 1, PS_BUFFER(rows.buffer),
-                    PS_U32(num_rows), PS_U64(with->stride), PS_BUFFER(first_rings.buffer),
-                    PS_BUFFER(rings.buffer), PS_BUFFER(members.buffer),
-                    PS_BUFFER(with->sums->buffer), PS_U64(table->num_rings),
+        TEST_LAUNCH(device, kernel, with->group, 1, table->num_blocks, 1, PS_STRUCT(numbers),
+                    PS_BUFFER(rows.buffer), PS_BUFFER(first_rings.buffer), PS_BUFFER(rings.buffer),
+                    PS_BUFFER(members.buffer), PS_BUFFER(with->sums->buffer),
                     PS_BUFFER(with->states[0].buffer), PS_BUFFER(with->states[1].buffer),
                     PS_BUFFER(with->states[2].buffer), PS_BUFFER(with->states[3].buffer), block);
     } else {
-        TEST_LAUNCH(device, kernel, with->group, 1, table->num_blocks, 1, PS_BUFFER(rows.buffer),
-                    PS_U32(num_rows), PS_U64(with->stride), PS_BUFFER(first_rings.buffer),
-                    PS_BUFFER(rings.buffer), PS_BUFFER(members.buffer),
-                    PS_BUFFER(with->sums->buffer), PS_U64(table->num_rings), block);
+        TEST_LAUNCH(device, kernel, with->group, 1, table->num_blocks, 1, PS_STRUCT(numbers),
+                    PS_BUFFER(rows.buffer), PS_BUFFER(first_rings.buffer), PS_BUFFER(rings.buffer),
+                    PS_BUFFER(members.buffer), PS_BUFFER(with->sums->buffer), block);
     }
     test_memory_free_unchanged(&rows);
     test_memory_free_unchanged(&first_rings);

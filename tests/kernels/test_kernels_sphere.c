@@ -6,6 +6,7 @@
 #include "engines/sphere/sphere_points.h"
 #include "engines/sphere/sphere_table.h"
 #include "math/pi.h"
+#include "sphere/sums.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -184,11 +185,17 @@ static void check_case(const sphere_case *one) {
         test_kernel(device, "sphere/sums.cl", "sphere_sums",
                     "-DPRECISION=%u -DLANES=%u -DCHUNK=%d -DORDERS=%d -DONLY_EVEN=%d",
                     one->precision, one->lanes, CHUNK, ORDERS, one->only_even);
+    const sums_numbers numbers = {.stride = STRIDE,
+                                  .capacity = data.capacity,
+                                  .first_order = (uint32_t)one->first_order,
+                                  .num_orders = (uint32_t)one->num_orders,
+                                  .max_degree = MAX_DEGREE,
+                                  .has_low = 1,
+                                  .is_first = 1};
     TEST_LAUNCH(device, kernel, 1, (one->num_orders + ORDERS - 1) / ORDERS, REALIZATIONS, 1,
-                PS_BUFFER(values.buffer), PS_BUFFER(turns.buffer), PS_BUFFER(weights.buffer),
-                PS_BUFFER(offsets.buffer), PS_BUFFER(table.buffer), PS_BUFFER(blocks.buffer),
-                PS_BUFFER(sums.buffer), PS_U32(one->first_order), PS_U32(one->num_orders),
-                PS_U32(MAX_DEGREE), PS_U64(STRIDE), PS_U64(data.capacity), PS_U32(1), PS_U32(1));
+                PS_STRUCT(numbers), PS_BUFFER(values.buffer), PS_BUFFER(turns.buffer),
+                PS_BUFFER(weights.buffer), PS_BUFFER(offsets.buffer), PS_BUFFER(table.buffer),
+                PS_BUFFER(blocks.buffer), PS_BUFFER(sums.buffer));
     double *got = test_reals_read(&sums, one->precision);
     check_sums(one, &data, got);
     run_power(one, &sums, got);

@@ -10,6 +10,7 @@
 #include "engines/sphere/sphere_points.h"
 #include "engines/sphere/sphere_table.h"
 #include "math/pi.h"
+#include "sphere/sums.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -225,16 +226,21 @@ static pspec_status add_slab(sphere_direct *self, size_t num_patterns, size_t pa
     const double harmonics =
         (double)(points->num_vectors * layout->lanes) * pass_harmonics(layout, pass);
     const double flops_per_harmonic = layout->only_even ? 7 : 9;
+    const sums_numbers numbers = {.stride = layout->stride,
+                                  .capacity = points->capacity,
+                                  .first_order = (uint32_t)(pass * layout->pass_orders),
+                                  .num_orders = (uint32_t)orders,
+                                  .max_degree = (uint32_t)layout->max_degree,
+                                  .has_low = has_low,
+                                  .is_first = is_first};
     ps_range range = {.rank = 3,
                       .global = {ps_divide_up(orders, PS_SPHERE_ORDERS), num_patterns, 1},
                       .local = {1, 1, 1},
                       .flops = flops_per_harmonic * harmonics};
-    return PS_LAUNCH(self->device, self->sums_kernel, &range, error, PS_BUFFER(points->values),
-                     PS_BUFFER(points->turns), PS_BUFFER(points->weights),
-                     PS_BUFFER(points->offsets), PS_BUFFER(self->table), PS_BUFFER(self->blocks),
-                     PS_BUFFER(self->sums), PS_U32(pass * layout->pass_orders), PS_U32(orders),
-                     PS_U32(layout->max_degree), PS_U64(layout->stride), PS_U64(points->capacity),
-                     PS_U32(has_low), PS_U32(is_first));
+    return PS_LAUNCH(self->device, self->sums_kernel, &range, error, PS_STRUCT(numbers),
+                     PS_BUFFER(points->values), PS_BUFFER(points->turns),
+                     PS_BUFFER(points->weights), PS_BUFFER(points->offsets), PS_BUFFER(self->table),
+                     PS_BUFFER(self->blocks), PS_BUFFER(self->sums));
 }
 
 static pspec_status add_orders(sphere_direct *self, size_t num_patterns, size_t pass, bool has_low,
@@ -252,15 +258,6 @@ static pspec_status add_orders(sphere_direct *self, size_t num_patterns, size_t 
                      PS_U64(layout->stride), PS_U32(has_low));
 }
 
-static size_t longest_pattern(const ps_batch *batch) {
-    size_t longest = 1;
-    for (size_t r = 0; r < batch->num_patterns; r++) {
-        const size_t num_points = batch->patterns[r].num_points;
-        longest = num_points > longest ? num_points : longest;
-    }
-    return longest;
-}
-
 /* More points than a chunk: the sums have low parts. */
 static bool has_low_parts(const sphere_direct *self, size_t longest) {
     return longest > PS_SPHERE_CHUNK || longest > self->layout.slab;
@@ -269,7 +266,7 @@ static bool has_low_parts(const sphere_direct *self, size_t longest) {
 /* The coefficients of a pass of orders, in the device's sums. */
 static pspec_status sum_pass(sphere_direct *self, const ps_batch *batch, size_t pass,
                              ps_error *error) {
-    const size_t longest = longest_pattern(batch);
+    const size_t longest = ps_batch_longest(batch);
     const size_t slab = self->layout.slab;
     PS_TRY(upload_table(self, pass, error));
     for (size_t first = 0; first < longest; first += slab) {
@@ -339,7 +336,7 @@ static pspec_status read_pass(sphere_direct *self, const ps_batch *one, size_t p
 /* Sums on the device, and from them powers there and coefficients here (NULL: none). */
 static pspec_status run_passes(sphere_direct *self, const ps_batch *batch, bool wants_powers,
                                double *coefficients, ps_error *error) {
-    const bool has_low = has_low_parts(self, longest_pattern(batch));
+    const bool has_low = has_low_parts(self, ps_batch_longest(batch));
     for (size_t pass = 0; pass < self->layout.num_passes; pass++) {
         PS_TRY(sum_pass(self, batch, pass, error));
         if (wants_powers) {

@@ -6,7 +6,8 @@
  * Launch: (work-items of one group, groups). A work-group has the orders that are its number modulo
  * the number of groups.
  *
- *   starts ... equatorial, block, states ... diagonal_scales, coefficients, begins  of orders_sum.cl, rows its table
+ *   numbers  of numbers.h; their names are used here
+ *   starts ... squares, states ... diagonal_scales, coefficients, begins  of orders_sum.cl, rows its table
  *   filters  [order modulo 2][even, odd l - m][num_rings][angle_pitch], angle_pitch a multiple of ANGLES
  *   offsets  [order][even, odd l - m]: grid_table.h
  *   table    float or double, as TARGET_PRECISION says
@@ -15,6 +16,7 @@
  */
 #include "sphere/nufft/orders_work.h"
 #include "sphere/nufft/grid_table.h"
+#include "sphere/nufft/numbers.h"
 
 #ifndef TARGET_PRECISION
 #define TARGET_PRECISION 32
@@ -101,22 +103,24 @@ static inline void make_run_of_table(const make_rows from, const make_target to,
 }
 
 __kernel void sphere_grid_table(
-    __global const double *restrict starts, __global const int *restrict start_scales,
-    __global const double *restrict steps, __global const int *restrict step_scales,
-    __global const double *restrict ratios, __global const double *restrict cosines,
-    __global const double *restrict distances, __global const double *restrict squares,
-    const uint polar, const uint crossing, const uint equatorial, const uint L,
-    const uint num_rings, const uint ring_pitch, const uint only_even, const uint block,
-    __global double *restrict all_states, __global int *restrict all_scales,
-    __global double *restrict all_diagonals, __global int *restrict all_diagonal_scales,
-    __global const double *restrict filters, const uint num_angles, const uint angle_pitch,
+    const grid_table_numbers numbers, __global const double *restrict starts,
+    __global const int *restrict start_scales, __global const double *restrict steps,
+    __global const int *restrict step_scales, __global const double *restrict ratios,
+    __global const double *restrict cosines, __global const double *restrict distances,
+    __global const double *restrict squares, __global double *restrict all_states,
+    __global int *restrict all_scales, __global double *restrict all_diagonals,
+    __global int *restrict all_diagonal_scales, __global const double *restrict filters,
     __global const ulong *restrict offsets, __global target *restrict table, __local real *rows,
     __local double *coefficients, __local uint *begins) {
+    const ring_numbers rings = numbers.rings;
+    const uint L = rings.L, only_even = rings.only_even;
+    const uint num_rings = rings.num_rings, ring_pitch = rings.ring_pitch, block = rings.block;
+    const uint num_angles = numbers.num_angles, angle_pitch = numbers.angle_pitch;
     const uint group = get_global_id(1), groups = get_global_size(1);
     __global double *states = all_states + group * 4 * (size_t)ring_pitch;
     const ring_work work = {{states, states + 2 * (size_t)ring_pitch,
                              all_scales + group * 2 * (size_t)ring_pitch, ring_pitch},
-                            {distances, squares, polar, crossing, equatorial},
+                            {distances, squares, rings.polar, rings.crossing, rings.equatorial},
                             all_diagonals + group * (size_t)ring_pitch,
                             all_diagonal_scales + group * (size_t)ring_pitch,
                             num_rings,

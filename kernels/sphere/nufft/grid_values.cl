@@ -6,21 +6,22 @@
  * Launch: (work-items of one group, slots). LANES is 2 at least. A slot does the realizations slot,
  * slot + slots, ...
  *
+ *   numbers    of numbers.h; their names are used here
  *   points     [..][2] of orders_turns.cl, weights [..], offsets  realization r at offsets[r] .. offsets[r + 1]
- *   window, n, width, degree, bins  of nufft/window.h, the same on both axes; n is even
+ *   window     of nufft/window.h, the same on both axes
  *   radices, twiddles, position  of nufft/fft.h, of length n / 2
  *   gains      [L + 1][3]: around_gains of orders.cl
  *   begins     [order][even, odd l - m][most_runs] of grid_begins.cl: values that do not count are left alone
  *   grids      [slot][n + width][pitch], and LANES numbers in front and behind; angle (i + 1/2) 2 pi / n is cell
  *              pole + i of a row, and windows of points at the pole reach `pole` cells behind it
  *   values     [order][value_sets][even, odd l - m][vector of angles][re, im][LANES] (values.h), realizations from
- *              first_value on; vectors for num_angles = (n / 2 + 1) / 2 angles
- *   only_even  even degrees only: the values of others are left alone
+ *              first_value on; vectors for num_angles angles
  *   scratch    [slot][2][n / 2][re, im][LANES]
  *   windows, cells  local, of a chunk: nufft/chunk.h
  */
 #include "shared/ahead.h"
 #include "sphere/nufft/grid_table.h"
+#include "sphere/nufft/numbers.h"
 #include "sphere/nufft/orders_grid.h"
 #include "sphere/values.h"
 
@@ -123,16 +124,18 @@ static inline void write_orders(__global real *to, const size_t order_apart,
 }
 
 __kernel void
-sphere_grid_values(__global const ulong *restrict points, __global const real *restrict weights,
-                   __global const ulong *restrict offsets, const uint num_realizations,
-                   __global const real *restrict window, const uint n, const uint width,
-                   const uint degree, const uint bins, __global const uint *restrict radices,
+sphere_grid_values(const grid_values_numbers numbers, __global const ulong *restrict points,
+                   __global const real *restrict weights, __global const ulong *restrict offsets,
+                   __global const real *restrict window, __global const uint *restrict radices,
                    __global const real *restrict twiddles, __global const uint *restrict position,
                    __global const real *restrict gains, __global const uint *restrict begins,
-                   const uint most_runs, const uint L, const uint only_even, const uint pitch,
-                   const uint pole, const uint num_angles, __global real *restrict grids,
-                   __global real *restrict values, const uint first_value, const uint value_sets,
+                   __global real *restrict grids, __global real *restrict values,
                    __global real *restrict scratch, __local real *windows, __local uint *cells) {
+    const uint n = numbers.window.n, width = numbers.window.width, bins = numbers.window.bins;
+    const uint degree = numbers.window.degree, num_realizations = numbers.num_realizations;
+    const uint L = numbers.L, only_even = numbers.only_even, most_runs = numbers.most_runs;
+    const uint pitch = numbers.pitch, pole = numbers.pole, num_angles = numbers.num_angles;
+    const uint first_value = numbers.first_value, value_sets = numbers.value_sets;
     const uint slot = get_global_id(1), slots = get_global_size(1);
     const uint groups = (num_angles + LANES - 1) / LANES;
     const uint transforms = only_even != 0 ? 1 : 2;

@@ -2,20 +2,26 @@
  * part by part, so that every cell adds the same numbers in the same order. Launch: (work-items of
  * one group, bands).
  *
+ *   numbers    of numbers.h; their names are used here
  *   sorted, heights, starts  of orders_sort.cl, in parts of part_points
- *   window, n, width, degree, bins, pitch  of orders.cl
+ *   window     of orders.cl
  *   grid       of sphere/bands.h, continued unless is_first
  *   windows, cells  local, of a chunk: nufft/chunk.h
  */
 #include "sphere/bands.h"
+#include "sphere/nufft/numbers.h"
 #include "sphere/nufft/orders_grid.h"
 
-__kernel void sphere_orders_bands(
-    __global const ulong *restrict sorted, __global const real *restrict heights,
-    __global const uint *restrict starts, const uint num_parts, const ulong part_points,
-    const uint tiles, const uint is_first, __global const real *restrict window, const uint n,
-    const uint width, const uint degree, const uint bins, const uint bands, const uint band_rows,
-    const uint pitch, __global real *restrict grid, __local real *windows, __local uint *cells) {
+__kernel void
+sphere_orders_bands(const orders_bands_numbers numbers, __global const ulong *restrict sorted,
+                    __global const real *restrict heights, __global const uint *restrict starts,
+                    __global const real *restrict window, __global real *restrict grid,
+                    __local real *windows, __local uint *cells) {
+    const uint n = numbers.window.n, width = numbers.window.width;
+    const uint degree = numbers.window.degree, bins = numbers.window.bins;
+    const uint num_parts = numbers.num_parts, tiles = numbers.tiles, bands = numbers.bands;
+    const uint band_rows = numbers.band_rows, pitch = numbers.pitch;
+    const ulong part_points = numbers.part_points;
     const uint band = get_global_id(1);
     const window_axis across = {window, n, width, 0, degree, bins, 0, 1};
     const window_axis along = {window, n, width, 1, degree, bins, 0, 1};
@@ -23,7 +29,7 @@ __kernel void sphere_orders_bands(
     __global real *own = grid + band * (size_t)band_rows * pitch;
     const orders_grid to = {own, pitch, band_rows, start_of_band(band, n, bands) * pitch};
     const chunk chunk = make_chunk(windows, cells, across, along);
-    clear_cells(own, is_first ? (size_t)band_rows * pitch : 0);
+    clear_cells(own, numbers.is_first ? (size_t)band_rows * pitch : 0);
     for (uint part = 0; part < num_parts; part++) {
         __global const uint *start =
             starts + part * ((size_t)bands * tiles + 1) + (size_t)band * tiles;

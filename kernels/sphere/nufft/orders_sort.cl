@@ -2,16 +2,16 @@
  * the pole: a counting sort, stable, of each part by one work-item. Launch: (parts), rounded up at
  * will.
  *
+ *   numbers          of numbers.h; their names are used here
  *   points, weights  [num_points][3], [num_points]
- *   part_points      of each part but the last, a multiple of LANES
  *   turns            [num_points, rounded up to LANES][2]: scratch
  *   keys             [num_points]: scratch
  *   sorted, heights  [num_points][2] of sphere/turns.h, [num_points]: as long as the points; heights are left alone
- *                    without weights
+ *                    without weights (has_weights 0)
  *   starts           [part][bands tiles + 1]: from the beginning of the part
- *   n, width         of the fine grid (nufft/cells.h)
  */
 #include "sphere/bands.h"
+#include "sphere/nufft/numbers.h"
 #include "sphere/turns.h"
 
 /* Of points first .. first + LANES - 1. */
@@ -31,13 +31,14 @@ static inline void make_keys(__global const ulong *turns, __global uint *keys, c
     }
 }
 
-__kernel void sphere_orders_sort(__global const double *restrict points,
-                                 __global const real *restrict weights, const ulong num_points,
-                                 const ulong part_points, const ulong shift, const uint n,
-                                 const uint width, const uint bands, const uint tiles,
-                                 const uint has_weights, __global ulong *restrict turns,
-                                 __global uint *restrict keys, __global ulong *restrict sorted,
-                                 __global real *restrict heights, __global uint *restrict starts) {
+__kernel void sphere_orders_sort(const orders_sort_numbers numbers,
+                                 __global const double *restrict points,
+                                 __global const real *restrict weights,
+                                 __global ulong *restrict turns, __global uint *restrict keys,
+                                 __global ulong *restrict sorted, __global real *restrict heights,
+                                 __global uint *restrict starts) {
+    const ulong num_points = numbers.num_points, part_points = numbers.part_points;
+    const uint bands = numbers.bands, tiles = numbers.tiles, has_weights = numbers.has_weights;
     const size_t part = get_global_id(0), begin = part * part_points;
     const uint num_keys = bands * tiles;
     if (begin >= num_points) {
@@ -50,8 +51,8 @@ __kernel void sphere_orders_sort(__global const double *restrict points,
     }
     for (size_t first = begin; first < end; first += LANES) {
         const uint num = (uint)min((size_t)LANES, end - first);
-        make_turns(points, turns, first, num_points, shift);
-        make_keys(turns, keys, first, num, n, width, bands, tiles);
+        make_turns(points, turns, first, num_points, numbers.shift);
+        make_keys(turns, keys, first, num, numbers.n, numbers.width, bands, tiles);
         for (uint i = 0; i < num; i++) {
             start[keys[first + i]]++;
         }

@@ -3,6 +3,7 @@
  * Lambda_lm is made for a run of degrees and a block of rings at a time, and used by all
  * realizations. Launch: (work-items of one group, groups).
  *
+ *   numbers    of numbers.h; their names are used here
  *   values     [order][value_sets, realizations][even, odd l - m][ring_pitch][re, im] of orders.cl: side by side, so
  *              that what an order needs comes in a row
  *   starts, start_scales  [group][ring_pitch]: Lambda_mm of the first order of a group (orders_chains.h), 0 behind the
@@ -10,9 +11,7 @@
  *   steps, step_scales    [ring_pitch]: sin^groups(theta)
  *   ratios     [order]: norm of Lambda_mm over that of the order `groups` below, with the sign of both
  *   cosines    [ring_pitch]: cos(theta)
- *   distances, squares, polar, crossing, equatorial  ring_angles of orders_table.h
- *   only_even  even degrees only
- *   block      rings of a block, a multiple of RING_UNIT
+ *   distances, squares  ring_angles of orders_table.h
  *   states, scales  [group][2][even, odd l - m][ring_pitch], [group][2][ring_pitch]: scratch
  *   diagonal, diagonal_scales  [group][ring_pitch]: scratch
  *   sums       [group][pair of realizations][even, odd l - m][2][RUN_VECTORS][re, im][LANES]: scratch, room for one
@@ -24,22 +23,26 @@
  *   coefficients  local, [COEFFICIENTS]
  *   begins     local, [block / RING_UNIT]
  */
+#include "sphere/nufft/numbers.h"
 #include "sphere/nufft/orders_product.h"
 #include "sphere/nufft/orders_work.h"
 #include "sphere/values.h"
 
-__kernel void sphere_orders_sum(
-    __global const real *restrict values, const uint value_sets, const uint num_realizations,
-    __global const double *restrict starts, __global const int *restrict start_scales,
-    __global const double *restrict steps, __global const int *restrict step_scales,
-    __global const double *restrict ratios, __global const double *restrict cosines,
-    __global const double *restrict distances, __global const double *restrict squares,
-    const uint polar, const uint crossing, const uint equatorial, const uint L,
-    const uint num_rings, const uint ring_pitch, const uint only_even, const uint block,
-    const uint half_pitch, __global double *restrict all_states, __global int *restrict all_scales,
-    __global double *restrict all_diagonals, __global int *restrict all_diagonal_scales,
-    __global real *restrict all_sums, __global double *restrict all_powers, __local real *table,
-    __local double *coefficients, __local uint *begins) {
+__kernel void
+sphere_orders_sum(const orders_sum_numbers numbers, __global const real *restrict values,
+                  __global const double *restrict starts, __global const int *restrict start_scales,
+                  __global const double *restrict steps, __global const int *restrict step_scales,
+                  __global const double *restrict ratios, __global const double *restrict cosines,
+                  __global const double *restrict distances,
+                  __global const double *restrict squares, __global double *restrict all_states,
+                  __global int *restrict all_scales, __global double *restrict all_diagonals,
+                  __global int *restrict all_diagonal_scales, __global real *restrict all_sums,
+                  __global double *restrict all_powers, __local real *table,
+                  __local double *coefficients, __local uint *begins) {
+    const ring_numbers rings = numbers.rings;
+    const uint value_sets = numbers.value_sets, num_realizations = numbers.num_realizations;
+    const uint L = rings.L, only_even = rings.only_even, half_pitch = numbers.half_pitch;
+    const uint num_rings = rings.num_rings, ring_pitch = rings.ring_pitch, block = rings.block;
     const uint group = get_global_id(1), groups = get_global_size(1);
     const size_t apart = 4 * (size_t)ring_pitch;
     const size_t powers_apart = 2 * (size_t)half_pitch;
@@ -49,7 +52,7 @@ __kernel void sphere_orders_sum(
     __global double *powers = all_powers + (KEEP ? 0 : group * num_realizations * powers_apart);
     ring_work work = {{states, states + 2 * (size_t)ring_pitch,
                        all_scales + group * 2 * (size_t)ring_pitch, ring_pitch},
-                      {distances, squares, polar, crossing, equatorial},
+                      {distances, squares, rings.polar, rings.crossing, rings.equatorial},
                       all_diagonals + group * (size_t)ring_pitch,
                       all_diagonal_scales + group * (size_t)ring_pitch,
                       num_rings,

@@ -66,26 +66,40 @@ void ps_sphere_grid_stages_free(ps_sphere_grid_stages *stages) {
 
 /* ---- run --------------------------------------------------------------------------------- */
 
+static grid_values_numbers numbers_of(const ps_sphere_grid_stages *self, size_t first_value,
+                                      size_t num) {
+    const ps_sphere_shape *shape = self->shape;
+    const ps_nufft_plan *plan = &self->tables->plan;
+    return (grid_values_numbers){
+        .window = {plan->axis.n, plan->axis.window.width, plan->degree, plan->bins},
+        .num_realizations = (uint32_t)num,
+        .L = (uint32_t)shape->max_degree,
+        .only_even = self->only_even,
+        .pitch = shape->pitch,
+        .pole = shape->pole,
+        .num_angles = shape->num_angles,
+        .most_runs = shape->most_runs,
+        .first_value = (uint32_t)first_value,
+        .value_sets = (uint32_t)shape->at_once};
+}
+
 pspec_status ps_sphere_grid_make_values(ps_sphere_grid_stages *self, size_t first_value, size_t num,
                                         ps_error *error) {
     const ps_sphere_shape *shape = self->shape;
     const ps_sphere_tables *tables = self->tables;
     const ps_nufft_plan *plan = &tables->plan;
     const ps_sphere_local local = ps_sphere_local_bytes(shape, ps_real_bytes(self->precision));
+    const grid_values_numbers numbers = numbers_of(self, first_value, num);
     const size_t slots = num < shape->slots ? num : shape->slots;
     const double transforms = (double)num * shape->num_angles * 2;
     const ps_range range = ps_sphere_group_range(self->device, self->powers.is_alone, slots,
                                                  transforms * ps_fft_flops(plan->axis.n / 2));
-    return PS_LAUNCH(self->device, self->make, &range, error, PS_BUFFER(self->points->turns),
-                     PS_BUFFER(self->points->weights), PS_BUFFER(self->points->offsets),
-                     PS_U32(num), PS_BUFFER(plan->coefficients), PS_U32(plan->axis.n),
-                     PS_U32(plan->axis.window.width), PS_U32(plan->degree), PS_U32(plan->bins),
+    return PS_LAUNCH(self->device, self->make, &range, error, PS_STRUCT(numbers),
+                     PS_BUFFER(self->points->turns), PS_BUFFER(self->points->weights),
+                     PS_BUFFER(self->points->offsets), PS_BUFFER(plan->coefficients),
                      PS_BUFFER(tables->halves.radices), PS_BUFFER(tables->halves.twiddles),
                      PS_BUFFER(tables->halves.position), PS_BUFFER(tables->around_gains),
-                     PS_BUFFER(self->table.begins), PS_U32(shape->most_runs),
-                     PS_U32(shape->max_degree), PS_U32(self->only_even), PS_U32(shape->pitch),
-                     PS_U32(shape->pole), PS_U32(shape->num_angles), PS_BUFFER(self->grids),
-                     PS_BUFFER(self->values), PS_U32(first_value), PS_U32(shape->at_once),
+                     PS_BUFFER(self->table.begins), PS_BUFFER(self->grids), PS_BUFFER(self->values),
                      PS_BUFFER(self->scratch), PS_LOCAL(local.windows), PS_LOCAL(local.cells));
 }
 

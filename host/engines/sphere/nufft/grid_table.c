@@ -239,19 +239,19 @@ static pspec_status make_numbers(const ps_sphere_grid_table *table, const making
     const ps_sphere_starts *starts = &self->starts;
     const ps_sphere_local local = ps_sphere_local_bytes(rings, sizeof(double));
     const double flops = ps_sphere_grid_table_flops(self->shape);
+    const grid_table_numbers numbers = {.rings = ps_sphere_ring_numbers(rings, self->only_even),
+                                        .num_angles = self->shape->num_angles,
+                                        .angle_pitch = self->angle_pitch};
     const ps_range range =
         ps_sphere_group_range(self->device, self->is_alone, PS_SPHERE_GROUPS, flops);
     return PS_LAUNCH(
-        self->device, self->make, &range, error, PS_BUFFER(starts->starts),
+        self->device, self->make, &range, error, PS_STRUCT(numbers), PS_BUFFER(starts->starts),
         PS_BUFFER(starts->start_scales), PS_BUFFER(starts->steps), PS_BUFFER(starts->step_scales),
         PS_BUFFER(starts->ratios), PS_BUFFER(starts->cosines), PS_BUFFER(starts->distances),
-        PS_BUFFER(starts->squares), PS_U32(rings->polar), PS_U32(rings->crossing),
-        PS_U32(rings->equatorial), PS_U32(rings->max_degree), PS_U32(rings->num_rings),
-        PS_U32(rings->ring_pitch), PS_U32(self->only_even), PS_U32(rings->block),
-        PS_BUFFER(self->states), PS_BUFFER(self->scales), PS_BUFFER(self->diagonals),
-        PS_BUFFER(self->diagonal_scales), PS_BUFFER(self->filters), PS_U32(self->shape->num_angles),
-        PS_U32(self->angle_pitch), PS_BUFFER(table->offsets), PS_BUFFER(table->numbers),
-        PS_LOCAL(local.table), PS_LOCAL(local.coefficients), PS_LOCAL(local.begins));
+        PS_BUFFER(starts->squares), PS_BUFFER(self->states), PS_BUFFER(self->scales),
+        PS_BUFFER(self->diagonals), PS_BUFFER(self->diagonal_scales), PS_BUFFER(self->filters),
+        PS_BUFFER(table->offsets), PS_BUFFER(table->numbers), PS_LOCAL(local.table),
+        PS_LOCAL(local.coefficients), PS_LOCAL(local.begins));
 }
 
 static pspec_status find_begins(const ps_sphere_grid_table *table, const making *self,

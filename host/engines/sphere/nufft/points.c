@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "base/round.h"
 #include "device/reals.h"
+#include "sphere/nufft/numbers.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -162,11 +163,16 @@ static pspec_status sort_points(ps_sphere_places *self, ps_error *error) {
     const size_t parts = ps_divide_up(self->num_points, PS_SPHERE_PART_POINTS);
     const ps_range range =
         ps_range_heavy(self->device, parts, 1, 1, flops_per_point * (double)self->num_points, 0);
-    return PS_LAUNCH(self->device, self->turn, &range, error, PS_BUFFER(self->vectors),
-                     PS_BUFFER(self->weights), PS_U64(self->num_points),
-                     PS_U64(PS_SPHERE_PART_POINTS), PS_U64(self->shift), PS_U32(shape->axis.n),
-                     PS_U32(shape->axis.window.width), PS_U32(shape->bands), PS_U32(shape->tiles),
-                     PS_U32(self->has_unit_weights ? 0 : 1), PS_BUFFER(self->turns),
+    const orders_sort_numbers numbers = {.num_points = self->num_points,
+                                         .part_points = PS_SPHERE_PART_POINTS,
+                                         .shift = self->shift,
+                                         .n = shape->axis.n,
+                                         .width = shape->axis.window.width,
+                                         .bands = shape->bands,
+                                         .tiles = shape->tiles,
+                                         .has_weights = !self->has_unit_weights};
+    return PS_LAUNCH(self->device, self->turn, &range, error, PS_STRUCT(numbers),
+                     PS_BUFFER(self->vectors), PS_BUFFER(self->weights), PS_BUFFER(self->turns),
                      PS_BUFFER(self->keys), PS_BUFFER(self->sorted), PS_BUFFER(self->heights),
                      PS_BUFFER(self->starts));
 }

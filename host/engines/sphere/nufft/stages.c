@@ -176,17 +176,22 @@ pspec_status ps_sphere_stages_add_sorted(ps_sphere_stages *stages, bool is_first
     const ps_buffer *heights = points->has_unit_weights ? &points->weights : &points->heights;
     const ps_sphere_local local = ps_sphere_local_bytes(shape, ps_real_bytes(stages->precision));
     const double flops_per_point = 2000;
+    const orders_bands_numbers numbers = {
+        .part_points = PS_SPHERE_PART_POINTS,
+        .window = {plan->axis.n, plan->axis.window.width, plan->degree, plan->bins},
+        .num_parts = (uint32_t)ps_divide_up(points->num_points, PS_SPHERE_PART_POINTS),
+        .tiles = shape->tiles,
+        .is_first = is_first,
+        .bands = shape->bands,
+        .band_rows = shape->band_rows,
+        .pitch = shape->pitch};
     const ps_range range =
         ps_sphere_group_range(stages->device, stages->powers.is_alone, shape->bands,
                               flops_per_point * (double)points->num_points);
-    return PS_LAUNCH(stages->device, stages->bands, &range, error, PS_BUFFER(points->sorted),
-                     PS_BUFFER(*heights), PS_BUFFER(points->starts),
-                     PS_U32(ps_divide_up(points->num_points, PS_SPHERE_PART_POINTS)),
-                     PS_U64(PS_SPHERE_PART_POINTS), PS_U32(shape->tiles), PS_U32(is_first),
-                     PS_BUFFER(plan->coefficients), PS_U32(plan->axis.n),
-                     PS_U32(plan->axis.window.width), PS_U32(plan->degree), PS_U32(plan->bins),
-                     PS_U32(shape->bands), PS_U32(shape->band_rows), PS_U32(shape->pitch),
-                     PS_BUFFER(stages->grids), PS_LOCAL(local.windows), PS_LOCAL(local.cells));
+    return PS_LAUNCH(stages->device, stages->bands, &range, error, PS_STRUCT(numbers),
+                     PS_BUFFER(points->sorted), PS_BUFFER(*heights), PS_BUFFER(points->starts),
+                     PS_BUFFER(plan->coefficients), PS_BUFFER(stages->grids),
+                     PS_LOCAL(local.windows), PS_LOCAL(local.cells));
 }
 
 pspec_status ps_sphere_stages_finish_sorted(ps_sphere_stages *stages, size_t value,
@@ -208,17 +213,18 @@ static pspec_status sum_rings(void *stages, cl_kernel kernel, const ps_buffer *t
     const double flops = 4 * degrees * degrees / 2 * shape->num_rings * (double)num;
     const ps_range range =
         ps_sphere_group_range(self->device, self->powers.is_alone, PS_SPHERE_GROUPS, flops);
+    const orders_sum_numbers numbers = {.rings = ps_sphere_ring_numbers(shape, self->only_even),
+                                        .value_sets = (uint32_t)shape->at_once,
+                                        .num_realizations = (uint32_t)num,
+                                        .half_pitch = shape->half_pitch};
     return PS_LAUNCH(
-        self->device, kernel, &range, error, PS_BUFFER(self->values), PS_U32(shape->at_once),
-        PS_U32(num), PS_BUFFER(rings->starts), PS_BUFFER(rings->start_scales),
-        PS_BUFFER(rings->steps), PS_BUFFER(rings->step_scales), PS_BUFFER(rings->ratios),
-        PS_BUFFER(rings->cosines), PS_BUFFER(rings->distances), PS_BUFFER(rings->squares),
-        PS_U32(shape->polar), PS_U32(shape->crossing), PS_U32(shape->equatorial),
-        PS_U32(shape->max_degree), PS_U32(shape->num_rings), PS_U32(shape->ring_pitch),
-        PS_U32(self->only_even), PS_U32(shape->block), PS_U32(shape->half_pitch),
-        PS_BUFFER(self->states), PS_BUFFER(self->scales), PS_BUFFER(self->diagonals),
-        PS_BUFFER(self->diagonal_scales), PS_BUFFER(self->sums), PS_BUFFER(*to),
-        PS_LOCAL(local.table), PS_LOCAL(local.coefficients), PS_LOCAL(local.begins));
+        self->device, kernel, &range, error, PS_STRUCT(numbers), PS_BUFFER(self->values),
+        PS_BUFFER(rings->starts), PS_BUFFER(rings->start_scales), PS_BUFFER(rings->steps),
+        PS_BUFFER(rings->step_scales), PS_BUFFER(rings->ratios), PS_BUFFER(rings->cosines),
+        PS_BUFFER(rings->distances), PS_BUFFER(rings->squares), PS_BUFFER(self->states),
+        PS_BUFFER(self->scales), PS_BUFFER(self->diagonals), PS_BUFFER(self->diagonal_scales),
+        PS_BUFFER(self->sums), PS_BUFFER(*to), PS_LOCAL(local.table), PS_LOCAL(local.coefficients),
+        PS_LOCAL(local.begins));
 }
 
 pspec_status ps_sphere_stages_sum(ps_sphere_stages *stages, size_t num, double *powers,

@@ -180,6 +180,17 @@ void ps_sphere_starts_free(ps_sphere_starts *starts) {
     *starts = (ps_sphere_starts){0};
 }
 
+ring_numbers ps_sphere_ring_numbers(const ps_sphere_shape *shape, bool only_even) {
+    return (ring_numbers){.polar = shape->polar,
+                          .crossing = shape->crossing,
+                          .equatorial = shape->equatorial,
+                          .L = (uint32_t)shape->max_degree,
+                          .only_even = only_even,
+                          .num_rings = shape->num_rings,
+                          .ring_pitch = shape->ring_pitch,
+                          .block = shape->block};
+}
+
 /* ---- all --------------------------------------------------------------------------------- */
 
 pspec_status ps_sphere_tables_create(ps_sphere_tables *out, const ps_sphere_shape *shape,

@@ -4,6 +4,7 @@
 
 #include "engines/nufft/plan.h"
 #include "engines/sphere/nufft/shape.h"
+#include "sphere/nufft/numbers.h"
 
 /* What Lambda_lm on rings begins with. Names of kernels/sphere/nufft/orders_sum.cl. */
 typedef struct ps_sphere_starts {
@@ -25,6 +26,8 @@ typedef struct ps_sphere_tables {
 pspec_status ps_sphere_starts_create(ps_sphere_starts *out, const ps_sphere_shape *shape,
                                      ps_device *device, ps_error *error) PS_MUST_CHECK;
 void ps_sphere_starts_free(ps_sphere_starts *starts);
+/* What kernels are told of the rings of a shape. */
+ring_numbers ps_sphere_ring_numbers(const ps_sphere_shape *shape, bool only_even);
 
 pspec_status ps_sphere_tables_create(ps_sphere_tables *out, const ps_sphere_shape *shape,
                                      double tolerance, ps_precision precision, ps_device *device,
