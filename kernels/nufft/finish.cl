@@ -1,6 +1,7 @@
 /* From rows of cells that are there (nufft/first.cl) to powers, or to the grid of nufft/columns.cl.
  * Launch: (work-items of one group, tiles * rows); one row where there is one transform left.
  *
+ *   numbers    powers_numbers of nufft/numbers.h
  *   rows       [tile][row][n][re, im][LANES]
  *   radices, twiddles, position, gains, n, K  of nufft/finish.h, of the axis along rows
  *   scales     [realization]
@@ -9,6 +10,7 @@
  *   row        local, [n][re, im][LANES]
  */
 #include "nufft/finish.h"
+#include "nufft/numbers.h"
 
 static inline void load_row(__local real *row, __global const real *rows, const size_t index,
                             const uint n) {
@@ -18,17 +20,21 @@ static inline void load_row(__local real *row, __global const real *rows, const 
     barrier(CLK_LOCAL_MEM_FENCE);
 }
 
-__kernel void
-nufft_finish_tile(__global const real *restrict rows, __global const uint *restrict radices,
-                  __global const real *restrict twiddles, __global const uint *restrict position,
-                  __global const real *restrict gains, __global const real *restrict scales,
-                  __global real *restrict power, const uint realization, const ulong stride,
-                  const uint n, const uint K, const ulong first_power, __local real *row) {
+__kernel void nufft_finish_tile(const powers_numbers numbers, __global const real *restrict rows,
+                                __global const uint *restrict radices,
+                                __global const real *restrict twiddles,
+                                __global const uint *restrict position,
+                                __global const real *restrict gains,
+                                __global const real *restrict scales, __global real *restrict power,
+                                __local real *row) {
+    const uint n = numbers.transform.n, K = numbers.transform.K;
+    const uint realization = numbers.first_row;
     const size_t tile = get_global_id(1);
     const transform_axis axis = {radices, twiddles, position, gains, n, K};
     load_row(row, rows, tile, n);
     write_powers(row, axis, scales[realization],
-                 power + realization * stride + first_power + tile * (2 * K + 1) * LANES);
+                 power + realization * numbers.stride + numbers.first_power +
+                     tile * (2 * K + 1) * LANES);
 }
 
 __kernel void nufft_finish_rows(__global const real *restrict rows,

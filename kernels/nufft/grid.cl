@@ -6,7 +6,8 @@
  *
  *   places, sorted, heights  of nufft/sort.cl, in parts
  *   starts    [part][outer_n block_n + 2]: places in the order of outer cells and cells of the block's axis
- *   outer_*, block_*, last_*  axes of nufft/window.h; the coordinates are those of the points
+ *   numbers   grid_numbers of nufft/numbers.h; the coordinates are those of the points
+ *   outer_window, block_window, last_window  coefficients of nufft/window.h
  *   high, low [outer cell][cell of the block's axis][cell of the last axis]: pairs of numbers, continued unless
  *             is_first; a slab of them, the blocks from first_block on
  *   rows      local, [BLOCK_ROWS][last_n + last_bins]; last_n is a multiple of LANES
@@ -86,29 +87,25 @@ static inline void add_to_grid(__local real *rows, const uint num_rows, const wi
 }
 
 __kernel void
-nufft_grid(__global const ulong *restrict places, __global const ulong *restrict sorted,
-           __global const real *restrict heights, __global const uint *restrict starts,
-           const uint num_parts, const uint dimension, __global const real *restrict outer_window,
-           const uint outer_n, const uint outer_width, const uint outer_degree,
-           const uint outer_bins, __global const real *restrict block_window, const uint block_n,
-           const uint block_width, const uint block_degree, const uint block_bins,
-           __global const real *restrict last_window, const uint last_n, const uint last_width,
-           const uint last_degree, const uint last_bins, const uint first_block,
-           const uint is_first, __global real *restrict high, __global real *restrict low,
-           __local real *rows, __local real *windows, __local uint *cells) {
+nufft_grid(const grid_numbers numbers, __global const ulong *restrict places,
+           __global const ulong *restrict sorted, __global const real *restrict heights,
+           __global const uint *restrict starts, __global const real *restrict outer_window,
+           __global const real *restrict block_window, __global const real *restrict last_window,
+           __global real *restrict high, __global real *restrict low, __local real *rows,
+           __local real *windows, __local uint *cells) {
+    const uint outer_n = numbers.outer.n, outer_width = numbers.outer.width;
+    const uint block_n = numbers.block.n, block_width = numbers.block.width;
+    const uint last_n = numbers.last.n, last_bins = numbers.last.bins;
+    const uint num_parts = numbers.num_parts, dimension = numbers.dimension;
+    const uint first_block = numbers.first_block;
     const uint num_blocks = (block_n + BLOCK_ROWS - 1) / BLOCK_ROWS;
     const size_t block = first_block + get_global_id(1);
     const uint outer_cell = block / num_blocks;
     const uint first_row = block % num_blocks * BLOCK_ROWS;
     const uint num_rows = min((uint)BLOCK_ROWS, block_n - first_row);
-    const window_axis across = {block_window, block_n,    block_width, dimension - 2,
-                                block_degree, block_bins, 0,           1};
-    const window_axis along = {last_window, last_n,    last_width, dimension - 1,
-                               last_degree, last_bins, 0,          1};
-    chunk_axes axes = {{outer_window, outer_n, outer_width, 0, outer_degree, outer_bins, 0, 1},
-                       across,
-                       along,
-                       dimension,
+    const window_axis across = make_chunk_window(block_window, numbers.block, dimension - 2);
+    const window_axis along = make_chunk_window(last_window, numbers.last, dimension - 1);
+    chunk_axes axes = {make_chunk_window(outer_window, numbers.outer, 0), across, along, dimension,
                        0};
     const chunk chunk = make_chunk(windows, cells, across, along);
     const size_t slab_row =
@@ -142,5 +139,5 @@ nufft_grid(__global const ulong *restrict places, __global const ulong *restrict
             }
         }
     }
-    add_to_grid(rows, num_rows, along, is_first, high + at, low + at);
+    add_to_grid(rows, num_rows, along, numbers.is_first, high + at, low + at);
 }

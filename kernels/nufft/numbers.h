@@ -1,4 +1,5 @@
-/* Numbers of windows and transforms in the structs that launches take, for host and device. */
+/* Numbers of windows and transforms, and the structs of them that launches take, for host and
+ * device. */
 #ifndef PS_NUFFT_NUMBERS_H
 #define PS_NUFFT_NUMBERS_H
 
@@ -10,9 +11,68 @@ typedef struct window_numbers {
     ps_u32 n, width, degree, bins;
 } window_numbers;
 
+/* The same, of points as they are: window_axis of nufft/window.h but for its buffer. */
+typedef struct axis_numbers {
+    ps_u64 factor;
+    window_numbers window;
+    ps_u32 axis, pitch;
+} axis_numbers;
+
 /* A transform: its length, the largest frequency of which is kept. */
 typedef struct transform_numbers {
     ps_u32 n, K;
 } transform_numbers;
+
+/* ---- of kernels, by the names of their files ------------------------------------------------- */
+
+typedef struct sort_numbers {
+    ps_u64 num_realizations;
+    ps_u64 factor; /* the coordinate is factor * x[axis] mod 1 */
+    ps_u32 n, width, axis;
+    /* Of another axis, for cells m = cell * second_n + second cell; second_n 1: none */
+    ps_u32 second_n, second_width, second_axis;
+    ps_u32 has_weights; /* or all are 1 */
+    ps_u32 unused;      /* fills the size up to whole numbers of eight bytes */
+} sort_numbers;
+
+typedef struct tile_numbers {
+    ps_u64 stride; /* of rows of powers */
+    axis_numbers along;
+    ps_u32 first_row; /* of powers and scales */
+    ps_u32 base;      /* the first frequency of tile 0 */
+    ps_u32 num_tiles, group, dimension, K;
+} tile_numbers;
+
+typedef struct rows_numbers {
+    axis_numbers across, along; /* of rows */
+    ps_u32 base, num_tiles, group, K;
+} rows_numbers;
+
+typedef struct grid_numbers {
+    window_numbers outer, block, last;
+    ps_u32 num_parts, dimension, first_block, is_first;
+} grid_numbers;
+
+typedef struct first_numbers {
+    ps_u64 columns, first_column, all_columns; /* that are there, in the grid, of the grid */
+    transform_numbers transform;
+    ps_u32 first_tile, num_tiles;
+} first_numbers;
+
+/* columns.cl and finish.cl */
+typedef struct powers_numbers {
+    ps_u64 stride; /* of rows of powers */
+    ps_u64 first_power;
+    transform_numbers transform;
+    ps_u32 first_row; /* of powers and scales */
+    ps_u32 column_K;  /* of columns alone: the largest frequency along rows */
+} powers_numbers;
+
+SAME_SIZE(sort_numbers, 48);
+SAME_SIZE(tile_numbers, 64);
+SAME_SIZE(rows_numbers, 80);
+SAME_SIZE(grid_numbers, 64);
+SAME_SIZE(first_numbers, 40);
+SAME_SIZE(powers_numbers, 32);
 
 #endif

@@ -3,12 +3,11 @@
  * rows, realizations).
  *
  *   places, sorted, heights, starts  of nufft/sort.cl, sorted by rows and by cells along them
- *   row_*, num_rows  of nufft/window.h, of the axis across rows
- *   coefficients, n, width, axis, factor, degree, bins, pitch  of the axis along rows
- *   radices, twiddles, position, K  of nufft/finish.h, of the axis along rows
+ *   numbers    rows_numbers of nufft/numbers.h
+ *   row_coefficients, coefficients  of nufft/window.h, of the axis across rows and along them
+ *   radices, twiddles, position  of nufft/finish.h, of the axis along rows
  *   means      [realization]: what frequency 0 leaves in a cell
  *   grid       [realization][tile][column -K .. K][row][re, im][LANES]
- *   group      tiles of a work-group
  *   rows       local, [group][n + width + GAP][re, im][LANES]
  *   reals, along, cells  local, of a chunk: nufft/spread.h
  */
@@ -51,33 +50,30 @@ static inline void add_places(__local real *rows, const chunk to, __global const
 }
 
 __kernel void
-nufft_rows(__global const ulong *restrict places, __global const ulong *restrict sorted,
-           __global const real *restrict heights, __global const uint *restrict starts,
-           __global const real *restrict row_coefficients, const uint num_rows,
-           const uint row_width, const uint row_axis, const ulong row_factor, const uint row_degree,
-           const uint row_bins, const uint row_pitch, __global const real *restrict coefficients,
-           const uint n, const uint width, const uint axis, const ulong factor, const uint degree,
-           const uint bins, const uint pitch, __global const uint *restrict radices,
+nufft_rows(const rows_numbers numbers, __global const ulong *restrict places,
+           __global const ulong *restrict sorted, __global const real *restrict heights,
+           __global const uint *restrict starts, __global const real *restrict row_coefficients,
+           __global const real *restrict coefficients, __global const uint *restrict radices,
            __global const real *restrict twiddles, __global const uint *restrict position,
-           __global const real *restrict means, __global real *restrict grid, const uint base,
-           const uint num_tiles, const uint group, const uint K, __local real *rows,
+           __global const real *restrict means, __global real *restrict grid, __local real *rows,
            __local real *reals, __local ulong *along, __local uint *cells) {
+    const uint num_rows = numbers.across.window.n, n = numbers.along.window.n;
+    const uint num_tiles = numbers.num_tiles, group = numbers.group, K = numbers.K;
     const uint m = get_global_id(1) % num_rows;
     const uint first_tile = get_global_id(1) / num_rows * group;
     const uint own_tiles = min(group, num_tiles - first_tile);
     const size_t realization = get_global_id(2), first = places[realization];
-    const window_axis window = {coefficients, n, width, axis, degree, bins, pitch, factor};
-    const window_axis across = {row_coefficients, num_rows, row_width, row_axis,
-                                row_degree,       row_bins, row_pitch, row_factor};
+    const window_axis window = make_window(coefficients, numbers.along);
+    const window_axis across = make_window(row_coefficients, numbers.across);
     const transform_axis transform = {radices, twiddles, position, 0, n, K};
     const chunk chunk = make_chunk(reals, along, cells, window);
     __global const uint *start = starts + realization * ((size_t)num_rows * n + 2);
     clear_rows(rows, own_tiles * row_cells(window));
-    for (uint bin = 0; bin < row_width; bin++) {
+    for (uint bin = 0; bin < across.width; bin++) {
         const uint begun = m >= bin ? m - bin : num_rows + m - bin;
         add_places(rows, chunk, sorted, heights, first + start[begun * n],
-                   first + start[(begun + 1) * n], window, across, bin, base + first_tile * LANES,
-                   own_tiles);
+                   first + start[(begun + 1) * n], window, across, bin,
+                   numbers.base + first_tile * LANES, own_tiles);
     }
     for (uint t = 0; t < own_tiles; t++) {
         __local real *row = rows + t * row_cells(window) * 2 * LANES;

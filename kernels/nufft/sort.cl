@@ -2,20 +2,19 @@
  * counting sort, stable, by one work-item for each realization. Launch: (realizations), rounded up
  * at will. DIMENSION is a constant: loops over axes would cost as much as all the rest.
  *
+ *   numbers          sort_numbers of nufft/numbers.h
  *   points, weights  [..][DIMENSION] fixed point, realization r at offsets[r] .. offsets[r + 1]
  *   places           where the sorted points of realization r begin
  *   sorted, heights  [place][DIMENSION], [place]: coordinates and weights; up to the next realization the
  *                    last point again, without weight
  *   starts           [realization][n second_n + 2]: cell m has the points starts[m] .. starts[m + 1] of it
- *   n, width, axis, factor  of the fine grid: the coordinate is factor * x[axis] mod 1
- *   second_*         of another axis, for cells m = cell * second_n + second cell; second_n 1: none
- *   has_weights      or all are 1
  */
 #ifndef DIMENSION
 #define DIMENSION 2
 #endif
 
 #include "nufft/cells.h"
+#include "nufft/numbers.h"
 #include "nufft/place.h"
 
 typedef struct sorting_keys {
@@ -93,21 +92,25 @@ static inline void sort_points(const sorted_list to, const point_list from,
     }
 }
 
-__kernel void nufft_sort(__global const ulong *restrict points,
+__kernel void nufft_sort(const sort_numbers numbers, __global const ulong *restrict points,
                          __global const real *restrict weights,
                          __global const ulong *restrict offsets,
                          __global const ulong *restrict places, __global ulong *restrict sorted,
-                         __global real *restrict heights, __global uint *restrict starts,
-                         const ulong num_realizations, const uint n, const uint width,
-                         const uint axis, const ulong factor, const uint second_n,
-                         const uint second_width, const uint second_axis, const uint has_weights) {
+                         __global real *restrict heights, __global uint *restrict starts) {
+    const uint n = numbers.n, second_n = numbers.second_n, has_weights = numbers.has_weights;
     const size_t realization = get_global_id(0);
-    if (realization >= num_realizations) {
+    if (realization >= numbers.num_realizations) {
         return;
     }
     const size_t first = offsets[realization];
     const uint count = (uint)(offsets[realization + 1] - first);
-    const sorting_keys keys = {n, width, axis, second_n, second_width, second_axis, factor};
+    const sorting_keys keys = {n,
+                               numbers.width,
+                               numbers.axis,
+                               second_n,
+                               numbers.second_width,
+                               numbers.second_axis,
+                               numbers.factor};
     const point_list from = {points + first * DIMENSION, weights + first, has_weights, count};
     const sorted_list to = {sorted + places[realization] * DIMENSION, heights + places[realization],
                             starts + realization * ((size_t)n * second_n + 2)};

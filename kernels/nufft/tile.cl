@@ -2,14 +2,13 @@
  * of the transform by spreading. Launch: (work-items of one group, groups of tiles, realizations).
  *
  *   places, sorted, heights  of nufft/sort.cl
- *   coefficients, n, width, axis, factor, degree, bins, pitch  of nufft/window.h
- *   radices, twiddles, position, gains, K  of nufft/finish.h
+ *   numbers    tile_numbers of nufft/numbers.h
+ *   coefficients  of nufft/window.h
+ *   radices, twiddles, position, gains  of nufft/finish.h
  *   means      [realization]: what frequency 0 leaves in a cell
  *   pattern    [n][cosine, sine]: and how it turns
  *   scales     [realization]
  *   power      [realization][stride]: frequency q of lane in slot ((tile (2K+1) + K + q) LANES + lane
- *   base       the first frequency of tile 0
- *   group      tiles of a work-group
  *   rows       local, [group][n + width + GAP][re, im][LANES]
  *   reals, along, cells  local, of a chunk: nufft/spread.h
  */
@@ -17,20 +16,22 @@
 #include "nufft/spread.h"
 
 __kernel void
-nufft_tile(__global const ulong *restrict places, __global const ulong *restrict sorted,
-           __global const real *restrict heights, __global const real *restrict coefficients,
-           __global const uint *restrict radices, __global const real *restrict twiddles,
-           __global const uint *restrict position, __global const real *restrict gains,
-           __global const real *restrict means, __global const real *restrict pattern,
-           __global const real *restrict scales, __global real *restrict power,
-           const uint first_row, const ulong stride, const uint base, const uint num_tiles,
-           const uint group, const uint dimension, const uint n, const uint width, const uint axis,
-           const ulong factor, const uint degree, const uint bins, const uint pitch, const uint K,
-           __local real *rows, __local real *reals, __local ulong *along, __local uint *cells) {
+nufft_tile(const tile_numbers numbers, __global const ulong *restrict places,
+           __global const ulong *restrict sorted, __global const real *restrict heights,
+           __global const real *restrict coefficients, __global const uint *restrict radices,
+           __global const real *restrict twiddles, __global const uint *restrict position,
+           __global const real *restrict gains, __global const real *restrict means,
+           __global const real *restrict pattern, __global const real *restrict scales,
+           __global real *restrict power, __local real *rows, __local real *reals,
+           __local ulong *along, __local uint *cells) {
+    const uint num_tiles = numbers.num_tiles, group = numbers.group;
+    const uint dimension = numbers.dimension, axis = numbers.along.axis;
+    const uint n = numbers.along.window.n, K = numbers.K;
+    const uint first_row = numbers.first_row;
     const uint first_tile = get_global_id(1) * group;
     const uint own_tiles = min(group, num_tiles - first_tile);
     const size_t realization = get_global_id(2);
-    const window_axis window = {coefficients, n, width, axis, degree, bins, pitch, factor};
+    const window_axis window = make_window(coefficients, numbers.along);
     const transform_axis transform = {radices, twiddles, position, gains, n, K};
     const chunk chunk = make_chunk(reals, along, cells, window);
     clear_rows(rows, own_tiles * row_cells(window));
@@ -41,7 +42,7 @@ nufft_tile(__global const ulong *restrict places, __global const ulong *restrict
                         load_coordinates(sorted + at * dimension, dimension, axis),
                         load_global(heights + at, 0), window);
         }
-        add_chunk(rows, chunk, window, base + first_tile * LANES, own_tiles);
+        add_chunk(rows, chunk, window, numbers.base + first_tile * LANES, own_tiles);
     }
     for (uint i = 0; i < own_tiles; i++) {
         __local real *row = rows + i * row_cells(window) * 2 * LANES;
@@ -51,6 +52,7 @@ nufft_tile(__global const ulong *restrict places, __global const ulong *restrict
             take_off_mean(row, means[realization], pattern, n);
         }
         write_powers(row, transform, scales[first_row + realization],
-                     power + (first_row + realization) * stride + tile * (2 * K + 1) * LANES);
+                     power + (first_row + realization) * numbers.stride +
+                         tile * (2 * K + 1) * LANES);
     }
 }

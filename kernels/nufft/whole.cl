@@ -146,12 +146,6 @@ static inline void write_row(__global const real *row, const transform_axis seco
     }
 }
 
-static inline window_axis make_window(__global const real *coefficients,
-                                      const window_numbers window, const uint axis) {
-    return (window_axis){
-        coefficients, window.n, window.width, axis, window.degree, window.bins, 0, 1};
-}
-
 __kernel void nufft_whole(
     const whole_numbers numbers, __global const ulong *restrict points,
     __global const real *restrict weights, __global const ulong *restrict offsets,
@@ -171,8 +165,8 @@ __kernel void nufft_whole(
     const uint second_K = numbers.second.K;
     const ulong stride = numbers.stride;
     const uint columns = (second_n + 2 * LANES - 1) / (2 * LANES) * (2 * LANES);
-    const window_axis across = make_window(across_window, numbers.across, 0);
-    const window_axis along = make_window(along_window, numbers.along, dimension - 1);
+    const window_axis across = make_chunk_window(across_window, numbers.across, 0);
+    const window_axis along = make_chunk_window(along_window, numbers.along, dimension - 1);
     const transform_axis first = {first_radices, first_twiddles, first_position, 0,
                                   first_n,       numbers.first.K};
     const transform_axis second = {second_radices, second_twiddles, second_position, 0,

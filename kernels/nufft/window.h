@@ -3,6 +3,7 @@
 #define PS_NUFFT_WINDOW_H
 
 #include "shared/lanes.h"
+#include "nufft/numbers.h"
 #include "nufft/place.h"
 
 typedef PS_JOIN(REAL, 8) real8;
@@ -17,6 +18,19 @@ typedef struct window_axis {
     uint n, width, axis, degree, bins, pitch;
     ulong factor; /* the coordinate is factor * x[axis] mod 1 */
 } window_axis;
+
+static inline window_axis make_window(__global const real *coefficients, const axis_numbers axis) {
+    const window_numbers window = axis.window;
+    return (window_axis){coefficients,  window.n,    window.width, axis.axis,
+                         window.degree, window.bins, axis.pitch,   axis.factor};
+}
+
+/* For chunks (nufft/chunk.h), which have no gaps, of coordinates as they are. */
+static inline window_axis make_chunk_window(__global const real *coefficients,
+                                            const window_numbers window, const uint axis) {
+    return (window_axis){
+        coefficients, window.n, window.width, axis, window.degree, window.bins, 0, 1};
+}
 
 /* Pairs pair and pair + 1 of bins of LANES points, bins pair and width - 1 - pair, to[bin * apart].
  * Bins of a pair are each other's mirror: one polynomial in u^2 and u times another, added and

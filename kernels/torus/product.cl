@@ -12,6 +12,7 @@
  *
  * Launch: (tile pairs, realizations), pairs rounded up at will; no local memory.
  *
+ *   numbers  torus/product.h
  *   table    of torus/list.cl: left tiles (with weights), then right tiles (without)
  *   offsets  first point of each realization
  *   pairs    [pair]: left tile, right tile (pairs that nobody needs are not launched)
@@ -24,6 +25,7 @@
 #include "shared/lanes.h"
 #include "shared/pair.h"
 #include "torus/layout.h"
+#include "torus/product.h"
 
 /* With two operands, 4 STRIP accumulators are to fit into registers: 32 of them where vectors have
  * 512 bits, else 16 (half the time on AVX2, at N = 256 and K = 64). Results are equal to the bit.
@@ -52,14 +54,13 @@ static inline void store_powers(__global const real *sum, const realv scale, __g
     store_global(out, 1, fma(minus_re, minus_re, minus_im * minus_im) * scale);
 }
 
-__kernel void torus_product(__global const real *restrict table,
+__kernel void torus_product(const product_numbers numbers, __global const real *restrict table,
                             __global const ulong *restrict offsets,
                             __global const uint2 *restrict pairs, __global real *restrict sums,
-                            const ulong num_pairs, const ulong num_tiles,
-                            const ulong num_left_tiles, const ulong table_points,
-                            const uint is_first, const uint is_last,
-                            __global const real *restrict scales, __global real *restrict power,
-                            const ulong first_row, const ulong stride) {
+                            __global const real *restrict scales, __global real *restrict power) {
+    const ulong num_pairs = numbers.num_pairs, num_tiles = numbers.num_tiles;
+    const ulong num_left_tiles = numbers.num_left_tiles, table_points = numbers.table_points;
+    const uint is_first = numbers.is_first;
     const size_t pair = get_global_id(0);
     const size_t realization = get_global_id(1);
     if (pair >= num_pairs) {
@@ -112,9 +113,9 @@ __kernel void torus_product(__global const real *restrict table,
             }
         }
     }
-    if (is_last) {
-        const size_t row = first_row + realization;
-        __global real *out = power + row * stride + pair * LANES * 2 * LANES;
+    if (numbers.is_last) {
+        const size_t row = numbers.first_row + realization;
+        __global real *out = power + row * numbers.stride + pair * LANES * 2 * LANES;
         for (int left = 0; left < LANES; left++) {
             store_powers(tile_sums + left * 8 * LANES, (realv)scales[row], out + left * 2 * LANES);
         }

@@ -2,6 +2,7 @@
  * exact in a pair and beyond the reach of one number: results must be equal, not near.
  */
 #include "harness_kernels.h"
+#include "torus/product.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -152,12 +153,18 @@ static void check_product(const build *one) {
         test_memory factors = test_reals_create(device, one->precision, scales, ROWS);
         test_memory power = test_reals_create(device, one->precision, NULL, ROWS * stride);
         for (int times = 1; times <= 2; times++) { /* begun anew, then continued and finished */
+            const product_numbers numbers = {.num_pairs = PAIRS,
+                                             .num_tiles = TILES,
+                                             .num_left_tiles = LEFT_TILES,
+                                             .table_points = TABLE_POINTS,
+                                             .first_row = FIRST_ROW,
+                                             .stride = stride,
+                                             .is_first = times == 1,
+                                             .is_last = times == 2};
             TEST_LAUNCH(device, kernel, test_group_sizes[2 - g], PAIRS, REALIZATIONS, 1,
-                        PS_BUFFER(table.buffer), PS_BUFFER(starts.buffer), PS_BUFFER(tiles.buffer),
-                        PS_BUFFER(sums.buffer), PS_U64(PAIRS), PS_U64(TILES), PS_U64(LEFT_TILES),
-                        PS_U64(TABLE_POINTS), PS_U32(times == 1), PS_U32(times == 2),
-                        PS_BUFFER(factors.buffer), PS_BUFFER(power.buffer), PS_U64(FIRST_ROW),
-                        PS_U64(stride));
+                        PS_STRUCT(numbers), PS_BUFFER(table.buffer), PS_BUFFER(starts.buffer),
+                        PS_BUFFER(tiles.buffer), PS_BUFFER(sums.buffer), PS_BUFFER(factors.buffer),
+                        PS_BUFFER(power.buffer));
             check_products(one, values, &sums, times);
         }
         check_powers(one, &sums, &power, stride);

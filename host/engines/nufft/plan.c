@@ -63,3 +63,20 @@ void ps_nufft_plan_free(ps_nufft_plan *plan) {
     ps_buffer_release(&plan->gains);
     ps_fft_plan_free(&plan->fft);
 }
+
+/* ---- launches ---------------------------------------------------------------------------- */
+
+window_numbers ps_nufft_window_numbers(const ps_nufft_plan *plan) {
+    return (window_numbers){plan->axis.n, plan->axis.window.width, plan->degree, plan->bins};
+}
+
+axis_numbers ps_nufft_axis_numbers(const ps_nufft_plan *plan) {
+    return (axis_numbers){.factor = plan->axis.factor,
+                          .window = ps_nufft_window_numbers(plan),
+                          .axis = plan->axis.axis,
+                          .pitch = plan->pitch};
+}
+
+transform_numbers ps_nufft_transform_numbers(const ps_nufft_plan *plan) {
+    return (transform_numbers){plan->axis.n, (uint32_t)plan->axis.max_frequency};
+}

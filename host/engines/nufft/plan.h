@@ -5,6 +5,7 @@
 
 #include "engines/nufft/axis.h"
 #include "engines/nufft/fft.h"
+#include "nufft/numbers.h"
 
 /* Part of the tolerance (or of roundoff, if that is more) that polynomials of windows may be off
  * by: little, since it adds up in step in sets as regular as the grid. One degree more costs a
@@ -26,6 +27,11 @@ pspec_status ps_nufft_plan_create(ps_nufft_plan *out, const ps_nufft_axis *axis,
                                   double tolerance, ps_precision precision, ps_device *device,
                                   ps_error *error) PS_MUST_CHECK;
 void ps_nufft_plan_free(ps_nufft_plan *plan);
+
+/* What launches are told of an axis: its window, with its place among coordinates, its transform. */
+window_numbers ps_nufft_window_numbers(const ps_nufft_plan *plan);
+axis_numbers ps_nufft_axis_numbers(const ps_nufft_plan *plan);
+transform_numbers ps_nufft_transform_numbers(const ps_nufft_plan *plan);
 
 /* Where powers go: rows from `realization` on of power, times their entries in scales. */
 typedef struct ps_nufft_target {

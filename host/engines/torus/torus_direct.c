@@ -10,6 +10,7 @@
 #include "engines/torus/torus_split.h"
 #include "engines/torus/torus_sums.h"
 #include "math/pi.h"
+#include "torus/product.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -269,13 +270,18 @@ static pspec_status multiply(torus_direct *self, const slab_place *at, size_t nu
     const double tables = (double)num_points * lanes * (double)self->sums.num_tiles * 2;
     const ps_range range = ps_range_heavy(self->device, split->num_pairs, at->num_patterns, 1,
                                           8 * products, tables * (double)self->layout.real_bytes);
-    return PS_LAUNCH(self->device, self->product, &range, error, PS_BUFFER(self->sums.table),
-                     PS_BUFFER(self->points.offsets), PS_BUFFER(self->pairs),
-                     PS_BUFFER(self->products), PS_U64(split->num_pairs),
-                     PS_U64(self->sums.num_tiles), PS_U64(split->left.num_tiles),
-                     PS_U64(self->layout.table_points), PS_U32(at->first_point == 0),
-                     PS_U32(at->is_last), PS_BUFFER(self->scales), PS_BUFFER(self->power),
-                     PS_U64(at->first_row), PS_U64(self->stride));
+    const product_numbers numbers = {.num_pairs = split->num_pairs,
+                                     .num_tiles = self->sums.num_tiles,
+                                     .num_left_tiles = split->left.num_tiles,
+                                     .table_points = self->layout.table_points,
+                                     .first_row = at->first_row,
+                                     .stride = self->stride,
+                                     .is_first = at->first_point == 0,
+                                     .is_last = at->is_last};
+    return PS_LAUNCH(self->device, self->product, &range, error, PS_STRUCT(numbers),
+                     PS_BUFFER(self->sums.table), PS_BUFFER(self->points.offsets),
+                     PS_BUFFER(self->pairs), PS_BUFFER(self->products), PS_BUFFER(self->scales),
+                     PS_BUFFER(self->power));
 }
 
 static pspec_status add_slab(torus_direct *self, const ps_batch *group, const slab_place *at,

@@ -91,11 +91,6 @@ void ps_nufft_grid_begin(ps_nufft_grid *grid) {
     grid->is_empty = true;
 }
 
-/* Arguments of an axis, as kernels/nufft/grid.cl has them. */
-#define GRID_AXIS(plan)                                                                            \
-    PS_BUFFER((plan)->coefficients), PS_U32((plan)->axis.n), PS_U32((plan)->axis.window.width),    \
-        PS_U32((plan)->degree), PS_U32((plan)->bins)
-
 static pspec_status spread_on(ps_nufft_grid *self, uint32_t slab, size_t num_parts,
                               size_t num_points, ps_error *error) {
     const unsigned axes = self->layout->choice.num_axes;
@@ -115,11 +110,18 @@ static pspec_status spread_on(ps_nufft_grid *self, uint32_t slab, size_t num_par
     const ps_range range = ps_nufft_group_range(self->device, num_blocks, 1, flops);
     const size_t row_bytes = (last->axis.n + last->bins) * self->layout->real_bytes;
     const size_t windows = PS_NUFFT_CHUNK * (block->bins + last->bins + 3);
-    return PS_LAUNCH(self->device, self->spread, &range, error, PS_BUFFER(self->places->places),
-                     PS_BUFFER(self->places->sorted), PS_BUFFER(self->places->heights),
-                     PS_BUFFER(self->places->starts), PS_U32(num_parts), PS_U32(axes),
-                     GRID_AXIS(outer), GRID_AXIS(block), GRID_AXIS(last), PS_U32(first_block),
-                     PS_U32(self->is_empty ? 1 : 0), PS_BUFFER(self->high[slab]),
+    const grid_numbers numbers = {.outer = ps_nufft_window_numbers(outer),
+                                  .block = ps_nufft_window_numbers(block),
+                                  .last = ps_nufft_window_numbers(last),
+                                  .num_parts = (uint32_t)num_parts,
+                                  .dimension = axes,
+                                  .first_block = (uint32_t)first_block,
+                                  .is_first = self->is_empty ? 1 : 0};
+    return PS_LAUNCH(self->device, self->spread, &range, error, PS_STRUCT(numbers),
+                     PS_BUFFER(self->places->places), PS_BUFFER(self->places->sorted),
+                     PS_BUFFER(self->places->heights), PS_BUFFER(self->places->starts),
+                     PS_BUFFER(outer->coefficients), PS_BUFFER(block->coefficients),
+                     PS_BUFFER(last->coefficients), PS_BUFFER(self->high[slab]),
                      PS_BUFFER(self->low[slab]), PS_LOCAL(PS_NUFFT_BLOCK_ROWS * row_bytes),
                      PS_LOCAL(windows * self->layout->real_bytes),
                      PS_LOCAL(2 * PS_NUFFT_CHUNK * sizeof(uint32_t)));
@@ -220,15 +222,18 @@ static pspec_status transform_columns(ps_nufft_grid *self, const ps_buffer *mean
     const ps_nufft_plan *plan = &self->plans[0];
     const bool is_whole = self->layout->strip_columns == 0;
     const ps_range range = transform_range(self, plan, columns.num / (2 * self->layout->lanes));
-    return PS_LAUNCH(self->device, self->first, &range, error,
+    const first_numbers numbers = {.columns = columns.num,
+                                   .first_column = columns.first,
+                                   .all_columns = num_columns(self->layout),
+                                   .transform = ps_nufft_transform_numbers(plan),
+                                   .first_tile = (uint32_t)tiles.first,
+                                   .num_tiles = (uint32_t)tiles.num};
+    return PS_LAUNCH(self->device, self->first, &range, error, PS_STRUCT(numbers),
                      PS_BUFFER(*(is_whole ? &self->high[0] : &self->high_strip)),
                      PS_BUFFER(*(is_whole ? &self->low[0] : &self->low_strip)), PS_BUFFER(*means),
-                     PS_U64(columns.num), PS_BUFFER(plan->fft.radices),
-                     PS_BUFFER(plan->fft.twiddles), PS_BUFFER(plan->fft.position),
-                     PS_BUFFER(plan->gains), PS_U32(plan->axis.n), PS_U32(plan->axis.max_frequency),
-                     PS_U32(tiles.first), PS_U32(tiles.num), PS_U64(columns.first),
-                     PS_U64(num_columns(self->layout)), PS_BUFFER(self->tile_rows),
-                     PS_LOCAL(cells_bytes(self, plan)));
+                     PS_BUFFER(plan->fft.radices), PS_BUFFER(plan->fft.twiddles),
+                     PS_BUFFER(plan->fft.position), PS_BUFFER(plan->gains),
+                     PS_BUFFER(self->tile_rows), PS_LOCAL(cells_bytes(self, plan)));
 }
 
 static pspec_status transform_first(ps_nufft_grid *self, const ps_buffer *means, extent tiles,
@@ -255,13 +260,15 @@ static pspec_status finish_tiles(ps_nufft_grid *self, extent tiles, const ps_nuf
                                  ps_error *error) {
     const ps_nufft_plan *plan = &self->plans[1];
     const ps_range range = transform_range(self, plan, tiles.num);
-    return PS_LAUNCH(self->device, self->tile, &range, error, PS_BUFFER(self->tile_rows),
-                     PS_BUFFER(plan->fft.radices), PS_BUFFER(plan->fft.twiddles),
-                     PS_BUFFER(plan->fft.position), PS_BUFFER(plan->gains),
-                     PS_BUFFER(*target->scales), PS_BUFFER(*target->power),
-                     PS_U32(target->realization), PS_U64(self->layout->stride),
-                     PS_U32(plan->axis.n), PS_U32(plan->axis.max_frequency),
-                     PS_U64(powers_before(self, tiles)), PS_LOCAL(cells_bytes(self, plan)));
+    const powers_numbers numbers = {.stride = self->layout->stride,
+                                    .first_power = powers_before(self, tiles),
+                                    .transform = ps_nufft_transform_numbers(plan),
+                                    .first_row = (uint32_t)target->realization};
+    return PS_LAUNCH(self->device, self->tile, &range, error, PS_STRUCT(numbers),
+                     PS_BUFFER(self->tile_rows), PS_BUFFER(plan->fft.radices),
+                     PS_BUFFER(plan->fft.twiddles), PS_BUFFER(plan->fft.position),
+                     PS_BUFFER(plan->gains), PS_BUFFER(*target->scales), PS_BUFFER(*target->power),
+                     PS_LOCAL(cells_bytes(self, plan)));
 }
 
 static pspec_status finish_rows(ps_nufft_grid *self, extent tiles, const ps_nufft_target *target,
@@ -276,14 +283,16 @@ static pspec_status finish_rows(ps_nufft_grid *self, extent tiles, const ps_nuff
                      PS_BUFFER(along->fft.position), PS_BUFFER(self->transformed),
                      PS_U32(across->axis.n), PS_U32(along->axis.n),
                      PS_U32(along->axis.max_frequency), PS_LOCAL(cells_bytes(self, along))));
-    return PS_LAUNCH(self->device, self->columns, &columns, error, PS_BUFFER(self->transformed),
-                     PS_BUFFER(across->fft.radices), PS_BUFFER(across->fft.twiddles),
-                     PS_BUFFER(across->fft.position), PS_BUFFER(across->gains),
-                     PS_BUFFER(along->gains), PS_BUFFER(*target->scales), PS_BUFFER(*target->power),
-                     PS_U32(target->realization), PS_U64(self->layout->stride),
-                     PS_U32(across->axis.n), PS_U32(across->axis.max_frequency),
-                     PS_U32(along->axis.max_frequency), PS_U64(powers_before(self, tiles)),
-                     PS_LOCAL(cells_bytes(self, across)));
+    const powers_numbers numbers = {.stride = self->layout->stride,
+                                    .first_power = powers_before(self, tiles),
+                                    .transform = ps_nufft_transform_numbers(across),
+                                    .first_row = (uint32_t)target->realization,
+                                    .column_K = (uint32_t)along->axis.max_frequency};
+    return PS_LAUNCH(self->device, self->columns, &columns, error, PS_STRUCT(numbers),
+                     PS_BUFFER(self->transformed), PS_BUFFER(across->fft.radices),
+                     PS_BUFFER(across->fft.twiddles), PS_BUFFER(across->fft.position),
+                     PS_BUFFER(across->gains), PS_BUFFER(along->gains), PS_BUFFER(*target->scales),
+                     PS_BUFFER(*target->power), PS_LOCAL(cells_bytes(self, across)));
 }
 
 /* Clears a grid in which nothing was stored because there was no point. */

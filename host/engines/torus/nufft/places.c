@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "base/round.h"
 #include "engines/nufft/kernels.h"
+#include "nufft/numbers.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -80,11 +81,18 @@ pspec_status ps_nufft_places_sort(ps_nufft_places *places, size_t num_parts, ps_
     const double flops_per_point = 1000; /* work-groups of one work-item on CPUs */
     const ps_range range = ps_range_heavy(places->device, num_parts, 1, 1,
                                           (double)places->num_points * flops_per_point, 0);
-    return PS_LAUNCH(places->device, places->sort, &range, error, PS_BUFFER(places->points.points),
-                     PS_BUFFER(places->points.weights), PS_BUFFER(places->points.offsets),
-                     PS_BUFFER(places->places), PS_BUFFER(places->sorted),
-                     PS_BUFFER(places->heights), PS_BUFFER(places->starts), PS_U64(num_parts),
-                     PS_U32(axis->n), PS_U32(axis->window.width), PS_U32(axis->axis),
-                     PS_U64(axis->factor), PS_U32(second->n), PS_U32(second->window.width),
-                     PS_U32(second->axis), PS_U32(places->points.has_unit_weights ? 0 : 1));
+    const sort_numbers numbers = {.num_realizations = num_parts,
+                                  .factor = axis->factor,
+                                  .n = axis->n,
+                                  .width = axis->window.width,
+                                  .axis = axis->axis,
+                                  .second_n = second->n,
+                                  .second_width = second->window.width,
+                                  .second_axis = second->axis,
+                                  .has_weights = places->points.has_unit_weights ? 0 : 1};
+    return PS_LAUNCH(places->device, places->sort, &range, error, PS_STRUCT(numbers),
+                     PS_BUFFER(places->points.points), PS_BUFFER(places->points.weights),
+                     PS_BUFFER(places->points.offsets), PS_BUFFER(places->places),
+                     PS_BUFFER(places->sorted), PS_BUFFER(places->heights),
+                     PS_BUFFER(places->starts));
 }

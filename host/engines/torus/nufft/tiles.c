@@ -83,12 +83,6 @@ static size_t row_bytes(const ps_nufft_tiles *self, const ps_nufft_axis *axis) {
     return ps_nufft_row_cells(axis) * 2 * self->layout->lanes * self->layout->real_bytes;
 }
 
-/* Arguments of an axis, as kernels/nufft/window.h has them. */
-#define WINDOW_ARGUMENTS(plan)                                                                     \
-    PS_U32((plan)->axis.n), PS_U32((plan)->axis.window.width), PS_U32((plan)->axis.axis),          \
-        PS_U64((plan)->axis.factor), PS_U32((plan)->degree), PS_U32((plan)->bins),                 \
-        PS_U32((plan)->pitch)
-
 /* Local memory of a work-group, as kernels/nufft/spread.h has it. */
 #define LOCAL_ARGUMENTS(self, axis)                                                                \
     PS_LOCAL((self)->layout->group *row_bytes(self, axis)),                                        \
@@ -106,16 +100,20 @@ static pspec_status make_tiles(ps_nufft_tiles *self, size_t num_realizations,
     const ps_nufft_places *places = self->places;
     const ps_range range =
         group_range(self, num_groups(self), num_realizations, &plan->axis, self->layout->group);
+    const tile_numbers numbers = {.stride = self->layout->stride,
+                                  .along = ps_nufft_axis_numbers(plan),
+                                  .first_row = (uint32_t)target->realization,
+                                  .base = (uint32_t)ps_nufft_base(&self->layout->choice),
+                                  .num_tiles = self->layout->num_tiles,
+                                  .group = (uint32_t)self->layout->group,
+                                  .dimension = places->dimension,
+                                  .K = (uint32_t)plan->axis.max_frequency};
     return PS_LAUNCH(
-        self->device, self->tile, &range, error, PS_BUFFER(places->places),
+        self->device, self->tile, &range, error, PS_STRUCT(numbers), PS_BUFFER(places->places),
         PS_BUFFER(places->sorted), PS_BUFFER(places->heights), PS_BUFFER(plan->coefficients),
         PS_BUFFER(plan->fft.radices), PS_BUFFER(plan->fft.twiddles), PS_BUFFER(plan->fft.position),
         PS_BUFFER(plan->gains), PS_BUFFER(*means), PS_BUFFER(self->pattern),
-        PS_BUFFER(*target->scales), PS_BUFFER(*target->power), PS_U32(target->realization),
-        PS_U64(self->layout->stride), PS_U32(ps_nufft_base(&self->layout->choice)),
-        PS_U32(self->layout->num_tiles), PS_U32(self->layout->group),
-        PS_U32(self->places->dimension), WINDOW_ARGUMENTS(plan), PS_U32(plan->axis.max_frequency),
-        LOCAL_ARGUMENTS(self, &plan->axis));
+        PS_BUFFER(*target->scales), PS_BUFFER(*target->power), LOCAL_ARGUMENTS(self, &plan->axis));
 }
 
 static pspec_status make_rows(ps_nufft_tiles *self, size_t num_realizations, const ps_buffer *means,
@@ -125,15 +123,19 @@ static pspec_status make_rows(ps_nufft_tiles *self, size_t num_realizations, con
     const ps_nufft_places *places = self->places;
     const ps_range range = group_range(self, num_groups(self) * across->axis.n, num_realizations,
                                        &along->axis, self->layout->group);
-    return PS_LAUNCH(
-        self->device, self->rows, &range, error, PS_BUFFER(places->places),
-        PS_BUFFER(places->sorted), PS_BUFFER(places->heights), PS_BUFFER(places->starts),
-        PS_BUFFER(across->coefficients), WINDOW_ARGUMENTS(across), PS_BUFFER(along->coefficients),
-        WINDOW_ARGUMENTS(along), PS_BUFFER(along->fft.radices), PS_BUFFER(along->fft.twiddles),
-        PS_BUFFER(along->fft.position), PS_BUFFER(*means), PS_BUFFER(self->grid),
-        PS_U32(ps_nufft_base(&self->layout->choice)), PS_U32(self->layout->num_tiles),
-        PS_U32(self->layout->group), PS_U32(along->axis.max_frequency),
-        LOCAL_ARGUMENTS(self, &along->axis));
+    const rows_numbers numbers = {.across = ps_nufft_axis_numbers(across),
+                                  .along = ps_nufft_axis_numbers(along),
+                                  .base = (uint32_t)ps_nufft_base(&self->layout->choice),
+                                  .num_tiles = self->layout->num_tiles,
+                                  .group = (uint32_t)self->layout->group,
+                                  .K = (uint32_t)along->axis.max_frequency};
+    return PS_LAUNCH(self->device, self->rows, &range, error, PS_STRUCT(numbers),
+                     PS_BUFFER(places->places), PS_BUFFER(places->sorted),
+                     PS_BUFFER(places->heights), PS_BUFFER(places->starts),
+                     PS_BUFFER(across->coefficients), PS_BUFFER(along->coefficients),
+                     PS_BUFFER(along->fft.radices), PS_BUFFER(along->fft.twiddles),
+                     PS_BUFFER(along->fft.position), PS_BUFFER(*means), PS_BUFFER(self->grid),
+                     LOCAL_ARGUMENTS(self, &along->axis));
 }
 
 static pspec_status make_columns(ps_nufft_tiles *self, size_t num_realizations,
@@ -143,13 +145,15 @@ static pspec_status make_columns(ps_nufft_tiles *self, size_t num_realizations,
     const size_t kept = 2 * (size_t)along->axis.max_frequency + 1;
     const ps_range range =
         group_range(self, self->layout->num_tiles * kept, num_realizations, &across->axis, 1);
-    return PS_LAUNCH(
-        self->device, self->columns, &range, error, PS_BUFFER(self->grid),
-        PS_BUFFER(across->fft.radices), PS_BUFFER(across->fft.twiddles),
-        PS_BUFFER(across->fft.position), PS_BUFFER(across->gains), PS_BUFFER(along->gains),
-        PS_BUFFER(*target->scales), PS_BUFFER(*target->power), PS_U32(target->realization),
-        PS_U64(self->layout->stride), PS_U32(across->axis.n), PS_U32(across->axis.max_frequency),
-        PS_U32(along->axis.max_frequency), PS_U64(0), PS_LOCAL(row_bytes(self, &across->axis)));
+    const powers_numbers numbers = {.stride = self->layout->stride,
+                                    .transform = ps_nufft_transform_numbers(across),
+                                    .first_row = (uint32_t)target->realization,
+                                    .column_K = (uint32_t)along->axis.max_frequency};
+    return PS_LAUNCH(self->device, self->columns, &range, error, PS_STRUCT(numbers),
+                     PS_BUFFER(self->grid), PS_BUFFER(across->fft.radices),
+                     PS_BUFFER(across->fft.twiddles), PS_BUFFER(across->fft.position),
+                     PS_BUFFER(across->gains), PS_BUFFER(along->gains), PS_BUFFER(*target->scales),
+                     PS_BUFFER(*target->power), PS_LOCAL(row_bytes(self, &across->axis)));
 }
 
 pspec_status ps_nufft_tiles_run(ps_nufft_tiles *tiles, size_t num_realizations,

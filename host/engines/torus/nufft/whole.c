@@ -136,10 +136,6 @@ void ps_nufft_whole_free(ps_nufft_whole *whole) {
 #define WHOLE_TRANSFORM(fft)                                                                       \
     PS_BUFFER((fft)->radices), PS_BUFFER((fft)->twiddles), PS_BUFFER((fft)->position)
 
-static window_numbers window_of(const ps_nufft_plan *plan) {
-    return (window_numbers){plan->axis.n, plan->axis.window.width, plan->degree, plan->bins};
-}
-
 static ps_range range_of(const ps_nufft_whole *self, size_t num_realizations, size_t num_points) {
     const ps_nufft_choice *choice = &self->layout->choice;
     const double lanes = self->layout->lanes;
@@ -171,8 +167,8 @@ static whole_numbers numbers_of(const ps_nufft_whole *self, const ps_nufft_plan 
     return (whole_numbers){.stride = layout->stride,
                            .grid_reals = sizes->grid_reals,
                            .row_reals = sizes->row_reals,
-                           .across = window_of(across),
-                           .along = window_of(along),
+                           .across = ps_nufft_window_numbers(across),
+                           .along = ps_nufft_window_numbers(along),
                            .first = {layout->choice.lengths[0], kept[0]},
                            .second = {layout->choice.lengths[1], kept[1]},
                            .dimension = layout->choice.num_axes,
