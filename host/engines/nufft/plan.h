@@ -28,7 +28,7 @@ pspec_status ps_nufft_plan_create(ps_nufft_plan *out, const ps_nufft_axis *axis,
                                   ps_error *error) PS_MUST_CHECK;
 void ps_nufft_plan_free(ps_nufft_plan *plan);
 
-/* What launches are told of an axis: its window, with its place among coordinates, its transform. */
+/* What launches are told of an axis: its window and place among coordinates, its transform. */
 window_numbers ps_nufft_window_numbers(const ps_nufft_plan *plan);
 axis_numbers ps_nufft_axis_numbers(const ps_nufft_plan *plan);
 transform_numbers ps_nufft_transform_numbers(const ps_nufft_plan *plan);

@@ -1,5 +1,5 @@
-/* The numbers among the arguments of kernels of this folder, for host and device; those of orders.cl
- * are in orders.h. */
+/* The numbers among the arguments of kernels of this folder, for host and device; orders.h has
+ * those of orders.cl. */
 #ifndef PS_SPHERE_NUFFT_NUMBERS_H
 #define PS_SPHERE_NUFFT_NUMBERS_H
 
