@@ -298,15 +298,6 @@ static pspec_status add_slab(torus_direct *self, const ps_batch *group, const sl
     return self->layout.is_grid ? multiply(self, at, num_points, error) : PSPEC_OK;
 }
 
-static size_t longest_pattern(const ps_batch *batch) {
-    size_t longest = 1;
-    for (size_t r = 0; r < batch->num_patterns; r++) {
-        const size_t num_points = batch->patterns[r].num_points;
-        longest = num_points > longest ? num_points : longest;
-    }
-    return longest;
-}
-
 /* One group of realizations, slab after slab. All groups of a batch have as many slabs as its
  * longest pattern needs, so that one fold serves all of them when that is one. */
 static pspec_status run_group(torus_direct *self, const ps_batch *group, size_t first_row,
@@ -325,7 +316,7 @@ static pspec_status run_group(torus_direct *self, const ps_batch *group, size_t 
 
 static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_error *error) {
     torus_direct *self = state;
-    const size_t num_slabs = ps_divide_up(longest_pattern(batch), self->layout.slab);
+    const size_t num_slabs = ps_divide_up(ps_batch_longest(batch), self->layout.slab);
     const size_t first_slot = self->layout.is_grid ? ps_split_left_slot(&self->split) : 0;
     PS_TRY(ps_reals_write(self->device, &self->scales, self->precision, batch->scales,
                           batch->num_patterns, error));

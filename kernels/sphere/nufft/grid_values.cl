@@ -131,16 +131,16 @@ sphere_grid_values(const grid_values_numbers numbers, __global const ulong *rest
                    __global const real *restrict gains, __global const uint *restrict begins,
                    __global real *restrict grids, __global real *restrict values,
                    __global real *restrict scratch, __local real *windows, __local uint *cells) {
-    const uint n = numbers.window.n, width = numbers.window.width, bins = numbers.window.bins;
-    const uint degree = numbers.window.degree, num_realizations = numbers.num_realizations;
+    const uint n = numbers.window.n, width = numbers.window.width;
+    const uint num_realizations = numbers.num_realizations;
     const uint L = numbers.L, only_even = numbers.only_even, most_runs = numbers.most_runs;
     const uint pitch = numbers.pitch, pole = numbers.pole, num_angles = numbers.num_angles;
     const uint first_value = numbers.first_value, value_sets = numbers.value_sets;
     const uint slot = get_global_id(1), slots = get_global_size(1);
     const uint groups = (num_angles + LANES - 1) / LANES;
     const uint transforms = only_even != 0 ? 1 : 2;
-    const window_axis across = {window, n, width, 0, degree, bins, 0, 1};
-    const window_axis along = {window, n, width, 1, degree, bins, 0, 1};
+    const window_axis across = make_chunk_window(window, numbers.window, 0);
+    const window_axis along = make_chunk_window(window, numbers.window, 1);
     const chunk_axes axes = {across, across, along, 2, 0};
     const chunk chunk = make_chunk(windows, cells, across, along);
     const size_t grid_reals = (size_t)(n + width) * pitch + 2 * LANES;

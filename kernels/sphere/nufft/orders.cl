@@ -152,8 +152,7 @@ __kernel void sphere_orders(
     __global real *restrict heights, __global uint *restrict strips, __global uint *restrict starts,
     __global real *restrict grids, __global real *restrict all_rows, __global real *restrict values,
     __global real *restrict scratch, __local real *windows, __local uint *cells) {
-    const uint n = numbers.window.n, width = numbers.window.width;
-    const uint degree = numbers.window.degree, bins = numbers.window.bins;
+    const uint n = numbers.window.n, width = numbers.window.width, bins = numbers.window.bins;
     const uint end_realization = numbers.end_realization, steps = numbers.steps;
     const uint shares = numbers.shares, L = numbers.L, pitch = numbers.pitch;
     const uint grid_rows = numbers.grid_rows, bands = numbers.bands, pole = numbers.pole;
@@ -166,8 +165,8 @@ __kernel void sphere_orders(
     const uint num_strips = (columns + strip - 1) / strip;
     const size_t group = get_global_id(1), row_reals = (size_t)columns * 2 * LANES;
     const size_t room = (numbers.most_points + LANES - 1) / LANES * LANES;
-    const window_axis across = {window, n, width, 0, degree, bins, 0, 1};
-    const window_axis along = {window, n, width, 1, degree, bins, 0, 1};
+    const window_axis across = make_chunk_window(window, numbers.window, 0);
+    const window_axis along = make_chunk_window(window, numbers.window, 1);
     const chunk_axes axes = {across, across, along, 2, 0};
     const chunk chunk = make_chunk(windows, cells, across, along);
     const half_plan around = {radices, twiddles, position, n / 2};

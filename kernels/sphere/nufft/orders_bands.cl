@@ -17,17 +17,16 @@ sphere_orders_bands(const orders_bands_numbers numbers, __global const ulong *re
                     __global const real *restrict heights, __global const uint *restrict starts,
                     __global const real *restrict window, __global real *restrict grid,
                     __local real *windows, __local uint *cells) {
-    const uint n = numbers.window.n, width = numbers.window.width;
-    const uint degree = numbers.window.degree, bins = numbers.window.bins;
     const uint num_parts = numbers.num_parts, tiles = numbers.tiles, bands = numbers.bands;
     const uint band_rows = numbers.band_rows, pitch = numbers.pitch;
     const ulong part_points = numbers.part_points;
     const uint band = get_global_id(1);
-    const window_axis across = {window, n, width, 0, degree, bins, 0, 1};
-    const window_axis along = {window, n, width, 1, degree, bins, 0, 1};
+    const window_axis across = make_chunk_window(window, numbers.window, 0);
+    const window_axis along = make_chunk_window(window, numbers.window, 1);
     const chunk_axes axes = {across, across, along, 2, 0};
     __global real *own = grid + band * (size_t)band_rows * pitch;
-    const orders_grid to = {own, pitch, band_rows, start_of_band(band, n, bands) * pitch};
+    const orders_grid to = {own, pitch, band_rows,
+                            start_of_band(band, numbers.window.n, bands) * pitch};
     const chunk chunk = make_chunk(windows, cells, across, along);
     clear_cells(own, numbers.is_first ? (size_t)band_rows * pitch : 0);
     for (uint part = 0; part < num_parts; part++) {

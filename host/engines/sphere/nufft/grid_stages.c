@@ -70,17 +70,16 @@ static grid_values_numbers numbers_of(const ps_sphere_grid_stages *self, size_t 
                                       size_t num) {
     const ps_sphere_shape *shape = self->shape;
     const ps_nufft_plan *plan = &self->tables->plan;
-    return (grid_values_numbers){
-        .window = {plan->axis.n, plan->axis.window.width, plan->degree, plan->bins},
-        .num_realizations = (uint32_t)num,
-        .L = (uint32_t)shape->max_degree,
-        .only_even = self->only_even,
-        .pitch = shape->pitch,
-        .pole = shape->pole,
-        .num_angles = shape->num_angles,
-        .most_runs = shape->most_runs,
-        .first_value = (uint32_t)first_value,
-        .value_sets = (uint32_t)shape->at_once};
+    return (grid_values_numbers){.window = ps_nufft_window_numbers(plan),
+                                 .num_realizations = (uint32_t)num,
+                                 .L = (uint32_t)shape->max_degree,
+                                 .only_even = self->only_even,
+                                 .pitch = shape->pitch,
+                                 .pole = shape->pole,
+                                 .num_angles = shape->num_angles,
+                                 .most_runs = shape->most_runs,
+                                 .first_value = (uint32_t)first_value,
+                                 .value_sets = (uint32_t)shape->at_once};
 }
 
 pspec_status ps_sphere_grid_make_values(ps_sphere_grid_stages *self, size_t first_value, size_t num,

@@ -97,26 +97,25 @@ static orders_numbers numbers_of(const ps_sphere_stages *self, some_realizations
                                  unsigned steps, size_t shares) {
     const ps_sphere_shape *shape = self->shape;
     const ps_nufft_plan *plan = &self->tables->plan;
-    return (orders_numbers){
-        .most_points = shape->set_points,
-        .window = {plan->axis.n, plan->axis.window.width, plan->degree, plan->bins},
-        .first_realization = (uint32_t)some.first,
-        .end_realization = (uint32_t)some.end,
-        .steps = steps,
-        .shares = (uint32_t)shares,
-        .L = (uint32_t)shape->max_degree,
-        .only_even = self->only_even,
-        .pitch = (uint32_t)shape->pitch,
-        .grid_rows = (uint32_t)shape->grid_rows,
-        .bands = (uint32_t)shape->bands,
-        .pole = (uint32_t)shape->pole,
-        .columns = (uint32_t)shape->columns,
-        .strip = (uint32_t)shape->strip,
-        .rings = (uint32_t)shape->rings,
-        .num_rings = (uint32_t)shape->num_rings,
-        .ring_pitch = (uint32_t)shape->ring_pitch,
-        .first_value = (uint32_t)some.first_value,
-        .value_sets = (uint32_t)shape->at_once};
+    return (orders_numbers){.most_points = shape->set_points,
+                            .window = ps_nufft_window_numbers(plan),
+                            .first_realization = (uint32_t)some.first,
+                            .end_realization = (uint32_t)some.end,
+                            .steps = steps,
+                            .shares = (uint32_t)shares,
+                            .L = (uint32_t)shape->max_degree,
+                            .only_even = self->only_even,
+                            .pitch = (uint32_t)shape->pitch,
+                            .grid_rows = (uint32_t)shape->grid_rows,
+                            .bands = (uint32_t)shape->bands,
+                            .pole = (uint32_t)shape->pole,
+                            .columns = (uint32_t)shape->columns,
+                            .strip = (uint32_t)shape->strip,
+                            .rings = (uint32_t)shape->rings,
+                            .num_rings = (uint32_t)shape->num_rings,
+                            .ring_pitch = (uint32_t)shape->ring_pitch,
+                            .first_value = (uint32_t)some.first_value,
+                            .value_sets = (uint32_t)shape->at_once};
 }
 
 /* Runs the steps for as many realizations at a time as there are slots. */
@@ -178,7 +177,7 @@ pspec_status ps_sphere_stages_add_sorted(ps_sphere_stages *stages, bool is_first
     const double flops_per_point = 2000;
     const orders_bands_numbers numbers = {
         .part_points = PS_SPHERE_PART_POINTS,
-        .window = {plan->axis.n, plan->axis.window.width, plan->degree, plan->bins},
+        .window = ps_nufft_window_numbers(plan),
         .num_parts = (uint32_t)ps_divide_up(points->num_points, PS_SPHERE_PART_POINTS),
         .tiles = shape->tiles,
         .is_first = is_first,
