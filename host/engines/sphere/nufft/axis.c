@@ -20,11 +20,13 @@ enum { MOST_CELLS = 1 << 16 };
 /* Each candidate is longer than the one before by this part at least. */
 enum { NEXT_LENGTH = 32 };
 
-/* An even length from `least` on; 0: beyond 32 bits. By rings the cheapest to transform; by cells
- * any, since transforms are the smaller part. */
+/* By rings the cheapest to transform; by cells any, since transforms are the smaller part. */
+static uint32_t (*const lengths[])(uint64_t least) = {
+    [PS_SPHERE_BY_RINGS] = ps_fft_good_length, [PS_SPHERE_BY_CELLS] = ps_fft_length};
+
+/* An even length from `least` on; 0: beyond 32 bits. */
 static uint32_t even_length(uint64_t least, ps_sphere_route route) {
-    const uint64_t half = (least + 1) / 2;
-    return 2 * (route == PS_SPHERE_BY_RINGS ? ps_fft_good_length(half) : ps_fft_length(half));
+    return 2 * lengths[route]((least + 1) / 2);
 }
 
 /* A few more than the least where the two transforms of half the length are cheaper by more than

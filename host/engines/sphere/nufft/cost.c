@@ -52,21 +52,11 @@ static double cell_cycles(const ps_nufft_axis *axis, double lanes) {
            products * cycles_per_product + cycles_per_order * (L + 1) + cycles_per_set;
 }
 
-double ps_sphere_grid_cycles(const ps_nufft_axis *axis, ps_precision precision, double num_points,
-                             ps_sphere_route route) {
-    const double lanes = ps_nufft_nominal_lanes(precision);
-    return spreading_cycles(axis, lanes, num_points) +
-           (route == PS_SPHERE_BY_RINGS ? ring_cycles(axis, lanes) : cell_cycles(axis, lanes));
-}
+/* ---- what does not ----------------------------------------------------------------------- */
 
-/* ---- all --------------------------------------------------------------------------------- */
-
-/* Cycles, by CPU time of the kernels on a machine that others used (Zen 5, PoCL 3.1, 2026-11): 0.7
- * to 1.2 times what it says, of white sets from N = 256, L = 64 to N = 1e6, L = 1000 and 4096,
- * 2000, alone and in batches, at 1e-3, 1e-5 and 1e-12. */
-double ps_sphere_nufft_flops(const ps_sphere_shape *shape, ps_precision precision,
-                             double num_points, double num_realizations) {
-    const double flops_per_lane = 4;     /* two fused operations in a cycle */
+/* Rings, and products with Lambda_lm. */
+static double more_ring_cycles(const ps_sphere_shape *shape, double lanes, double num_points,
+                               double num_realizations) {
     const double cycles_of_table = 0.33; /* of a number of Lambda_lm, made in double precision */
     const double cycles_of_coefficients = 16; /* of a degree and an order */
     const double cycles_of_product = 1.6;     /* of a vector of it and one realization */
@@ -75,20 +65,45 @@ double ps_sphere_nufft_flops(const ps_sphere_shape *shape, ps_precision precisio
     const double cycles_per_order = 250; /* whatever the degrees */
     const double cycles_per_sorted = 20; /* point */
     const double share = 0.7;            /* of rings where Lambda_lm is more than zero */
-    const double lanes = ps_nufft_nominal_lanes(precision);
-    if (shape->route == PS_SPHERE_BY_CELLS) {
-        return ps_sphere_grid_cycles(&shape->axis, precision, num_points, shape->route) * lanes *
-               flops_per_lane;
-    }
     const double L = shape->max_degree;
     const double vectors = (L + 1) * (L / 2 + lanes) / lanes * shape->num_rings * share;
     const double sharing = fmax(1, fmin(num_realizations, (double)shape->at_once));
     const double rings = shape->pairs * (double)shape->lanes / lanes *
                          (2 * ps_fft_cycles(shape->rings / 2) + cycles_per_ring * shape->rings);
-    const double cycles =
-        ps_sphere_grid_cycles(&shape->axis, precision, num_points, shape->route) + rings +
-        vectors * (cycles_of_table * lanes / sharing + cycles_of_product) +
-        cycles_of_coefficients * (L + 1) * L / 2 / sharing + cycles_per_order * (L + 1) +
-        (shape->is_sorted ? cycles_per_sorted * num_points : 0);
+    return rings + vectors * (cycles_of_table * lanes / sharing + cycles_of_product) +
+           cycles_of_coefficients * (L + 1) * L / 2 / sharing + cycles_per_order * (L + 1) +
+           (shape->is_sorted ? cycles_per_sorted * num_points : 0);
+}
+
+static double no_more_cycles(const ps_sphere_shape *shape, double lanes, double num_points,
+                             double num_realizations) {
+    (void)shape, (void)lanes, (void)num_points, (void)num_realizations;
+    return 0;
+}
+
+/* ---- all --------------------------------------------------------------------------------- */
+
+static const struct {
+    double (*grid)(const ps_nufft_axis *, double lanes);
+    double (*more)(const ps_sphere_shape *, double lanes, double num_points,
+                   double num_realizations);
+} routes[] = {[PS_SPHERE_BY_RINGS] = {ring_cycles, more_ring_cycles},
+              [PS_SPHERE_BY_CELLS] = {cell_cycles, no_more_cycles}};
+
+double ps_sphere_grid_cycles(const ps_nufft_axis *axis, ps_precision precision, double num_points,
+                             ps_sphere_route route) {
+    const double lanes = ps_nufft_nominal_lanes(precision);
+    return spreading_cycles(axis, lanes, num_points) + routes[route].grid(axis, lanes);
+}
+
+/* Cycles, by CPU time of the kernels on a machine that others used (Zen 5, PoCL 3.1, 2026-11): 0.7
+ * to 1.2 times what it says, of white sets from N = 256, L = 64 to N = 1e6, L = 1000 and 4096,
+ * 2000, alone and in batches, at 1e-3, 1e-5 and 1e-12. */
+double ps_sphere_nufft_flops(const ps_sphere_shape *shape, ps_precision precision,
+                             double num_points, double num_realizations) {
+    const double flops_per_lane = 4; /* two fused operations in a cycle */
+    const double lanes = ps_nufft_nominal_lanes(precision);
+    const double cycles = ps_sphere_grid_cycles(&shape->axis, precision, num_points, shape->route) +
+                          routes[shape->route].more(shape, lanes, num_points, num_realizations);
     return cycles * lanes * flops_per_lane;
 }

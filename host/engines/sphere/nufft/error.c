@@ -17,12 +17,15 @@ static const double in_step = 1;
 static const double peaks = 4;
 
 /* What follows is rounding in units of roundoff: of points and coefficients, whatever the grid; of
- * windows; of each pass of the transforms, three by rings and one by cells; of sums in dense cells;
+ * windows, by cells with that of the table; of each pass of the transforms; of sums in dense cells;
  * of coincident points; of the recurrence of Lambda_lm and of sums over rings, for the root of
  * their number. */
 static const double point_roundings = 2;
-static const double window_roundings = 4;
-static const double cell_roundings = 3.5; /* the same by cells, and of the table */
+static const struct {
+    double windows;
+    double transforms; /* one after another */
+} routes[] = {[PS_SPHERE_BY_RINGS] = {.windows = 4, .transforms = 3},
+              [PS_SPHERE_BY_CELLS] = {.windows = 3.5, .transforms = 1}};
 static const double roundings_per_pass = 0.4;
 static const double dense_roundings =
     2; /* 1.4 with a million points: pointspec stress --case sphere-sum-1e6 */
@@ -93,9 +96,8 @@ static double aliasing_of(const ps_nufft_axis *axis, const ps_problem *problem, 
 
 double ps_sphere_nufft_error(const ps_nufft_axis *axis, const ps_problem *problem,
                              ps_precision precision, double mean_power, ps_sphere_route route) {
-    const double grid_roundings = route == PS_SPHERE_BY_RINGS
-                                      ? window_roundings + 3 * axis->passes * roundings_per_pass
-                                      : cell_roundings + axis->passes * roundings_per_pass;
+    const double grid_roundings =
+        routes[route].windows + routes[route].transforms * axis->passes * roundings_per_pass;
     const double power = mean_power > 1 ? mean_power : 1;
     const double unit = unit_roundoff[precision];
     const double L = axis->max_frequency;

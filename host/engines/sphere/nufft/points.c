@@ -59,11 +59,8 @@ static pspec_status upload_unit_weights(ps_sphere_places *self, ps_error *error)
                            self->most_points * ps_real_bytes(self->precision), error);
 }
 
-/* The north pole is cell `pole` of a row, or, by cells, half a cell in front of it: no angle is its
- * own mirror image then, but for one at the equator. */
 static uint64_t shift_of(const ps_sphere_shape *shape) {
-    const bool by_cells = shape->route == PS_SPHERE_BY_CELLS;
-    return (uint64_t)(((wide)(2 * (uint64_t)shape->pole - by_cells) << 63) / shape->axis.n);
+    return (uint64_t)(((wide)shape->half_poles << 63) / shape->axis.n);
 }
 
 pspec_status ps_sphere_places_create(ps_sphere_places *out, const ps_sphere_shape *shape,

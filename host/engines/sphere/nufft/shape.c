@@ -50,13 +50,12 @@ static void choose_bands(ps_sphere_shape *shape, double points, size_t real_byte
     const uint32_t least = fitting > LEAST_BAND + shape->axis.window.width
                                ? (uint32_t)fitting - shape->axis.window.width
                                : LEAST_BAND;
-    shape->is_sorted = shape->route == PS_SPHERE_BY_RINGS && points >= PS_SPHERE_LEAST_SORTED &&
-                       points * width * width > least_covers * n * n / 2;
+    shape->is_sorted =
+        points >= PS_SPHERE_LEAST_SORTED && points * width * width > least_covers * n * n / 2;
     shape->bands = shape->is_sorted && least < shape->axis.n ? shape->axis.n / least : 1;
     shape->band_rows =
         (uint32_t)ps_divide_up(shape->axis.n, shape->bands) + shape->axis.window.width;
     shape->tiles = shape->pitch / PS_SPHERE_TILE_CELLS + 1;
-    shape->grid_rows = shape->bands * shape->band_rows;
 }
 
 /* Bytes of a strip: the second cache of a core holds it, beside what is transformed. */
@@ -72,33 +71,26 @@ static void choose_strip(ps_sphere_shape *shape, const ps_device_limits *limits,
     const uint64_t strip =
         fitting > behind + 2 * lanes ? (fitting - behind) / lanes * lanes : 2 * (uint64_t)lanes;
     const bool is_small = rows * shape->pitch * real_bytes <= strip_bytes;
-    shape->strip = shape->columns;
-    if (shape->route == PS_SPHERE_BY_RINGS && !shape->is_sorted && !is_small &&
-        !limits->has_dedicated_local_memory && strip < shape->columns) {
+    if (!shape->is_sorted && !is_small && !limits->has_dedicated_local_memory &&
+        strip < shape->columns) {
         shape->strip = (uint32_t)strip;
         shape->pitch = (uint32_t)(strip + behind);
     }
 }
 
-static void measure(ps_sphere_shape *shape, const ps_device_limits *limits, double points,
-                    size_t real_bytes) {
+/* A grid as a whole, in groups of `unit` columns. */
+static void measure_grid(ps_sphere_shape *shape, uint32_t unit) {
     const ps_nufft_axis *axis = &shape->axis;
-    const bool by_rings = shape->route == PS_SPHERE_BY_RINGS;
-    const uint32_t unit = by_rings ? 2 * shape->lanes : shape->lanes;
     const uint32_t bins = ps_nufft_bins(axis);
     shape->pole = (axis->window.width + 1) / 2;
     const uint32_t with_cells = axis->n / 2 + 2 * shape->pole + 1;
     const uint32_t touched = axis->n / 2 + shape->pole + bins + 2;
     shape->columns = (uint32_t)ps_round_up(with_cells, unit);
     shape->pitch = (uint32_t)ps_round_up(touched > shape->columns ? touched : shape->columns, unit);
-    choose_bands(shape, points, real_bytes);
     shape->pairs = (uint32_t)shape->max_degree / unit + 1;
-    choose_strip(shape, limits, real_bytes);
-    shape->grid_bytes =
-        ((uint64_t)shape->grid_rows * shape->pitch + (by_rings ? 0 : 2 * shape->lanes)) *
-        real_bytes;
-    shape->row_bytes =
-        by_rings ? 2 * (uint64_t)shape->pairs * shape->columns * unit * real_bytes : 0;
+    shape->strip = shape->columns;
+    shape->bands = 1;
+    shape->band_rows = axis->n + axis->window.width;
 }
 
 /* Rings at the pole and at the equator whose Lambda_lm goes by differences. The rest is off by
@@ -165,169 +157,41 @@ bool ps_sphere_rings_fit(const ps_sphere_shape *shape, const ps_device_limits *l
     return local.table + local.coefficients + local.begins <= limits->local_bytes;
 }
 
-/* ---- memory ------------------------------------------------------------------------------ */
+/* ---- the two routes ---------------------------------------------------------------------- */
 
-/* Values on rings of so many realizations share one table of Lambda_lm: more of them cost no less,
- * unless they are so small that launches count (L = 64: 0.86 of the time; L = 128, where 64 leave
- * the last cache: 1.2). */
-enum { MOST_AT_ONCE = 32, MOST_SMALL_AT_ONCE = 64 };
-static const double small_values = 4 << 20;
-
-/* Bytes for all points on the device, all grids, and all points of realizations at once on the
- * host, unless one needs more. */
-static const double point_budget = 128 << 20;
-static const double grid_budget = 256 << 20;
-static const double set_budget = 128 << 20;
-
-/* Values on rings are part of the fixed memory as long as they fit here; else each realization of a
- * batch brings its own, so that a limit on memory makes batches smaller. */
-static const double fixed_budget = 128 << 20;
-static const double value_budget = 768 << 20;
-
-/* Work-groups for each core: so few that grids stay in the cache, so many that no core waits long
- * for another. */
-enum { GROUPS_PER_CORE = 4 };
-
-static size_t fitting(double budget, uint64_t bytes, size_t most) {
-    const double number = bytes > 0 ? floor(budget / (double)bytes) : (double)most;
-    return number >= (double)most ? most : number > 1 ? (size_t)number : 1;
+static bool measure_rings(ps_sphere_shape *shape, const ps_device_limits *limits, double points,
+                          size_t real_bytes) {
+    const uint32_t unit = 2 * shape->lanes;
+    measure_grid(shape, unit);
+    choose_bands(shape, points, real_bytes);
+    choose_strip(shape, limits, real_bytes);
+    shape->grid_rows = shape->bands * shape->band_rows;
+    shape->transform_rings = shape->rings;
+    shape->half_poles = 2 * shape->pole;
+    shape->grid_bytes = (uint64_t)shape->grid_rows * shape->pitch * real_bytes;
+    shape->row_bytes = 2 * (uint64_t)shape->pairs * shape->columns * unit * real_bytes;
+    return ps_sphere_rings_fit(shape, limits, real_bytes);
 }
 
-/* Realizations side by side. */
-static void choose_at_once(ps_sphere_shape *shape, const ps_problem *problem, size_t cores,
-                           size_t real_bytes) {
-    const uint64_t known = problem->num_realizations;
-    const bool is_small = (double)shape->value_bytes * MOST_SMALL_AT_ONCE <= small_values;
-    const size_t wanted = is_small ? MOST_SMALL_AT_ONCE : MOST_AT_ONCE;
-    const size_t most = known > 0 && known < wanted ? (size_t)known : wanted;
-    const uint64_t vectors = problem->num_points * 3 * sizeof(double);
-    const uint64_t set_bytes = vectors + problem->num_points * (2 * sizeof(uint64_t) + real_bytes);
-    shape->at_once = fitting(value_budget, shape->value_bytes, fitting(set_budget, vectors, most));
-    shape->together = shape->is_sorted ? 1 : fitting(point_budget, set_bytes, shape->at_once);
-    shape->most_points = shape->together * problem->num_points;
-    if (shape->is_sorted && shape->most_points > PS_SPHERE_PARTS * PS_SPHERE_PART_POINTS) {
-        shape->most_points = PS_SPHERE_PARTS * PS_SPHERE_PART_POINTS;
-    }
-    const size_t groups = GROUPS_PER_CORE * cores;
-    shape->set_points = ps_sphere_has_strips(shape) ? problem->num_points : 0;
-    shape->slots = fitting(grid_budget, shape->grid_bytes + shape->row_bytes,
-                           shape->together < groups ? shape->together : groups);
-    shape->shares = shape->route == PS_SPHERE_BY_RINGS && shape->slots < groups
-                        ? ps_divide_up(groups, shape->slots)
-                        : 1;
+/* The table is made of rings in double precision. */
+static bool measure_cells(ps_sphere_shape *shape, const ps_device_limits *limits, double points,
+                          size_t real_bytes) {
+    const ps_sphere_shape rings = ps_sphere_rings_shape(shape->max_degree, limits, PS_DOUBLE);
+    const bool is_whole =
+        shape->lanes % rings.lanes == 0 && rings.run_vectors * rings.lanes % shape->lanes == 0;
+    (void)points;
+    measure_grid(shape, shape->lanes);
+    measure_table(shape, real_bytes);
+    shape->grid_rows = shape->band_rows;
+    shape->half_poles = 2 * shape->pole - 1;
+    shape->grid_bytes = ((uint64_t)shape->grid_rows * shape->pitch + 2 * shape->lanes) * real_bytes;
+    return is_whole && ps_sphere_rings_fit(&rings, limits, sizeof(double));
 }
 
-ps_sphere_bytes ps_sphere_bytes_of(const ps_sphere_shape *shape, size_t real_bytes) {
-    const uint64_t groups = PS_SPHERE_GROUPS;
-    const uint64_t points = ps_round_up(shape->most_points, shape->lanes);
-    const uint64_t parts = ps_divide_up(shape->most_points, PS_SPHERE_PART_POINTS);
-    const uint64_t keys = (uint64_t)shape->bands * shape->tiles;
-    const bool has_strips = ps_sphere_has_strips(shape);
-    const uint64_t work_groups = shape->slots * shape->shares;
-    const uint64_t strips = ps_divide_up(shape->columns, shape->strip);
-    /* No buffer may be empty, so that one place is there without strips, too. */
-    const uint64_t strip_points =
-        has_strips ? work_groups * ps_round_up(shape->set_points, shape->lanes) : 1;
-    /* On the way by cells rings are there only while the table is made, before most of the rest. */
-    const uint64_t rings = shape->route == PS_SPHERE_BY_RINGS ? shape->rings : 0;
-    const uint64_t pitch = rings > 0 ? shape->ring_pitch : 0;
-    const uint64_t run = (uint64_t)shape->run_vectors * shape->lanes;
-    return (ps_sphere_bytes){
-        .vectors = points * 3 * sizeof(double),
-        .turns = points * 2 * sizeof(uint64_t),
-        .weights = points * real_bytes,
-        .keys = shape->is_sorted ? points * sizeof(uint32_t) : 0,
-        .starts = shape->is_sorted ? parts * (keys + 1) * sizeof(uint32_t) : 0,
-        .grids = (has_strips ? work_groups : shape->slots) * shape->grid_bytes,
-        .rows = shape->slots * shape->row_bytes,
-        .strip_turns = strip_points * 2 * sizeof(uint64_t),
-        .strip_weights = strip_points * real_bytes,
-        .strips = strip_points * sizeof(uint32_t),
-        .strip_starts = work_groups * (strips + 1) * sizeof(uint32_t),
-        .scratch = work_groups * 2 * shape->lanes * (shape->axis.n + rings / 2) * real_bytes,
-        .values = shape->value_bytes,
-        .gaps = ((uint64_t)shape->max_degree + 1) * 2 * shape->lanes * real_bytes,
-        .powers = groups * 2 * shape->half_pitch * sizeof(double),
-        .sums = pitch > 0 ? groups * 4 * run * real_bytes : 0,
-        .states = groups * 4 * pitch * sizeof(double),
-        .scales = groups * 2 * pitch * sizeof(int32_t),
-        .diagonals = groups * pitch * sizeof(double),
-        .table = shape->table_reals * real_bytes};
-}
-
-/* The tables of tables.c take for a cell of the transforms twiddles, turns and a place; gains; what
- * Lambda_mm begins with. */
-static uint64_t table_bytes(const ps_sphere_shape *shape, size_t real_bytes) {
-    const bool by_rings = shape->route == PS_SPHERE_BY_RINGS;
-    const uint64_t cells = (shape->axis.n + (uint64_t)(by_rings ? shape->rings : 0)) / 2;
-    const uint64_t orders = (uint64_t)shape->max_degree + 1;
-    const uint64_t ring_tables = 3; /* cosines, distances, squares */
-    const uint64_t starts = by_rings ? (PS_SPHERE_GROUPS + 1) * (uint64_t)shape->ring_pitch : 0;
-    const uint64_t places =
-        by_rings ? 0 : orders * 2 * (sizeof(uint64_t) + shape->most_runs * sizeof(uint32_t));
-    return cells * (4 * real_bytes + sizeof(uint32_t)) +
-           orders * (4 * real_bytes + sizeof(double)) + places +
-           starts * (sizeof(double) + sizeof(int32_t)) +
-           (by_rings ? ring_tables * shape->ring_pitch * sizeof(double) : 0);
-}
-
-/* What is there while sphere_grid makes its table, and given back before the rest is taken. */
-static uint64_t making_bytes(const ps_sphere_shape *shape) {
-    const uint64_t of_ring =
-        7 * sizeof(double) + 4 * sizeof(int32_t); /* states, diagonals, starts */
-    const uint64_t filters = 4 * shape->num_rings *
-                             ps_round_up(shape->num_angles, PS_SPHERE_TABLE_ANGLES) *
-                             sizeof(double);
-    return shape->route == PS_SPHERE_BY_CELLS
-               ? PS_SPHERE_GROUPS * shape->ring_pitch * of_ring + filters
-               : 0;
-}
-
-static void count_memory(ps_sphere_shape *shape, const ps_problem *problem,
-                         const ps_device_limits *limits, size_t real_bytes) {
-    const size_t cores = limits->compute_units > 0 ? limits->compute_units : 1;
-    choose_at_once(shape, problem, cores, real_bytes);
-    const ps_sphere_bytes bytes = ps_sphere_bytes_of(shape, real_bytes);
-    const uint64_t sorted = shape->is_sorted ? bytes.turns + bytes.weights : 0;
-    const uint64_t host_each = 2 * shape->half_pitch * sizeof(double);
-    const uint64_t each = bytes.values + bytes.powers + bytes.sums + host_each;
-    const uint64_t rest = bytes.grids + bytes.scratch + bytes.gaps + shape->at_once * each;
-    const uint64_t making = making_bytes(shape);
-    const bool is_fixed = (double)(each * shape->at_once) <= fixed_budget;
-    shape->each_bytes = is_fixed ? 0 : each;
-    shape->host_bytes = bytes.weights + (is_fixed ? shape->at_once * host_each : 0);
-    shape->fixed_bytes = bytes.weights + bytes.vectors + bytes.turns + bytes.weights + sorted +
-                         bytes.keys + bytes.starts + bytes.grids + bytes.rows + bytes.scratch +
-                         bytes.strip_turns + bytes.strip_weights + bytes.strips +
-                         bytes.strip_starts + table_bytes(shape, real_bytes) + bytes.sums +
-                         bytes.states + bytes.scales + bytes.diagonals + bytes.diagonals / 2 +
-                         bytes.table + bytes.gaps + (making > rest ? making - rest : 0) +
-                         (is_fixed ? shape->at_once * each : 0);
-    const uint64_t buffers[] = {bytes.table,
-                                bytes.grids,
-                                bytes.rows,
-                                shape->at_once * bytes.values + bytes.gaps,
-                                shape->at_once * bytes.powers,
-                                bytes.vectors};
-    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
-        shape->largest_buffer =
-            buffers[i] > shape->largest_buffer ? buffers[i] : shape->largest_buffer;
-    }
-}
-
-void ps_sphere_shape_shrink(ps_sphere_shape *shape, size_t batch) {
-    const size_t groups = shape->slots * shape->shares;
-    shape->at_once = batch < shape->at_once ? batch : shape->at_once;
-    if (shape->together > shape->at_once) {
-        shape->most_points = shape->most_points / shape->together * shape->at_once;
-        shape->together = shape->at_once;
-    }
-    if (shape->slots > shape->together) {
-        shape->shares =
-            shape->route == PS_SPHERE_BY_RINGS ? ps_divide_up(groups, shape->together) : 1;
-        shape->slots = shape->together;
-    }
-}
+/* Each returns false where local memory is too small. */
+static bool (*const measures[])(ps_sphere_shape *, const ps_device_limits *, double points,
+                                size_t real_bytes) = {
+    [PS_SPHERE_BY_RINGS] = measure_rings, [PS_SPHERE_BY_CELLS] = measure_cells};
 
 ps_sphere_shape ps_sphere_rings_shape(int32_t max_degree, const ps_device_limits *limits,
                                       ps_precision precision) {
@@ -353,21 +217,12 @@ ps_sphere_shape ps_sphere_shape_make(const ps_problem *problem, const ps_device_
         ps_sphere_rings_shape(problem->frequencies->max_frequency, limits, precision);
     shape.axis = axis;
     shape.route = route;
-    measure(&shape, limits, ps_planned_points(problem), real_bytes);
-    bool fits = spreading_fits(&shape, limits, real_bytes);
-    if (route == PS_SPHERE_BY_CELLS) { /* the table is made of rings in double precision */
-        const ps_sphere_shape rings = ps_sphere_rings_shape(shape.max_degree, limits, PS_DOUBLE);
-        const bool is_whole =
-            shape.lanes % rings.lanes == 0 && rings.run_vectors * rings.lanes % shape.lanes == 0;
-        fits = fits && is_whole && ps_sphere_rings_fit(&rings, limits, sizeof(double));
-        measure_table(&shape, real_bytes);
-    } else {
-        fits = fits && ps_sphere_rings_fit(&shape, limits, real_bytes);
-    }
+    const bool fits = measures[route](&shape, limits, ps_planned_points(problem), real_bytes) &&
+                      spreading_fits(&shape, limits, real_bytes);
     if (!fits) {
         shape.lanes = 0;
         return shape;
     }
-    count_memory(&shape, problem, limits, real_bytes);
+    ps_sphere_count_memory(&shape, problem, limits, real_bytes);
     return shape;
 }

@@ -21,16 +21,20 @@ typedef enum ps_sphere_route {
 
 typedef struct ps_sphere_shape {
     ps_sphere_route route;
-    int32_t max_degree;   /* L */
-    ps_nufft_axis axis;   /* longitude and angle from the pole: n is even */
-    uint32_t rings;       /* on a whole great circle through the poles, even and above 2 L */
-    uint32_t num_rings;   /* in the northern quarter of it */
-    uint32_t num_angles;  /* of the grid, in the northern quarter of a great circle; by cells */
-    uint32_t most_runs;   /* of vectors of degrees of an order and parity; by cells */
-    uint64_t table_reals; /* of the table, by cells */
+    int32_t max_degree;       /* L */
+    ps_nufft_axis axis;       /* longitude and angle from the pole: n is even */
+    uint32_t rings;           /* on a whole great circle through the poles, even and above 2 L */
+    uint32_t num_rings;       /* in the northern quarter of it */
+    uint32_t transform_rings; /* `rings`, or 0 by cells: they are there only while the table is
+                                 made, before most of the rest */
+    uint32_t num_angles;      /* of the grid, in the northern quarter of a great circle; by cells */
+    uint32_t most_runs;       /* of vectors of degrees of an order and parity; by cells */
+    uint64_t table_reals;     /* of the table, by cells */
 
-    unsigned lanes;                       /* 0: L is too large */
-    uint32_t pole;                        /* cells in front of the north pole */
+    unsigned lanes;      /* 0: L is too large */
+    uint32_t pole;       /* cells in front of the north pole */
+    uint32_t half_poles; /* halves of cells in front of it: by cells it lies between two, so that
+                            no angle is its own mirror image but for one at the equator */
     uint32_t pitch, grid_rows;            /* of a grid */
     uint32_t columns;                     /* with cells in them, whole groups */
     uint32_t pairs;                       /* of tiles of orders */
@@ -83,8 +87,13 @@ static inline bool ps_sphere_has_strips(const ps_sphere_shape *shape) {
 /* Makes the shape fit for batches of no more than `batch` realizations. */
 void ps_sphere_shape_shrink(ps_sphere_shape *shape, size_t batch);
 
-/* Its parts, of axis.c and cost.c. The grid, the same on both axes; the most exact one when none
- * keeps the tolerance, n == 0: L is too large. */
+/* Its parts, of memory.c, axis.c and cost.c. How many realizations at once, and what all of it
+ * takes, for a shape with a grid. */
+void ps_sphere_count_memory(ps_sphere_shape *shape, const ps_problem *problem,
+                            const ps_device_limits *limits, size_t real_bytes);
+
+/* The grid, the same on both axes; the most exact one when none keeps the tolerance, n == 0: L is
+ * too large. */
 ps_nufft_axis ps_sphere_choose_axis(const ps_problem *problem, ps_precision precision,
                                     ps_sphere_route route);
 

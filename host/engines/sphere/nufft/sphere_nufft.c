@@ -4,25 +4,11 @@
 #include "base/memory.h"
 #include "base/round.h"
 #include "device/reals.h"
-#include "engines/sphere/nufft/grid_stages.h"
-#include "engines/sphere/nufft/stages.h"
+#include "engines/sphere/nufft/variants.h"
 #include "math/pi.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-typedef struct sphere_nufft {
-    ps_device *device;
-    ps_problem problem;
-    ps_precision precision;
-    ps_sphere_shape shape;
-    ps_sphere_places points;
-    ps_sphere_tables tables;
-    ps_sphere_stages stages;           /* by rings, */
-    ps_sphere_grid_stages grid_stages; /* or by cells */
-    double *host_powers;               /* [at_once][2][half_pitch] */
-    double *host_rows;                 /* [batch][degrees] */
-} sphere_nufft;
 
 /* ---- what the planner asks --------------------------------------------------------------- */
 
@@ -63,16 +49,6 @@ static const char *refuse_cells(const ps_problem *problem) {
                : NULL;
 }
 
-/* Points, sums of orders and degrees; the bands of sorted points, or the table of cells;
- * coefficients come by another build of the kernel of degrees. */
-static double kernels_of(const ps_sphere_shape *shape, const ps_problem *problem) {
-    const double of_all = 4;
-    const double of_table = 2;
-    return of_all + (shape->is_sorted ? 1 : 0) +
-           (shape->route == PS_SPHERE_BY_CELLS ? of_table : 0) +
-           (problem->harmonics != PS_NO_HARMONICS ? 1 : 0);
-}
-
 static ps_work work_of(const ps_sphere_shape *shape, const ps_problem *problem,
                        ps_precision precision) {
     const double realizations =
@@ -84,12 +60,12 @@ static ps_work work_of(const ps_sphere_shape *shape, const ps_problem *problem,
                             ? 0
                             : (double)(((size_t)shape->max_degree + 1) * 4 * shape->half_pitch) *
                                   (double)sizeof(double);
-    const bool by_cells = shape->route == PS_SPHERE_BY_CELLS;
+    const ps_sphere_variant *variant = ps_sphere_variant_of(shape);
+    const double kernels = variant->kernels + (problem->harmonics != PS_NO_HARMONICS ? 1 : 0);
     const double flops =
         ps_sphere_nufft_flops(shape, precision, (double)problem->num_points, realizations);
-    return (ps_work){.transform_flops =
-                         realizations * flops + (by_cells ? ps_sphere_grid_table_flops(shape) : 0),
-                     .kernels = kernels_of(shape, problem),
+    return (ps_work){.transform_flops = realizations * flops + variant->count_table_flops(shape),
+                     .kernels = kernels,
                      .launches = launches_of_some * ceil(realizations / (double)shape->at_once),
                      .fixed_bytes = (double)shape->fixed_bytes + 2 * kept,
                      .host_bytes = (double)shape->host_bytes + kept,
@@ -100,16 +76,12 @@ static ps_work work_of(const ps_sphere_shape *shape, const ps_problem *problem,
 }
 
 static ps_survey survey_route(const ps_problem *problem, const ps_device_limits *limits,
-                              ps_precision precision, ps_sphere_route route) {
-    ps_survey result = {.why_not = refuse(problem, limits, precision)};
-    if (result.why_not == NULL && route == PS_SPHERE_BY_CELLS) {
-        result.why_not = refuse_cells(problem);
-    }
-    if (result.why_not != NULL) {
-        return result;
+                              ps_precision precision, ps_sphere_route route, const char *why_not) {
+    if (why_not != NULL) {
+        return (ps_survey){.why_not = why_not};
     }
     const ps_sphere_shape shape = ps_sphere_shape_make(problem, limits, precision, route);
-    result.why_not = refuse_shape(&shape, limits, precision);
+    ps_survey result = {.why_not = refuse_shape(&shape, limits, precision)};
     if (result.why_not == NULL) {
         result.work = work_of(&shape, problem, precision);
         result.error = ps_sphere_nufft_error(&shape.axis, problem, precision,
@@ -118,8 +90,21 @@ static ps_survey survey_route(const ps_problem *problem, const ps_device_limits 
     return result;
 }
 
+static ps_survey survey_rings(const ps_problem *problem, const ps_device_limits *limits,
+                              ps_precision precision) {
+    return survey_route(problem, limits, precision, PS_SPHERE_BY_RINGS,
+                        refuse(problem, limits, precision));
+}
+
+static ps_survey survey_cells(const ps_problem *problem, const ps_device_limits *limits,
+                              ps_precision precision) {
+    const char *why_not = refuse(problem, limits, precision);
+    return survey_route(problem, limits, precision, PS_SPHERE_BY_CELLS,
+                        why_not != NULL ? why_not : refuse_cells(problem));
+}
+
 static double error_of_state(const void *state, double mean_power, double weight_share) {
-    const sphere_nufft *self = state;
+    const ps_sphere_state *self = state;
     (void)weight_share;
     return ps_sphere_nufft_error(&self->shape.axis, &self->problem, self->precision, mean_power,
                                  self->shape.route);
@@ -128,12 +113,11 @@ static double error_of_state(const void *state, double mean_power, double weight
 /* ---- create and destroy ------------------------------------------------------------------ */
 
 static void destroy(void *state) {
-    sphere_nufft *self = state;
+    ps_sphere_state *self = state;
     if (self == NULL) {
         return;
     }
-    ps_sphere_stages_free(&self->stages);
-    ps_sphere_grid_stages_free(&self->grid_stages);
+    self->variant->free(self);
     ps_sphere_places_free(&self->points);
     ps_sphere_tables_free(&self->tables);
     free(self->host_powers);
@@ -141,7 +125,7 @@ static void destroy(void *state) {
     free(self);
 }
 
-static pspec_status create_parts(sphere_nufft *self, size_t batch, ps_error *error) {
+static pspec_status create_parts(ps_sphere_state *self, size_t batch, ps_error *error) {
     const ps_sphere_shape *shape = &self->shape;
     const bool only_even = self->problem.frequencies->degree_step == 2;
     void *memory = NULL;
@@ -154,12 +138,7 @@ static pspec_status create_parts(sphere_nufft *self, size_t batch, ps_error *err
     PS_TRY(ps_sphere_places_create(&self->points, shape, self->precision, self->device, error));
     PS_TRY(ps_sphere_tables_create(&self->tables, shape, self->problem.tolerance, self->precision,
                                    self->device, error));
-    return shape->route == PS_SPHERE_BY_CELLS
-               ? ps_sphere_grid_stages_create(&self->grid_stages, shape, &self->points,
-                                              &self->tables, only_even, self->precision,
-                                              self->device, error)
-               : ps_sphere_stages_create(&self->stages, shape, &self->points, &self->tables,
-                                         only_even, self->precision, self->device, error);
+    return self->variant->create(self, only_even, error);
 }
 
 static pspec_status create_route(void **state, const ps_problem *problem, ps_precision precision,
@@ -167,13 +146,14 @@ static pspec_status create_route(void **state, const ps_problem *problem, ps_pre
                                  ps_error *error) {
     void *memory = NULL;
     *state = NULL;
-    PS_TRY(ps_allocate(&memory, 1, sizeof(sphere_nufft), "an engine", error));
-    sphere_nufft *self = memory;
+    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_sphere_state), "an engine", error));
+    ps_sphere_state *self = memory;
     self->device = device;
     self->problem = *problem;
     self->precision = precision;
     self->shape = ps_sphere_shape_make(problem, ps_device_get_limits(device), precision, route);
     ps_sphere_shape_shrink(&self->shape, batch);
+    self->variant = ps_sphere_variant_of(&self->shape);
     const pspec_status status = create_parts(self, batch, error);
     if (status != PSPEC_OK) {
         destroy(self);
@@ -183,13 +163,23 @@ static pspec_status create_route(void **state, const ps_problem *problem, ps_pre
     return PSPEC_OK;
 }
 
+static pspec_status create_rings(void **state, const ps_problem *problem, ps_precision precision,
+                                 size_t batch, ps_device *device, ps_error *error) {
+    return create_route(state, problem, precision, batch, device, PS_SPHERE_BY_RINGS, error);
+}
+
+static pspec_status create_cells(void **state, const ps_problem *problem, ps_precision precision,
+                                 size_t batch, ps_device *device, ps_error *error) {
+    return create_route(state, problem, precision, batch, device, PS_SPHERE_BY_CELLS, error);
+}
+
 static size_t get_stride(const void *state) {
-    return ((const sphere_nufft *)state)->problem.frequencies->num;
+    return ((const ps_sphere_state *)state)->problem.frequencies->num;
 }
 
 /* ---- run --------------------------------------------------------------------------------- */
 
-static void write_rows(sphere_nufft *self, size_t first, const ps_batch *some) {
+static void write_rows(ps_sphere_state *self, size_t first, const ps_batch *some) {
     const ps_frequencies *set = self->problem.frequencies;
     const size_t pitch = self->shape.half_pitch;
     for (size_t r = 0; r < some->num_patterns; r++) {
@@ -213,57 +203,24 @@ static ps_batch part_of(const ps_batch *batch, size_t first, size_t most) {
     return some;
 }
 
-/* Points of the only pattern, a chunk at a time. */
-static pspec_status add_points(sphere_nufft *self, const ps_batch *one, bool is_first,
-                               ps_error *error) {
-    const size_t most = self->shape.most_points;
-    const pspec_pattern *pattern = one->patterns;
-    for (size_t at = 0; at < pattern->num_points; at += most) {
-        pspec_pattern chunk = *pattern;
-        chunk.points += at * PS_SPHERE_DIMENSION;
-        chunk.weights = pattern->weights != NULL ? pattern->weights + at : NULL;
-        chunk.num_points = pattern->num_points - at < most ? pattern->num_points - at : most;
-        ps_batch some = *one;
-        some.patterns = &chunk;
-        PS_TRY(ps_batch_go_on(one, error));
-        PS_TRY(ps_sphere_places_make(&self->points, &some, error));
-        PS_TRY(ps_sphere_stages_add_sorted(&self->stages, is_first && at == 0, error));
-    }
-    return PSPEC_OK;
-}
-
-/* Values on rings of at most at_once patterns. */
-static pspec_status make_values(sphere_nufft *self, const ps_batch *batch, ps_error *error) {
+/* Values of at most at_once patterns. */
+static pspec_status make_values(ps_sphere_state *self, const ps_batch *batch, ps_error *error) {
     const size_t together = self->shape.together;
     for (size_t first = 0; first < batch->num_patterns; first += together) {
         const ps_batch some = part_of(batch, first, together);
         PS_TRY(ps_batch_go_on(batch, error));
-        if (self->shape.is_sorted) {
-            PS_TRY(add_points(self, &some, true, error));
-            PS_TRY(ps_sphere_stages_finish_sorted(&self->stages, first, error));
-        } else {
-            PS_TRY(ps_sphere_places_make(&self->points, &some, error));
-            PS_TRY(
-                self->shape.route == PS_SPHERE_BY_CELLS
-                    ? ps_sphere_grid_make_values(&self->grid_stages, first, some.num_patterns,
-                                                 error)
-                    : ps_sphere_stages_make_values(&self->stages, first, some.num_patterns, error));
-        }
+        PS_TRY(self->variant->make_values(self, first, &some, error));
     }
     return PSPEC_OK;
 }
 
 static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_error *error) {
-    sphere_nufft *self = state;
+    ps_sphere_state *self = state;
     const size_t at_once = self->shape.at_once;
     for (size_t first = 0; first < batch->num_patterns; first += at_once) {
         const ps_batch some = part_of(batch, first, at_once);
         PS_TRY(make_values(self, &some, error));
-        PS_TRY(
-            self->shape.route == PS_SPHERE_BY_CELLS
-                ? ps_sphere_grid_sum(&self->grid_stages, some.num_patterns, self->host_powers,
-                                     error)
-                : ps_sphere_stages_sum(&self->stages, some.num_patterns, self->host_powers, error));
+        PS_TRY(self->variant->sum(self, some.num_patterns, error));
         write_rows(self, first, &some);
     }
     *rows = (ps_rows){.num_rows = batch->num_patterns,
@@ -287,7 +244,7 @@ static int largest_exponent(const pspec_pattern *pattern) {
 }
 
 /* Reads [order][even, odd l - m][re, im][half_pitch]; the kernels sum conjugates. */
-static void write_coefficients(const sphere_nufft *self, const double *from, int exponent,
+static void write_coefficients(const ps_sphere_state *self, const double *from, int exponent,
                                double *out) {
     const size_t L = (size_t)self->shape.max_degree;
     const size_t pitch = self->shape.half_pitch;
@@ -305,19 +262,17 @@ static void write_coefficients(const sphere_nufft *self, const double *from, int
 
 static pspec_status coefficients(void *state, const ps_batch *one, ps_rows *rows, double *out,
                                  ps_error *error) {
-    sphere_nufft *self = state;
+    ps_sphere_state *self = state;
     const int exponent = largest_exponent(one->patterns);
     ps_batch scaled = *one;
     void *host = NULL;
     scaled.exponents = &exponent;
-    PS_TRY(rows != NULL ? run(state, one, rows, error) /* its values stay on the rings */
+    PS_TRY(rows != NULL ? run(state, one, rows, error) /* its values stay there */
                         : make_values(self, &scaled, error));
     PS_TRY(ps_batch_go_on(one, error));
     PS_TRY(ps_allocate(&host, ((size_t)self->shape.max_degree + 1) * 4 * self->shape.half_pitch,
                        sizeof(double), "coefficients", error));
-    const pspec_status status = self->shape.route == PS_SPHERE_BY_CELLS
-                                    ? ps_sphere_grid_keep(&self->grid_stages, host, error)
-                                    : ps_sphere_stages_keep(&self->stages, host, error);
+    const pspec_status status = self->variant->keep(self, host, error);
     if (status == PSPEC_OK) {
         write_coefficients(self, host, exponent, out);
     }
@@ -325,52 +280,56 @@ static pspec_status coefficients(void *state, const ps_batch *one, ps_rows *rows
     return status;
 }
 
-static void describe(const void *state, ps_text *text) {
-    const sphere_nufft *self = state;
+static void describe(const ps_sphere_state *self, const char *name, ps_text *text) {
     const ps_sphere_shape *shape = &self->shape;
-    const bool by_cells = shape->route == PS_SPHERE_BY_CELLS;
-    ps_text_append(text, "(%s precision=%s lanes=%u grid=%lu sigma=%.3g width=%u degree=%u ",
-                   by_cells ? "sphere_grid" : "sphere_nufft", ps_precision_name(self->precision),
-                   shape->lanes, (unsigned long)shape->axis.n,
+    ps_text_append(text, "(%s precision=%s lanes=%u grid=%lu sigma=%.3g width=%u degree=%u ", name,
+                   ps_precision_name(self->precision), shape->lanes, (unsigned long)shape->axis.n,
                    shape->axis.n / (2.0 * shape->max_degree), shape->axis.window.width,
                    self->tables.plan.degree);
-    if (by_cells) {
-        ps_text_append(text, "angles=%lu at_once=%zu table=%.3gMB)",
-                       (unsigned long)shape->num_angles, shape->at_once,
-                       (double)(shape->table_reals * ps_real_bytes(self->precision)) * 1e-6);
-    } else {
-        ps_text_append(text, "rings=%lu at_once=%zu bands=%lu strip=%lu)",
-                       (unsigned long)shape->num_rings, shape->at_once, (unsigned long)shape->bands,
-                       (unsigned long)shape->strip);
-    }
+    self->variant->describe(self, text);
+    ps_text_append(text, ")");
+}
+
+static void describe_rings(const void *state, ps_text *text) {
+    describe(state, ps_sphere_nufft.name, text);
+}
+
+static void describe_cells(const void *state, ps_text *text) {
+    describe(state, ps_sphere_grid.name, text);
 }
 
 /* ---- the engines ------------------------------------------------------------------------- */
 
-#define FUNCTIONS_OF(name, route)                                                                  \
-    static ps_survey survey_##name(const ps_problem *problem, const ps_device_limits *limits,      \
-                                   ps_precision precision) {                                       \
-        return survey_route(problem, limits, precision, route);                                    \
-    }                                                                                              \
-    static pspec_status create_##name(void **state, const ps_problem *problem,                     \
-                                      ps_precision precision, size_t batch, ps_device *device,     \
-                                      ps_error *error) {                                           \
-        return create_route(state, problem, precision, batch, device, route, error);               \
-    }
+const ps_engine ps_sphere_nufft = {
+    .name = "sphere_nufft",
+    .summary = "fast spherical-harmonic sums: points spread on a grid, rings, Legendre products",
+    .domains = PS_ON_SPHERE,
+    .needs_device = true,
+    .rows_on_host = true,
+    .has_precision = {true, true, false},
+    .survey = survey_rings,
+    .error_of_state = error_of_state,
+    .create = create_rings,
+    .get_stride = get_stride,
+    .run = run,
+    .coefficients = coefficients,
+    .describe = describe_rings,
+    .destroy = destroy,
+};
 
-#define ENGINE(the_name, the_summary)                                                              \
-    {                                                                                              \
-        .name = "sphere_" #the_name, .summary = (the_summary), .domains = PS_ON_SPHERE,            \
-        .needs_device = true, .rows_on_host = true, .has_precision = {true, true, false},          \
-        .survey = survey_##the_name, .error_of_state = error_of_state,                             \
-        .create = create_##the_name, .get_stride = get_stride, .run = run,                         \
-        .coefficients = coefficients, .describe = describe, .destroy = destroy,                    \
-    }
-
-FUNCTIONS_OF(nufft, PS_SPHERE_BY_RINGS)
-FUNCTIONS_OF(grid, PS_SPHERE_BY_CELLS)
-
-const ps_engine ps_sphere_nufft = ENGINE(
-    nufft, "fast spherical-harmonic sums: points spread on a grid, rings, Legendre products");
-const ps_engine ps_sphere_grid =
-    ENGINE(grid, "fast spherical-harmonic sums: points spread on a grid, a table of its cells");
+const ps_engine ps_sphere_grid = {
+    .name = "sphere_grid",
+    .summary = "fast spherical-harmonic sums: points spread on a grid, a table of its cells",
+    .domains = PS_ON_SPHERE,
+    .needs_device = true,
+    .rows_on_host = true,
+    .has_precision = {true, true, false},
+    .survey = survey_cells,
+    .error_of_state = error_of_state,
+    .create = create_cells,
+    .get_stride = get_stride,
+    .run = run,
+    .coefficients = coefficients,
+    .describe = describe_cells,
+    .destroy = destroy,
+};

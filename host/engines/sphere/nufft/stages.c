@@ -61,6 +61,7 @@ pspec_status ps_sphere_stages_create(ps_sphere_stages *out, const ps_sphere_shap
                               .shape = shape,
                               .points = points,
                               .tables = tables};
+    PS_TRY(ps_sphere_ring_tables_create(&out->rings, shape, precision, device, error));
     PS_TRY(ps_sphere_powers_create(&out->powers, shape, precision, device, error));
     PS_TRY(create_kernels(out, error));
     return create_buffers(out, error);
@@ -82,6 +83,7 @@ void ps_sphere_stages_free(ps_sphere_stages *stages) {
         ps_buffer_release(buffers[i]);
     }
     ps_sphere_powers_free(&stages->powers);
+    ps_sphere_ring_tables_free(&stages->rings);
     *stages = (ps_sphere_stages){0};
 }
 
@@ -123,6 +125,7 @@ static pspec_status run_steps(ps_sphere_stages *self, some_realizations some, un
                               size_t shares, ps_error *error) {
     const ps_sphere_shape *shape = self->shape;
     const ps_sphere_tables *tables = self->tables;
+    const ps_sphere_ring_tables *rings = &self->rings;
     const ps_sphere_local local = ps_sphere_local_bytes(shape, ps_real_bytes(self->precision));
     const orders_numbers numbers = numbers_of(self, some, steps, shares);
     const size_t num = some.end - some.first;
@@ -135,10 +138,10 @@ static pspec_status run_steps(ps_sphere_stages *self, some_realizations some, un
                      PS_BUFFER(self->points->turns), PS_BUFFER(self->points->weights),
                      PS_BUFFER(self->points->offsets), PS_BUFFER(tables->plan.coefficients),
                      PS_BUFFER(tables->halves.radices), PS_BUFFER(tables->halves.twiddles),
-                     PS_BUFFER(tables->halves.position), PS_BUFFER(tables->rings.radices),
-                     PS_BUFFER(tables->rings.twiddles), PS_BUFFER(tables->rings.position),
-                     PS_BUFFER(tables->turns), PS_BUFFER(tables->ring_turns),
-                     PS_BUFFER(tables->around_gains), PS_BUFFER(tables->along_gains),
+                     PS_BUFFER(tables->halves.position), PS_BUFFER(rings->transforms.radices),
+                     PS_BUFFER(rings->transforms.twiddles), PS_BUFFER(rings->transforms.position),
+                     PS_BUFFER(rings->turns), PS_BUFFER(rings->ring_turns),
+                     PS_BUFFER(tables->around_gains), PS_BUFFER(rings->along_gains),
                      PS_BUFFER(self->strip_turns), PS_BUFFER(self->strip_weights),
                      PS_BUFFER(self->strips), PS_BUFFER(self->strip_starts), PS_BUFFER(self->grids),
                      PS_BUFFER(self->rows), PS_BUFFER(self->values), PS_BUFFER(self->scratch),
@@ -206,7 +209,7 @@ static pspec_status sum_rings(void *stages, cl_kernel kernel, const ps_buffer *t
                               ps_error *error) {
     const ps_sphere_stages *self = stages;
     const ps_sphere_shape *shape = self->shape;
-    const ps_sphere_starts *rings = &self->tables->of_rings;
+    const ps_sphere_starts *rings = &self->rings.starts;
     const ps_sphere_local local = ps_sphere_local_bytes(shape, ps_real_bytes(self->precision));
     const double degrees = shape->max_degree;
     const double flops = 4 * degrees * degrees / 2 * shape->num_rings * (double)num;

@@ -9,28 +9,42 @@
 
 /* ---- gains and turns ---------------------------------------------------------------------- */
 
-static pspec_status create_gains(ps_sphere_tables *self, const ps_sphere_shape *shape,
-                                 ps_precision precision, ps_device *device, ps_error *error) {
+/* 1 / the window's transform at frequency k. */
+static double inverse_of(const ps_nufft_axis *axis, size_t k) {
+    return 1 / ps_nufft_window_transform(&axis->window, (long double)k / axis->n);
+}
+
+static pspec_status create_around_gains(ps_buffer *out, const ps_sphere_shape *shape,
+                                        ps_precision precision, ps_device *device,
+                                        ps_error *error) {
     const ps_nufft_axis *axis = &shape->axis;
     const size_t num = (size_t)shape->max_degree + 1;
     void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, 4 * num, sizeof(double), "gains", error));
-    double *around = memory;
-    double *along = around + 3 * num;
+    PS_TRY(ps_allocate(&memory, 3 * num, sizeof(double), "gains", error));
+    double *gains = memory;
     for (size_t k = 0; k < num; k++) {
-        const double inverse =
-            1 / ps_nufft_window_transform(&axis->window, (long double)k / axis->n);
+        const double inverse = inverse_of(axis, k);
         const long double angle = PS_TWO_PI_L * k / axis->n;
-        around[3 * k] = inverse / 2;
-        around[3 * k + 1] = (double)(-inverse / 2 * sinl(angle));
-        around[3 * k + 2] = (double)(-inverse / 2 * cosl(angle));
-        along[k] = inverse / 2 / shape->rings;
+        gains[3 * k] = inverse / 2;
+        gains[3 * k + 1] = (double)(-inverse / 2 * sinl(angle));
+        gains[3 * k + 2] = (double)(-inverse / 2 * cosl(angle));
     }
-    pspec_status status =
-        ps_reals_upload(device, &self->around_gains, precision, around, 3 * num, "gains", error);
-    if (status == PSPEC_OK && shape->route == PS_SPHERE_BY_RINGS) {
-        status = ps_reals_upload(device, &self->along_gains, precision, along, num, "gains", error);
+    const pspec_status status =
+        ps_reals_upload(device, out, precision, gains, 3 * num, "gains", error);
+    free(memory);
+    return status;
+}
+
+static pspec_status create_along_gains(ps_buffer *out, const ps_sphere_shape *shape,
+                                       ps_precision precision, ps_device *device, ps_error *error) {
+    const size_t num = (size_t)shape->max_degree + 1;
+    void *memory = NULL;
+    PS_TRY(ps_allocate(&memory, num, sizeof(double), "gains", error));
+    double *gains = memory;
+    for (size_t k = 0; k < num; k++) {
+        gains[k] = inverse_of(&shape->axis, k) / 2 / shape->rings;
     }
+    const pspec_status status = ps_reals_upload(device, out, precision, gains, num, "gains", error);
     free(memory);
     return status;
 }
@@ -50,19 +64,6 @@ static pspec_status create_turns(ps_buffer *out, uint32_t n, uint32_t num, ps_pr
         ps_reals_upload(device, out, precision, turns, 2 * (size_t)num, "turns", error);
     free(memory);
     return status;
-}
-
-static pspec_status create_transforms(ps_sphere_tables *self, const ps_sphere_shape *shape,
-                                      ps_precision precision, ps_device *device, ps_error *error) {
-    const uint32_t n = shape->axis.n;
-    PS_TRY(ps_fft_plan_create(&self->halves, n / 2, precision, device, error));
-    if (shape->route == PS_SPHERE_BY_CELLS) {
-        return PSPEC_OK;
-    }
-    PS_TRY(ps_fft_plan_create(&self->rings, shape->rings / 2, precision, device, error));
-    PS_TRY(create_turns(&self->turns, n, n / 2, precision, device, error));
-    return create_turns(&self->ring_turns, shape->rings, shape->num_rings, precision, device,
-                        error);
 }
 
 /* ---- Lambda_mm --------------------------------------------------------------------------- */
@@ -199,21 +200,35 @@ pspec_status ps_sphere_tables_create(ps_sphere_tables *out, const ps_sphere_shap
     *out = (ps_sphere_tables){0};
     PS_TRY(
         ps_nufft_plan_create(&out->plan, &shape->axis, false, tolerance, precision, device, error));
-    PS_TRY(create_transforms(out, shape, precision, device, error));
-    PS_TRY(create_gains(out, shape, precision, device, error));
-    return shape->route == PS_SPHERE_BY_RINGS
-               ? ps_sphere_starts_create(&out->of_rings, shape, device, error)
-               : PSPEC_OK;
+    PS_TRY(ps_fft_plan_create(&out->halves, shape->axis.n / 2, precision, device, error));
+    return create_around_gains(&out->around_gains, shape, precision, device, error);
 }
 
 void ps_sphere_tables_free(ps_sphere_tables *tables) {
-    ps_buffer_release(&tables->turns);
-    ps_buffer_release(&tables->ring_turns);
     ps_buffer_release(&tables->around_gains);
-    ps_buffer_release(&tables->along_gains);
     ps_nufft_plan_free(&tables->plan);
     ps_fft_plan_free(&tables->halves);
-    ps_fft_plan_free(&tables->rings);
-    ps_sphere_starts_free(&tables->of_rings);
     *tables = (ps_sphere_tables){0};
+}
+
+pspec_status ps_sphere_ring_tables_create(ps_sphere_ring_tables *out, const ps_sphere_shape *shape,
+                                          ps_precision precision, ps_device *device,
+                                          ps_error *error) {
+    const uint32_t n = shape->axis.n;
+    *out = (ps_sphere_ring_tables){0};
+    PS_TRY(ps_fft_plan_create(&out->transforms, shape->rings / 2, precision, device, error));
+    PS_TRY(create_turns(&out->turns, n, n / 2, precision, device, error));
+    PS_TRY(
+        create_turns(&out->ring_turns, shape->rings, shape->num_rings, precision, device, error));
+    PS_TRY(create_along_gains(&out->along_gains, shape, precision, device, error));
+    return ps_sphere_starts_create(&out->starts, shape, device, error);
+}
+
+void ps_sphere_ring_tables_free(ps_sphere_ring_tables *tables) {
+    ps_buffer_release(&tables->turns);
+    ps_buffer_release(&tables->ring_turns);
+    ps_buffer_release(&tables->along_gains);
+    ps_fft_plan_free(&tables->transforms);
+    ps_sphere_starts_free(&tables->starts);
+    *tables = (ps_sphere_ring_tables){0};
 }

@@ -1,4 +1,4 @@
-/* Numbers that sphere_nufft has on the device for all realizations. */
+/* Numbers that sphere_nufft and sphere_grid have on the device for all realizations. */
 #ifndef PS_ENGINES_SPHERE_NUFFT_TABLES_H
 #define PS_ENGINES_SPHERE_NUFFT_TABLES_H
 
@@ -12,16 +12,20 @@ typedef struct ps_sphere_starts {
     ps_buffer cosines, distances, squares;
 } ps_sphere_starts;
 
-/* Names of kernels/sphere/nufft/orders.cl. By cells of the grid rings, turns and what belongs to
- * rings are not there. */
+/* What both need of the grid, and what sphere_nufft needs besides to come to rings. Names of
+ * kernels/sphere/nufft/orders.cl. */
 typedef struct ps_sphere_tables {
     ps_nufft_plan plan; /* of the grid: its window */
     ps_fft_plan halves; /* transforms of half its length */
-    ps_fft_plan rings;  /* transforms to rings, of half their number */
-    ps_buffer turns, ring_turns;
-    ps_buffer around_gains, along_gains;
-    ps_sphere_starts of_rings;
+    ps_buffer around_gains;
 } ps_sphere_tables;
+
+typedef struct ps_sphere_ring_tables {
+    ps_fft_plan transforms; /* to rings, of half their number */
+    ps_buffer turns, ring_turns;
+    ps_buffer along_gains;
+    ps_sphere_starts starts;
+} ps_sphere_ring_tables;
 
 pspec_status ps_sphere_starts_create(ps_sphere_starts *out, const ps_sphere_shape *shape,
                                      ps_device *device, ps_error *error) PS_MUST_CHECK;
@@ -33,5 +37,10 @@ pspec_status ps_sphere_tables_create(ps_sphere_tables *out, const ps_sphere_shap
                                      double tolerance, ps_precision precision, ps_device *device,
                                      ps_error *error) PS_MUST_CHECK;
 void ps_sphere_tables_free(ps_sphere_tables *tables);
+
+pspec_status ps_sphere_ring_tables_create(ps_sphere_ring_tables *out, const ps_sphere_shape *shape,
+                                          ps_precision precision, ps_device *device,
+                                          ps_error *error) PS_MUST_CHECK;
+void ps_sphere_ring_tables_free(ps_sphere_ring_tables *tables);
 
 #endif
