@@ -41,9 +41,7 @@ static pspec_status make_side(ps_compared **out, const pspec_spectrum *spectrum,
     const double modes = ps_compared_modes(&sums->frequencies);
     size_t num = 0;
     const pspec_bin *const bins = pspec_spectrum_bins(spectrum, &num);
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, num, sizeof(ps_compared), "bins to compare", error));
-    *out = memory;
+    PS_TRY(PS_NEW(out, num, "bins to compare", error));
     for (size_t b = 0; b < num; b++) {
         const double share = (double)bins[b].num_computed / modes;
         (*out)[b] =

@@ -46,10 +46,7 @@ static void copy_directions(size_t num, const double *points, double *directions
 
 static pspec_status allocate(pspec_interpolant *self, ps_error *error) {
     enum { NUMBERS = PS_SPHERE_DIMENSION + 3 };
-    void *memory = NULL;
-    PS_TRY(
-        ps_allocate(&memory, self->num_points, NUMBERS * sizeof(double), "an interpolant", error));
-    self->points = memory;
+    PS_TRY(PS_NEW(&self->points, self->num_points * NUMBERS, "an interpolant", error));
     self->alpha = self->points + PS_SPHERE_DIMENSION * self->num_points;
     self->row = self->alpha + self->num_points;
     self->x = self->row + self->num_points;
@@ -86,13 +83,12 @@ pspec_status pspec_interpolant_create(pspec_interpolant **out, pspec_context *co
     if (out == NULL || context == NULL) {
         return PSPEC_ERROR_INVALID_ARGUMENT;
     }
-    void *memory = NULL;
     ps_error *const error = &context->error;
     *out = NULL;
     PS_TRY(ps_sobolev_check(smoothness, error));
     PS_TRY(check(num_points, points, values, error));
-    PS_TRY(ps_allocate(&memory, 1, sizeof(pspec_interpolant), "an interpolant", error));
-    pspec_interpolant *const self = memory;
+    pspec_interpolant *self = NULL;
+    PS_TRY(PS_NEW(&self, 1, "an interpolant", error));
     self->context = context;
     self->smoothness = smoothness;
     self->num_points = num_points;

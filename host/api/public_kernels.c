@@ -46,7 +46,6 @@ pspec_status pspec_kernel_sums(pspec_context *context, const pspec_pattern *patt
                                const pspec_kernel *kernels, size_t num_kernels, double tolerance,
                                double *sums, double *bounds) {
     ps_pattern_sums facts;
-    void *memory = NULL;
     if (context == NULL) {
         return PSPEC_ERROR_INVALID_ARGUMENT;
     }
@@ -60,8 +59,8 @@ pspec_status pspec_kernel_sums(pspec_context *context, const pspec_pattern *patt
     }
     PS_TRY(check_pattern(pattern, &facts, error));
     PS_TRY(ps_context_open_device(context));
-    PS_TRY(ps_allocate(&memory, num_kernels, sizeof(ps_isotropic_kernel), "kernels", error));
-    ps_isotropic_kernel *const own = memory;
+    ps_isotropic_kernel *own = NULL;
+    PS_TRY(PS_NEW(&own, num_kernels, "kernels", error));
     for (size_t k = 0; k < num_kernels; k++) {
         own[k] =
             (ps_isotropic_kernel){kernels[k].coefficients != NULL ? kernels[k].num_coefficients : 0,
@@ -69,7 +68,7 @@ pspec_status pspec_kernel_sums(pspec_context *context, const pspec_pattern *patt
     }
     const pspec_status status = ps_pairs_isotropic_sums(
         context->device, pattern, facts.exponent, own, num_kernels, tolerance, sums, bounds, error);
-    free(memory);
+    free(own);
     if (status == PSPEC_OK) {
         scale(pattern, &facts, num_kernels, sums, bounds);
     }

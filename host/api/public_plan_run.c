@@ -132,7 +132,6 @@ pspec_status ps_plan_sums(pspec_plan *plan, ps_spectrum_sums *out, const ps_bins
 pspec_status pspec_plan_c2(pspec_plan *plan, pspec_mean *c2) {
     ps_spectrum_sums sums = {0};
     const ps_bins *bins = NULL;
-    void *memory = NULL;
     if (plan == NULL) {
         return PSPEC_ERROR_INVALID_ARGUMENT;
     }
@@ -146,13 +145,13 @@ pspec_status pspec_plan_c2(pspec_plan *plan, pspec_mean *c2) {
     }
     PS_TRY(ps_plan_sums(plan, &sums, &bins)); /* runs what waits, and checks the tolerance */
     ps_spectrum_sums_free(&sums);
-    PS_TRY(ps_allocate(&memory, num, sizeof(ps_mean), "C_l^2", error));
-    const ps_mean *const means = memory;
-    ps_estimator_c2(plan->runner.estimator, memory);
+    ps_mean *means = NULL;
+    PS_TRY(PS_NEW(&means, num, "C_l^2", error));
+    ps_estimator_c2(plan->runner.estimator, means);
     for (size_t i = 0; i < num; i++) {
         c2[i] = (pspec_mean){means[i].mean, means[i].standard_error};
     }
-    free(memory);
+    free(means);
     return PSPEC_OK;
 }
 

@@ -14,14 +14,13 @@ struct pspec_sampler {
 pspec_status pspec_sampler_create(pspec_sampler **out, pspec_context *context,
                                   const pspec_option *options, size_t num_options) {
     ps_public_words words;
-    void *memory = NULL;
     if (out == NULL || context == NULL) {
         return PSPEC_ERROR_INVALID_ARGUMENT;
     }
     ps_error *const error = &context->error;
     *out = NULL;
-    PS_TRY(ps_allocate(&memory, 1, sizeof(pspec_sampler), "a sampler", error));
-    pspec_sampler *const self = memory;
+    pspec_sampler *self = NULL;
+    PS_TRY(PS_NEW(&self, 1, "a sampler", error));
     pspec_status status =
         ps_public_words_make(&words, context, "", &ps_task_sample, options, num_options);
     if (status == PSPEC_OK) {

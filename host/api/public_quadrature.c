@@ -90,10 +90,8 @@ static void fill_error(pspec_worst_case_error *out, const ps_quadrature_result *
 
 static pspec_status fill_answer(pspec_quadrature *out, const ps_quadrature_result *result,
                                 ps_error *error) {
-    void *memory = NULL;
     const size_t num = result->max_degree + 1;
-    PS_TRY(ps_allocate(&memory, num, sizeof *out->degrees, "degrees", error));
-    out->degrees = memory;
+    PS_TRY(PS_NEW(&out->degrees, num, "degrees", error));
     out->num_degrees = num;
     for (size_t l = 0; l < num; l++) {
         const ps_quadrature_degree *const found = &result->degrees[l];

@@ -19,9 +19,7 @@ struct pspec_spectrum {
 
 static pspec_status copy_bins(pspec_spectrum *spectrum, const ps_spectrum *averages,
                               ps_error *error) {
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, averages->num_bins, sizeof(pspec_bin), "bins", error));
-    spectrum->bins = memory;
+    PS_TRY(PS_NEW(&spectrum->bins, averages->num_bins, "bins", error));
     spectrum->num_bins = averages->num_bins;
     for (size_t b = 0; b < averages->num_bins; b++) {
         const ps_spectrum_bin *bin = &averages->bins[b];
@@ -49,12 +47,8 @@ static void copy_some_powers(void *payload, unsigned index, unsigned count) {
 
 static pspec_status copy_powers(pspec_spectrum *spectrum, const ps_spectrum *averages,
                                 ps_error *error) {
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, averages->frequencies.num, sizeof(double), "powers", error));
-    spectrum->powers = memory;
-    PS_TRY(
-        ps_allocate(&memory, averages->frequencies.num, sizeof(double), "standard errors", error));
-    spectrum->standard_errors = memory;
+    PS_TRY(PS_NEW(&spectrum->powers, averages->frequencies.num, "powers", error));
+    PS_TRY(PS_NEW(&spectrum->standard_errors, averages->frequencies.num, "standard errors", error));
     copying work = {spectrum, averages};
     ps_workers_share(averages->frequencies.num, copy_some_powers, &work);
     return PSPEC_OK;

@@ -124,10 +124,8 @@ static pspec_status find_folder(ps_public_words *out, const pspec_context *conte
 
 static pspec_status take_all(ps_public_words *out, pspec_context *context, const char *before,
                              const ps_task *task, const pspec_option *options, size_t num) {
-    void *memory = NULL;
     ps_error *const error = &context->error;
-    PS_TRY(ps_allocate(&memory, num, sizeof *out->files, "names of files", error));
-    out->files = memory;
+    PS_TRY(PS_NEW(&out->files, num, "names of files", error));
     ps_text_append(&out->command, "pointspec %s%s", before, task->name);
     take_memory(out, context, task, options, num);
     for (size_t i = 0; i < num; i++) {

@@ -172,11 +172,8 @@ static pspec_status check_standard_input(const ps_request *arguments, ps_error *
 
 pspec_status ps_arguments_parse(ps_request *arguments, const ps_command *command, int num_words,
                                 char **words, ps_error *error) {
-    void *memory = NULL;
     *arguments = ps_request_default;
-    PS_TRY(
-        ps_allocate(&memory, (size_t)num_words, sizeof *arguments->files, "names of files", error));
-    arguments->files = memory;
+    PS_TRY(PS_NEW(&arguments->files, (size_t)num_words, "names of files", error));
     parser p = {command, arguments, words, num_words, 0, error};
     bool is_over = false;
     while (p.next < num_words && !arguments->is_given[PS_OPTION_HELP]) {

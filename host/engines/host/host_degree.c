@@ -23,10 +23,8 @@ enum { LARGEST_EXPONENT = LDBL_MAX_EXP / 2 };
 pspec_status ps_host_degree_create(ps_host_degree *out, int32_t degree, ps_error *error) {
     const size_t num = (size_t)degree + 1;
     enum { NUM_ARRAYS = 5 };
-    void *memory = NULL;
     *out = (ps_host_degree){.degree = degree};
-    PS_TRY(ps_allocate(&memory, NUM_ARRAYS * num, sizeof(long double), "a degree", error));
-    out->up = memory;
+    PS_TRY(PS_NEW(&out->up, NUM_ARRAYS * num, "a degree", error));
     out->down = out->up + num;
     out->values = out->down + num;
     out->sums = (long double(*)[2])(out->values + num);

@@ -112,8 +112,8 @@ static pspec_status create(void **state, const ps_problem *problem, ps_precision
     void *memory = NULL;
     size_t num_powers = 0;
     *state = NULL;
-    PS_TRY(ps_allocate(&memory, 1, sizeof(host_direct), "an engine", error));
-    host_direct *self = memory;
+    host_direct *self = NULL;
+    PS_TRY(PS_NEW(&self, 1, "an engine", error));
     self->frequencies = problem->frequencies;
     self->batch = batch;
     pspec_status status = PSPEC_OK;

@@ -11,9 +11,7 @@ typedef struct direction {
 
 static pspec_status make_directions(const pspec_pattern *pattern, int exponent, direction **out,
                                     ps_error *error) {
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, pattern->num_points, sizeof(direction), "directions", error));
-    *out = memory;
+    PS_TRY(PS_NEW(out, pattern->num_points, "directions", error));
     for (size_t j = 0; j < pattern->num_points; j++) {
         const double *u = pattern->points + j * PS_SPHERE_DIMENSION;
         const long double x = u[0], y = u[1], z = u[2];

@@ -176,13 +176,13 @@ static void fill_twiddles(uint32_t length, const uint32_t *radices, double *out)
 
 static pspec_status upload_twiddles(ps_fft_plan *plan, const uint32_t *radices,
                                     ps_precision precision, ps_device *device, ps_error *error) {
-    void *memory = NULL;
+    double *twiddles = NULL;
     const size_t count = 2 * ((size_t)plan->length - 1); /* n - n/r_1 + n/r_1 - n/(r_1 r_2) + ... */
-    PS_TRY(ps_allocate(&memory, count, sizeof(double), "twiddle factors", error));
-    fill_twiddles(plan->length, radices, memory);
-    const pspec_status status = ps_reals_upload(device, &plan->twiddles, precision, memory, count,
+    PS_TRY(PS_NEW(&twiddles, count, "twiddle factors", error));
+    fill_twiddles(plan->length, radices, twiddles);
+    const pspec_status status = ps_reals_upload(device, &plan->twiddles, precision, twiddles, count,
                                                 "twiddle factors", error);
-    free(memory);
+    free(twiddles);
     return status;
 }
 
@@ -199,17 +199,17 @@ uint32_t ps_fft_position(uint32_t length, const uint32_t *radices, uint32_t k) {
 
 static pspec_status upload_positions(ps_fft_plan *plan, const uint32_t *radices, ps_device *device,
                                      ps_error *error) {
-    void *memory = NULL;
+    uint32_t *positions = NULL;
     const size_t bytes = plan->length * sizeof(uint32_t);
-    PS_TRY(ps_allocate(&memory, plan->length, sizeof(uint32_t), "positions", error));
+    PS_TRY(PS_NEW(&positions, plan->length, "positions", error));
     for (uint32_t k = 0; k < plan->length; k++) {
-        ((uint32_t *)memory)[k] = ps_fft_position(plan->length, radices, k);
+        positions[k] = ps_fft_position(plan->length, radices, k);
     }
     pspec_status status = ps_buffer_create(device, &plan->position, bytes, "positions", error);
     if (status == PSPEC_OK) {
-        status = ps_buffer_write(device, &plan->position, 0, memory, bytes, error);
+        status = ps_buffer_write(device, &plan->position, 0, positions, bytes, error);
     }
-    free(memory);
+    free(positions);
     return status;
 }
 

@@ -33,15 +33,14 @@ static pspec_status create_gains(ps_nufft_plan *plan, ps_precision precision, ps
                                  ps_error *error) {
     const ps_nufft_axis *axis = &plan->axis;
     const size_t num = (size_t)axis->max_frequency + 1;
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, num, sizeof(double), "gains", error));
-    double *gains = memory;
+    double *gains = NULL;
+    PS_TRY(PS_NEW(&gains, num, "gains", error));
     for (size_t k = 0; k < num; k++) {
         gains[k] = ps_nufft_gain(axis, (uint32_t)k);
     }
     const pspec_status status =
         ps_reals_upload(device, &plan->gains, precision, gains, num, "gains", error);
-    free(memory);
+    free(gains);
     return status;
 }
 

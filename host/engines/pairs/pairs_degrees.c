@@ -45,15 +45,14 @@ out:
 /* 1 / l for l = 1 .. num_degrees. */
 static pspec_status upload_inverses(ps_pairs_degrees *self, ps_error *error) {
     const size_t num = self->num_degrees;
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, num, sizeof(double), "reciprocals of degrees", error));
-    double *inverses = memory;
+    double *inverses = NULL;
+    PS_TRY(PS_NEW(&inverses, num, "reciprocals of degrees", error));
     for (size_t l = 1; l <= num; l++) {
         inverses[l - 1] = 1 / (double)l;
     }
     const pspec_status status = ps_reals_upload(self->device, &self->inverses, self->precision,
                                                 inverses, num, "reciprocals of degrees", error);
-    free(memory);
+    free(inverses);
     return status;
 }
 
@@ -61,7 +60,6 @@ pspec_status ps_pairs_degrees_create(ps_pairs_degrees *out, const ps_problem *pr
                                      ps_precision precision, unsigned lanes, size_t batch,
                                      ps_device *device, ps_error *error) {
     const size_t num_degrees = ps_pairs_num_degrees(problem->frequencies->max_frequency);
-    void *memory = NULL;
     *out = (ps_pairs_degrees){.device = device,
                               .frequencies = problem->frequencies,
                               .precision = precision,
@@ -71,9 +69,7 @@ pspec_status ps_pairs_degrees_create(ps_pairs_degrees *out, const ps_problem *pr
     PS_TRY(create_fold(out, problem, error));
     PS_TRY(upload_inverses(out, error));
     PS_TRY(ps_allocate(&out->host_sums, batch, out->row_bytes, "sums of pairs", error));
-    PS_TRY(ps_allocate(&memory, batch, problem->frequencies->num * sizeof(double),
-                       "the powers of a batch", error));
-    out->power = memory;
+    PS_TRY(PS_NEW(&out->power, batch * problem->frequencies->num, "the powers of a batch", error));
     return ps_buffer_create(device, &out->sums, batch * out->row_bytes, "sums of pairs", error);
 }
 

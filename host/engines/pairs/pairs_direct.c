@@ -133,10 +133,9 @@ out:
 
 static pspec_status create(void **state, const ps_problem *problem, ps_precision precision,
                            size_t batch, ps_device *device, ps_error *error) {
-    void *memory = NULL;
     *state = NULL;
-    PS_TRY(ps_allocate(&memory, 1, sizeof(pairs_direct), "an engine", error));
-    pairs_direct *self = memory;
+    pairs_direct *self = NULL;
+    PS_TRY(PS_NEW(&self, 1, "an engine", error));
     pspec_status status = PSPEC_OK;
     self->device = device;
     self->problem = *problem;

@@ -249,10 +249,9 @@ static pspec_status create_buffers(pairs_histogram *self, size_t batch, ps_error
 
 static pspec_status create(void **state, const ps_problem *problem, ps_precision precision,
                            size_t batch, ps_device *device, ps_error *error) {
-    void *memory = NULL;
     *state = NULL;
-    PS_TRY(ps_allocate(&memory, 1, sizeof(pairs_histogram), "an engine", error));
-    pairs_histogram *self = memory;
+    pairs_histogram *self = NULL;
+    PS_TRY(PS_NEW(&self, 1, "an engine", error));
     pspec_status status = PSPEC_OK;
     self->device = device;
     self->problem = *problem;

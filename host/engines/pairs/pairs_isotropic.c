@@ -84,11 +84,9 @@ static pspec_status make_problem(sums_of_pairs *self, const ps_isotropic_kernel 
 }
 
 static pspec_status allocate(sums_of_pairs *self, ps_error *error) {
-    void *memory = NULL;
     const size_t num_nodes = 2 * self->num_bins * PS_PAIRS_MOMENTS;
     const size_t num_degrees = (size_t)self->degrees.max_frequency + 1;
-    PS_TRY(ps_allocate(&memory, num_degrees + 3 * num_nodes, sizeof(double), "a histogram", error));
-    self->q = memory;
+    PS_TRY(PS_NEW(&self->q, num_degrees + 3 * num_nodes, "a histogram", error));
     self->nodes = self->q + num_degrees;
     self->weights = self->nodes + 2 * num_nodes;
     ps_pairs_bins_nodes(self->num_bins, self->nodes);
@@ -301,7 +299,7 @@ static pspec_status sum_chords(const sums_of_pairs *self, double power, double *
     const size_t num_nodes = 2 * self->num_bins * PS_PAIRS_MOMENTS;
     const chord kernel = make_chord(power, self->num_bins, share * self->tolerance);
     ps_neumaier total = {0, 0};
-    void *memory = NULL;
+    direction *directions = NULL;
     for (size_t i = 0; i < num_nodes; i++) {
         const double t = self->nodes[i];
         const double side = self->nodes[num_nodes + i];
@@ -310,10 +308,10 @@ static pspec_status sum_chords(const sums_of_pairs *self, double power, double *
                                                         ? below_rho(&kernel, square)
                                                         : chord_at(&kernel, square)));
     }
-    PS_TRY(ps_allocate(&memory, self->pattern->num_points, sizeof(direction), "directions", error));
-    sort_directions(self, memory);
-    ps_neumaier_add(&total, add_near(&kernel, self->pattern->num_points, memory));
-    free(memory);
+    PS_TRY(PS_NEW(&directions, self->pattern->num_points, "directions", error));
+    sort_directions(self, directions);
+    ps_neumaier_add(&total, add_near(&kernel, self->pattern->num_points, directions));
+    free(directions);
     *sum = 2 * ps_neumaier_value(&total);
     *bound = kernel.bound + pow(4, power) * self->rounding;
     return PSPEC_OK;

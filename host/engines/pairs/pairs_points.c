@@ -28,17 +28,14 @@ uint64_t ps_pairs_count_runs(const ps_batch *batch, unsigned lanes, uint64_t run
 }
 
 static pspec_status allocate(ps_pairs_points *self, ps_error *error) {
-    void *memory = NULL;
     size_t num = 0;
     if (!ps_size_multiply(self->batch, PS_PAIRS_ARRAYS * self->stride, &num)) {
         return ps_fail(error, PSPEC_ERROR_MEMORY, "%zu realizations of %zu points are too many",
                        self->batch, self->stride);
     }
     PS_TRY(ps_allocate(&self->host_points, num, ps_real_bytes(self->precision), "points", error));
-    PS_TRY(ps_allocate(&memory, self->batch, sizeof(uint64_t), "numbers of points", error));
-    self->host_counts = memory;
-    PS_TRY(ps_allocate(&memory, self->batch, 2 * sizeof(double), "sums of weights", error));
-    self->squares = memory;
+    PS_TRY(PS_NEW(&self->host_counts, self->batch, "numbers of points", error));
+    PS_TRY(PS_NEW(&self->squares, self->batch * 2, "sums of weights", error));
     self->sizes = self->squares + self->batch;
     PS_TRY(ps_buffer_create(self->device, &self->points, num * ps_real_bytes(self->precision),
                             "points", error));

@@ -72,16 +72,13 @@ static pspec_status upload_points(ps_pairs_product *self, const double *points, 
 
 static pspec_status fill(ps_pairs_product *self, double power, const double *points,
                          ps_error *error) {
-    void *memory = NULL;
     size_t num = 0;
     if (!ps_size_multiply(self->num_segments * PARTS, self->stride, &num)) {
         return ps_fail(error, PSPEC_ERROR_MEMORY, "%zu points are too many for a product",
                        self->num_points);
     }
-    PS_TRY(ps_allocate(&memory, num, sizeof(double), "sums of segments of points", error));
-    self->host = memory;
-    PS_TRY(ps_allocate(&memory, self->stride, sizeof(double), "a vector", error));
-    self->padded = memory;
+    PS_TRY(PS_NEW(&self->host, num, "sums of segments of points", error));
+    PS_TRY(PS_NEW(&self->padded, self->stride, "a vector", error));
     PS_TRY(create_kernel(self, power, error));
     PS_TRY(upload_points(self, points, error));
     PS_TRY(ps_reals_upload(self->device, &self->power, PS_DOUBLE, &power, 1, "a power", error));
@@ -93,10 +90,9 @@ static pspec_status fill(ps_pairs_product *self, double power, const double *poi
 
 pspec_status ps_pairs_product_create(ps_pairs_product **out, ps_device *device, double power,
                                      size_t num_points, const double *points, ps_error *error) {
-    void *memory = NULL;
     *out = NULL;
-    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_pairs_product), "a product", error));
-    ps_pairs_product *const self = memory;
+    ps_pairs_product *self = NULL;
+    PS_TRY(PS_NEW(&self, 1, "a product", error));
     self->device = device;
     self->num_points = num_points;
     self->stride = stride_of(num_points);

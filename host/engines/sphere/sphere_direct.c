@@ -122,19 +122,14 @@ out:
 static pspec_status allocate_on_host(sphere_direct *self, ps_error *error) {
     const ps_sphere_layout *layout = &self->layout;
     const size_t num = self->problem.frequencies->num;
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, (size_t)layout->max_degree + 1, sizeof(long double),
-                       "constants of the orders", error));
-    self->constants = memory;
-    PS_TRY(ps_allocate(&memory, layout->pass_blocks, PS_SPHERE_BLOCK_REALS * sizeof(double),
-                       "a table of Legendre functions", error));
-    self->host_table = memory;
-    PS_TRY(ps_allocate(&memory, layout->pass_orders, sizeof(uint32_t), "places of orders", error));
-    self->host_blocks = memory;
+    PS_TRY(
+        PS_NEW(&self->constants, (size_t)layout->max_degree + 1, "constants of the orders", error));
+    PS_TRY(PS_NEW(&self->host_table, layout->pass_blocks * PS_SPHERE_BLOCK_REALS,
+                  "a table of Legendre functions", error));
+    PS_TRY(PS_NEW(&self->host_blocks, layout->pass_orders, "places of orders", error));
     PS_TRY(ps_allocate(&self->host_rows, PS_SPHERE_SUMS * layout->stride, layout->real_bytes,
                        "sums of an order", error));
-    PS_TRY(ps_allocate(&memory, self->batch, num * sizeof(double), "the powers of a batch", error));
-    self->power = memory;
+    PS_TRY(PS_NEW(&self->power, self->batch * num, "the powers of a batch", error));
     self->constants[0] = sqrtl(1 / PS_FOUR_PI_L);
     for (int32_t m = 1; m <= layout->max_degree; m++) {
         self->constants[m] = ps_sphere_next_constant(self->constants[m - 1], m);
@@ -159,10 +154,9 @@ static pspec_status create_buffers(sphere_direct *self, ps_error *error) {
 
 static pspec_status create(void **state, const ps_problem *problem, ps_precision precision,
                            size_t batch, ps_device *device, ps_error *error) {
-    void *memory = NULL;
     *state = NULL;
-    PS_TRY(ps_allocate(&memory, 1, sizeof(sphere_direct), "an engine", error));
-    sphere_direct *self = memory;
+    sphere_direct *self = NULL;
+    PS_TRY(PS_NEW(&self, 1, "an engine", error));
     pspec_status status = PSPEC_OK;
     self->device = device;
     self->problem = *problem;

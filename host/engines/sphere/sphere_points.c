@@ -23,19 +23,14 @@ static pspec_status create_prepare(ps_sphere_points *self, ps_error *error) {
 }
 
 static pspec_status allocate_on_host(ps_sphere_points *self, ps_error *error) {
-    void *memory = NULL;
     const size_t capacity = self->capacity;
-    PS_TRY(ps_allocate(&memory, capacity, PS_SPHERE_DIMENSION * sizeof(double), "points", error));
-    self->host_points = memory;
-    PS_TRY(ps_allocate(&memory, capacity, sizeof(double), "weights", error));
-    self->host_weights = memory;
-    PS_TRY(ps_allocate(&memory, self->batch + 1, sizeof(uint64_t), "offsets", error));
-    self->host_offsets = memory;
+    PS_TRY(PS_NEW(&self->host_points, capacity * PS_SPHERE_DIMENSION, "points", error));
+    PS_TRY(PS_NEW(&self->host_weights, capacity, "weights", error));
+    PS_TRY(PS_NEW(&self->host_offsets, self->batch + 1, "offsets", error));
     if (self->prepare == NULL) {
         PS_TRY(ps_allocate(&self->host_values, capacity,
                            PS_SPHERE_ARRAYS * self->layout->real_bytes, "directions", error));
-        PS_TRY(ps_allocate(&memory, capacity, sizeof(uint64_t), "azimuths", error));
-        self->host_turns = memory;
+        PS_TRY(PS_NEW(&self->host_turns, capacity, "azimuths", error));
     }
     return PSPEC_OK;
 }

@@ -212,10 +212,9 @@ static pspec_status create_rows(torus_direct *self, ps_error *error) {
 
 static pspec_status create(void **state, const ps_problem *problem, ps_precision precision,
                            size_t batch, ps_device *device, ps_error *error) {
-    void *memory = NULL;
     *state = NULL;
-    PS_TRY(ps_allocate(&memory, 1, sizeof(torus_direct), "an engine", error));
-    torus_direct *self = memory;
+    torus_direct *self = NULL;
+    PS_TRY(PS_NEW(&self, 1, "an engine", error));
     self->device = device;
     self->frequencies = problem->frequencies;
     self->precision = precision;

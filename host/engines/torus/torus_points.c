@@ -34,13 +34,11 @@ static pspec_status create_host(ps_torus_points *out, ps_error *error) {
     void *memory = NULL;
     const size_t count = out->batch * out->slab;
     if (!out->is_unified) {
-        PS_TRY(ps_allocate(&memory, count, out->dimension * sizeof(uint64_t), "points", error));
-        out->host_points = memory;
+        PS_TRY(PS_NEW(&out->host_points, count * out->dimension, "points", error));
     }
     PS_TRY(ps_allocate(&memory, count, ps_real_bytes(out->precision), "weights", error));
     out->host_weights = memory;
-    PS_TRY(ps_allocate(&memory, out->batch + 1, sizeof(uint64_t), "offsets", error));
-    out->host_offsets = memory;
+    PS_TRY(PS_NEW(&out->host_offsets, out->batch + 1, "offsets", error));
     return PSPEC_OK;
 }
 

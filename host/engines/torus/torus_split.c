@@ -70,11 +70,8 @@ static pspec_status fill_half_lattice(ps_split_side *side, const ps_split *split
 
 static pspec_status fill_side(ps_split_side *side, const ps_split *split, bool is_left,
                               ps_error *error) {
-    void *memory = NULL;
     side->num_tiles = ps_divide_up(side->num, split->lanes);
-    PS_TRY(ps_allocate(&memory, side->num * split->dimension, sizeof(int32_t),
-                       "the factors of a grid", error));
-    side->vectors = memory;
+    PS_TRY(PS_NEW(&side->vectors, side->num * split->dimension, "the factors of a grid", error));
     if (split->dimension > 1) {
         const unsigned axes = is_left ? split->left_axes : split->dimension - split->left_axes;
         return fill_half_lattice(side, split, axes, is_left ? 0 : split->left_axes, error);
@@ -124,12 +121,9 @@ static place find_place(const ps_split *split, const int32_t *k) {
 /* Marks the tile pairs that the lattice needs, then numbers them; pairs that share a right tile are
  * neighbours, so that its table stays in the cache. */
 static pspec_status fill_pairs(ps_split *split, const ps_frequencies *lattice, ps_error *error) {
-    void *memory = NULL;
     const size_t num_tiles = split->left.num_tiles * split->right.num_tiles;
-    PS_TRY(ps_allocate(&memory, num_tiles, sizeof(uint32_t), "the tiles of a grid", error));
-    split->pair_of_tiles = memory;
-    PS_TRY(ps_allocate(&memory, num_tiles, sizeof *split->pairs, "the tiles of a grid", error));
-    split->pairs = memory;
+    PS_TRY(PS_NEW(&split->pair_of_tiles, num_tiles, "the tiles of a grid", error));
+    PS_TRY(PS_NEW(&split->pairs, num_tiles, "the tiles of a grid", error));
     for (size_t i = 0; i < lattice->num; i++) {
         const place at = find_place(split, lattice->vectors + i * split->dimension);
         if (at.left > 0 && at.right > 0) {

@@ -118,12 +118,10 @@ static pspec_status read_set(ps_rules *rules, ps_point_set *set, bool *has_set, 
 
 static pspec_status reserve(ps_weighted_rule *rule, ps_error *error) {
     const size_t num = rule->set.num_points;
-    void *memory = NULL;
     if (num > rule->capacity) {
         free(rule->weights);
         rule->weights = NULL;
-        PS_TRY(ps_allocate(&memory, num, 2 * sizeof(double), "weights", error));
-        rule->weights = memory;
+        PS_TRY(PS_NEW(&rule->weights, num * 2, "weights", error));
         rule->kappa = rule->weights + num;
         rule->capacity = num;
     }

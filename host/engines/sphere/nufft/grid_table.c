@@ -46,9 +46,7 @@ typedef struct waves {
 /* cos and sin of i half cells of a circle of `length`, i < 2 length: [i][cosine, sine] */
 static pspec_status create_turns(double **out, uint32_t length, ps_error *error) {
     const size_t num = 2 * (size_t)length;
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, 2 * num, sizeof(double), "turns", error));
-    *out = memory;
+    PS_TRY(PS_NEW(out, 2 * num, "turns", error));
     for (size_t i = 0; i < num; i++) {
         const long double angle = PS_TWO_PI_L * (long double)i / (long double)num;
         (*out)[2 * i] = (double)cosl(angle);
@@ -78,14 +76,12 @@ static pspec_status fill_waves(double *out, size_t pitch, uint32_t length, bool 
 static pspec_status create_waves(waves *out, const making *self, ps_error *error) {
     const ps_sphere_shape *shape = self->shape;
     const size_t num = (size_t)shape->max_degree + 1;
-    void *memory = NULL;
     *out = (waves){.num_frequencies = num,
                    .num_angles = self->angle_pitch,
                    .num_rings = self->rings.num_rings};
     const size_t of_angles = 2 * num * out->num_angles;
     const size_t of_rings = 2 * num * out->num_rings;
-    PS_TRY(ps_allocate(&memory, of_angles + of_rings + num, sizeof(double), "waves", error));
-    out->angles = memory;
+    PS_TRY(PS_NEW(&out->angles, of_angles + of_rings + num, "waves", error));
     out->rings = out->angles + of_angles;
     double *const factors = out->rings + of_rings;
     for (size_t k = 0; k < num; k++) {
@@ -152,9 +148,8 @@ static pspec_status create_offsets(ps_sphere_grid_table *table, const making *se
                                    ps_error *error) {
     const ps_sphere_shape *shape = self->shape;
     const size_t num = 2 * ((size_t)shape->max_degree + 1);
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, num, sizeof(uint64_t), "places of orders", error));
-    uint64_t *const offsets = memory;
+    uint64_t *offsets = NULL;
+    PS_TRY(PS_NEW(&offsets, num, "places of orders", error));
     uint64_t place = 0;
     for (size_t i = 0; i < num; i++) {
         const size_t least = i / 2 + i % 2; /* the first degree */
@@ -169,7 +164,7 @@ static pspec_status create_offsets(ps_sphere_grid_table *table, const making *se
         status = ps_buffer_write(self->device, &table->offsets, 0, offsets, num * sizeof(uint64_t),
                                  error);
     }
-    free(memory);
+    free(offsets);
     return status;
 }
 

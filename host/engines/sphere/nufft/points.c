@@ -75,8 +75,7 @@ pspec_status ps_sphere_places_create(ps_sphere_places *out, const ps_sphere_shap
                               .shift = shift_of(shape)};
     PS_TRY(ps_allocate(&memory, out->most_points, ps_real_bytes(precision), "weights", error));
     out->host_weights = memory;
-    PS_TRY(ps_allocate(&memory, shape->together + 1, sizeof(uint64_t), "offsets", error));
-    out->host_offsets = memory;
+    PS_TRY(PS_NEW(&out->host_offsets, shape->together + 1, "offsets", error));
     snprintf(options, sizeof options, "-DPRECISION=%u -DLANES=%u",
              precision == PS_SINGLE ? 32u : 64u, out->lanes);
     PS_TRY(ps_kernel_create(

@@ -128,13 +128,10 @@ static void destroy(void *state) {
 static pspec_status create_parts(ps_sphere_state *self, size_t batch, ps_error *error) {
     const ps_sphere_shape *shape = &self->shape;
     const bool only_even = self->problem.frequencies->degree_step == 2;
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, shape->at_once * 2 * shape->half_pitch, sizeof(double),
-                       "powers of degrees", error));
-    self->host_powers = memory;
-    PS_TRY(ps_allocate(&memory, batch * self->problem.frequencies->num, sizeof(double),
-                       "powers of a batch", error));
-    self->host_rows = memory;
+    PS_TRY(PS_NEW(&self->host_powers, shape->at_once * 2 * shape->half_pitch, "powers of degrees",
+                  error));
+    PS_TRY(PS_NEW(&self->host_rows, batch * self->problem.frequencies->num, "powers of a batch",
+                  error));
     PS_TRY(ps_sphere_places_create(&self->points, shape, self->precision, self->device, error));
     PS_TRY(ps_sphere_tables_create(&self->tables, shape, self->problem.tolerance, self->precision,
                                    self->device, error));
@@ -144,10 +141,9 @@ static pspec_status create_parts(ps_sphere_state *self, size_t batch, ps_error *
 static pspec_status create_route(void **state, const ps_problem *problem, ps_precision precision,
                                  size_t batch, ps_device *device, ps_sphere_route route,
                                  ps_error *error) {
-    void *memory = NULL;
     *state = NULL;
-    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_sphere_state), "an engine", error));
-    ps_sphere_state *self = memory;
+    ps_sphere_state *self = NULL;
+    PS_TRY(PS_NEW(&self, 1, "an engine", error));
     self->device = device;
     self->problem = *problem;
     self->precision = precision;

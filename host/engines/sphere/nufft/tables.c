@@ -19,9 +19,8 @@ static pspec_status create_around_gains(ps_buffer *out, const ps_sphere_shape *s
                                         ps_error *error) {
     const ps_nufft_axis *axis = &shape->axis;
     const size_t num = (size_t)shape->max_degree + 1;
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, 3 * num, sizeof(double), "gains", error));
-    double *gains = memory;
+    double *gains = NULL;
+    PS_TRY(PS_NEW(&gains, 3 * num, "gains", error));
     for (size_t k = 0; k < num; k++) {
         const double inverse = inverse_of(axis, k);
         const long double angle = PS_TWO_PI_L * k / axis->n;
@@ -31,30 +30,28 @@ static pspec_status create_around_gains(ps_buffer *out, const ps_sphere_shape *s
     }
     const pspec_status status =
         ps_reals_upload(device, out, precision, gains, 3 * num, "gains", error);
-    free(memory);
+    free(gains);
     return status;
 }
 
 static pspec_status create_along_gains(ps_buffer *out, const ps_sphere_shape *shape,
                                        ps_precision precision, ps_device *device, ps_error *error) {
     const size_t num = (size_t)shape->max_degree + 1;
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, num, sizeof(double), "gains", error));
-    double *gains = memory;
+    double *gains = NULL;
+    PS_TRY(PS_NEW(&gains, num, "gains", error));
     for (size_t k = 0; k < num; k++) {
         gains[k] = inverse_of(&shape->axis, k) / 2 / shape->rings;
     }
     const pspec_status status = ps_reals_upload(device, out, precision, gains, num, "gains", error);
-    free(memory);
+    free(gains);
     return status;
 }
 
 /* exp(-2 pi i j / n), j < num. */
 static pspec_status create_turns(ps_buffer *out, uint32_t n, uint32_t num, ps_precision precision,
                                  ps_device *device, ps_error *error) {
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, 2 * (size_t)num, sizeof(double), "turns", error));
-    double *turns = memory;
+    double *turns = NULL;
+    PS_TRY(PS_NEW(&turns, 2 * (size_t)num, "turns", error));
     for (uint32_t j = 0; j < num; j++) {
         const long double angle = PS_TWO_PI_L * j / n;
         turns[2 * (size_t)j] = (double)cosl(angle);
@@ -62,7 +59,7 @@ static pspec_status create_turns(ps_buffer *out, uint32_t n, uint32_t num, ps_pr
     }
     const pspec_status status =
         ps_reals_upload(device, out, precision, turns, 2 * (size_t)num, "turns", error);
-    free(memory);
+    free(turns);
     return status;
 }
 
@@ -152,9 +149,7 @@ pspec_status ps_sphere_starts_create(ps_sphere_starts *out, const ps_sphere_shap
                         .num_orders = (size_t)shape->max_degree + 1};
     const size_t reals = host.num_starts + 4 * host.num_rings + host.num_orders;
     const size_t scales = host.num_starts + host.num_rings;
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, reals + scales, sizeof(double), "tables of the sphere", error));
-    host.starts = memory;
+    PS_TRY(PS_NEW(&host.starts, reals + scales, "tables of the sphere", error));
     host.steps = host.starts + host.num_starts;
     host.distances = host.steps + host.num_rings;
     host.cosines = host.distances + host.num_rings;
@@ -167,7 +162,7 @@ pspec_status ps_sphere_starts_create(ps_sphere_starts *out, const ps_sphere_shap
     }
     fill_ratios(&host);
     const pspec_status status = upload_all(out, &host, device, error);
-    free(memory);
+    free(host.starts);
     return status;
 }
 

@@ -33,10 +33,8 @@ static pspec_status create_sort(ps_nufft_places *self, ps_precision precision, p
 pspec_status ps_nufft_places_create(ps_nufft_places *out, const ps_nufft_layout *layout,
                                     unsigned dimension, ps_precision precision, ps_device *device,
                                     ps_error *error) {
-    void *memory = NULL;
     *out = (ps_nufft_places){.layout = layout, .device = device, .dimension = dimension};
-    PS_TRY(ps_allocate(&memory, layout->parts + 1, sizeof(uint64_t), "places", error));
-    out->host_places = memory;
+    PS_TRY(PS_NEW(&out->host_places, layout->parts + 1, "places", error));
     PS_TRY(create_sort(out, precision, error));
     PS_TRY(ps_torus_points_create(&out->points, dimension, layout->parts, layout->part_points,
                                   precision, false, device, error));

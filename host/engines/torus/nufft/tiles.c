@@ -32,9 +32,8 @@ static pspec_status create_pattern(ps_nufft_tiles *self, ps_precision precision,
     const ps_nufft_choice *choice = &self->layout->choice;
     const uint32_t n = choice->axes[0].n;
     const uint64_t turns = choice->stride != 0 ? (uint64_t)choice->axes[0].max_frequency : 0;
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, n, 2 * sizeof(double), "a pattern", error));
-    double *pattern = memory;
+    double *pattern = NULL;
+    PS_TRY(PS_NEW(&pattern, 2 * (size_t)n, "a pattern", error));
     for (uint32_t m = 0; m < n; m++) {
         const double angle = PS_TWO_PI * (double)(turns * m % n) / n;
         pattern[2 * m] = cos(angle);
@@ -42,7 +41,7 @@ static pspec_status create_pattern(ps_nufft_tiles *self, ps_precision precision,
     }
     const pspec_status status = ps_reals_upload(self->device, &self->pattern, precision, pattern,
                                                 2 * (size_t)n, "a pattern", error);
-    free(memory);
+    free(pattern);
     return status;
 }
 

@@ -112,9 +112,7 @@ static pspec_status create_buffers(ps_nufft_state *self, size_t rows, ps_error *
 
 static pspec_status create_parts(ps_nufft_state *self, const ps_problem *problem, ps_error *error) {
     const ps_nufft_choice *choice = &self->layout.choice;
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, self->layout.parts, sizeof(double), "means", error));
-    self->means_of_parts = memory;
+    PS_TRY(PS_NEW(&self->means_of_parts, self->layout.parts, "means", error));
     for (unsigned i = 0; i < choice->num_axes; i++) {
         PS_TRY(ps_nufft_plan_create(&self->plans[i], &choice->axes[i],
                                     self->variant->has_transforms, problem->tolerance,
@@ -126,10 +124,9 @@ static pspec_status create_parts(ps_nufft_state *self, const ps_problem *problem
 
 static pspec_status create(void **state, const ps_problem *problem, ps_precision precision,
                            size_t batch, ps_device *device, ps_error *error) {
-    void *memory = NULL;
     *state = NULL;
-    PS_TRY(ps_allocate(&memory, 1, sizeof(ps_nufft_state), "an engine", error));
-    ps_nufft_state *self = memory;
+    ps_nufft_state *self = NULL;
+    PS_TRY(PS_NEW(&self, 1, "an engine", error));
     self->device = device;
     self->problem = *problem;
     self->precision = precision;

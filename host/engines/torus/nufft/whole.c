@@ -28,10 +28,9 @@ static double gain_of(const ps_nufft_choice *choice, uint32_t k_1, int64_t k_2) 
 static pspec_status create_gains(ps_nufft_whole *self, ps_precision precision, ps_error *error) {
     const ps_nufft_layout *layout = self->layout;
     uint32_t kept[2];
-    void *memory = NULL;
     ps_nufft_whole_kept(&layout->choice, kept);
-    PS_TRY(ps_allocate(&memory, layout->stride, sizeof(double), "gains", error));
-    double *gains = memory;
+    double *gains = NULL;
+    PS_TRY(PS_NEW(&gains, layout->stride, "gains", error));
     const double quarter = 0.25; /* the kernel's frequencies are doubled */
     for (size_t i = 0; i < layout->stride; i++) {
         const size_t row = i / layout->lanes;
@@ -42,7 +41,7 @@ static pspec_status create_gains(ps_nufft_whole *self, ps_precision precision, p
     }
     const pspec_status status = ps_reals_upload(self->device, &self->gains, precision, gains,
                                                 layout->stride, "gains", error);
-    free(memory);
+    free(gains);
     return status;
 }
 
@@ -62,9 +61,8 @@ static pspec_status create_turns(ps_nufft_whole *self, ps_precision precision, p
     const size_t num_tiles = is_line ? layout->num_tiles : 1;
     const uint64_t n = layout->choice.axes[0].n;
     const size_t most = 2 * cells * (num_tiles > lanes ? num_tiles : lanes);
-    void *memory = NULL;
-    PS_TRY(ps_allocate(&memory, most, sizeof(double), "turns", error));
-    double *turns = memory;
+    double *turns = NULL;
+    PS_TRY(PS_NEW(&turns, most, "turns", error));
     for (size_t i = 0; i < cells * lanes; i++) {
         double *at = turns + i / lanes * 2 * lanes + i % lanes;
         turn(i % lanes * (i / lanes), n, at, at + lanes);
@@ -78,7 +76,7 @@ static pspec_status create_turns(ps_nufft_whole *self, ps_precision precision, p
         status = ps_reals_upload(self->device, &self->tile_turns, precision, turns,
                                  2 * cells * num_tiles, "turns of tiles", error);
     }
-    free(memory);
+    free(turns);
     return status;
 }
 
