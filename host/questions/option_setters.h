@@ -4,8 +4,8 @@
 
 #include "questions/options.h"
 
-/* Of the field at option->offset: a bool, a text, a uint64_t within limits, a ps_point_range, one
- * of words. */
+/* These set the field at option->offset: a bool, a text, a uint64_t within limits, a
+ * ps_point_range, one of words. */
 ps_option_setter ps_set_flag, ps_set_text, ps_set_count, ps_set_size, ps_set_range, ps_set_word;
 
 ps_option_setter ps_set_nothing, ps_set_dimension, ps_set_max_frequency, ps_set_max_degree,

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-/* Of E^2: good rules of many points have an E^2 of 1e-7 and less. */
+/* This tolerance is for E^2: good rules of many points have an E^2 of 1e-7 and less. */
 static const double TOLERANCE = 1e-10;
 
 static pspec_status check_source(const ps_request *arguments, ps_error *error) {

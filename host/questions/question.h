@@ -29,7 +29,8 @@ pspec_status ps_questions_make(ps_question_list *out, const ps_request *argument
 pspec_status ps_sampler_request_make(ps_sampler_request *out, const ps_request *arguments,
                                      size_t i_sampler, ps_error *error) PS_MUST_CHECK;
 
-/* Of a sampler: as many as were given, or with a standard error alone the most that it may take. */
+/* Returns how many realizations a sampler makes: as many as were given, or with a standard error
+ * alone the most that it may take. */
 uint64_t ps_num_realizations_asked(const ps_request *arguments);
 
 /* What kind of points an option is about. */

@@ -108,7 +108,7 @@ typedef struct ps_request {
     ps_point_range points; /* of each set; {0} unless given */
     bool homogenize, hemisphere, drop_below_horizon, merge, calibrate, quick, scenes, quiet,
         verbose;
-    /* Of the averaged periodogram on the whole square; no option asks for it. */
+    /* The picture shows the averaged periodogram on the whole square; no option asks for it. */
     bool wants_picture;
     bool effective;    /* --normalize effective */
     double smoothness; /* 1.5 unless given */

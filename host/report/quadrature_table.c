@@ -112,7 +112,7 @@ static pspec_status add_answer(ps_table *table, const ps_quadrature_result *resu
     return ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
 }
 
-/* Of optimal weights. */
+/* Optimal weights have a condition number and a residual. */
 static pspec_status add_condition(ps_table *table, const ps_quadrature_result *result,
                                   ps_error *error) {
     char warning[160];

@@ -119,7 +119,7 @@ static inline void make_16_bins(const window_axis axis, __local const real *cent
     }
 }
 
-/* Of the first `count` points at least. */
+/* Makes the windows of the first `count` points at least. */
 static inline void make_windows(const chunk to, const uint count, const chunk_axes axes) {
     const window_axis across = axes.across, along = axes.along;
     const uint parts = CHUNK / LANES;

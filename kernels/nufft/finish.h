@@ -26,7 +26,7 @@ static inline void take_off_mean(FFT_SPACE real *row, const real mean, __global 
     barrier(FFT_FENCE);
 }
 
-/* Of kept frequency i, q = i - K. */
+/* Returns the sum at kept frequency i, q = i - K. */
 static inline complexv kept_frequency(FFT_SPACE const real *row, const transform_axis axis,
                                       const uint i) {
     return load_complex(row, axis.position[i >= axis.K ? i - axis.K : axis.n + i - axis.K]);

@@ -29,7 +29,7 @@ typedef struct sort_numbers {
     ps_u64 num_realizations;
     ps_u64 factor; /* the coordinate is factor * x[axis] mod 1 */
     ps_u32 n, width, axis;
-    /* Of another axis, for cells m = cell * second_n + second cell; second_n 1: none */
+    /* Another axis, for cells m = cell * second_n + second cell; second_n 1: there is none */
     ps_u32 second_n, second_width, second_axis;
     ps_u32 has_weights; /* or all are 1 */
     ps_u32 unused;      /* fills the size up to whole numbers of eight bytes */

@@ -24,8 +24,8 @@ static inline void put_lanes(__global real *to, const realv x) {
     }
 }
 
-/* Of 2 LANES columns, transformed at `cells`: what turn_halves() of nufft/halves.h makes of these
- * lanes. */
+/* Collects, for 2 LANES columns that were transformed at `cells`, what turn_halves() of
+ * nufft/halves.h makes of these lanes. */
 static inline void collect_columns(const shared_tile to, const uint column,
                                    FFT_SPACE const real *cells, const size_t apart,
                                    const transform_axis axis) {

@@ -39,8 +39,8 @@ typedef union key_list {
     uint key[LANES];
 } key_list;
 
-/* Of points j .. j + LANES - 1; how many of them there are. Inlined, its constants stay in
- * registers. */
+/* Makes the keys of points j .. j + LANES - 1 and returns how many of them there are. Inlined, its
+ * constants stay in registers. */
 __attribute__((always_inline)) static inline uint make_keys(key_list *to, const sorting_keys keys,
                                                             const point_list from, const uint j) {
     __global const ulong *points = from.points + (size_t)j * DIMENSION;

@@ -28,9 +28,9 @@
              (a).sd, (b).sd, (a).se, (b).se, (a).sf, (b).sf))
 #endif
 
-/* Of doubles two by two, then whole blocks of two, the even ones and the odd ones of two vectors:
+/* Doubles go two by two, then whole blocks of two, the even ones and the odd ones of two vectors:
  * the shuffles that processors do fastest (sums over rings took 0.9 of the time, Zen 5, PoCL 3.1).
- * Of floats LLVM 14 makes several shuffles for each when they are asked for like that. */
+ * Floats do not: LLVM 14 makes several shuffles for each when they are asked for like that. */
 #if PRECISION == 64 && LANES == 8
 #define BLOCK_LANES 2
 #define NUMBERS_LOW(a, b) ((realv)((a).s0, (b).s0, (a).s2, (b).s2, (a).s4, (b).s4, (a).s6, (b).s6))

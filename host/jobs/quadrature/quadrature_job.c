@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of a degree, in job.sums. */
+/* What job.sums has for each degree. */
 enum { D2, C2, E2, SUMS };
 
 typedef struct rule_sums {

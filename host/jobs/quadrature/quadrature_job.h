@@ -69,8 +69,8 @@ typedef struct ps_quadrature_result {
     char engine[160]; /* "(sphere_direct ..)" */
     char device[160];
     const char *precision;
-    /* Of the largest standard error when the realizations ended; its bin is a degree or
-     * jobs/quadrature/quadrature_looks.h's */
+    /* The look with the largest standard error when the realizations ended; its bin is a degree or
+     * one of jobs/quadrature/quadrature_looks.h */
     ps_sequential_look look;
     bool has_look; /* false without question.accuracy.standard_error, and for one realization */
     bool was_replanned;     /* the first run missed the tolerance */

@@ -2,7 +2,7 @@
 
 #include <stdio.h>
 
-/* Of degree l: 2l + 1 real coefficients, of which each counts half as much as a complex one. */
+/* Degree l has 2l + 1 real coefficients, of which each counts half as much as a complex one. */
 static double count_independent(size_t degree) {
     return (double)degree + 0.5;
 }

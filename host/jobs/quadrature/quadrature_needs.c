@@ -52,7 +52,7 @@ static double num_sets(const ps_quadrature_setup *setup) {
     return setup->problem.num_realizations > 0 ? (double)setup->problem.num_realizations : 1;
 }
 
-/* Of kappa with so many terms, by the host's threads. */
+/* What the host's threads take for the sums of kappa with so many terms. */
 static double seconds_of_terms(const ps_quadrature_setup *setup, double num_terms) {
     const double points = (double)setup->problem.num_points;
     return ps_cost_rule_seconds(0, num_sets(setup) * points * num_terms);

@@ -9,7 +9,7 @@
 double ps_quadrature_phases(const ps_quadrature_setup *setup,
                             const ps_quadrature_question *question, ps_phases *phases);
 
-/* Of the coefficients of a lobe, made for so many degrees. */
+/* Adds what the coefficients of a lobe take, made for so many degrees. */
 void ps_phases_lobe(ps_phases *phases, const ps_representer *representer);
 
 #endif

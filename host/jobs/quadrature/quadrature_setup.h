@@ -5,7 +5,7 @@
 #include "jobs/quadrature/quadrature_job.h"
 #include "plan/needs.h"
 
-/* Of the rules: what is known before the first is computed with. */
+/* What is known of the rules before the first is computed with. */
 typedef struct ps_rule_shape {
     size_t num_points; /* of the first */
     bool has_several;  /* of them */

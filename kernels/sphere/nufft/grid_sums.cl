@@ -111,7 +111,7 @@ static inline void product_of_two(const table_rows rows, __global const real *va
     switch (vectors) { PRODUCT_CASES(2); }
 }
 
-/* Of one order and parity, pairs of realizations by turns. begins: of its runs. */
+/* Sums one order and parity, pairs of realizations by turns. begins: where its runs begin. */
 static inline void sum_runs(const table_rows of_order, __global const uint *begins,
                             const uint vectors, __global const real *values, const size_t apart,
                             const uint num_realizations, __global double *powers,

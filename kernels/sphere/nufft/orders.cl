@@ -36,12 +36,12 @@ enum { STEP_SPREAD = 1, STEP_AROUND = 2, STEP_RINGS = 4 };
 
 /* ---- what a share does ---------------------------------------------------------------------- */
 
-/* Of `num` things in a row, where those of a share begin. */
+/* Returns where those of a share begin among `num` things in a row. */
 static inline uint start_of_share(const uint share, const uint num, const uint shares) {
     return (uint)((ulong)share * num / shares);
 }
 
-/* Of `num` things, those with the numbers share, share + shares, ... */
+/* Returns how many of `num` things have the numbers share, share + shares, ... */
 static inline uint share_of(const uint num, const uint share, const uint shares) {
     return num > share ? (num - share + shares - 1) / shares : 0;
 }
@@ -106,7 +106,7 @@ static inline void spread_for_group(const share_work work, const uint group, con
 
 /* ---- transforms ----------------------------------------------------------------------------- */
 
-/* Of half a length: around the axis and along theta, or to rings. */
+/* A transform of half a length: around the axis and along theta, or to rings. */
 typedef struct half_plan {
     __global const uint *radices;
     __global const real *twiddles;

@@ -62,7 +62,7 @@
 
 /* ---- coefficients of a run ------------------------------------------------------------------ */
 
-/* Of degrees first, first + 1, ... [..][RUN_DEGREES], but for alphas. */
+/* Coefficients of degrees first, first + 1, ... [..][RUN_DEGREES], but for alphas. */
 #define OF_STEP 0                    /* A_l */
 #define OF_POLE (1 * RUN_DEGREES)    /* A_l (1 - D_l) */
 #define OF_EQUATOR (2 * RUN_DEGREES) /* -A_l D_l */
@@ -152,8 +152,8 @@ static inline void make_steps(__local double *to, const uint first, const uint m
     }
 }
 
-/* Of `num` degrees, a multiple of 2 LANES, from `first` on. All work-items call it, and see them
- * when it returns. */
+/* Makes those of `num` degrees, a multiple of 2 LANES, from `first` on. All work-items call it, and
+ * see them when it returns. */
 static inline void make_coefficients(__local double *to, const uint first, const uint m,
                                      const uint num) {
     if (own_item() == 0) {

@@ -14,7 +14,7 @@
 #include "sphere/nufft/numbers.h"
 #include "sphere/turns.h"
 
-/* Of points first .. first + LANES - 1. */
+/* Makes the keys of points first .. first + LANES - 1. */
 static inline void make_keys(__global const ulong *turns, __global uint *keys, const size_t first,
                              const uint num, const uint n, const uint width, const uint bands,
                              const uint tiles) {

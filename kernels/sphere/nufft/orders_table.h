@@ -14,7 +14,7 @@
 
 #include "sphere/nufft/orders_chains.h"
 
-/* Of the rings of a work-group, between two runs: [even, odd l - m][ring_pitch] each. By
+/* States of the rings of a work-group, between two runs: [even, odd l - m][ring_pitch] each. By
  * differences, the even ones are Lambda_lm and D. */
 typedef struct ring_states {
     __global double *value, *before; /* p_l, p_{l-2} */
