@@ -200,6 +200,16 @@ ps_batch ps_estimator_make_batch(const ps_estimator *self, const pspec_pattern *
                       .payload = self->options.payload};
 }
 
+/* What a sum of all weights is rounded by, in units of sqrt(V); 0 on the torus, where frequency 0 is
+ * kept out of the others, and in extended precision. */
+static double sum_rounding(const ps_estimator *self) {
+    const ps_pattern_sums *sums = &self->sums[0];
+    const ps_precision precision = self->options.precision;
+    const bool on_sphere = self->options.problem.frequencies->kind == PS_FREQUENCIES_DEGREES;
+    const double roundoff = precision == PS_SINGLE ? 0x1p-24 : precision == PS_DOUBLE ? 0x1p-53 : 0;
+    return on_sphere ? roundoff * sums->weight_size_sum / sqrt(sums->weight_square_sum) : 0;
+}
+
 static pspec_status compare_with_referee(ps_estimator *self, const ps_rows *rows,
                                          const pspec_pattern *pattern, ps_error *error) {
     const ps_problem *problem = &self->options.problem;
@@ -215,6 +225,7 @@ static pspec_status compare_with_referee(ps_estimator *self, const ps_rows *rows
                            ? self->sums[0].weight_size_sum * self->sums[0].weight_size_sum
                            : 0,
         .engine_error = ps_estimator_error_of(self, 1, &self->sums[0]),
+        .sum_rounding = problem->measure == PS_OF_PAIR_SUMS ? 0 : sum_rounding(self),
     };
     return ps_self_check(&input, self->device, &self->accuracy.self_check, error);
 }

@@ -17,6 +17,7 @@ typedef struct ps_self_check_input {
     double scale, weight_square_sum; /* of the scaled weights */
     double size_square;              /* of pair sums: (sum |w|)^2, scaled; else 0 */
     double engine_error; /* of the engine's formula, for powers of 1, in the units of the problem */
+    double sum_rounding; /* on the sphere: the engine's roundoff times |sum w| / sqrt(V); else 0 */
 } ps_self_check_input;
 
 /* Terms that it sums up in long double: (point, frequency), or with *is_of_degrees (point, degree,
