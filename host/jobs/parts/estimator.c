@@ -200,8 +200,8 @@ ps_batch ps_estimator_make_batch(const ps_estimator *self, const pspec_pattern *
                       .payload = self->options.payload};
 }
 
-/* What a sum of all weights is rounded by, in units of sqrt(V); 0 on the torus, where frequency 0 is
- * kept out of the others, and in extended precision. */
+/* What a sum of all weights is rounded by, in units of sqrt(V); 0 on the torus, where frequency 0
+ * is kept out of the others, and in extended precision. */
 static double sum_rounding(const ps_estimator *self) {
     const ps_pattern_sums *sums = &self->sums[0];
     const ps_precision precision = self->options.precision;
