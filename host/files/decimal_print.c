@@ -1,11 +1,14 @@
-/* Printing has a fast path, exact by 128 bits, for numbers that need no exponent; the C library
- * does the rest. */
+/* Printing: the shortest digits that are read as the same double. It has a fast path, exact by 128
+ * bits, for numbers that need no exponent; the C library does the rest. */
 #include "files/decimal_bits.h"
 
+#include <float.h>
 #include <langinfo.h>
+#include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #if HAVE_WIDE_INTEGERS
@@ -15,25 +18,65 @@ enum {
     MOST_POWER = DIGITS - 1
 }; /* where %.17g writes no exponent */
 
-/* round(mantissa 2^exponent 10^k), half to even. Exact: 53 bits times 10^20 < 2^67 fit 128. */
-static uint64_t scale(uint64_t mantissa, int exponent, int k) {
+/* 10^k */
+static wide power_of_ten(int k) {
     static const uint64_t power[] = {1,       10,       100,       1000,       10000,      100000,
                                      1000000, 10000000, 100000000, 1000000000, 10000000000};
     enum { MOST = 10 };
-    wide product = (wide)mantissa * power[k % MOST];
+    wide product = power[k % MOST];
     for (; k >= MOST; k -= MOST) {
         product *= power[MOST];
     }
-    if (exponent >= 0) {
-        return (uint64_t)(product << exponent);
-    }
-    const wide half = (wide)1 << (-exponent - 1);
-    const wide rest = product & (2 * half - 1);
-    const uint64_t whole = (uint64_t)(product >> -exponent);
-    return whole + (rest > half || (rest == half && (whole & 1) != 0));
+    return product;
 }
 
-/* The 17 digits of |value| = d.ddd 10^power, or false outside the range above. */
+/* A double in units of its 17th digit, and the numbers between its neighbours' midpoints, which are
+ * read as this double. All are multiples of 2^-fraction. Exact: 53 bits times 10^20 < 2^67, and two
+ * more for halves of half a unit in the last place, fit 128. */
+typedef struct scaled {
+    wide value, least, most;
+    unsigned fraction;
+} scaled;
+
+static scaled scale(uint64_t mantissa, int exponent, int k) {
+    const int up = exponent > 0 ? exponent : 0;
+    const wide unit = power_of_ten(k) << up;
+    const wide value = (wide)mantissa * unit * 4;
+    const wide edge = (mantissa & 1) != 0; /* midpoints are read as the even neighbour */
+    const bool is_power = mantissa == UINT64_C(1) << (MANTISSA_BITS - 1);
+    return (scaled){.value = value,
+                    .least = value - (is_power ? 1 : 2) * unit + edge,
+                    .most = value + 2 * unit - edge,
+                    .fraction = 2 + (unsigned)(up - exponent)};
+}
+
+/* The nearest integer that is a multiple of 10^zeros, in units of that; halves go to even. */
+static uint64_t nearest(const scaled *number, uint64_t ten_power) {
+    const wide unit = (wide)ten_power << number->fraction;
+    const uint64_t below = (uint64_t)(number->value >> number->fraction) / ten_power;
+    const wide rest = number->value - below * unit;
+    return below + (2 * rest > unit || (2 * rest == unit && (below & 1) != 0));
+}
+
+/* The nearest of the shortest integers that are read as this number: with most zeros at the end. */
+static uint64_t shortest(const scaled *number) {
+    const wide ones = ((wide)1 << number->fraction) - 1;
+    uint64_t least = (uint64_t)((number->least + ones) >> number->fraction);
+    uint64_t most = (uint64_t)(number->most >> number->fraction);
+    uint64_t ten_power = 1;
+    while ((least + 9) / 10 <= most / 10) {
+        least = (least + 9) / 10;
+        most /= 10;
+        ten_power *= 10;
+    }
+    if (least == most) {
+        return least * ten_power;
+    }
+    const uint64_t found = nearest(number, ten_power);
+    return (found < least ? least : found > most ? most : found) * ten_power;
+}
+
+/* The digits of |value| = d.ddd 10^power, with zeros up to 17, or false outside the range above. */
 static bool find_digits(double value, uint64_t *digits, int *power) {
     static const double bounds[] = {1e-4, 1e-3, 1e-2, 1e-1, 1e0,  1e1, 1e2,  1e3,
                                     1e4,  1e5,  1e6,  1e7,  1e8,  1e9, 1e10, 1e11,
@@ -53,7 +96,8 @@ static bool find_digits(double value, uint64_t *digits, int *power) {
     while (size >= bounds[*power - LEAST_POWER + 1]) {
         ++*power;
     }
-    *digits = scale(mantissa, exponent, MOST_POWER - *power);
+    const scaled number = scale(mantissa, exponent, MOST_POWER - *power);
+    *digits = shortest(&number);
     if (*digits >= most) { /* rounded up to the next power of ten */
         *digits /= 10;
         ++*power;
@@ -61,7 +105,7 @@ static bool find_digits(double value, uint64_t *digits, int *power) {
     return *digits >= most / 10 && *power <= MOST_POWER;
 }
 
-/* As "%.17g": no exponent in this range, no zeros at the end. */
+/* As "%.17g" of the digits: no exponent in this range, no zeros at the end. */
 static size_t write_digits(char *text, bool is_negative, uint64_t digits, int power) {
     enum { LOW_DIGITS = 8 }; /* 9 and 8 digits: 32 bits divide faster than 64 */
     char figures[DIGITS];
@@ -116,12 +160,26 @@ static size_t format_fast(char *text, double value) {
 }
 #endif
 
+/* With the point of the locale; the fewest of 15 to 17 digits that are read as this number, which
+ * with 15 means without the zeros at their end. Below DBL_MIN doubles have fewer digits. */
+static int format_locale(char text[PS_DECIMAL_BYTES], double value) {
+    enum { FEWEST = 15, MOST = 17 };
+    int length = 0;
+    for (int digits = fabs(value) < DBL_MIN ? 1 : FEWEST; digits <= MOST; digits++) {
+        length = snprintf(text, PS_DECIMAL_BYTES, "%.*g", digits, value);
+        if (strtod(text, NULL) == value) {
+            break;
+        }
+    }
+    return length;
+}
+
 size_t ps_decimal_format(char text[PS_DECIMAL_BYTES], double value) {
     const size_t fast = format_fast(text, value);
     if (fast > 0) {
         return fast;
     }
-    const int length = snprintf(text, PS_DECIMAL_BYTES, "%.17g", value);
+    const int length = format_locale(text, value);
     const char *const point = nl_langinfo(RADIXCHAR);
     char *const found = strcmp(point, ".") != 0 ? strstr(text, point) : NULL;
     if (found == NULL) {

@@ -32,7 +32,7 @@ pspec_status ps_text_open_lines(ps_point_reader *reader, char separator,
 void ps_text_set_columns(ps_point_reader *reader, unsigned columns);
 void ps_text_close(ps_point_reader *reader);
 
-/* Rows of numbers between blanks, 17 digits. */
+/* Rows of numbers between blanks, shortest digits. */
 void ps_text_write_rows(ps_point_writer *writer, const double *rows, size_t num_rows);
 
 #endif

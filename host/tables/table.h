@@ -1,6 +1,6 @@
 /* Result tables: header lines, named columns, rows; written as CSV, JSON or NPY.
  *
- * CSV: "# key: value" header lines, one line of column names, one line per row, 17 digits; a
+ * CSV: "# key: value" header lines, one line of column names, one line per row, shortest digits; a
  * missing number is an empty field. JSON: {"schema": 1, "command", "meta", "columns", "rows"};
  * missing is null. NPY: float64 [rows][columns], missing is nan, and a JSON file of the same name
  * (out.npy: out.json) holds the rest. A number that is nan counts as missing. JSON has no

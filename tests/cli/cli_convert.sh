@@ -129,8 +129,16 @@ round_trips() {
     done
 }
 
-with_weights() { # 17 digits, not all positive
-    awk '/^#/ { print; next } { printf "%s %.17g\n", $0, 1.25 - NR / 7 }'
+# As few digits as are read back, as pointspec writes them.
+shortest='function shortest(x, digits, text) {
+    for (digits = 15; digits < 17; digits++) {
+        text = sprintf("%." digits "g", x)
+        if (text + 0 == x) return text
+    }
+    return sprintf("%.17g", x)
+}'
+with_weights() { # not all positive
+    awk "$shortest"' /^#/ { print; next } { print $0, shortest(1.25 - NR / 7) }'
 }
 for dimension in 1 2 3 6; do
     for sets in 1 3; do
@@ -143,14 +151,14 @@ for dimension in 1 2 3 6; do
 done
 for sets in 1 3; do
     "$program" sample --sampler white -n $points -m $sets |
-        awk '/^#/ { print; next } { z = 2 * $1 - 1; r = sqrt(1 - z * z); phi = 6.28 * $2
-             printf "%.17g %.17g %.17g\n", r * cos(phi), r * sin(phi), z }' >source
+        awk "$shortest"' /^#/ { print; next } { z = 2 * $1 - 1; r = sqrt(1 - z * z); phi = 6.28 * $2
+             print shortest(r * cos(phi)), shortest(r * sin(phi)), shortest(z) }' >source
     round_trips v 3 $sets equal
     with_weights <source >weighted
     mv weighted source
     round_trips v 3 $sets column
     "$program" sample --sampler white -n $points -m $sets |
-        awk '/^#/ { print; next } { printf "%.17g %.17g\n", 3.14 * $1, 6.28 * $2 }' >source
+        awk "$shortest"' /^#/ { print; next } { print shortest(3.14 * $1), shortest(6.28 * $2) }' >source
     round_trips a 2 $sets equal
     with_weights <source >weighted
     mv weighted source

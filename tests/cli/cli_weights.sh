@@ -146,7 +146,7 @@ END
 command=run
 runs 2 scene.yaml -o folder
 [[ $(<err) == *"$limits"* ]] || complain "run: $(<err)"
-make_sets 1.7976931348623157e+308 4.9406564584124654e-324 -9.9999999999999998e-171
+make_sets 1.7976931348623157e+308 5e-324 -1e-170
 cp plane.txt before.txt
 command=convert
 runs 0 --columns xyw plane.txt -o plane.npy

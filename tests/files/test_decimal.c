@@ -3,6 +3,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdbool.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -151,20 +152,72 @@ static void refuses_what_is_no_number(void **state) {
     assert_ptr_equal(ps_decimal_parse(hexadecimal, &value), hexadecimal + 1); /* the 0 only */
 }
 
+/* Digits from the first to the last that is not 0. */
+static int significant_digits(const char *text) {
+    int num = 0;
+    int zeros = 0;
+    for (; *text != '\0' && *text != 'e'; text++) {
+        if (*text >= '1' && *text <= '9') {
+            num += zeros + 1;
+            zeros = 0;
+        } else if (*text == '0' && num > 0) {
+            zeros++;
+        }
+    }
+    return num;
+}
+
+/* The fewest digits whose nearest text is read as value. */
+static int fewest_digits(double value, char text[64]) {
+    int num = 1;
+    for (; num < 17; num++) {
+        snprintf(text, 64, "%.*e", num - 1, value);
+        if (strtod(text, NULL) == value) {
+            return num;
+        }
+    }
+    snprintf(text, 64, "%.16e", value);
+    return num;
+}
+
+static bool is_power_of_two(double value) {
+    int exponent = 0;
+    return fabs(frexp(value, &exponent)) == 0.5;
+}
+
+/* It is read back, has an exponent where "%.17g" has one, and no text with fewer digits, or nearer
+ * with as many, is read back. Below a power of two doubles are twice as dense, so that there a text
+ * above it may be read back and be shorter, although it is not the nearest. */
 static void check_written(double value) {
     char text[PS_DECIMAL_BYTES];
-    char expected[64];
-    snprintf(expected, sizeof expected, "%.17g", value);
-    assert_int_equal(ps_decimal_format(text, value), strlen(expected));
-    assert_string_equal(text, expected);
+    char long_text[64];
+    char fewest[64];
+    const size_t length = ps_decimal_format(text, value);
+    assert_int_equal(length, strlen(text));
+    assert_true(strtod(text, NULL) == value && !signbit(strtod(text, NULL)) == !signbit(value));
+    snprintf(long_text, sizeof long_text, "%.17g", value);
+    assert_true((strchr(text, 'e') == NULL) == (strchr(long_text, 'e') == NULL));
+    if (value == 0) {
+        assert_string_equal(text, long_text);
+        return;
+    }
+    const int num = fewest_digits(value, fewest);
+    const int own = significant_digits(text);
+    if (own > num || (own < significant_digits(fewest) && !is_power_of_two(value))) {
+        fail_msg("%s has %d digits, %s has %d", text, own, fewest, num);
+    }
+    if (own == significant_digits(fewest) && strtold(text, NULL) != strtold(fewest, NULL)) {
+        fail_msg("%s is not the nearest: %s", text, fewest);
+    }
 }
 
 /* Values of all sizes, of few bits (which may lie half way between two texts), and beside powers of
  * ten and two. */
-static void writes_17_digits(void **state) {
+static void writes_shortest_digits(void **state) {
     (void)state;
     static const double values[] = {0,       -0.0,    1,         0.1,  1e300, -DBL_MIN,
-                                    DBL_MAX, 1.0 / 3, 123456789, 5e-5, -0.5,  99999999999999999.0};
+                                    DBL_MAX, 1.0 / 3, 123456789, 5e-5, -0.5,  99999999999999999.0,
+                                    5e-324,  3e-320};
     uint64_t random = 362436069;
     for (size_t i = 0; i < sizeof values / sizeof values[0]; i++) {
         check_written(values[i]);
@@ -174,6 +227,7 @@ static void writes_17_digits(void **state) {
         check_written(unit);
         check_written(-unit * pow(10, i % 30 - 9));
         check_written(ldexp(floor(unit * 4096), i % 80 - 60));
+        check_written(floor(unit * 1e6) * pow(10, i % 12 - 8)); /* few decimals */
     }
     for (int power = -8; power < 22; power++) {
         const double ten = pow(10, power);
@@ -192,7 +246,7 @@ int main(void) {
         cmocka_unit_test(reads_like_strtod),
         cmocka_unit_test(reads_corner_cases),
         cmocka_unit_test(refuses_what_is_no_number),
-        cmocka_unit_test(writes_17_digits),
+        cmocka_unit_test(writes_shortest_digits),
     };
     return cmocka_run_group_tests_name("decimal", tests, NULL, NULL);
 }

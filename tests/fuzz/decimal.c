@@ -57,13 +57,11 @@ static void check_parse(fuzz_bytes input) {
 static void check_format(fuzz_bytes input) {
     double value = 0;
     double back = 0;
-    char expected[PS_DECIMAL_BYTES];
     char text[PS_DECIMAL_BYTES + PS_DECIMAL_PADDING] = "";
     memcpy(&value, input.data, sizeof value);
     const size_t length = ps_decimal_format(text, value);
-    snprintf(expected, sizeof expected, "%.17g", value);
-    if (strcmp(text, expected) != 0 || length != strlen(text)) {
-        fuzz_fail("%a: \"%s\" of %zu characters instead of \"%s\"", value, text, length, expected);
+    if (length != strlen(text)) {
+        fuzz_fail("%a: \"%s\" of %zu characters", value, text, length);
     }
     if (isfinite(value) &&
         (ps_decimal_parse(text, &back) == NULL || memcmp(&back, &value, sizeof back) != 0)) {

@@ -284,8 +284,8 @@ static void writes_what_was_announced(void **state) {
     assert_int_equal(ps_points_commit(writer, &error), PSPEC_OK);
     ps_points_discard(writer);
     char *const text = test_read_file(path, NULL);
-    assert_string_equal(text, "0.5 0.25\n0.10000000000000001 0.33333333333333331\n#\n"
-                              "0.5 0.25\n0.10000000000000001 0.33333333333333331\n");
+    assert_string_equal(text, "0.5 0.25\n0.1 0.3333333333333333\n#\n"
+                              "0.5 0.25\n0.1 0.3333333333333333\n");
     free(text);
     assert_int_equal(ps_points_create(&writer, path, "ply", &two, &error),
                      PSPEC_ERROR_INVALID_ARGUMENT);

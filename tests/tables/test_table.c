@@ -57,12 +57,12 @@ static void writes_csv(void **state) {
     char *const text = write_table(state, table, "t.csv", PS_FORMAT_CSV);
     assert_string_equal(text, "# seed: 9223372036854775807\n"
                               "# file: a,b \"c\"\\nd\n"
-                              "# tolerance: 0.10000000000000001\n"
+                              "# tolerance: 0.1\n"
                               "# skipped: first\n"
                               "# empty: \n"
                               "# skipped: second\n"
                               "sampler,bin,power\n"
-                              "white,1,0.33333333333333331\n"
+                              "white,1,0.3333333333333333\n"
                               "\"halton:base=2,3\",-2,\n"
                               "\"say \"\"hi\"\"\",3,\n"
                               "\"#x\r\ny\",,-inf\n");
