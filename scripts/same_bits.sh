@@ -49,8 +49,14 @@ run_all() { # WHICH: every line in a folder of its own
         done)
     echo "same_bits: $number command lines of $1"
 }
+# Texts are compared by their doubles, whatever digits they are written with.
+write_doubles() { # FOLDER
+    grep -rlIZ '' "$1" | xargs -0 perl -pi -e 's/(?<![\w.])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w.])/sprintf("%.17g", $&)/ge'
+}
 run_all before
 run_all after
+write_doubles "$scratch/before"
+write_doubles "$scratch/after"
 if diff -r "${same[@]}" "$scratch/before" "$scratch/after"; then
     echo "same_bits: every result is that of $(git log -1 --format='%h, %s' "$commit")"
 else

@@ -159,7 +159,7 @@ void ps_help_program(FILE *stream) {
     }
     fputs("\n"
           "pointspec COMMAND --help explains a command, its options and samplers.\n"
-          "pointspec --version prints the version.\n"
+          "pointspec -V, --version prints the version.\n"
           "\n"
           "FILE may be - for standard input. Where an option is repeated the last one\n"
           "counts, but --sampler adds; -- ends the options. Numbers may be written 1e6.\n"

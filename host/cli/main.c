@@ -216,7 +216,7 @@ int main(int argc, char **argv) {
         return complain_of_nothing();
     }
     const char *const first = argv[1];
-    if (strcmp(first, "--version") == 0) {
+    if (strcmp(first, "--version") == 0 || strcmp(first, "-V") == 0) {
         printf("pointspec %s\n", pspec_version());
         return finish_output();
     }

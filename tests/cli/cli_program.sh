@@ -34,6 +34,7 @@ quietly() { # ARGS...: exit 0 and nothing on standard error
 
 # ---- help and version
 quietly --version
+quietly -V
 [[ $(<out) =~ ^pointspec\ [0-9]+\.[0-9]+\.[0-9]+$ ]] || complain "version: $(<out)"
 quietly --help
 cp out help
