@@ -1,8 +1,8 @@
 /* Decimal text and doubles, exact both ways and fast: point files are mostly digits.
  *
- * Reading gives the double that strtod gives, bit for bit; writing gives the shortest digits that are
- * read as the same double, so that a number survives a round trip. The decimal point is '.' in every locale. Hexadecimal
- * numbers, "inf" and "nan", which strtod reads, are not numbers here.
+ * Reading gives the double that strtod gives, bit for bit; writing gives the shortest digits that
+ * are read as the same double, so that a number survives a round trip. The decimal point is '.' in
+ * every locale. Hexadecimal numbers, "inf" and "nan", which strtod reads, are not numbers here.
  */
 #ifndef PS_FILES_DECIMAL_H
 #define PS_FILES_DECIMAL_H

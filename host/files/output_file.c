@@ -133,6 +133,13 @@ static bool promises_gzip(const char *path) {
     return length >= sizeof ending - 1 && strcmp(path + length - (sizeof ending - 1), ending) == 0;
 }
 
+const char *ps_output_ending(const char *path) {
+    const char *const slash = strrchr(path, '/');
+    const char *const name = slash != NULL ? slash + 1 : path;
+    const char *const dot = strrchr(name, '.');
+    return dot != NULL && dot != name && dot[1] != '\0' ? dot : "";
+}
+
 pspec_status ps_output_open(ps_output_file **out, const char *path, ps_error *error) {
     *out = NULL;
     ps_output_file *file = NULL;

@@ -17,6 +17,10 @@
 
 typedef struct ps_output_file ps_output_file;
 
+/* What follows the last dot in the name of a file, with the dot, in path; "" where there is none.
+ * The dot that hides a file begins no ending. */
+const char *ps_output_ending(const char *path);
+
 /* An empty name and one that ends in .gz are PSPEC_ERROR_INVALID_ARGUMENT. */
 pspec_status ps_output_open(ps_output_file **out, const char *path, ps_error *error) PS_MUST_CHECK;
 FILE *ps_output_stream(ps_output_file *file);

@@ -39,8 +39,7 @@ static pspec_status create_writer(worker *w, ps_error *error) {
                                 .has_weights = w->block.has_weights,
                                 .columns = conversion->columns,
                                 .memory_limit = conversion->options.memory_limit};
-    return ps_points_create(&w->writer, conversion->output, output_format(conversion), &w->shape,
-                            error);
+    return ps_points_create(&w->writer, conversion->output, conversion->format, &w->shape, error);
 }
 
 static void describe_points(ps_text *out, ps_coordinates coordinates, unsigned dimension,
@@ -185,6 +184,9 @@ static pspec_status convert_all(worker *w, ps_text *loss, ps_error *error) {
 
 pspec_status ps_convert(const ps_conversion *conversion, ps_text *loss, ps_error *error) {
     worker w = {.conversion = conversion, .options = conversion->options};
+    if (conversion->format == NULL) {
+        PS_TRY(ps_points_check_ending(conversion->output, error)); /* before anything is read */
+    }
     w.options.keep_angles = writes_angles(conversion);
     const pspec_status status = convert_all(&w, loss, error);
     ps_points_close(w.reader);

@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "files/output_file.h"
 #include "points/points_format.h"
 
 #include <stdlib.h>
@@ -42,6 +43,22 @@ static const ps_point_format *find_ending(const char *path) {
         }
     }
     return NULL;
+}
+
+pspec_status ps_points_check_ending(const char *path, ps_error *error) {
+    static const char *const texts[] = {"", ".txt", ".dat", ".pts", ".tsv", ".xyz"};
+    const char *const ending = ps_output_ending(path);
+    bool is_known = find_ending(path) != NULL;
+    is_known = is_known || strcasecmp(ending, ".gz") == 0; /* refused with a reason of its own */
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+        is_known = is_known || strcasecmp(ending, texts[i]) == 0;
+    }
+    return is_known
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "\"%s\": no format of points has the ending %s, by which it is chosen "
+                         "(.txt is text); with --format the name is free",
+                         path, ending);
 }
 
 const char *ps_points_format_by_ending(const char *path) {

@@ -114,11 +114,14 @@ typedef struct ps_point_shape {
     uint64_t memory_limit; /* bytes of points, where the format keeps a set whole; 0: any */
 } ps_point_shape;
 
+/* PSPEC_ERROR_INVALID_ARGUMENT where path has an ending that neither a format nor text has. */
+pspec_status ps_points_check_ending(const char *path, ps_error *error) PS_MUST_CHECK;
 /* The format that a file of this name would get: by its ending, else "utk-text". */
 const char *ps_points_format_by_ending(const char *path);
 
-/* Creates path ("-": standard output). Format by name, or NULL: by ending. Shapes that the format
- * cannot hold are refused. The file appears under its name only when ps_points_commit succeeds. */
+/* Creates path ("-": standard output). Format by name, or NULL: by ending, which must
+ * be known. Shapes that the format cannot hold are refused. The file appears under its name only
+ * when ps_points_commit succeeds. */
 pspec_status ps_points_create(ps_point_writer **out, const char *path, const char *format,
                               const ps_point_shape *shape, ps_error *error) PS_MUST_CHECK;
 /* Writes a set, or a block of one. */

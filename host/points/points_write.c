@@ -85,6 +85,9 @@ pspec_status ps_points_create(ps_point_writer **out, const char *path, const cha
                               const ps_point_shape *shape, ps_error *error) {
     *out = NULL;
     const ps_point_format *chosen = NULL;
+    if (format == NULL) {
+        PS_TRY(ps_points_check_ending(path, error));
+    }
     PS_TRY(ps_point_format_find(format != NULL ? format : ps_points_format_by_ending(path), &chosen,
                                 error));
     PS_TRY(check_counts(chosen, shape, error));

@@ -22,12 +22,13 @@ static pspec_status check(ps_table_format *format, const ps_result_kind *kind,
         PS_TRY(kind->check_arguments(request, error));
     }
     PS_TRY(ps_picture_check(request, hooks, error));
+    PS_TRY(ps_outputs_check(request, true, error));
     PS_TRY(ps_table_choose_format(format, request->format, request->output, error));
     if (kind->has_verdict && *format == PS_FORMAT_NPY) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "verdicts are no numbers: .csv and .json, not .npy");
     }
-    return ps_outputs_check(request, true, error);
+    return PSPEC_OK;
 }
 
 /* ---- after ------------------------------------------------------------------------------- */

@@ -178,18 +178,27 @@ enum { NUM_FORMATS = sizeof format_names / sizeof format_names[0] };
 
 pspec_status ps_table_choose_format(ps_table_format *out, const char *name, const char *path,
                                     ps_error *error) {
-    const char *const dot = path != NULL ? strrchr(path, '.') : NULL;
+    const char *const ending = path != NULL ? ps_output_ending(path) : "";
     *out = PS_FORMAT_CSV;
     for (size_t i = 0; i < NUM_FORMATS; i++) {
         if (name != NULL ? strcmp(name, format_names[i]) == 0
-                         : dot != NULL && strcasecmp(dot + 1, format_names[i]) == 0) {
+                         : ending[0] != '\0' && strcasecmp(ending + 1, format_names[i]) == 0) {
             *out = (ps_table_format)i;
             return PSPEC_OK;
         }
     }
-    return name == NULL ? PSPEC_OK
-                        : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                                  "format \"%s\" is not known; there are csv, json and npy", name);
+    if (name != NULL) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "format \"%s\" is not known; there are csv, json and npy", name);
+    }
+    return ending[0] == '\0' ||
+                   strcasecmp(ending, ".gz") == 0 /* refused with a reason of its own */
+               ? PSPEC_OK
+               : ps_fail(
+                     error, PSPEC_ERROR_INVALID_ARGUMENT,
+                     "\"%s\": the ending %s is none of .csv, .json and .npy, by which the format "
+                     "is chosen; with --format the name is free",
+                     path, ending);
 }
 
 /* ---- writing ---- */

@@ -53,7 +53,8 @@ typedef struct ps_meta {
 pspec_status ps_table_add_metas(ps_table *table, const ps_meta *entries, size_t num,
                                 ps_error *error) PS_MUST_CHECK;
 pspec_status ps_table_add_row(ps_table *table, const ps_cell *cells, ps_error *error) PS_MUST_CHECK;
-/* Format by its name (csv, json, npy) or, with name NULL, by the ending of path (default CSV). */
+/* Format by its name (csv, json, npy) or, with name NULL, by the ending of path (none: CSV).
+ * Another ending is PSPEC_ERROR_INVALID_ARGUMENT. */
 pspec_status ps_table_choose_format(ps_table_format *out, const char *name, const char *path,
                                     ps_error *error) PS_MUST_CHECK;
 /* Writes to path, "-" for standard output (NPY to standard output is refused: it needs two files).

@@ -71,6 +71,25 @@ refuses 2 'is not an option of this command' devices -n 5
 refuses 2 '-n needs a value' sample --sampler white -n
 refuses 2 'but the option --seed follows' sample -o --seed 1
 refuses 2 '--wrap takes no value' power --wrap=yes
+# An output whose ending no format has, before anything is computed; --format makes the name free.
+none='the ending .foo is none of .csv, .json and .npy'
+for command in 'power --sampler white -n 1e9 -k 4' 'angular --sampler fibonacci -n 1e9 -l 4' 'truncation --brdf diffuse' devices \
+    'plan power --sampler white -n 16 -k 4' 'bench --quick'; do
+    read -r -a words <<<"$command"
+    refuses 2 "\"out.foo\": $none, by which the format is chosen; with --format the name is free" "${words[@]}" -o out.foo
+done
+refuses 2 '"some.d/out.foo": no format of points has the ending .foo' sample --sampler white -n 16 -o some.d/out.foo
+refuses 2 '"out.foo": no format of points has the ending .foo' convert no-such-file.txt -o out.foo
+for name in out.foo .hidden some.d/out; do
+    mkdir -p some.d
+    options=()
+    [[ $name == *.foo ]] && options=(--format csv)
+    "$program" devices -o $name "${options[@]}" || complain "devices -o $name"
+    "$program" sample --sampler white -n 16 -o $name "${options[@]}" || complain "sample -o $name"
+    [[ -s $name ]] || complain "no $name"
+    rm $name
+done
+rmdir some.d
 refuses 2 'unknown option --a?b' sample $'--a\nb'
 refuses 2 ' -n: "1.5" is not a whole number' sample --sampler white -n 1.5
 refuses 2 ' -n: 1e30 is not between 1 and' sample --sampler white -n 1e30
