@@ -4,6 +4,7 @@
 #include "base/pieces.h"
 #include "math/neumaier.h"
 #include "math/sobolev.h"
+#include "rules/distance_split.h"
 
 #include <float.h>
 #include <math.h>
@@ -117,7 +118,8 @@ static uint64_t count_pieces(size_t num_blocks) {
     return total;
 }
 
-pspec_status ps_rule_distance(const ps_rule *rule, double smoothness, const ps_watch *watch,
+/* Over all pairs. */
+static pspec_status sum_whole(const ps_rule *rule, double smoothness, const ps_watch *watch,
                               double *sum, ps_error *error) {
     pair_work work = {.rule = rule, .smoothness = smoothness};
     const size_t num_blocks = count_blocks(rule);
@@ -134,11 +136,34 @@ pspec_status ps_rule_distance(const ps_rule *rule, double smoothness, const ps_w
     for (size_t block = 0; block < num_blocks; block++) {
         ps_neumaier_add(&total, ps_neumaier_value(&work.sums[block]));
     }
-    const double num = (double)rule->num_points;
-    *sum = ps_neumaier_value(&total) / (rule->weights != NULL ? 1 : num * num);
+    *sum = ps_neumaier_value(&total);
     ps_workers_destroy(pieces.workers);
     free(work.sums);
     return status;
+}
+
+/* Over near and far pairs, where that pays. */
+static pspec_status sum_split(const ps_rule *rule, double smoothness, const ps_watch *watch,
+                              bool *pays, double *sum, ps_error *error) {
+    ps_distance_split *split = NULL;
+    pspec_status status = ps_distance_split_create(&split, rule, pays, error);
+    if (status == PSPEC_OK && *pays) {
+        status = ps_distance_split_sum(split, smoothness, watch, sum, error);
+    }
+    ps_distance_split_destroy(split);
+    return status;
+}
+
+pspec_status ps_rule_distance(const ps_rule *rule, double smoothness, const ps_watch *watch,
+                              double *sum, ps_error *error) {
+    const double num = (double)rule->num_points;
+    bool is_split = false;
+    if (rule->num_points > PS_DISTANCE_MOST_WHOLE) {
+        PS_TRY(sum_split(rule, smoothness, watch, &is_split, sum, error));
+    }
+    PS_TRY(is_split ? PSPEC_OK : sum_whole(rule, smoothness, watch, sum, error));
+    *sum /= rule->weights != NULL ? 1 : num * num;
+    return PSPEC_OK;
 }
 
 /* ---- kernel form --------------------------------------------------------------------------- */

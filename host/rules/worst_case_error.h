@@ -31,8 +31,10 @@ typedef struct ps_kernel_error {
     double kappa;    /* sum_j w_j kappa(u_j) */
 } ps_kernel_error;
 
-/* sum_ij w_i w_j |u_i-u_j|^(2s-2), O(N^2), compensated, over fixed blocks that are merged in a
- * fixed order: the same bits on any number of threads. watch: told how far it is; NULL: nobody. */
+/* sum_ij w_i w_j |u_i-u_j|^(2s-2), compensated, over fixed blocks that are merged in a fixed order:
+ * the same bits on any number of threads. O(N^2) up to PS_DISTANCE_MOST_WHOLE points, then O(N) by
+ * rules/distance_split.h, but for points most of which are in one place. watch: told how far it is;
+ * NULL: nobody. */
 pspec_status ps_rule_distance(const ps_rule *rule, double smoothness, const ps_watch *watch,
                               double *sum, ps_error *error) PS_MUST_CHECK;
 

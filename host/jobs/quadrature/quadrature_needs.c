@@ -1,6 +1,7 @@
 #include "jobs/quadrature/quadrature_needs.h"
 
 #include "plan/cost_model.h"
+#include "rules/distance_split.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -61,7 +62,7 @@ static double seconds_of_terms(const ps_quadrature_setup *setup, double num_term
 /* Kernel form and kappa. */
 static double other_seconds(const ps_quadrature_setup *setup) {
     const double points = (double)setup->problem.num_points;
-    return ps_cost_rule_seconds(num_sets(setup) * points * points / 2, 0) +
+    return ps_cost_rule_seconds(num_sets(setup) * ps_distance_count(points), 0) +
            seconds_of_terms(setup, (double)setup->representer.num_terms);
 }
 

@@ -2,6 +2,7 @@
 
 #include "jobs/parts/point_phases.h"
 #include "jobs/spectrum/power_phases.h"
+#include "rules/distance_split.h"
 
 #include <math.h>
 
@@ -72,8 +73,10 @@ static void add_rules(const ps_quadrature_setup *setup, const ps_quadrature_ques
     }
     ps_phases_add_sets(phases, "worst-case error",
                        needs_powers(question) ? PS_HOST_PAIR_POWER : PS_HOST_PAIR,
-                       points * points / 2, sets);
-    ps_phases_say(phases, "worst-case error", "%.4g pairs of points", sets * points * points / 2);
+                       ps_distance_count(points), sets);
+    ps_phases_say(phases, "worst-case error", "%.4g distances of pairs of points, %.3g bytes",
+                  sets * ps_distance_count(points),
+                  (double)ps_distance_bytes(setup->problem.num_points));
 }
 
 double ps_quadrature_phases(const ps_quadrature_setup *setup,
@@ -89,7 +92,8 @@ double ps_quadrature_phases(const ps_quadrature_setup *setup,
     add_rules(setup, question, sets, phases);
     if (chosen != NULL) {
         ps_phases_add_seconds(phases, "powers", chosen->seconds * repeats);
-        ps_phases_touch(phases, chosen->bytes);
+        ps_phases_touch(phases,
+                        chosen->bytes + (double)ps_distance_bytes(setup->problem.num_points));
         ps_phases_say(phases, "powers", "%s in %s precision", chosen->engine->name,
                       ps_precision_name(chosen->precision));
     }
