@@ -11,6 +11,8 @@ struct pspec_quadrature {
     pspec_worst_case_error error;
     size_t num_degrees;
     pspec_quadrature_degree *degrees;
+    double *weights;
+    size_t num_weights;
     char text[sizeof((ps_quadrature_result *)0)->engine];
 };
 
@@ -28,6 +30,14 @@ static pspec_status check_request(const pspec_quadrature_request *request,
     if (!(request->tolerance > 0 && request->tolerance <= 1)) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "tolerance %g must be above 0 and at most 1", request->tolerance);
+    }
+    if (request->weight_sum_one != 0 && request->optimal_weights == 0) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "weight_sum_one is about optimal_weights, which is 0");
+    }
+    if (!(request->standard_error >= 0 && request->standard_error < 1)) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "standard_error %g must be from 0 to below 1", request->standard_error);
     }
     return request->max_degree >= 0 && request->max_degree <= PS_MAX_DEGREE
                ? PSPEC_OK
@@ -48,10 +58,14 @@ static pspec_status make_question(ps_quadrature_question *out, pspec_context *co
                                   const pspec_quadrature_request *request, ps_error *error) {
     *out = (ps_quadrature_question){
         .smoothness = request->smoothness,
-        .weights.kind = request->optimal_weights != 0 ? PS_WEIGHTS_OPTIMAL : PS_WEIGHTS_GIVEN,
+        .weights = {.kind = request->optimal_weights != 0 ? PS_WEIGHTS_OPTIMAL : PS_WEIGHTS_GIVEN,
+                    .sum_to_one = request->weight_sum_one != 0},
+        .keeps_weights = request->keep_weights != 0,
         .drops_below_horizon = request->drop_below_horizon != 0,
         .max_degree = (size_t)request->max_degree,
-        .accuracy = {.tolerance = request->tolerance, .no_skip = request->no_skip != 0},
+        .accuracy = {.tolerance = request->tolerance,
+                     .standard_error = request->standard_error,
+                     .no_skip = request->no_skip != 0},
         .limits = {.constraints = {.engine = request->engine,
                                    .memory_limit = context->memory_limit}},
         .watch = context->watch,
@@ -88,7 +102,8 @@ static void fill_error(pspec_worst_case_error *out, const ps_quadrature_result *
                                     .num_duplicates = result->num_duplicates};
 }
 
-static pspec_status fill_answer(pspec_quadrature *out, const ps_quadrature_result *result,
+/* The weights go over to the answer. */
+static pspec_status fill_answer(pspec_quadrature *out, ps_quadrature_result *result,
                                 ps_error *error) {
     const size_t num = result->max_degree + 1;
     PS_TRY(PS_NEW(&out->degrees, num, "degrees", error));
@@ -100,6 +115,9 @@ static pspec_status fill_answer(pspec_quadrature *out, const ps_quadrature_resul
             copy_mean(found->e2)};
     }
     fill_error(&out->error, result);
+    out->weights = result->weights;
+    out->num_weights = result->num_weights;
+    result->weights = NULL;
     snprintf(out->text, sizeof out->text, "%s", result->engine);
     return PSPEC_OK;
 }
@@ -148,6 +166,7 @@ pspec_status pspec_quadrature_create(pspec_quadrature **out, pspec_context *cont
 void pspec_quadrature_destroy(pspec_quadrature *quadrature) {
     if (quadrature != NULL) {
         free(quadrature->degrees);
+        free(quadrature->weights);
         free(quadrature);
     }
 }
@@ -160,6 +179,11 @@ const pspec_quadrature_degree *pspec_quadrature_degrees(const pspec_quadrature *
                                                         size_t *num_degrees) {
     *num_degrees = quadrature->num_degrees;
     return quadrature->degrees;
+}
+
+const double *pspec_quadrature_weights(const pspec_quadrature *quadrature, size_t *num_weights) {
+    *num_weights = quadrature->num_weights;
+    return quadrature->weights;
 }
 
 const char *pspec_quadrature_text(const pspec_quadrature *quadrature) {

@@ -3,6 +3,7 @@
 #include "base/memory_limit.h"
 #include "files/decimal.h"
 #include "files/npy.h"
+#include "files/output_file.h"
 #include "files/text_lines.h"
 #include "points/points_format.h"
 
@@ -284,6 +285,30 @@ out:
     free(list.values);
     ps_input_close(&input);
     return status;
+}
+
+pspec_status ps_weights_check_name(const char *path, ps_error *error) {
+    const char *const ending = ps_output_ending(path);
+    return ending[0] == '\0' || strcmp(ending, ".npy") == 0 || strcmp(ending, ".txt") == 0
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "\"%s\": weights are written to .npy or .txt, not %s", path, ending);
+}
+
+pspec_status ps_write_weights(const char *path, const double *weights, size_t num_weights,
+                              ps_error *error) {
+    ps_output_file *file = NULL;
+    char text[PS_DECIMAL_BYTES + 1];
+    if (strcmp(ps_output_ending(path), ".npy") == 0) {
+        return ps_npy_write(path, 1, &num_weights, weights, error);
+    }
+    PS_TRY(ps_output_open(&file, path, error));
+    for (size_t j = 0; j < num_weights; j++) {
+        const size_t length = ps_decimal_format(text, weights[j]);
+        text[length] = '\n';
+        ps_output_write(file, text, 1, length + 1);
+    }
+    return ps_output_commit(&file, error);
 }
 
 /* ---- pairs ---- */

@@ -149,6 +149,13 @@ pspec_status ps_read_frequencies(const char *path, uint64_t memory_limit, int **
 pspec_status ps_read_weights(const char *path, uint64_t num_wanted, double **weights,
                              size_t *num_weights, ps_error *error) PS_MUST_CHECK;
 
+/* Writes weights that ps_read_weights reads: an array where the path ends in .npy, else text, one
+ * number a line. "-" is standard output. */
+pspec_status ps_write_weights(const char *path, const double *weights, size_t num_weights,
+                              ps_error *error) PS_MUST_CHECK;
+/* Whether the ending tells which of both it is: .npy, .txt, or none. */
+pspec_status ps_weights_check_name(const char *path, ps_error *error) PS_MUST_CHECK;
+
 /* Two numbers of a line, and which line it was. */
 typedef struct ps_pair {
     double first, second;

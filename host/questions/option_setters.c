@@ -237,9 +237,19 @@ pspec_status ps_set_weights(const ps_option *option, const char *shown, const ch
     if (kind == PS_WEIGHTS_GIVEN) {
         return fail_word(shown, words, value, error);
     }
-    arguments->weights = (ps_weights_spec){kind, kind == PS_WEIGHTS_FILE ? value : NULL};
+    arguments->weights.kind = kind;
+    arguments->weights.path = kind == PS_WEIGHTS_FILE ? value : NULL;
     arguments->reading.weight_column = kind == PS_WEIGHTS_COLUMN;
     arguments->reading.ignore_weights = kind != PS_WEIGHTS_COLUMN; /* others replace them */
+    return PSPEC_OK;
+}
+
+pspec_status ps_set_weight_sum(const ps_option *option, const char *shown, const char *words,
+                               const char *value, ps_request *arguments, ps_error *error) {
+    (void)option;
+    int index = 0;
+    PS_TRY(find_word(shown, words, value, &index, error));
+    arguments->weights.sum_to_one = index == 1;
     return PSPEC_OK;
 }
 

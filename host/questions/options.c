@@ -134,6 +134,16 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                    "last one of the files (default: those that the format or "
                                    "--columns has, else all 1)",
                            .set = ps_set_weights},
+    [PS_OPTION_WEIGHT_SUM] = {NAMED("weight-sum", 0, "free|one"), OF(BIT(quadrature), 0),
+                              .help = "of --weights optimal: those that make the error smallest, "
+                                      "or those that do among weights whose sum is 1 (default "
+                                      "free)",
+                              .set = ps_set_weight_sum},
+    [PS_OPTION_WEIGHTS_OUT] = {NAMED("weights-out", 0, "FILE"), OF(0, BIT(quadrature)),
+                               .help = "write the weights of the only rule too, as --weights FILE "
+                                       "reads them: an array where FILE ends in .npy, else text, "
+                                       "one a line; 0 for points that were dropped",
+                               TEXT(weights_out)},
     [PS_OPTION_INPUT_FORMAT] = {NAMED("input-format", 0, PS_POINT_FORMATS), OF(SETS, BIT(convert)),
                                 .help = "format of the point files (default: detected)",
                                 WORD(reading.format)},

@@ -24,6 +24,21 @@ static pspec_status check_source(const ps_request *arguments, ps_error *error) {
                : PSPEC_OK;
 }
 
+static pspec_status check_weights(const ps_request *arguments, ps_error *error) {
+    if (arguments->is_given[PS_OPTION_WEIGHT_SUM] &&
+        arguments->weights.kind != PS_WEIGHTS_OPTIMAL) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "%s is about --weights optimal, which was not given",
+                       ps_option_show(arguments, PS_OPTION_WEIGHT_SUM).text);
+    }
+    return arguments->weights_out != NULL &&
+                   (arguments->num_samplers > 1 || ps_num_realizations_asked(arguments) > 1)
+               ? ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "--weights-out has the weights of one rule, but several samplers or "
+                         "realizations were asked for")
+               : PSPEC_OK;
+}
+
 /* Points of the hemisphere get the density of the lobe, unless morph= says otherwise. */
 static pspec_status make_request(ps_sampler_request *request, const ps_request *arguments,
                                  size_t index, const ps_brdf *brdf, ps_error *error) {
@@ -58,6 +73,7 @@ static ps_quadrature_question make_question(const ps_request *arguments, const p
         .paths = arguments->files,
         .num_paths = arguments->num_files,
         .weights = arguments->weights,
+        .keeps_weights = arguments->weights_out != NULL,
         .point_options = ps_point_options_make(arguments),
         .drops_below_horizon = arguments->drop_below_horizon,
         .max_degree = (size_t)arguments->max_degree,
@@ -77,6 +93,7 @@ pspec_status ps_quadrature_list_make(ps_quadrature_list *out, const ps_request *
                                      ps_error *error) {
     *out = (ps_quadrature_list){.num = arguments->num_samplers > 0 ? arguments->num_samplers : 1};
     PS_TRY(check_source(arguments, error));
+    PS_TRY(check_weights(arguments, error));
     PS_TRY(ps_brdf_parse(&out->brdf, arguments->brdf, error));
     for (size_t i = 0; i < out->num; i++) {
         out->questions[i] = make_question(arguments, out->brdf);

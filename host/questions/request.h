@@ -40,6 +40,8 @@ typedef enum ps_option_id {
     PS_OPTION_NORMALIZE,         /* --normalize power|effective */
     PS_OPTION_HOMOGENIZE,        /* --homogenize */
     PS_OPTION_WEIGHTS,           /* --weights equal|column|FILE */
+    PS_OPTION_WEIGHT_SUM,        /* --weight-sum free|one */
+    PS_OPTION_WEIGHTS_OUT,       /* --weights-out FILE */
     PS_OPTION_INPUT_FORMAT,      /* --input-format NAME */
     PS_OPTION_COLUMNS,           /* --columns NAME */
     PS_OPTION_DOMAIN,            /* --domain torus|sphere */
@@ -100,8 +102,8 @@ typedef struct ps_request {
     uint64_t cache_bytes;          /* 1e9 unless given */
     const char *against;           /* NULL unless given */
     double false_alarm_rate;       /* 1e-3 unless given */
-    const char *brdf, *coefficients, *harmonics, *full, *to_columns, *case_name, *output, *format,
-        *plot; /* NULL unless given */
+    const char *brdf, *coefficients, *harmonics, *full, *weights_out, *to_columns, *case_name,
+        *output, *format, *plot; /* NULL unless given */
     /* How point files are read. What is of samplers or engines, too (dimension, number of points,
      * memory), stands in it no sooner than ps_point_options_make hands it on. */
     ps_point_options reading;

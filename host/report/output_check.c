@@ -155,6 +155,7 @@ pspec_status ps_outputs_check(const ps_request *arguments, bool is_table, ps_err
         {shown.text, arguments->output},
         {"--full", arguments->full},
         {"--coefficients", arguments->coefficients},
+        {"--weights-out", arguments->weights_out},
         {"--plot", arguments->plot},
         {"the column names", is_npy ? ps_text_string(&sidecar) : NULL},
         {"the standard errors", arguments->full != NULL ? ps_text_string(&standard_errors) : NULL},

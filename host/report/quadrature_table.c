@@ -16,7 +16,7 @@ static pspec_status add_remark(ps_table *table, const char *key, const char *tex
 static const char *name_weights(const ps_quadrature_question *question) {
     switch (question->weights.kind) {
     case PS_WEIGHTS_OPTIMAL:
-        return "optimal";
+        return question->weights.sum_to_one ? "optimal with sum 1" : "optimal";
     case PS_WEIGHTS_FILE:
         return question->weights.path;
     case PS_WEIGHTS_GIVEN:

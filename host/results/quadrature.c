@@ -1,6 +1,7 @@
 /* Quadrature spectrum and worst-case error of rules for a BRDF. */
 #include "base/memory.h"
 #include "jobs/quadrature/quadrature_looks.h"
+#include "points/points.h"
 #include "questions/quadrature_question.h"
 #include "report/quadrature_table.h"
 #include "results/compare.h"
@@ -98,6 +99,19 @@ static pspec_status tabulate(ps_answer *out, const void *computed, const ps_requ
     return ps_quadrature_table(&out->table, request, &work->list, work->results, error);
 }
 
+static pspec_status check_weights_out(const ps_request *request, ps_error *error) {
+    return request->weights_out != NULL ? ps_weights_check_name(request->weights_out, error)
+                                        : PSPEC_OK;
+}
+
+static pspec_status write_others(const void *computed, const ps_request *request, ps_error *error) {
+    const rules *const work = computed;
+    const ps_quadrature_result *const result = &work->results[0];
+    return request->weights_out != NULL ? ps_write_weights(request->weights_out, result->weights,
+                                                           result->num_weights, error)
+                                        : PSPEC_OK;
+}
+
 static pspec_status draw(const void *computed, const ps_request *request, ps_error *error) {
     const rules *const work = computed;
     return ps_quadrature_plot(request, &work->list, work->results, error);
@@ -143,10 +157,12 @@ const ps_result_kind ps_result_quadrature = {
     .weights = "equal|column|optimal|FILE",
     .samples = PS_DOMAIN_SPHERE,
     .counted = "realizations",
+    .check_arguments = check_weights_out,
     .check_question = check_question,
     .plan = plan,
     .compute = compute,
     .tabulate = tabulate,
+    .write_others = write_others,
     .draw = draw,
     .discard = discard,
     .summary = summary,

@@ -118,6 +118,52 @@ static void weights(void **state) {
     pspec_context_destroy(context);
 }
 
+/* Weights that were kept are those of the answer: given back with their points they make the same E
+ * and the same sum, with 0 for the point below the horizon. Of all with sum 1 none makes E smaller:
+ * divided by their sum, the best ones do not. */
+static void kept_weights(void **state) {
+    (void)state;
+    static const double points[] = {0, 0, 1, 0.6, 0, 0.8, 0, 0.6, -0.8, 0, -0.8, 0.6};
+    enum { NUM = 4, BELOW = 2 };
+    double scaled[NUM];
+    size_t num = 0;
+    pspec_context *context = pspec_context_create();
+    pspec_quadrature_request request = make_request();
+    request.drop_below_horizon = 1;
+    const pspec_pattern pattern = {3, NUM, points, NULL};
+    request.optimal_weights = 1;
+    pspec_quadrature *none = analyse(context, &request, &pattern, 1);
+    assert_null(pspec_quadrature_weights(none, &num));
+    assert_int_equal(num, 0);
+    request.keep_weights = 1;
+    pspec_quadrature *best = analyse(context, &request, &pattern, 1);
+    const double *const weights = pspec_quadrature_weights(best, &num);
+    assert_int_equal(num, NUM);
+    assert_true(weights[BELOW] == 0 && weights[0] != 0 && weights[3] != 0);
+    const double sum = pspec_quadrature_error(best)->weight_sum.mean;
+    test_assert_near(weights[0] + weights[1] + weights[3], sum, 1e-15);
+    for (size_t j = 0; j < NUM; j++) {
+        scaled[j] = weights[j] / sum;
+    }
+    request.weight_sum_one = 1;
+    pspec_quadrature *one = analyse(context, &request, &pattern, 1);
+    request.weight_sum_one = request.optimal_weights = 0;
+    const pspec_pattern given = {3, NUM, points, weights};
+    const pspec_pattern divided = {3, NUM, points, scaled};
+    pspec_quadrature *again = analyse(context, &request, &given, 1);
+    pspec_quadrature *other = analyse(context, &request, &divided, 1);
+    const double e = pspec_quadrature_error(best)->squared.mean;
+    const double e_one = pspec_quadrature_error(one)->squared.mean;
+    test_assert_near(pspec_quadrature_error(again)->squared.mean, e, 1e-15);
+    test_assert_near(pspec_quadrature_error(one)->weight_sum.mean, 1, 1e-14);
+    assert_true(e < e_one && e_one < pspec_quadrature_error(other)->squared.mean);
+    pspec_quadrature *const all[] = {none, best, one, again, other};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
+        pspec_quadrature_destroy(all[i]);
+    }
+    pspec_context_destroy(context);
+}
+
 static void refuses(pspec_context *context, const pspec_quadrature_request *request,
                     const pspec_pattern *pattern, size_t num, pspec_status status,
                     const char *says) {
@@ -279,7 +325,7 @@ static void azimuthal_sums(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_point),     cmocka_unit_test(realizations),
-        cmocka_unit_test(weights),       cmocka_unit_test(nonsense),
+        cmocka_unit_test(weights), cmocka_unit_test(kept_weights),       cmocka_unit_test(nonsense),
         cmocka_unit_test(cancelled),     cmocka_unit_test(truncation),
         cmocka_unit_test(azimuthal_sums)};
     return cmocka_run_group_tests_name("quadrature_public", tests, NULL, NULL);

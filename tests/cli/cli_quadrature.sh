@@ -24,6 +24,41 @@ near 'e2' "$(awk -F, '/^[0-9]/ { sum += $8 } END { printf "%.17g", sum }' out)" 
 runs 0 "${fibonacci[@]}" --brdf diffuse --weights optimal
 near 'E, optimal' "$(key worst_case_error)" 1.158e-2 5e-4
 near 'W, optimal' "$(key weight_sum)" 0.99973 1e-5
+free=$(key worst_case_error)
+runs 0 "${fibonacci[@]}" --brdf diffuse --weights optimal --weight-sum one
+near 'W, sum one' "$(key weight_sum)" 1 1e-13
+[[ $(key weights) == 'optimal with sum 1' ]] || complain "weights: $(key weights)"
+awk -v a="$free" -v b="$(key worst_case_error)" 'BEGIN { exit !(b > a && b < a * 1.001) }' ||
+    complain "E with sum 1: $(key worst_case_error), $free without"
+
+# weights as a file are read back: the same E by either format, and the same bits in both
+"$program" sample --sampler fibonacci-hemisphere:morph=diffuse -n 256 -o fibonacci.npy || complain 'sample'
+for sum in free one; do
+    runs 0 --brdf diffuse --weights optimal --weight-sum $sum --weights-out w.npy fibonacci.npy
+    mv out made
+    runs 0 --brdf diffuse --weights w.npy fibonacci.npy
+    near "E, $sum, read back" "$(key worst_case_error)" "$(sed -n 's/^# worst_case_error: //p' made)" 1e-12
+    near "W, $sum, read back" "$(key weight_sum)" "$(sed -n 's/^# weight_sum: //p' made)" 1e-15
+    runs 0 --brdf diffuse --weights optimal --weight-sum $sum --weights-out w.txt fibonacci.npy
+    cmp -s out <(sed 's/w\.npy/w.txt/' made) || complain "$sum: text and array differ: $(diff out made | head -4)"
+    runs 0 --brdf diffuse --weights w.npy fibonacci.npy
+    grep -v '^# \(command\|weights\):' out >made
+    runs 0 --brdf diffuse --weights w.txt fibonacci.npy
+    grep -v '^# \(command\|weights\):' out | cmp -s - made || complain "$sum: text and array are read as others"
+    [[ $(wc -l <w.txt) == 256 ]] || complain "$(wc -l <w.txt) weights"
+done
+# of points that are dropped they are 0, so that they still belong to the file
+printf '0 0 1\n0.6 0 -0.8\n0 0.6 0.8\n' >some.txt
+runs 0 --brdf diffuse --drop-below-horizon --weights optimal --weights-out w.txt some.txt
+[[ $(sed -n 2p w.txt) == 0 && $(sed -n 1p w.txt) != 0 && $(wc -l <w.txt) == 3 ]] || complain "dropped: $(<w.txt)"
+refuses '"w.foo": weights are written to .npy or .txt, not .foo' --brdf diffuse --weights optimal --weights-out w.foo some.txt
+refuses 'are the same file' --brdf diffuse --weights optimal --weights-out some.txt some.txt
+refuses '--weights-out has the weights of one rule' --brdf diffuse --weights-out w.txt --sampler white-hemisphere -n 4 -m 2
+printf '0 0 1\n#\n0 0.6 0.8\n' >two.txt
+refuses 'the weights of one rule are to be kept, but there are several sets' --brdf diffuse --weights-out w2.txt two.txt
+[[ ! -e w2.txt ]] || complain 'w2.txt is there'
+refuses '--weight-sum is about --weights optimal, which was not given' --brdf diffuse --weight-sum one some.txt
+refuses '--weight-sum two' --brdf diffuse --weights optimal --weight-sum two some.txt
 runs 0 "${fibonacci[@]}" --brdf glossy:n=30
 near 'E, glossy' "$(key worst_case_error)" 7.390e-3 5e-4
 runs 0 "${fibonacci[@]}" --brdf glossy:n=30 --weights optimal -l 8

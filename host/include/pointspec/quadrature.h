@@ -39,11 +39,17 @@ typedef struct pspec_quadrature_request {
     const char *engine;    /**< of the sphere or of pairs, or NULL: the best */
     const char *precision; /**< "single", "double", "extended", or NULL: likewise */
     int no_skip;           /**< compute also degrees and realizations that cannot matter */
+    int weight_sum_one;    /**< optimal weights among those with sum w = 1 */
+    /** keep the weights for pspec_quadrature_weights(); there must be one pattern */
+    int keep_weights;
+    /** no more patterns than make the relative standard error of E^2 and of every e_l^2 above the
+     * tolerance this small, at least 16; default 0: all */
+    double standard_error;
 } pspec_quadrature_request;
 
 /** The defaults of a #pspec_quadrature_request. */
 #define PSPEC_QUADRATURE_REQUEST_INIT                                                              \
-    { sizeof(pspec_quadrature_request), "diffuse", 1.5, 0, 0, 0, 1e-10, 0, 0, 0 }
+    { sizeof(pspec_quadrature_request), "diffuse", 1.5, 0, 0, 0, 1e-10, 0, 0, 0, 0, 0, 0 }
 
 /** One degree of the spectral form. */
 typedef struct pspec_quadrature_degree {
@@ -98,6 +104,11 @@ pspec_quadrature_error(const pspec_quadrature *quadrature);
 /** l = 0 .. L, [*num_degrees] = L + 1. Belong to the analysis. */
 PSPEC_EXPORT const pspec_quadrature_degree *
 pspec_quadrature_degrees(const pspec_quadrature *quadrature, size_t *num_degrees);
+/** The weights of the rule, with request.keep_weights, in the order of the pattern's points; 0 for
+ * those that were left out. NULL, and *num_weights = 0, where they were not kept. Belong to the
+ * analysis. */
+PSPEC_EXPORT const double *pspec_quadrature_weights(const pspec_quadrature *quadrature,
+                                                    size_t *num_weights);
 /** "(sphere_direct precision=double ...)", what made c_lm or Q(l); belongs to the analysis. */
 PSPEC_EXPORT const char *pspec_quadrature_text(const pspec_quadrature *quadrature);
 

@@ -150,6 +150,7 @@ static size_t choose_batch(const quadrature_job *job) {
 static pspec_status begin(void *payload, ps_error *error) {
     quadrature_job *const job = payload;
     ps_quadrature_degree *const degrees = job->out->degrees;
+    free(job->out->weights);
     *job->out = (ps_quadrature_result){.degrees = degrees, .largest_condition = NAN};
     job->of_rules = (rule_sums){0};
     memset(job->sums, 0, SUMS * (job->setup.max_degree + 1) * sizeof(ps_sums));
@@ -170,10 +171,26 @@ static pspec_status sum_batch(quadrature_job *job, ps_error *error) {
     return PSPEC_OK;
 }
 
+/* Of the points as they were given: those that were dropped have none. */
+static pspec_status keep_weights(quadrature_job *job, ps_error *error) {
+    const ps_rules *const rules = &job->rules;
+    const ps_weighted_rule *const rule = &rules->batch[0];
+    if (!job->question->keeps_weights) {
+        return PSPEC_OK;
+    }
+    PS_TRY(PS_NEW(&job->out->weights, rules->num_given, "weights", error));
+    job->out->num_weights = rules->num_given;
+    for (size_t j = 0; j < rule->set.num_points; j++) {
+        job->out->weights[rules->places[j]] = rule->weights[j];
+    }
+    return PSPEC_OK;
+}
+
 static pspec_status give(void *payload, uint64_t most, size_t *num, ps_error *error) {
     quadrature_job *const job = payload;
     PS_TRY(ps_rules_next(&job->rules, &job->setup.representer, most, error));
     *num = job->rules.num;
+    PS_TRY(*num > 0 ? keep_weights(job, error) : PSPEC_OK);
     return *num > 0 ? sum_batch(job, error) : PSPEC_OK;
 }
 
@@ -320,6 +337,10 @@ static pspec_status prepare(quadrature_job *job, ps_error *error) {
     PS_TRY(ps_quadrature_setup_begin(setup, question, error));
     PS_TRY(ps_rules_open(&job->rules, &job->shape, error));
     PS_TRY(ps_quadrature_setup_make(setup, question, &job->shape, error));
+    if (question->keeps_weights && job->shape.has_several) {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "the weights of one rule are to be kept, but there are several sets");
+    }
     tell_plan(job);
     PS_TRY(ps_plan_require(&setup->plan, &setup->problem, error));
     job->rules.most = setup->needs.one_realization ? 1 : UINT64_MAX;
@@ -368,6 +389,7 @@ pspec_status ps_quadrature_run(ps_quadrature_result *out, const ps_quadrature_qu
 
 void ps_quadrature_free(ps_quadrature_result *result) {
     free(result->degrees);
+    free(result->weights);
     ps_representer_destroy(&result->representer);
     *result = (ps_quadrature_result){0};
 }

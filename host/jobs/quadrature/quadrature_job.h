@@ -13,6 +13,7 @@ typedef struct ps_quadrature_question {
     const ps_brdf *brdf;
     double smoothness;
     ps_weights_spec weights;
+    bool keeps_weights; /* those of the rule are in the result; several rules are an error */
     const ps_sampler_request
         *sampler;              /* NULL: files; resolved, morphed to the BRDF if that is wanted */
     uint64_t num_realizations; /* of the sampler */
@@ -76,6 +77,8 @@ typedef struct ps_quadrature_result {
     bool was_replanned;     /* the first run missed the tolerance */
     char degrees_note[192]; /* why the degrees end where they do; "" when L was asked for */
     char skipped[2048];     /* what was not computed, and why */
+    double *weights; /* [num_weights] where they were to be kept; 0 for points that were dropped */
+    size_t num_weights;
     ps_representer representer;
 } ps_quadrature_result;
 

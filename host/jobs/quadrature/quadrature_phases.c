@@ -34,13 +34,18 @@ static double add_points(const ps_quadrature_setup *setup, const ps_quadrature_q
     return fmax(1, nearbyint(points / each));
 }
 
+/* The sum is imposed by a second system of equations. */
+static double num_solutions(const ps_quadrature_question *question) {
+    return question->weights.sum_to_one ? 2 : 1;
+}
+
 static void add_matrices(const ps_quadrature_question *question, double points, double sets,
                          ps_phases *phases) {
     const double square = points * points * sets;
     ps_phases_add(phases, "weights", PS_HOST_CHOLESKY, square * points / 3);
     ps_phases_add(phases, "weights", needs_powers(question) ? PS_HOST_MATRIX_POWER : PS_HOST_MATRIX,
                   square);
-    ps_phases_add(phases, "weights", PS_HOST_SOLVE, square);
+    ps_phases_add(phases, "weights", PS_HOST_SOLVE, num_solutions(question) * square);
     ps_phases_say(phases, "weights", "Cholesky of %.6g x %.6g", points, points);
 }
 
@@ -53,7 +58,7 @@ static void add_gradients(const ps_quadrature_question *question, double points,
     ps_phases_add(phases, "weights", PS_HOST_NEIGHBOURS, points * points / 2 * sets);
     ps_phases_add(phases, "weights", PS_HOST_INVERSE, points * sets);
     ps_phases_add(phases, "weights", powers ? PS_HOST_PRODUCT_POWER : PS_HOST_PRODUCT,
-                  (steps + others) * points * points * sets);
+                  (num_solutions(question) * steps + others) * points * points * sets);
     ps_phases_say(phases, "weights", "conjugate gradients, %g steps", steps);
     ps_phases_limit(phases, "weights");
 }

@@ -78,6 +78,7 @@ static void free_batch(ps_rules *rules) {
 void ps_rules_free(ps_rules *rules) {
     ps_source_destroy(rules->source);
     free(rules->file_weights);
+    free(rules->places);
     for (size_t i = 0; i < PS_RULES_AHEAD; i++) {
         ps_point_set_free(&rules->waiting[i]);
     }
@@ -181,6 +182,9 @@ static pspec_status accept_points(ps_rules *rules, ps_weighted_rule *rule, ps_er
             points[3 * kept + (size_t)i] = u[i];
         }
         straighten(points + 3 * kept);
+        if (rules->places != NULL) {
+            rules->places[kept] = j;
+        }
         rule->weights[kept++] = rule->weights[j];
     }
     rules->facts.num_dropped += rule->set.num_points - kept;
@@ -232,42 +236,11 @@ static pspec_status find_optimal(ps_rules *rules, const ps_representer *represen
                                        .memory_limit =
                                            rules->question->limits.constraints.memory_limit,
                                        .device = rules->device};
-    PS_TRY(ps_optimal_weights_find(representer, num, rule->set.points, rule->kappa, false, &options,
-                                   rule->weights, &found, error));
+    PS_TRY(ps_optimal_weights_find(representer, num, rule->set.points, rule->kappa,
+                                   rules->question->weights.sum_to_one, &options, rule->weights,
+                                   &found, error));
     add_facts(&rules->facts, &found.facts, num);
     return PSPEC_OK;
-}
-
-void ps_rules_plan_weights(const ps_quadrature_question *question, size_t num_points,
-                           const ps_device *device, char *text, size_t size) {
-    const uint64_t limit = question->limits.constraints.memory_limit;
-    const double dense = (double)ps_kernel_system_bytes(num_points, true);
-    const double sparse = (double)ps_kernel_system_bytes(num_points, false);
-    text[0] = '\0';
-    if (question->weights.kind != PS_WEIGHTS_OPTIMAL) {
-        return;
-    }
-    if (ps_kernel_system_is_dense(num_points, limit)) {
-        snprintf(text, size, "optimal, by Cholesky; a matrix of %zu x %zu, %.4g bytes", num_points,
-                 num_points, dense);
-        return;
-    }
-    snprintf(text, size,
-             "optimal, by conjugate gradients with products %s, %.4g bytes; a matrix would take "
-             "%.4g bytes, and %s",
-             ps_pairs_product_is_possible(device) ? "on the device" : "in threads", sparse, dense,
-             num_points > PS_KERNEL_MOST_DENSE ? "matrices are made for 20000 points and fewer"
-                                               : "--memory is less");
-}
-
-void ps_rule_facts_name_weights(const ps_rule_facts *facts, char *text, size_t size) {
-    if (facts->most_steps == 0) {
-        snprintf(text, size, "Cholesky");
-        return;
-    }
-    snprintf(text, size, "%sconjugate gradients, %zu steps to a residual of %.2g, at most",
-             facts->has_matrices ? "Cholesky, and " : "", facts->most_steps,
-             facts->largest_residual);
 }
 
 /* E^2 is of degree two in the weights, and its standard error of degree four. */
@@ -279,9 +252,21 @@ static pspec_status check_largest(const ps_weighted_rule *rule, uint64_t set, ps
     return ps_pattern_check_largest(largest, set, error);
 }
 
+static pspec_status reserve_places(ps_rules *rules, const ps_weighted_rule *rule,
+                                   ps_error *error) {
+    if (!rules->question->keeps_weights) {
+        return PSPEC_OK;
+    }
+    rules->num_given = rule->set.num_points;
+    free(rules->places);
+    rules->places = NULL;
+    return PS_NEW(&rules->places, rules->num_given, "places of points", error);
+}
+
 /* Points and weights of a set that was just read. */
 static pspec_status begin_rule(ps_rules *rules, ps_weighted_rule *rule, ps_error *error) {
     bool is_equal = false;
+    PS_TRY(reserve_places(rules, rule, error));
     PS_TRY(reserve(rule, error));
     PS_TRY(copy_weights(rules, rule, &is_equal, error));
     PS_TRY(accept_points(rules, rule, error));
