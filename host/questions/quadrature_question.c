@@ -1,5 +1,6 @@
 #include "questions/quadrature_question.h"
 
+#include "questions/options.h"
 #include "questions/question.h"
 
 #include <string.h>

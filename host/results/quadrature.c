@@ -107,9 +107,9 @@ static pspec_status check_weights_out(const ps_request *request, ps_error *error
 static pspec_status write_others(const void *computed, const ps_request *request, ps_error *error) {
     const rules *const work = computed;
     const ps_quadrature_result *const result = &work->results[0];
-    return request->weights_out != NULL ? ps_write_weights(request->weights_out, result->weights,
-                                                           result->num_weights, error)
-                                        : PSPEC_OK;
+    return request->weights_out != NULL
+               ? ps_write_weights(request->weights_out, result->weights, result->num_weights, error)
+               : PSPEC_OK;
 }
 
 static pspec_status draw(const void *computed, const ps_request *request, ps_error *error) {

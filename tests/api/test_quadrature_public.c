@@ -324,9 +324,9 @@ static void azimuthal_sums(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_point),     cmocka_unit_test(realizations),
-        cmocka_unit_test(weights), cmocka_unit_test(kept_weights),       cmocka_unit_test(nonsense),
-        cmocka_unit_test(cancelled),     cmocka_unit_test(truncation),
-        cmocka_unit_test(azimuthal_sums)};
+        cmocka_unit_test(one_point),  cmocka_unit_test(realizations),
+        cmocka_unit_test(weights),    cmocka_unit_test(kept_weights),
+        cmocka_unit_test(nonsense),   cmocka_unit_test(cancelled),
+        cmocka_unit_test(truncation), cmocka_unit_test(azimuthal_sums)};
     return cmocka_run_group_tests_name("quadrature_public", tests, NULL, NULL);
 }

@@ -58,7 +58,7 @@ printf '0 0 1\n#\n0 0.6 0.8\n' >two.txt
 refuses 'the weights of one rule are to be kept, but there are several sets' --brdf diffuse --weights-out w2.txt two.txt
 [[ ! -e w2.txt ]] || complain 'w2.txt is there'
 refuses '--weight-sum is about --weights optimal, which was not given' --brdf diffuse --weight-sum one some.txt
-refuses '--weight-sum two' --brdf diffuse --weights optimal --weight-sum two some.txt
+refuses '--weight-sum: "two" is not one of free, one' --brdf diffuse --weights optimal --weight-sum two some.txt
 runs 0 "${fibonacci[@]}" --brdf glossy:n=30
 near 'E, glossy' "$(key worst_case_error)" 7.390e-3 5e-4
 runs 0 "${fibonacci[@]}" --brdf glossy:n=30 --weights optimal -l 8

@@ -252,8 +252,7 @@ static pspec_status check_largest(const ps_weighted_rule *rule, uint64_t set, ps
     return ps_pattern_check_largest(largest, set, error);
 }
 
-static pspec_status reserve_places(ps_rules *rules, const ps_weighted_rule *rule,
-                                   ps_error *error) {
+static pspec_status reserve_places(ps_rules *rules, const ps_weighted_rule *rule, ps_error *error) {
     if (!rules->question->keeps_weights) {
         return PSPEC_OK;
     }

@@ -38,8 +38,8 @@ typedef struct ps_rules {
     pspec_pattern *patterns;
     size_t capacity, num;    /* rules in batch */
     uint64_t num_read, most; /* rules; others are left unread */
-    size_t *places;          /* [num_given] of the points of the only rule that are kept, where its */
-    size_t num_given;        /* weights are, too: points that it was given with */
+    size_t *places;   /* [num_given] of the points of the only rule that are kept, where its */
+    size_t num_given; /* weights are, too: points that it was given with */
     ps_rule_facts facts;
 } ps_rules;
 
