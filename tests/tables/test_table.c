@@ -184,7 +184,9 @@ static void chooses_formats(void **state) {
         const char *name, *path;
         ps_table_format format;
     } cases[] = {{NULL, "a.csv", PS_FORMAT_CSV},    {NULL, "a.json", PS_FORMAT_JSON},
-                 {NULL, "b.NPY", PS_FORMAT_NPY},    {NULL, "a.txt", PS_FORMAT_CSV},
+                 {NULL, "b.NPY", PS_FORMAT_NPY},    {"csv", "a.txt", PS_FORMAT_CSV},
+                 {NULL, "a", PS_FORMAT_CSV},        {NULL, "a.json/b", PS_FORMAT_CSV},
+                 {NULL, "a/.json", PS_FORMAT_CSV},  {NULL, "a.", PS_FORMAT_CSV},
                  {NULL, "-", PS_FORMAT_CSV},        {NULL, NULL, PS_FORMAT_CSV},
                  {"json", "a.csv", PS_FORMAT_JSON}, {"csv", NULL, PS_FORMAT_CSV}};
     ps_error error = {0};
@@ -196,6 +198,9 @@ static void chooses_formats(void **state) {
     }
     assert_int_equal(ps_table_choose_format(&format, "xml", NULL, &error),
                      PSPEC_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(ps_table_choose_format(&format, NULL, "a.txt", &error),
+                     PSPEC_ERROR_INVALID_ARGUMENT);
+    assert_non_null(strstr(error.message, "\"a.txt\": the ending .txt is none of .csv, .json"));
     ps_table_destroy(NULL);
 }
 
