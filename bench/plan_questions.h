@@ -81,7 +81,7 @@ static const char *const plan_questions[] = {
     "power --sampler white -n 1024 -m 64 -k 64 --plot power.svg",
     "power --sampler white --sampler jittered -n 1024 -m 500 -k 64",
     "power --sampler white -n 1024 -m 3000 -k 64 --standard-error 0.02",
-    "power --sampler white -n 1024 -m 200 -k 64 --shells",
+    "power --sampler white -n 1024 -m 200 -k 64 --bins shells",
     "power --sampler white -n 1e5 -k 1000 --per-ring 8",
     /* other dimensions */
     "power --sampler white -d 1 -n 16384 -m 200 -k 8192",

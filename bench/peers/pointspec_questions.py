@@ -14,7 +14,7 @@ class PowerRequest(ctypes.Structure):
         ("max_frequency", ctypes.c_int32),
         ("frequencies", ctypes.c_void_p),
         ("num_frequencies", ctypes.c_size_t),
-        ("exact_shells", ctypes.c_int),
+        ("bins", ctypes.c_char_p),
         ("rings_only", ctypes.c_int),
         ("normalization", ctypes.c_int),
         ("tolerance", ctypes.c_double),

@@ -70,7 +70,6 @@ static pspec_status choose_engine(void *payload, ps_error *error) {
 static ps_estimator_options choose_options(void *payload) {
     const pspec_plan *const plan = payload;
     return (ps_estimator_options){
-        .exact_shells = plan->request.exact_shells,
         .want_frequencies = true,
         .want_c2 = plan->request.want_c2,
         .self_check = !plan->request.no_self_check,
@@ -134,6 +133,7 @@ static ps_needs find_needs(const ps_public_request *request) {
     const ps_needs_question needs = {
         .dimension = frequencies->dimension,
         .max_frequency = is_grid ? frequencies->max_frequency : 0,
+        .max_norm2 = frequencies->max_norm2,
         .on_sphere = request->is_on_sphere,
         .on_hemisphere = request->is_on_sphere && frequencies->degree_step > 1,
         .wants_full_array = frequencies->kind != PS_FREQUENCIES_BALL,

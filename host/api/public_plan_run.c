@@ -81,8 +81,14 @@ pspec_status pspec_plan_coefficients(pspec_plan *plan, const pspec_pattern *patt
         return ps_fail(&plan->context->error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "there is no pattern, or no room for its coefficients");
     }
-    const ps_harmonics harmonics =
-        hemispherical != 0 ? PS_HEMISPHERICAL_HARMONICS : PS_SPHERICAL_HARMONICS;
+    const bool on_sphere = ps_problem_domain(&plan->problem) == PS_ON_SPHERE;
+    const ps_harmonics harmonics = hemispherical != 0 ? PS_HEMISPHERICAL_HARMONICS
+                                   : on_sphere        ? PS_SPHERICAL_HARMONICS
+                                                      : PS_EXPONENTIALS;
+    if (!on_sphere && hemispherical != 0) {
+        return ps_fail(&plan->context->error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "hemispherical harmonics are for points on the sphere");
+    }
     PS_TRY(require_memory(plan, harmonics));
     const pspec_status status = ps_estimator_coefficients(
         plan->runner.estimator, pattern, harmonics, coefficients, &plan->context->error);

@@ -50,10 +50,10 @@ static pspec_status check_common(const ps_public_request *request, ps_error *err
 /* ---- the torus --------------------------------------------------------------------------- */
 
 static pspec_status draw_frequencies(ps_frequencies *out, const pspec_power_request *request,
-                                     ps_error *error) {
+                                     const ps_bin_rule *bins, ps_error *error) {
     const ps_frequency_sample sample = {.dimension = request->dimension,
                                         .max_frequency = request->max_frequency,
-                                        .exact_shells = request->exact_shells != 0,
+                                        .bins = *bins,
                                         .per_ring = request->per_ring,
                                         .seed = request->per_ring_seed};
     return ps_frequencies_sample(out, &sample, error);
@@ -64,12 +64,17 @@ static pspec_status set_frequencies(ps_frequencies *out, const pspec_power_reque
     void *copy = NULL;
     size_t num_components = 0;
     const size_t num = request->num_frequencies;
+    ps_bin_rule bins = {.kind = PS_BINS_ROUND};
+    if (request->bins != NULL) {
+        PS_TRY(ps_bin_rule_parse(&bins, "bins", request->bins, error));
+        ps_bin_rule_resolve(&bins, request->dimension, request->num_points);
+    }
     if (request->per_ring > 0) {
-        return draw_frequencies(out, request, error);
+        return draw_frequencies(out, request, &bins, error);
     }
     if (request->frequencies == NULL) {
         return ps_frequencies_grid(out, request->dimension, request->max_frequency,
-                                   request->rings_only != 0, PS_OFFER_RINGS | PS_OFFER_LISTS,
+                                   request->rings_only != 0, &bins, PS_OFFER_RINGS | PS_OFFER_LISTS,
                                    error);
     }
     if (num == 0) {
@@ -94,9 +99,9 @@ static pspec_status check_power(const pspec_power_request *request, ps_error *er
                        request->dimension, PS_MAX_TORUS_DIMENSION);
     }
     if (request->frequencies != NULL &&
-        (request->exact_shells != 0 || request->rings_only != 0 || request->per_ring != 0)) {
+        (request->bins != NULL || request->rings_only != 0 || request->per_ring != 0)) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "exact_shells, rings_only and per_ring are for grids; a list is not "
+                       "bins, rings_only and per_ring are for grids; a list is not "
                        "averaged");
     }
     return PSPEC_OK;
@@ -111,7 +116,6 @@ pspec_status ps_public_request_power(ps_public_request *out, const pspec_power_r
                                .tolerance = request->tolerance,
                                .floor = request->floor,
                                .engine = request->engine,
-                               .exact_shells = request->exact_shells != 0,
                                .no_self_check = request->no_self_check != 0};
     PS_TRY(check_common(out, error));
     PS_TRY(ps_public_parse_precision(request->precision, &out->precision, error));

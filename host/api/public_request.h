@@ -11,7 +11,7 @@ typedef struct ps_public_request {
     double tolerance, floor;
     const char *engine; /* borrowed from the caller's request; NULL: any */
     int precision;      /* a ps_precision, or -1: any */
-    bool is_on_sphere, exact_shells, no_self_check, want_c2;
+    bool is_on_sphere, no_self_check, want_c2;
 } ps_public_request;
 
 /* name: NULL for any, which is -1. */

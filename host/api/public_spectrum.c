@@ -183,7 +183,7 @@ pspec_status pspec_spectrum_merge(pspec_spectrum **out, pspec_context *context,
     }
     pspec_status status = merge_sums(&sums, spectra, num_spectra, &context->error);
     if (status == PSPEC_OK) {
-        status = ps_bins_create(&bins, &sums.frequencies, sums.exact_shells, &context->error);
+        status = ps_bins_create(&bins, &sums.frequencies, &context->error);
     }
     if (status == PSPEC_OK) {
         status = ps_public_spectrum(out, &sums, &bins, &context->error);

@@ -64,14 +64,14 @@ static pspec_status fail_option(const parser *p, shown_option shown, const char 
                        .text);
 }
 
-/* Does the word look like an option? Numbers and "-" do not. */
+/* Does the word look like an option? Numbers, also several with commas, and "-" do not. */
 static bool is_option_like(const char *word) {
     char *end = NULL;
     if (word[0] != '-' || word[1] == '\0') {
         return false;
     }
     (void)strtod(word, &end);
-    return end == word || *end != '\0';
+    return end == word || (*end != '\0' && *end != ',');
 }
 
 /* ---- one option ---------------------------------------------------------------------------- */

@@ -119,6 +119,7 @@ static pspec_status complete(const ps_command *command, ps_request *arguments, p
     if (arguments->output == NULL && !command->makes_folder) {
         arguments->output = "-"; /* in the library NULL is no output */
     }
+    arguments->format = ps_shown_format(command, arguments);
     if (!arguments->is_given[PS_OPTION_DEVICE]) {
         arguments->limits.device = getenv("POINTSPEC_DEVICE");
     }

@@ -24,6 +24,23 @@ pspec_status ps_reals_write(ps_device *device, const ps_buffer *buffer, ps_preci
     return PSPEC_OK;
 }
 
+pspec_status ps_reals_read(ps_device *device, const ps_buffer *buffer, ps_precision precision,
+                           double *numbers, size_t num, ps_error *error) {
+    if (precision != PS_SINGLE) {
+        return ps_buffer_read(device, buffer, 0, numbers, num * sizeof(double), error);
+    }
+    for (size_t first = 0; first < num; first += PIECE) {
+        float piece[PIECE];
+        const size_t length = num - first < PIECE ? num - first : PIECE;
+        PS_TRY(ps_buffer_read(device, buffer, first * sizeof(float), piece, length * sizeof(float),
+                              error));
+        for (size_t i = 0; i < length; i++) {
+            numbers[first + i] = piece[i];
+        }
+    }
+    return PSPEC_OK;
+}
+
 pspec_status ps_reals_upload(ps_device *device, ps_buffer *out, ps_precision precision,
                              const double *numbers, size_t num, const char *what, ps_error *error) {
     PS_TRY(ps_buffer_create(device, out, num * ps_real_bytes(precision), what, error));

@@ -11,6 +11,9 @@ size_t ps_real_bytes(ps_precision precision);
 /* Numbers to the beginning of a buffer; nothing is allocated. */
 pspec_status ps_reals_write(ps_device *device, const ps_buffer *buffer, ps_precision precision,
                             const double *numbers, size_t num, ps_error *error) PS_MUST_CHECK;
+/* Numbers from the beginning of a buffer, as doubles. */
+pspec_status ps_reals_read(ps_device *device, const ps_buffer *buffer, ps_precision precision,
+                           double *numbers, size_t num, ps_error *error) PS_MUST_CHECK;
 /* A buffer made of them; what names it in the message. */
 pspec_status ps_reals_upload(ps_device *device, ps_buffer *out, ps_precision precision,
                              const double *numbers, size_t num, const char *what,

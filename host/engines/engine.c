@@ -48,6 +48,12 @@ size_t ps_batch_longest(const ps_batch *batch) {
     return longest;
 }
 
+size_t ps_num_coefficients_at(const ps_frequencies *frequencies) {
+    return frequencies->kind == PS_FREQUENCIES_DEGREES
+               ? ps_num_coefficients(frequencies->max_frequency)
+               : 2 * frequencies->num;
+}
+
 size_t ps_num_coefficients(int32_t max_degree) {
     const size_t last = (size_t)max_degree;
     return (last + 1) * (last + 2);

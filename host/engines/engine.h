@@ -14,11 +14,12 @@
 #include "device/precision.h"
 #include "frequencies/frequencies.h"
 
-/* Which harmonics coefficients are of. */
+/* Which harmonics coefficients are of: exponentials are those of the torus. */
 typedef enum ps_harmonics {
     PS_NO_HARMONICS = 0,
     PS_SPHERICAL_HARMONICS,
-    PS_HEMISPHERICAL_HARMONICS
+    PS_HEMISPHERICAL_HARMONICS,
+    PS_EXPONENTIALS
 } ps_harmonics;
 
 /* What the tolerance of a problem is about. */
@@ -44,7 +45,8 @@ typedef struct ps_problem {
     uint64_t planned_points;
     /* Points of a set in host memory at a time, where the engine allows it; 0: all */
     uint64_t block_points;
-    ps_harmonics harmonics; /* whose coefficients are wanted, too, of the only set */
+    /* Whose coefficients are wanted, too: of the only set, on the torus of every one */
+    ps_harmonics harmonics;
 } ps_problem;
 
 /* That of white noise where nothing is known: 1, with a margin on the sphere. */
@@ -161,10 +163,12 @@ typedef struct ps_engine {
     double (*error_of_state)(const void *state, double mean_power, double weight_share);
     pspec_status (*run)(void *state, const ps_batch *, ps_rows *, ps_error *);
     const ps_engine_stream *stream; /* NULL: whole sets only */
-    /* c_lm = sum w Y_lm(u) of a batch of one pattern for l = 0 .. L, 0 <= m <= l, as pairs (real,
-     * imaginary) at index m (2L + 1 - m) / 2 + l: the order of healpy, whose a_lm is the conjugate.
+    /* Of a batch of one pattern, as pairs (real, imaginary): on the torus S(k) = sum w
+     * exp(-2 pi i k.x) of every frequency in their order; on the sphere c_lm = sum w Y_lm(u) for
+     * l = 0 .. L, 0 <= m <= l, at index m (2L + 1 - m) / 2 + l, the order of healpy, whose a_lm is
+     * the conjugate.
      * Weights as they are, whatever the exponent. With only even degrees the others are 0. out has
-     * (L + 1)(L + 2) numbers. Unless rows is NULL also what run gives, to the bit, from the same
+     * ps_num_coefficients_at. Unless rows is NULL also what run gives, to the bit, from the same
      * sums; only then scales are looked at. NULL: an engine without. */
     pspec_status (*coefficients)(void *state, const ps_batch *one, ps_rows *rows, double *out,
                                  ps_error *);
@@ -173,8 +177,9 @@ typedef struct ps_engine {
     void (*destroy)(void *state); /* NULL allowed */
 } ps_engine;
 
-/* Numbers of the coefficients up to degree L: (L + 1)(L + 2) doubles. */
+/* Doubles of the coefficients: up to degree L (L + 1)(L + 2), on the torus two a frequency. */
 size_t ps_num_coefficients(int32_t max_degree);
+size_t ps_num_coefficients_at(const ps_frequencies *frequencies);
 
 /* PS_ON_SPHERE for degrees, else PS_ON_TORUS. */
 unsigned ps_problem_domain(const ps_problem *problem);

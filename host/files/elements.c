@@ -2,6 +2,7 @@
 
 #include "base/wide.h"
 
+#include <math.h>
 #include <string.h>
 
 bool ps_host_is_big_endian(void) {
@@ -37,24 +38,50 @@ static void swap_bytes(unsigned char *bytes, size_t count, size_t element_bytes)
             (raw, out, count))
 
 DEFINE_WIDEN(widen_float, float)
+DEFINE_WIDEN(widen_int8, int8_t)
+DEFINE_WIDEN(widen_int16, int16_t)
+DEFINE_WIDEN(widen_uint8, uint8_t)
+DEFINE_WIDEN(widen_uint16, uint16_t)
 DEFINE_WIDEN(widen_int32, int32_t)
 DEFINE_WIDEN(widen_int64, int64_t)
 DEFINE_WIDEN(widen_uint32, uint32_t)
 DEFINE_WIDEN(widen_uint64, uint64_t)
 
-static void widen(ps_element_type type, const unsigned char *raw, double *out, size_t count) {
-    const bool is_long = type.num_bytes == sizeof(double);
-    switch (type.kind) {
-    case PS_ELEMENT_FLOAT: /* doubles are not widened */
-        widen_float(raw, out, count);
-        break;
-    case PS_ELEMENT_SIGNED:
-        (is_long ? widen_int64 : widen_int32)(raw, out, count);
-        break;
-    case PS_ELEMENT_UNSIGNED:
-        (is_long ? widen_uint64 : widen_uint32)(raw, out, count);
-        break;
+/* IEEE 754 binary16: a sign, 5 bits of exponent and 10 of fraction. */
+static double half_to_double(uint16_t half) {
+    enum { FRACTION_BITS = 10, BIAS = 15, SPECIAL = 31 };
+    const int exponent = half >> FRACTION_BITS & SPECIAL;
+    const int fraction = half & ((1 << FRACTION_BITS) - 1);
+    const double sign = half >> 15 != 0 ? -1 : 1;
+    if (exponent == SPECIAL) {
+        return fraction != 0 ? (double)NAN : sign * (double)INFINITY;
     }
+    const int hidden = exponent > 0 ? 1 << FRACTION_BITS : 0;
+    return sign * ldexp(hidden + fraction, (exponent > 0 ? exponent : 1) - BIAS - FRACTION_BITS);
+}
+
+static size_t widen_half(const unsigned char *raw, double *out, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        uint16_t half = 0;
+        memcpy(&half, raw + i * sizeof half, sizeof half);
+        out[i] = half_to_double(half);
+    }
+    return count;
+}
+
+/* By kind and the logarithm of the bytes; doubles are not widened. */
+typedef size_t widener(const unsigned char *raw, double *out, size_t count);
+static widener *const wideners[][4] = {
+    [PS_ELEMENT_FLOAT] = {NULL, widen_half, widen_float, NULL},
+    [PS_ELEMENT_SIGNED] = {widen_int8, widen_int16, widen_int32, widen_int64},
+    [PS_ELEMENT_UNSIGNED] = {widen_uint8, widen_uint16, widen_uint32, widen_uint64}};
+
+static void widen(ps_element_type type, const unsigned char *raw, double *out, size_t count) {
+    unsigned place = 0;
+    while ((1U << place) < type.num_bytes) {
+        place++;
+    }
+    wideners[type.kind][place](raw, out, count);
 }
 
 /* One read: *count elements at most, and at the end fewer. */

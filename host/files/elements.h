@@ -14,7 +14,7 @@ typedef enum ps_element_kind {
 
 typedef struct ps_element_type {
     ps_element_kind kind;
-    unsigned num_bytes; /* 4 or 8 */
+    unsigned num_bytes; /* floats 2, 4 or 8, whole numbers 1, 2, 4 or 8 */
     bool is_big_endian;
 } ps_element_type;
 

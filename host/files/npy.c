@@ -91,14 +91,18 @@ static bool accept_shape(const char **at, ps_npy_header *out) {
 
 static bool accept_type(const char **at, ps_npy_header *out) {
     char type[4] = "";
-    if (!accept_text(at, type, sizeof type) || strlen(type) != 3 || type[1] != 'f') {
+    static const char kinds[] = {
+        [PS_ELEMENT_FLOAT] = 'f', [PS_ELEMENT_SIGNED] = 'i', [PS_ELEMENT_UNSIGNED] = 'u'};
+    if (!accept_text(at, type, sizeof type) || strlen(type) != 3 ||
+        memchr(kinds, type[1], sizeof kinds) == NULL) {
         return false;
     }
-    out->type.kind = PS_ELEMENT_FLOAT;
-    out->type.is_big_endian = type[0] == '>' || (type[0] == '=' && ps_host_is_big_endian());
+    const bool is_float = type[1] == 'f';
+    out->type.kind = (ps_element_kind)((const char *)memchr(kinds, type[1], sizeof kinds) - kinds);
+    out->type.is_big_endian =
+        type[0] == '>' || (strchr("=|", type[0]) != NULL && ps_host_is_big_endian());
     out->type.num_bytes = (unsigned)(type[2] - '0');
-    return strchr("<>=", type[0]) != NULL &&
-           (out->type.num_bytes == sizeof(float) || out->type.num_bytes == sizeof(double));
+    return strchr("<>=|", type[0]) != NULL && strchr(is_float ? "248" : "1248", type[2]) != NULL;
 }
 
 static pspec_status fail_header(const char *name, const char *text, ps_error *error) {
@@ -120,9 +124,10 @@ static pspec_status parse_entry(const char **at, const char *name, ps_npy_header
         *found |= 1U;
         if (!accept_type(at, out)) {
             char shown[PS_TOKEN_BYTES];
-            return ps_fail(error, PSPEC_ERROR_INPUT,
-                           "%s: element type %s cannot be read; float64 and float32 can", name,
-                           ps_token_show(shown, value, strcspn(value, ",}")));
+            return ps_fail(
+                error, PSPEC_ERROR_INPUT,
+                "%s: element type %s cannot be read; float16 to float64 and whole numbers can",
+                name, ps_token_show(shown, value, strcspn(value, ",}")));
         }
         is_good = true;
     } else if (strcmp(key, "fortran_order") == 0) {
@@ -266,6 +271,10 @@ static void write_header(FILE *stream, const char *element, unsigned rank, const
 
 void ps_npy_write_header(FILE *stream, unsigned rank, const size_t *shape) {
     write_header(stream, "f8", rank, shape);
+}
+
+void ps_npy_write_complex_header(FILE *stream, unsigned rank, const size_t *shape) {
+    write_header(stream, "c16", rank, shape);
 }
 
 pspec_status ps_npy_write_complex(const char *path, size_t count, const double *pairs,

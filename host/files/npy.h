@@ -14,7 +14,7 @@ typedef struct ps_npy_header {
     size_t shape[PS_NPY_MAX_RANK];
     size_t num_elements;
     bool is_fortran_order;
-    ps_element_type type; /* floats only */
+    ps_element_type type;
 } ps_npy_header;
 
 /* Reads magic and header (of versions 1 to 3). Where the size of the file is known, it must be what
@@ -29,6 +29,8 @@ pspec_status ps_npy_check_end(ps_input *input, ps_error *error) PS_MUST_CHECK;
 /* Writes the header of a float64 array in C order and in the byte order of this machine, so that
  * the elements follow by fwrite. Write errors show at commit. */
 void ps_npy_write_header(FILE *stream, unsigned rank, const size_t *shape);
+/* The same for complex128, pairs (real, imaginary) of doubles. */
+void ps_npy_write_complex_header(FILE *stream, unsigned rank, const size_t *shape);
 /* Writes count complex numbers, pairs (real, imaginary) of doubles, as a vector to path. */
 pspec_status ps_npy_write_complex(const char *path, size_t count, const double *pairs,
                                   ps_error *error) PS_MUST_CHECK;

@@ -93,6 +93,15 @@ static pspec_status read_more(ps_lines *lines, ps_error *error) {
     return PSPEC_OK;
 }
 
+/* Editors of Windows begin texts with U+FEFF. A line of three bytes is there, with its end. */
+static void skip_byte_order_mark(ps_lines *lines) {
+    static const char mark[] = {'\xef', '\xbb', '\xbf'};
+    if (lines->lines_end - lines->cursor > (ptrdiff_t)sizeof mark &&
+        memcmp(lines->cursor, mark, sizeof mark) == 0) {
+        lines->cursor += sizeof mark;
+    }
+}
+
 pspec_status ps_lines_fill(ps_lines *lines, bool *has_line, ps_error *error) {
     if (lines->cursor == lines->lines_end && !lines->is_at_end) {
         make_room(lines);
@@ -106,6 +115,10 @@ pspec_status ps_lines_fill(ps_lines *lines, bool *has_line, ps_error *error) {
         PS_TRY(read_more(lines, error));
     }
     *has_line = lines->cursor != lines->lines_end;
+    if (!lines->has_begun && *has_line) {
+        lines->has_begun = true;
+        skip_byte_order_mark(lines);
+    }
     return PSPEC_OK;
 }
 
@@ -135,7 +148,7 @@ void ps_lines_skip(ps_lines *lines) {
 size_t ps_token_length(const char *text) {
     size_t length = 0;
     while (text[length] != ' ' && text[length] != '\t' && text[length] != ',' &&
-           !ps_ends_line(text + length)) {
+           text[length] != ';' && !ps_ends_line(text + length)) {
         length++;
     }
     return length;
@@ -176,8 +189,8 @@ static bool ends_number(const char *text, char separator) {
 const char *ps_row_parse(const char *text, char separator, size_t num_columns, double *row) {
     for (size_t i = 0; i < num_columns; i++) {
         text = ps_skip_blanks(text);
-        if (separator == ',' && i > 0) {
-            if (*text != ',') {
+        if (separator != ' ' && i > 0) {
+            if (*text != separator) {
                 return NULL;
             }
             text = ps_skip_blanks(text + 1);
@@ -200,6 +213,11 @@ pspec_status ps_row_count(const ps_lines *lines, char separator, size_t *num_col
     while (needs_number || !ps_ends_line(text)) {
         double value = 0;
         const size_t length = ps_token_length(text);
+        if (length == 0 && separator == ';' && *text == ',') {
+            return ps_fail(error, PSPEC_ERROR_INPUT,
+                           "%s, line %zu: a comma in a number; decimals are written with a point",
+                           lines->input->name, lines->line_number);
+        }
         if (length == 0 || ps_decimal_parse(text, &value) != text + length) {
             char shown[PS_TOKEN_BYTES];
             ps_token_show(shown, text, length > 0 ? length : !ps_ends_line(text));
@@ -209,7 +227,7 @@ pspec_status ps_row_count(const ps_lines *lines, char separator, size_t *num_col
         }
         ++*num_columns;
         text = ps_skip_blanks(text + length);
-        needs_number = separator == ',' && *text == ',';
+        needs_number = separator != ' ' && *text == separator;
         text = needs_number ? ps_skip_blanks(text + 1) : text;
     }
     return PSPEC_OK;

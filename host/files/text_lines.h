@@ -16,6 +16,7 @@ typedef struct ps_lines {
     bool wants_more;       /* the last read filled the buffer */
     size_t line_number;    /* of the line at cursor, counted from 1; the caller counts */
     bool is_at_end;
+    bool has_begun; /* the first line was there */
 } ps_lines;
 
 pspec_status ps_lines_open(ps_lines *lines, ps_input *input, ps_error *error) PS_MUST_CHECK;
@@ -48,7 +49,7 @@ static inline bool ps_ends_line(const char *text) {
     return *text == '\n' || (text[0] == '\r' && text[1] == '\n');
 }
 
-/* Characters up to a blank, a comma or the end of the line. */
+/* Characters up to a blank, a comma, a semicolon or the end of the line. */
 size_t ps_token_length(const char *text);
 
 /* The token at text, made printable and shortened for a message. */
@@ -61,8 +62,8 @@ bool ps_token_is_not_finite(const char *token, size_t length);
 /* ---- rows ---- */
 
 /* Reads the whole line at text as num_columns numbers, separated by blanks (separator ' ') or by
- * one comma each, blanks allowed (','). Returns the '\n', or NULL when the line is anything else.
- */
+ * one comma or semicolon each, blanks allowed. Returns the '\n', or NULL when the line is anything
+ * else. */
 const char *ps_row_parse(const char *text, char separator, size_t num_columns, double *row);
 
 /* Counts the columns of the line at cursor; a token that is no number is an error. */

@@ -9,7 +9,7 @@ enum { PS_MOST_PARSERS = 8 };
 
 /* {0} and the first two fields is ready for use. */
 typedef struct ps_row_parser {
-    char separator; /* ' ' or ',' */
+    char separator; /* ' ', ',' or ';' */
     unsigned columns;
     ps_workers *workers;
     bool has_tried;                 /* to start the workers: at the first long text */

@@ -36,11 +36,14 @@ static uint64_t half_box_size(unsigned dimension, int64_t max_frequency) {
     return (size - 1) / 2;
 }
 
-/* Half the volume of the ball |k|^2 <= K^2 + K: planning needs no more than this. */
-static size_t approximate_half_ball_size(unsigned dimension, double max_frequency) {
+/* Half the volume of the ball, whose radius is K + 1/2 for rings by rounding: planning needs no
+ * more than this. */
+static size_t approximate_half_ball_size(unsigned dimension, int64_t max_norm2) {
+    const double quarter = 0.25; /* K^2 + K + 1/4 is the square of K + 1/2 */
+    const double radius = sqrt((double)max_norm2 + quarter);
     const double half_dimension = dimension / 2.0;
     const double unit_ball = pow(PS_PI, half_dimension) / tgamma(half_dimension + 1);
-    return (size_t)ceil(unit_ball * pow(max_frequency + 0.5, dimension) / 2);
+    return (size_t)ceil(unit_ball * pow(radius, dimension) / 2);
 }
 
 static int32_t largest_allowed(unsigned dimension) {
@@ -78,11 +81,25 @@ static const char *say_offers(unsigned dimension, int32_t max_frequency, unsigne
 
 pspec_status ps_frequencies_lattice(ps_frequencies *out, unsigned dimension, int32_t max_frequency,
                                     bool is_ball, ps_error *error) {
-    return ps_frequencies_grid(out, dimension, max_frequency, is_ball, 0, error);
+    static const ps_bin_rule rings = {.kind = PS_BINS_ROUND};
+    return ps_frequencies_grid(out, dimension, max_frequency, is_ball, &rings, 0, error);
+}
+
+pspec_status ps_frequencies_set_bins(ps_frequencies *set, const ps_bin_rule *bins,
+                                     ps_error *error) {
+    set->bins = *bins;
+    set->max_norm2 = ps_bin_rule_largest(bins, set->max_frequency);
+    return set->max_norm2 > 0
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "bins of %s reach beyond the frequencies up to %d: none of them is "
+                         "complete",
+                         ps_bin_rule_write(bins).text, (int)set->max_frequency);
 }
 
 pspec_status ps_frequencies_grid(ps_frequencies *out, unsigned dimension, int32_t max_frequency,
-                                 bool is_ball, unsigned offers, ps_error *error) {
+                                 bool is_ball, const ps_bin_rule *bins, unsigned offers,
+                                 ps_error *error) {
     *out = (ps_frequencies){.kind = is_ball ? PS_FREQUENCIES_BALL : PS_FREQUENCIES_BOX,
                             .dimension = dimension,
                             .max_frequency = max_frequency};
@@ -98,8 +115,9 @@ pspec_status ps_frequencies_grid(ps_frequencies *out, unsigned dimension, int32_
                        (int)max_frequency, (int)largest, dimension,
                        say_offers(dimension, max_frequency, offers));
     }
+    PS_TRY(ps_frequencies_set_bins(out, bins, error));
     const size_t box = (size_t)half_box_size(dimension, max_frequency);
-    const size_t ball = approximate_half_ball_size(dimension, max_frequency);
+    const size_t ball = approximate_half_ball_size(dimension, out->max_norm2);
     out->num = is_ball && ball < box ? ball : box;
     return PSPEC_OK;
 }
@@ -166,11 +184,11 @@ static bool advance(int32_t *k, unsigned dimension, int32_t max_frequency) {
 
 /* Walks through the half lattice after DC; stores vectors where out is not NULL. */
 static size_t walk_half_lattice(const ps_frequencies *set, int32_t *out) {
-    const int64_t limit = (int64_t)set->max_frequency * (set->max_frequency + (int64_t)1);
     int32_t k[PS_MAX_TORUS_DIMENSION] = {0};
     size_t count = 0;
     while (advance(k, set->dimension, set->max_frequency)) {
-        if (set->kind == PS_FREQUENCIES_BALL && ps_frequency_norm2(k, set->dimension) > limit) {
+        if (set->kind == PS_FREQUENCIES_BALL &&
+            ps_frequency_norm2(k, set->dimension) > set->max_norm2) {
             continue;
         }
         for (unsigned i = 0; out != NULL && i < set->dimension; i++) {

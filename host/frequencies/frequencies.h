@@ -3,8 +3,8 @@
  *
  * Real weights make |S(-k)| = |S(k)|, so a box |k_i| <= K is represented by its half lattice: the k
  * whose first non-zero component is positive, in lexicographic order, DC left out
- * (docs/mathematics/torus.md#rings). A ball keeps only k with |k|^2 <= K^2 + K: all rings 1..K, no
- * corners.
+ * (docs/mathematics/torus.md#rings). A ball keeps only the k of bins that are complete in the box,
+ * by rounding |k|^2 <= K^2 + K: all rings 1..K, no corners.
  *
  * The power of a degree l is a mean over its 2l + 1 orders
  * (docs/mathematics/sphere.md#coefficients-and-power). Degree 0 is the DC of the sphere and left
@@ -15,6 +15,7 @@
 #define PS_FREQUENCIES_FREQUENCIES_H
 
 #include "base/status.h"
+#include "frequencies/bin_rule.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -53,9 +54,13 @@ typedef struct ps_frequencies {
     /* [num][ps_frequency_components]; NULL for boxes, balls and degrees not yet enumerated */
     int32_t *vectors;
     int32_t degree_step; /* from degree to degree: 1, or 2 on the hemisphere; 0 on the torus */
+    /* How grids, and lists that were drawn from rings, are put into bins, and the largest |k|^2 of
+     * bins that are reported; 0 for other lists and for degrees */
+    ps_bin_rule bins;
+    int64_t max_norm2;
 
-    /* A list that holds at most per_ring frequencies of every ring 1..K, or of every shell that
-     * these rings have (frequencies/frequency_sample.h). Otherwise 0, 0 and NULL. */
+    /* A list that holds at most per_ring frequencies of every ring or shell up to max_norm2
+     * (frequencies/frequency_sample.h). Otherwise 0, 0 and NULL. */
     uint64_t per_ring;
     size_t num_rings;
     ps_sampled_ring *rings; /* ascending */
@@ -79,13 +84,19 @@ enum { PS_MAX_SAMPLED_RING = 2000 };
  * beyond a K, or where there are more than can be counted, nobody knows how many a ring has. */
 bool ps_frequencies_can_sample(unsigned dimension, int64_t max_frequency);
 
-/* A box or ball, not enumerated: costs nothing, whatever the size. dimension 1..6, K >= 1. More
- * frequencies than an index holds: PSPEC_ERROR_INVALID_ARGUMENT with the largest K that fits. */
+/* A box or ball of rings by rounding, not enumerated: costs nothing, whatever the size. dimension
+ * 1..6, K >= 1. More frequencies than an index holds: PSPEC_ERROR_INVALID_ARGUMENT with the largest
+ * K that fits. */
 pspec_status ps_frequencies_lattice(ps_frequencies *out, unsigned dimension, int32_t max_frequency,
                                     bool is_ball, ps_error *error) PS_MUST_CHECK;
-/* The same, with a sentence that says which of these offers there are, where K is too large. */
+/* The same in bins of a rule that is resolved, with a sentence that says which of these offers
+ * there are, where K is too large. A K below the first bin is PSPEC_ERROR_INVALID_ARGUMENT. */
 pspec_status ps_frequencies_grid(ps_frequencies *out, unsigned dimension, int32_t max_frequency,
-                                 bool is_ball, unsigned offers, ps_error *error) PS_MUST_CHECK;
+                                 bool is_ball, const ps_bin_rule *bins, unsigned offers,
+                                 ps_error *error) PS_MUST_CHECK;
+/* The rule and its largest |k|^2 for this K, where a bin is complete. */
+pspec_status ps_frequencies_set_bins(ps_frequencies *set, const ps_bin_rule *bins,
+                                     ps_error *error) PS_MUST_CHECK;
 /* A list: takes vectors over ([num][dimension], allocated by malloc). */
 pspec_status ps_frequencies_list(ps_frequencies *out, unsigned dimension, size_t num,
                                  int32_t *vectors, ps_error *error) PS_MUST_CHECK;

@@ -3,14 +3,15 @@
 #ifndef PS_FREQUENCIES_FREQUENCIES_SPEC_H
 #define PS_FREQUENCIES_FREQUENCIES_SPEC_H
 
-#include <stdbool.h>
+#include "frequencies/bin_rule.h"
+
 #include <stdint.h>
 
 typedef struct ps_frequencies_spec {
     int32_t max_frequency; /* K of a grid; 0: ceil(5 N^(1/d)), for d <= 3 */
     const char *path;      /* of a list; NULL: a grid */
     uint64_t per_ring;     /* of every ring, at random; 0: all (frequencies/frequency_sample.h) */
-    bool exact_shells;     /* |k|^2 = n instead of rings of width 1 */
+    ps_bin_rule bins;      /* relative widths are resolved when N is known */
 } ps_frequencies_spec;
 
 #endif

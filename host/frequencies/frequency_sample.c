@@ -9,24 +9,25 @@
 _Static_assert((int)PS_LATTICE_MAX_DIMENSION == (int)PS_MAX_TORUS_DIMENSION,
                "lattices are counted in as many dimensions as there are");
 
-/* The shell of one ring, or the ring of one |k|^2. */
+/* The |k|^2 of one ring or shell. */
 typedef struct ring_range {
-    uint64_t number; /* b, or |k|^2 */
+    uint64_t number; /* of the bin */
     int64_t low, high;
 } ring_range;
 
-static ring_range range_of(const ps_frequency_sample *sample, uint64_t number) {
-    const int64_t b = (int64_t)number;
-    return sample->exact_shells ? (ring_range){number, b, b}
-                                : (ring_range){number, b * b - b + 1, b * b + b};
+/* The ring that begins at a |k|^2: 1, or one above the end of another. Rings that no whole number
+ * falls into are passed over. */
+static ring_range range_from(const ps_frequency_sample *sample, int64_t low) {
+    const int64_t number = ps_bin_rule_find(&sample->bins, low);
+    return (ring_range){(uint64_t)number, low, ps_bin_rule_low(&sample->bins, number + 1) - 1};
 }
 
 static int64_t largest_norm2(const ps_frequency_sample *sample) {
-    return (int64_t)sample->max_frequency * (sample->max_frequency + (int64_t)1);
+    return ps_bin_rule_largest(&sample->bins, sample->max_frequency);
 }
 
 static uint64_t last_number(const ps_frequency_sample *sample) {
-    return sample->exact_shells ? (uint64_t)largest_norm2(sample) : (uint64_t)sample->max_frequency;
+    return (uint64_t)ps_bin_rule_find(&sample->bins, largest_norm2(sample));
 }
 
 static uint64_t half_size(const ps_lattice *lattice, ring_range range) {
@@ -43,8 +44,10 @@ static void count_rings(const ps_frequency_sample *sample, const ps_lattice *lat
     *num_rings = 0;
     *num = 0;
     *is_complete = true;
-    for (uint64_t number = 1; number <= last_number(sample); number++) {
-        const uint64_t size = half_size(lattice, range_of(sample, number));
+    const int64_t largest = largest_norm2(sample);
+    for (ring_range ring = range_from(sample, 1); ring.low <= largest;
+         ring = range_from(sample, ring.high + 1)) {
+        const uint64_t size = half_size(lattice, ring);
         *num_rings += size > 0;
         *num += num_drawn(sample, size);
         *is_complete = *is_complete && size <= sample->per_ring;
@@ -82,8 +85,8 @@ static pspec_status draw_rings(ps_frequencies *out, const ps_frequency_sample *s
     pspec_status status = PSPEC_OK;
     const size_t most = (size_t)num_drawn(sample, out->num);
     PS_TRY(PS_NEW(&ranks, most, "ranks of frequencies", error));
-    for (uint64_t number = 1; status == PSPEC_OK && ring < out->num_rings; number++) {
-        const ring_range range = range_of(sample, number);
+    for (ring_range range = range_from(sample, 1); status == PSPEC_OK && ring < out->num_rings;
+         range = range_from(sample, range.high + 1)) {
         const uint64_t size = half_size(lattice, range);
         if (size == 0) {
             continue;
@@ -106,6 +109,7 @@ static pspec_status allocate(ps_frequencies *out, const ps_frequency_sample *sam
                             .num = (size_t)num,
                             .per_ring = sample->per_ring,
                             .num_rings = num_rings};
+    PS_TRY(ps_frequencies_set_bins(out, &sample->bins, error));
     PS_TRY(PS_NEW(&out->rings, num_rings, "the rings", error));
     PS_TRY(ps_allocate_for(&out->vectors, (size_t)num, sample->dimension * sizeof(int32_t),
                            "the frequencies", error));
@@ -123,6 +127,12 @@ static pspec_status check_number(const ps_frequency_sample *sample, uint64_t num
                          (unsigned long long)PS_MAX_NUM_FREQUENCIES);
 }
 
+static pspec_status make_ball(ps_frequencies *out, const ps_frequency_sample *sample,
+                              ps_error *error) {
+    return ps_frequencies_grid(out, sample->dimension, sample->max_frequency, true, &sample->bins,
+                               0, error);
+}
+
 static pspec_status make(ps_frequencies *out, const ps_frequency_sample *sample,
                          const ps_lattice *lattice, ps_error *error) {
     size_t num_rings = 0;
@@ -131,7 +141,7 @@ static pspec_status make(ps_frequencies *out, const ps_frequency_sample *sample,
     count_rings(sample, lattice, &num_rings, &num, &is_complete);
     PS_TRY(check_number(sample, num, error));
     if (is_complete) {
-        return ps_frequencies_lattice(out, sample->dimension, sample->max_frequency, true, error);
+        return make_ball(out, sample, error);
     }
     pspec_status status = allocate(out, sample, num_rings, num, error);
     if (status == PSPEC_OK) {
@@ -143,16 +153,18 @@ static pspec_status make(ps_frequencies *out, const ps_frequency_sample *sample,
     return status;
 }
 
-/* No fewer frequencies than rings up to K have, when those up to a smaller one have num. Rings grow
- * like b^(d-1), and from FIRST on their sizes differ from that by far less than twice: where one
- * has twice what is drawn, the later ones have enough. Shells of one |k|^2 do not grow like that.
- */
+/* No fewer frequencies than rings up to K have, when those up to a smaller one have num. Rings of
+ * width 1 and more grow like b^(d-1), and from FIRST on their sizes differ from that by far less
+ * than twice: where one has twice what is drawn, the later ones have enough. Narrower rings and
+ * shells, of which there are more than K, do not grow like that. */
 static uint64_t at_least(const ps_frequency_sample *sample, const ps_frequency_sample *part,
                          const ps_lattice *lattice, uint64_t num) {
-    const uint64_t number = (uint64_t)part->max_frequency;
+    const uint64_t number = last_number(part);
+    const int64_t low = ps_bin_rule_low(&part->bins, (int64_t)number);
+    const ring_range last = {number, low, largest_norm2(part)};
     const bool are_large =
-        !sample->exact_shells && half_size(lattice, range_of(part, number)) / 2 >= sample->per_ring;
-    return are_large ? num + ((uint64_t)sample->max_frequency - number) * sample->per_ring : num;
+        number <= (uint64_t)part->max_frequency && half_size(lattice, last) / 2 >= sample->per_ring;
+    return are_large ? num + (last_number(sample) - number) * sample->per_ring : num;
 }
 
 /* Counting all rings takes seconds where K is large: those of a smaller K, counted in an eighth of
@@ -166,6 +178,9 @@ static pspec_status refuse_soon(const ps_frequency_sample *sample, ps_error *err
         size_t num_rings = 0;
         uint64_t num = 0;
         bool is_complete = false;
+        if (largest_norm2(&part) == 0) {
+            continue; /* no bin is that narrow */
+        }
         PS_TRY(ps_lattice_create(&lattice, part.dimension, largest_norm2(&part), error));
         count_rings(&part, &lattice, &num_rings, &num, &is_complete);
         num = num <= PS_MAX_NUM_FREQUENCIES ? at_least(sample, &part, &lattice, num) : num;
@@ -192,7 +207,8 @@ static pspec_status check(const ps_frequency_sample *sample, ps_error *error) {
                        "counted for a random subset of each",
                        (int)sample->max_frequency, PS_MAX_SAMPLED_RING);
     }
-    return PSPEC_OK;
+    ps_frequencies set = {.max_frequency = sample->max_frequency};
+    return sample->dimension > 1 ? ps_frequencies_set_bins(&set, &sample->bins, error) : PSPEC_OK;
 }
 
 pspec_status ps_frequencies_sample(ps_frequencies *out, const ps_frequency_sample *sample,
@@ -201,7 +217,7 @@ pspec_status ps_frequencies_sample(ps_frequencies *out, const ps_frequency_sampl
     *out = (ps_frequencies){0};
     PS_TRY(check(sample, error));
     if (sample->dimension == 1) { /* where a ring has one frequency of the half lattice */
-        return ps_frequencies_lattice(out, 1, sample->max_frequency, true, error);
+        return make_ball(out, sample, error);
     }
     if (ps_lattice_estimate(sample->dimension, largest_norm2(sample)).least < (double)UINT64_MAX) {
         PS_TRY(refuse_soon(sample, error));

@@ -17,8 +17,8 @@ enum { PS_MIN_PER_RING = 2 };
 
 typedef struct ps_frequency_sample {
     unsigned dimension;
-    int32_t max_frequency; /* rings 1..K */
-    bool exact_shells;     /* of every shell |k|^2 = n of these rings instead */
+    int32_t max_frequency; /* K: of bins that are complete in the box |k_i| <= K */
+    ps_bin_rule bins;      /* resolved */
     uint64_t per_ring;
     uint64_t seed;
 } ps_frequency_sample;

@@ -76,7 +76,9 @@ static void estimate(ps_candidate *candidate, const ps_problem *asked, const ps_
     ps_work whole = work; /* with host memory */
     whole.bytes_per_realization += ps_memory_of_set(problem, &work);
     whole.fixed_bytes = sum.device + sum.host - whole.bytes_per_realization - work.point_bytes;
-    candidate->batch = 2 * ps_cost_batch(&whole, used, problem->num_realizations);
+    const bool is_one_by_one = problem->harmonics != PS_NO_HARMONICS; /* coefficients are */
+    candidate->batch =
+        2 * ps_cost_batch(&whole, used, is_one_by_one ? 1 : problem->num_realizations);
     do {
         candidate->batch /= 2;
         sum = ps_memory_count(candidate->engine, candidate->precision, problem, &work, used,

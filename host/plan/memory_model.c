@@ -37,15 +37,21 @@ double ps_memory_of_set(const ps_problem *problem, const ps_work *work) {
     return (double)points * columns * (double)sizeof(double);
 }
 
-/* The result, and for hemispherical harmonics the stretched points. */
+/* The result, on the torus that of all realizations and of one, and for hemispherical harmonics the
+ * stretched points. */
 static double coefficient_bytes(const ps_problem *problem) {
     const double stretched = problem->harmonics == PS_HEMISPHERICAL_HARMONICS
                                  ? (double)problem->num_points * PS_SPHERE_DIMENSION
                                  : 0;
+    const double sets = problem->harmonics != PS_EXPONENTIALS ? 1
+                        : problem->num_realizations > 0 ? 1 + (double)problem->num_realizations
+                                                        : 2;
+    const bool on_sphere = problem->frequencies->kind == PS_FREQUENCIES_DEGREES;
+    const double num = on_sphere ? (double)ps_num_coefficients(problem->frequencies->max_frequency)
+                                 : 2 * (double)problem->frequencies->num;
     return problem->harmonics == PS_NO_HARMONICS
                ? 0
-               : ((double)ps_num_coefficients(problem->frequencies->max_frequency) + stretched) *
-                     (double)sizeof(double);
+               : (sets * num + stretched) * (double)sizeof(double);
 }
 
 ps_memory ps_memory_count(const ps_engine *engine, ps_precision precision,

@@ -16,12 +16,14 @@ void ps_needs_add(ps_needs *needs, const char *what, const char *why, double sha
     }
 }
 
-/* Share of the box |k_i| <= K that lies outside the ball |k|^2 <= K^2 + K, by volume. */
-static double share_of_corners(unsigned dimension, double max_frequency) {
+/* Share of the box |k_i| <= K that lies outside the ball of the bins, by volume: the unit cubes of
+ * the box reach to K + 1/2, and so does the ball of rings by rounding. */
+static double share_of_corners(unsigned dimension, double max_frequency, int64_t max_norm2) {
     const double half = dimension / 2.0;
-    const double radius = max_frequency + 0.5;
+    const double reach = 0.5;
+    const double radius = sqrt((double)max_norm2 + reach * reach);
     const double ball = pow(PS_PI, half) / tgamma(half + 1) * pow(radius, dimension);
-    const double share = 1 - ball / pow(2 * radius, dimension);
+    const double share = 1 - ball / pow(2 * (max_frequency + reach), dimension);
     return share > 0 ? share : 0;
 }
 
@@ -56,8 +58,9 @@ ps_needs ps_needs_find(const ps_needs_question *question) {
     if (is_grid && question->dimension > 1 && !question->wants_full_array &&
         !(question->share_not_drawn > 0)) {
         needs.only_ball = true;
-        ps_needs_add(&needs, PS_SKIP_CORNERS, "only ring means are asked for, and rings end at K",
-                     share_of_corners(question->dimension, question->max_frequency));
+        ps_needs_add(
+            &needs, PS_SKIP_CORNERS, "only ring means are asked for, and rings end at K",
+            share_of_corners(question->dimension, question->max_frequency, question->max_norm2));
     }
     needs.no_frequency_errors =
         is_grid && question->dimension > 1 && !question->wants_frequency_errors;

@@ -12,6 +12,7 @@
 typedef struct ps_needs_question {
     unsigned dimension;
     int32_t max_frequency;         /* of a grid; 0 for a list of frequencies */
+    int64_t max_norm2;             /* of its bins (frequencies/frequencies.h) */
     bool on_sphere, on_hemisphere; /* degrees instead of frequencies */
     bool wants_full_array;         /* every frequency of the box, corners too */
     double share_not_drawn;    /* of the frequencies of the rings, when a random subset is to do */

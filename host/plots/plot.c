@@ -130,18 +130,26 @@ static void add_text(ps_text *key, const char *text) {
     ps_text_append(key, "%s\n", text != NULL ? text : "");
 }
 
+static void add_axes(ps_text *key, const ps_plot_axes *axes) {
+    ps_text_append(key, "%d %d %d %d %d %a %a %a %a\n", axes->has_log, axes->is_log_x,
+                   axes->is_log_y, axes->has_x, axes->has_y, axes->x[0], axes->x[1], axes->y[0],
+                   axes->y[1]);
+}
+
 void ps_figure_add_key(ps_text *key, const ps_figure *figure) {
     add_text(key, figure->title);
     add_text(key, figure->x_label);
     add_text(key, figure->y_label);
     ps_text_append(key, "%d %d %d %d %a\n", (int)figure->form, figure->is_log_x, figure->is_log_y,
                    figure->on_sphere, figure->noise_level_db);
+    add_axes(key, &figure->axes);
     for (size_t i = 0; i < figure->num_panels; i++) {
         const ps_panel *const panel = &figure->panels[i];
         add_text(key, panel->title);
         ps_text_append(key, "%zu\n", panel->num_series);
         for (size_t j = 0; j < panel->num_series; j++) {
             const ps_series *const series = &panel->series[j];
+            add_text(key, series->formula);
             add_text(key, series->label);
             ps_text_append(key, "%zu %d %zu\n", series->kind, series->is_front, series->num);
             add_numbers(key, series->x, series->num);

@@ -11,7 +11,8 @@
 /* Places of one thing in a panel; nan is a gap. Where axes are logarithmic what is not above 0 is a
  * gap, too. */
 typedef struct ps_series {
-    const char *label; /* NULL: none */
+    const char *formula; /* in gnuplot's enhanced text, "d@_l^2", before the label; NULL: none */
+    const char *label;   /* NULL: none */
     /* From 0; series of a kind look the same, and have the same label, in every panel */
     size_t kind;
     bool is_front; /* among marks: joined by a line, in grey, instead of marked */
@@ -34,6 +35,13 @@ typedef struct ps_plot_image {
     double unit; /* integer frequencies per unit of normalized frequency, N^(1/2) */
 } ps_plot_image;
 
+/* What somebody asked of the axes of a spectrum or a frame; {0}: nothing. */
+typedef struct ps_plot_axes {
+    bool has_log, is_log_x, is_log_y;
+    bool has_x, has_y; /* from .. to */
+    double x[2], y[2];
+} ps_plot_axes;
+
 typedef enum ps_figure_form {
     /* One panel of powers with bars against normalized frequencies, their anisotropy below it, the
      * image beside it; on the sphere the powers once more with logarithmic axes instead. It labels
@@ -48,7 +56,8 @@ typedef enum ps_figure_form {
 typedef struct ps_figure {
     ps_figure_form form;
     const char *title, *x_label, *y_label;
-    bool is_log_x, is_log_y;
+    bool is_log_x, is_log_y; /* unless axes say more */
+    ps_plot_axes axes;
     size_t num_panels;
     const ps_panel *panels;
     /* of spectra */

@@ -50,8 +50,20 @@ static void print_page(const char *title, const char *terminal, int width, int h
             strcmp(terminal, "svg") == 0 ? 20 : 15); /* svg counts pixels, the others points */
 }
 
-pspec_status ps_figure_write_script(const ps_figure *figure, const char *terminal, FILE *stream,
+/* Scales as they were asked for. */
+static ps_figure with_axes(const ps_figure *figure) {
+    ps_figure out = *figure;
+    if (figure->axes.has_log) {
+        out.is_log_x = figure->axes.is_log_x;
+        out.is_log_y = figure->axes.is_log_y;
+    }
+    return out;
+}
+
+pspec_status ps_figure_write_script(const ps_figure *asked, const char *terminal, FILE *stream,
                                     ps_error *error) {
+    const ps_figure own = with_axes(asked);
+    const ps_figure *const figure = &own;
     enum { WIDTH_WITH_IMAGE = 1400 };
     int width = figure->image != NULL ? WIDTH_WITH_IMAGE : PS_SCRIPT_WIDTH;
     int height = PS_SCRIPT_HEIGHT;

@@ -69,10 +69,11 @@ void ps_script_print_frame(const ps_figure *figure, FILE *stream) {
     if (least > 0) {
         fprintf(stream, "set yrange [%.3g:*]\n", least);
     }
+    ps_script_print_asked(figure, stream);
     if (panel->num_series > 1) {
         fprintf(stream,
                 "set key at screen 0.54,0.01 center bottom horizontal Left reverse maxcols %zu "
-                "samplen 2 noenhanced\nplot ",
+                "samplen 2\nplot ",
                 num_columns);
     } else {
         fputs("unset key\nplot ", stream);
@@ -83,7 +84,7 @@ void ps_script_print_frame(const ps_figure *figure, FILE *stream) {
                 i);
         ps_script_print_style(panel->series[i].kind, stream);
         fputs(" title ", stream);
-        ps_script_print_text(panel->series[i].label, stream);
+        ps_script_print_formula(panel->series[i].formula, panel->series[i].label, stream);
         fputs(i + 1 < panel->num_series ? ", " : "\n", stream);
     }
 }

@@ -6,6 +6,7 @@
 #include <ctype.h>
 #include <math.h>
 #include <stdbool.h>
+#include <string.h>
 
 /* Okabe and Ito's colours, which the colour-blind can tell apart; beyond them dashes change. */
 static const char *const colours[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
@@ -21,11 +22,14 @@ const char ps_script_ticks[] = "set xtics in mirror\nset ytics in mirror\n"
  * are: everything else is an octal number, so that no quote, backslash or backtick is left to be
  * understood; digits, too, which would go on with the number before them. What no text has (control
  * characters, bytes that are not UTF-8) would spoil lines and XML. */
-void ps_script_print_text(const char *text, FILE *stream) {
-    putc('"', stream);
+static void print_letters(const char *text, bool is_escaped, FILE *stream) {
+    static const char special[] = "^_{}@&~\\";
     while (text != NULL && *text != '\0') {
         const unsigned char byte = (unsigned char)*text;
         const size_t length = ps_text_character(text);
+        if (is_escaped && strchr(special, byte) != NULL) {
+            fputs("\\134", stream);
+        }
         if (length > 1) {
             fwrite(text, 1, length, stream);
         } else if (length == 0) {
@@ -37,6 +41,19 @@ void ps_script_print_text(const char *text, FILE *stream) {
         }
         text += length > 0 ? length : 1;
     }
+}
+
+void ps_script_print_text(const char *text, FILE *stream) {
+    putc('"', stream);
+    print_letters(text, false, stream);
+    putc('"', stream);
+}
+
+void ps_script_print_formula(const char *formula, const char *label, FILE *stream) {
+    putc('"', stream);
+    print_letters(formula, false, stream);
+    print_letters(formula != NULL && label != NULL ? ", " : NULL, false, stream);
+    print_letters(label, true, stream);
     putc('"', stream);
 }
 
@@ -66,6 +83,16 @@ void ps_script_print_label(const char *axis, const char *label, const char *offs
 void ps_script_print_scale(const char *axis, bool is_log, FILE *stream) {
     if (is_log) {
         fprintf(stream, "set logscale %s\nset format %s '10^{%%T}'\n", axis, axis);
+    }
+}
+
+void ps_script_print_asked(const ps_figure *figure, FILE *stream) {
+    const ps_plot_axes *const axes = &figure->axes;
+    if (axes->has_x) {
+        fprintf(stream, "set xrange [%.9g:%.9g]\n", axes->x[0], axes->x[1]);
+    }
+    if (axes->has_y) {
+        fprintf(stream, "set yrange [%.9g:%.9g]\n", axes->y[0], axes->y[1]);
     }
 }
 

@@ -26,12 +26,17 @@ void ps_script_size_panels(const ps_figure *figure, int *width, int *height);
 /* A text constant of gnuplot, "" for NULL; a number or NaN; colour and dashes of series of a kind.
  */
 void ps_script_print_text(const char *text, FILE *stream);
+/* The same for enhanced text: the formula as it is, and behind it the label, whose characters mean
+ * what they are. */
+void ps_script_print_formula(const char *formula, const char *label, FILE *stream);
 void ps_script_print_value(double value, FILE *stream);
 void ps_script_print_colour(size_t kind, FILE *stream);
 void ps_script_print_style(size_t kind, FILE *stream);
 /* The label of the axis "x" or "y"; numbers of a logarithmic one, or nothing. */
 void ps_script_print_label(const char *axis, const char *label, const char *offset, FILE *stream);
 void ps_script_print_scale(const char *axis, bool is_log, FILE *stream);
+/* The range that was asked for, or nothing. */
+void ps_script_print_asked(const ps_figure *figure, FILE *stream);
 /* Ticks and lines of panels. */
 extern const char ps_script_ticks[];
 /* Can this place of a series be shown with these axes? */

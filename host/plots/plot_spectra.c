@@ -87,11 +87,39 @@ static bool has_any(range all) {
  * most that it may have. */
 static const double KEY_LINE = 0.075, MOST_KEY = 0.4;
 
-/* The largest power with its bar; white noise stays in sight, and there is room for the key. */
+static double find_top(const ps_series *curve) {
+    double top = 0;
+    for (size_t bin = 0; bin < curve->num; bin++) {
+        const double power = take_top(curve, bin);
+        top = isfinite(power) ? fmax(top, power) : top;
+    }
+    return top;
+}
+
+/* The largest power with its bar, but for curves that are louder than all others by more than LOUD
+ * times, which would flatten these: peaks of lattices beside noise. White noise stays in sight. */
+static double find_most(const ps_panel *curves) {
+    const double loud = 5;
+    const double least = 1.2;
+    double most = least;
+    bool is_wider = true;
+    while (is_wider) { /* as long as another curve is not loud beside what is in sight */
+        is_wider = false;
+        for (size_t i = 0; i < curves->num_series; i++) {
+            const double top = find_top(&curves->series[i]);
+            if (top > most && (top <= loud * most || curves->num_series == 1)) {
+                most = top;
+                is_wider = true;
+            }
+        }
+    }
+    return most;
+}
+
+/* With room for the key. */
 static double find_height(const ps_panel *curves) {
-    const double height = fmax(find_range(curves, take_top).most, 1.2);
     const double num = (double)curves->num_series;
-    return 1.05 * height / (1 - (num > 1 ? fmin(KEY_LINE * num, MOST_KEY) : 0));
+    return 1.05 * find_most(curves) / (1 - (num > 1 ? fmin(KEY_LINE * num, MOST_KEY) : 0));
 }
 
 /* Powers at the ticks of the colour box, thinned to what the scale holds. */
@@ -174,6 +202,11 @@ static void print_x_label(const layout *where, bool is_bottom, FILE *stream) {
     }
 }
 
+/* Does a curve go beyond what is shown, though nobody asked for that? */
+static bool is_cut(const ps_figure *figure, const ps_series *curve) {
+    return !figure->is_log_y && !figure->axes.has_y && find_top(curve) > find_most(figure->panels);
+}
+
 static void print_power_panel(const ps_figure *figure, const layout *where, FILE *stream) {
     const ps_panel *const curves = where->curves;
     const double most = find_range(curves, take_frequency).most;
@@ -182,8 +215,15 @@ static void print_power_panel(const ps_figure *figure, const layout *where, FILE
             "set bmargin at screen %g\nset tmargin at screen 0.92\n",
             where->left, where->right, where->has_lower ? where->middle + 0.015 : 0.10);
     fputs(ps_script_ticks, stream);
-    fprintf(stream, "set xrange [0:%.9g]\nset yrange [0:%.9g]\n", most > 0 ? most : 1,
-            find_height(curves));
+    if (!figure->is_log_x) {
+        fprintf(stream, "set xrange [0:%.9g]\n", most > 0 ? most : 1);
+    }
+    if (!figure->is_log_y) {
+        fprintf(stream, "set yrange [0:%.9g]\n", find_height(curves));
+    }
+    ps_script_print_scale("x", figure->is_log_x, stream);
+    ps_script_print_scale("y", figure->is_log_y, stream);
+    ps_script_print_asked(figure, stream);
     print_x_label(where, !where->has_lower || figure->on_sphere, stream);
     fprintf(stream, "set ylabel '%s%s' offset 1,0\n", where->y_label,
             has_any(find_range(curves, take_error)) ? " ± standard error" : "");
@@ -198,9 +238,15 @@ static void print_power_panel(const ps_figure *figure, const layout *where, FILE
         ps_script_print_style(curve->kind, stream);
         fputs(" title ", stream);
         ps_script_print_text(curve->label, stream);
+        if (is_cut(figure, curve)) {
+            fprintf(stream, ".\" (to %.3g)\"", find_top(curve));
+        }
         fputs(i + 1 < curves->num_series ? ", " : "\n", stream);
     }
     fputs("unset arrow 1\nunset label 1\n", stream);
+    if (figure->is_log_y) {
+        fputs("unset logscale y\nset format y '%g'\n", stream);
+    }
 }
 
 /* Few enough ticks for a low panel: a step of 1, 2 or 5 times a power of ten. */

@@ -31,7 +31,8 @@ static const named_layout *find_named(const char *name) {
 }
 
 unsigned ps_layout_columns(const ps_layout *layout) {
-    const unsigned numbers = layout->angles != PS_NO_ANGLES ? 2 : layout->dimension;
+    const bool are_pairs = layout->angles != PS_NO_ANGLES || layout->lift != PS_NO_LIFT;
+    const unsigned numbers = are_pairs ? 2 : layout->dimension;
     return numbers + layout->has_weight_column;
 }
 
@@ -41,6 +42,9 @@ const char *ps_layout_name(const ps_layout *layout) {
         {"xw", "xyw", "xyzw", "x1..x4 w", "x1..x5 w", "x1..x6 w"}};
     if (layout->coordinates == PS_TORUS_COORDINATES) {
         return torus[layout->has_weight_column][layout->dimension - 1];
+    }
+    if (layout->lift != PS_NO_LIFT) {
+        return layout->has_weight_column ? "xyw" : "xy";
     }
     if (layout->angles == PS_NO_ANGLES) {
         return layout->has_weight_column ? "xyzw, unit vectors" : "xyz, unit vectors";
@@ -54,7 +58,7 @@ const char *ps_layout_name(const ps_layout *layout) {
 }
 
 bool ps_layout_is_plain(const ps_layout *layout) {
-    return !layout->has_weight_column &&
+    return !layout->has_weight_column && layout->lift == PS_NO_LIFT &&
            (layout->angles == PS_NO_ANGLES ||
             (layout->coordinates == PS_ANGLES && layout->angles == PS_THETA_PHI));
 }
@@ -149,7 +153,8 @@ static pspec_status resolve_sphere(ps_layout *out, const ps_columns_question *qu
         const char *const weight = columns == 3 ? "-w" : "";
         return ps_fail(error, PSPEC_ERROR_INPUT,
                        "%s: %u columns; which angles are they? --columns theta-phi%s, phi-theta%s "
-                       "or lon-lat%s",
+                       "or lon-lat%s; --lift takes "
+                       "points of the plane to the sphere",
                        question->where, columns, weight, weight, weight);
     }
     return ps_fail(error, PSPEC_ERROR_INPUT, "%s: %u column%s; points of the sphere have 2 to 4",
@@ -183,8 +188,40 @@ static pspec_status check_wrap(const ps_columns_question *question, ps_error *er
                : PSPEC_OK;
 }
 
+/* Points of the torus, of two coordinates, that leave it. */
+static pspec_status resolve_lifted(ps_layout *out, const ps_columns_question *question,
+                                   ps_error *error) {
+    enum { PLANE = 2, VECTOR = 3 };
+    ps_columns_question own = *question;
+    ps_point_options options = *question->options;
+    own.options = &options;
+    if (options.domain == PS_DOMAIN_TORUS) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "--lift makes points of the sphere; this is about the torus");
+    }
+    options.domain = PS_DOMAIN_TORUS;
+    options.dimension = 0;
+    options.lift = PS_NO_LIFT;
+    PS_TRY(ps_columns_resolve(out, &own, error));
+    if (out->dimension != PLANE) {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "%s: --lift is for points (x, y) of the plane, and these have %u "
+                       "coordinate%s%s",
+                       question->where, out->dimension, out->dimension == 1 ? "" : "s",
+                       out->dimension == VECTOR ? " (is the last one a weight? --columns xyw)"
+                                                : "");
+    }
+    out->lift = question->options->lift;
+    out->coordinates = PS_UNIT_VECTORS;
+    out->dimension = VECTOR;
+    return PSPEC_OK;
+}
+
 pspec_status ps_columns_resolve(ps_layout *out, const ps_columns_question *question,
                                 ps_error *error) {
+    if (question->options->lift != PS_NO_LIFT) {
+        return resolve_lifted(out, question, error);
+    }
     const ps_point_options *options = question->options;
     const char *name = options->columns != NULL ? options->columns : question->own;
     if (name != NULL) {
@@ -202,7 +239,11 @@ pspec_status ps_columns_resolve(ps_layout *out, const ps_columns_question *quest
         PS_TRY(set_torus(out, question, options->weight_column, error));
     }
     out->drops_weight = options->ignore_weights;
-    return PSPEC_OK;
+    return out->coordinates == PS_TORUS_COORDINATES || !(options->box_high > options->box_low)
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "%s: --box is for points of the torus, and these are of the sphere",
+                         question->where);
 }
 
 pspec_status ps_columns_for_writing(ps_layout *out, const ps_point_shape *shape, ps_error *error) {

@@ -19,6 +19,7 @@ typedef struct ps_layout {
     ps_coordinates coordinates; /* of the points that come out of the rows, or go into them */
     unsigned dimension;
     ps_angle_order angles; /* how the rows hold directions, if not as vectors */
+    ps_lift lift;          /* rows are points (x, y) of the plane, which become vectors */
     bool has_weight_column;
     bool drops_weight;
 } ps_layout;

@@ -1,6 +1,8 @@
 #include "points/columns.h"
 
 #include "base/wide.h"
+#include "math/lift.h"
+#include "math/morph.h"
 #include "math/pi.h"
 #include "math/unit_vector.h"
 
@@ -37,9 +39,47 @@ PS_WIDE_BODY(bool, are_inside, (const double *values, size_t count)) {
 }
 PS_WIDE(bool, are_inside, (const double *values, size_t count), (values, count))
 
+static bool has_box(const ps_point_options *options) {
+    return options->box_high > options->box_low;
+}
+
+/* The last double below 1, which what lies inside may round to. */
+static const double LAST_INSIDE = 1 - 0x1p-53;
+
+static double unbox(const ps_point_options *options, double coordinate) {
+    const double scaled = (coordinate - options->box_low) / (options->box_high - options->box_low);
+    return coordinate < options->box_high && scaled >= 1 ? LAST_INSIDE : scaled;
+}
+
+/* A row is looked at before any of it is changed: what is refused is shown as the file has it. */
+static size_t accept_box(unsigned dimension, const ps_point_options *options, double *values,
+                         size_t num) {
+    for (size_t i = 0; i < num; i++) {
+        double *const row = values + i * dimension;
+        for (unsigned j = 0; j < dimension; j++) {
+            const bool is_inside = row[j] >= options->box_low && row[j] < options->box_high;
+            if (!is_inside && !(options->wrap && isfinite(row[j]))) {
+                return i;
+            }
+        }
+        for (unsigned j = 0; j < dimension; j++) {
+            row[j] = unbox(options, row[j]);
+            if (!(row[j] >= 0 && row[j] < 1)) {
+                wrap(&row[j]);
+            }
+        }
+    }
+    return num;
+}
+
 /* Nearly always all are good. */
-static size_t accept_torus(unsigned dimension, bool wraps, double *values, size_t num) {
+static size_t accept_torus(unsigned dimension, const ps_point_options *options, double *values,
+                           size_t num) {
+    const bool wraps = options->wrap;
     const size_t count = num * dimension;
+    if (has_box(options)) {
+        return accept_box(dimension, options, values, num);
+    }
     const bool are_good = are_inside(values, count);
     for (size_t i = 0; !are_good && i < count; i++) {
         const bool is_inside = values[i] >= 0 && values[i] < 1;
@@ -100,6 +140,9 @@ static bool are_angles(ps_angle_order order, const double *row) {
 
 /* Is the point of this row of the sphere below the horizon? */
 static bool is_below_horizon(const ps_layout *layout, const double *row) {
+    if (layout->lift != PS_NO_LIFT) { /* z = 2x - 1 on the sphere, x being in [0,1) or wrapped */
+        return layout->lift == PS_LIFT_TO_SPHERE && row[0] - floor(row[0]) < 0.5;
+    }
     switch (layout->angles) {
     case PS_LON_LAT:
         return row[1] < 0;
@@ -126,12 +169,26 @@ static size_t accept_sphere(const ps_layout *layout, const ps_point_options *opt
     return num;
 }
 
+/* Pairs at the beginning of the array become vectors, up to the first that is none of the plane. */
+static size_t accept_lifted(const ps_layout *layout, const ps_point_options *options,
+                            double *points, size_t num) {
+    const bool on_hemisphere = layout->lift == PS_LIFT_TO_HEMISPHERE;
+    const size_t good = accept_torus(2, options, points, num);
+    ps_sphere_lift(on_hemisphere, good, points);
+    if (on_hemisphere) {
+        ps_morph_points(&options->morph, good, points);
+    }
+    return good;
+}
+
 size_t ps_columns_accept(const ps_layout *layout, const ps_point_options *options,
                          const double *rows, double *points, size_t num) {
     if (layout->coordinates == PS_TORUS_COORDINATES) {
-        return accept_torus(layout->dimension, options->wrap, points, num);
+        return accept_torus(layout->dimension, options, points, num);
     }
-    const size_t good = accept_sphere(layout, options, rows, points, num);
+    const size_t good = layout->lift != PS_NO_LIFT
+                            ? accept_lifted(layout, options, points, num)
+                            : accept_sphere(layout, options, rows, points, num);
     for (size_t i = 0; options->above_horizon && i < good; i++) {
         if (is_below_horizon(layout, rows + i * ps_layout_columns(layout))) {
             return i;
@@ -179,7 +236,16 @@ static pspec_status refuse_torus(const ps_layout *layout, const ps_point_options
                            where, show_number(text, row[j]));
         }
     }
-    for (unsigned j = 0; j < layout->dimension; j++) {
+    for (unsigned j = 0; has_box(options) && j < layout->dimension; j++) {
+        if (!(row[j] >= options->box_low && row[j] < options->box_high) && !options->wrap) {
+            char ends[2][NUMBER_BYTES];
+            return ps_fail(error, PSPEC_ERROR_INPUT,
+                           "%s: coordinate %s is outside [%s,%s) of --box; --wrap would reduce it",
+                           where, show_number(text, row[j]), show_number(ends[0], options->box_low),
+                           show_number(ends[1], options->box_high));
+        }
+    }
+    for (unsigned j = 0; !has_box(options) && j < layout->dimension; j++) {
         const bool is_inside = row[j] >= 0 && row[j] < 1;
         if (!is_inside && !options->wrap) {
             const bool is_vector = layout->dimension >= 3 && ps_is_unit_vector(row);
@@ -189,7 +255,7 @@ static pspec_status refuse_torus(const ps_layout *layout, const ps_point_options
                            where, show_number(text, row[j]),
                            is_vector         ? "a unit vector? Points of the torus are meant here"
                            : is_near(row[j]) ? "--wrap would reduce it mod 1"
-                                             : "in other units? Divide them by the period",
+                                             : "in other units? --box X0,X1 takes [X0,X1) to it",
                            may_be_weight && !is_vector ? " (a weight? --weights column)" : "");
         }
     }
@@ -231,7 +297,10 @@ static pspec_status refuse_angles(const ps_layout *layout, const ps_point_option
 
 pspec_status ps_columns_refuse(const ps_layout *layout, const ps_point_options *options,
                                const char *where, const double *row, ps_error *error) {
-    if (layout->coordinates == PS_TORUS_COORDINATES) {
+    if (layout->lift != PS_NO_LIFT) {
+        const ps_layout plane = {.dimension = 2, .has_weight_column = layout->has_weight_column};
+        PS_TRY(refuse_torus(&plane, options, where, row, error));
+    } else if (layout->coordinates == PS_TORUS_COORDINATES) {
         PS_TRY(refuse_torus(layout, options, where, row, error));
     } else if (layout->angles != PS_NO_ANGLES && !are_angles(layout->angles, row)) {
         return refuse_angles(layout, options, where, row, error);
@@ -244,7 +313,7 @@ pspec_status ps_columns_refuse(const ps_layout *layout, const ps_point_options *
     char text[NUMBER_BYTES];
     if (options->above_horizon && layout->coordinates != PS_TORUS_COORDINATES &&
         is_below_horizon(layout, row)) {
-        const bool is_vector = layout->angles == PS_NO_ANGLES;
+        const bool is_vector = layout->angles == PS_NO_ANGLES && layout->lift == PS_NO_LIFT;
         return ps_fail(error, PSPEC_ERROR_INPUT,
                        "%s: %s%s is below the horizon, where this BRDF is 0; "
                        "--drop-below-horizon leaves such points out",

@@ -76,7 +76,8 @@ static void angles_to_angles(ps_angle_order order, const double *row, double *an
 void ps_columns_split(const ps_layout *layout, const double *rows, size_t num, double *points,
                       double *weights) {
     const unsigned columns = ps_layout_columns(layout);
-    const unsigned d = layout->dimension;
+    /* pairs come first: lifting makes vectors of them */
+    const unsigned d = layout->lift != PS_NO_LIFT ? 2 : layout->dimension;
     for (size_t i = 0; i < num; i++, rows += columns, points += d) {
         if (layout->angles == PS_NO_ANGLES) {
             for (unsigned j = 0; j < d; j++) {

@@ -155,6 +155,16 @@ static pspec_status check_options(const ps_point_options *options, ps_error *err
     return PSPEC_OK;
 }
 
+static pspec_status check_names(const ps_point_reader *reader, ps_error *error) {
+    const bool may_have_names =
+        reader->format == &ps_format_utk_text || reader->format == &ps_format_csv;
+    return reader->options.column_names == NULL || may_have_names
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "%s: --columns names columns (%s), and %s has no names",
+                         reader->input.name, reader->options.column_names, reader->format->name);
+}
+
 pspec_status ps_points_open(ps_point_reader **out, const char *path,
                             const ps_point_options *options, ps_error *error) {
     *out = NULL;
@@ -165,6 +175,7 @@ pspec_status ps_points_open(ps_point_reader **out, const char *path,
     pspec_status status = PSPEC_OK;
     PS_TRY_OUT(status, ps_input_open(&reader->input, path, error));
     PS_TRY_OUT(status, find_format(reader, path, error));
+    PS_TRY_OUT(status, check_names(reader, error));
     PS_TRY_OUT(status, reader->format->open(reader, error));
     *out = reader;
     return PSPEC_OK;
@@ -179,6 +190,10 @@ const char *ps_points_format(const ps_point_reader *reader) {
 
 const char *ps_points_columns(const ps_point_reader *reader) {
     return reader->has_layout ? ps_layout_name(&reader->layout) : "";
+}
+
+const char *ps_points_chosen(const ps_point_reader *reader) {
+    return reader->chosen;
 }
 
 void ps_points_close(ps_point_reader *reader) {

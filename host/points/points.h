@@ -12,6 +12,8 @@
 #define PS_POINTS_POINTS_H
 
 #include "base/status.h"
+#include "math/lift.h"
+#include "math/morph.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -58,19 +60,26 @@ typedef struct ps_point_range {
 } ps_point_range;
 
 typedef struct ps_point_options {
-    const char *format;     /* NULL: detected, else one of PS_POINT_FORMATS */
-    const char *columns;    /* NULL: found out, else one of PS_POINT_COLUMNS */
-    unsigned dimension;     /* of the torus; 0: from the file; otherwise it must agree */
-    size_t points_per_set;  /* of formats that do not say (rps), where 0 means that all is one set;
+    const char *format;       /* NULL: detected, else one of PS_POINT_FORMATS */
+    const char *columns;      /* NULL: found out, else one of PS_POINT_COLUMNS */
+    const char *column_names; /* NULL, or "x,y": of a text with a line of names */
+    unsigned dimension;       /* of the torus; 0: from the file; otherwise it must agree */
+    size_t points_per_set; /* of formats that do not say (rps), where 0 means that all is one set;
                                sets of other formats must have so many, unless 0 */
-    ps_point_range sets;    /* others are passed over */
-    ps_domain domain;       /* what the caller can use */
-    bool weight_column;     /* the last column holds the weight */
-    bool ignore_weights;    /* weights of the file are read and dropped */
-    bool wrap;              /* torus coordinates outside [0,1) are reduced mod 1, not refused */
+    ps_point_range sets;   /* others are passed over */
+    ps_domain domain;      /* what the caller can use */
+    bool weight_column;    /* the last column holds the weight */
+    bool ignore_weights;   /* weights of the file are read and dropped */
+    bool wrap;             /* torus coordinates outside [0,1) are reduced mod 1, not refused */
+    /* Coordinates of [low, high) become those of [0,1), (x - low) / (high - low); both 0: they are
+     * so already */
+    double box_low, box_high;
     bool normalize_vectors; /* vectors are divided by their length instead of refused when that
                                 differs from 1 by more than 1e-6 */
     bool above_horizon;     /* points of the sphere with z < 0 are refused */
+    ps_lift lift;           /* of points (x, y) of the plane, which then are points of the sphere */
+    ps_morph morph;         /* of points that are lifted to the hemisphere */
+    bool has_morph;         /* somebody said which: who knows a better default leaves it alone */
     uint64_t memory_limit;  /* bytes that a set may take; 0: half of the memory that is free */
     bool keep_angles;       /* angles stay angles (theta, phi) instead of becoming vectors */
 } ps_point_options;
@@ -97,6 +106,9 @@ bool ps_points_can_reopen(const ps_point_reader *reader);
  * columns are known after the first set. */
 const char *ps_points_format(const ps_point_reader *reader);
 const char *ps_points_columns(const ps_point_reader *reader);
+/* "x,y", the names of the columns that are read, where a text has names and others; else NULL.
+ * Belongs to the reader. */
+const char *ps_points_chosen(const ps_point_reader *reader);
 void ps_points_close(ps_point_reader *reader);
 
 /* ---- writing ----------------------------------------------------------------------------- */

@@ -90,7 +90,7 @@ pspec_status ps_text_detect(ps_point_reader *reader, ps_error *error) {
                        reader->input.name);
     }
     PS_TRY(ps_lines_peek_second(&state->lines, &second, error));
-    if (memchr(state->lines.cursor, ',', strcspn(state->lines.cursor, "\n")) != NULL) {
+    if (strcspn(state->lines.cursor, ",;") < strcspn(state->lines.cursor, "\n")) {
         reader->format = &ps_format_csv;
     } else if (second != NULL) {
         PS_TRY(detect_counts(reader, second, error));

@@ -66,6 +66,7 @@ struct ps_point_reader {
     /* set by the format */
     unsigned columns;        /* of every row */
     const char *own_columns; /* name of the layout that the format prescribes, or NULL */
+    const char *chosen;      /* names of the columns that are read, where not all are, or NULL */
     size_t rows_per_set;     /* when it is known and really there; else 0 */
     size_t block_values;     /* numbers of a read, if not as many as fit the cache of a core */
     size_t first_line;       /* of the rows last read, for formats with a row per line; else 0 */

@@ -73,11 +73,37 @@ void ps_text_set_columns(ps_point_reader *reader, unsigned columns) {
     state->parser.separator = state->separator;
 }
 
+/* A line of names before the rows says which columns there are. */
+static pspec_status take_header(ps_point_reader *reader, ps_error *error) {
+    ps_text_state *const state = reader->state;
+    ps_lines *const lines = &state->lines;
+    const char *const names = reader->options.column_names;
+    const char *row = NULL;
+    char where[PS_PLACE_BYTES];
+    PS_TRY(ps_lines_peek_second(lines, &row, error));
+    if (row == NULL || !ps_text_header_is(lines->cursor, state->separator)) {
+        return names == NULL
+                   ? PSPEC_OK
+                   : ps_fail(error, PSPEC_ERROR_INPUT,
+                             "%s: --columns names columns (%s), and the first line has no names",
+                             reader->input.name, names);
+    }
+    snprintf(where, sizeof where, "%.440s, line %zu", reader->input.name, lines->line_number);
+    PS_TRY(ps_text_header_read(&state->header, lines->cursor, row, state->separator, names, where,
+                               error));
+    reader->own_columns = ps_text_header_layout(&state->header);
+    reader->chosen = state->header.chooses ? state->header.used : NULL;
+    ps_lines_skip(lines);
+    return PSPEC_OK;
+}
+
 /* The first row fixes the number of columns for all sets of the input. */
 static pspec_status fix_columns(ps_point_reader *reader, ps_error *error) {
     ps_text_state *const state = reader->state;
-    size_t num_columns = 0;
-    PS_TRY(ps_row_count(&state->lines, state->separator, &num_columns, error));
+    size_t num_columns = state->header.num_chosen;
+    if (!state->header.chooses) {
+        PS_TRY(ps_row_count(&state->lines, state->separator, &num_columns, error));
+    }
     if (num_columns > PS_MAX_COLUMNS) {
         return ps_fail(error, PSPEC_ERROR_INPUT,
                        "%s, line %zu: %zu columns; at most %d dimensions are read",
@@ -102,11 +128,19 @@ pspec_status ps_text_open_lines(ps_point_reader *reader, char separator, ps_erro
 
 static pspec_status open_utk(ps_point_reader *reader, ps_error *error) {
     PS_TRY(ps_text_open_lines(reader, ' ', error));
+    PS_TRY(take_header(reader, error));
     return fix_columns(reader, error);
 }
 
+/* Where the first line has a semicolon, columns lie between semicolons. */
 static pspec_status open_csv(ps_point_reader *reader, ps_error *error) {
     PS_TRY(ps_text_open_lines(reader, ',', error));
+    ps_text_state *const state = reader->state;
+    const char *const line = state->lines.cursor;
+    if (memchr(line, ';', strcspn(line, "\n")) != NULL) {
+        state->separator = ';';
+    }
+    PS_TRY(take_header(reader, error));
     return fix_columns(reader, error);
 }
 
@@ -168,10 +202,18 @@ void ps_text_close(ps_point_reader *reader) {
 static pspec_status refuse_line(const ps_point_reader *reader, ps_error *error) {
     const ps_text_state *const state = reader->state;
     size_t num_columns = 0;
+    char where[PS_PLACE_BYTES];
+    if (state->header.chooses) {
+        snprintf(where, sizeof where, "%.440s, line %zu", reader->input.name,
+                 state->lines.line_number);
+        return ps_text_header_refuse(&state->header, state->lines.cursor, state->separator, where,
+                                     error);
+    }
     PS_TRY(ps_row_count(&state->lines, state->separator, &num_columns, error));
     if (num_columns == reader->columns) { /* blanks, in a file of commas */
-        return ps_fail(error, PSPEC_ERROR_INPUT, "%s, line %zu: no comma between two columns",
-                       reader->input.name, state->lines.line_number);
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s, line %zu: no %s between two columns",
+                       reader->input.name, state->lines.line_number,
+                       state->separator == ';' ? "semicolon" : "comma");
     }
     return ps_fail(error, PSPEC_ERROR_INPUT, "%s, line %zu: %zu column%s, where line %zu has %u",
                    reader->input.name, state->lines.line_number, num_columns,
@@ -184,12 +226,36 @@ static void scale_row(const ps_text_state *state, double *row) {
     }
 }
 
+/* Lines one by one: columns that are not chosen may hold anything. */
+static void read_chosen(const ps_point_reader *reader, ps_rows_read *out) {
+    ps_text_state *const state = reader->state;
+    ps_lines *const lines = &state->lines;
+    while (lines->cursor < lines->lines_end && out->num < out->capacity) {
+        const char *const text = ps_skip_blanks(lines->cursor);
+        double *const row = out->rows + out->num * reader->columns;
+        const char *const end =
+            *text == '#' || ps_ends_line(text)
+                ? NULL
+                : ps_text_header_row(&state->header, lines->cursor, state->separator, row);
+        if (end == NULL) {
+            return;
+        }
+        lines->cursor = end + 1;
+        lines->line_number++;
+        out->num++;
+    }
+}
+
 /* Reads rows of the whole lines in the buffer, up to the first line that is something else. */
 static void read_rows(const ps_point_reader *reader, ps_rows_read *out) {
     ps_text_state *const state = reader->state;
     ps_lines *const lines = &state->lines;
     double *const rows = out->rows + out->num * reader->columns;
     size_t num_rows = 0;
+    if (state->header.chooses) {
+        read_chosen(reader, out);
+        return;
+    }
     lines->cursor = ps_rows_parse(&state->parser, lines->cursor, lines->lines_end, rows,
                                   out->capacity - out->num, &num_rows);
     lines->line_number += num_rows;

@@ -4,14 +4,16 @@
 
 #include "files/text_rows.h"
 #include "points/points_format.h"
+#include "points/text_header.h"
 
 typedef struct ps_text_state {
     ps_lines lines;
     ps_row_parser parser;
     char separator;
     size_t columns_line; /* the line that fixed the columns */
-    size_t promised;     /* points, by a count at the beginning of the file */
-    bool is_in_line;     /* the cursor is not at the beginning of a line (such files only) */
+    ps_text_header header;
+    size_t promised; /* points, by a count at the beginning of the file */
+    bool is_in_line; /* the cursor is not at the beginning of a line (such files only) */
     /* edat: coordinate j becomes (x - origin[j]) / size[j] */
     bool is_scaled;
     unsigned num_corners;

@@ -9,7 +9,7 @@ ps_request ps_check_request(const ps_request *arguments, const ps_saved_spectrum
     own.frequencies.max_frequency = saved->on_sphere ? 0 : saved->max_frequency;
     own.max_degree = saved->on_sphere ? (uint64_t)saved->max_frequency : 0;
     own.hemisphere = saved->on_hemisphere;
-    own.frequencies.exact_shells = saved->exact_shells;
+    own.frequencies.bins = saved->bin_rule;
     own.frequencies.per_ring = saved->per_ring;
     own.effective = saved->normalization == PSPEC_NORMALIZATION_EFFECTIVE;
     if (arguments->num_samplers == 0) {

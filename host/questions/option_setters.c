@@ -5,10 +5,14 @@
 #include "base/text.h"
 #include "frequencies/frequencies.h"
 #include "math/sobolev.h"
+#include "samplers/morph_words.h"
 
 #include <float.h>
 #include <stdio.h>
 #include <string.h>
+
+/* The size of a box and differences in it are numbers. */
+#define MOST_BOX 1e300
 
 /* ---- setters ------------------------------------------------------------------------------- */
 
@@ -253,6 +257,90 @@ pspec_status ps_set_weight_sum(const ps_option *option, const char *shown, const
     return PSPEC_OK;
 }
 
+/* The words stand in the order of bits: x, y, both, none. */
+pspec_status ps_set_plot_log(const ps_option *option, const char *shown, const char *words,
+                             const char *value, ps_request *arguments, ps_error *error) {
+    (void)option;
+    enum { X = 0, Y = 1, BOTH = 2 };
+    int index = 0;
+    PS_TRY(find_word(shown, words, value, &index, error));
+    arguments->plot_axes.has_log = true;
+    arguments->plot_axes.is_log_x = index == X || index == BOTH;
+    arguments->plot_axes.is_log_y = index == Y || index == BOTH;
+    return PSPEC_OK;
+}
+
+/* "0..2", or nothing. */
+static pspec_status set_interval(const char *shown, const char *words, const char *text,
+                                 size_t length, bool *is_there, double ends[2], ps_error *error) {
+    enum { TEXT_BYTES = 96 };
+    static const char dots[] = "..";
+    char own[TEXT_BYTES];
+    snprintf(own, sizeof own, "%.*s", (int)(length < sizeof own ? length : sizeof own - 1), text);
+    char *const middle = strstr(own, dots);
+    *is_there = length > 0;
+    if (length == 0) {
+        return PSPEC_OK;
+    }
+    if (middle == NULL || length >= sizeof own) {
+        return fail_word(shown, words, text, error);
+    }
+    *middle = '\0';
+    PS_TRY(ps_parse_number(own, shown, -DBL_MAX, DBL_MAX, &ends[0], error));
+    PS_TRY(ps_parse_number(middle + sizeof dots - 1, shown, -DBL_MAX, DBL_MAX, &ends[1], error));
+    return ends[0] < ends[1]
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "%s: %s is no interval: it must end above its beginning", shown, text);
+}
+
+pspec_status ps_set_plot_range(const ps_option *option, const char *shown, const char *words,
+                               const char *value, ps_request *arguments, ps_error *error) {
+    (void)option;
+    ps_plot_axes *const axes = &arguments->plot_axes;
+    const size_t length = strcspn(value, ",");
+    const char *const second = value + length + (value[length] == ',');
+    if (length == 0 && *second == '\0') {
+        return fail_word(shown, words, value, error);
+    }
+    PS_TRY(set_interval(shown, words, value, length, &axes->has_x, axes->x, error));
+    return set_interval(shown, words, second, strlen(second), &axes->has_y, axes->y, error);
+}
+
+pspec_status ps_set_box(const ps_option *option, const char *shown, const char *words,
+                        const char *value, ps_request *arguments, ps_error *error) {
+    (void)option;
+    enum { NUMBER_BYTES = 64 };
+    char first[NUMBER_BYTES];
+    const char *const comma = strchr(value, ',');
+    ps_point_options *const reading = &arguments->reading;
+    if (comma == NULL || (size_t)(comma - value) >= sizeof first) {
+        return fail_word(shown, words, value, error);
+    }
+    snprintf(first, sizeof first, "%.*s", (int)(comma - value), value);
+    PS_TRY(ps_parse_number(first, shown, -MOST_BOX, MOST_BOX, &reading->box_low, error));
+    PS_TRY(ps_parse_number(comma + 1, shown, -MOST_BOX, MOST_BOX, &reading->box_high, error));
+    return reading->box_low < reading->box_high
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "%s: %s is no interval: X0 must be below X1", shown, value);
+}
+
+/* A comma tells names of columns from what columns are. */
+pspec_status ps_set_columns(const ps_option *option, const char *shown, const char *words,
+                            const char *value, ps_request *arguments, ps_error *error) {
+    const bool are_names = strchr(value, ',') != NULL;
+    arguments->reading.columns = NULL;
+    arguments->reading.column_names = are_names ? value : NULL;
+    return are_names ? PSPEC_OK : ps_set_word(option, shown, words, value, arguments, error);
+}
+
+pspec_status ps_set_bins(const ps_option *option, const char *shown, const char *words,
+                         const char *value, ps_request *arguments, ps_error *error) {
+    (void)option, (void)words;
+    return ps_bin_rule_parse(&arguments->frequencies.bins, shown, value, error);
+}
+
 /* The words stand in the order of ps_domain. */
 pspec_status ps_set_domain(const ps_option *option, const char *shown, const char *words,
                            const char *value, ps_request *arguments, ps_error *error) {
@@ -261,6 +349,36 @@ pspec_status ps_set_domain(const ps_option *option, const char *shown, const cha
     PS_TRY(find_word(shown, words, value, &index, error));
     arguments->reading.domain = (ps_domain)index;
     return PSPEC_OK;
+}
+
+/* The words stand in the order of ps_lift, from 1. */
+pspec_status ps_set_lift(const ps_option *option, const char *shown, const char *words,
+                         const char *value, ps_request *arguments, ps_error *error) {
+    (void)option;
+    int index = 0;
+    PS_TRY(find_word(shown, words, value, &index, error));
+    arguments->reading.lift = (ps_lift)(index + 1);
+    return PSPEC_OK;
+}
+
+pspec_status ps_set_morph(const ps_option *option, const char *shown, const char *words,
+                          const char *value, ps_request *arguments, ps_error *error) {
+    (void)option;
+    (void)words;
+    static const ps_parameter exponent = {PS_EXPONENT_KEY, "", PS_EXPONENT_MEANING};
+    static const ps_parameter *const parameters[] = {&exponent, NULL};
+    char name[PS_GRAMMAR_WORD];
+    ps_slice given = {NULL, 0};
+    const char *const rest = ps_grammar_name(value, name);
+    const ps_grammar grammar = {.kind = "morph",
+                                .name = name,
+                                .parameters = parameters,
+                                .num_own = 1,
+                                .most_letters = PS_MAX_SAMPLER_VALUE - 1};
+    PS_TRY(ps_grammar_values(&grammar, rest, &given, error));
+    const ps_morph_words said = {shown, value, {name, strlen(name)}, given};
+    arguments->reading.has_morph = true;
+    return ps_morph_parse(&arguments->reading.morph, &said, error);
 }
 
 pspec_status ps_set_normalize(const ps_option *option, const char *shown, const char *words,

@@ -10,7 +10,7 @@
 pspec_status ps_option_apply(ps_request *request, ps_option_id id, const char *words,
                              const char *text, ps_error *error) PS_MUST_CHECK;
 
-/* Appends the option as a command line has it, " --points 64", " --shells", or nothing for a flag
+/* Appends the option as a command line has it, " --points 64", " --homogenize", or nothing for a flag
  * that is false. */
 void ps_option_append(ps_text *command, ps_option_id id, const char *text);
 

@@ -96,9 +96,12 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                               .help = "points of the hemisphere, that is of the projective plane: "
                                       "even degrees, odd ones vanish",
                               FLAG(hemisphere)},
-    [PS_OPTION_COEFFICIENTS] = {NAMED("coefficients", 0, "FILE.npy"), OF(0, BIT(angular)),
-                                .help = "write c_lm = sum w Y_lm of the only set too: complex128, "
-                                        "(l, m) at index m(2L+1-m)/2 + l",
+    [PS_OPTION_COEFFICIENTS] = {NAMED("coefficients", 0, "FILE.npy"),
+                                OF(0, BIT(power) | BIT(angular)),
+                                .help =
+                                    "write the complex128 array too: S(k) = sum w exp(-2 pi i k.x) "
+                                    "of each set in the order of --full or of the list; c_lm = "
+                                    "sum w Y_lm of the only set, (l, m) at index m(2L+1-m)/2 + l",
                                 TEXT(coefficients)},
     [PS_OPTION_HARMONICS] = {NAMED("harmonics", 0, "spherical|hemispherical"),
                              OF(BIT(truncation), BIT(angular)),
@@ -109,9 +112,11 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_FREQUENCIES] = {NAMED("frequencies", 0, "FILE"), OF(BIT(power), 0),
                                .help = "only the integer frequency vectors in FILE, one per line",
                                TEXT(frequencies.path)},
-    [PS_OPTION_SHELLS] = {NAMED("shells", 0, NULL), OF(BIT(power), 0),
-                          .help = "exact shells of |k|^2 instead of rings of width 1",
-                          FLAG(frequencies.exact_shells)},
+    [PS_OPTION_BINS] = {NAMED("bins", 0, PS_BIN_RULES), OF(BIT(power), 0),
+                        .help = "rings: of width 1 about whole |k| (round, the default), or by "
+                                "floor of |k|, of |k| Q/P or of |k| Q/P N^(-1/d); or exact shells "
+                                "of |k|^2",
+                        .set = ps_set_bins},
     [PS_OPTION_PER_RING] = {NAMED("per-ring", 0, "S"), OF(BIT(power), 0),
                             .help = "of every ring (or shell) with more than S frequencies of the "
                                     "half lattice, only a random subset of S, from the seed",
@@ -150,19 +155,37 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_COLUMNS] = {NAMED("columns", 0, PS_POINT_COLUMNS), OF(SETS, BIT(convert)),
                            .help = "what the columns of the point files are, w being the weight "
                                    "(default: found out; angles are in radians but lon-lat, "
-                                   "degrees)",
-                           WORD(reading.columns)},
+                                   "degrees); or names with commas, as in x,y, that the first "
+                                   "line of a text has",
+                           .set = ps_set_columns, .offset = offsetof(ps_request, reading.columns)},
     [PS_OPTION_DOMAIN] = {NAMED("domain", 0, "torus|sphere"), OF(0, BIT(convert)),
                           .help = "where the points lie (default: found out)",
                           .set = ps_set_domain},
     [PS_OPTION_WRAP] = {NAMED("wrap", 0, NULL), OF(BIT(power) | BIT(check), BIT(convert)),
                         .help = "reduce coordinates outside [0,1) mod 1 instead of refusing them",
                         FLAG(reading.wrap)},
+    [PS_OPTION_BOX] = {NAMED("box", 0, "X0,X1"),
+                       OF(SPHERES | BIT(power) | BIT(quadrature) | BIT(check), BIT(convert)),
+                       .help = "coordinates of the files are in [X0,X1), as in 0,512 or -1,1, and "
+                               "become those in [0,1)",
+                       .set = ps_set_box},
     [PS_OPTION_NORMALIZE_VECTORS] = {NAMED("normalize-vectors", 0, NULL),
                                      OF(SPHERES | BIT(quadrature) | BIT(check), BIT(convert)),
                                      .help = "divide vectors by their length instead of refusing "
                                              "those of another length than 1",
                                      FLAG(reading.normalize_vectors)},
+    [PS_OPTION_LIFT] = {NAMED("lift", 0, "sphere|hemisphere"),
+                        OF(SPHERES | BIT(quadrature) | BIT(check), BIT(convert)),
+                        .help =
+                            "points (x, y) of the plane become points of the sphere, z = 2x - 1 "
+                            "or z = x, phi = 2 pi y, as by lift= of samplers",
+                        .set = ps_set_lift},
+    [PS_OPTION_MORPH] = {NAMED("morph", 0, "none|diffuse|glossy:n=N|phong:n=N"),
+                         OF(SPHERES | BIT(quadrature) | BIT(check), BIT(convert)),
+                         .help =
+                             "points lifted to the hemisphere take the density of a lobe, as by "
+                             "morph= of samplers (default none; quadrature: that of --brdf)",
+                         .set = ps_set_morph},
     [PS_OPTION_DROP_BELOW] = {NAMED("drop-below-horizon", 0, NULL), OF(BIT(quadrature), 0),
                               .help = "leave points below the horizon out where the lobe "
                                       "ends there",
@@ -222,7 +245,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                           .help = "write there, in the format of its ending (default: standard "
                                   "output)",
                           TEXT(output)},
-    [PS_OPTION_FORMAT] = {NAMED("format", 0, "csv|json|npy"),
+    [PS_OPTION_FORMAT] = {NAMED("format", 0, "csv|json|npy|jsonl|text"),
                           OF(0, TABLES | BIT(sample) | BIT(convert)),
                           .help = "format of the output (default: by the ending of FILE, else the "
                                   "first of these)",
@@ -231,6 +254,12 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                         .help = "draw a picture too: .png, .svg or .pdf; one that fails is a "
                                 "warning, and an error where no table is kept",
                         TEXT(plot)},
+    [PS_OPTION_PLOT_LOG] = {NAMED("plot-log", 0, "x|y|xy|none"), OF(0, SPECTRA | LOBES),
+                            .help = "which axes of the picture are logarithmic",
+                            .set = ps_set_plot_log},
+    [PS_OPTION_PLOT_RANGE] = {NAMED("plot-range", 0, "X0..X1,Y0..Y1"), OF(0, SPECTRA | LOBES),
+                              .help = "what the axes of the picture show; X0..X1 alone, or ,Y0..Y1",
+                              .set = ps_set_plot_range},
     [PS_OPTION_PROFILE] = {NAMED("profile", 0, NULL), OF(0, SETS),
                            .help = "time, flop/s and bytes/s of every kernel on standard error",
                            FLAG(limits.profile)},

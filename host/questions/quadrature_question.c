@@ -19,6 +19,7 @@ static pspec_status check_source(const ps_request *arguments, ps_error *error) {
                            ? "points come from a --sampler or from files, not from both"
                            : "no rule: name point files (- for standard input) or a --sampler");
     }
+    PS_TRY(ps_point_options_check(arguments, error));
     return arguments->weights.kind == PS_WEIGHTS_COLUMN && arguments->num_samplers > 0
                ? ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                          "--weights column does not go with --sampler: samplers make points only")
@@ -87,6 +88,9 @@ static ps_quadrature_question make_question(const ps_request *arguments, const p
     out.point_options.domain = PS_DOMAIN_SPHERE;
     out.point_options.above_horizon =
         !arguments->drop_below_horizon && !ps_brdf_is_below_horizon(brdf);
+    if (arguments->reading.lift == PS_LIFT_TO_HEMISPHERE && !arguments->reading.has_morph) {
+        out.point_options.morph = ps_brdf_morph(brdf); /* as of samplers */
+    }
     return out;
 }
 

@@ -19,6 +19,9 @@ ps_option_source ps_option_source_of(ps_option_id id) {
     case PS_OPTION_COLUMNS:
     case PS_OPTION_WRAP:
     case PS_OPTION_NORMALIZE_VECTORS:
+    case PS_OPTION_LIFT:
+    case PS_OPTION_BOX:
+    case PS_OPTION_MORPH:
     case PS_OPTION_SELECT_SETS:
         return PS_OF_FILES;
     default:
@@ -45,6 +48,20 @@ static pspec_status check_other_source(const ps_request *arguments, ps_error *er
     return PSPEC_OK;
 }
 
+static pspec_status check_lift(const ps_request *arguments, ps_error *error) {
+    return arguments->reading.morph.kind == PS_MORPH_NONE ||
+                   arguments->reading.lift == PS_LIFT_TO_HEMISPHERE
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "%s is for points lifted to the hemisphere; add --lift hemisphere",
+                         ps_option_show(arguments, PS_OPTION_MORPH).text);
+}
+
+pspec_status ps_point_options_check(const ps_request *arguments, ps_error *error) {
+    PS_TRY(check_other_source(arguments, error));
+    return check_lift(arguments, error);
+}
+
 static pspec_status check_source(const ps_request *arguments, ps_error *error) {
     if (arguments->num_samplers == 0 && arguments->num_files == 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
@@ -55,7 +72,7 @@ static pspec_status check_source(const ps_request *arguments, ps_error *error) {
         return fail_conflict("--sampler", arguments->files[0], "points come from one of them",
                              error);
     }
-    PS_TRY(check_other_source(arguments, error));
+    PS_TRY(ps_point_options_check(arguments, error));
     if (arguments->weights.kind == PS_WEIGHTS_COLUMN && arguments->num_samplers > 0) {
         return fail_conflict("--weights column", "--sampler", "samplers make points only", error);
     }
@@ -71,7 +88,7 @@ typedef struct option_pair {
 static pspec_status check_results(const ps_request *arguments, ps_error *error) {
     static const option_pair pairs[] = {
         {PS_OPTION_FREQUENCIES, PS_OPTION_MAX_FREQUENCY, "the list says it all"},
-        {PS_OPTION_FREQUENCIES, PS_OPTION_SHELLS, "a list is not averaged"},
+        {PS_OPTION_FREQUENCIES, PS_OPTION_BINS, "a list is not averaged"},
         {PS_OPTION_FREQUENCIES, PS_OPTION_FULL, "a list is not an array"},
         {PS_OPTION_FREQUENCIES, PS_OPTION_PLOT, "only grids are drawn"},
         {PS_OPTION_FREQUENCIES, PS_OPTION_PER_RING, "the list says it all"},
@@ -80,6 +97,7 @@ static pspec_status check_results(const ps_request *arguments, ps_error *error) 
         {PS_OPTION_PER_RING, PS_OPTION_STANDARD_ERROR,
          "more realizations do not mend the error of the choice"},
         {PS_OPTION_COEFFICIENTS, PS_OPTION_STANDARD_ERROR, "coefficients are of one set"},
+        {PS_OPTION_COEFFICIENTS, PS_OPTION_PER_RING, "a subset does not fill an array"},
         {PS_OPTION_FULL, PS_OPTION_PER_RING, "a subset does not fill an array"}};
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
         if (arguments->is_given[pairs[i].a] && arguments->is_given[pairs[i].b]) {
@@ -89,6 +107,9 @@ static pspec_status check_results(const ps_request *arguments, ps_error *error) 
     }
     if (arguments->full != NULL && arguments->num_samplers > 1) {
         return fail_conflict("--full", "several samplers", "one array has one file", error);
+    }
+    if (arguments->coefficients != NULL && arguments->num_samplers > 1) {
+        return fail_conflict("--coefficients", "several samplers", "one array has one file", error);
     }
     return PSPEC_OK;
 }
@@ -111,9 +132,12 @@ static void fill_points(ps_power_question *question, const ps_request *arguments
     question->point_options.domain = domain;
 }
 
-static ps_harmonics find_harmonics(const ps_request *arguments) {
+static ps_harmonics find_harmonics(const ps_request *arguments, ps_question_kind kind) {
     if (arguments->coefficients == NULL) {
         return PS_NO_HARMONICS;
+    }
+    if (kind == PS_QUESTION_POWER) {
+        return PS_EXPONENTIALS;
     }
     return arguments->harmonics != NULL && strcmp(arguments->harmonics, "hemispherical") == 0
                ? PS_HEMISPHERICAL_HARMONICS
@@ -147,9 +171,10 @@ static unsigned find_offers(const ps_request *arguments, ps_question_kind kind) 
         arguments->frequencies.per_ring > 0) {
         return 0;
     }
-    return PS_OFFER_RINGS | (arguments->plot == NULL && !arguments->frequencies.exact_shells
-                                 ? (unsigned)PS_OFFER_LISTS
-                                 : 0);
+    return PS_OFFER_RINGS |
+           (arguments->plot == NULL && arguments->frequencies.bins.kind != PS_BINS_SHELLS
+                ? (unsigned)PS_OFFER_LISTS
+                : 0);
 }
 
 static ps_power_question make_question(const ps_request *arguments, ps_question_kind kind) {
@@ -157,13 +182,14 @@ static ps_power_question make_question(const ps_request *arguments, ps_question_
         .on_sphere = domain_of(kind) == PS_DOMAIN_SPHERE,
         .wants_pair_sums = kind == PS_QUESTION_PAIRS,
         .on_hemisphere = arguments->hemisphere,
-        .harmonics = find_harmonics(arguments),
+        .harmonics = find_harmonics(arguments, kind),
         .max_degree = (int64_t)arguments->max_degree,
         .num_realizations = ps_num_realizations_asked(arguments),
         .frequencies = arguments->frequencies,
         .per_ring_seed = arguments->seed,
         /* the picture of one spectrum shows the corners; several, and subsets, are curves only */
-        .wants_full_array = arguments->full != NULL || arguments->wants_picture ||
+        .wants_full_array = arguments->full != NULL || arguments->coefficients != NULL ||
+                            arguments->wants_picture ||
                             (arguments->plot != NULL && arguments->num_samplers <= 1 &&
                              arguments->frequencies.per_ring == 0),
         .normalization = choose_normalization(arguments, kind),

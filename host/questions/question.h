@@ -39,5 +39,8 @@ ps_option_source ps_option_source_of(ps_option_id id);
 
 /* How point files are read. */
 ps_point_options ps_point_options_make(const ps_request *arguments);
+/* Refuses options about the other of samplers and files, and what does not go together in how files
+ * are read. */
+pspec_status ps_point_options_check(const ps_request *arguments, ps_error *error) PS_MUST_CHECK;
 
 #endif

@@ -7,6 +7,7 @@
 #include "base/status.h"
 #include "frequencies/frequencies_spec.h"
 #include "plan/specs.h"
+#include "plots/plot.h"
 #include "points/points.h"
 #include "points/weights_spec.h"
 #include "samplers/sampler.h"
@@ -34,7 +35,7 @@ typedef enum ps_option_id {
     PS_OPTION_COEFFICIENTS,      /* --coefficients FILE.npy */
     PS_OPTION_HARMONICS,         /* --harmonics spherical|hemispherical */
     PS_OPTION_FREQUENCIES,       /* --frequencies FILE */
-    PS_OPTION_SHELLS,            /* --shells */
+    PS_OPTION_BINS,              /* --bins round|floor|width=P/Q|relative=P/Q|shells */
     PS_OPTION_PER_RING,          /* --per-ring S */
     PS_OPTION_FULL,              /* --full FILE.npy */
     PS_OPTION_NORMALIZE,         /* --normalize power|effective */
@@ -46,7 +47,10 @@ typedef enum ps_option_id {
     PS_OPTION_COLUMNS,           /* --columns NAME */
     PS_OPTION_DOMAIN,            /* --domain torus|sphere */
     PS_OPTION_WRAP,              /* --wrap */
+    PS_OPTION_BOX,               /* --box X0,X1 */
     PS_OPTION_NORMALIZE_VECTORS, /* --normalize-vectors */
+    PS_OPTION_LIFT,              /* --lift sphere|hemisphere */
+    PS_OPTION_MORPH,             /* --morph none|diffuse|glossy:n=N|phong:n=N */
     PS_OPTION_DROP_BELOW,        /* --drop-below-horizon */
     PS_OPTION_SELECT_SETS,       /* --select-sets A..B */
     PS_OPTION_SELECT_POINTS,     /* --select-points A..B */
@@ -64,8 +68,10 @@ typedef enum ps_option_id {
     PS_OPTION_NO_SKIP,           /* --no-skip */
     PS_OPTION_NO_SELF_CHECK,     /* --no-self-check */
     PS_OPTION_OUTPUT,            /* -o, --output FILE */
-    PS_OPTION_FORMAT,            /* --format csv|json|npy, or a format of points */
+    PS_OPTION_FORMAT,            /* --format csv|json|npy|jsonl|text, or a format of points */
     PS_OPTION_PLOT,              /* --plot FILE */
+    PS_OPTION_PLOT_LOG,          /* --plot-log x|y|xy|none */
+    PS_OPTION_PLOT_RANGE,        /* --plot-range X0..X1,Y0..Y1 */
     PS_OPTION_PROFILE,           /* --profile */
     PS_OPTION_QUIET,             /* --quiet */
     PS_OPTION_QUICK,             /* --quick */
@@ -108,6 +114,7 @@ typedef struct ps_request {
      * memory), stands in it no sooner than ps_point_options_make hands it on. */
     ps_point_options reading;
     ps_point_range points; /* of each set; {0} unless given */
+    ps_plot_axes plot_axes;
     bool homogenize, hemisphere, drop_below_horizon, merge, calibrate, quick, scenes, quiet,
         verbose;
     /* The picture shows the averaged periodogram on the whole square; no option asks for it. */

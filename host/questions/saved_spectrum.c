@@ -47,7 +47,7 @@ static pspec_status take_sums(ps_saved_spectrum *out, const ps_spectrum_sums *su
         .on_hemisphere = set->kind == PS_FREQUENCIES_DEGREES && set->degree_step > 1,
         .dimension = set->dimension,
         .max_frequency = set->max_frequency,
-        .exact_shells = sums->exact_shells,
+        .bin_rule = set->bins,
         .normalization = sums->normalization,
         .num_realizations = averages.num_realizations,
         .smallest_points = averages.smallest_points,

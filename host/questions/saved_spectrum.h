@@ -4,6 +4,7 @@
 #define PS_QUESTIONS_SAVED_SPECTRUM_H
 
 #include "base/status.h"
+#include "frequencies/bin_rule.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -18,8 +19,8 @@ typedef struct ps_saved_spectrum {
     bool on_sphere, on_hemisphere;
     unsigned dimension;    /* of the points */
     int32_t max_frequency; /* K or L */
-    bool exact_shells;
-    uint64_t per_ring; /* 0: all frequencies of a ring */
+    ps_bin_rule bin_rule;  /* on the torus */
+    uint64_t per_ring;     /* 0: all frequencies of a ring */
     bool has_seed;
     uint64_t seed; /* of the sampler, and of the choice with per_ring */
     pspec_normalization normalization;

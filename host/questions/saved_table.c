@@ -2,6 +2,7 @@
 #include "base/memory.h"
 #include "frequencies/frequencies.h"
 #include "questions/saved_spectrum.h"
+#include "tables/table.h"
 
 #include <cJSON.h>
 
@@ -34,8 +35,10 @@ static bool take_whole(const cJSON *item, uint64_t least, uint64_t most, uint64_
     return is_good;
 }
 
+/* A value of the header, since schema 2 the first of an array. */
 static const cJSON *entry(const reader *source, const char *key) {
-    return cJSON_GetObjectItemCaseSensitive(source->meta, key);
+    const cJSON *const item = cJSON_GetObjectItemCaseSensitive(source->meta, key);
+    return cJSON_IsArray(item) ? item->child : item;
 }
 
 static pspec_status need_whole(const reader *source, const char *key, uint64_t most,
@@ -87,6 +90,21 @@ static pspec_status read_normalization(const reader *source) {
                               "\"normalization\" of \"meta\" is neither power nor effective");
 }
 
+/* Tables of rings by rounding say nothing. */
+static pspec_status read_bins(const reader *source) {
+    const cJSON *const item = entry(source, "bins");
+    ps_saved_spectrum *const out = source->out;
+    if (item == NULL || cJSON_IsNull(item)) {
+        return PSPEC_OK;
+    }
+    if (!cJSON_IsString(item) ||
+        ps_bin_rule_parse(&out->bin_rule, "bins", item->valuestring, NULL) != PSPEC_OK) {
+        return fail_damaged(source, "\"bins\" of \"meta\" is none of " PS_BIN_RULES);
+    }
+    ps_bin_rule_resolve(&out->bin_rule, out->dimension, out->smallest_points);
+    return PSPEC_OK;
+}
+
 static pspec_status read_domain(const reader *source) {
     ps_saved_spectrum *const out = source->out;
     uint64_t number = 0;
@@ -98,6 +116,7 @@ static pspec_status read_domain(const reader *source) {
         PS_TRY(need_whole(source, "dimension", PS_MAX_TORUS_DIMENSION, &number));
         out->dimension = (unsigned)number;
         PS_TRY(need_whole(source, "max_frequency", PS_MAX_FREQUENCY, &number));
+        PS_TRY(read_bins(source));
     }
     out->max_frequency = (int32_t)number;
     return PSPEC_OK;
@@ -132,10 +151,16 @@ static pspec_status read_header(const reader *source) {
 
 /* ---- rows -------------------------------------------------------------------------------- */
 
-/* Where the numbers of a row stand. */
+/* Where the numbers of a row stand, and by which names since schema 2. */
 typedef struct places {
     int key, frequency, power, standard_error, num;
+    const char *key_name;
 } places;
+
+static const cJSON *find_cell(const cJSON *row, int place, const char *name) {
+    return cJSON_IsObject(row) ? cJSON_GetObjectItemCaseSensitive(row, name)
+                               : cJSON_GetArrayItem(row, place);
+}
 
 static int find_column(const cJSON *columns, const char *name) {
     int place = 0;
@@ -160,9 +185,10 @@ static pspec_status find_places(const reader *source, places *at) {
                             "this is a list of frequencies, and rings are compared; save one "
                             "without --frequencies");
     }
-    *at = (places){find_column(columns, source->out->on_sphere ? "degree" : "bin"),
-                   find_column(columns, "frequency"), find_column(columns, "power"),
-                   find_column(columns, "standard_error"), cJSON_GetArraySize(columns)};
+    const char *const key_name = source->out->on_sphere ? "degree" : "bin";
+    *at = (places){find_column(columns, key_name), find_column(columns, "frequency"),
+                   find_column(columns, "power"),  find_column(columns, "standard_error"),
+                   cJSON_GetArraySize(columns),    key_name};
     return at->key >= 0 && at->power >= 0 && at->standard_error >= 0 &&
                    (source->out->on_sphere || at->frequency >= 0)
                ? PSPEC_OK
@@ -175,20 +201,22 @@ static bool take_standard_error(const ps_saved_spectrum *out, const cJSON *item,
     return out->num_realizations == 1 || (*value >= 0 && isfinite(*value));
 }
 
-/* cells[at->num]: an array of cJSON is a list. */
+/* at->num cells, in an array or, since schema 2, in an object. */
 static bool take_row(ps_saved_spectrum *out, const places *at, const cJSON *row,
                      double *frequency) {
     ps_saved_bin *const bin = &out->bins[out->num_bins];
-    const uint64_t least = out->num_bins == 0 ? 1 : (uint64_t)out->bins[out->num_bins - 1].key + 1;
-    const cJSON *const power = cJSON_GetArrayItem(row, at->power);
+    const uint64_t first = out->on_sphere || out->bin_rule.numerator == 0 ? 1 : 0;
+    const uint64_t least =
+        out->num_bins == 0 ? first : (uint64_t)out->bins[out->num_bins - 1].key + 1;
+    const cJSON *const number = find_cell(row, at->key, at->key_name);
+    const cJSON *const power = find_cell(row, at->power, "power");
     const cJSON *const where =
-        cJSON_GetArrayItem(row, at->frequency >= 0 ? at->frequency : at->key);
+        at->frequency >= 0 ? find_cell(row, at->frequency, "frequency") : number;
     uint64_t key = 0;
-    if (cJSON_GetArraySize(row) != at->num ||
-        !take_whole(cJSON_GetArrayItem(row, at->key), least, MOST_EXACT, &key) ||
+    if (cJSON_GetArraySize(row) != at->num || !take_whole(number, least, MOST_EXACT, &key) ||
         !cJSON_IsNumber(power) || !(power->valuedouble >= 0 && isfinite(power->valuedouble)) ||
         !cJSON_IsNumber(where) ||
-        !take_standard_error(out, cJSON_GetArrayItem(row, at->standard_error),
+        !take_standard_error(out, find_cell(row, at->standard_error, "standard_error"),
                              &bin->standard_error)) {
         return false;
     }
@@ -204,6 +232,14 @@ static bool take_row(ps_saved_spectrum *out, const places *at, const cJSON *row,
 static bool is_shell(double frequency, int64_t key) {
     const double rounding = 1e-9;
     return fabs(frequency * frequency / (double)key - 1) < rounding;
+}
+
+/* Tables of versions that knew rings by rounding and shells do not say which they have. */
+static void find_old_shells(ps_saved_spectrum *out, double frequency) {
+    if (!out->on_sphere && out->bin_rule.kind == PS_BINS_ROUND &&
+        is_shell(frequency, out->bins[out->num_bins - 1].key)) {
+        out->bin_rule = (ps_bin_rule){.kind = PS_BINS_SHELLS};
+    }
 }
 
 static pspec_status read_rows(const reader *source) {
@@ -224,7 +260,7 @@ static pspec_status read_rows(const reader *source) {
                            source->name, out->num_bins + 1);
         }
     }
-    out->exact_shells = !out->on_sphere && is_shell(frequency, out->bins[out->num_bins - 1].key);
+    find_old_shells(out, frequency);
     return PSPEC_OK;
 }
 
@@ -234,9 +270,10 @@ static pspec_status read_root(reader *source) {
     uint64_t schema = 0;
     const cJSON *const command = cJSON_GetObjectItemCaseSensitive(source->root, "command");
     source->meta = cJSON_GetObjectItemCaseSensitive(source->root, "meta");
-    if (!take_whole(cJSON_GetObjectItemCaseSensitive(source->root, "schema"), 1, 1, &schema) ||
+    if (!take_whole(cJSON_GetObjectItemCaseSensitive(source->root, "schema"), 1, PS_TABLE_SCHEMA,
+                    &schema) ||
         !cJSON_IsString(command) || !cJSON_IsObject(source->meta)) {
-        return fail_damaged(source, "this is no table of pointspec (\"schema\": 1)");
+        return fail_damaged(source, "this is no table of pointspec (\"schema\": 1 or 2)");
     }
     source->out->on_sphere = strcmp(command->valuestring, "angular") == 0;
     if (!source->out->on_sphere && strcmp(command->valuestring, "power") != 0) {

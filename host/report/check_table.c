@@ -20,7 +20,7 @@ static const char *const torus_columns[] = {"bin",
 enum { NUM_COLUMNS = sizeof torus_columns / sizeof torus_columns[0] };
 
 const char *ps_check_bin_name(const ps_saved_spectrum *saved) {
-    return saved->on_sphere ? "degree" : saved->exact_shells ? "shell" : "ring";
+    return saved->on_sphere ? "degree" : ps_bin_rule_noun(&saved->bin_rule);
 }
 
 /* first: of the columns above that the table has. */

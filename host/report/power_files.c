@@ -1,7 +1,9 @@
-/* --full of power. */
+/* --full and --coefficients of power. */
 #include "report/power_table.h"
 
+#include "base/memory.h"
 #include "files/npy.h"
+#include "files/output_file.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -32,13 +34,18 @@ static pspec_status write_array(const char *path, const ps_request *arguments,
 
 static const char array_ending[] = ".npy";
 
-/* Length of the path without its ending, which ps_power_check_full has seen. */
+/* Length of the path without its ending, which ps_power_check_arrays has seen. */
 static size_t stem_length(const char *path) {
     return strlen(path) - (sizeof array_ending - 1);
 }
 
-pspec_status ps_power_check_full(const ps_request *arguments, ps_error *error) {
-    return arguments->full == NULL ? PSPEC_OK : ps_npy_check_name("--full", arguments->full, error);
+pspec_status ps_power_check_arrays(const ps_request *arguments, ps_error *error) {
+    if (arguments->full != NULL) {
+        PS_TRY(ps_npy_check_name("--full", arguments->full, error));
+    }
+    return arguments->coefficients == NULL
+               ? PSPEC_OK
+               : ps_npy_check_name("--coefficients", arguments->coefficients, error);
 }
 
 pspec_status ps_power_write_full(const ps_request *arguments, const ps_power_job *job,
@@ -54,4 +61,70 @@ pspec_status ps_power_write_full(const ps_request *arguments, const ps_power_job
                       : write_array(ps_text_string(&beside), arguments, spectrum, 1, error);
     ps_text_free(&beside);
     return status;
+}
+
+/* ---- --coefficients ---------------------------------------------------------------------- */
+
+/* The box of a set, S(-k) being the conjugate of S(k). */
+static void fill_box(const ps_frequencies *set, const double *amplitudes, size_t num_entries,
+                     double *box) {
+    const double *const values = amplitudes + 2; /* behind S(0) */
+    memcpy(box + num_entries / 2 * 2, amplitudes, 2 * sizeof *box);
+    for (size_t i = 0; i < set->num; i++) {
+        const size_t place = ps_spectrum_place(set, i);
+        const size_t opposite = num_entries - 1 - place;
+        box[2 * place] = box[2 * opposite] = values[2 * i];
+        box[2 * place + 1] = values[2 * i + 1];
+        box[2 * opposite + 1] = -values[2 * i + 1];
+    }
+}
+
+typedef struct complex_array {
+    unsigned rank;
+    size_t shape[PS_MAX_TORUS_DIMENSION + 1];
+    size_t num_entries; /* of a set */
+} complex_array;
+
+static complex_array find_shape(const ps_frequencies *set, size_t num_sets) {
+    complex_array out = {.num_entries = 1};
+    if (num_sets > 1) {
+        out.shape[out.rank++] = num_sets;
+    }
+    if (set->kind == PS_FREQUENCIES_LIST) {
+        out.shape[out.rank++] = out.num_entries = set->num;
+        return out;
+    }
+    for (unsigned axis = 0; axis < set->dimension; axis++) {
+        out.shape[out.rank++] = 2 * (size_t)set->max_frequency + 1;
+        out.num_entries *= 2 * (size_t)set->max_frequency + 1;
+    }
+    return out;
+}
+
+pspec_status ps_power_write_coefficients(const ps_request *arguments, const ps_power_job *job,
+                                         ps_error *error) {
+    const ps_frequencies *const set = ps_power_job_problem(job)->frequencies;
+    size_t num_sets = 0;
+    const double *amplitudes = ps_power_job_amplitudes(job, &num_sets);
+    const complex_array shape = find_shape(set, num_sets);
+    double *box = NULL;
+    ps_output_file *file = NULL;
+    if (set->kind != PS_FREQUENCIES_LIST) {
+        PS_TRY(PS_NEW(&box, 2 * shape.num_entries, "the coefficients of a set", error));
+    }
+    const pspec_status status = ps_output_open(&file, arguments->coefficients, error);
+    if (status != PSPEC_OK) {
+        free(box);
+        return status;
+    }
+    ps_npy_write_complex_header(ps_output_stream(file), shape.rank, shape.shape);
+    for (size_t r = 0; r < num_sets; r++, amplitudes += 2 + 2 * set->num) {
+        if (box != NULL) {
+            fill_box(set, amplitudes, shape.num_entries, box);
+        }
+        ps_output_write(file, box != NULL ? box : amplitudes + 2, 2 * sizeof *box,
+                        shape.num_entries);
+    }
+    free(box);
+    return ps_output_commit(&file, error);
 }

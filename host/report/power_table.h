@@ -11,11 +11,16 @@ pspec_status ps_power_table(ps_table **out, const ps_request *arguments,
                             const ps_power_job *const *jobs, size_t num,
                             ps_error *error) PS_MUST_CHECK;
 
-/* Is the name after --full, if any, one of an NPY file? */
-pspec_status ps_power_check_full(const ps_request *arguments, ps_error *error) PS_MUST_CHECK;
+/* Are the names after --full and --coefficients, if any, those of NPY files? */
+pspec_status ps_power_check_arrays(const ps_request *arguments, ps_error *error) PS_MUST_CHECK;
 
 /* --full: FILE.npy and FILE.standard_error.npy. */
 pspec_status ps_power_write_full(const ps_request *arguments, const ps_power_job *job,
                                  ps_error *error) PS_MUST_CHECK;
+
+/* --coefficients: S(k) of every set, complex128 [sets][2K+1]..[2K+1], or [sets][frequencies] of a
+ * list; without the first axis where there is one set. */
+pspec_status ps_power_write_coefficients(const ps_request *arguments, const ps_power_job *job,
+                                         ps_error *error) PS_MUST_CHECK;
 
 #endif

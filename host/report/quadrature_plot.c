@@ -6,16 +6,15 @@
 #include <stdlib.h>
 
 /* Lines of a job: d_l^2, C_l^2, e_l^2. */
-enum { LINES = 3, MOST_LABEL = 96 };
+enum { LINES = 3 };
 
 typedef struct curves {
     double *numbers; /* [1 + LINES][max_degree + 1] */
-    char labels[LINES][MOST_LABEL];
 } curves;
 
 static pspec_status make_curves(curves *out, ps_series *lines, size_t first, const char *sampler,
                                 const ps_quadrature_result *result, ps_error *error) {
-    static const char *const names[LINES] = {"d_l^2", "C_l^2", "e_l^2"};
+    static const char *const names[LINES] = {"d@_l^2", "C@_l^2", "e@_l^2"};
     const size_t num = result->max_degree + 1;
     PS_TRY(PS_NEW(&out->numbers, (1 + LINES) * num, "a picture", error));
     for (size_t l = 0; l < num; l++) {
@@ -26,9 +25,8 @@ static pspec_status make_curves(curves *out, ps_series *lines, size_t first, con
         out->numbers[3 * num + l] = degree->e2.mean;
     }
     for (size_t i = 0; i < LINES; i++) {
-        snprintf(out->labels[i], MOST_LABEL, "%s%s%s", names[i], sampler != NULL ? ", " : "",
-                 sampler != NULL ? sampler : "");
-        lines[i] = (ps_series){.label = out->labels[i],
+        lines[i] = (ps_series){.formula = names[i],
+                               .label = sampler,
                                .kind = first + i,
                                .num = num,
                                .x = out->numbers,
@@ -49,7 +47,8 @@ static pspec_status write_plot(const ps_request *arguments, const ps_series *lin
     const ps_figure figure = {.form = PS_FIGURE_FRAME,
                               .title = ps_text_string(&title),
                               .x_label = "degree l",
-                              .y_label = "d_l^2, C_l^2, e_l^2 = a_l (d_l^2 + C_l^2)",
+                              .y_label = "d@_l^2 , C@_l^2 , e@_l^2 = a_l (d@_l^2 + C@_l^2 )",
+                              .axes = arguments->plot_axes,
                               .is_log_x = true,
                               .is_log_y = true,
                               .num_panels = 1,

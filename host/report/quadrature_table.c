@@ -35,7 +35,7 @@ static pspec_status add_question(ps_table *table, const ps_request *arguments,
     const ps_quadrature_question *const question = &list->questions[0];
     const ps_meta entries[] = {
         {"pointspec_version", PS_TEXT(pspec_version())},
-        {"schema", PS_INTEGER(1)},
+        {"schema", PS_INTEGER(PS_TABLE_SCHEMA)},
         {"command", PS_TEXT(arguments->command_line)},
         {"tolerance", PS_NUMBER(question->accuracy.tolerance)},
         {"seed", question->sampler != NULL ? PS_INTEGER(arguments->seed) : PS_MISSING},
@@ -48,9 +48,10 @@ static pspec_status add_question(ps_table *table, const ps_request *arguments,
     return add_remark(table, "note", ps_brdf_note(list->brdf), error);
 }
 
-static pspec_status add_facts(ps_table *table, const char *sampler,
+static pspec_status add_facts(ps_table *table, const char *sampler, const ps_point_options *options,
                               const ps_quadrature_result *result, ps_error *error) {
     PS_TRY(add_remark(table, "sampler", sampler, error));
+    PS_TRY(ps_header_add_reading(table, options, error));
     const ps_meta entries[] = {
         {"device", PS_TEXT(result->device)},
         {"engine", PS_TEXT(result->engine)},
@@ -160,7 +161,7 @@ static pspec_status fill(ps_table *table, const ps_request *arguments,
     PS_TRY(add_question(table, arguments, list, error));
     for (size_t i = 0; i < list->num; i++) {
         const char *const sampler = arguments->num_samplers > 0 ? arguments->samplers[i] : NULL;
-        PS_TRY(add_facts(table, sampler, &results[i], error));
+        PS_TRY(add_facts(table, sampler, &list->questions[i].point_options, &results[i], error));
         PS_TRY(add_look(table, arguments->accuracy.standard_error, &results[i], error));
         PS_TRY(add_answer(table, &results[i], error));
         PS_TRY(add_condition(table, &results[i], error));

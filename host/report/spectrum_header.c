@@ -1,5 +1,8 @@
 #include "report/spectrum_header.h"
 
+#include "files/decimal.h"
+#include "samplers/morph_words.h"
+
 #include "pointspec_version.h"
 
 #include <math.h>
@@ -7,6 +10,31 @@
 
 ps_cell ps_number_or_missing(double value) {
     return isnan(value) ? PS_MISSING : PS_NUMBER(value);
+}
+
+static pspec_status add_box(ps_table *table, const ps_point_options *options, ps_error *error) {
+    char text[2 * PS_DECIMAL_BYTES];
+    if (!(options->box_high > options->box_low)) {
+        return PSPEC_OK;
+    }
+    const size_t length = ps_decimal_format(text, options->box_low);
+    text[length] = ',';
+    ps_decimal_format(text + length + 1, options->box_high);
+    return ps_table_add_meta(table, "box", PS_TEXT(text), error);
+}
+
+pspec_status ps_header_add_reading(ps_table *table, const ps_point_options *options,
+                                   ps_error *error) {
+    PS_TRY(add_box(table, options, error));
+    if (options->lift == PS_NO_LIFT) {
+        return PSPEC_OK;
+    }
+    const bool on_hemisphere = options->lift == PS_LIFT_TO_HEMISPHERE;
+    PS_TRY(ps_table_add_meta(table, PS_LIFT_KEY, PS_TEXT(on_hemisphere ? "hemisphere" : "sphere"),
+                             error));
+    return on_hemisphere ? ps_table_add_meta(table, PS_MORPH_KEY,
+                                             PS_TEXT(ps_morph_write(&options->morph).text), error)
+                         : PSPEC_OK;
 }
 
 static bool is_on_sphere(const ps_frequencies *set) {
@@ -39,7 +67,7 @@ static const char *name_normalization(const ps_request *arguments, const ps_prob
 
 static void put_common(header *head, const ps_request *arguments, const ps_problem *problem) {
     put(head, "pointspec_version", PS_TEXT(PS_VERSION));
-    put(head, "schema", PS_INTEGER(1));
+    put(head, "schema", PS_INTEGER(PS_TABLE_SCHEMA));
     put(head, "command", PS_TEXT(arguments->command_line));
     put(head, "normalization", PS_TEXT(name_normalization(arguments, problem)));
     if (arguments->num_samplers > 0 || arguments->frequencies.per_ring > 0) {
@@ -93,6 +121,9 @@ static void put_frequencies(header *head, const ps_request *arguments, const ps_
     }
     put(head, "dimension", PS_INTEGER(set->dimension));
     put(head, "max_frequency", PS_INTEGER(set->max_frequency));
+    if (arguments->frequencies.path == NULL && set->bins.kind != PS_BINS_ROUND) {
+        put(head, "bins", PS_TEXT(ps_bin_rule_write(&set->bins).text));
+    }
     put_subset(head, arguments, set);
 }
 
@@ -152,6 +183,9 @@ static void put_job(header *head, const ps_request *arguments, const ps_power_jo
     } else {
         put(head, "input_format", PS_TEXT(ps_power_job_source_format(job)));
         put(head, "input_columns", PS_TEXT(ps_power_job_source_columns(job)));
+        head->status = head->status == PSPEC_OK
+                           ? ps_header_add_reading(head->table, &arguments->reading, head->error)
+                           : head->status;
     }
     put_points(head, ps_power_job_spectrum(job), ps_power_job_needs(job));
     put_look(head, arguments, job);

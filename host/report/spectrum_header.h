@@ -15,5 +15,8 @@ pspec_status ps_header_add_job(ps_table *table, const ps_request *arguments,
 
 /* nan is a missing number. */
 ps_cell ps_number_or_missing(double value);
+/* From which box point files came, and how they were lifted to the sphere, if they were. */
+pspec_status ps_header_add_reading(ps_table *table, const ps_point_options *options,
+                                   ps_error *error) PS_MUST_CHECK;
 
 #endif

@@ -108,7 +108,8 @@ pspec_status ps_spectrum_plot(const ps_request *arguments, const ps_power_job *c
                               .panels = &panel,
                               .image = has_image ? &image : NULL,
                               .noise_level_db = realizations > 1 ? -10 * log10(realizations) : NAN,
-                              .on_sphere = on_sphere};
+                              .on_sphere = on_sphere,
+                              .axes = arguments->plot_axes};
     PS_TRY_OUT(status, ps_figure_write(arguments->plot, &figure, error));
 out:
     for (size_t i = 0; i < num; i++) {

@@ -11,11 +11,6 @@ static pspec_status check_coefficients(const ps_request *request, ps_error *erro
                    : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                              "--harmonics is about --coefficients, which was not given");
     }
-    if (request->num_samplers > 1) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "--coefficients are of one set, but %zu samplers were given",
-                       request->num_samplers);
-    }
     return ps_npy_check_name("--coefficients", request->coefficients, error);
 }
 

@@ -27,6 +27,11 @@ pspec_status ps_picture_check(const ps_request *request, const ps_answer_hooks *
                               ps_error *error) {
     ps_text path = {0};
     ps_error reason = {0};
+    const ps_plot_axes *const axes = &request->plot_axes;
+    if (request->plot == NULL && (axes->has_log || axes->has_x || axes->has_y)) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "--plot-log and --plot-range are about --plot, which was not given");
+    }
     if (request->plot == NULL) {
         return PSPEC_OK;
     }

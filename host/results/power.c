@@ -40,7 +40,12 @@ static pspec_status tabulate(ps_answer *out, const void *computed, const ps_requ
 
 static pspec_status write_others(const void *computed, const ps_request *request, ps_error *error) {
     const ps_spectra *const spectra = computed;
-    return request->full != NULL ? ps_power_write_full(request, spectra->jobs[0], error) : PSPEC_OK;
+    if (request->full != NULL) {
+        PS_TRY(ps_power_write_full(request, spectra->jobs[0], error));
+    }
+    return request->coefficients != NULL
+               ? ps_power_write_coefficients(request, spectra->jobs[0], error)
+               : PSPEC_OK;
 }
 
 static const ps_line_kind axes = {NULL,
@@ -58,7 +63,7 @@ const ps_result_kind ps_result_power = {
     .samples = PS_DOMAIN_TORUS,
     .counted = "realizations",
     .has_images = true,
-    .check_arguments = ps_power_check_full,
+    .check_arguments = ps_power_check_arrays,
     .check_question = check_question,
     .plan = plan,
     .compute = compute,

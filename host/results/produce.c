@@ -7,7 +7,7 @@
 
 const char *ps_result_words(const ps_result_kind *kind, ps_option_id id) {
     if (id == PS_OPTION_FORMAT && kind->has_verdict) {
-        return "csv|json"; /* verdicts are no numbers */
+        return "csv|json|jsonl|text"; /* verdicts are no numbers */
     }
     return id == PS_OPTION_WEIGHTS && kind->weights != NULL ? kind->weights
                                                             : ps_options[id].metavar;

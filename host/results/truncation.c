@@ -224,7 +224,7 @@ static pspec_status add_header(ps_table *table, const truncation *answer, ps_err
     const char *const note = ps_brdf_note(answer->brdf);
     const ps_meta entries[] = {
         {"pointspec_version", PS_TEXT(pspec_version())},
-        {"schema", PS_INTEGER(1)},
+        {"schema", PS_INTEGER(PS_TABLE_SCHEMA)},
         {"command", PS_TEXT(answer->arguments->command_line)},
         {"device", PS_TEXT("none")},
         {"engine", PS_TEXT("host")},
@@ -277,6 +277,7 @@ static pspec_status draw(const void *computed, const ps_request *request, ps_err
                               .title = ps_text_string(&title),
                               .x_label = "largest degree L",
                               .y_label = "worst-case error E(L)",
+                              .axes = request->plot_axes,
                               .is_log_y = true,
                               .num_panels = 1,
                               .panels = &panel};

@@ -2,6 +2,7 @@
 #include "samplers/sampler.h"
 
 #include "base/text.h"
+#include "samplers/morph_words.h"
 
 #include <string.h>
 
@@ -114,44 +115,17 @@ static pspec_status set_lift(ps_sampler_request *request, ps_slice value, ps_err
     return PSPEC_OK;
 }
 
-static pspec_status set_exponent(ps_sampler_request *request, ps_slice value, ps_error *error) {
-    char text[PS_MAX_SAMPLER_VALUE];
-    const bool is_wanted =
-        request->morph.kind == PS_MORPH_GLOSSY || request->morph.kind == PS_MORPH_PHONG;
-    if (is_wanted != (value.text != NULL)) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "sampler %s: %s",
-                       request->sampler->name,
-                       is_wanted ? "this " PS_MORPH_KEY "= needs " PS_EXPONENT_KEY
-                                   "=, the exponent of its lobe"
-                                 : PS_EXPONENT_KEY "= is the exponent of " PS_MORPH_KEY
-                                                   "=glossy and " PS_MORPH_KEY "=phong alone");
-    }
-    if (!is_wanted) {
-        return PSPEC_OK;
-    }
-    ps_slice_copy(text, value);
-    return ps_parse_number(text, "exponent " PS_EXPONENT_KEY " of the lobe", PS_LEAST_EXPONENT,
-                           PS_MOST_EXPONENT, &request->morph.exponent, error);
-}
-
 static pspec_status set_morph(ps_sampler_request *request, ps_slice value, ps_slice exponent,
                               ps_error *error) {
-    static const ps_morph_kind kinds[] = {PS_MORPH_NONE, PS_MORPH_DIFFUSE, PS_MORPH_GLOSSY,
-                                          PS_MORPH_PHONG};
-    static const char *const names[] = {PS_MORPH_DEFAULT, "diffuse", "glossy", "phong", NULL};
-    unsigned choice = 0;
-    if (value.text != NULL) {
-        PS_TRY(choose(request->sampler, &shared[MORPH], names, value, &choice, error));
-    }
-    request->morph = (ps_morph){kinds[choice], 0};
+    const ps_morph_words words = {"sampler", request->sampler->name, value, exponent};
+    PS_TRY(ps_morph_parse(&request->morph, &words, error));
     request->has_morph = value.text != NULL;
-    if (choice > 0 && !ps_sampler_is_on_hemisphere(request)) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "sampler %s: " PS_MORPH_KEY
-                       "=%s is for points of the hemisphere; add " PS_LIFT_KEY "=hemisphere",
-                       request->sampler->name, names[choice]);
-    }
-    return set_exponent(request, exponent, error);
+    return request->morph.kind == PS_MORPH_NONE || ps_sampler_is_on_hemisphere(request)
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "sampler %s: " PS_MORPH_KEY
+                         "=%s is for points of the hemisphere; add " PS_LIFT_KEY "=hemisphere",
+                         request->sampler->name, ps_morph_write(&request->morph).text);
 }
 
 /* values: of the keys that the sampler knows. */

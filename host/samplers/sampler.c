@@ -3,7 +3,7 @@
 #include "base/memory.h"
 #include "math/random/random.h"
 #include "math/random/rotation.h"
-#include "samplers/sphere.h"
+#include "math/lift.h"
 #include "samplers/values.h"
 
 /* Indices, and sums of an index and a 53-bit offset, stay far inside the doubles; 2^40 points of
@@ -128,7 +128,7 @@ pspec_status ps_sampler_generate(const ps_sampler_request *request, uint64_t rea
     const ps_sampler_request own = own_request(request);
     PS_TRY(own.sampler->generate(&own, realization, points, error));
     if (request->lift != PS_SAMPLES_TORUS) {
-        ps_sphere_lift(request->lift, request->num_points, points);
+        ps_sphere_lift(request->lift == PS_SAMPLES_HEMISPHERE, request->num_points, points);
     }
     if (request->homogenize && ps_sampler_is_on_sphere(request)) {
         rotate_points(request, realization, points);

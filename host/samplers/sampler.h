@@ -14,6 +14,7 @@
 
 #include "base/grammar.h"
 #include "base/status.h"
+#include "math/lift.h"
 #include "math/morph.h"
 
 #include <stdbool.h>
@@ -24,9 +25,6 @@ enum { PS_MAX_DIMENSION = 6, PS_MAX_SAMPLER_PARAMETERS = 4, PS_MAX_SAMPLER_VALUE
 
 /* What ps_sampler_resolve takes for what is 0 in a request, unless the sampler says more. */
 enum { PS_DEFAULT_POINTS = 1024, PS_DEFAULT_DIMENSION = 2 };
-
-/* Numbers per point on sphere and hemisphere: x, y, z of a unit vector. */
-enum { PS_VECTOR_DIMENSION = 3 };
 
 /* Where points lie. */
 typedef enum ps_sampler_domain {

@@ -5,14 +5,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-int64_t ps_ring_of_norm2(int64_t norm2) {
-    /* b = rint(sqrt(norm2)) up to rounding of the square root, which the two lines after mend. */
-    int64_t b = (int64_t)rint(sqrt((double)norm2));
-    b -= norm2 < b * b - b + 1;
-    b += norm2 > b * b + b;
-    return b;
-}
-
 typedef struct keyed {
     int64_t key;
     uint32_t index;
@@ -32,18 +24,14 @@ uint64_t ps_bin_num_computed(const ps_bin *bin) {
     return num_members == bin->num_frequencies ? bin->num_modes : 2 * num_members;
 }
 
-/* Keys of reported bins are positive; what is not reported sorts behind them. */
-static int64_t key_of(const ps_frequencies *set, const int32_t *k, bool exact_shells) {
+/* What is not reported sorts behind all others. */
+static int64_t key_of(const ps_frequencies *set, const int32_t *k) {
     if (set->kind == PS_FREQUENCIES_DEGREES) {
         return k[0];
     }
     const int64_t norm2 = ps_frequency_norm2(k, set->dimension);
     const bool has_rings = set->kind != PS_FREQUENCIES_LIST || set->rings != NULL;
-    const int64_t ring = ps_ring_of_norm2(norm2);
-    if (!has_rings || ring > set->max_frequency) {
-        return INT64_MAX;
-    }
-    return exact_shells ? norm2 : ring;
+    return has_rings && norm2 <= set->max_norm2 ? ps_bin_rule_find(&set->bins, norm2) : INT64_MAX;
 }
 
 static size_t count_bins(const keyed *keys, size_t num) {
@@ -97,8 +85,7 @@ static pspec_status check_rings(const ps_bins *bins, const ps_frequencies *set, 
                          bins->num, set->num_rings);
 }
 
-pspec_status ps_bins_create(ps_bins *out, const ps_frequencies *frequencies, bool exact_shells,
-                            ps_error *error) {
+pspec_status ps_bins_create(ps_bins *out, const ps_frequencies *frequencies, ps_error *error) {
     keyed *keys = NULL;
     pspec_status status = PSPEC_OK;
     const unsigned num_components = ps_frequency_components(frequencies);
@@ -107,7 +94,7 @@ pspec_status ps_bins_create(ps_bins *out, const ps_frequencies *frequencies, boo
     for (size_t i = 0; i < frequencies->num; i++) {
         const int32_t *k = frequencies->vectors + i * num_components;
         if (ps_frequency_norm2(k, num_components) > 0) {
-            keys[out->num_members++] = (keyed){key_of(frequencies, k, exact_shells), (uint32_t)i};
+            keys[out->num_members++] = (keyed){key_of(frequencies, k), (uint32_t)i};
         }
     }
     qsort(keys, out->num_members, sizeof *keys, compare_keys);

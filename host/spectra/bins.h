@@ -1,10 +1,9 @@
-/* Bins of frequencies: rings of width 1 on the integer lattice, exact shells |k|^2 = n, or single
- * degrees of the sphere.
+/* Bins of frequencies: rings or shells of the integer lattice by the rule of the frequencies
+ * (frequencies/bin_rule.h), or single degrees of the sphere.
  *
- * Ring b holds b^2 - b + 1 <= |k|^2 <= b^2 + b (docs/mathematics/torus.md#rings): integer
- * arithmetic, no ties. What belongs to no reported bin (corners of a box, a list of frequencies
- * that was not drawn from rings) forms one more bin at the end, so that the power of a realization
- * over all frequencies is always known. DC, which only a list can hold, belongs to no bin at all.
+ * What belongs to no reported bin (corners of a box, a list of frequencies that was not drawn from
+ * rings) forms one more bin at the end, so that the power of a realization over all frequencies is
+ * always known. DC, which only a list can hold, belongs to no bin at all.
  */
 #ifndef PS_SPECTRA_BINS_H
 #define PS_SPECTRA_BINS_H
@@ -12,7 +11,7 @@
 #include "frequencies/frequencies.h"
 
 typedef struct ps_bin {
-    int64_t key;       /* ring number b, |k|^2 of a shell, or degree */
+    int64_t key;       /* ring number, |k|^2 of a shell, or degree */
     size_t begin, end; /* members[begin .. end - 1], half-lattice frequencies, one at least */
     uint64_t num_frequencies; /* half-lattice frequencies that it has; members may be a subset */
     /* frequencies of both signs that it has, or the 2l + 1 orders of a degree */
@@ -31,13 +30,10 @@ typedef struct ps_bins {
     size_t num_members;
 } ps_bins;
 
-/* The ring number of |k|^2 >= 1. */
-int64_t ps_ring_of_norm2(int64_t norm2);
-
 /* frequencies must be enumerated; a list is put into the unreported bin as a whole, unless it was
- * drawn from rings or shells: exact_shells must then be what it was drawn from, else
+ * drawn from rings or shells: its rule must then be what it was drawn from, else
  * PSPEC_ERROR_INPUT. */
-pspec_status ps_bins_create(ps_bins *out, const ps_frequencies *frequencies, bool exact_shells,
+pspec_status ps_bins_create(ps_bins *out, const ps_frequencies *frequencies,
                             ps_error *error) PS_MUST_CHECK;
 void ps_bins_free(ps_bins *bins);
 

@@ -128,6 +128,16 @@ void ps_spectrum_repeat(ps_spectrum *spectrum, uint64_t num_realizations) {
     }
 }
 
+size_t ps_spectrum_place(const ps_frequencies *set, size_t i) {
+    const size_t width = 2 * (size_t)set->max_frequency + 1;
+    size_t place = 0;
+    for (unsigned axis = 0; axis < set->dimension; axis++) {
+        const int64_t k = set->vectors[i * set->dimension + axis];
+        place = place * width + (size_t)(k + set->max_frequency);
+    }
+    return place;
+}
+
 pspec_status ps_spectrum_full(const ps_spectrum *spectrum, int which, ps_mean dc, double **array,
                               size_t *num_entries, ps_error *error) {
     const ps_frequencies *set = &spectrum->frequencies;
@@ -139,11 +149,7 @@ pspec_status ps_spectrum_full(const ps_spectrum *spectrum, int which, ps_mean dc
     PS_TRY(PS_NEW(array, *num_entries, "the full spectrum", error));
     (*array)[*num_entries / 2] = which == 0 ? dc.mean : dc.standard_error;
     for (size_t i = 0; i < set->num; i++) {
-        size_t place = 0;
-        for (unsigned axis = 0; axis < set->dimension; axis++) {
-            const int64_t k = set->vectors[i * set->dimension + axis];
-            place = place * width + (size_t)(k + set->max_frequency);
-        }
+        const size_t place = ps_spectrum_place(set, i);
         const ps_mean *power = &spectrum->powers[i];
         const double value = which == 0 ? power->mean : power->standard_error;
         (*array)[place] = value;

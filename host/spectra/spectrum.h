@@ -54,6 +54,8 @@ void ps_spectrum_free(ps_spectrum *spectrum);
  * skipped). */
 void ps_spectrum_repeat(ps_spectrum *spectrum, uint64_t num_realizations);
 
+/* Where frequency i of a box stands in the array [2K+1]^d in C order; -k has the opposite place. */
+size_t ps_spectrum_place(const ps_frequencies *set, size_t i);
 /* The whole box as an array [2K+1]^d in C order, DC in the middle, axis i along x_i; DC, which is
  * not among the frequencies, is dc. which: 0 power, 1 standard error. *array is freed by the
  * caller. */

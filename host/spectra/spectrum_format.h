@@ -2,6 +2,8 @@
 #ifndef PS_SPECTRA_SPECTRUM_FORMAT_H
 #define PS_SPECTRA_SPECTRUM_FORMAT_H
 
+#include "frequencies/bin_rule.h"
+
 #include <stdint.h>
 
 #define PS_SPECTRUM_MAGIC "pointspec spectrum"
@@ -10,7 +12,6 @@ enum { PS_SPECTRUM_VERSION = 2 };
 /* Values of the header lines, by the enumerators that they stand for; frequencies by these. */
 static const char *const ps_spectrum_kinds[] = {"list",   "box",     "ball",
                                                 "sample", "degrees", "even-degrees"};
-static const char *const ps_spectrum_bins[] = {"rings", "shells"};
 static const char *const ps_spectrum_normalizations[] = {"power", "effective", "pairs"};
 
 /* A sample is a list in memory (ps_frequencies.rings), and a kind of its own in files; degrees are
@@ -24,6 +25,15 @@ enum {
     PS_SPECTRUM_EVEN_DEGREES,
     PS_SPECTRUM_NUM_KINDS
 };
+
+/* The value of the line of bins: words of ps_bin_rule_write, but "rings" for round, and of relative
+ * widths N behind a blank. */
+typedef struct ps_spectrum_bins_text {
+    char text[80];
+} ps_spectrum_bins_text;
+ps_spectrum_bins_text ps_spectrum_bins_write(const ps_bin_rule *rule);
+/* False where it is none. */
+bool ps_spectrum_bins_parse(ps_bin_rule *out, const char *text, unsigned dimension);
 
 /* Doubles after the header, and of the sums of what follows: effective sample sizes, bins,
  * frequencies. */

@@ -12,8 +12,7 @@
 #include <sys/stat.h>
 #include <zlib.h>
 
-/* Header lines are short; a longer one is none of ours. */
-enum { LINE_BYTES = 128 };
+enum { LINE_BYTES = 128 }; /* header lines are short; a longer one is none of ours */
 
 /* A file, what is left of it, and the checksum of what was read. */
 typedef struct reader {
@@ -28,7 +27,8 @@ typedef struct reader {
 typedef struct header {
     uint64_t dimension, per_ring, max_frequency, num_frequencies, num_bins;
     uint64_t realizations, smallest_points, largest_points;
-    size_t kind, bins, normalization; /* places in the tables of spectrum_format.h */
+    size_t kind, normalization; /* places in the tables of spectrum_format.h */
+    ps_bin_rule bins;
 } header;
 
 static pspec_status fail(const reader *in, const char *what) {
@@ -150,6 +150,14 @@ static pspec_status read_word(reader *in, const char *key, const char *const *wo
     return fail(in, what);
 }
 
+static pspec_status read_bins(reader *in, header *out) {
+    char line[LINE_BYTES];
+    const char *value = NULL;
+    PS_TRY(read_value(in, "bins", line, &value));
+    const bool is_rule = ps_spectrum_bins_parse(&out->bins, value, (unsigned)out->dimension);
+    return is_rule ? PSPEC_OK : fail(in, "its bins are of an unknown kind");
+}
+
 static pspec_status read_magic(reader *in) {
     char magic[sizeof PS_SPECTRUM_MAGIC] = {0};
     char line[LINE_BYTES];
@@ -180,7 +188,7 @@ static pspec_status read_header(reader *in, header *out) {
     }
     PS_TRY(read_count(in, "max_frequency", 0, PS_MAX_FREQUENCY, &out->max_frequency));
     PS_TRY(read_count(in, "num_frequencies", 1, UINT32_MAX, &out->num_frequencies));
-    PS_TRY(read_word(in, "bins", ps_spectrum_bins, 2, &out->bins));
+    PS_TRY(read_bins(in, out));
     PS_TRY(read_count(in, "num_bins", 0, UINT32_MAX, &out->num_bins));
     PS_TRY(read_word(in, "normalization", ps_spectrum_normalizations, 3, &out->normalization));
     PS_TRY(read_count(in, "realizations", 1, PS_SPECTRUM_MOST_REALIZATIONS, &out->realizations));
@@ -244,6 +252,9 @@ static pspec_status read_rings(reader *in, const header *head, ps_frequencies *s
         return fail(in, "its frequencies are beyond its max_frequency");
     }
     set->max_frequency = (int32_t)head->max_frequency;
+    if (ps_frequencies_set_bins(set, &head->bins, NULL) != PSPEC_OK) {
+        return fail(in, "its bins do not fit its max_frequency");
+    }
     for (size_t i = 0; i < set->num_rings; i++) {
         ps_sampled_ring *const ring = &set->rings[i];
         PS_TRY(read_integer(in, sizeof ring->num_frequencies, &ring->num_frequencies));
@@ -258,9 +269,9 @@ static pspec_status read_rings(reader *in, const header *head, ps_frequencies *s
 
 /* Every ring has as many of its frequencies in the list as were to be drawn. */
 static pspec_status make_bins(const reader *in, const header *head, const ps_frequencies *set,
-                              bool exact_shells, ps_bins *bins) {
+                              ps_bins *bins) {
     ps_error inner = {0};
-    const pspec_status status = ps_bins_create(bins, set, exact_shells, &inner);
+    const pspec_status status = ps_bins_create(bins, set, &inner);
     if (status == PSPEC_ERROR_MEMORY) {
         return ps_fail(in->error, status, "%s", inner.message);
     }
@@ -281,8 +292,8 @@ static pspec_status make_bins(const reader *in, const header *head, const ps_fre
 /* The number of a ball is known only approximately before it is enumerated: what is off by more
  * than this factor is not tried, however large the box around it. */
 static pspec_status make_grid(const header *head, ps_frequencies *out) {
-    return ps_frequencies_lattice(out, (unsigned)head->dimension, (int32_t)head->max_frequency,
-                                  head->kind == PS_SPECTRUM_BALL, NULL);
+    return ps_frequencies_grid(out, (unsigned)head->dimension, (int32_t)head->max_frequency,
+                               head->kind == PS_SPECTRUM_BALL, &head->bins, 0, NULL);
 }
 
 static pspec_status make_degrees(const header *head, ps_frequencies *out) {
@@ -311,7 +322,6 @@ static pspec_status make_lattice(const reader *in, const header *head, ps_freque
 static pspec_status read_totals(reader *in, const header *head, ps_spectrum_sums *out) {
     double totals[PS_SPECTRUM_TOTALS];
     PS_TRY(read_doubles(in, totals, PS_SPECTRUM_TOTALS));
-    out->exact_shells = head->bins != 0;
     out->normalization = (pspec_normalization)head->normalization;
     out->reference_points = totals[0];
     out->totals = (ps_pattern_totals){.num_realizations = head->realizations,
@@ -341,9 +351,8 @@ static pspec_status read_body(reader *in, const header *head, ps_frequencies *se
     if (head->kind == PS_SPECTRUM_SAMPLE) {
         PS_TRY(read_rings(in, head, set));
     }
-    PS_TRY(make_bins(in, head, set, totals.exact_shells, bins));
+    PS_TRY(make_bins(in, head, set, bins));
     PS_TRY(ps_spectrum_sums_create(out, set, bins->num, in->error));
-    out->exact_shells = totals.exact_shells;
     out->normalization = totals.normalization;
     out->reference_points = totals.reference_points;
     out->totals = totals.totals;

@@ -73,6 +73,19 @@ static pspec_status compare_rings(const ps_frequencies *a, const ps_frequencies 
                              "%s has a random subset of other rings, or of another size", which);
 }
 
+static pspec_status compare_rules(const ps_bin_rule *a, const ps_bin_rule *b, const char *which,
+                                  ps_error *error) {
+    if (ps_bin_rule_is_same(a, b)) {
+        return PSPEC_OK;
+    }
+    return a->kind == b->kind && a->num_points != b->num_points
+               ? ps_fail(error, PSPEC_ERROR_INPUT,
+                         "%s has bins relative to sets of %llu points instead of %llu", which,
+                         (unsigned long long)b->num_points, (unsigned long long)a->num_points)
+               : ps_fail(error, PSPEC_ERROR_INPUT, "%s has bins by %s instead of %s", which,
+                         ps_bin_rule_write(b).text, ps_bin_rule_write(a).text);
+}
+
 static pspec_status compare_frequencies(const ps_frequencies *a, const ps_frequencies *b,
                                         const char *which, ps_error *error) {
     const unsigned num_components = ps_frequency_components(a);
@@ -91,6 +104,7 @@ static pspec_status compare_frequencies(const ps_frequencies *a, const ps_freque
                        a->kind == PS_FREQUENCIES_DEGREES ? "degree" : "frequency",
                        (int)b->max_frequency, (int)a->max_frequency);
     }
+    PS_TRY(compare_rules(&a->bins, &b->bins, which, error));
     if (a->num != b->num) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "%s has %zu frequencies instead of %zu", which,
                        b->num, a->num);
@@ -107,13 +121,8 @@ static pspec_status compare_frequencies(const ps_frequencies *a, const ps_freque
 
 pspec_status ps_spectrum_sums_require_same(const ps_spectrum_sums *a, const ps_spectrum_sums *b,
                                            const char *which, ps_error *error) {
-    static const char *const bins[] = {"rings", "shells"};
     static const char *const normalizations[] = {"power", "effective", "pairs"};
     PS_TRY(compare_frequencies(&a->frequencies, &b->frequencies, which, error));
-    if (a->exact_shells != b->exact_shells || a->num_bins != b->num_bins) {
-        return ps_fail(error, PSPEC_ERROR_INPUT, "%s has means over %s instead of %s", which,
-                       bins[b->exact_shells], bins[a->exact_shells]);
-    }
     if (a->normalization != b->normalization) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "%s has the normalization %s instead of %s", which,
                        normalizations[b->normalization], normalizations[a->normalization]);

@@ -12,7 +12,6 @@
 
 typedef struct ps_spectrum_sums {
     ps_frequencies frequencies; /* its own, enumerated */
-    bool exact_shells;
     pspec_normalization normalization;
     double reference_points; /* N_ref; 1 under the effective normalization */
     double error;            /* largest bound of the numerical error of S */

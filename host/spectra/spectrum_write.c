@@ -66,7 +66,7 @@ static void describe(const ps_spectrum_sums *sums, ps_text *text) {
     }
     ps_text_append(text, "max_frequency: %" PRId32 "\n", set->max_frequency);
     ps_text_append(text, "num_frequencies: %zu\n", set->num);
-    ps_text_append(text, "bins: %s\n", ps_spectrum_bins[sums->exact_shells]);
+    ps_text_append(text, "bins: %s\n", ps_spectrum_bins_write(&set->bins).text);
     ps_text_append(text, "num_bins: %zu\n", sums->num_bins);
     ps_text_append(text, "normalization: %s\n", ps_spectrum_normalizations[sums->normalization]);
     ps_text_append(text, "realizations: %" PRIu64 "\n", sums->totals.num_realizations);

@@ -153,6 +153,10 @@ bool ps_table_find_column(const ps_table *table, const char *name, size_t *colum
     return false;
 }
 
+void ps_table_set_blocks(ps_table *table) {
+    table->has_blocks = true;
+}
+
 size_t ps_table_num_rows(const ps_table *table) {
     return table->num_rows;
 }
@@ -172,8 +176,11 @@ ps_cell ps_table_meta(const ps_table *table, size_t i, const char **key) {
 
 /* ---- choosing ---- */
 
-static const char *const format_names[] = {
-    [PS_FORMAT_CSV] = "csv", [PS_FORMAT_JSON] = "json", [PS_FORMAT_NPY] = "npy"};
+static const char *const format_names[] = {[PS_FORMAT_CSV] = "csv",
+                                           [PS_FORMAT_JSON] = "json",
+                                           [PS_FORMAT_NPY] = "npy",
+                                           [PS_FORMAT_JSONL] = "jsonl",
+                                           [PS_FORMAT_TEXT] = "text"};
 enum { NUM_FORMATS = sizeof format_names / sizeof format_names[0] };
 
 pspec_status ps_table_choose_format(ps_table_format *out, const char *name, const char *path,
@@ -182,23 +189,25 @@ pspec_status ps_table_choose_format(ps_table_format *out, const char *name, cons
     *out = PS_FORMAT_CSV;
     for (size_t i = 0; i < NUM_FORMATS; i++) {
         if (name != NULL ? strcmp(name, format_names[i]) == 0
-                         : ending[0] != '\0' && strcasecmp(ending + 1, format_names[i]) == 0) {
+                         : i != PS_FORMAT_TEXT && ending[0] != '\0' &&
+                               strcasecmp(ending + 1, format_names[i]) == 0) {
             *out = (ps_table_format)i;
             return PSPEC_OK;
         }
     }
     if (name != NULL) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "format \"%s\" is not known; there are csv, json and npy", name);
+                       "format \"%s\" is not known; there are csv, json, jsonl, npy and text",
+                       name);
     }
     return ending[0] == '\0' ||
                    strcasecmp(ending, ".gz") == 0 /* refused with a reason of its own */
                ? PSPEC_OK
-               : ps_fail(
-                     error, PSPEC_ERROR_INVALID_ARGUMENT,
-                     "\"%s\": the ending %s is none of .csv, .json and .npy, by which the format "
-                     "is chosen; with --format the name is free",
-                     path, ending);
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "\"%s\": the ending %s is none of .csv, .json, .jsonl and .npy, by which "
+                         "the format "
+                         "is chosen; with --format the name is free",
+                         path, ending);
 }
 
 /* ---- writing ---- */
@@ -274,6 +283,10 @@ pspec_status ps_table_write(const ps_table *table, const char *path, ps_table_fo
     PS_TRY(ps_output_open(&file, path, error));
     if (format == PS_FORMAT_JSON) {
         PS_TRY_OUT(status, ps_table_write_json(table, true, ps_output_stream(file), error));
+    } else if (format == PS_FORMAT_JSONL) {
+        PS_TRY_OUT(status, ps_table_write_jsonl(table, ps_output_stream(file), error));
+    } else if (format == PS_FORMAT_TEXT) {
+        PS_TRY_OUT(status, ps_table_write_text(table, ps_output_stream(file), error));
     } else {
         ps_table_write_csv(table, ps_output_stream(file));
     }

@@ -1,10 +1,12 @@
-/* Result tables: header lines, named columns, rows; written as CSV, JSON or NPY.
+/* Result tables: header lines, named columns, rows; written as CSV, JSON, JSON lines, NPY or text.
  *
  * CSV: "# key: value" header lines, one line of column names, one line per row, shortest digits; a
- * missing number is an empty field. JSON: {"schema": 1, "command", "meta", "columns", "rows"};
- * missing is null. NPY: float64 [rows][columns], missing is nan, and a JSON file of the same name
- * (out.npy: out.json) holds the rest. A number that is nan counts as missing. JSON has no
- * infinities: null.
+ * missing number is an empty field. JSON: {"schema": 2, "command", "meta", "columns", "rows"}, each
+ * row an object by the names of the columns, each value of "meta" the array of all that its key
+ * has; missing is null. JSON lines: a line with all but the rows, then a line for each row. NPY:
+ * float64 [rows][columns], missing is nan, and a JSON file of the same name (out.npy: out.json)
+ * holds the rest. A number that is nan counts as missing. JSON has no infinities: null. Text is for
+ * people (table_text.c): few digits, units for seconds and bytes.
  */
 #ifndef PS_TABLES_TABLE_H
 #define PS_TABLES_TABLE_H
@@ -34,9 +36,19 @@ typedef struct ps_cell {
 #define PS_TEXT(value) ((ps_cell){PS_CELL_TEXT, 0, 0, (value)})
 #define PS_MISSING ((ps_cell){PS_CELL_MISSING, 0, 0, NULL})
 
+/* Of tables in files, in headers as `schema`. 1: rows were arrays, and single values of "meta"
+ * none. */
+enum { PS_TABLE_SCHEMA = 2 };
+
 typedef struct ps_table ps_table;
 
-typedef enum ps_table_format { PS_FORMAT_CSV = 0, PS_FORMAT_JSON, PS_FORMAT_NPY } ps_table_format;
+typedef enum ps_table_format {
+    PS_FORMAT_CSV = 0,
+    PS_FORMAT_JSON,
+    PS_FORMAT_NPY,
+    PS_FORMAT_JSONL,
+    PS_FORMAT_TEXT
+} ps_table_format;
 
 /* The names of the columns are copied. */
 pspec_status ps_table_create(ps_table **out, const char *command, const char *const *columns,
@@ -53,8 +65,10 @@ typedef struct ps_meta {
 pspec_status ps_table_add_metas(ps_table *table, const ps_meta *entries, size_t num,
                                 ps_error *error) PS_MUST_CHECK;
 pspec_status ps_table_add_row(ps_table *table, const ps_cell *cells, ps_error *error) PS_MUST_CHECK;
-/* Format by its name (csv, json, npy) or, with name NULL, by the ending of path (none: CSV).
- * Another ending is PSPEC_ERROR_INVALID_ARGUMENT. */
+/* As text, a block of lines for each row: for many columns and few rows. */
+void ps_table_set_blocks(ps_table *table);
+/* Format by its name (csv, json, jsonl, npy, text) or, with name NULL, by the ending of path (none:
+ * CSV). Another ending is PSPEC_ERROR_INVALID_ARGUMENT. */
 pspec_status ps_table_choose_format(ps_table_format *out, const char *name, const char *path,
                                     ps_error *error) PS_MUST_CHECK;
 /* Writes to path, "-" for standard output (NPY to standard output is refused: it needs two files).

@@ -20,6 +20,7 @@ struct ps_table {
     size_t num_meta, meta_capacity;
     ps_cell *cells; /* [num_rows][num_columns], texts belong to the table */
     size_t num_rows, cells_capacity;
+    bool has_blocks; /* as text, a block of lines for each row */
 };
 
 /* Both write to a stream, whose errors the caller checks. */
@@ -27,6 +28,12 @@ struct ps_table {
 void ps_table_write_csv_head(const ps_table *table, FILE *stream);
 void ps_table_write_csv_rows(const ps_table *table, size_t first_row, FILE *stream);
 void ps_table_write_csv(const ps_table *table, FILE *stream);
+/* A line for the head, and one for each row. */
+pspec_status ps_table_write_jsonl(const ps_table *table, FILE *stream,
+                                  ps_error *error) PS_MUST_CHECK;
+/* For people. */
+pspec_status ps_table_write_text(const ps_table *table, FILE *stream,
+                                 ps_error *error) PS_MUST_CHECK;
 pspec_status ps_table_write_json(const ps_table *table, bool with_rows, FILE *stream,
                                  ps_error *error) PS_MUST_CHECK;
 

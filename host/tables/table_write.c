@@ -1,4 +1,5 @@
-/* Tables as CSV (RFC 4180, after "# key: value" lines) and as JSON (RFC 8259), one row per line. */
+/* Tables as CSV (RFC 4180, after "# key: value" lines), as JSON (RFC 8259), one row per line, and as
+ * JSON lines. */
 #include "files/decimal.h"
 #include "tables/table_rows.h"
 
@@ -178,30 +179,38 @@ static bool is_first_of_key(const ps_table *table, size_t i) {
     return true;
 }
 
+/* All values of a key, in an array, however many there are. */
 static bool print_json_entry(const ps_table *table, size_t i, FILE *stream) {
-    const bool is_array = find_same_key(table, i) < table->num_meta;
     bool is_good = print_json_text(table->meta[i].key, stream);
-    fputs(is_array ? ": [" : ": ", stream);
+    fputs(": [", stream);
     is_good = print_json_cell(&table->meta[i].value, stream) && is_good;
     for (size_t j = find_same_key(table, i); j < table->num_meta; j = find_same_key(table, j)) {
         fputs(", ", stream);
         is_good = print_json_cell(&table->meta[j].value, stream) && is_good;
     }
-    fputs(is_array ? "]" : "", stream);
+    putc(']', stream);
     return is_good;
 }
 
-static bool print_json_head(const ps_table *table, FILE *stream) {
-    fputs("{\n  \"schema\": 1,\n  \"command\": ", stream);
+/* What stands between parts: on lines of their own, or all on one. */
+typedef struct json_spaces {
+    const char *begin, *part, *entry, *end_entries;
+} json_spaces;
+static const json_spaces on_lines = {"\n  ", ",\n  ", "\n    ", "\n  "};
+static const json_spaces on_one_line = {"", ", ", "", ""};
+
+static bool print_json_head(const ps_table *table, const json_spaces *spaces, FILE *stream) {
+    fprintf(stream, "{%s\"schema\": %d%s\"command\": ", spaces->begin, PS_TABLE_SCHEMA,
+            spaces->part);
     bool is_good = print_json_text(table->command, stream);
-    fputs(",\n  \"meta\": {", stream);
+    fprintf(stream, "%s\"meta\": {", spaces->part);
     for (size_t i = 0; i < table->num_meta; i++) {
         if (is_first_of_key(table, i)) {
-            fputs(i > 0 ? ",\n    " : "\n    ", stream);
+            fprintf(stream, "%s%s", i > 0 ? spaces == &on_lines ? "," : ", " : "", spaces->entry);
             is_good = print_json_entry(table, i, stream) && is_good;
         }
     }
-    fputs("\n  },\n  \"columns\": [", stream);
+    fprintf(stream, "%s}%s\"columns\": [", spaces->end_entries, spaces->part);
     for (size_t i = 0; i < table->num_columns; i++) {
         fputs(i > 0 ? ", " : "", stream);
         is_good = print_json_text(table->columns[i], stream) && is_good;
@@ -210,26 +219,47 @@ static bool print_json_head(const ps_table *table, FILE *stream) {
     return is_good;
 }
 
+static bool print_json_row(const ps_table *table, size_t row, FILE *stream) {
+    bool is_good = true;
+    for (size_t i = 0; i < table->num_columns; i++) {
+        fputs(i > 0 ? ", " : "{", stream);
+        is_good = print_json_text(table->columns[i], stream) && is_good;
+        fputs(": ", stream);
+        is_good = print_json_cell(&table->cells[row * table->num_columns + i], stream) && is_good;
+    }
+    putc('}', stream);
+    return is_good;
+}
+
 static bool print_json_rows(const ps_table *table, FILE *stream) {
     bool is_good = true;
     fputs(",\n  \"rows\": [", stream);
     for (size_t row = 0; row < table->num_rows; row++) {
-        fputs(row > 0 ? ",\n    [" : "\n    [", stream);
-        for (size_t i = 0; i < table->num_columns; i++) {
-            fputs(i > 0 ? ", " : "", stream);
-            is_good =
-                print_json_cell(&table->cells[row * table->num_columns + i], stream) && is_good;
-        }
-        putc(']', stream);
+        fputs(row > 0 ? ",\n    " : "\n    ", stream);
+        is_good = print_json_row(table, row, stream) && is_good;
     }
     fputs("\n  ]", stream);
     return is_good;
 }
 
+static pspec_status end(bool is_good, ps_error *error) {
+    return is_good ? PSPEC_OK : ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for JSON");
+}
+
 pspec_status ps_table_write_json(const ps_table *table, bool with_rows, FILE *stream,
                                  ps_error *error) {
-    bool is_good = print_json_head(table, stream);
+    bool is_good = print_json_head(table, &on_lines, stream);
     is_good = (!with_rows || print_json_rows(table, stream)) && is_good;
     fputs("\n}\n", stream);
-    return is_good ? PSPEC_OK : ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for JSON");
+    return end(is_good, error);
+}
+
+pspec_status ps_table_write_jsonl(const ps_table *table, FILE *stream, ps_error *error) {
+    bool is_good = print_json_head(table, &on_one_line, stream);
+    fputs("}\n", stream);
+    for (size_t row = 0; row < table->num_rows; row++) {
+        is_good = print_json_row(table, row, stream) && is_good;
+        putc('\n', stream);
+    }
+    return end(is_good, error);
 }

@@ -72,7 +72,7 @@ static pspec_status list_devices(ps_device_limits **limits, size_t *num_devices,
 
 static pspec_status add_facts(ps_table *table, const ps_request *request, ps_error *error) {
     PS_TRY(ps_table_add_meta(table, "pointspec_version", PS_TEXT(pspec_version()), error));
-    PS_TRY(ps_table_add_meta(table, "schema", PS_INTEGER(1), error));
+    PS_TRY(ps_table_add_meta(table, "schema", PS_INTEGER(PS_TABLE_SCHEMA), error));
     return ps_table_add_meta(table, "command", PS_TEXT(request->command_line), error);
 }
 
@@ -107,6 +107,7 @@ out:
 pspec_status ps_devices_tabulate(ps_table **out, const ps_request *request,
                                  const ps_answer_hooks *hooks, ps_error *error) {
     PS_TRY(ps_table_create(out, "devices", columns, NUM_COLUMNS, error));
+    ps_table_set_blocks(*out);
     const pspec_status status = fill_table(*out, request, hooks, error);
     if (status != PSPEC_OK) {
         ps_table_destroy(*out);

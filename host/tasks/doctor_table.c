@@ -24,7 +24,7 @@ static pspec_status fill(ps_answer *out, const char *device, ps_error *error) {
     ps_error ignored = {0};
     list found = {table, PSPEC_OK, error};
     PS_TRY(ps_table_add_meta(table, "pointspec_version", PS_TEXT(PS_VERSION), error));
-    PS_TRY(ps_table_add_meta(table, "schema", PS_INTEGER(1), error));
+    PS_TRY(ps_table_add_meta(table, "schema", PS_INTEGER(PS_TABLE_SCHEMA), error));
     const bool has_folder = ps_cache_default_directory(&folder, &ignored) == PSPEC_OK;
     const ps_doctor doctor = {.device = device,
                               .cache_folder = has_folder ? ps_text_string(&folder) : NULL,

@@ -10,7 +10,7 @@ static pspec_status fill(ps_planner *planner, const ps_task *task, const ps_requ
     ps_table *const table = planner->table;
     planner->host = &host;
     PS_TRY(ps_table_add_meta(table, "pointspec_version", PS_TEXT(PS_VERSION), error));
-    PS_TRY(ps_table_add_meta(table, "schema", PS_INTEGER(1), error));
+    PS_TRY(ps_table_add_meta(table, "schema", PS_INTEGER(PS_TABLE_SCHEMA), error));
     PS_TRY(ps_table_add_meta(table, "command", PS_TEXT(request->command_line), error));
     PS_TRY(ps_host_figures_read(&host, request->limits.cache_folder, error));
     PS_TRY(ps_table_add_meta(table, "host_figures", PS_TEXT(host.note), error));

@@ -130,6 +130,7 @@ pspec_status ps_points_convert(const ps_request *request, const ps_answer_hooks 
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "nothing to convert: name point files (- for standard input)");
     }
+    PS_TRY(ps_point_options_check(request, error));
     PS_TRY(ps_outputs_check(request, false, error));
     ps_answer_begin_next(hooks);
     const ps_conversion conversion = {

@@ -61,7 +61,7 @@ static void power(void **state) {
     (void)state;
     const pspec_option two[] = {{"sampler", "jittered"}, {"sampler", "white"},
                                 {"points", "64"},        {"realizations", "3"},
-                                {"shells", NULL},        {"max-frequency", "6"},
+                                {"bins", "shells"},      {"max-frequency", "6"},
                                 {"output", "two.csv"}};
     COMPARE("power", two, "two.csv");
     const pspec_option whole[] = {{"sampler", "halton"},  {"points", "50"},

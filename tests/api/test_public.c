@@ -247,8 +247,55 @@ static void destroys_accept_null(void **state) {
     pspec_context_destroy(NULL);
 }
 
+/* ---- coefficients of a pattern ----------------------------------------------------------- */
+
+/* |S|^2 N / W^2 is the power of every frequency, in one order; torus_nufft has none. */
+static void coefficients_of_patterns(void **state) {
+    (void)state;
+    static const char *const engines[] = {"host_direct", "torus_direct"};
+    pspec_context *context = test_public_context();
+    test_sample what = test_make_sample(1, 2, NUM_POINTS, 0, true);
+    double c[2 * (2 * K + 1) * (2 * K + 1)];
+    double sum = 0;
+    for (size_t j = 0; j < NUM_POINTS; j++) {
+        sum += what.patterns[0].weights[j];
+    }
+    for (size_t e = 0; e < sizeof engines / sizeof engines[0]; e++) {
+        pspec_plan *plan = NULL;
+        pspec_spectrum *spectrum = NULL;
+        pspec_power_request request = make_request();
+        request.engine = engines[e];
+        request.tolerance = 1e-12;
+        assert_int_equal(pspec_plan_create(&plan, context, &request), PSPEC_OK);
+        assert_int_equal(pspec_plan_run(plan, what.patterns, 1), PSPEC_OK);
+        assert_int_equal(pspec_plan_coefficients(plan, what.patterns, 0, c), PSPEC_OK);
+        assert_int_equal(pspec_spectrum_create(&spectrum, plan), PSPEC_OK);
+        size_t num = 0;
+        pspec_spectrum_frequencies(spectrum, &num);
+        const double *const powers = pspec_spectrum_powers(spectrum);
+        for (size_t i = 0; i < num; i++) {
+            const double power =
+                NUM_POINTS * (c[2 * i] * c[2 * i] + c[2 * i + 1] * c[2 * i + 1]) / (sum * sum);
+            assert_true(fabs(power - powers[i]) < 1e-11);
+        }
+        pspec_spectrum_destroy(spectrum);
+        pspec_plan_destroy(plan);
+    }
+    pspec_plan *plan = NULL;
+    pspec_power_request request = make_request();
+    request.engine = "torus_nufft";
+    assert_int_equal(pspec_plan_create(&plan, context, &request), PSPEC_OK);
+    assert_int_equal(pspec_plan_coefficients(plan, what.patterns, 0, c),
+                     PSPEC_ERROR_INVALID_ARGUMENT);
+    assert_non_null(strstr(pspec_context_message(context), "torus_nufft"));
+    pspec_plan_destroy(plan);
+    test_free_sample(&what);
+    pspec_context_destroy(context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(coefficients_of_patterns),
         cmocka_unit_test(same_numbers_as_the_estimator),
         cmocka_unit_test(lists_and_the_referee),
         cmocka_unit_test(bad_requests),

@@ -81,7 +81,7 @@ static void options_are_listed(void **state) {
         const size_t rows = pspec_table_num_rows(table);
         assert_true(rows > 3);
         assert_string_equal(pspec_table_cell(table, rows - 1, 0).text,
-                            strcmp(pspec_result_kind(num), "check") == 0 ? "format" : "plot");
+                            strcmp(pspec_result_kind(num), "check") == 0 ? "format" : "plot-range");
         pspec_table_destroy(table);
     }
     assert_true(num >= 6);
@@ -117,7 +117,7 @@ static void nonsense(void **state) {
     refuse("power", &(pspec_option){NULL, "3"}, 1, bad, "an option has no name");
     refuse("power", &(pspec_option){"points", NULL}, 1, bad, "points needs a value: N");
     refuse("power", &(pspec_option){"points", "many"}, 1, bad, "points");
-    refuse("power", &(pspec_option){"shells", "perhaps"}, 1, bad, "true or false");
+    refuse("power", &(pspec_option){"homogenize", "perhaps"}, 1, bad, "true or false");
     refuse("power", &(pspec_option){"files", NULL}, 1, bad, "no name of a file");
     refuse("power", &(pspec_option){"files", "-"}, 1, bad, "- is none");
     refuse("power", &(pspec_option){"output", "-"}, 1, bad, "- is none");

@@ -24,7 +24,7 @@ runs 0 --against saved.json --sampler jittered -m 8
 [[ $(<err) == *'--against FILE is needed'* ]] || complain "plan without --against: $(<err)"
 [[ $(grep '^bin' out) == bin,frequency,saved,saved_error,measured,measured_error,z_score,p_value,adjusted_p_value,detectable_change,verdict ]] ||
     complain "columns: $(<out)"
-[[ $(column saved 1) == "$(sed -n 's/^ *\[1, 1.2[^,]*, [^,]*, 8, \([^,]*\),.*/\1/p' saved.json)" ]] || complain "saved power: $(<out)"
+[[ $(column saved 1) == "$(sed -n 's/^ *{"bin": 1, .*"power": \([^,]*\),.*/\1/p' saved.json)" ]] || complain "saved power: $(<out)"
 runs 0 "${host[@]}" --against saved.json --sampler jittered
 [[ $(key realizations) == 40 ]] || complain "as many realizations as saved: $(<out)"
 # the same realizations: no difference at all, and that is said
@@ -53,12 +53,19 @@ p=$(key adjusted_p_value)
 awk -v p="$p" 'BEGIN { exit !(p > 0 && p <= 1) }' || complain "adjusted_p_value: $p"
 
 # ---- other kinds of spectra: shells, subsets, normalization, several dimensions, all N ----
-"$program" power "${host[@]}" --sampler halton -d 3 -n 32 -m 2 -k 3 --shells --normalize effective -o shells.json
+"$program" power "${host[@]}" --sampler halton -d 3 -n 32 -m 2 -k 3 --bins shells --normalize effective -o shells.json
 runs 0 "${host[@]}" --against shells.json --sampler halton
 [[ $(key different) == "0 of 11 shells" && $(key normalization) == effective* && $(key dimension) == 3 ]] || complain "shells: $(<out)"
 [[ $(column z_score 1) == 0 && $(column saved_error 1) == 0 ]] || complain "a deterministic set is itself: $(<out)"
 runs 3 "${host[@]}" --against shells.json --sampler hammersley
 says 'shell 1 (power '
+# rings by other rules: bins that begin with 0, and borders that depend on the number of points
+for bins in floor width=3/2 relative=1/8; do
+    "$program" power "${host[@]}" --sampler halton -n 48 -m 2 -k 5 --bins "$bins" -o bins.json
+    runs 0 "${host[@]}" --against bins.json --sampler halton
+    [[ $(key different) == "0 of "*" rings" && $(key bins) == "$bins" ]] || complain "$bins: $(<out)"
+    [[ $(column z_score 1) == 0 ]] || complain "$bins, a deterministic set is itself: $(<out)"
+done
 "$program" power "${host[@]}" --sampler white -d 4 -n 32 -m 20 -k 5 --per-ring 8 -s 5 -o subset.json
 runs 0 "${host[@]}" --against subset.json --sampler white -m 9
 [[ $(key per_ring) == 8 && $(key seed) == 6 ]] || complain "subset: $(<out)"
@@ -113,27 +120,35 @@ damaged() { # PART SED-SCRIPT
 refuses 'is no saved spectrum' --against sets.txt sets.txt
 head -c 900 saved.json >bad.json
 refuses 'no JSON at byte' --against bad.json sets.txt
-damaged 'no table of pointspec' 's/"schema": 1,$/"schema": 2,/'
+damaged 'no table of pointspec' 's/"schema": 2,$/"schema": 3,/'
 damaged 'table of another command' 's/^  "command": "power"/  "command": "pairs"/'
-damaged '"realizations"' 's/"realizations": 40/"realizations": 0/'
-damaged '"points"' 's/"points": 64/"points": 64.5/'
-damaged 'no range' 's/"points": 64/"points": "mean 5, from 7 to 9"/'
+damaged '"realizations"' 's/"realizations": \[40/"realizations": [0/'
+damaged '"points"' 's/"points": \[64/"points": [64.5/'
+damaged 'no range' 's/"points": \[64/"points": ["mean 5, from 7 to 9"/'
 damaged '"max_frequency"' '/"max_frequency"/d'
-damaged '"dimension"' 's/"dimension": 2/"dimension": 7/'
-damaged 'neither power nor effective' 's/"normalization": "power/"normalization": "pairs/'
-damaged 'predicted_error' 's/"predicted_error": [^,]*/"predicted_error": 1e999/'
+damaged '"dimension"' 's/"dimension": \[2/"dimension": [7/'
+damaged 'neither power nor effective' 's/"normalization": \["power/"normalization": ["pairs/'
+damaged 'predicted_error' 's/"predicted_error": [^,]*/"predicted_error": [1e999]/'
 damaged 'columns' 's/"frequency", //'
 damaged 'several samplers' 's/"columns": \[/&"sampler", /'
 damaged 'list of frequencies' 's/"columns": \["bin"/"columns": ["k1"/'
-damaged 'row 3 is not' 's/^    \[3, /    [3.5, /'
-damaged 'row 3 is not' 's/^    \[3, /    [2, /'
-damaged 'row 1 is not' 's/^    \[1, [^,]*, /    [1, /'
-damaged 'row 12 is not' 's/^    \[12, \([^,]*, [^,]*, [^,]*\), /    [12, \1, -/'
-damaged 'row 2 is not' 's/^    \[2, \(.*, \)[^,]*, \([^,]*\],\)/    [2, \1null, \2/'
-damaged 'no "rows"' '/^    \[/d'
-damaged 'lacks ring 5' '/^    \[5, /d'
-damaged 'lacks ring 12' '/^    \[12, /d; s/^\(    \[11, .*\]\),/\1/'
-damaged 'has 12 rings, but up to 11 there are 11' 's/"max_frequency": 12/"max_frequency": 11/'
-sed 's/"seed": 5/"seed": -1/' subset.json >bad.json
+damaged 'row 3 is not' 's/^    {"bin": 3, /    {"bin": 3.5, /'
+damaged 'row 3 is not' 's/^    {"bin": 3, /    {"bin": 2, /'
+damaged 'row 1 is not' 's/^    {"bin": 1, [^,]*, /    {"bin": 1, /'
+damaged 'row 12 is not' '/^    {"bin": 12,/s/"power": /"power": -/'
+damaged 'row 2 is not' '/^    {"bin": 2,/s/"standard_error": [^,]*/"standard_error": null/'
+damaged 'row 2 is not' '/^    {"bin": 2,/s/"power"/"powre"/'
+damaged 'no "rows"' '/^    {"bin"/d'
+damaged 'lacks ring 5' '/^    {"bin": 5, /d'
+damaged 'lacks ring 12' '/^    {"bin": 12, /d; s/^\(    {"bin": 11, .*}\),/\1/'
+damaged 'has 12 rings, but up to 11 there are 11' 's/"max_frequency": \[12/"max_frequency": [11/'
+# tables of schema 1: rows and single values of the header were no objects and arrays
+sed -e 's/"schema": 2,$/"schema": 1,/' -e '/"meta"/,/^  }/s/: \[\(.*\)\]\(,\{0,1\}\)$/: \1\2/' -e '/^    {"bin"/{s/"[a-z_]*": //g;s/{/[/;s/}/]/}' saved.json >old.json
+[[ $(grep -c '^    \[3, \|"realizations": 40' old.json) == 2 ]] || complain "no table of schema 1: $(head -5 old.json)"
+runs 0 "${host[@]}" --against old.json sets.txt
+grep -v '^# \(command\|against\)' out >of_old
+runs 0 "${host[@]}" --against saved.json sets.txt
+grep -v '^# \(command\|against\)' out | cmp -s - of_old || complain "the same spectrum under schema 1 is checked otherwise"
+sed 's/"seed": \[5/"seed": [-1/' subset.json >bad.json
 refuses 'random subset' --against bad.json --sampler white
 finish

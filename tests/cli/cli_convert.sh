@@ -272,6 +272,22 @@ timeout -s INT 0.5 "$program" convert --input-format rps /dev/zero -o twice/x.np
 # a pipe that ends inside a number
 head -c 17 /dev/zero | refuses_pipe 'ends inside a number' --input-format rps -
 
+# ---- points of the plane on the sphere: the bits of a sampler that lifts them
+for lift in sphere hemisphere; do
+    "$program" sample --sampler hammersley -n 100 -m 2 -o plane.npy
+    "$program" sample --sampler hammersley:lift=$lift -n 100 -m 2 -o lifted.npy
+    convert plane.npy --lift $lift | cmp -s - <(convert lifted.npy) || complain "--lift $lift: other points"
+    convert plane.npy -o plane.txt
+    convert plane.txt --lift $lift -o text.npy
+    cmp -s text.npy lifted.npy || complain "--lift $lift of text: other points"
+done
+"$program" sample --sampler hammersley:lift=hemisphere,morph=phong,n=7.5 -n 100 -m 2 -o lifted.npy
+convert plane.npy --lift hemisphere --morph phong:n=7.5 -o morphed.npy
+cmp -s morphed.npy lifted.npy || complain "--morph: other points"
+printf '0.25 0.5 3\n1.25 -0.5 4\n' >weighted.txt
+[[ $(convert weighted.txt --columns xyw --wrap --lift hemisphere | cut -d' ' -f4 | tr '\n' ' ') == "3 4 " ]] || complain "lifted weights are others"
+[[ $(convert weighted.txt --columns xyw --wrap --lift hemisphere | cut -d' ' -f1-3 | uniq | wc -l) == 1 ]] || complain "lifted points are not wrapped first"
+
 # ---- all test data
 data=${POINTSPEC_TEST_DATA-}
 if [[ -d $data/pointsets ]]; then

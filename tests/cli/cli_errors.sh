@@ -44,6 +44,7 @@ refuses() {
 }
 
 printf '0.1 0.2\n0.3 0.4\n' >"$in/good.txt"
+printf '0.1 0.2\n0.3 0.4\n0.5 0.6\n' >"$in/other.txt"
 : >"$in/empty.txt"
 printf '#\n#\n' >"$in/marks.txt"
 printf '0.1 0.2\n0.3 nan\n' >"$in/nan.txt"
@@ -72,7 +73,7 @@ refuses 2 '-n needs a value' sample --sampler white -n
 refuses 2 'but the option --seed follows' sample -o --seed 1
 refuses 2 '--wrap takes no value' power --wrap=yes
 # An output whose ending no format has, before anything is computed; --format makes the name free.
-none='the ending .foo is none of .csv, .json and .npy'
+none='the ending .foo is none of .csv, .json, .jsonl and .npy'
 for command in 'power --sampler white -n 1e9 -k 4' 'angular --sampler fibonacci -n 1e9 -l 4' 'truncation --brdf diffuse' devices \
     'plan power --sampler white -n 16 -k 4' 'bench --quick'; do
     read -r -a words <<<"$command"
@@ -216,6 +217,15 @@ refuses 2 ' -s does not go with point files' power -k 4 -s 2 "$in/good.txt"
 power 3 'tolerance' --sampler white -n 64 --tol 1e-30
 power 2 'can be indexed' --sampler white -n 16 -d 6 -k 2e8
 power 2 '--per-ring' --sampler white -n 16 -d 6 -k 20
+power 2 '--plot-log and --plot-range are about --plot, which was not given' --sampler white -n 16 -k 4 --plot-log x
+power 2 '--plot-range: "2" is not one of X0..X1,Y0..Y1' --sampler white -n 16 -k 4 --plot x.png --plot-range 2
+power 2 '--plot-range: 2..1 is no interval' --sampler white -n 16 -k 4 --plot x.png --plot-range ,2..1
+power 2 '--plot-log: "z" is not one of x, y, xy, none' --sampler white -n 16 -k 4 --plot x.png --plot-log z
+power 2 '--bins: "width=0" is none of round|floor|' --sampler white -n 16 -k 4 --bins width=0
+power 2 '--bins: "rings" is none of ' --sampler white -n 16 -k 4 --bins rings
+power 2 'none of them is complete' --sampler white -n 16 -k 4 --bins relative=2
+refuses 2 '--frequencies does not go with --bins: ' power --frequencies "$in/vectors.txt" --bins floor "$in/good.txt"
+refuses 2 'all sets must have one number of points' power -k 4 --bins relative=1/8 "$in/good.txt" "$in/other.txt"
 refuses 2 '--per-ring' power --sampler white -n 16 -d 4
 power 2 '--per-ring: 0 is not between 2' --sampler white -n 16 -k 4 --per-ring 0
 power 2 '--per-ring: 1 is not between 2' --sampler white -n 16 -k 4 --per-ring 1
@@ -254,7 +264,7 @@ says_exactly 'can be indexed; a list of frequencies has no such limit' power --s
 says_exactly '(--per-ring) and lists of frequencies have no such limit' power --sampler white -n 16 -d 5 -k 200
 says_exactly 'in dimension 5 can be indexed' power --sampler white -n 16 -d 5 -k 200 --full full.npy
 says_exactly 'in dimension 5 can be indexed' power --sampler white -n 16 -d 5 -k 200 --standard-error 0.1
-says_exactly '(--per-ring) has no such limit' power --sampler white -n 16 -d 5 -k 200 --shells
+says_exactly '(--per-ring) has no such limit' power --sampler white -n 16 -d 5 -k 200 --bins shells
 says_exactly 'in dimension 6 can be indexed; a list of frequencies has no such limit' power --sampler white -n 16 -d 6 -k 1300
 says_exactly 'must be given: -k K' power --sampler white -n 16 -d 4 --full full.npy
 power 2 '--standard-error: 0 is not above 0' --sampler white -n 16 -k 4 --standard-error 0

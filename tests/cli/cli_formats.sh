@@ -199,6 +199,45 @@ reads '0.5 0.25 0.5|0.75 0.125 0.25' weights.edat
 reads "$square" --weights equal weights.edat
 refuses 'enclose nothing' wrong.edat
 
+# ---- other boxes
+file pixels.txt '256 128\n384 64\n'
+file centred.txt '0 -0.5\n0.5 -0.75\n'
+file nearly.txt '0.99999999999999989 -1\n'
+reads "$square" --box 0,512 pixels.txt
+reads "$square" --box -1,1 centred.txt
+reads '0.9999999999999999 0' --box -1,1 nearly.txt # x + 1 rounds to 2
+refuses 'line 2: coordinate 384 is outside [0,300) of --box; --wrap would reduce it' --box 0,300 pixels.txt -o none
+reads '0.25 0.5|0.5 0' --wrap --box 1,2 <(printf '0.25 0.5\n1.5 2\n')
+refuses '--box: 1,1 is no interval: X0 must be below X1' --box 1,1 pixels.txt
+refuses '--box: "1" is not one of X0,X1' --box 1 pixels.txt
+refuses '"inf" is not a finite number' --box 0,inf pixels.txt
+refuses '--box is for points of the torus, and these are of the sphere' --box 0,2 --domain sphere <(printf '0 0 1\n')
+refuses 'in other units? --box X0,X1' pixels.txt
+
+# ---- tables with names in the first line
+file frame.csv ',x,y\n0,0.5,0.25\n1,0.75,0.125\n'
+file wide.csv 'id;y;label;x\n1;0.25;"a;b";0.5\n2;0.125;c;0.75\n'
+file decimals.csv 'x;y\n0,5;0,25\n'
+file short.csv 'a,b,c\n0.5,0.25\n'
+file ragged.csv ',x,y\n0,0.5,0.25\n1,0\n'
+file words.csv ',x,y\n0,0.5,0.25\n1,zero,0.75\n'
+file alone.csv 'x,y\n'
+reads "$square" frame.csv
+reads "$square" --columns x,y frame.csv
+reads "$square" --columns x,y wide.csv
+reads '0.25 0.5|0.125 0.75' --columns y,x wide.csv
+refuses 'there is no column "z", or it is named twice; the names are "id", "y", "label", "x"' --columns x,z wide.csv
+refuses 'there is no column "x", or it is named twice' --columns x,x wide.csv
+refuses 'a comma in a number; decimals are written with a point' decimals.csv
+refuses 'line 1: 3 names of columns, but the line after it has 2' short.csv
+refuses 'ragged.csv, line 3: 2 columns, where the header names 3' ragged.csv
+refuses 'words.csv, line 3: "zero" is not a number' words.csv
+refuses 'alone.csv, line 1: "x" is not a number' alone.csv
+refuses 'names columns (x,y), and the first line has no names' --columns x,y utk.dat
+refuses 'and npy has no names' --columns x,y torus.npy
+"$1" power -k 2 --engine host_direct frame.csv >table.csv 2>err || { echo "cli_formats: power refuses the table of a data frame: $(<err)" && bad=1; }
+grep -q '^# input_columns: xy (columns x,y)$' table.csv || { echo "cli_formats: $(grep input_ table.csv)" && bad=1; }
+
 # ---- what is nothing of all that
 file picture.txt 'GIF89a\1\0\n'
 cp utk.dat text.bin

@@ -124,8 +124,8 @@ spectrum five.npy >of_all
 spectrum --per-ring 1e6 five.npy | cmp -s - of_all || complain "--per-ring, complete"
 cut -d , -f 1,4 of_all >counts
 cut -d , -f 1,4 of_subset | cmp -s - counts || complain "--per-ring changes counts"
-quietly power -k 4 --per-ring 8 --shells --format json five.npy
-grep -q '"per_ring": *8' out || complain "per_ring in JSON"
+quietly power -k 4 --per-ring 8 --bins shells --format json five.npy
+grep -q '"per_ring": \[8\]' out || complain "per_ring in JSON"
 quietly power -k 4 --per-ring 8 --select-sets 1 -o one.npy five.npy
 grep -q 'one realization: that of the choice' one.json || complain "one realization: $(<one.json)"
 # a deterministic set has the error of the choice, however many realizations were asked for
@@ -151,7 +151,7 @@ quietly devices
 grep -q '^index,default,name,type,' out || complain "columns of devices"
 [[ $(grep -v '^#' out | grep -c '^[0-9]*,1,') == 1 ]] || complain "one default device"
 quietly devices --format json
-grep -q '"schema": *1' out || complain "JSON of devices"
+grep -q '"schema": *2' out || complain "JSON of devices"
 POINTSPEC_DEVICE=quantum runs 1 devices
 POINTSPEC_DEVICE=quantum quietly devices --device 0
 

@@ -51,6 +51,28 @@ done
 printf '0 0 1\n0.6 0 -0.8\n0 0.6 0.8\n' >some.txt
 runs 0 --brdf diffuse --drop-below-horizon --weights optimal --weights-out w.txt some.txt
 [[ $(sed -n 2p w.txt) == 0 && $(sed -n 1p w.txt) != 0 && $(wc -l <w.txt) == 3 ]] || complain "dropped: $(<w.txt)"
+# points of the plane are lifted as a sampler lifts its own: the same rule, the density of the lobe by default
+"$program" sample --sampler jittered -n 64 -o plane.npy
+for sampler in jittered:lift=hemisphere jittered:lift=hemisphere,morph=none jittered:lift=hemisphere,morph=phong,n=3; do
+    words=()
+    [[ $sampler != *none ]] || words=(--morph none)
+    [[ $sampler != *phong* ]] || words=(--morph phong:n=3)
+    runs 0 --brdf glossy:n=30 --sampler "$sampler" -n 64
+    of_sampler=$(grep -E '^(# worst_case_error|[0-9])' out)
+    runs 0 --brdf glossy:n=30 plane.npy --lift hemisphere "${words[@]}"
+    [[ $(grep -E '^(# worst_case_error|[0-9])' out) == "$of_sampler" ]] || complain "$sampler is another rule than the lifted file"
+    [[ $(grep '^# lift' out) == "# lift: hemisphere" ]] || complain "no lift in the header: $(<out)"
+done
+[[ $(grep '^# morph' out) == "# morph: phong,n=3" ]] || complain "no morph in the header: $(<out)"
+runs 0 --brdf glossy:n=30 plane.npy --lift hemisphere --weights optimal --weights-out w.npy
+best=$(grep '^# worst_case_error:' out)
+runs 0 --brdf glossy:n=30 plane.npy --lift hemisphere --weights w.npy
+[[ $(grep '^# worst_case_error:' out) == "$best" ]] || complain "lifted: $(grep '^# worst' out), not $best"
+refuses 'needs n=, the exponent' --brdf diffuse plane.npy --lift hemisphere --morph glossy
+refuses 'add --lift hemisphere' --brdf diffuse plane.npy --lift sphere --morph diffuse
+refuses '--lift takes points of the plane to the sphere' --brdf diffuse plane.npy
+refuses 'is below the horizon' --brdf diffuse plane.npy --lift sphere
+refuses 'does not go with --sampler' --brdf diffuse --sampler jittered:lift=hemisphere -n 64 --lift hemisphere
 refuses '"w.foo": weights are written to .npy or .txt, not .foo' --brdf diffuse --weights optimal --weights-out w.foo some.txt
 refuses 'are the same file' --brdf diffuse --weights optimal --weights-out some.txt some.txt
 refuses '--weights-out has the weights of one rule' --brdf diffuse --weights-out w.txt --sampler white-hemisphere -n 4 -m 2

@@ -105,9 +105,12 @@ static void every_option_finds_its_field(void **state) {
     assert_true(l.arguments.effective && l.arguments.accuracy.no_skip &&
                 !l.arguments.accuracy.no_self_check);
     ps_arguments_free(&l.arguments);
-    must_parse(&l, "--shells --homogenize --wrap --no-self-check --profile --quiet --verbose "
-                   "--format json --input-format npy --precision auto -o out=1 --plot= x");
-    assert_true(l.arguments.frequencies.exact_shells && l.arguments.homogenize &&
+    must_parse(&l,
+               "--bins width=4/6 --homogenize --wrap --no-self-check --profile --quiet --verbose "
+               "--format json --input-format npy --precision auto -o out=1 --plot= x");
+    assert_true(l.arguments.frequencies.bins.kind == PS_BINS_WIDTH &&
+                l.arguments.frequencies.bins.numerator == 2 &&
+                l.arguments.frequencies.bins.denominator == 3 && l.arguments.homogenize &&
                 l.arguments.reading.wrap);
     assert_true(l.arguments.accuracy.no_self_check && l.arguments.limits.profile);
     assert_true(l.arguments.quiet && l.arguments.verbose && !l.arguments.accuracy.no_skip);
@@ -211,9 +214,9 @@ static void words_are_checked(void **state) {
     static const bad_line bad[] = {
         {"--precision half", "--precision: \"half\" is not one of auto, single, double, extended"},
         {"--normalize Power", "--normalize: \"Power\" is not one of power, effective"},
-        {"--format cs", "--format: \"cs\" is not one of csv, json, npy"},
-        {"--format csv|json", "--format: \"csv|json\" is not one of csv, json, npy"},
-        {"--format=", "--format: \"\" is not one of csv, json, npy"},
+        {"--format cs", "--format: \"cs\" is not one of csv, json, npy, jsonl, text"},
+        {"--format csv|json", "--format: \"csv|json\" is not one of csv, json, npy, jsonl, text"},
+        {"--format=", "--format: \"\" is not one of csv, json, npy, jsonl, text"},
         {"--input-format exr",
          "--input-format: \"exr\" is not one of utk-text, csv, psa-text, gbn, "
          "edat, eps, utk-binary, rps, npy, openquad"},

@@ -72,30 +72,34 @@ static void subsets_of_any_size(void **state) {
 
 /* ---- subsets of rings -------------------------------------------------------------------- */
 
-static ps_frequencies draw(unsigned dimension, int32_t k, bool shells, uint64_t per_ring,
-                           uint64_t seed) {
+static const ps_bin_rule rings = {.kind = PS_BINS_ROUND};
+static const ps_bin_rule shells = {.kind = PS_BINS_SHELLS};
+
+static ps_frequencies draw(unsigned dimension, int32_t k, const ps_bin_rule *rule,
+                           uint64_t per_ring, uint64_t seed) {
     ps_frequencies set = {0};
-    const ps_frequency_sample sample = {dimension, k, shells, per_ring, seed};
+    const ps_frequency_sample sample = {dimension, k, *rule, per_ring, seed};
     assert_ok(ps_frequencies_sample(&set, &sample, error));
     return set;
 }
 
-static ps_bins bins_of(const ps_frequencies *set, bool shells) {
+static ps_bins bins_of(const ps_frequencies *set) {
     ps_bins bins = {0};
-    assert_ok(ps_bins_create(&bins, set, shells, error));
+    assert_ok(ps_bins_create(&bins, set, error));
     return bins;
 }
 
 /* The rings of the whole ball: sizes and means must be theirs, and small rings complete. */
-static void check_against_ball(unsigned dimension, int32_t k, bool shells, uint64_t per_ring) {
+static void check_against_ball(unsigned dimension, int32_t k, const ps_bin_rule *rule,
+                               uint64_t per_ring) {
     ps_frequencies ball = {0};
-    assert_ok(ps_frequencies_lattice(&ball, dimension, k, true, error));
+    assert_ok(ps_frequencies_grid(&ball, dimension, k, true, rule, 0, error));
     assert_ok(ps_frequencies_enumerate(&ball, error));
-    ps_frequencies set = draw(dimension, k, shells, per_ring, 7);
+    ps_frequencies set = draw(dimension, k, rule, per_ring, 7);
     assert_true(set.rings != NULL && set.max_frequency == k && set.per_ring == per_ring);
     assert_int_equal(ps_frequencies_population(&set), ball.num);
-    ps_bins bins = bins_of(&set, shells);
-    ps_bins all = bins_of(&ball, shells);
+    ps_bins bins = bins_of(&set);
+    ps_bins all = bins_of(&ball);
     assert_int_equal(bins.num, all.num);
     assert_int_equal(bins.num_reported, all.num);
     for (size_t b = 0; b < all.num; b++) {
@@ -127,10 +131,19 @@ static void check_against_ball(unsigned dimension, int32_t k, bool shells, uint6
 static void rings_and_shells_of_every_dimension(void **state) {
     (void)state;
     static const int32_t most[] = {0, 20, 9, 5, 4, 3};
+    static const ps_bin_rule widths[] = {{PS_BINS_WIDTH, 1, 1, 0, 0},
+                                         {PS_BINS_WIDTH, 3, 2, 0, 0},
+                                         {PS_BINS_WIDTH, 5, 8, 0, 0},
+                                         {PS_BINS_RELATIVE, 2, 3, 0, 0}};
     for (unsigned dimension = 2; dimension <= PS_MAX_TORUS_DIMENSION; dimension++) {
         for (uint64_t per_ring = 2; per_ring <= 8; per_ring += 3) {
-            check_against_ball(dimension, most[dimension - 1], false, per_ring);
-            check_against_ball(dimension, most[dimension - 1], true, per_ring > 4 ? 3 : 2);
+            check_against_ball(dimension, most[dimension - 1], &rings, per_ring);
+            check_against_ball(dimension, most[dimension - 1], &shells, per_ring > 4 ? 3 : 2);
+            for (size_t i = 0; i < sizeof widths / sizeof widths[0]; i++) {
+                ps_bin_rule rule = widths[i];
+                ps_bin_rule_resolve(&rule, dimension, 3);
+                check_against_ball(dimension, most[dimension - 1], &rule, 2);
+            }
         }
     }
 }
@@ -143,10 +156,10 @@ static bool is_prefix(const ps_frequencies *a, const ps_frequencies *b) {
 /* The same seed gives the same subset, also when K grows; another one another. */
 static void subsets_depend_on_the_seed_alone(void **state) {
     (void)state;
-    ps_frequencies small = draw(4, 6, false, 20, 1);
-    ps_frequencies again = draw(4, 6, false, 20, 1);
-    ps_frequencies large = draw(4, 9, false, 20, 1);
-    ps_frequencies other = draw(4, 6, false, 20, 2);
+    ps_frequencies small = draw(4, 6, &rings, 20, 1);
+    ps_frequencies again = draw(4, 6, &rings, 20, 1);
+    ps_frequencies large = draw(4, 9, &rings, 20, 1);
+    ps_frequencies other = draw(4, 6, &rings, 20, 2);
     assert_true(small.num == again.num && is_prefix(&small, &again));
     assert_true(small.num < large.num && is_prefix(&small, &large));
     assert_int_equal(small.num, other.num);
@@ -161,7 +174,7 @@ static void subsets_depend_on_the_seed_alone(void **state) {
 static void what_is_drawn_is_fixed(void **state) {
     (void)state;
     static const int32_t expected[] = {1, -11, 30, 24, 1, 15, 33, 17};
-    ps_frequencies set = draw(4, 40, false, 2, 1);
+    ps_frequencies set = draw(4, 40, &rings, 2, 1);
     const int32_t *const last = set.vectors + (set.num - 2) * 4;
     assert_memory_equal(last, expected, sizeof expected);
     ps_frequencies_free(&set);
@@ -175,7 +188,7 @@ static void frequencies_are_uniform(void **state) {
     size_t num = 0;
     uint64_t size = 0;
     for (uint64_t seed = 0; seed < TRIES; seed++) {
-        ps_frequencies set = draw(DIMENSION, RING, false, PER_RING, seed);
+        ps_frequencies set = draw(DIMENSION, RING, &rings, PER_RING, seed);
         size = set.rings[RING - 1].num_frequencies;
         for (size_t i = set.num - PER_RING; i < set.num; i++) {
             size_t place = 0;
@@ -198,10 +211,10 @@ static void frequencies_are_uniform(void **state) {
 
 static void complete_rings_are_the_ball(void **state) {
     (void)state;
-    ps_frequencies set = draw(3, 4, false, 1000, 1);
+    ps_frequencies set = draw(3, 4, &rings, 1000, 1);
     assert_true(set.kind == PS_FREQUENCIES_BALL && set.rings == NULL && set.per_ring == 0);
     ps_frequencies_free(&set);
-    set = draw(1, 1000000, false, 2, 1); /* a ring of the line has one frequency */
+    set = draw(1, 1000000, &rings, 2, 1); /* a ring of the line has one frequency */
     assert_true(set.kind == PS_FREQUENCIES_BALL);
     ps_frequencies_free(&set);
 }
@@ -211,16 +224,18 @@ static void hopeless_requests(void **state) {
     const struct {
         ps_frequency_sample sample;
         const char *part;
-    } cases[] = {{{4, 10, false, 0, 1}, "at least 2"},
-                 {{4, 10, false, 1, 1}, "at least 2"},
-                 {{0, 10, false, 9, 1}, "dimension 0"},
-                 {{7, 10, false, 9, 1}, "dimension 7"},
-                 {{4, 0, false, 9, 1}, "max frequency 0"},
-                 {{1, 0, false, 9, 1}, "max frequency 0"},
-                 {{4, -1, false, 9, 1}, "max frequency -1"},
-                 {{4, 2001, false, 9, 1}, "between 1 and 2000"},
-                 {{6, 1236, false, 9, 1}, "more than can be counted"},
-                 {{5, 300, true, 1000000, 1}, "which can be indexed"}};
+    } cases[] = {{{4, 10, {.kind = PS_BINS_ROUND}, 0, 1}, "at least 2"},
+                 {{4, 10, {.kind = PS_BINS_ROUND}, 1, 1}, "at least 2"},
+                 {{0, 10, {.kind = PS_BINS_ROUND}, 9, 1}, "dimension 0"},
+                 {{7, 10, {.kind = PS_BINS_ROUND}, 9, 1}, "dimension 7"},
+                 {{4, 0, {.kind = PS_BINS_ROUND}, 9, 1}, "max frequency 0"},
+                 {{1, 0, {.kind = PS_BINS_ROUND}, 9, 1}, "max frequency 0"},
+                 {{4, -1, {.kind = PS_BINS_ROUND}, 9, 1}, "max frequency -1"},
+                 {{4, 2001, {.kind = PS_BINS_ROUND}, 9, 1}, "between 1 and 2000"},
+                 {{6, 1236, {.kind = PS_BINS_ROUND}, 9, 1}, "more than can be counted"},
+                 {{3, 4, {PS_BINS_WIDTH, 6, 1, 0, 0}, 9, 1}, "none of them is complete"},
+                 {{5, 300, {PS_BINS_WIDTH, 1, 1, 0, 0}, 100000000, 1}, "which can be indexed"},
+                 {{5, 300, {.kind = PS_BINS_SHELLS}, 1000000, 1}, "which can be indexed"}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         ps_frequencies set;
         ps_error message = {0};
@@ -236,10 +251,11 @@ static void hopeless_requests(void **state) {
 /* A list that was drawn from rings fits no other bins. */
 static void bins_must_be_those_that_were_drawn_from(void **state) {
     (void)state;
-    ps_frequencies set = draw(3, 6, false, 4, 1);
+    ps_frequencies set = draw(3, 6, &rings, 4, 1);
     ps_bins bins = {0};
     ps_error message = {0};
-    assert_int_equal(ps_bins_create(&bins, &set, true, &message), PSPEC_ERROR_INPUT);
+    set.bins = shells;
+    assert_int_equal(ps_bins_create(&bins, &set, &message), PSPEC_ERROR_INPUT);
     assert_null(bins.bins);
     ps_frequencies_free(&set);
 }

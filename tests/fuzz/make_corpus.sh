@@ -64,6 +64,9 @@ printf '0.5, 0.25\n1e-3,0.75\n#\n0,0.1\n' | seed csv plane "$torus"
 printf '0,0,1,2.5\n0.6,0.8,0,-1\n' | seed csv vectors "$sphere"
 printf '1.5,0.1\n3,6' | seed csv angles "$theta_phi"
 printf '0.5,,0.25\n' | seed csv gap "$torus"
+printf ',x,y\n0,0.5,0.25\n1,0,0.75\n' | seed csv index "$torus"
+printf '\xef\xbb\xbf"u";"v;"\r\n0.5;0.25\r\n' | seed csv names "$torus"
+printf ',0,1\n,0.5,\n' | seed csv labels "$torus"
 
 printf '3\n%b' "$points" | seed psa-text plane "$torus"
 printf '2\n0.5 0.25 2\n0.5 0.75 -1\nand more' | seed psa-text weights "$weights"
@@ -205,6 +208,8 @@ sums() { # NUMBER
 }
 { spectrum box 1 4 rings 2 power; sums 6; } | seed spectrum box '\1'
 { spectrum ball 2 10 shells 4 power; sums 14; } | seed spectrum ball '\1'
+{ spectrum ball 2 12 floor 2 power; sums 14; } | seed spectrum floor '\1'
+{ spectrum ball 2 12 'relative=1/2 4' 2 power; sums 14; } | seed spectrum relative '\1'
 { spectrum list 7 1 rings 1 effective; u32 7 4294967293; sums 2; } | seed spectrum list '\1'
 {
     spectrum $'sample\nper_ring: 2' 2 4 rings 2 power
@@ -266,6 +271,9 @@ saved power '"points": 8, "dimension": 3, "max_frequency": 1, "per_ring": 2' "$r
 saved angular '"points": "mean 7.5, from 7 to 8", "domain": "hemisphere, even degrees", "max_degree": 2' \
     '"degree", "power", "standard_error"' '[2, 1.5, 0.25]' | seed saved degrees ''
 saved power '"points": 8, "dimension": 2, "max_frequency": 2' "$ring_columns" '[1, 1.2, 8, 0.5, null]' | seed saved missing ''
+printf '{"schema": 2, "command": "power", "meta": {"normalization": ["power: x"], "realizations": [4], "predicted_error": [1e-7], "seed": [1],
+"points": [8], "dimension": [2], "max_frequency": [2], "bins": ["relative=1/2"]}, "columns": [%s], "rows": [{"bin": 1, "frequency": 1.2, "count": 8,
+"power": 0.5, "standard_error": 0.1}]}\n' "$ring_columns" | seed saved objects ''
 
 # ---- scenes ----------------------------------------------------------------------------------
 

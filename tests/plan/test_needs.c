@@ -9,7 +9,8 @@
 
 /* A grid whose realizations differ, in the plane. */
 static ps_needs_question ordinary(void) {
-    return (ps_needs_question){.dimension = 2, .max_frequency = 64, .num_realizations = 100};
+    return (ps_needs_question){
+        .dimension = 2, .max_frequency = 64, .max_norm2 = 64 * 65, .num_realizations = 100};
 }
 
 static const ps_skip *find_skip(const ps_needs *needs, const char *what) {

@@ -93,7 +93,7 @@ static void torus(void **state) {
             .sampler = &request,
             .num_realizations = test_uniform(&random) < 0.3 ? 1 : 6,
             .frequencies.max_frequency = test_uniform(&random) < 0.5 ? 5 : 17,
-            .frequencies.exact_shells = test_uniform(&random) < 0.3,
+            .frequencies.bins.kind = test_uniform(&random) < 0.3 ? PS_BINS_SHELLS : PS_BINS_ROUND,
             .accuracy.tolerance = pick_tolerance(&random, i, 1e-9, 1e-2),
             .accuracy.floor = test_uniform(&random) < 0.3 ? pick_power(&random, 1e-4, 1) : 0,
             .accuracy.no_self_check = true,

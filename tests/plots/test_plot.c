@@ -254,6 +254,65 @@ static void a_single_bin_is_a_point(void **state) {
     assert_false(script_contains(&data.plot, "with lines"));
 }
 
+/* A curve that is far above all others leaves the picture to them, and its label says how far it
+ * goes; what was asked for holds. */
+static void loud_curves(void **state) {
+    (void)state;
+    example data;
+    double loud[NUM_BINS];
+    make_example(&data, 3, false, false);
+    for (size_t i = 0; i < NUM_BINS; i++) {
+        loud[i] = i == 7 ? 40 : 0;
+    }
+    assert_false(script_contains(&data.plot, "(to "));
+    data.curves[1].y = loud;
+    assert_true(script_contains(&data.plot, ".\" (to 40)\""));
+    assert_true(script_contains(&data.plot, "set yrange [0:1."));
+    loud[7] = 4; /* less than five times white noise */
+    assert_false(script_contains(&data.plot, "(to "));
+    loud[7] = 40;
+    data.panel.series = &data.curves[1]; /* nothing beside it */
+    data.panel.num_series = 1;
+    assert_false(script_contains(&data.plot, "(to "));
+    data.panel.series = data.curves;
+    data.panel.num_series = 3;
+    data.plot.axes = (ps_plot_axes){.has_y = true, .y = {0, 50}};
+    assert_true(script_contains(&data.plot, "set yrange [0:50]"));
+    assert_false(script_contains(&data.plot, "(to "));
+    data.plot.axes = (ps_plot_axes){.has_log = true, .is_log_y = true};
+    assert_true(script_contains(&data.plot, "set logscale y\n"));
+    assert_false(script_contains(&data.plot, "set yrange [0:"));
+}
+
+static void axes_that_were_asked_for(void **state) {
+    (void)state;
+    example data;
+    make_example(&data, 1, false, true);
+    data.plot.axes =
+        (ps_plot_axes){.has_log = true, .is_log_x = true, .has_x = true, .x = {0.25, 4}};
+    assert_true(script_contains(&data.plot, "set logscale x\n"));
+    assert_true(script_contains(&data.plot, "set xrange [0.25:4]\n"));
+    data.plot.form = PS_FIGURE_FRAME;
+    data.plot.is_log_x = data.plot.is_log_y = true;
+    data.plot.axes = (ps_plot_axes){.has_log = true, .has_y = true, .y = {-1, 2}};
+    assert_false(script_contains(&data.plot, "set logscale"));
+    assert_true(script_contains(&data.plot, "set yrange [-1:2]\n"));
+}
+
+/* Formulas are typeset; in what stands behind them no character means anything. */
+static void formulas(void **state) {
+    (void)state;
+    example data;
+    make_example(&data, 2, false, true);
+    data.plot.form = PS_FIGURE_FRAME;
+    data.curves[0].formula = "d@_l^2";
+    data.curves[0].label = "a_b^c";
+    assert_true(script_contains(&data.plot, "title \"d\\100\\137l\\136\\062\\054 "
+                                            "a\\134\\137b\\134\\136c\""));
+    data.curves[0].label = NULL;
+    assert_true(script_contains(&data.plot, "title \"d\\100\\137l\\136\\062\""));
+}
+
 /* One panel and many, some of them empty, in every format. */
 static void draws_panels(void **state) {
     static const double x[] = {1e-5, 1e-4, 0, 1e-3};
@@ -304,6 +363,9 @@ int main(void) {
         cmocka_unit_test(no_key_without_something_in_it),
         cmocka_unit_test(ticks_of_anisotropy),
         cmocka_unit_test(a_single_bin_is_a_point),
+        cmocka_unit_test(loud_curves),
+        cmocka_unit_test(axes_that_were_asked_for),
+        cmocka_unit_test(formulas),
     };
     return cmocka_run_group_tests_name("plot", tests, NULL, NULL);
 }

@@ -115,6 +115,66 @@ static void reads_every_layout(void **state) {
     }
 }
 
+/* Four numbers of each type, in either byte order; whole ones in a box. */
+static void reads_every_type(void **state) {
+    static const struct {
+        const char *type;
+        size_t num_bytes;
+        unsigned char numbers[4][8]; /* the highest byte first */
+        double expected[4];
+        double high; /* of the box; 0: none */
+    } cases[] = {
+        {"f2",
+         2,
+         {{0x38, 0x00}, {0x00, 0x01}, {0x3b, 0xff}, {0x2e, 0x66}},
+         {0.5, 0x1p-24, 0.99951171875, 0.0999755859375},
+         0},
+        {"i1", 1, {{0}, {64}, {127}, {1}}, {0, 0.5, 0.9921875, 0.0078125}, 128},
+        {"u1", 1, {{0}, {128}, {255}, {1}}, {0, 0.5, 0.99609375, 0.00390625}, 256},
+        {"i2", 2, {{0, 0}, {0x40, 0}, {0x7f, 0xff}, {0, 1}}, {0, 0.5, 1 - 0x1p-15, 0x1p-15}, 32768},
+        {"u2", 2, {{0, 0}, {0x80, 0}, {0xff, 0xff}, {0, 1}}, {0, 0.5, 1 - 0x1p-16, 0x1p-16}, 65536},
+        {"i4", 4, {{0}, {0, 1}, {0, 0, 1}, {0, 0, 0, 1}}, {0, 0.5, 0x1p-9, 0x1p-17}, 131072},
+        {"u8",
+         8,
+         {{0}, {0, 0, 0, 0, 0, 1}, {0, 0, 0, 0, 0, 0, 1}, {0, 0, 0, 0, 0, 0, 0, 1}},
+         {0, 0.5, 0x1p-9, 0x1p-17},
+         131072}};
+    for (size_t i = 0; i < 2 * sizeof cases / sizeof cases[0]; i++) {
+        bytes file;
+        char dictionary[256];
+        const bool is_little = i % 2 != 0;
+        const size_t num_bytes = cases[i / 2].num_bytes;
+        const ps_point_options options = {.box_high = cases[i / 2].high};
+        ps_error error = {0};
+        ps_point_reader *reader = NULL;
+        ps_point_set set = {0};
+        bool has_set = false;
+        snprintf(dictionary, sizeof dictionary,
+                 "{'descr': '%c%s', 'fortran_order': False, 'shape': (2, 2), }\n",
+                 num_bytes == 1 ? '|'
+                 : is_little    ? '<'
+                                : '>',
+                 cases[i / 2].type);
+        append_header(&file, 1, dictionary);
+        for (size_t j = 0; j < 4; j++) {
+            for (size_t b = 0; b < num_bytes; b++) {
+                const size_t place = is_little ? num_bytes - 1 - b : b;
+                append(&file, &cases[i / 2].numbers[j][place], 1);
+            }
+        }
+        assert_int_equal(open_bytes(state, &file, &options, &reader, &error), PSPEC_OK);
+        assert_int_equal(ps_points_next(reader, &set, &has_set, &error), PSPEC_OK);
+        for (size_t j = 0; j < 4; j++) {
+            if (set.points[j] != cases[i / 2].expected[j]) {
+                fail_msg("%s: %.17g, not %.17g", cases[i / 2].type, set.points[j],
+                         cases[i / 2].expected[j]);
+            }
+        }
+        ps_point_set_free(&set);
+        ps_points_close(reader);
+    }
+}
+
 static void refuses_bad_arrays(void **state) {
     const ps_point_options defaults = {0};
     const ps_point_options plane = {.dimension = 2};
@@ -134,8 +194,12 @@ static void refuses_bad_arrays(void **state) {
         {two_by_two, 4, -(double)INFINITY, &defaults, "set 1, row 2: coordinate -inf is not"},
         {two_by_two, 4, 1, &defaults, "set 1, row 2: coordinate 1 is outside [0,1)"},
         {two_by_two, 4, (double)NAN, &weighted, "set 1, row 2: weight nan is not a finite"},
-        {"{'descr': '<i8', 'fortran_order': False, 'shape': (2, 2), }", 4, 0, &defaults,
-         "element type '<i8' cannot be read"},
+        {"{'descr': '<i8', 'fortran_order': False, 'shape': (2, 2), }", 4, 1, &defaults,
+         "is outside [0,1); in other units? --box X0,X1"},
+        {"{'descr': '<f1', 'fortran_order': False, 'shape': (2, 2), }", 4, 0, &defaults,
+         "element type '<f1' cannot be read"},
+        {"{'descr': '<i3', 'fortran_order': False, 'shape': (2, 2), }", 4, 0, &defaults,
+         "element type '<i3' cannot be read"},
         {"{'descr': '|O', 'fortran_order': False, 'shape': (2, 2), }", 4, 0, &defaults,
          "element type '|O' cannot be read"},
         {"{'descr': [('x', '<f8')], 'fortran_order': False, 'shape': (2, 2), }", 4, 0, &defaults,
@@ -339,6 +403,7 @@ int main(void) {
     cmocka_unit_test_setup_teardown(test, test_folder_create, test_folder_remove)
     const struct CMUnitTest tests[] = {
         IN_FOLDER(reads_every_layout),
+        IN_FOLDER(reads_every_type),
         IN_FOLDER(refuses_bad_arrays),
         IN_FOLDER(survives_truncation_and_damage),
         IN_FOLDER(reads_pipes),

@@ -182,7 +182,7 @@ static void assert_same_request(const ps_request *a, const ps_request *b) {
     assert_int_equal(a->num_points, b->num_points);
     assert_int_equal(a->seed, b->seed);
     assert_int_equal(a->frequencies.max_frequency, b->frequencies.max_frequency);
-    assert_int_equal(a->frequencies.exact_shells, b->frequencies.exact_shells);
+    assert_true(ps_bin_rule_is_same(&a->frequencies.bins, &b->frequencies.bins));
     assert_true(a->accuracy.tolerance == b->accuracy.tolerance);
     assert_true(a->weights.kind == b->weights.kind &&
                 is_same_text(a->weights.path, b->weights.path) &&
@@ -201,7 +201,7 @@ static void assert_same_request(const ps_request *a, const ps_request *b) {
 static void command_lines_ask_the_same(void **state) {
     static const char text[] =
         POWER "    samplers: [white, \"it's; $(odd) \\\\\"]\n    points: 1e3\n    tol: 1e-3\n"
-              "    shells: true\n    homogenize: false\n    engine: -x\n"
+              "    bins: relative=1/8\n    homogenize: false\n    engine: -x\n"
               "  - {result: power, files: [-a, 'b c', --help], weights: -w}\n";
     const test_folder *const folder = *state;
     char here[TEST_PATH_BYTES];

@@ -102,7 +102,7 @@ static void keys_of_results(void **state) {
         {POWER "    points: 3\n    points: 4\n", 5, "points: this key stands in line 4 already"},
         {POWER "    sampler: white\n    samplers: white\n", 5, "sampler: stands in line 4 already"},
         {POWER "    plot: yes\n", 4, "plot: true or false, not \"yes\""},
-        {POWER "    shells: 1\n", 4, "shells: true or false, not \"1\""},
+        {POWER "    homogenize: 1\n", 4, "homogenize: true or false, not \"1\""},
         {POWER "    name: a/b\n", 4, "name: \"a/b\" cannot name files"},
         {POWER "    name: -a\n", 4, "name: \"-a\" cannot name files"},
         {POWER "    name: a.b\n", 4, "name: \"a.b\" cannot name files"},

@@ -44,19 +44,42 @@ static void rings_of_large_norms(void **state) {
 
 /* ---- bins of lattices -------------------------------------------------------------------- */
 
-/* The key that a frequency must have by definition, INT64_MAX when no reported bin holds it. */
-static int64_t key_by_definition(const ps_frequencies *set, const int32_t *k, bool exact_shells) {
-    const int64_t norm2 = ps_frequency_norm2(k, set->dimension);
-    const int64_t largest = set->max_frequency;
-    int64_t b = 1;
-    while (b * b + b < norm2) {
+static const ps_bin_rule rings = {.kind = PS_BINS_ROUND};
+static const ps_bin_rule shells = {.kind = PS_BINS_SHELLS};
+
+/* Borders that are whole fractions: b P <= Q |k| < (b + 1) P, and b + 1/2 by rounding. */
+static int64_t bin_by_definition(const ps_bin_rule *rule, int64_t norm2) {
+    const int64_t p = rule->numerator;
+    const int64_t q = rule->denominator;
+    int64_t b = 0;
+    if (rule->kind == PS_BINS_SHELLS) {
+        return norm2;
+    }
+    if (rule->kind == PS_BINS_ROUND) {
+        while (b * b + b < norm2) {
+            b++;
+        }
+        return b;
+    }
+    while ((b + 1) * (b + 1) * p * p <= q * q * norm2) {
         b++;
     }
-    return norm2 > largest * largest + largest ? INT64_MAX : exact_shells ? norm2 : b;
+    return b;
+}
+
+/* A bin is reported when the box has all of it: all below the first |k|^2 that it lacks. */
+static int64_t key_by_definition(const ps_frequencies *set, const ps_bin_rule *rule,
+                                 const int32_t *k) {
+    const int64_t norm2 = ps_frequency_norm2(k, set->dimension);
+    const int64_t outside = (int64_t)(set->max_frequency + 1) * (set->max_frequency + 1);
+    const ps_bin_rule *const by = rule->kind == PS_BINS_SHELLS ? &rings : rule;
+    return bin_by_definition(by, norm2) >= bin_by_definition(by, outside)
+               ? INT64_MAX
+               : bin_by_definition(rule, norm2);
 }
 
 /* Every frequency once, in its bin, bins ascending and not empty, mean |k| right. */
-static void check_members(const ps_bins *bins, const ps_frequencies *set, bool exact_shells) {
+static void check_members(const ps_bins *bins, const ps_frequencies *set, const ps_bin_rule *rule) {
     bool *is_seen = calloc(set->num + 1, sizeof *is_seen);
     assert_int_equal(bins->num_members, set->num);
     for (size_t b = 0; b < bins->num; b++) {
@@ -70,7 +93,7 @@ static void check_members(const ps_bins *bins, const ps_frequencies *set, bool e
             assert_false(is_seen[bins->members[i]]);
             is_seen[bins->members[i]] = true;
             assert_true(i == bin->begin || bins->members[i - 1] < bins->members[i]);
-            assert_int_equal(key_by_definition(set, k, exact_shells), bin->key);
+            assert_int_equal(key_by_definition(set, rule, k), bin->key);
             sum += sqrtl((long double)ps_frequency_norm2(k, set->dimension));
         }
         const double mean = (double)(sum / (long double)(bin->end - bin->begin));
@@ -81,17 +104,38 @@ static void check_members(const ps_bins *bins, const ps_frequencies *set, bool e
     free(is_seen);
 }
 
-static void check_bins(unsigned dimension, int32_t max_frequency, bool is_ball, bool exact_shells) {
+/* The lattice sum of a Gaussian, bin by bin, is that of one axis to the power d: DC is in no bin,
+ * and every other k is in one, with its opposite. */
+static void check_lattice_sum(const ps_bins *bins, const ps_frequencies *set) {
+    const double rate = 0.1;
+    double axis = 1;
+    double sum = 1;
+    for (int32_t k = 1; k <= set->max_frequency; k++) {
+        axis += 2 * exp(-rate * k * k);
+    }
+    for (size_t i = 0; i < bins->num_members; i++) {
+        const int32_t *const k = set->vectors + bins->members[i] * set->dimension;
+        sum += 2 * exp(-rate * (double)ps_frequency_norm2(k, set->dimension));
+    }
+    const double relative = sum / pow(axis, set->dimension) - 1;
+    assert_true(fabs(relative) < 1e-12);
+}
+
+static void check_bins(unsigned dimension, int32_t max_frequency, bool is_ball,
+                       const ps_bin_rule *rule) {
     ps_frequencies set = {0};
     ps_bins bins = {0};
-    assert_ok(ps_frequencies_lattice(&set, dimension, max_frequency, is_ball, error));
+    assert_ok(ps_frequencies_grid(&set, dimension, max_frequency, is_ball, rule, 0, error));
     assert_ok(ps_frequencies_enumerate(&set, error));
-    assert_ok(ps_bins_create(&bins, &set, exact_shells, error));
-    check_members(&bins, &set, exact_shells);
+    assert_ok(ps_bins_create(&bins, &set, error));
+    check_members(&bins, &set, rule);
     const bool has_corners = bins.bins[bins.num - 1].key == INT64_MAX;
     assert_int_equal(bins.num_reported, bins.num - (has_corners ? 1 : 0));
     assert_true(!is_ball || !has_corners);
-    if (!exact_shells) { /* all rings 1..K are there */
+    if (!is_ball) {
+        check_lattice_sum(&bins, &set);
+    }
+    if (rule->kind == PS_BINS_ROUND) { /* all rings 1..K are there */
         assert_int_equal(bins.num_reported, max_frequency);
         assert_int_equal(bins.bins[max_frequency - 1].key, max_frequency);
     }
@@ -102,34 +146,42 @@ static void check_bins(unsigned dimension, int32_t max_frequency, bool is_ball, 
 static void bins_of_lattices(void **state) {
     (void)state;
     static const int32_t frequencies[] = {50, 20, 9, 4, 2, 2};
+    static const ps_bin_rule rules[] = {{.kind = PS_BINS_ROUND},      {.kind = PS_BINS_SHELLS},
+                                        {PS_BINS_WIDTH, 1, 1, 0, 0},  {PS_BINS_WIDTH, 2, 1, 0, 0},
+                                        {PS_BINS_WIDTH, 1, 3, 0, 0},  {PS_BINS_WIDTH, 7, 5, 0, 0},
+                                        {PS_BINS_WIDTH, 13, 9, 0, 0}, {PS_BINS_WIDTH, 1, 64, 0, 0}};
     for (unsigned dimension = 1; dimension <= PS_MAX_TORUS_DIMENSION; dimension++) {
         for (int32_t k = 1; k <= frequencies[dimension - 1]; k++) {
-            check_bins(dimension, k, false, false);
-            check_bins(dimension, k, true, false);
-            check_bins(dimension, k, false, true);
-            check_bins(dimension, k, true, true);
+            for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) {
+                check_bins(dimension, k, false, &rules[i]);
+                check_bins(dimension, k, true, &rules[i]);
+            }
         }
     }
 }
 
 /* Numbers of lattice points that anyone can look up: r_2(25) = 12, r_2(65) = 16, r_3(9) = 30; rings
- * 1, 2, 3 of the plane have 8, 12 and 16 points. */
+ * 1, 2, 3 of the plane have 8, 12 and 16 points by rounding, and 8, 16 and 20 by floor (Gauss's
+ * circles of radius 1, 2, 3, 4 have 5, 13, 29 and 49, of which 4, 4, 4 and 4 lie on the last). */
 static void known_counts(void **state) {
     (void)state;
+    static const ps_bin_rule whole = {PS_BINS_WIDTH, 1, 1, 0, 0};
     const struct {
         unsigned dimension;
-        bool exact_shells;
+        const ps_bin_rule *rule;
         int64_t key;
         size_t count;
-    } cases[] = {{2, true, 25, 12}, {2, true, 65, 16}, {3, true, 9, 30},  {1, true, 36, 2},
-                 {2, false, 1, 8},  {2, false, 2, 12}, {2, false, 3, 16}, {4, true, 2, 24}};
+    } cases[] = {{2, &shells, 25, 12}, {2, &shells, 65, 16}, {3, &shells, 9, 30},
+                 {1, &shells, 36, 2},  {2, &rings, 1, 8},    {2, &rings, 2, 12},
+                 {2, &rings, 3, 16},   {4, &shells, 2, 24},  {2, &whole, 1, 8},
+                 {2, &whole, 2, 16},   {2, &whole, 3, 20}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         ps_frequencies set = {0};
         ps_bins bins = {0};
         size_t count = 0;
-        assert_ok(ps_frequencies_lattice(&set, cases[i].dimension, 9, true, error));
+        assert_ok(ps_frequencies_grid(&set, cases[i].dimension, 9, true, cases[i].rule, 0, error));
         assert_ok(ps_frequencies_enumerate(&set, error));
-        assert_ok(ps_bins_create(&bins, &set, cases[i].exact_shells, error));
+        assert_ok(ps_bins_create(&bins, &set, error));
         for (size_t b = 0; b < bins.num; b++) {
             if (bins.bins[b].key == cases[i].key) {
                 count = 2 * (bins.bins[b].end - bins.bins[b].begin);
@@ -153,7 +205,7 @@ static void bins_of_lists(void **state) {
         copy[i] = vectors[i];
     }
     assert_ok(ps_frequencies_list(&set, 2, 3, copy, error));
-    assert_ok(ps_bins_create(&bins, &set, false, error));
+    assert_ok(ps_bins_create(&bins, &set, error));
     assert_int_equal(bins.num, 1);
     assert_int_equal(bins.num_reported, 0);
     assert_int_equal(bins.bins[0].end - bins.bins[0].begin, 3);
@@ -223,7 +275,7 @@ static void blocks_of_slots(void **state) {
         assert_ok(
             ps_frequencies_lattice(&set, cases[i].dimension, cases[i].max_frequency, false, error));
         assert_ok(ps_frequencies_enumerate(&set, error));
-        assert_ok(ps_bins_create(&bins, &set, false, error));
+        assert_ok(ps_bins_create(&bins, &set, error));
         uint32_t *slots = calloc(set.num, sizeof *slots);
         make_slots(slots, set.num, cases[i].stride, cases[i].step);
         find_bins(bin_of, &bins, slots);

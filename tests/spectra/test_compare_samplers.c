@@ -201,7 +201,7 @@ static void saved_files(void **state) {
     close(descriptor);
     pspec_context *context = pspec_context_create();
     pspec_power_request request = test_host_request();
-    request.exact_shells = 1;
+    request.bins = "shells";
     request.normalization = PSPEC_NORMALIZATION_EFFECTIVE;
     pspec_spectrum *spectrum = measure_on_host(context, &request, "white", 16, 3);
     ps_saved_spectrum saved;
@@ -210,7 +210,8 @@ static void saved_files(void **state) {
     assert_int_equal(pspec_spectrum_save(spectrum, context, path), PSPEC_OK);
     assert_ok(ps_saved_spectrum_read(&saved, path, error));
     assert_true(!saved.on_sphere && saved.dimension == 2 && saved.max_frequency == 4);
-    assert_true(saved.exact_shells && saved.normalization == PSPEC_NORMALIZATION_EFFECTIVE);
+    assert_true(saved.bin_rule.kind == PS_BINS_SHELLS &&
+                saved.normalization == PSPEC_NORMALIZATION_EFFECTIVE);
     assert_true(saved.num_realizations == 3 && saved.smallest_points == 16 && !saved.has_seed);
     assert_true(saved.error == pspec_spectrum_error(spectrum) && saved.num_bins == num);
     for (size_t b = 0; b < num; b++) {
@@ -222,7 +223,7 @@ static void saved_files(void **state) {
     static const int32_t list[] = {1, 0, 2, 1};
     request.frequencies = list;
     request.num_frequencies = 2;
-    request.exact_shells = 0;
+    request.bins = NULL;
     spectrum = measure_on_host(context, &request, "white", 16, 2);
     ps_error error = {0};
     assert_int_equal(pspec_spectrum_save(spectrum, context, path), PSPEC_OK);

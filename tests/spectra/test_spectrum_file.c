@@ -32,19 +32,22 @@ static void check_round_trip(pspec_context *context, const test_folder *folder,
 
 static void saving_and_loading_changes_no_bit(void **state) {
     static const int32_t list[] = {1, 0, 0, 0, -3, 1 << 28, -(1 << 28), 2};
+    static const char *const bins[] = {NULL, NULL, "shells", NULL, "floor", "relative=1/64"};
     pspec_context *context = pspec_context_create();
     for (unsigned dimension = 1; dimension <= 3; dimension++) {
         test_sample what = test_make_sample(3, dimension, TEST_NUM_POINTS, 2, true);
         pspec_power_request request = test_host_request();
         request.dimension = dimension;
-        for (int kind = 0; kind < 4; kind++) {
+        for (int kind = 0; kind < 6; kind++) {
             request.rings_only = kind == 1;
-            request.exact_shells = kind == 2;
+            const size_t most = kind == 5 ? 1 : 3; /* relative widths are of one number of points */
+            request.num_points = what.patterns[0].num_points;
+            request.bins = bins[kind];
             request.normalization =
                 kind == 2 ? PSPEC_NORMALIZATION_EFFECTIVE : PSPEC_NORMALIZATION_POWER;
             request.frequencies = kind == 3 ? list : NULL;
             request.num_frequencies = kind == 3 ? 8 / dimension : 0;
-            for (size_t num = 1; num <= 3; num += 2) { /* 1: standard errors are nan */
+            for (size_t num = 1; num <= most; num += 2) { /* 1: standard errors are nan */
                 pspec_spectrum *spectrum =
                     test_public_spectrum(context, &request, what.patterns, num);
                 check_round_trip(context, *state, spectrum);

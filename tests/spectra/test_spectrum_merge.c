@@ -47,7 +47,7 @@ static void merged_parts_are_the_whole(void **state) {
         test_sample what = test_make_sample(REALIZATIONS, 2, TEST_NUM_POINTS, 0, weighted != 0);
         pspec_power_request request = test_host_request();
         check_merges(context, &request, &what, true);
-        request.exact_shells = 1;
+        request.bins = "shells";
         request.normalization = PSPEC_NORMALIZATION_EFFECTIVE;
         check_merges(context, &request, &what, true);
         request = test_host_request();
@@ -129,8 +129,10 @@ static void what_differs_is_not_merged(void **state) {
     request.rings_only = 1;
     check_refused(context, a, &request, &what, "of rings instead of the frequencies of a box");
     request = test_host_request();
-    request.exact_shells = 1;
-    check_refused(context, a, &request, &what, "shells instead of rings");
+    request.bins = "shells";
+    check_refused(context, a, &request, &what, "bins by shells instead of round");
+    request.bins = "floor";
+    check_refused(context, a, &request, &what, "bins by floor instead of round");
     request = test_host_request();
     request.normalization = PSPEC_NORMALIZATION_EFFECTIVE;
     check_refused(context, a, &request, &what, "effective instead of power");

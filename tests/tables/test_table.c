@@ -73,15 +73,15 @@ static void writes_csv(void **state) {
 static void writes_json(void **state) {
     ps_table *table = make_table();
     char *const text = write_table(state, table, "t.json", PS_FORMAT_JSON);
-    assert_non_null(strstr(text, "\"seed\": 9223372036854775807,"));
+    assert_non_null(strstr(text, "\"seed\": [9223372036854775807],"));
     cJSON *const json = cJSON_Parse(text);
     assert_non_null(json);
-    assert_true(cJSON_GetObjectItem(json, "schema")->valuedouble == 1);
+    assert_true(cJSON_GetObjectItem(json, "schema")->valuedouble == 2);
     assert_string_equal(cJSON_GetObjectItem(json, "command")->valuestring, "power");
     const cJSON *const meta = cJSON_GetObjectItem(json, "meta");
     assert_int_equal(cJSON_GetArraySize(meta), 5);
-    assert_string_equal(cJSON_GetObjectItem(meta, "file")->valuestring, "a,b \"c\"\nd");
-    assert_true(cJSON_IsNull(cJSON_GetObjectItem(meta, "empty")));
+    assert_string_equal(cJSON_GetObjectItem(meta, "file")->child->valuestring, "a,b \"c\"\nd");
+    assert_true(cJSON_IsNull(cJSON_GetObjectItem(meta, "empty")->child));
     const cJSON *const skipped = cJSON_GetObjectItem(meta, "skipped");
     assert_int_equal(cJSON_GetArraySize(skipped), 2);
     assert_string_equal(cJSON_GetArrayItem(skipped, 1)->valuestring, "second");
@@ -90,12 +90,34 @@ static void writes_json(void **state) {
     const cJSON *const rows = cJSON_GetObjectItem(json, "rows");
     assert_int_equal(cJSON_GetArraySize(rows), 4);
     const cJSON *const first = cJSON_GetArrayItem(rows, 0);
-    assert_string_equal(cJSON_GetArrayItem(first, 0)->valuestring, "white");
-    assert_true(cJSON_GetArrayItem(first, 2)->valuedouble == 1.0 / 3);
+    assert_string_equal(cJSON_GetObjectItem(first, "sampler")->valuestring, "white");
+    assert_true(cJSON_GetObjectItem(first, "power")->valuedouble == 1.0 / 3);
     for (int i = 1; i < 4; i++) { /* missing, nan, -inf */
-        assert_true(cJSON_IsNull(cJSON_GetArrayItem(cJSON_GetArrayItem(rows, i), 2)));
+        assert_true(cJSON_IsNull(cJSON_GetObjectItem(cJSON_GetArrayItem(rows, i), "power")));
     }
     cJSON_Delete(json);
+    free(text);
+    ps_table_destroy(table);
+}
+
+/* A line for the head and one for each row, each of them JSON. */
+static void writes_json_lines(void **state) {
+    ps_table *table = make_table();
+    char *const text = write_table(state, table, "t.jsonl", PS_FORMAT_JSONL);
+    char *line = text;
+    for (int i = 0; i < 5; i++) {
+        char *const end = strchr(line, '\n');
+        assert_non_null(end);
+        *end = '\0';
+        cJSON *const json = cJSON_Parse(line);
+        assert_non_null(json);
+        assert_true(i == 0 ? cJSON_GetObjectItem(json, "schema")->valuedouble == 2 &&
+                                 cJSON_IsObject(cJSON_GetObjectItem(json, "meta"))
+                           : cJSON_GetArraySize(json) == 3);
+        cJSON_Delete(json);
+        line = end + 1;
+    }
+    assert_int_equal(*line, '\0');
     free(text);
     ps_table_destroy(table);
 }
@@ -133,7 +155,7 @@ static void numbers_survive_the_round_trip(void **state) {
     for (size_t i = 0; i < NUM_VALUES; i++) {
         assert_true(strtod(csv_at + 1, NULL) == values[i]);
         csv_at = strchr(csv_at + 1, '\n');
-        json_at = strchr(json_at + 1, '[');
+        json_at = strchr(json_at + 1, ':');
         assert_true(strtod(json_at + 1, NULL) == values[i]);
     }
     free(csv);
@@ -227,6 +249,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         IN_FOLDER(writes_csv),
         IN_FOLDER(writes_json),
+        IN_FOLDER(writes_json_lines),
         IN_FOLDER(json_is_utf8_whatever_the_names_are),
         IN_FOLDER(numbers_survive_the_round_trip),
         IN_FOLDER(writes_npy_and_names),

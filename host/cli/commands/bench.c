@@ -75,7 +75,7 @@ static pspec_status add_device(const answer *shown, const ps_device_peaks *peaks
     const ps_device_limits *const limits = ps_device_get_limits(shown->device);
     const ps_meta entries[] = {
         {"pointspec_version", PS_TEXT(pspec_version())},
-        {"schema", PS_INTEGER(1)},
+        {"schema", PS_INTEGER(PS_TABLE_SCHEMA)},
         {"command", PS_TEXT(shown->arguments->command_line)},
         {"device", PS_TEXT(limits->name)},
         {"platform", PS_TEXT(limits->platform)},
@@ -341,7 +341,7 @@ const ps_command ps_command_bench = {
         "compares time and answers; exit status 3 when they differ. Wants a quiet machine; a plain "
         "run takes about three minutes.",
     .takes = PS_TAKER_BIT(bench),
-    .formats = "csv|json",
+    .formats = "csv|json|jsonl",
     .examples =
         {"pointspec bench --case plane-many --quick -o bench.csv --plot bench.svg",
          "pointspec bench --case sphere --engine sphere_nufft --precision single --format json"},

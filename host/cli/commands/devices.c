@@ -31,7 +31,7 @@ const ps_command ps_command_devices = {
         "the "
         "device, and its peaks per second: see pointspec bench --calibrate.",
     .takes = PS_TAKER_BIT(devices),
-    .formats = "csv|json",
+    .formats = "csv|json|jsonl|text",
     .examples = {"pointspec devices", "pointspec devices --device cpu --format json"},
     .run = run,
 };

@@ -50,8 +50,8 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
     /* Where points are written -o and --format are about the points: the plan must not stand in
      * their place. */
     const char *const path = task->makes_points ? "-" : arguments->output;
-    PS_TRY(ps_table_choose_format(&format, task->makes_points ? NULL : arguments->format, path,
-                                  error));
+    const bool is_of_points = task->makes_points && arguments->is_given[PS_OPTION_FORMAT];
+    PS_TRY(ps_table_choose_format(&format, is_of_points ? NULL : arguments->format, path, error));
     PS_TRY(ps_task_plan(&table, task, &inner, &hooks, error));
     const pspec_status status = ps_table_write(table, path, format, error);
     ps_table_destroy(table);

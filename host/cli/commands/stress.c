@@ -49,7 +49,7 @@ static pspec_status add_header(const answer *shown, ps_error *error) {
         ps_cell value;
     } entries[] = {
         {"pointspec_version", PS_TEXT(pspec_version())},
-        {"schema", PS_INTEGER(1)},
+        {"schema", PS_INTEGER(PS_TABLE_SCHEMA)},
         {"command", PS_TEXT(arguments->command_line)},
         {"device", PS_TEXT(limits != NULL ? limits->name : "none")},
         {"platform", PS_TEXT(limits != NULL ? limits->platform : "none")},
@@ -145,7 +145,7 @@ const ps_command ps_command_stress = {
         "error formula. Exits with 3 when one fails: then the device or its driver computes "
         "wrongly.",
     .takes = PS_TAKER_BIT(stress),
-    .formats = "csv|json",
+    .formats = "csv|json|jsonl",
     .examples = {"pointspec stress --quick --engine pairs_direct -o stress.csv",
                  "pointspec stress --case frequencies-1e6 --format json"},
     .run = run,

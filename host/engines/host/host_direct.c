@@ -188,9 +188,8 @@ static void write_degree(const ps_host_degree *degree, int64_t max_degree, doubl
     }
 }
 
-static pspec_status coefficients(void *state, const ps_batch *one, ps_rows *rows, double *out,
-                                 ps_error *error) {
-    host_direct *self = state;
+static pspec_status degree_coefficients(host_direct *self, const ps_batch *one, ps_rows *rows,
+                                        double *out, ps_error *error) {
     const ps_frequencies *set = self->frequencies;
     const int exponent = rows != NULL && one->exponents != NULL ? one->exponents[0] : 0;
     memset(out, 0, ps_num_coefficients(set->max_frequency) * sizeof *out);
@@ -211,6 +210,37 @@ static pspec_status coefficients(void *state, const ps_batch *one, ps_rows *rows
         *rows = rows_of(self, 1);
     }
     return PSPEC_OK;
+}
+
+static pspec_status exponential_coefficients(host_direct *self, const ps_batch *one, ps_rows *rows,
+                                             double *out, ps_error *error) {
+    const ps_frequencies *set = self->frequencies;
+    const int exponent = rows != NULL && one->exponents != NULL ? one->exponents[0] : 0;
+    for (size_t i = 0; i < set->num; i++) {
+        long double re = 0;
+        long double im = 0;
+        PS_TRY(ps_batch_go_on(one, error));
+        ps_host_sum(one->patterns, set->vectors + i * set->dimension, &re, &im);
+        out[2 * i] = (double)re;
+        out[2 * i + 1] = (double)im;
+        if (rows != NULL) { /* as in ps_host_power */
+            re = ldexpl(re, -exponent);
+            im = ldexpl(im, -exponent);
+            self->power[i] = (double)((re * re + im * im) * one->scales[0]);
+        }
+    }
+    if (rows != NULL) {
+        *rows = rows_of(self, 1);
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status coefficients(void *state, const ps_batch *one, ps_rows *rows, double *out,
+                                 ps_error *error) {
+    host_direct *self = state;
+    return self->frequencies->kind == PS_FREQUENCIES_DEGREES
+               ? degree_coefficients(self, one, rows, out, error)
+               : exponential_coefficients(self, one, rows, out, error);
 }
 
 static void describe(const void *state, ps_text *text) {

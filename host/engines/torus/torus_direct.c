@@ -6,6 +6,7 @@
 #include "base/round.h"
 #include "device/reals.h"
 #include "engines/torus/torus_layout.h"
+#include "engines/torus/torus_coefficients.h"
 #include "engines/torus/torus_points.h"
 #include "engines/torus/torus_split.h"
 #include "engines/torus/torus_sums.h"
@@ -73,6 +74,11 @@ static ps_work work_of(const ps_torus_layout *layout, const ps_problem *problem)
         problem->frequencies->kind == PS_FREQUENCIES_BALL && problem->frequencies->dimension > 1;
     const double share = (double)problem->frequencies->num / (2 * left * right + left + right);
     const double of_list = 3; /* sums, their sum, powers */
+    const double read_back =
+        problem->harmonics == PS_NO_HARMONICS
+            ? 0
+            : ps_torus_coefficient_bytes(layout->is_grid ? (double)layout->max_pairs : 0,
+                                         (double)(layout->left_tiles + layout->right_tiles), lanes);
     return (ps_work){
         .kernels = of_list + (layout->is_grid ? 1 : 0),
         .phases = num_points * lanes * (double)(layout->left_tiles + layout->right_tiles),
@@ -81,7 +87,8 @@ static ps_work work_of(const ps_torus_layout *layout, const ps_problem *problem)
         .launches = ceil(realizations / (double)layout->group) *
                     (double)ps_divide_up((size_t)problem->num_points, layout->slab) *
                     (layout->is_grid ? 2 : 1),
-        .fixed_bytes = (double)layout->fixed_bytes,
+        .fixed_bytes = (double)layout->fixed_bytes + read_back,
+        .host_bytes = read_back,
         .point_bytes = (double)layout->point_bytes,
         .coordinate_bytes =
             (double)(layout->table_points * problem->frequencies->dimension * sizeof(uint64_t)),
@@ -339,6 +346,23 @@ static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_er
     return PSPEC_OK;
 }
 
+static pspec_status coefficients(void *state, const ps_batch *one, ps_rows *rows, double *out,
+                                 ps_error *error) {
+    static const double no_scale = 1;
+    torus_direct *self = state;
+    ps_batch batch = *one;
+    ps_rows unused = {0};
+    batch.scales = rows != NULL ? one->scales : &no_scale;
+    PS_TRY(run(state, &batch, rows != NULL ? rows : &unused, error));
+    const ps_torus_finished finished = {.frequencies = self->frequencies,
+                                        .split = self->layout.is_grid ? &self->split : NULL,
+                                        .products = &self->products,
+                                        .sums = &self->sums,
+                                        .precision = self->precision,
+                                        .exponent = one->exponents != NULL ? one->exponents[0] : 0};
+    return ps_torus_coefficients(&finished, self->device, out, error);
+}
+
 static void describe(const void *state, ps_text *text) {
     const torus_direct *self = state;
     const ps_torus_layout *layout = &self->layout;
@@ -366,6 +390,7 @@ const ps_engine ps_torus_direct = {
     .get_slots = get_slots,
     .get_stride = get_stride,
     .run = run,
+    .coefficients = coefficients,
     .describe = describe,
     .destroy = destroy,
 };

@@ -18,7 +18,7 @@ extern "C" {
  * there is; a table of the options comes from pspec_options_table(). The answer is that of the
  * program to the bit: the same engine, the same header, the same rows.
  *
- *     const pspec_option options[] = {{"sampler", "jittered"}, {"points", "1024"}, {"shells", NULL}};
+ *     const pspec_option options[] = {{"sampler", "jittered"}, {"points", "1024"}, {"bins", "floor"}};
  *     pspec_answer(&table, context, "power", options, 3);
  *
  * Device, memory limit, progress and cancelling are those of the context. The folder of measured

@@ -24,8 +24,13 @@ typedef struct pspec_power_request {
     int32_t max_frequency;     /**< K: all |k_i| <= K; unless there is a list */
     const int32_t *frequencies; /**< [num_frequencies][dimension], |k_i| <= 2^28, or NULL; copied */
     size_t num_frequencies;     /**< of the list */
-    int exact_shells;           /**< bins are shells |k|^2 = n instead of rings of width 1 */
-    int rings_only;             /**< leave out frequencies with |k|^2 > K^2 + K: 21 % less in 2-D */
+    /** how frequencies are put into bins: "round" (rings of width 1 about whole numbers), "floor",
+     * "width=P/Q", "relative=P/Q" (times N^(1/d), N being num_points, which every pattern must
+     * have), "shells" (|k|^2 = n); NULL, the default: "round" */
+    const char *bins;
+    /** leave out frequencies of bins that are not complete in the box, |k|^2 > K^2 + K by rounding:
+     * 21 % less in 2-D */
+    int rings_only;
     pspec_normalization normalization; /**< which power */
     double tolerance;      /**< numerical error of S relative to white noise; default 1e-6 */
     double floor;          /**< smallest power that must be right to 10 %; default 0: none */
@@ -116,7 +121,14 @@ PSPEC_EXPORT const char *pspec_plan_text(const pspec_plan *plan);
 PSPEC_EXPORT pspec_status pspec_plan_run(pspec_plan *plan, const pspec_pattern *patterns,
                                          size_t num_patterns);
 
-/** Coefficients of one pattern on the sphere, for plans of pspec_plan_create_angular():
+/** Coefficients of one pattern. For plans of pspec_plan_create()
+ *
+ *     S(k) = sum_j w_j exp(-2 pi i k.x_j)
+ *
+ * of the frequencies of the plan, in the order of pspec_spectrum_frequencies(), as pairs of real
+ * and imaginary part, by the engines torus_direct and host_direct, one of which the request must
+ * name (#PSPEC_ERROR_INVALID_ARGUMENT otherwise); hemispherical must be 0. For plans of
+ * pspec_plan_create_angular():
  *
  *     c_lm = sum_j w_j Y_lm(u_j),   l = 0..L, m = 0..l,   c_{l,-m} = (-1)^m conj c_lm
  *

@@ -46,7 +46,7 @@ static pspec_status create_parts(ps_estimator *self, ps_error *error) {
 
 static pspec_status create_arrays(ps_estimator *self, ps_error *error) {
     const ps_frequencies *set = self->options.problem.frequencies;
-    PS_TRY(ps_bins_create(&self->bins, set, self->options.exact_shells, error));
+    PS_TRY(ps_bins_create(&self->bins, set, error));
     PS_TRY(PS_NEW(&self->slots, set->num, "slots", error));
     PS_TRY(PS_NEW(&self->scales, self->batch, "scales", error));
     PS_TRY(PS_NEW(&self->exponents, self->batch, "exponents", error));
@@ -109,11 +109,13 @@ pspec_status ps_estimator_check(const ps_estimator *estimator, const pspec_patte
                             realization, sums, error);
 }
 
-/* Nothing but the coordinates could be wrong, and the engine sees them anyway. */
+/* Nothing but the coordinates could be wrong, and the engine sees them anyway. (Bins relative to a
+ * number of points want all sets to have it.) */
 static bool may_leave_checks(const ps_estimator *self, const pspec_pattern *patterns,
                              size_t num_patterns) {
     const unsigned dimension = self->options.problem.frequencies->dimension;
-    bool is_plain = self->options.engine->checks_points;
+    const bool is_relative = self->options.problem.frequencies->bins.kind == PS_BINS_RELATIVE;
+    bool is_plain = self->options.engine->checks_points && !is_relative;
     for (size_t r = 0; r < num_patterns; r++) {
         is_plain = is_plain && patterns[r].dimension == dimension && patterns[r].num_points > 0 &&
                    patterns[r].points != NULL && patterns[r].weights == NULL;

@@ -20,8 +20,7 @@ typedef struct ps_estimator_options {
     ps_problem problem; /* frequencies enumerated; num_points of the largest set so far known */
     const ps_engine *engine;
     ps_precision precision;
-    size_t batch; /* realizations at a time; halved when memory is refused */
-    bool exact_shells;
+    size_t batch;          /* realizations at a time; halved when memory is refused */
     bool want_frequencies; /* keep sums per frequency */
     bool mean_only; /* no sums of squares: every standard error is nan, means have the same bits */
     bool no_frequency_errors;  /* those of single frequencies are nan, means have the same bits */
@@ -29,9 +28,12 @@ typedef struct ps_estimator_options {
     ps_pair_observer observer; /* with want_c2: told of every realization */
     bool self_check;
     pspec_normalization normalization;
-    /* [ps_num_coefficients(L)] or NULL: where a realization that comes alone in its batch leaves
+    /* [ps_num_coefficients_at] or NULL: where a realization that comes alone in its batch leaves
      * its coefficients, of problem.harmonics; what there is to sum twice is summed once */
     double *coefficients;
+    /* Is given them, and the sum of the weights, after every such realization; may be NULL */
+    pspec_status (*keep)(void *payload, const double *coefficients, double weight_sum,
+                         ps_error *error);
     bool (*should_stop)(void *payload); /* asked every second or so; may be NULL, see ps_batch */
     void *payload;
     ps_log log; /* told of smaller batches and larger engines */
@@ -85,7 +87,7 @@ bool ps_estimator_can_stream(const ps_estimator *estimator);
 pspec_status ps_estimator_add_stream(ps_estimator *estimator, const ps_pattern_stream *stream,
                                      ps_error *error) PS_MUST_CHECK;
 
-/* Coefficients of one pattern as ps_engine.coefficients has them, out[ps_num_coefficients(L)]; the
+/* Coefficients of one pattern as ps_engine.coefficients has them, out[ps_num_coefficients_at]; the
  * averages do not change. Hemispherical harmonics are for points with z >= 0.
  * PSPEC_ERROR_INVALID_ARGUMENT where the engine has none, as on the torus. should_stop is asked as
  * while realizations are added. */

@@ -1,8 +1,9 @@
-/* Coefficients of one pattern on the sphere. */
+/* Coefficients of one pattern. */
 #include "base/memory.h"
 #include "jobs/parts/estimator_private.h"
 #include "math/hemisphere.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 /* vectors: [num_points][3], freed by the caller. */
@@ -44,12 +45,16 @@ static pspec_status run_stretched(ps_estimator *self, const ps_batch *one, doubl
 
 static pspec_status require_coefficients(const ps_estimator *self, ps_error *error) {
     const ps_engine *engine = self->options.engine;
-    return engine->coefficients != NULL && ps_problem_domain(&self->options.problem) == PS_ON_SPHERE
+    return engine->coefficients != NULL
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "coefficients are for points on the sphere, by an engine that has them; "
-                         "%s has none",
+                         "%s has no coefficients; ask the plan for an engine that has them",
                          engine->name);
+}
+
+static pspec_status keep_one(const ps_estimator *self, const ps_batch *one, ps_error *error) {
+    const double sum = ldexp(self->sums[0].weight_sum, one->exponents[0]);
+    return self->options.keep(self->options.payload, self->options.coefficients, sum, error);
 }
 
 pspec_status ps_estimator_run_with_coefficients(ps_estimator *self, const ps_batch *one,
@@ -58,7 +63,8 @@ pspec_status ps_estimator_run_with_coefficients(ps_estimator *self, const ps_bat
     double *out = self->options.coefficients;
     PS_TRY(require_coefficients(self, error));
     if (self->options.problem.harmonics != PS_HEMISPHERICAL_HARMONICS) {
-        return engine->coefficients(self->engine_state, one, rows, out, error);
+        PS_TRY(engine->coefficients(self->engine_state, one, rows, out, error));
+        return self->options.keep != NULL ? keep_one(self, one, error) : PSPEC_OK;
     }
     PS_TRY(run_stretched(self, one, out, error)); /* first: it refuses points below the horizon */
     return engine->run(self->engine_state, one, rows, error);

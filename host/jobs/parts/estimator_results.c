@@ -70,7 +70,6 @@ pspec_status ps_estimator_sums(ps_estimator *estimator, ps_spectrum_sums *out, p
     const ps_estimator_options *options = &estimator->options;
     PS_TRY(require_realizations(estimator, error));
     PS_TRY(ps_spectrum_sums_create(out, options->problem.frequencies, estimator->bins.num, error));
-    out->exact_shells = options->exact_shells;
     out->normalization = options->normalization;
     out->reference_points =
         options->normalization == PSPEC_NORMALIZATION_POWER ? estimator->reference_points : 1;

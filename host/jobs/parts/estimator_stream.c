@@ -90,6 +90,8 @@ pspec_status ps_estimator_add_stream(ps_estimator *estimator, const ps_pattern_s
                                   ps_problem_domain(&estimator->options.problem) == PS_ON_SPHERE};
     ps_rows rows = {0};
     PS_TRY(check_dimension(estimator, stream, error));
+    PS_TRY(ps_pattern_check_size(estimator->options.problem.frequencies, stream->num_points,
+                                 count.realization, error));
     PS_TRY(ps_estimator_get_ready(estimator, stream->num_points, error));
     ps_estimator_set_sums(estimator, 0, &stream->sums);
     PS_TRY(add_blocks(estimator, stream, &count, error));

@@ -146,6 +146,18 @@ pspec_status ps_pattern_count_finish(const ps_pattern_count *count,
     return PSPEC_OK;
 }
 
+pspec_status ps_pattern_check_size(const ps_frequencies *frequencies, uint64_t num_points,
+                                   uint64_t realization, ps_error *error) {
+    const ps_bin_rule *const bins = &frequencies->bins;
+    return bins->kind != PS_BINS_RELATIVE || bins->num_points == num_points
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INPUT,
+                         "set %llu has %llu points, and bins of %s are relative to %llu: all sets "
+                         "must have one number of points",
+                         (unsigned long long)realization + 1, (unsigned long long)num_points,
+                         ps_bin_rule_write(bins).text, (unsigned long long)bins->num_points);
+}
+
 pspec_status ps_pattern_check(const pspec_pattern *pattern, const ps_frequencies *frequencies,
                               pspec_normalization normalization, uint64_t realization,
                               ps_pattern_sums *sums, ps_error *error) {
@@ -160,6 +172,7 @@ pspec_status ps_pattern_check(const pspec_pattern *pattern, const ps_frequencies
         return ps_fail(error, PSPEC_ERROR_INPUT, "set %llu has no points",
                        (unsigned long long)realization + 1);
     }
+    PS_TRY(ps_pattern_check_size(frequencies, pattern->num_points, realization, error));
     PS_TRY(ps_pattern_count_add(&count, pattern, error));
     return ps_pattern_count_finish(&count, normalization, sums, error);
 }

@@ -60,6 +60,9 @@ pspec_status ps_pattern_check_largest(double largest, uint64_t realization,
  * precision and printed coordinates leave. */
 #define PS_UNIT_LENGTH_SLACK 1e-6
 
+/* Bins relative to a number of points want every set to have it. */
+pspec_status ps_pattern_check_size(const ps_frequencies *frequencies, uint64_t num_points,
+                                   uint64_t realization, ps_error *error) PS_MUST_CHECK;
 /* All of it, for a pattern in memory whose spectrum at these frequencies is asked for. */
 pspec_status ps_pattern_check(const pspec_pattern *pattern, const ps_frequencies *frequencies,
                               pspec_normalization normalization, uint64_t realization,

@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -240,6 +241,16 @@ static pspec_status open_next(ps_source *source, ps_error *error) {
     return add_name(&source->formats, ps_points_format(source->reader), error);
 }
 
+/* "xy", or "xy (columns x,y)" where a text has others. */
+static pspec_status add_columns(ps_source *source, ps_error *error) {
+    char text[192];
+    const char *const chosen = ps_points_chosen(source->reader);
+    snprintf(text, sizeof text, "%s%s%s%s", ps_points_columns(source->reader),
+             chosen != NULL ? " (columns " : "", chosen != NULL ? chosen : "",
+             chosen != NULL ? ")" : "");
+    return add_name(&source->columns, text, error);
+}
+
 static pspec_status next_from_files(ps_source *source, ps_point_set *set, ps_source_part *part,
                                     bool *has_set, ps_error *error) {
     *has_set = false;
@@ -255,7 +266,7 @@ static pspec_status next_from_files(ps_source *source, ps_point_set *set, ps_sou
         source->is_inside = true;
         PS_TRY(ps_source_more(source, set, FIRST_POINTS, &part->is_whole, error));
         *has_set = set->num_points > 0;
-        PS_TRY(add_name(&source->columns, ps_points_columns(source->reader), error));
+        PS_TRY(add_columns(source, error));
         if (!*has_set) {
             ps_points_close(source->reader);
             source->reader = NULL;

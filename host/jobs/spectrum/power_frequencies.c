@@ -55,6 +55,7 @@ static pspec_status read_list(ps_frequencies *out, const char *path, uint64_t me
 pspec_status ps_power_frequencies(ps_frequencies *out, const ps_power_question *question,
                                   unsigned dimension, size_t num_points, ps_error *error) {
     int32_t max_frequency = question->frequencies.max_frequency;
+    ps_bin_rule bins = question->frequencies.bins;
     if (question->on_sphere) {
         return choose_degrees(out, question, num_points, error);
     }
@@ -66,15 +67,16 @@ pspec_status ps_power_frequencies(ps_frequencies *out, const ps_power_question *
         PS_TRY(default_max_frequency(&max_frequency, dimension, num_points,
                                      question->limits.constraints.offers, error));
     }
+    ps_bin_rule_resolve(&bins, dimension, num_points);
     if (question->frequencies.per_ring > 0) {
         const ps_frequency_sample sample = {.dimension = dimension,
                                             .max_frequency = max_frequency,
-                                            .exact_shells = question->frequencies.exact_shells,
+                                            .bins = bins,
                                             .per_ring = question->frequencies.per_ring,
                                             .seed = question->per_ring_seed};
         return ps_frequencies_sample(out, &sample, error);
     }
     const bool only_ball = !question->wants_full_array && !question->accuracy.no_skip;
-    return ps_frequencies_grid(out, dimension, max_frequency, only_ball,
+    return ps_frequencies_grid(out, dimension, max_frequency, only_ball, &bins,
                                question->limits.constraints.offers, error);
 }

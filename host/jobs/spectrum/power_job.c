@@ -115,12 +115,12 @@ static pspec_status prepare(ps_power_job *job, ps_error *error) {
     if (question->sampler != NULL) {
         PS_TRY(open_sampler(job, error));
     }
+    const bool has_only_set = question->on_sphere && question->harmonics != PS_NO_HARMONICS;
     job->problem = (ps_problem){
         .frequencies = &job->frequencies,
         .num_points = job->num_points,
         .planned_points = job->num_points,
-        .num_realizations =
-            question->harmonics != PS_NO_HARMONICS ? 1 : ps_power_needs_realizations(job),
+        .num_realizations = has_only_set ? 1 : ps_power_needs_realizations(job),
         .harmonics = question->harmonics,
         .has_weights = job->sets.next.has_weights || job->sets.weights != NULL,
         .block_points =
@@ -156,6 +156,7 @@ void ps_power_job_destroy(ps_power_job *job) {
     ps_spectrum_free(&job->spectrum);
     ps_text_free(&job->description);
     free(job->coefficients);
+    free(job->kept);
     free(job->c2);
     free(job->means);
     ps_frequencies_free(&job->frequencies);
@@ -172,36 +173,16 @@ static ps_estimator_options choose_options(void *payload) {
     const ps_power_job *const job = payload;
     const ps_power_question *const question = job->question;
     return (ps_estimator_options){
-        .exact_shells = question->frequencies.exact_shells,
         .want_frequencies = !question->on_sphere, /* anisotropy needs them, too */
         .no_frequency_errors = job->needs.no_frequency_errors,
         .self_check = !question->accuracy.no_self_check,
         .normalization = question->normalization,
         .coefficients = job->coefficients,
+        .keep = question->on_sphere ? NULL : ps_power_coefficients_keep,
         .want_c2 = question->wants_pair_sums,
         .should_stop = should_stop,
         .payload = payload,
     };
-}
-
-/* What can be refused is refused before the work. */
-static pspec_status make_room_for_coefficients(ps_power_job *job, ps_error *error) {
-    if (job->num_realizations > 1) { /* of a sampler; how many sets files have is not known yet */
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "coefficients are of one set, but there are %llu realizations",
-                       (unsigned long long)job->num_realizations);
-    }
-    PS_TRY(PS_NEW(&job->coefficients, ps_num_coefficients(job->frequencies.max_frequency),
-                  "the coefficients", error));
-    return PSPEC_OK;
-}
-
-static pspec_status require_one_set(const ps_power_job *job, uint64_t num_sets, ps_error *error) {
-    return job->coefficients == NULL || num_sets <= 1
-               ? PSPEC_OK
-               : ps_fail(
-                     error, PSPEC_ERROR_INVALID_ARGUMENT,
-                     "coefficients are of one set, but there are more; --select-sets chooses one");
 }
 
 static pspec_status look_at_errors(void *payload, double *largest, ps_error *error) {
@@ -223,6 +204,7 @@ static pspec_status plan(void *payload, ps_error *error) {
 
 static pspec_status begin(void *payload, ps_error *error) {
     ps_power_job *const job = payload;
+    job->num_kept = 0;
     return ps_power_sets_allocate(&job->sets, ps_estimator_batch(job->runner.estimator), error);
 }
 
@@ -241,7 +223,7 @@ static pspec_status give(void *payload, uint64_t most, size_t *num, ps_error *er
     } else {
         PS_TRY(ps_estimator_add(estimator, sets->patterns, NULL, *num, error));
     }
-    return require_one_set(job, job->runner.num_done + *num, error);
+    return ps_power_coefficients_check(job, job->runner.num_done + *num, error);
 }
 
 /* The measured powers make the error larger than the tolerance, and there is a plan for them. */
@@ -304,10 +286,8 @@ static pspec_status finish(ps_power_job *job, ps_error *error) {
 
 pspec_status ps_power_job_run(ps_power_job *job, ps_error *error) {
     PS_TRY(ps_plan_require(&job->plan, &job->problem, error));
-    if (job->question->harmonics != PS_NO_HARMONICS) {
-        PS_TRY(make_room_for_coefficients(job, error));
-    }
     PS_TRY(ps_frequencies_enumerate(&job->frequencies, error));
+    PS_TRY(ps_power_coefficients_begin(job, error));
     job->runner = (ps_runner){.kind = &kind,
                               .job = job,
                               .problem = &job->problem,

@@ -40,8 +40,9 @@ typedef struct ps_power_question {
     bool wants_full_array;
 
     /* result */
-    bool wants_pair_sums;   /* on the sphere: Q(l) itself, weights 1/N unless given, and C_l^2 */
-    ps_harmonics harmonics; /* whose coefficients are wanted, of the only set, on the sphere */
+    bool wants_pair_sums; /* on the sphere: Q(l) itself, weights 1/N unless given, and C_l^2 */
+    /* whose coefficients are wanted: on the sphere of the only set, on the torus of every one */
+    ps_harmonics harmonics;
     pspec_normalization normalization;
     ps_accuracy_spec accuracy; /* the tolerance is of S, or of Q(l) */
     bool may_loosen; /* the tolerance, to what standard error and floor need; not for pair sums */
@@ -84,6 +85,9 @@ const char *ps_power_job_description(const ps_power_job *job);
 /* c_lm as ps_engine.coefficients has them, [ps_num_coefficients(L)]; NULL unless they were asked
  * for. */
 const double *ps_power_job_coefficients(const ps_power_job *job);
+/* S(k) on the torus, [*num_sets][1 + number of frequencies][2], S(0) = W first; NULL unless asked
+ * for. */
+const double *ps_power_job_amplitudes(const ps_power_job *job, size_t *num_sets);
 /* The bin of the largest standard error when the realizations ended; NULL unless
  * question.accuracy.standard_error was asked for, and with one realization that stands for all. */
 const ps_sequential_look *ps_power_job_look(const ps_power_job *job);

@@ -21,11 +21,23 @@ struct ps_power_job {
     ps_plan plan;
     ps_runner runner;
     ps_spectrum spectrum;
-    double *coefficients;
+    double *coefficients; /* of a realization */
+    /* On the torus [num_kept][1 + number of frequencies][2], S(0) first; room for so many */
+    double *kept;
+    size_t num_kept, kept_room;
     ps_mean *c2;
     ps_text description;
     ps_mean *means; /* [all bins] for looks at the standard error */
     ps_sequential_look look;
 };
+
+/* Memory for the coefficients that were asked for, if any; frequencies are enumerated. */
+pspec_status ps_power_coefficients_begin(ps_power_job *job, ps_error *error) PS_MUST_CHECK;
+/* ps_estimator_options.keep on the torus; payload is the job. */
+pspec_status ps_power_coefficients_keep(void *payload, const double *coefficients,
+                                        double weight_sum, ps_error *error) PS_MUST_CHECK;
+/* Are so many sets not too many? */
+pspec_status ps_power_coefficients_check(const ps_power_job *job, uint64_t num_sets,
+                                         ps_error *error) PS_MUST_CHECK;
 
 #endif

@@ -8,13 +8,15 @@ static bool folding_matters(const ps_power_question *question) {
            !question->on_hemisphere;
 }
 
-/* Independent frequencies of the first ring, |k|^2 <= 2, or shell, or of the first degree. */
+/* Independent frequencies of the first ring, those of |k|^2 <= 2 where it has both norms; of the
+ * first shell or degree. */
 static double count_fewest(const ps_power_job *job) {
     const double d = job->dimension;
     if (job->question->on_sphere) {
         return job->question->on_hemisphere ? 2.5 : 1.5;
     }
-    return job->question->frequencies.exact_shells ? d : d * d;
+    const ps_bin_rule *const bins = &job->frequencies.bins;
+    return ps_bin_rule_find(bins, 1) == ps_bin_rule_find(bins, 2) ? d * d : d;
 }
 
 void ps_power_needs_find(ps_power_job *job) {
@@ -29,6 +31,7 @@ void ps_power_needs_find(ps_power_job *job) {
     const ps_needs_question needs = {
         .dimension = job->dimension,
         .max_frequency = is_grid ? job->frequencies.max_frequency : 0,
+        .max_norm2 = job->frequencies.max_norm2,
         .on_sphere = question->on_sphere,
         .on_hemisphere = question->on_hemisphere,
         .wants_full_array = question->wants_full_array,

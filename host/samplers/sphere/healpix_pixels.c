@@ -11,7 +11,7 @@
 #include "samplers/sphere/healpix_pixels.h"
 
 #include "base/text.h"
-#include "samplers/sphere.h"
+#include "math/lift.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 #include "samplers/sphere/spherical_fibonacci.h"
 
-#include "samplers/sphere.h"
+#include "math/lift.h"
 
 /* 2^128/Phi to the nearest whole number: j times its error stays below one unit of 2^-64 for any j
  * of 64 bits, where a constant of 64 bits is off by 2.5e-14 of a turn at j = 1e7 already. */

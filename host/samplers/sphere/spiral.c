@@ -3,7 +3,7 @@
 #include "samplers/list.h"
 
 #include "math/pi.h"
-#include "samplers/sphere.h"
+#include "math/lift.h"
 #include "samplers/values.h"
 
 #include <math.h>

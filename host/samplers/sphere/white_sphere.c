@@ -3,7 +3,7 @@
 #include "samplers/list.h"
 
 #include "math/random/random.h"
-#include "samplers/sphere.h"
+#include "math/lift.h"
 #include "samplers/values.h"
 
 static pspec_status generate(const ps_sampler_request *request, uint64_t realization,
@@ -11,7 +11,7 @@ static pspec_status generate(const ps_sampler_request *request, uint64_t realiza
     (void)error;
     ps_random random = ps_random_init(request->seed, PS_STREAM_COORDINATES, realization);
     ps_random_fill_uniform(&random, points, 2 * request->num_points);
-    ps_sphere_lift(PS_SAMPLES_SPHERE, request->num_points, points);
+    ps_sphere_lift(false, request->num_points, points);
     return PSPEC_OK;
 }
 

@@ -6,7 +6,7 @@
 
 #include "math/pi.h"
 #include "math/random/random.h"
-#include "samplers/sphere.h"
+#include "math/lift.h"
 #include "samplers/torus/strata.h"
 #include "samplers/values.h"
 
@@ -93,7 +93,7 @@ static pspec_status generate(const ps_sampler_request *request, uint64_t realiza
     ps_random random = ps_random_init(request->seed, PS_STREAM_COORDINATES, realization);
     ps_random_fill_uniform(&random, points, NUM_AXES * request->num_points);
     ps_strata_place(&plane, counts, points);
-    ps_sphere_lift(PS_SAMPLES_SPHERE, request->num_points, points);
+    ps_sphere_lift(false, request->num_points, points);
     return PSPEC_OK;
 }
 

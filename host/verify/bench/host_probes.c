@@ -225,7 +225,7 @@ static pspec_status enumerate(ps_probe_data *data, const ps_probe *what, double 
     PS_TRY(ps_frequencies_lattice(&grid, 2, K, true, error));
     pspec_status status = ps_frequencies_enumerate(&grid, error);
     if (status == PSPEC_OK) {
-        status = ps_bins_create(&bins, &grid, false, error);
+        status = ps_bins_create(&bins, &grid, error);
     }
     *predicted = predict(what, (double)grid.num);
     ps_bins_free(&bins);

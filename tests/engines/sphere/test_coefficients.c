@@ -93,7 +93,8 @@ static void hemispherical_harmonics(void **state) {
     pspec_plan_destroy(plan);
     const pspec_power_request power = test_host_request();
     assert_int_equal(pspec_plan_create(&plan, context, &power), PSPEC_OK);
-    assert_int_equal(pspec_plan_coefficients(plan, &pattern, 0, c), PSPEC_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(pspec_plan_coefficients(plan, &pattern, 0, c), PSPEC_ERROR_INPUT);
+    assert_int_equal(pspec_plan_coefficients(plan, &pattern, 1, c), PSPEC_ERROR_INVALID_ARGUMENT);
     pspec_plan_destroy(plan);
     pspec_context_destroy(context);
 }

@@ -33,7 +33,7 @@ static void complete_rings_have_the_same_bits(void **state) {
         pspec_power_request request = request_of(dimension, 3, 0);
         request.rings_only = 1;
         for (int shells = 0; shells <= 1; shells++) {
-            request.exact_shells = shells;
+            request.bins = shells ? "shells" : "round";
             request.per_ring = 0;
             pspec_spectrum *all = spectrum_of(context, &request, 3, 20);
             request.per_ring = 100000;
@@ -119,7 +119,7 @@ static void peaks_of_a_grid(void **state) {
     const pspec_pattern pattern = {DIMENSION, NUM, &points[0][0], NULL};
     pspec_context *context = pspec_context_create();
     pspec_power_request request = request_of(DIMENSION, 2, 40);
-    request.exact_shells = 1;
+    request.bins = "shells";
     double sum = 0;
     double squares = 0;
     for (uint64_t seed = 0; seed < SEEDS; seed++) {
@@ -160,7 +160,7 @@ static void saving_and_merging(void **state) {
     pspec_power_request request = request_of(4, 4, 12);
     test_path(*state, "sample", path);
     for (int shells = 0; shells <= 1; shells++) {
-        request.exact_shells = shells;
+        request.bins = shells ? "shells" : "round";
         pspec_spectrum *whole = test_public_spectrum(context, &request, what.patterns, 5);
         pspec_spectrum *parts[] = {test_public_spectrum(context, &request, what.patterns, 2),
                                    test_public_spectrum(context, &request, what.patterns + 2, 3)};

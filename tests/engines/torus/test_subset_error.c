@@ -105,7 +105,7 @@ typedef struct trial {
 
 static void draw(trial *t, uint64_t seed, uint64_t *size) {
     ps_frequencies set = {0};
-    const ps_frequency_sample sample = {DIMENSION, RING, false, PER_RING, seed};
+    const ps_frequency_sample sample = {DIMENSION, RING, {.kind = PS_BINS_ROUND}, PER_RING, seed};
     assert_ok(ps_frequencies_sample(&set, &sample, error));
     *size = set.rings[RING - 1].num_frequencies;
     t->num = PER_RING;

@@ -139,7 +139,7 @@ static void check_rings(const test_set *set, const ps_engine *engine, ps_precisi
     ps_bins bins = {0};
     assert_ok(ps_frequencies_lattice(&grid, set->dimension, num_rings, true, error));
     assert_ok(ps_frequencies_enumerate(&grid, error));
-    assert_ok(ps_bins_create(&bins, &grid, false, error));
+    assert_ok(ps_bins_create(&bins, &grid, error));
     double *squares =
         test_run_engine_to(engine, precision, asked_of(precision), device, &grid, &pattern, 1, 1);
     assert_int_equal(bins.num_reported, num_rings);

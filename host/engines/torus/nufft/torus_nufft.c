@@ -21,6 +21,9 @@ static const char *refuse(const ps_problem *problem) {
     if (set->kind == PS_FREQUENCIES_LIST) {
         return "full grids only, not lists of frequencies";
     }
+    if (problem->harmonics != PS_NO_HARMONICS) {
+        return "makes powers only, no coefficients S(k)";
+    }
     if (set->dimension > 3) {
         return "up to three dimensions only";
     }

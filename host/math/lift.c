@@ -1,4 +1,4 @@
-#include "samplers/sphere.h"
+#include "math/lift.h"
 
 #include <math.h>
 
@@ -6,9 +6,9 @@ ps_height ps_height_of_ratio(double numerator, double denominator) {
     return (ps_height){numerator / denominator, (denominator - fabs(numerator)) / denominator};
 }
 
-ps_height ps_height_of_area(ps_sampler_domain domain, double x) {
+ps_height ps_height_of_area(bool on_hemisphere, double x) {
     /* Doubling is exact, and so is 1 - x from 1/2 on: each number is rounded once at most. */
-    if (domain == PS_SAMPLES_HEMISPHERE) {
+    if (on_hemisphere) {
         return (ps_height){x, 1 - x};
     }
     return (ps_height){2 * x - 1, 2 * (x < 1 - x ? x : 1 - x)};
@@ -24,12 +24,12 @@ void ps_sphere_point(ps_height height, ps_turns azimuth, double point[PS_VECTOR_
     point[2] = height.z + 0.0;
 }
 
-void ps_sphere_lift(ps_sampler_domain domain, size_t num_points, double *points) {
+void ps_sphere_lift(bool on_hemisphere, size_t num_points, double *points) {
     for (size_t j = num_points;
          j-- > 0;) { /* from the end: a vector takes more room than its pair */
         const double x = points[2 * j];
         const double y = points[2 * j + 1];
-        ps_sphere_point(ps_height_of_area(domain, x), ps_turns_of(y),
+        ps_sphere_point(ps_height_of_area(on_hemisphere, x), ps_turns_of(y),
                         points + PS_VECTOR_DIMENSION * j);
     }
 }

@@ -1,0 +1,270 @@
+#include "points/text_header.h"
+
+#include "base/text.h"
+#include "files/decimal.h"
+#include "files/text_lines.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---- fields ------------------------------------------------------------------------------ */
+
+typedef struct field {
+    const char *text;
+    size_t length;
+} field;
+
+static bool ends_field(const char *text, char separator, bool is_quoted) {
+    if (ps_ends_line(text) || *text == '\n') {
+        return true;
+    }
+    return is_quoted ? *text == '"' : *text == separator || (separator == ' ' && *text == '\t');
+}
+
+/* The next field of a line, without quotes and blanks around it; false behind the last. Between
+ * blanks there are no empty fields. *text is moved behind the field and its separator; *is_more:
+ * a separator was there, so that another field follows, which may be empty. */
+static bool next_field(const char **text, char separator, bool *is_more, field *out) {
+    const char *at = ps_skip_blanks(*text);
+    if (ps_ends_line(at) && (separator == ' ' || !*is_more)) {
+        return false;
+    }
+    const bool is_quoted = *at == '"';
+    at += is_quoted;
+    out->text = at;
+    while (!ends_field(at, separator, is_quoted)) {
+        at++;
+    }
+    out->length = (size_t)(at - out->text);
+    while (!is_quoted && out->length > 0 && strchr(" \t", out->text[out->length - 1]) != NULL) {
+        out->length--;
+    }
+    at = ps_skip_blanks(at + (is_quoted && *at == '"'));
+    *is_more = separator != ' ' && *at == separator;
+    *text = at + *is_more;
+    return true;
+}
+
+static bool is_number(field token) {
+    double value = 0;
+    return token.length > 0 && ps_decimal_parse(token.text, &value) == token.text + token.length;
+}
+
+static bool is_not_finite(field token) {
+    return ps_token_is_not_finite(token.text, token.length);
+}
+
+/* Printable text that begins with a letter, of any alphabet. */
+static bool is_name(field token) {
+    const unsigned char first = token.length > 0 ? (unsigned char)token.text[0] : 0;
+    const unsigned char beyond_ascii = 0x80;
+    for (size_t i = 0; i < token.length;) {
+        const size_t bytes = ps_text_character(token.text + i);
+        if (bytes == 0) {
+            return false;
+        }
+        i += bytes;
+    }
+    return (isalpha(first) != 0 || first == '_' || first >= beyond_ascii) && !is_not_finite(token);
+}
+
+bool ps_text_header_is(const char *line, char separator) {
+    field token;
+    bool is_more = true;
+    unsigned num_names = 0;
+    unsigned num_numbers = 0;
+    unsigned num_empty = 0;
+    unsigned num = 0;
+    bool begins_empty = false;
+    for (; next_field(&line, separator, &is_more, &token); num++) {
+        begins_empty = begins_empty || (num == 0 && token.length == 0);
+        num_names += is_name(token);
+        num_numbers += is_number(token);
+        num_empty += token.length == 0;
+    }
+    /* ",0,1" are labels beside an index, which has none */
+    return num_names + num_empty + (begins_empty ? num_numbers : 0) == num && num_empty < num &&
+           num_names + num_numbers > 0;
+}
+
+/* ---- which columns ----------------------------------------------------------------------- */
+
+static bool is_same(field token, const char *name, size_t length) {
+    return token.length == length && strncmp(token.text, name, length) == 0;
+}
+
+static bool is_index(field token) {
+    static const char unnamed[] = "Unnamed: 0"; /* an index that was read and written again */
+    return token.length == 0 || is_same(token, unnamed, sizeof unnamed - 1);
+}
+
+static void show_names(ps_text *out, const field *names, unsigned num) {
+    for (unsigned i = 0; i < num; i++) {
+        ps_text_append(out, "%s\"%.*s\"", i > 0 ? ", " : "", (int)names[i].length, names[i].text);
+    }
+}
+
+static pspec_status fail_name(const field *names, unsigned num, const char *name, size_t length,
+                              const char *where, ps_error *error) {
+    ps_text list = {0};
+    show_names(&list, names, num);
+    const pspec_status status =
+        ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                "%s: there is no column \"%.*s\", or it is named twice; the names are %.300s",
+                where, (int)length, name, ps_text_string(&list));
+    ps_text_free(&list);
+    return status;
+}
+
+static void choose(ps_text_header *out, unsigned column, field name) {
+    const size_t used = strlen(out->used);
+    out->places[column] = (short)out->num_chosen++;
+    snprintf(out->used + used, sizeof out->used - used, "%s%.*s", used > 0 ? "," : "",
+             (int)name.length, name.text);
+}
+
+/* "x,y" */
+static pspec_status choose_named(ps_text_header *out, const field *names, const char *wanted,
+                                 const char *where, ps_error *error) {
+    while (*wanted != '\0') {
+        const size_t length = strcspn(wanted, ",");
+        unsigned found = 0;
+        while (found < out->num_columns && !is_same(names[found], wanted, length)) {
+            found++;
+        }
+        if (found == out->num_columns || out->places[found] >= 0) {
+            return fail_name(names, out->num_columns, wanted, length, where, error);
+        }
+        choose(out, found, names[found]);
+        wanted += length + (wanted[length] == ',');
+    }
+    return PSPEC_OK;
+}
+
+static unsigned count_fields(const char *line, char separator) {
+    field token;
+    bool is_more = true;
+    unsigned num = 0;
+    while (next_field(&line, separator, &is_more, &token)) {
+        num++;
+    }
+    return num;
+}
+
+/* names[0] is empty where the header has a name less than rows have columns: an index. */
+static pspec_status read_names(ps_text_header *out, field names[PS_MOST_FILE_COLUMNS],
+                               const char *line, unsigned num_fields, char separator,
+                               const char *where, ps_error *error) {
+    const unsigned num_names = count_fields(line, separator);
+    const unsigned first = num_fields == num_names + 1 ? 1 : 0;
+    bool is_more = true;
+    if (num_fields > PS_MOST_FILE_COLUMNS || num_names + first != num_fields) {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "%s: %u names of columns, but the line after it has %u (at most %d)", where,
+                       num_names, num_fields, PS_MOST_FILE_COLUMNS);
+    }
+    names[0] = (field){line, 0};
+    for (unsigned i = first; i < num_fields; i++) {
+        next_field(&line, separator, &is_more, &names[i]);
+    }
+    out->num_columns = num_fields;
+    return PSPEC_OK;
+}
+
+pspec_status ps_text_header_read(ps_text_header *out, const char *line, const char *row,
+                                 char separator, const char *names, const char *where,
+                                 ps_error *error) {
+    field found[PS_MOST_FILE_COLUMNS];
+    *out = (ps_text_header){.is_there = true};
+    PS_TRY(read_names(out, found, line, count_fields(row, separator), separator, where, error));
+    for (unsigned i = 0; i < out->num_columns; i++) {
+        out->places[i] = -1;
+    }
+    if (names != NULL) {
+        PS_TRY(choose_named(out, found, names, where, error));
+    }
+    for (unsigned i = 0; names == NULL && i < out->num_columns; i++) {
+        if (i > 0 || out->num_columns == 1 || !is_index(found[i])) {
+            choose(out, i, found[i]);
+        }
+    }
+    out->chooses = out->num_chosen < out->num_columns;
+    for (unsigned i = 0; i < out->num_columns; i++) {
+        out->chooses = out->chooses || out->places[i] != (short)i;
+    }
+    return out->num_chosen > 0 && out->num_chosen <= PS_MAX_COLUMNS
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INPUT,
+                         "%s: %u columns; at most %d dimensions are read (--columns chooses among "
+                         "them by name)",
+                         where, out->num_chosen, PS_MAX_DIMENSION);
+}
+
+const char *ps_text_header_layout(const ps_text_header *header) {
+    static const struct {
+        const char *names, *layout;
+    } known[] = {{"x,y", "xy"},
+                 {"x,y,w", "xyw"},
+                 {"x,y,weight", "xyw"},
+                 {"x,y,z", "xyz"},
+                 {"x,y,z,w", "xyzw"},
+                 {"x,y,z,weight", "xyzw"},
+                 {"theta,phi", "theta-phi"},
+                 {"theta,phi,w", "theta-phi-w"},
+                 {"theta,phi,weight", "theta-phi-w"},
+                 {"phi,theta", "phi-theta"},
+                 {"phi,theta,w", "phi-theta-w"},
+                 {"phi,theta,weight", "phi-theta-w"},
+                 {"lon,lat", "lon-lat"},
+                 {"lon,lat,w", "lon-lat-w"},
+                 {"lon,lat,weight", "lon-lat-w"}};
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+        if (strcmp(header->used, known[i].names) == 0) {
+            return known[i].layout;
+        }
+    }
+    return NULL;
+}
+
+/* ---- rows -------------------------------------------------------------------------------- */
+
+const char *ps_text_header_row(const ps_text_header *header, const char *line, char separator,
+                               double *row) {
+    field token;
+    bool is_more = true;
+    unsigned column = 0;
+    while (next_field(&line, separator, &is_more, &token)) {
+        if (column >= header->num_columns) {
+            return NULL;
+        }
+        const short place = header->places[column++];
+        if (place >= 0 && (token.length == 0 || ps_decimal_parse(token.text, &row[place]) !=
+                                                    token.text + token.length)) {
+            return NULL;
+        }
+    }
+    line += *line == '\r';
+    return column == header->num_columns && *line == '\n' ? line : NULL;
+}
+
+pspec_status ps_text_header_refuse(const ps_text_header *header, const char *line, char separator,
+                                   const char *where, ps_error *error) {
+    const unsigned num = count_fields(line, separator);
+    char shown[PS_TOKEN_BYTES];
+    field token;
+    bool is_more = true;
+    if (num != header->num_columns) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s: %u column%s, where the header names %u",
+                       where, num, num == 1 ? "" : "s", header->num_columns);
+    }
+    for (unsigned i = 0; i < num; i++) {
+        next_field(&line, separator, &is_more, &token);
+        if (header->places[i] >= 0 && !is_number(token)) {
+            break;
+        }
+    }
+    return ps_fail(error, PSPEC_ERROR_INPUT, "%s: \"%s\" is not a %snumber", where,
+                   ps_token_show(shown, token.text, token.length),
+                   is_not_finite(token) ? "finite " : "");
+}

@@ -1,0 +1,44 @@
+/* A line of names before rows of numbers, as data frames are written: which columns of the file are
+ * read, by their names or without an index. Private to host/points. */
+#ifndef PS_POINTS_TEXT_HEADER_H
+#define PS_POINTS_TEXT_HEADER_H
+
+#include "base/status.h"
+#include "points/columns.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* More columns than a data frame of points has. */
+enum { PS_MOST_FILE_COLUMNS = 64 };
+
+typedef struct ps_text_header {
+    bool is_there;
+    unsigned num_columns; /* of the file */
+    unsigned num_chosen;
+    bool chooses;                       /* not all columns as they stand */
+    short places[PS_MOST_FILE_COLUMNS]; /* of each column in a row; -1: it is passed over */
+    char used[128];                     /* "x,y", the names of the chosen ones */
+} ps_text_header;
+
+/* Is this line one of names? They begin with letters, and numbers are among them only behind the
+ * empty name of an index. */
+bool ps_text_header_is(const char *line, char separator);
+
+/* Reads the names at line and looks at the row after it; where: "FILE, line 1". names: the chosen
+ * ones, separated by commas, or NULL: all but an index. */
+pspec_status ps_text_header_read(ps_text_header *out, const char *line, const char *row,
+                                 char separator, const char *names, const char *where,
+                                 ps_error *error) PS_MUST_CHECK;
+
+/* The layout that the names of the chosen columns mean ("xyw", "theta-phi"), or NULL. */
+const char *ps_text_header_layout(const ps_text_header *header);
+
+/* The chosen numbers of a line, or NULL where it is no such row; returns its '\n'. */
+const char *ps_text_header_row(const ps_text_header *header, const char *line, char separator,
+                               double *row);
+/* Why it is none. */
+pspec_status ps_text_header_refuse(const ps_text_header *header, const char *line, char separator,
+                                   const char *where, ps_error *error) PS_MUST_CHECK;
+
+#endif

@@ -1,0 +1,50 @@
+#!/usr/bin/env bash
+# cli_terminal.sh PROGRAM: tables on a terminal are for people, and those in files and pipes for programs.
+# shellcheck source=tests/harness/harness.sh
+. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../harness/harness.sh" power "$1"
+words=(power --sampler jittered -n 64 -m 4 -k 5 --engine host_direct)
+
+# The same words on a terminal of its own, without its carriage returns.
+on_terminal() {
+    local line
+    printf -v line ' %q' "$program" "$@"
+    script -qec "$line" /dev/null </dev/null 2>err | tr -d '\r'
+}
+
+if ! command -v script >/dev/null; then
+    echo "cli_terminal: no script(1): skipped"
+    exit 0
+fi
+"$program" "${words[@]}" >piped.csv
+"$program" "${words[@]}" --format text >piped.txt
+[[ $(grep -v '^#' piped.csv | head -1) == bin,frequency,* ]] || complain "a pipe has no CSV: $(<piped.csv)"
+on_terminal "${words[@]}" >shown
+cmp -s <(grep -v '^command' shown) <(grep -v '^command' piped.txt) || complain "a terminal shows other than --format text: $(diff shown piped.txt)"
+on_terminal "${words[@]}" --format csv >shown
+cmp -s <(grep -v '^# command' shown) <(grep -v '^# command' piped.csv) || complain "--format csv does not win on a terminal"
+on_terminal "${words[@]}" -o file.csv >shown
+[[ ! -s shown ]] || complain "a table for a file is shown: $(<shown)"
+cmp -s <(grep -v '^# command' file.csv) <(grep -v '^# command' piped.csv) || complain "a file is written otherwise on a terminal"
+
+# columns end at one place: numbers to the right, six digits, no blanks at ends of lines
+sed '1,/^$/d' piped.txt >rows
+[[ $(wc -l <rows) == 6 && $(awk '{ print length }' rows | sort -u | wc -l) == 1 ]] || complain "columns are not aligned: $(<rows)"
+! grep -q ' $' piped.txt || complain "blanks at the end of a line"
+for column in 2 5; do
+    [[ $(awk -v c=$column 'NR > 1 { printf "%s ", $c }' rows) == "$(grep -v '^#' piped.csv | awk -F, -v c=$column 'NR > 1 { printf "%.6g ", $c }')" ]] ||
+        complain "column $column has other numbers"
+done
+
+# units, blocks, and what is missing
+on_terminal plan "${words[@]}" >shown
+grep -qE '^host_direct:extended +chosen +[0-9.]+ (ms|s) +[0-9.]+ (B|kB) ' shown || complain "no units in a plan: $(<shown)"
+grep -qE '^seconds: [0-9.]+ s$' shown || complain "no unit of all seconds: $(grep '^seconds' shown)"
+on_terminal devices >shown
+[[ $(grep -cE '^name +[^ ]|^global_bytes +[0-9.]+ [GMT]B$' shown) == $((2 * $(grep -c '^index ' shown))) ]] || complain "devices are no blocks: $(<shown)"
+"$program" power --sampler white -n 16 -k 2 --engine host_direct --format text >one.txt
+[[ $(tail -1 one.txt | awk '{ print $6 }') == - ]] || complain "a missing number is not shown: $(tail -1 one.txt)"
+runs 2 "${words[@]:1}" -o out.txt
+says 'none of .csv, .json, .jsonl and .npy'
+runs 0 "${words[@]:1}" --format text -o out.txt
+cmp -s <(grep -v '^command' out.txt) <(grep -v '^command' piped.txt) || complain "--format text into a file differs"
+finish
