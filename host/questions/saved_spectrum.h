@@ -11,7 +11,7 @@
 #include <stdint.h>
 
 typedef struct ps_saved_bin {
-    int64_t key;                  /* ring number, |k|^2 of a shell, or degree */
+    int64_t key; /* ring number (from 0 on by widths above 1), |k|^2 of a shell, or degree */
     double power, standard_error; /* nan: one realization */
 } ps_saved_bin;
 

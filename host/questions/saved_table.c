@@ -205,9 +205,10 @@ static bool take_standard_error(const ps_saved_spectrum *out, const cJSON *item,
 static bool take_row(ps_saved_spectrum *out, const places *at, const cJSON *row,
                      double *frequency) {
     ps_saved_bin *const bin = &out->bins[out->num_bins];
-    const uint64_t first = out->on_sphere || out->bin_rule.numerator == 0 ? 1 : 0;
+    /* Degree 1, or the bin of the shortest frequencies but DC. */
+    const int64_t first = out->on_sphere ? 1 : ps_bin_rule_find(&out->bin_rule, 1);
     const uint64_t least =
-        out->num_bins == 0 ? first : (uint64_t)out->bins[out->num_bins - 1].key + 1;
+        (uint64_t)(out->num_bins == 0 ? first : out->bins[out->num_bins - 1].key + 1);
     const cJSON *const number = find_cell(row, at->key, at->key_name);
     const cJSON *const power = find_cell(row, at->power, "power");
     const cJSON *const where =

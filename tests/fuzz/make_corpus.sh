@@ -274,6 +274,9 @@ saved power '"points": 8, "dimension": 2, "max_frequency": 2' "$ring_columns" '[
 printf '{"schema": 2, "command": "power", "meta": {"normalization": ["power: x"], "realizations": [4], "predicted_error": [1e-7], "seed": [1],
 "points": [8], "dimension": [2], "max_frequency": [2], "bins": ["relative=1/2"]}, "columns": [%s], "rows": [{"bin": 1, "frequency": 1.2, "count": 8,
 "power": 0.5, "standard_error": 0.1}]}\n' "$ring_columns" | seed saved objects ''
+printf '{"schema": 2, "command": "power", "meta": {"normalization": ["power: x"], "realizations": [4], "predicted_error": [1e-7], "seed": [1],
+"points": [8], "dimension": [2], "max_frequency": [2], "bins": ["width=3/2"]}, "columns": [%s], "rows": [{"bin": 0, "frequency": 1.2, "count": 8,
+"power": 0.5, "standard_error": 0.1}]}\n' "$ring_columns" | seed saved inner ''
 
 # ---- scenes ----------------------------------------------------------------------------------
 
