@@ -45,8 +45,8 @@ typedef struct ps_problem {
     uint64_t planned_points;
     /* Points of a set in host memory at a time, where the engine allows it; 0: all */
     uint64_t block_points;
-    /* Whose coefficients are wanted, too: of the only set, on the torus of every one */
-    ps_harmonics harmonics;
+    ps_harmonics harmonics;  /* whose coefficients are wanted, too */
+    bool keeps_coefficients; /* of every set, until the end; else of the only one */
 } ps_problem;
 
 /* That of white noise where nothing is known: 1, with a margin on the sphere. */

@@ -43,6 +43,8 @@ typedef enum ps_host_kind {
     PS_HOST_LISTED,
     PS_HOST_COUNT,
     PS_HOST_ACCUMULATE,
+    PS_HOST_SHIFTS,
+    PS_HOST_TURNS,
     PS_HOST_REFEREE,
     PS_HOST_REFEREE_DEGREE,
     PS_HOST_ZONAL,

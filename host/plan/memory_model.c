@@ -37,13 +37,13 @@ double ps_memory_of_set(const ps_problem *problem, const ps_work *work) {
     return (double)points * columns * (double)sizeof(double);
 }
 
-/* The result, on the torus that of all realizations and of one, and for hemispherical harmonics the
+/* The result, where all are kept that of all realizations and of one, and for hemispherical harmonics the
  * stretched points. */
 static double coefficient_bytes(const ps_problem *problem) {
     const double stretched = problem->harmonics == PS_HEMISPHERICAL_HARMONICS
                                  ? (double)problem->num_points * PS_SPHERE_DIMENSION
                                  : 0;
-    const double sets = problem->harmonics != PS_EXPONENTIALS ? 1
+    const double sets = !problem->keeps_coefficients    ? 1
                         : problem->num_realizations > 0 ? 1 + (double)problem->num_realizations
                                                         : 2;
     const bool on_sphere = problem->frequencies->kind == PS_FREQUENCIES_DEGREES;

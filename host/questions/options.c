@@ -42,7 +42,8 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                  "points in each set, for formats that do not say (rps)",
          COUNT(num_points), .minimum = 1, .maximum = MOST_POINTS},
     [PS_OPTION_REALIZATIONS] = {NAMED("realizations", 'm', "M"), OF(SETS, BIT(sample)),
-                                .help = "realizations of each sampler (default 1; check: as saved)",
+                                .help = "realizations of each sampler (default 1; check: as saved, "
+                                        "or 128)",
                                 COUNT(num_realizations), .minimum = 1,
                                 .maximum = MOST_REALIZATIONS},
     [PS_OPTION_STANDARD_ERROR] =
@@ -51,7 +52,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                  "degree X (above --floor; at least 16); -m is then the most (default 1e6)",
          .set = ps_set_standard_error},
     [PS_OPTION_DIMENSION] = {NAMED("dimension", 'd', "D"),
-                             OF(BIT(power), BIT(sample) | BIT(convert)),
+                             OF(BIT(power) | BIT(check), BIT(sample) | BIT(convert)),
                              .help = "dimension, 1 to 6 (default 2; of files: what they have)",
                              .set = ps_set_dimension, .minimum = 1, .maximum = PS_MAX_DIMENSION},
     [PS_OPTION_SEED] = {NAMED("seed", 's', "S"), OF(SETS, BIT(sample)),
@@ -64,10 +65,13 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                            .help =
                                "the saved spectrum: what power or angular wrote with -o FILE.json",
                            TEXT(against)},
+    [PS_OPTION_HOMOGENEOUS] = {NAMED("homogeneous", 0, NULL), OF(BIT(check), 0),
+                               .help = "instead: are realizations invariant under translations, "
+                                       "on the sphere under rotations, in distribution?",
+                               FLAG(homogeneous)},
     [PS_OPTION_FALSE_ALARM_RATE] = {NAMED("false-alarm-rate", 0, "P"), OF(BIT(check), 0),
-                                    .help =
-                                        "probability that any ring or degree differs by chance, "
-                                        "above 0 and below 1 (default 0.001)",
+                                    .help = "probability that anything differs by chance, "
+                                            "above 0 and below 1 (default 0.001)",
                                     .set = ps_set_false_alarm_rate},
     [PS_OPTION_BRDF] = {NAMED("brdf", 0, "NAME[:key=value,...]"), OF(LOBES, 0),
                         .help = "lobe of reflection; the names are below", TEXT(brdf)},
@@ -75,12 +79,12 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                               .help = "of the integrands, functions of the Sobolev space H^S, "
                                       "1 < S < 2 (default 1.5)",
                               .set = ps_set_smoothness},
-    [PS_OPTION_MAX_FREQUENCY] = {NAMED("max-frequency", 'k', "K"), OF(BIT(power), 0),
+    [PS_OPTION_MAX_FREQUENCY] = {NAMED("max-frequency", 'k', "K"), OF(BIT(power) | BIT(check), 0),
                                  .help = "frequencies -K..K on every axis, rings 1..K (default "
-                                         "ceil(5 N^(1/d)) for d <= 3)",
+                                         "ceil(5 N^(1/d)) for d <= 3; check: 2 N^(1/d))",
                                  .set = ps_set_max_frequency, .minimum = 1,
                                  .maximum = PS_MAX_FREQUENCY},
-    [PS_OPTION_MAX_DEGREE] = {NAMED("max-degree", 'l', "L"), OF(SPHERES | LOBES, 0),
+    [PS_OPTION_MAX_DEGREE] = {NAMED("max-degree", 'l', "L"), OF(SPHERES | LOBES | BIT(check), 0),
                               .help =
                                   "the largest degree (default ceil(4 sqrt N), for quadrature at "
                                   "most; truncation: 20)",
@@ -92,7 +96,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                   "POINTSPEC_MEMORY, else what is free, which chooses nothing)",
                           .set = ps_set_size,
                           .offset = offsetof(ps_request, limits.constraints.memory_limit)},
-    [PS_OPTION_HEMISPHERE] = {NAMED("hemisphere", 0, NULL), OF(SPHERES, 0),
+    [PS_OPTION_HEMISPHERE] = {NAMED("hemisphere", 0, NULL), OF(SPHERES | BIT(check), 0),
                               .help = "points of the hemisphere, that is of the projective plane: "
                                       "even degrees, odd ones vanish",
                               FLAG(hemisphere)},
@@ -158,8 +162,8 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                    "degrees); or names with commas, as in x,y, that the first "
                                    "line of a text has",
                            .set = ps_set_columns, .offset = offsetof(ps_request, reading.columns)},
-    [PS_OPTION_DOMAIN] = {NAMED("domain", 0, "torus|sphere"), OF(0, BIT(convert)),
-                          .help = "where the points lie (default: found out)",
+    [PS_OPTION_DOMAIN] = {NAMED("domain", 0, "torus|sphere"), OF(BIT(check), BIT(convert)),
+                          .help = "where the points lie (default: found out; check: on the torus)",
                           .set = ps_set_domain},
     [PS_OPTION_WRAP] = {NAMED("wrap", 0, NULL), OF(BIT(power) | BIT(check), BIT(convert)),
                         .help = "reduce coordinates outside [0,1) mod 1 instead of refusing them",

@@ -26,6 +26,7 @@ typedef enum ps_option_id {
     PS_OPTION_SEED,              /* -s, --seed S */
     PS_OPTION_SAMPLER,           /* --sampler NAME[:key=value,...], repeatable */
     PS_OPTION_AGAINST,           /* --against FILE */
+    PS_OPTION_HOMOGENEOUS,       /* --homogeneous */
     PS_OPTION_FALSE_ALARM_RATE,  /* --false-alarm-rate P */
     PS_OPTION_BRDF,              /* --brdf NAME[:key=value,...] */
     PS_OPTION_SMOOTHNESS,        /* --smoothness S */
@@ -115,8 +116,8 @@ typedef struct ps_request {
     ps_point_options reading;
     ps_point_range points; /* of each set; {0} unless given */
     ps_plot_axes plot_axes;
-    bool homogenize, hemisphere, drop_below_horizon, merge, calibrate, quick, scenes, quiet,
-        verbose;
+    bool homogenize, homogeneous, hemisphere, drop_below_horizon, merge, calibrate, quick, scenes,
+        quiet, verbose;
     /* The picture shows the averaged periodogram on the whole square; no option asks for it. */
     bool wants_picture;
     bool effective;    /* --normalize effective */

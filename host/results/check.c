@@ -1,8 +1,9 @@
-/* Is the spectrum of a sampler, or of files, the saved one? */
+/* Is the spectrum of a sampler, or of files, the saved one? Or are realizations homogeneous? */
 #include "base/memory.h"
 #include "questions/check_question.h"
 #include "report/check_table.h"
 #include "results/compare.h"
+#include "results/homogeneity.h"
 #include "results/spectra.h"
 
 #include <math.h>
@@ -15,13 +16,35 @@ typedef struct checked {
     ps_question_list list;
     ps_power_job *job;
     ps_comparison *rows; /* [saved.num_bins] */
+    /* Where that is asked instead, and the others are not there; else NULL. */
+    ps_homogeneity *homogeneity;
 } checked;
 
+/* What the saved spectrum says itself. */
+static pspec_status check_domain(const ps_request *request, ps_error *error) {
+    static const ps_option_id ids[] = {PS_OPTION_DIMENSION, PS_OPTION_MAX_FREQUENCY,
+                                       PS_OPTION_MAX_DEGREE, PS_OPTION_HEMISPHERE,
+                                       PS_OPTION_DOMAIN};
+    for (size_t i = 0; i < sizeof ids / sizeof ids[0]; i++) {
+        if (request->is_given[ids[i]]) {
+            return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                           "%s does not go with %s: the saved spectrum says it",
+                           ps_option_show(request, ids[i]).text,
+                           ps_option_show(request, PS_OPTION_AGAINST).text);
+        }
+    }
+    return PSPEC_OK;
+}
+
 static pspec_status check_question(const ps_request *request, ps_error *error) {
+    if (request->homogeneous) {
+        return ps_homogeneity_check(request, error);
+    }
     if (request->against == NULL) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "--against FILE is needed: the saved spectrum");
+                       "--against FILE, the saved spectrum, or --homogeneous is needed");
     }
+    PS_TRY(check_domain(request, error));
     return request->num_samplers <= 1
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
@@ -34,6 +57,7 @@ static void discard(void *computed) {
     if (check == NULL) {
         return;
     }
+    ps_homogeneity_discard(check->homogeneity);
     ps_power_job_destroy(check->job);
     ps_saved_spectrum_free(&check->saved);
     free(check->rows);
@@ -53,6 +77,9 @@ static pspec_status ask(checked **out, const ps_request *request, ps_error *erro
 
 static pspec_status plan(ps_planner *planner, const ps_request *request, ps_error *error) {
     checked *check = NULL;
+    if (request->homogeneous) {
+        return ps_homogeneity_plan(planner, request, error);
+    }
     pspec_status status = ask(&check, request, error);
     if (status == PSPEC_OK) {
         status = ps_spectra_plan_list(planner, &check->own, &check->list, error);
@@ -176,9 +203,20 @@ static pspec_status judge(const ps_request *request, const ps_check_results *res
 
 /* ---- the kind of result ---------------------------------------------------------------------- */
 
+static pspec_status compute_homogeneity(void **out, const ps_request *request,
+                                        const ps_answer_hooks *hooks, ps_error *error) {
+    checked *check = NULL;
+    PS_TRY(PS_NEW(&check, 1, "a check", error));
+    *out = check;
+    return ps_homogeneity_compute(&check->homogeneity, request, hooks, error);
+}
+
 static pspec_status compute(void **out, const ps_request *request, const ps_answer_hooks *hooks,
                             ps_error *error) {
     checked *check = NULL;
+    if (request->homogeneous) {
+        return compute_homogeneity(out, request, hooks, error);
+    }
     const pspec_status asked = ask(&check, request, error);
     *out = check;
     PS_TRY(asked);
@@ -196,6 +234,9 @@ static pspec_status tabulate(ps_answer *out, const void *computed, const ps_requ
                              ps_error *error) {
     const checked *const check = computed;
     ps_check_results results = {&check->saved, check->job, check->rows, 0};
+    if (check->homogeneity != NULL) {
+        return ps_homogeneity_tabulate(out, check->homogeneity, error);
+    }
     for (size_t b = 0; b < check->saved.num_bins; b++) {
         results.num_different += results.rows[b].differs;
     }

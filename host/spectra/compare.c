@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "math/random/distributions.h"
+#include "spectra/holm.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -99,30 +100,21 @@ static void compare_bin(ps_comparison *out, const sides *both, size_t b) {
     }
 }
 
-static int by_p_value(const void *a, const void *b) {
-    const ps_comparison *const x = *(const ps_comparison *const *)a;
-    const ps_comparison *const y = *(const ps_comparison *const *)b;
-    return (x->p_value > y->p_value) - (x->p_value < y->p_value);
-}
-
-/* Holm: the smallest of R probabilities counts R times, the next R - 1 times, and no bin differs
- * unless those before it do. */
 static pspec_status adjust(ps_comparison *out, size_t num, double false_alarm_rate,
                            ps_error *error) {
-    double largest = 0;
-    ps_comparison **order = NULL;
-    PS_TRY(PS_NEW(&order, num, "bins in order", error));
+    double *values = NULL;
+    PS_TRY(PS_NEW(&values, 2 * num, "probabilities of bins", error));
+    double *const adjusted = values + num;
     for (size_t b = 0; b < num; b++) {
-        order[b] = &out[b];
+        values[b] = out[b].p_value;
     }
-    qsort(order, num, sizeof(ps_comparison *), by_p_value);
-    for (size_t i = 0; i < num; i++) {
-        largest = fmax(largest, fmin(1, (double)(num - i) * order[i]->p_value));
-        order[i]->adjusted_p_value = largest;
-        order[i]->differs = largest <= false_alarm_rate;
+    const pspec_status status = ps_holm_adjust(num, values, adjusted, error);
+    for (size_t b = 0; status == PSPEC_OK && b < num; b++) {
+        out[b].adjusted_p_value = adjusted[b];
+        out[b].differs = adjusted[b] <= false_alarm_rate;
     }
-    free(order);
-    return PSPEC_OK;
+    free(values);
+    return status;
 }
 
 /* Equal powers need no scatter. */

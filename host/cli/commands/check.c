@@ -1,10 +1,11 @@
-/* pointspec check: is this sampler's spectrum the saved one? */
+/* pointspec check: is this sampler's spectrum the saved one, or are its realizations homogeneous? */
 #include "cli/command.h"
 
 const ps_command ps_command_check = {
     .name = "check",
     .summary = "is this the spectrum that was saved, statistically?",
-    .usage = "check --against FILE [options] FILE... | check --against FILE --sampler NAME",
+    .usage = "check --against FILE|--homogeneous [options] FILE... | check --against "
+             "FILE|--homogeneous --sampler NAME",
     .description =
         "Measures the spectrum that the saved one is of (domain, dimension, K or L, rings or "
         "shells, "
@@ -15,12 +16,13 @@ const ps_command ps_command_check = {
         "happens with the probability of --false-alarm-rate at most, for all rings together. The "
         "saved spectrum is a table of power or angular as JSON, or a file of pspec_spectrum_save. "
         "A sampler gets as many points and realizations as were saved and the seed after the saved "
-        "one, unless others are given.",
+        "one, unless others are given. With --homogeneous the question is whether realizations "
+        "have the law of their own translates (on the sphere: rotations), as prediction of "
+        "variance from spectra wants it: the phases of S(k), or of c_lm, and of sums of their "
+        "products must then be uniform.",
     .result = &ps_result_check,
     .takes = PS_TAKER_BIT(check),
-    .examples =
-        {"pointspec power --sampler jittered -n 256 -m 64 -o saved.json && pointspec check "
-         "--against saved.json --sampler jittered -m 16",
-         "pointspec sample --sampler jittered -n 256 -m 16 -s 7 | pointspec check --against "
-         "saved.json -"},
+    .examples = {"pointspec power --sampler jittered -n 256 -m 64 -o saved.json && pointspec check "
+                 "--against saved.json --sampler jittered -m 16",
+                 "pointspec check --homogeneous --sampler jittered -n 256"},
 };

@@ -8,6 +8,7 @@
 #include <string.h>
 
 struct ps_source {
+    bool is_turned; /* ps_source_turn */
     /* sampler */
     ps_sampler_request request;
     uint64_t num_realizations, next_realization;
@@ -105,6 +106,21 @@ static pspec_status next_pattern(ps_source *source, ps_point_set *set, bool *has
     return PSPEC_OK;
 }
 
+/* Points from `first` on. */
+static void turn(const ps_source *source, ps_point_set *set, size_t first) {
+    for (size_t j = first; source->is_turned && j < set->num_points; j++) {
+        double *const point = set->points + j * PS_SPHERE_DIMENSION;
+        const double x = point[0];
+        point[0] = point[1];
+        point[1] = point[2];
+        point[2] = x;
+    }
+}
+
+void ps_source_turn(ps_source *source) {
+    source->is_turned = true;
+}
+
 static pspec_status next_sample(ps_source *source, ps_point_set *set, bool *has_set,
                                 ps_error *error) {
     const ps_sampler_request *request = &source->request;
@@ -123,7 +139,9 @@ static pspec_status next_sample(ps_source *source, ps_point_set *set, bool *has_
     set->dimension = request->dimension;
     set->num_points = request->num_points;
     set->has_weights = false;
-    return ps_sampler_generate(request, source->next_realization++, set->points, error);
+    PS_TRY(ps_sampler_generate(request, source->next_realization++, set->points, error));
+    turn(source, set, 0);
+    return PSPEC_OK;
 }
 
 /* Appends a name to a list unless it is there. */
@@ -208,6 +226,7 @@ pspec_status ps_source_more(ps_source *source, ps_point_set *set, size_t max_poi
     }
     *ends = *ends || !has_block;
     source->is_inside = !*ends;
+    turn(source, set, before);
     return PSPEC_OK;
 }
 

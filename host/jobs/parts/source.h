@@ -55,6 +55,9 @@ pspec_status ps_source_next(ps_source *source, ps_point_set *set, ps_source_part
 /* Appends at most max_points more of the set that came last, or *ends. */
 pspec_status ps_source_more(ps_source *source, ps_point_set *set, size_t max_points, bool *ends,
                             ps_error *error) PS_MUST_CHECK;
+/* From now on points (x, y, z) come as (y, z, x), the x axis where the z axis was. Not for patterns
+ * in memory. */
+void ps_source_turn(ps_source *source);
 bool ps_source_can_rewind(const ps_source *source);
 pspec_status ps_source_rewind(ps_source *source, ps_error *error) PS_MUST_CHECK;
 /* Formats and columns of the files read so far, "npy; csv", or "". */

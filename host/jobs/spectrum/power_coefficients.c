@@ -6,9 +6,14 @@
 
 #include <string.h>
 
-/* Doubles of a realization that is kept: S(0), then the frequencies. */
+/* Doubles of S(0), which is kept before the frequencies of the torus. */
+static size_t dc_numbers(const ps_power_job *job) {
+    return job->question->on_sphere ? 0 : 2;
+}
+
+/* Doubles of a realization that is kept. */
 static size_t kept_numbers(const ps_power_job *job) {
-    return 2 + 2 * job->frequencies.num;
+    return dc_numbers(job) + ps_num_coefficients_at(&job->frequencies);
 }
 
 /* The plan counts the sets of a sampler, but of files only the first. */
@@ -38,9 +43,12 @@ pspec_status ps_power_coefficients_keep(void *payload, const double *coefficient
     ps_power_job *const job = payload;
     PS_TRY(keep(job, job->num_kept + 1, error));
     double *const out = job->kept + job->num_kept * kept_numbers(job);
-    out[0] = weight_sum;
-    out[1] = 0;
-    memcpy(out + 2, coefficients, 2 * job->frequencies.num * sizeof *coefficients);
+    const size_t before = dc_numbers(job);
+    if (before > 0) {
+        out[0] = weight_sum;
+        out[1] = 0;
+    }
+    memcpy(out + before, coefficients, (kept_numbers(job) - before) * sizeof *coefficients);
     job->num_kept++;
     return PSPEC_OK;
 }
@@ -50,21 +58,21 @@ pspec_status ps_power_coefficients_begin(ps_power_job *job, ps_error *error) {
     if (job->question->harmonics == PS_NO_HARMONICS) {
         return PSPEC_OK;
     }
-    if (job->question->on_sphere && job->num_realizations > 1) {
+    if (!job->problem.keeps_coefficients && job->num_realizations > 1) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "coefficients are of one set, but there are %llu realizations",
                        (unsigned long long)job->num_realizations);
     }
     PS_TRY(PS_NEW(&job->coefficients, ps_num_coefficients_at(&job->frequencies), "the coefficients",
                   error));
-    return job->question->on_sphere || job->num_realizations == 0
+    return !job->problem.keeps_coefficients || job->num_realizations == 0
                ? PSPEC_OK
                : keep(job, (size_t)job->num_realizations, error);
 }
 
 pspec_status ps_power_coefficients_check(const ps_power_job *job, uint64_t num_sets,
                                          ps_error *error) {
-    return job->coefficients == NULL || !job->question->on_sphere || num_sets <= 1
+    return job->coefficients == NULL || job->problem.keeps_coefficients || num_sets <= 1
                ? PSPEC_OK
                : ps_fail(
                      error, PSPEC_ERROR_INVALID_ARGUMENT,

@@ -4,10 +4,11 @@
 
 #include <math.h>
 
-static pspec_status default_max_frequency(int32_t *out, unsigned dimension, size_t num_points,
-                                          unsigned offers, ps_error *error) {
+static pspec_status default_max_frequency(int32_t *out, const ps_power_question *question,
+                                          unsigned dimension, size_t num_points, ps_error *error) {
     /* 5 N^(1/d): what UTK, PSA and GBN show. Above three dimensions it would be a surprise. */
-    const double times = 5;
+    const double times = question->reach > 0 ? question->reach : 5;
+    const unsigned offers = question->limits.constraints.offers;
     enum { LARGEST_DIMENSION = 3 };
     if (dimension > LARGEST_DIMENSION) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
@@ -64,8 +65,7 @@ pspec_status ps_power_frequencies(ps_frequencies *out, const ps_power_question *
                          dimension, error);
     }
     if (max_frequency == 0) {
-        PS_TRY(default_max_frequency(&max_frequency, dimension, num_points,
-                                     question->limits.constraints.offers, error));
+        PS_TRY(default_max_frequency(&max_frequency, question, dimension, num_points, error));
     }
     ps_bin_rule_resolve(&bins, dimension, num_points);
     if (question->frequencies.per_ring > 0) {

@@ -12,6 +12,12 @@
 
 /* ---- source ------------------------------------------------------------------------------ */
 
+static void turn(ps_power_job *job) {
+    if (job->question->is_turned) {
+        ps_source_turn(job->sets.source);
+    }
+}
+
 /* The sampler as it is needed: without shifts that nobody sees, one realization that stands for
  * all. */
 static pspec_status open_sampler(ps_power_job *job, ps_error *error) {
@@ -19,7 +25,9 @@ static pspec_status open_sampler(ps_power_job *job, ps_error *error) {
     job->request = *question->sampler;
     job->request.homogenize = question->sampler->homogenize && !job->needs.no_shift;
     job->num_realizations = job->needs.one_realization ? 1 : question->num_realizations;
-    return ps_source_sampler(&job->sets.source, &job->request, job->num_realizations, error);
+    PS_TRY(ps_source_sampler(&job->sets.source, &job->request, job->num_realizations, error));
+    turn(job);
+    return PSPEC_OK;
 }
 
 static pspec_status report_progress(const ps_power_job *job, ps_error *error) {
@@ -47,8 +55,10 @@ static pspec_status open_files(ps_power_job *job, ps_error *error) {
                                        .whole_bytes = choose_whole_bytes(question),
                                        .should_stop = should_stop,
                                        .payload = job};
-    return ps_source_files(&job->sets.source, question->paths, question->num_paths, &options,
-                           error);
+    PS_TRY(
+        ps_source_files(&job->sets.source, question->paths, question->num_paths, &options, error));
+    turn(job);
+    return PSPEC_OK;
 }
 
 /* The shape of the first set: a sampler's is known, a file is read. */
@@ -115,13 +125,15 @@ static pspec_status prepare(ps_power_job *job, ps_error *error) {
     if (question->sampler != NULL) {
         PS_TRY(open_sampler(job, error));
     }
-    const bool has_only_set = question->on_sphere && question->harmonics != PS_NO_HARMONICS;
+    const bool has_only_set =
+        question->on_sphere && question->harmonics != PS_NO_HARMONICS && !question->keeps_sets;
     job->problem = (ps_problem){
         .frequencies = &job->frequencies,
         .num_points = job->num_points,
         .planned_points = job->num_points,
         .num_realizations = has_only_set ? 1 : ps_power_needs_realizations(job),
         .harmonics = question->harmonics,
+        .keeps_coefficients = question->keeps_sets || question->harmonics == PS_EXPONENTIALS,
         .has_weights = job->sets.next.has_weights || job->sets.weights != NULL,
         .block_points =
             question->sampler == NULL && !job->sets.part.is_whole ? job->sets.part.block_points : 0,
@@ -178,7 +190,7 @@ static ps_estimator_options choose_options(void *payload) {
         .self_check = !question->accuracy.no_self_check,
         .normalization = question->normalization,
         .coefficients = job->coefficients,
-        .keep = question->on_sphere ? NULL : ps_power_coefficients_keep,
+        .keep = job->problem.keeps_coefficients ? ps_power_coefficients_keep : NULL,
         .want_c2 = question->wants_pair_sums,
         .should_stop = should_stop,
         .payload = payload,

@@ -36,6 +36,7 @@ typedef struct ps_power_question {
 
     /* frequencies */
     ps_frequencies_spec frequencies;
+    double reach; /* the largest frequency is this times N^(1/d) unless it is given; 0: 5 */
     uint64_t per_ring_seed;
     bool wants_full_array;
 
@@ -43,6 +44,8 @@ typedef struct ps_power_question {
     bool wants_pair_sums; /* on the sphere: Q(l) itself, weights 1/N unless given, and C_l^2 */
     /* whose coefficients are wanted: on the sphere of the only set, on the torus of every one */
     ps_harmonics harmonics;
+    bool keeps_sets; /* on the sphere, too, those of every set are wanted */
+    bool is_turned;  /* on the sphere: about the x axis, see ps_source_turn */
     pspec_normalization normalization;
     ps_accuracy_spec accuracy; /* the tolerance is of S, or of Q(l) */
     bool may_loosen; /* the tolerance, to what standard error and floor need; not for pair sums */
@@ -85,7 +88,8 @@ const char *ps_power_job_description(const ps_power_job *job);
 /* c_lm as ps_engine.coefficients has them, [ps_num_coefficients(L)]; NULL unless they were asked
  * for. */
 const double *ps_power_job_coefficients(const ps_power_job *job);
-/* S(k) on the torus, [*num_sets][1 + number of frequencies][2], S(0) = W first; NULL unless asked
+/* S(k) on the torus, [*num_sets][1 + number of frequencies][2], S(0) = W first; with
+ * question.keeps_sets c_lm on the sphere, [*num_sets][ps_num_coefficients(L)]. NULL unless asked
  * for. */
 const double *ps_power_job_amplitudes(const ps_power_job *job, size_t *num_sets);
 /* The bin of the largest standard error when the realizations ended; NULL unless

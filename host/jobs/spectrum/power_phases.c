@@ -3,6 +3,8 @@
 #include "jobs/parts/point_phases.h"
 #include "jobs/parts/self_check.h"
 #include "jobs/spectrum/power_job_private.h"
+#include "spectra/shift_products.h"
+#include "spectra/turn_products.h"
 
 #include <math.h>
 #include <string.h>
@@ -103,6 +105,20 @@ static void add_averages(const ps_power_job *job, const amounts *amount, ps_phas
     ps_phases_say(phases, "averages", "%.4g powers of %.4g realizations", num, amount->sets);
 }
 
+static void add_products(const ps_power_job *job, double sets, ps_phases *phases) {
+    static const char name[] = "phases";
+    const ps_frequencies *const set = &job->frequencies;
+    const bool on_sphere = job->question->on_sphere;
+    if (!job->question->keeps_sets) {
+        return;
+    }
+    const double steps =
+        on_sphere ? ps_turn_products_steps(set->max_frequency) : ps_shift_products_cells(set);
+    ps_phases_add(phases, name, on_sphere ? PS_HOST_TURNS : PS_HOST_SHIFTS, steps * sets);
+    ps_phases_say(phases, name, "products of %.4g coefficients of %.4g realizations",
+                  (double)ps_num_coefficients_at(set) / 2, sets);
+}
+
 /* The whole array has its corners and both signs. */
 static void add_results(const ps_power_job *job, ps_phases *phases) {
     const ps_power_question *const question = job->question;
@@ -148,6 +164,7 @@ double ps_power_job_phases(const ps_power_job *job, ps_phases *phases) {
     }
     add_averages(job, &all, phases);
     add_check(job, phases);
+    add_products(job, all.sets, phases);
     add_results(job, phases);
     return repeats;
 }

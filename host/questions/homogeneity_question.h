@@ -1,0 +1,20 @@
+/* The question of `check --homogeneous`: amplitudes of every realization. */
+#ifndef PS_QUESTIONS_HOMOGENEITY_QUESTION_H
+#define PS_QUESTIONS_HOMOGENEITY_QUESTION_H
+
+#include "questions/question.h"
+
+/* Samplers say where their points lie; files are of the sphere when one of --domain sphere, --lift,
+ * --hemisphere and --max-degree says so. */
+pspec_status ps_homogeneity_domain(bool *on_sphere, const ps_request *arguments,
+                                   ps_error *error) PS_MUST_CHECK;
+
+/* What is asked with the defaults of this question. */
+ps_request ps_homogeneity_request(const ps_request *arguments);
+
+/* One question, of what ps_homogeneity_request gave; it borrows from `own`. What does not go
+ * together is refused. */
+pspec_status ps_homogeneity_question_make(ps_question_list *out, const ps_request *own,
+                                          ps_error *error) PS_MUST_CHECK;
+
+#endif
