@@ -47,7 +47,7 @@ static const struct {
     [PS_HOST_COUNT] = {"count", 0.3e-9, false},        /* a step of counting the points of rings */
     [PS_HOST_ACCUMULATE] = {"accumulate", 0.5e-9, true}, /* a power of a realization */
     [PS_HOST_SHIFTS] = {"shifts", 85e-9, false}, /* a number of a grid, for products of a set */
-    [PS_HOST_TURNS] = {"turns", 3.3e-9, false},    /* a node, a degree and an order, for the same */
+    [PS_HOST_TURNS] = {"turns", 3.3e-9, false},  /* a node, a degree and an order, for the same */
     [PS_HOST_REFEREE] = {"referee", 190e-9, false}, /* a point and a frequency */
     [PS_HOST_REFEREE_DEGREE] = {"referee-degree", 20e-9,
                                 false},      /* a point, a degree and an order */

@@ -37,8 +37,8 @@ double ps_memory_of_set(const ps_problem *problem, const ps_work *work) {
     return (double)points * columns * (double)sizeof(double);
 }
 
-/* The result, where all are kept that of all realizations and of one, and for hemispherical harmonics the
- * stretched points. */
+/* The result, where all are kept that of all realizations and of one, and for hemispherical
+ * harmonics the stretched points. */
 static double coefficient_bytes(const ps_problem *problem) {
     const double stretched = problem->harmonics == PS_HEMISPHERICAL_HARMONICS
                                  ? (double)problem->num_points * PS_SPHERE_DIMENSION

@@ -28,6 +28,11 @@ ps_request ps_check_request(const ps_request *arguments, const ps_saved_spectrum
     return own;
 }
 
+bool ps_check_is_of_spectrum(ps_option_id id) {
+    return id == PS_OPTION_DIMENSION || id == PS_OPTION_MAX_FREQUENCY ||
+           id == PS_OPTION_MAX_DEGREE || id == PS_OPTION_HEMISPHERE || id == PS_OPTION_DOMAIN;
+}
+
 pspec_status ps_check_question_make(ps_question_list *out, const ps_request *own,
                                     const ps_saved_spectrum *saved, ps_error *error) {
     PS_TRY(ps_questions_make(out, own, saved->on_sphere ? PS_QUESTION_ANGULAR : PS_QUESTION_POWER,

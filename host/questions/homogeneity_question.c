@@ -5,7 +5,7 @@
 /* Unless -m is given: enough to find what jitter of 256 points does to the products. */
 enum { DEFAULT_REALIZATIONS = 128 };
 
-/* Frequencies up to 2 N^(1/d): see spectra/shift_products.h. */
+/* Frequencies up to 2 N^(1/d): see spectra/phases/shift_products.h. */
 static const double reach = 2;
 
 ps_request ps_homogeneity_request(const ps_request *arguments) {

@@ -1,7 +1,7 @@
 /* Is the spectrum of a sampler, or of files, the saved one? Or are realizations homogeneous? */
 #include "base/memory.h"
 #include "questions/check_question.h"
-#include "report/check_table.h"
+#include "report/check/check_table.h"
 #include "results/compare.h"
 #include "results/homogeneity.h"
 #include "results/spectra.h"
@@ -20,16 +20,12 @@ typedef struct checked {
     ps_homogeneity *homogeneity;
 } checked;
 
-/* What the saved spectrum says itself. */
 static pspec_status check_domain(const ps_request *request, ps_error *error) {
-    static const ps_option_id ids[] = {PS_OPTION_DIMENSION, PS_OPTION_MAX_FREQUENCY,
-                                       PS_OPTION_MAX_DEGREE, PS_OPTION_HEMISPHERE,
-                                       PS_OPTION_DOMAIN};
-    for (size_t i = 0; i < sizeof ids / sizeof ids[0]; i++) {
-        if (request->is_given[ids[i]]) {
+    for (int id = 0; id < PS_NUM_OPTIONS; id++) {
+        if (request->is_given[id] && ps_check_is_of_spectrum((ps_option_id)id)) {
             return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                            "%s does not go with %s: the saved spectrum says it",
-                           ps_option_show(request, ids[i]).text,
+                           ps_option_show(request, (ps_option_id)id).text,
                            ps_option_show(request, PS_OPTION_AGAINST).text);
         }
     }
@@ -263,6 +259,7 @@ const ps_result_kind ps_result_check = {
     .samples = PS_DOMAIN_ANY,
     .counted = "realizations",
     .has_verdict = true,
+    .leaves_default = ps_check_is_of_spectrum,
     .check_arguments = check_question,
     .check_question = check_question,
     .plan = plan,

@@ -2,10 +2,10 @@
 
 #include "base/memory.h"
 #include "questions/homogeneity_question.h"
-#include "report/homogeneity_table.h"
+#include "report/check/homogeneity_table.h"
 #include "results/spectra.h"
-#include "spectra/shift_products.h"
-#include "spectra/turn_products.h"
+#include "spectra/phases/shift_products.h"
+#include "spectra/phases/turn_products.h"
 
 #include <math.h>
 #include <stdlib.h>

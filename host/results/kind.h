@@ -79,6 +79,8 @@ typedef struct ps_result_kind {
     bool has_images;  /* its answers may have an array, which scenes ask for by the key pictures */
     bool has_verdict; /* whose rows are words, too: no NPY */
 
+    /* Does a scene's default of this option say nothing to it? NULL: all are taken. */
+    bool (*leaves_default)(ps_option_id id);
     /* What a command refuses before it looks at its outputs; NULL: nothing. */
     pspec_status (*check_arguments)(const ps_request *request, ps_error *error);
     /* What can be refused is refused before the first hour of work: do the options fit together? */

@@ -146,13 +146,18 @@ static bool is_settled(const ps_scene_result *result, int option) {
            (option == PS_SCENE_FILES && has_entry(result, PS_OPTION_SAMPLER));
 }
 
-/* Defaults that are about samplers are not for files, nor the reverse. */
-static void drop_of_other_source(ps_scene_result *result, size_t num_own) {
+/* Defaults that are about samplers are not for files, nor the reverse; a kind may leave more. */
+static bool fits_result(const ps_scene_result *result, int option) {
     const ps_option_source other = has_entry(result, PS_SCENE_FILES) ? PS_OF_SAMPLERS : PS_OF_FILES;
+    return option == PS_SCENE_FILES || (ps_option_source_of((ps_option_id)option) != other &&
+                                        (result->kind->leaves_default == NULL ||
+                                         !result->kind->leaves_default((ps_option_id)option)));
+}
+
+static void drop_unfit(ps_scene_result *result, size_t num_own) {
     size_t num = num_own;
     for (size_t i = num_own; i < result->num_entries; i++) {
-        const int option = result->entries[i].option;
-        if (option == PS_SCENE_FILES || ps_option_source_of((ps_option_id)option) != other) {
+        if (fits_result(result, result->entries[i].option)) {
             result->entries[num++] = result->entries[i];
         }
     }
@@ -175,7 +180,7 @@ static pspec_status take_defaults(const ps_scene_reader *reader, ps_scene_result
             return complain_of_key(reader, out->kind, value->line, key);
         }
     }
-    drop_of_other_source(out, num_own);
+    drop_unfit(out, num_own);
     return PSPEC_OK;
 }
 

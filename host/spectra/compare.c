@@ -2,7 +2,7 @@
 
 #include "base/memory.h"
 #include "math/random/distributions.h"
-#include "spectra/holm.h"
+#include "math/random/holm.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -21,7 +21,7 @@ runs 0 --against saved.json --sampler jittered -m 8
 "$program" plan check --against saved.json --sampler jittered >planned.txt 2>err || complain "plan: $(<err)"
 [[ $(grep -c ',chosen,' planned.txt) == 1 && $(<planned.txt) == *'# skip: frequencies -k'* ]] || complain "plan: $(<planned.txt)"
 "$program" plan check --sampler jittered >planned.txt 2>err && complain "plan without --against"
-[[ $(<err) == *'--against FILE is needed'* ]] || complain "plan without --against: $(<err)"
+[[ $(<err) == *'--against FILE, the saved spectrum, or --homogeneous is needed'* ]] || complain "plan without --against: $(<err)"
 [[ $(grep '^bin' out) == bin,frequency,saved,saved_error,measured,measured_error,z_score,p_value,adjusted_p_value,detectable_change,verdict ]] ||
     complain "columns: $(<out)"
 [[ $(column saved 1) == "$(sed -n 's/^ *{"bin": 1, .*"power": \([^,]*\),.*/\1/p' saved.json)" ]] || complain "saved power: $(<out)"
@@ -94,7 +94,7 @@ runs 0 "${host[@]}" --against one.json --sampler hammersley
 refuses 'save at least 2 realizations' --against one.json --sampler white
 
 # ---- what is refused ----
-refuses '--against FILE is needed' sets.txt
+refuses '--against FILE, the saved spectrum, or --homogeneous is needed' sets.txt
 refuses 'nothing to take a spectrum of' --against saved.json
 refuses 'one sampler is compared' --against saved.json --sampler white --sampler jittered
 refuses 'not .npy' --against saved.json sets.txt -o x.npy

@@ -52,6 +52,9 @@ static void laws_of_scores(void **state) {
 static void probabilities_of_student(void **state) {
     (void)state;
     /* one degree of freedom is Cauchy's, two have a closed form */
+    assert_near(ps_normal_score(0.05), 1.959963984540054, 1e-13);
+    assert_near(ps_normal_score(1), 0, 0);
+    assert_near(ps_normal_score(0), ps_normal_score(1e-300), 0);
     assert_near(ps_student_two_sided(1, 1), 0.5, 1e-14);
     assert_near(ps_student_two_sided(-3, 2), 1 - 3 / sqrt(11), 1e-14);
     assert_near(ps_student_two_sided(1.959963984540054, 1e9), 0.05, 1e-9);

@@ -1,4 +1,4 @@
-/* pointspec check: is this sampler's spectrum the saved one, or are its realizations homogeneous? */
+/* pointspec check: is this sampler's spectrum the saved one, or are realizations homogeneous? */
 #include "cli/command.h"
 
 const ps_command ps_command_check = {
@@ -24,5 +24,5 @@ const ps_command ps_command_check = {
     .takes = PS_TAKER_BIT(check),
     .examples = {"pointspec power --sampler jittered -n 256 -m 64 -o saved.json && pointspec check "
                  "--against saved.json --sampler jittered -m 16",
-                 "pointspec check --homogeneous --sampler jittered -n 256"},
+                 "pointspec check --homogeneous --sampler jittered -n 256 --homogenize"},
 };

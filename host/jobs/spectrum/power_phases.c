@@ -3,8 +3,8 @@
 #include "jobs/parts/point_phases.h"
 #include "jobs/parts/self_check.h"
 #include "jobs/spectrum/power_job_private.h"
-#include "spectra/shift_products.h"
-#include "spectra/turn_products.h"
+#include "spectra/phases/shift_products.h"
+#include "spectra/phases/turn_products.h"
 
 #include <math.h>
 #include <string.h>

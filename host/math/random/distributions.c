@@ -66,3 +66,8 @@ double ps_student_score(double probability, double degrees_of_freedom) {
     }
     return fmin(high, most);
 }
+
+double ps_normal_score(double probability) {
+    const double least = 1e-300;
+    return probability < 1 ? gsl_cdf_ugaussian_Qinv(fmax(probability, least) / 2) : 0;
+}

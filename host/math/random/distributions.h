@@ -11,6 +11,9 @@
  * and continued fractions end. Equal arguments are 0, infinite or 0 ones +-infinity. */
 double ps_gamma_ratio_score(double x, double a, double y, double b);
 
+/* The score z >= 0 with P(|X| >= z) = probability, X normal; at least that of 1e-300. */
+double ps_normal_score(double probability);
+
 /* P(|T| >= score), T of Student's distribution with that many degrees of freedom > 0, whole or
  * not. */
 double ps_student_two_sided(double score, double degrees_of_freedom);

@@ -1,4 +1,4 @@
-#include "spectra/shift_products.h"
+#include "spectra/phases/shift_products.h"
 
 #include "base/memory.h"
 

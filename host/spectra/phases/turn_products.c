@@ -1,4 +1,4 @@
-#include "spectra/turn_products.h"
+#include "spectra/phases/turn_products.h"
 
 #include "base/memory.h"
 #include "math/gauss_legendre.h"

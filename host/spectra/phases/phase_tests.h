@@ -6,8 +6,8 @@
  * than 0 is uniform, and those of independent realizations are independent. The length of their
  * mean, the resultant, then has a law that nothing else enters: Rayleigh's test is exact for every
  * quantity, and Holm's method judges all of them together, dependent as they are. */
-#ifndef PS_SPECTRA_PHASE_TESTS_H
-#define PS_SPECTRA_PHASE_TESTS_H
+#ifndef PS_SPECTRA_PHASES_PHASE_TESTS_H
+#define PS_SPECTRA_PHASES_PHASE_TESTS_H
 
 #include "base/status.h"
 
@@ -31,8 +31,8 @@ typedef struct ps_phase_test {
 void ps_phase_test_add(ps_phase_test *test, const double value[2], double error);
 
 /* Probability that the mean of num uniform independent phases is at least as long, by Greenwood and
- * Durand's formula: too large where it is wrong, but for a hundredth (tests: test_phase_tests.c
- * against Kluyver's integral). 1 below four phases. */
+ * Durand's formula. It is never too small by more than 0.3 %, and too large where that does not
+ * matter: by 4 % for 32 phases and a probability of 1e-5. 1 below eight phases. */
 double ps_rayleigh_p_value(uint64_t num, double resultant);
 
 /* The fewest realizations with which equal phases of one quantity among num_tests are an alarm at

@@ -1,10 +1,10 @@
 /* The table of check --homogeneous: a row for each ring or degree, whose phases are judged
  * together. */
-#ifndef PS_REPORT_HOMOGENEITY_TABLE_H
-#define PS_REPORT_HOMOGENEITY_TABLE_H
+#ifndef PS_REPORT_CHECK_HOMOGENEITY_TABLE_H
+#define PS_REPORT_CHECK_HOMOGENEITY_TABLE_H
 
 #include "questions/question.h"
-#include "spectra/phase_tests.h"
+#include "spectra/phases/phase_tests.h"
 #include "tables/table.h"
 
 /* What a test is of. */

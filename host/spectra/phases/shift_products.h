@@ -7,8 +7,8 @@
  * size: one transform back and one forth. Points that are one in each cell of a grid of n cells an
  * axis are correlated at shifts h_i of n with one sign for -n < k_i < 0 and with the other beyond,
  * and the sum over all k is 0: K = 2n, with products up to n, shows most. */
-#ifndef PS_SPECTRA_SHIFT_PRODUCTS_H
-#define PS_SPECTRA_SHIFT_PRODUCTS_H
+#ifndef PS_SPECTRA_PHASES_SHIFT_PRODUCTS_H
+#define PS_SPECTRA_PHASES_SHIFT_PRODUCTS_H
 
 #include "frequencies/frequencies.h"
 

@@ -1,12 +1,13 @@
-/* Sums of products of coefficients that turns about the z axis multiply by one phase, on the sphere:
- * the coefficients of f^2,
+/* Sums of products of coefficients that turns about the z axis multiply by one phase, on the
+ * sphere: the coefficients of f^2,
  *
  *     h_lm = integral over the sphere of f^2 Y_lm,
  *     f = sum over l = 1 .. L/2 and m of conj(c_lm) Y_lm
  *
- * for l = 0 .. L, by Gauss-Legendre quadrature in z and Fourier transforms along the azimuth, exact for them. */
-#ifndef PS_SPECTRA_TURN_PRODUCTS_H
-#define PS_SPECTRA_TURN_PRODUCTS_H
+ * for l = 0 .. L, by Gauss-Legendre quadrature in z and Fourier transforms along the azimuth, which
+ * are exact for them. */
+#ifndef PS_SPECTRA_PHASES_TURN_PRODUCTS_H
+#define PS_SPECTRA_PHASES_TURN_PRODUCTS_H
 
 #include "base/status.h"
 

@@ -1,4 +1,4 @@
-#include "report/check_table.h"
+#include "report/check/check_table.h"
 
 #include "report/spectrum_header.h"
 

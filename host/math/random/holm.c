@@ -1,4 +1,4 @@
-#include "spectra/holm.h"
+#include "math/random/holm.h"
 
 #include "base/memory.h"
 

@@ -1,6 +1,6 @@
 /* Holm's method: many probabilities judged together, whether independent or not. */
-#ifndef PS_SPECTRA_HOLM_H
-#define PS_SPECTRA_HOLM_H
+#ifndef PS_MATH_RANDOM_HOLM_H
+#define PS_MATH_RANDOM_HOLM_H
 
 #include "base/status.h"
 

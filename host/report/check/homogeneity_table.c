@@ -1,9 +1,8 @@
-#include "report/homogeneity_table.h"
+#include "report/check/homogeneity_table.h"
 
 #include "base/memory.h"
+#include "math/random/distributions.h"
 #include "report/spectrum_header.h"
-
-#include <gsl/gsl_cdf.h>
 
 #include <math.h>
 #include <stdio.h>
@@ -51,12 +50,6 @@ static double joint_p_value(const ring *one) {
     return fmin(1, (double)one->num * one->worst->p_value);
 }
 
-/* Two-sided, at most where double precision ends. */
-static double normal_score(double p_value) {
-    const double least = 1e-300;
-    return p_value < 1 ? gsl_cdf_ugaussian_Qinv(fmax(p_value, least) / 2) : 0;
-}
-
 static pspec_status add_row(ps_table *table, const ps_homogeneity_results *results,
                             const ps_frequencies *set, size_t number, const ring *one,
                             ps_error *error) {
@@ -69,7 +62,7 @@ static pspec_status add_row(ps_table *table, const ps_homogeneity_results *resul
             PS_INTEGER(number),
             PS_INTEGER(one->num),
             PS_NUMBER(one->worst->resultant),
-            PS_NUMBER(normal_score(p_value)),
+            PS_NUMBER(ps_normal_score(p_value)),
             PS_NUMBER(p_value),
             PS_NUMBER(one->worst->adjusted_p_value),
             PS_TEXT(ps_text_string(&label)),

@@ -1,6 +1,6 @@
 /* The table of pointspec check: a row for every ring, shell or degree. */
-#ifndef PS_REPORT_CHECK_TABLE_H
-#define PS_REPORT_CHECK_TABLE_H
+#ifndef PS_REPORT_CHECK_CHECK_TABLE_H
+#define PS_REPORT_CHECK_CHECK_TABLE_H
 
 #include "jobs/spectrum/power_job.h"
 #include "questions/request.h"

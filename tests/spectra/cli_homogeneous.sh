@@ -1,0 +1,87 @@
+#!/usr/bin/env bash
+# cli_homogeneous.sh PROGRAM: pointspec check --homogeneous: what is known of samplers, files, scenes, plans, refusals.
+# shellcheck source=tests/harness/harness.sh
+. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../harness/harness.sh" check "$1"
+
+rows() { grep -vc '^#' out; }
+is() { # VERDICT ARGS...
+    local verdict=$1 code=0
+    shift
+    [[ $verdict == same ]] || code=3
+    runs $code --homogeneous "$@"
+    [[ $(key verdict) == "$verdict" ]] || complain "not $verdict: $*: $(<err)"
+    [[ $verdict == same ]] || says "not homogeneous: "
+}
+
+# ---- samplers: a random shift or rotation makes any of them homogeneous ----
+for sampler in white jittered sobol sobol:scramble=owen sobol:scramble=xor halton regular; do
+    is same --sampler "$sampler" --homogenize -n 64
+    [[ $sampler == white ]] || is different --sampler "$sampler" -n 64
+done
+is same --sampler white -n 64
+is same --sampler white -n 64 -d 3 -k 5
+is different --sampler jittered -n 64 -m 600 -d 3 -k 8
+is different --sampler jittered -n 16 -d 1
+for sampler in zphi spiral; do
+    is same --sampler "$sampler" --homogenize -n 64
+    is different --sampler "$sampler" -n 64
+done
+is same --sampler white-sphere -n 64
+is same --sampler white-hemisphere -n 64 --hemisphere
+is different --sampler white-hemisphere -n 64 -l 4
+[[ $(<err) == *'rotations change the law'* && $(<err) == *'degree 1, order 1 of amplitudes, about x'* ]] || complain "hemisphere: $(<err)"
+
+# ---- the table ----
+is different --sampler jittered -n 64 -m 60 -s 3
+says 'translations change the law of these realizations'
+[[ $(key invariance) == translations && $(key realizations) == 60 && $(key max_frequency) == 16 ]] || complain "header: $(<out)"
+# 16 + 16 * 33 frequencies, and a sum of products for each shift; rings up to the corners
+[[ $(key different) == *"of 1088 phases" && $(rows) == 24 ]] || complain "table: $(<out)"
+[[ $(grep '^bin' out) == bin,phases,resultant,z_score,p_value,adjusted_p_value,worst,verdict ]] || complain "columns: $(<out)"
+[[ $(grep -c ',different$' out) == 1 && $(grep ',different$' out) =~ ^8,.*'"('(8,0|0,8)') of products",different'$ ]] || complain "row: $(<out)"
+awk -F, '/^[0-9]/ { phases += $2 } END { exit phases != 1088 }' out || complain "phases: $(<out)"
+cp out first
+runs 3 --homogeneous --sampler jittered -n 64 -m 60 -s 3
+cmp -s out first || complain "not the same bits"
+is same --sampler jittered -n 64 -m 60 --false-alarm-rate 1e-30
+
+# ---- files, and samplers' sets as files ----
+"$program" sample --sampler jittered -n 64 -m 60 -s 3 -o sets.txt
+is different sets.txt
+[[ $(key different) == "$(sed -n 's/^# different: //p' first)" ]] || complain "files differ from their sampler: $(<out)"
+"$program" sample --sampler white-sphere -n 64 -m 40 -o sphere.txt
+is same --domain sphere sphere.txt
+[[ $(key max_degree) == 32 ]] || complain "files of the sphere: $(<out)"
+is different --lift hemisphere sets.txt
+refuses 'realizations cannot tell' --homogeneous --select-sets 1..4 sets.txt
+refuses 'outside' --homogeneous sphere.txt
+
+# ---- plans and scenes ----
+"$program" plan check --homogeneous --sampler zphi -n 64 >planned.txt 2>err || complain "plan: $(<err)"
+[[ $(grep -c '^# phase: phases; .*products of 561 coefficients of 128 realizations' planned.txt) == 2 ]] || complain "plan: $(<planned.txt)"
+cat >scene.yaml <<'END'
+scene: 1
+title: Are they homogeneous?
+defaults: {points: 64, max-frequency: 9, dimension: 2, max-degree: 5, hemisphere: true}
+results:
+  - {result: check, name: torus, homogeneous: true, samplers: [white, jittered]}
+  - {result: check, name: sphere, homogeneous: true, samplers: white-sphere, max-degree: 4}
+END
+code=0
+"$program" run scene.yaml -o scene --quiet 2>err || code=$?
+[[ $code == 3 && -s scene/torus.csv && -s scene/sphere.csv ]] || complain "scene: exit $code: $(<err)"
+[[ $(grep -c '^jittered,.*,different$' scene/torus.csv) == 2 && $(grep -c '^white,.*,same$' scene/torus.csv) == 23 ]] || complain "scene: $(grep -v ^# scene/torus.csv)"
+[[ $(grep -vc '^#' scene/sphere.csv) == 5 ]] || complain "scene: $(<scene/sphere.csv)"
+
+# ---- what is refused ----
+refuses 'does not go with' --homogeneous --against saved.json --sampler white
+refuses '-l is for points of the sphere' --homogeneous --sampler white -l 4
+refuses '-k is for points of the torus' --homogeneous --sampler white-sphere -k 4
+refuses '--hemisphere is for points of the sphere' --homogeneous --sampler white --hemisphere
+refuses 'one sampler is checked at a time' --homogeneous --sampler white --sampler jittered
+refuses '9 realizations cannot tell' --homogeneous --sampler white -m 9 -n 64
+refuses 'at least' --homogeneous --sampler white -m 9 --false-alarm-rate 1e-9
+refuses 'in dimension 4 the largest frequency must be given' --homogeneous --sampler white -n 64 -d 4
+refuses 'the saved spectrum says it' --against saved.json --sampler white -k 4
+refuses '--sampler' --homogeneous
+finish
