@@ -14,6 +14,7 @@ enum {
 };
 
 struct ps_gzip {
+    ps_gzip_kind kind;
     int descriptor;
     const char *name;
     z_stream stream;
@@ -21,27 +22,35 @@ struct ps_gzip {
     unsigned char compressed[COMPRESSED_BYTES];
 };
 
+static const char *kind_name(const ps_gzip *gzip) {
+    return gzip->kind == PS_GZIP_RAW ? "deflated" : "gzip";
+}
+
 static pspec_status fail_zlib(const ps_gzip *gzip, int code, ps_error *error) {
     const char *const message = gzip->stream.msg;
     if (code == Z_MEM_ERROR) {
         return ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory to decompress %s", gzip->name);
     }
-    return ps_fail(error, PSPEC_ERROR_INPUT, "%s: its gzip data are damaged: %s", gzip->name,
-                   message != NULL ? message : "zlib does not say how");
+    return ps_fail(error, PSPEC_ERROR_INPUT, "%s: its %s data are damaged: %s", gzip->name,
+                   kind_name(gzip), message != NULL ? message : "zlib does not say how");
 }
 
-pspec_status ps_gzip_create(ps_gzip **out, int descriptor, const char *name,
+pspec_status ps_gzip_create(ps_gzip **out, ps_gzip_kind kind, int descriptor, const char *name,
                             const unsigned char *start, size_t num_bytes, ps_error *error) {
     ps_gzip *gzip = NULL;
     PS_TRY(PS_NEW(&gzip, 1, "decompression", error));
+    gzip->kind = kind;
     gzip->descriptor = descriptor;
     gzip->name = name;
-    const int code = inflateInit2(&gzip->stream, MAX_WBITS + GZIP_ONLY);
+    const int code =
+        inflateInit2(&gzip->stream, kind == PS_GZIP_RAW ? -MAX_WBITS : MAX_WBITS + GZIP_ONLY);
     if (code != Z_OK) {
         free(gzip);
         return ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for decompression");
     }
-    memcpy(gzip->compressed, start, num_bytes);
+    if (num_bytes > 0) {
+        memcpy(gzip->compressed, start, num_bytes);
+    }
     gzip->stream.next_in = gzip->compressed;
     gzip->stream.avail_in = (uInt)num_bytes;
     *out = gzip;
@@ -63,8 +72,8 @@ static pspec_status refill(ps_gzip *gzip, bool *is_at_end, ps_error *error) {
     gzip->stream.avail_in = (uInt)count;
     *is_at_end = count == 0;
     if (*is_at_end && !gzip->is_between_members) {
-        return ps_fail(error, PSPEC_ERROR_INPUT, "%s is truncated: its gzip data go on",
-                       gzip->name);
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s is truncated: its %s data go on", gzip->name,
+                       kind_name(gzip));
     }
     return PSPEC_OK;
 }
@@ -92,7 +101,7 @@ pspec_status ps_gzip_read(ps_gzip *gzip, void *out, size_t max_bytes, size_t *co
     bool is_at_end = false;
     gzip->stream.next_out = out;
     gzip->stream.avail_out = room;
-    while (!is_at_end) {
+    while (!is_at_end && !(gzip->kind == PS_GZIP_RAW && gzip->is_between_members)) {
         PS_TRY(inflate_step(gzip, error));
         if (gzip->stream.avail_out < room) {
             break;

@@ -8,9 +8,14 @@
 
 typedef struct ps_gzip ps_gzip;
 
+typedef enum ps_gzip_kind {
+    PS_GZIP_FILE, /* members of gzip, one after the other */
+    PS_GZIP_RAW   /* deflated data alone, which say themselves where they end */
+} ps_gzip_kind;
+
 /* start: compressed bytes that were read already; copied. The descriptor, which gives the others,
  * and the name for messages stay the caller's. */
-pspec_status ps_gzip_create(ps_gzip **out, int descriptor, const char *name,
+pspec_status ps_gzip_create(ps_gzip **out, ps_gzip_kind kind, int descriptor, const char *name,
                             const unsigned char *start, size_t num_bytes,
                             ps_error *error) PS_MUST_CHECK;
 void ps_gzip_destroy(ps_gzip *gzip);

@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "files/descriptor.h"
 #include "files/gzip.h"
+#include "files/zip.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -39,29 +40,54 @@ static pspec_status check_kind(ps_input *input, ps_error *error) {
     return PSPEC_OK;
 }
 
-static pspec_status start_gzip(ps_input *input, ps_error *error) {
-    static const unsigned char magic[] = {0x1f, 0x8b};
+/* Do the bytes to come begin so? As few are waited for as tell, for a pipe may be slow. */
+static pspec_status begins_with(ps_input *input, const char *magic, bool *begins, ps_error *error) {
     const unsigned char *bytes = NULL;
     size_t num_bytes = 0;
-    PS_TRY(ps_input_peek(input, 1, &bytes, &num_bytes, error));
-    if (num_bytes == 0) {
-        return ps_fail(error, PSPEC_ERROR_INPUT, "%s is empty", input->name);
+    *begins = true;
+    for (size_t i = 0; *begins && magic[i] != '\0'; i++) {
+        PS_TRY(ps_input_peek(input, i + 1, &bytes, &num_bytes, error));
+        *begins = num_bytes > i && bytes[i] == (unsigned char)magic[i];
     }
-    if (bytes[0] != magic[0]) {
-        return PSPEC_OK; /* without waiting for a second byte of a slow pipe */
+    return PSPEC_OK;
+}
+
+static pspec_status start_zip(ps_input *input, const char *array, ps_error *error) {
+    if (!input->is_seekable) {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "%s is a zip archive, whose directory is at its end: give a file instead "
+                       "of a pipe",
+                       input->name);
     }
-    PS_TRY(ps_input_peek(input, sizeof magic, &bytes, &num_bytes, error));
-    if (num_bytes < sizeof magic || bytes[1] != magic[1]) {
-        return PSPEC_OK;
-    }
-    PS_TRY(ps_gzip_create(&input->gzip, input->descriptor, input->name,
+    input->begin = input->end = 0;
+    input->is_seekable = false;
+    return ps_zip_open(&input->zip, input->descriptor, input->name, array, error);
+}
+
+static pspec_status start_gzip(ps_input *input, ps_error *error) {
+    PS_TRY(ps_gzip_create(&input->gzip, PS_GZIP_FILE, input->descriptor, input->name,
                           input->buffer + input->begin, input->end - input->begin, error));
     input->begin = input->end = 0;
     input->is_seekable = false;
     return PSPEC_OK;
 }
 
-static pspec_status open_input(ps_input *input, const char *path, ps_error *error) {
+static pspec_status start_compressed(ps_input *input, const char *array, ps_error *error) {
+    const unsigned char *bytes = NULL;
+    size_t num_bytes = 0;
+    bool is_gzip = false;
+    bool is_zip = false;
+    PS_TRY(ps_input_peek(input, 1, &bytes, &num_bytes, error));
+    if (num_bytes == 0) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s is empty", input->name);
+    }
+    PS_TRY(begins_with(input, "\x1f\x8b", &is_gzip, error));
+    PS_TRY(begins_with(input, "PK\3\4", &is_zip, error));
+    return is_gzip ? start_gzip(input, error) : is_zip ? start_zip(input, array, error) : PSPEC_OK;
+}
+
+static pspec_status open_input(ps_input *input, const char *path, const char *array,
+                               ps_error *error) {
     input->name = strdup(strcmp(path, "-") == 0 ? "standard input" : path);
     if (input->name == NULL) {
         return ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for a file name");
@@ -73,12 +99,17 @@ static pspec_status open_input(ps_input *input, const char *path, ps_error *erro
     PS_TRY(check_kind(input, error));
     input->can_reopen = input->is_seekable && strcmp(path, "-") != 0;
     PS_TRY(PS_NEW(&input->buffer, BUFFER_BYTES, "an input buffer", error));
-    return start_gzip(input, error);
+    return start_compressed(input, array, error);
 }
 
 pspec_status ps_input_open(ps_input *input, const char *path, ps_error *error) {
+    return ps_input_open_array(input, path, "points", error);
+}
+
+pspec_status ps_input_open_array(ps_input *input, const char *path, const char *array,
+                                 ps_error *error) {
     *input = (ps_input){.descriptor = -1};
-    const pspec_status status = open_input(input, path, error);
+    const pspec_status status = open_input(input, path, array, error);
     if (status != PSPEC_OK) {
         ps_input_close(input);
     }
@@ -90,6 +121,7 @@ void ps_input_close(ps_input *input) {
         close(input->descriptor);
     }
     ps_gzip_destroy(input->gzip);
+    ps_zip_destroy(input->zip);
     free(input->buffer);
     free(input->name);
     *input = (ps_input){.descriptor = -1};
@@ -102,6 +134,9 @@ static pspec_status read_source(ps_input *input, void *out, size_t max_bytes, si
                                 ps_error *error) {
     if (input->gzip != NULL) {
         return ps_gzip_read(input->gzip, out, max_bytes, count, error);
+    }
+    if (input->zip != NULL) {
+        return ps_zip_read(input->zip, out, max_bytes, count, error);
     }
     return ps_descriptor_read(input->descriptor, input->name, out, max_bytes, count, error);
 }

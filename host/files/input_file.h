@@ -1,5 +1,5 @@
 /* Opening and reading what is read: a file, standard input, or either of them compressed by gzip,
- * with the refusals that are the same for all. */
+ * or an array of a zip archive (NPZ), with the refusals that are the same for all. */
 #ifndef PS_FILES_INPUT_FILE_H
 #define PS_FILES_INPUT_FILE_H
 
@@ -11,12 +11,14 @@
 #include <sys/types.h>
 
 typedef struct ps_gzip ps_gzip; /* files/gzip.h */
+typedef struct ps_zip ps_zip;   /* files/zip.h */
 
 /* Closed by ps_input_close, also after an open that failed. */
 typedef struct ps_input {
     char *name; /* for messages */
     int descriptor;
-    ps_gzip *gzip;         /* NULL: the bytes are as they are */
+    ps_gzip *gzip;         /* NULL: the bytes are as they are, */
+    ps_zip *zip;           /* or come from an archive */
     unsigned char *buffer; /* read, but not yet taken: [begin, end) */
     size_t begin, end;
     bool is_seekable; /* a regular file, not compressed */
@@ -27,8 +29,12 @@ typedef struct ps_input {
  * none. */
 pspec_status ps_inputs_check(const char *const *paths, size_t num, ps_error *error) PS_MUST_CHECK;
 
-/* Opens path, or standard input for "-". Folders and empty files are refused; gzip is recognised by
- * its first bytes. */
+/* Opens path, or standard input for "-". Folders and empty files are refused; gzip and zip are
+ * recognised by their first bytes. Of an archive with several arrays the one called `array` is
+ * taken. */
+pspec_status ps_input_open_array(ps_input *input, const char *path, const char *array,
+                                 ps_error *error) PS_MUST_CHECK;
+/* The same, with the array "points". */
 pspec_status ps_input_open(ps_input *input, const char *path, ps_error *error) PS_MUST_CHECK;
 void ps_input_close(ps_input *input);
 

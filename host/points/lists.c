@@ -275,7 +275,7 @@ pspec_status ps_read_weights(const char *path, uint64_t num_wanted, double **wei
     snprintf(why, sizeof why, "weights, and a set has %llu points", (unsigned long long)num_wanted);
     number_list list = {.input = &input, .most_values = num_wanted, .why_values = why};
     pspec_status status = PSPEC_OK;
-    PS_TRY_OUT(status, ps_input_open(&input, path, error));
+    PS_TRY_OUT(status, ps_input_open_array(&input, path, "weights", error));
     PS_TRY_OUT(status,
                is_npy(&input) ? read_npy(&list, error) : read_lines(&list, parse_weights, error));
     *weights = list.values;

@@ -23,6 +23,26 @@ make_fortran_array() {
     head -c 24 /dev/zero
 }
 
+# A zip archive of one deflated member, from what gzip makes of it: ten bytes before the data, CRC and size behind them.
+make_archive() { # FILE NAME
+    local size packed
+    little() { # VALUE BYTES: the lowest byte first
+        local i
+        for ((i = 0; i < $2; i++)); do printf '%b' "\\x$(printf %02x $(($1 >> 8 * i & 255)))"; done
+    }
+    facts() { # from the method to the length of the name
+        little 8 2 && little 0 4
+        gzip -n <"$1" | tail -c 8 | head -c 4
+        little "$packed" 4 && little "$size" 4 && little ${#2} 2
+    }
+    size=$(wc -c <"$1") packed=$(($(gzip -n <"$1" | wc -c) - 18))
+    printf 'PK\3\4' && little 20 2 && little 0 2 && facts "$1" "$2" && little 0 2 && printf %s "$2"
+    gzip -n <"$1" | tail -c +11 | head -c "$packed"
+    printf 'PK\1\2' && little 20 4 && little 0 2 && facts "$1" "$2" && little 0 16 && printf %s "$2"
+    printf 'PK\5\6' && little 0 4 && little 1 2 && little 1 2
+    little $((46 + ${#2})) 4 && little $((30 + ${#2} + packed)) 4 && little 0 2
+}
+
 make_inputs() {
     mkdir "$scratch/initial"
     cd "$scratch/initial" || return
@@ -37,6 +57,7 @@ make_inputs() {
     gzip -n <points.txt >packed.gz
     printf '0,90\n45,0\n-30,-60\n' >angles.csv
     make_fortran_array >columns.npy
+    make_archive points.npy arr_0.npy >packed.npz
     "$program" power --engine host_direct --sampler white -n 8 -m 3 -k 2 -o saved.json
     "$program" angular --engine host_direct --sampler zphi -n 6 -m 3 -l 2 -o sphere.json
     POINTSPEC_CACHE_DIR=$scratch/cache "$program" bench --calibrate --case list --quick -o /dev/null

@@ -114,6 +114,14 @@ f32 -1e-10 0.5 | seed rps below-1 "$wrap"
 { npy '>f8' False '1,'; printf '\x3f\xe0\0\0\0\0\0\0'; } | seed npy big-endian "$torus"
 npy '<f8' False '18446744073709551615, 2' | seed npy promise "$any"
 { printf '\x93NUMPY\x02\x00\xff\xff\xff\xff'; } | seed npy long-header "$torus"
+# archive LEVEL NAME: standard input as a member of a zip archive, 0 stored, else deflated
+archive() {
+    perl -MIO::Compress::Zip=:all -e 'binmode STDIN; my $in = do { local $/; <STDIN> };
+        zip \$in => "-", Name => $ARGV[1], Time => 315532800, Minimal => 1,
+            Method => $ARGV[0] ? ZIP_CM_DEFLATE : ZIP_CM_STORE or die' -- "$1" "$2"
+}
+{ npy '<f8' False '2, 2'; f64 0.5 0.25 0 0.75; } | archive 1 points.npy | seed npy archive "$torus"
+{ npy '<f8' False '2, 2'; f64 0.5 0.25 0 0.75; } | archive 0 arr_0.npy | seed npy archive-stored "$torus"
 
 angles=$(options 43 00 20 00 00 01)
 { npy '<f8' False '2, 2'; f64 0.5 1.5 0 6; } | seed openquad angles "$angles"

@@ -1,0 +1,380 @@
+#include "files/zip.h"
+
+#include "base/memory.h"
+#include "base/text.h"
+#include "files/descriptor.h"
+#include "files/gzip.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include <zlib.h>
+
+/* APPNOTE.TXT 6.3: sizes of records before what has no fixed size, and where their fields are. */
+enum {
+    END_BYTES = 22, /* end of central directory */
+    END_ENTRIES = 10,
+    END_SIZE = 12,
+    END_OFFSET = 16,
+    MOST_COMMENT = 65535, /* behind it */
+    LOCATOR_BYTES = 20,   /* of the zip64 end, before the other end */
+    LOCATOR_OFFSET = 8,
+    END64_BYTES = 56,
+    END64_ENTRIES = 32,
+    END64_SIZE = 40,
+    END64_OFFSET = 48,
+    ENTRY_BYTES = 46, /* of the central directory */
+    ENTRY_FLAGS = 8,
+    ENTRY_METHOD = 10,
+    ENTRY_CRC = 16,
+    ENTRY_COMPRESSED = 20,
+    ENTRY_SIZE = 24,
+    ENTRY_NAME_BYTES = 28,
+    ENTRY_EXTRA_BYTES = 30,
+    ENTRY_COMMENT_BYTES = 32,
+    ENTRY_OFFSET = 42,
+    LOCAL_BYTES = 30, /* before a member */
+    LOCAL_NAME_BYTES = 26,
+    LOCAL_EXTRA_BYTES = 28,
+    EXTRA_ZIP64 = 1,
+    FLAG_ENCRYPTED = 1,
+    STORED = 0,
+    DEFLATED = 8,
+    MOST_DIRECTORY = 1 << 24 /* bytes: an archive of arrays has a few hundred */
+};
+#define NOT_HERE UINT32_MAX /* the value stands in a zip64 field */
+
+struct ps_zip {
+    int descriptor;
+    const char *name;
+    ps_gzip *inflater; /* NULL: the member is stored */
+    uint64_t size, num_read;
+    uint32_t crc, crc_read;
+};
+
+/* What the directory says of a member. */
+typedef struct entry {
+    const char *name; /* not ended by a NUL */
+    size_t name_bytes;
+    unsigned flags, method;
+    uint32_t crc;
+    uint64_t size, offset;
+} entry;
+
+/* The archive while it is opened. */
+typedef struct archive {
+    int descriptor;
+    const char *name;
+    uint64_t num_bytes;
+    unsigned char *directory;
+    uint64_t directory_offset, directory_bytes, num_entries;
+    ps_error *error;
+} archive;
+
+/* ---- bytes ------------------------------------------------------------------------------- */
+
+static uint64_t number_at(const unsigned char *bytes, unsigned num_bytes) {
+    uint64_t value = 0;
+    for (unsigned i = num_bytes; i-- > 0;) {
+        value = value << 8 | bytes[i];
+    }
+    return value;
+}
+
+static uint16_t half_at(const unsigned char *bytes) {
+    return (uint16_t)number_at(bytes, sizeof(uint16_t));
+}
+
+static uint32_t word_at(const unsigned char *bytes) {
+    return (uint32_t)number_at(bytes, sizeof(uint32_t));
+}
+
+static pspec_status fail_damaged(const archive *of, const char *what) {
+    return ps_fail(of->error, PSPEC_ERROR_INPUT, "%s: a damaged zip archive: %s", of->name, what);
+}
+
+static pspec_status read_at(const archive *of, uint64_t offset, void *out, size_t num_bytes) {
+    unsigned char *next = out;
+    if (offset > of->num_bytes || num_bytes > of->num_bytes - offset) {
+        return fail_damaged(of, "it ends too early");
+    }
+    if (lseek(of->descriptor, (off_t)offset, SEEK_SET) != (off_t)offset) {
+        return ps_read_fail(of->name, of->error);
+    }
+    while (num_bytes > 0) {
+        size_t count = 0;
+        PS_TRY(ps_descriptor_read(of->descriptor, of->name, next, num_bytes, &count, of->error));
+        if (count == 0) {
+            return fail_damaged(of, "it ends too early");
+        }
+        next += count;
+        num_bytes -= count;
+    }
+    return PSPEC_OK;
+}
+
+static bool begins(const unsigned char *bytes, const char *signature) {
+    return memcmp(bytes, signature, 4) == 0;
+}
+
+/* ---- the directory ----------------------------------------------------------------------- */
+
+/* The fields of large archives stand in a record of their own. */
+static pspec_status find_end64(archive *of, uint64_t end) {
+    unsigned char locator[LOCATOR_BYTES];
+    unsigned char record[END64_BYTES];
+    if (end < LOCATOR_BYTES) {
+        return PSPEC_OK;
+    }
+    PS_TRY(read_at(of, end - LOCATOR_BYTES, locator, sizeof locator));
+    if (!begins(locator, "PK\6\7")) {
+        return PSPEC_OK;
+    }
+    PS_TRY(read_at(of, number_at(locator + LOCATOR_OFFSET, 8), record, sizeof record));
+    if (!begins(record, "PK\6\6")) {
+        return fail_damaged(of, "its zip64 directory is not where it should be");
+    }
+    of->num_entries = number_at(record + END64_ENTRIES, 8);
+    of->directory_bytes = number_at(record + END64_SIZE, 8);
+    of->directory_offset = number_at(record + END64_OFFSET, 8);
+    return PSPEC_OK;
+}
+
+/* The record stands at the end, before a comment that may contain anything. */
+static pspec_status find_end(archive *of, unsigned char *tail) {
+    const size_t most = END_BYTES + MOST_COMMENT;
+    const size_t num = of->num_bytes < most ? (size_t)of->num_bytes : most;
+    if (num < END_BYTES) {
+        return fail_damaged(of, "it ends too early");
+    }
+    PS_TRY(read_at(of, of->num_bytes - num, tail, num));
+    for (size_t at = num - END_BYTES + 1; at-- > 0;) {
+        if (begins(tail + at, "PK\5\6")) {
+            of->num_entries = half_at(tail + at + END_ENTRIES);
+            of->directory_bytes = word_at(tail + at + END_SIZE);
+            of->directory_offset = word_at(tail + at + END_OFFSET);
+            return find_end64(of, of->num_bytes - num + at);
+        }
+    }
+    return fail_damaged(of, "it has no directory at its end");
+}
+
+static pspec_status read_directory(archive *of) {
+    unsigned char *tail = NULL;
+    PS_TRY(PS_NEW(&tail, END_BYTES + MOST_COMMENT, "the end of an archive", of->error));
+    const pspec_status status = find_end(of, tail);
+    free(tail);
+    PS_TRY(status);
+    if (of->directory_bytes > MOST_DIRECTORY) {
+        return fail_damaged(of, "its directory is too large");
+    }
+    PS_TRY(PS_NEW(&of->directory, (size_t)of->directory_bytes + 1, "a directory of an archive",
+                  of->error));
+    return read_at(of, of->directory_offset, of->directory, (size_t)of->directory_bytes);
+}
+
+/* ---- an entry ---------------------------------------------------------------------------- */
+
+/* Those of size, compressed size and offset that did not fit, in this order. */
+static bool take_zip64(entry *out, const unsigned char *fields, size_t num_bytes,
+                       const unsigned char *record) {
+    uint64_t compressed = 0;
+    struct {
+        uint32_t here;
+        uint64_t *value;
+    } const wanted[] = {{word_at(record + ENTRY_SIZE), &out->size},
+                        {word_at(record + ENTRY_COMPRESSED), &compressed},
+                        {word_at(record + ENTRY_OFFSET), &out->offset}};
+    for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
+        if (wanted[i].here == NOT_HERE) {
+            if (num_bytes < sizeof(uint64_t)) {
+                return false;
+            }
+            *wanted[i].value = number_at(fields, sizeof(uint64_t));
+            fields += sizeof(uint64_t);
+            num_bytes -= sizeof(uint64_t);
+        }
+    }
+    return true;
+}
+
+static bool take_extra(entry *out, const unsigned char *record, const unsigned char *extra,
+                       size_t num_bytes) {
+    const size_t head = 2 * sizeof(uint16_t);
+    while (num_bytes >= head) {
+        const size_t size = half_at(extra + sizeof(uint16_t));
+        if (size > num_bytes - head) {
+            return false;
+        }
+        if (half_at(extra) == EXTRA_ZIP64) {
+            return take_zip64(out, extra + head, size, record);
+        }
+        extra += head + size;
+        num_bytes -= head + size;
+    }
+    return true;
+}
+
+/* The entry at *at, which moves on. */
+static pspec_status take_entry(const archive *of, size_t *at, entry *out) {
+    const unsigned char *const record = of->directory + *at;
+    const size_t left = (size_t)of->directory_bytes - *at;
+    if (left < ENTRY_BYTES || !begins(record, "PK\1\2")) {
+        return fail_damaged(of, "its directory ends too early");
+    }
+    const size_t name_bytes = half_at(record + ENTRY_NAME_BYTES);
+    const size_t extra_bytes = half_at(record + ENTRY_EXTRA_BYTES);
+    const size_t all =
+        ENTRY_BYTES + name_bytes + extra_bytes + half_at(record + ENTRY_COMMENT_BYTES);
+    *out = (entry){.name = (const char *)record + ENTRY_BYTES,
+                   .name_bytes = name_bytes,
+                   .flags = half_at(record + ENTRY_FLAGS),
+                   .method = half_at(record + ENTRY_METHOD),
+                   .crc = word_at(record + ENTRY_CRC),
+                   .size = word_at(record + ENTRY_SIZE),
+                   .offset = word_at(record + ENTRY_OFFSET)};
+    if (all > left || !take_extra(out, record, record + ENTRY_BYTES + name_bytes, extra_bytes)) {
+        return fail_damaged(of, "its directory ends too early");
+    }
+    *at += all;
+    return PSPEC_OK;
+}
+
+static bool is_called(const entry *one, const char *wanted) {
+    static const char ending[] = ".npy";
+    const size_t length = strlen(wanted);
+    return one->name_bytes == length + strlen(ending) && memcmp(one->name, wanted, length) == 0 &&
+           memcmp(one->name + length, ending, strlen(ending)) == 0;
+}
+
+/* ---- which member ------------------------------------------------------------------------ */
+
+/* Names as they are would let a file write to terminals. */
+static void append_name(ps_text *names, const entry *one) {
+    enum { MOST_SHOWN = 40 };
+    for (size_t i = 0; i < one->name_bytes && i < MOST_SHOWN; i++) {
+        const char letter = one->name[i];
+        ps_text_append(names, "%c", letter > ' ' && letter <= '~' ? letter : '?');
+    }
+}
+
+static pspec_status fail_several(const archive *of, const char *wanted, const ps_text *names) {
+    return names->failed ? ps_fail(of->error, PSPEC_ERROR_MEMORY, "not enough memory for names")
+                         : ps_fail(of->error, PSPEC_ERROR_INPUT,
+                                   "%s holds several arrays (%.200s), none of them called \"%s\": "
+                                   "numpy.savez(FILE, %s=array) calls one so",
+                                   of->name, ps_text_string(names), wanted, wanted);
+}
+
+static pspec_status choose(const archive *of, const char *wanted, entry *out) {
+    size_t at = 0;
+    ps_text names = {0};
+    bool is_found = false;
+    pspec_status status = PSPEC_OK;
+    for (uint64_t i = 0; i < of->num_entries && !is_found && status == PSPEC_OK; i++) {
+        status = take_entry(of, &at, out);
+        if (status == PSPEC_OK) {
+            is_found = is_called(out, wanted);
+            ps_text_append(&names, "%s", i > 0 ? ", " : "");
+            append_name(&names, out);
+        }
+    }
+    if (status == PSPEC_OK && of->num_entries == 0) {
+        status = ps_fail(of->error, PSPEC_ERROR_INPUT, "%s is an empty zip archive", of->name);
+    } else if (status == PSPEC_OK && !is_found && of->num_entries > 1) {
+        status = fail_several(of, wanted, &names);
+    }
+    ps_text_free(&names);
+    return status;
+}
+
+/* ---- opening ----------------------------------------------------------------------------- */
+
+static pspec_status start_member(ps_zip *zip, const archive *of, const entry *one) {
+    unsigned char local[LOCAL_BYTES];
+    if ((one->flags & FLAG_ENCRYPTED) != 0 || (one->method != STORED && one->method != DEFLATED)) {
+        return ps_fail(of->error, PSPEC_ERROR_INPUT,
+                       "%s: its member is encrypted, or compressed otherwise than by deflate; "
+                       "numpy.savez and savez_compressed write archives that can be read",
+                       of->name);
+    }
+    PS_TRY(read_at(of, one->offset, local, sizeof local));
+    const uint64_t start = one->offset + LOCAL_BYTES + half_at(local + LOCAL_NAME_BYTES) +
+                           half_at(local + LOCAL_EXTRA_BYTES);
+    if (!begins(local, "PK\3\4")) {
+        return fail_damaged(of, "a member is not where its directory says");
+    }
+    PS_TRY(read_at(of, start, local, 0)); /* goes there */
+    zip->size = one->size;
+    zip->crc = one->crc;
+    return one->method == STORED ? PSPEC_OK
+                                 : ps_gzip_create(&zip->inflater, PS_GZIP_RAW, of->descriptor,
+                                                  of->name, NULL, 0, of->error);
+}
+
+static pspec_status open_member(ps_zip *zip, archive *of, const char *wanted) {
+    entry one = {0};
+    const off_t end = lseek(of->descriptor, 0, SEEK_END);
+    if (end < 0) {
+        return ps_read_fail(of->name, of->error);
+    }
+    of->num_bytes = (uint64_t)end;
+    PS_TRY(read_directory(of));
+    PS_TRY(choose(of, wanted, &one));
+    return start_member(zip, of, &one);
+}
+
+pspec_status ps_zip_open(ps_zip **out, int descriptor, const char *name, const char *wanted,
+                         ps_error *error) {
+    archive of = {.descriptor = descriptor, .name = name, .error = error};
+    PS_TRY(PS_NEW(out, 1, "an archive", error));
+    (*out)->descriptor = descriptor;
+    (*out)->name = name;
+    (*out)->crc_read = (uint32_t)crc32(0, NULL, 0);
+    const pspec_status status = open_member(*out, &of, wanted);
+    free(of.directory);
+    return status;
+}
+
+void ps_zip_destroy(ps_zip *zip) {
+    if (zip != NULL) {
+        ps_gzip_destroy(zip->inflater);
+        free(zip);
+    }
+}
+
+/* ---- reading ----------------------------------------------------------------------------- */
+
+static pspec_status fail_size(const ps_zip *zip, ps_error *error) {
+    return ps_fail(error, PSPEC_ERROR_INPUT,
+                   "%s: a damaged zip archive: a member has other bytes than its directory says",
+                   zip->name);
+}
+
+static pspec_status read_some(ps_zip *zip, void *out, size_t max_bytes, size_t *count,
+                              ps_error *error) {
+    const uint64_t left = zip->size - zip->num_read;
+    if (zip->inflater != NULL) {
+        return ps_gzip_read(zip->inflater, out, max_bytes, count, error);
+    }
+    *count = 0;
+    return left == 0
+               ? PSPEC_OK
+               : ps_descriptor_read(zip->descriptor, zip->name, out,
+                                    left < max_bytes ? (size_t)left : max_bytes, count, error);
+}
+
+pspec_status ps_zip_read(ps_zip *zip, void *out, size_t max_bytes, size_t *count, ps_error *error) {
+    const size_t most_at_once = (size_t)1 << 30; /* zlib counts in unsigned int */
+    PS_TRY(read_some(zip, out, max_bytes < most_at_once ? max_bytes : most_at_once, count, error));
+    if (*count > zip->size - zip->num_read) {
+        return fail_size(zip, error);
+    }
+    zip->num_read += *count;
+    zip->crc_read = (uint32_t)crc32(zip->crc_read, out, (uInt)*count);
+    return *count > 0 || (zip->num_read == zip->size && zip->crc_read == zip->crc)
+               ? PSPEC_OK
+               : fail_size(zip, error);
+}
