@@ -2,8 +2,8 @@
 
 #include "base/memory.h"
 #include "files/descriptor.h"
-#include "files/gzip.h"
-#include "files/zip.h"
+#include "files/packed/gzip.h"
+#include "files/packed/zip.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -10,8 +10,8 @@
 #include <stdint.h>
 #include <sys/types.h>
 
-typedef struct ps_gzip ps_gzip; /* files/gzip.h */
-typedef struct ps_zip ps_zip;   /* files/zip.h */
+typedef struct ps_gzip ps_gzip; /* files/packed/gzip.h */
+typedef struct ps_zip ps_zip;   /* files/packed/zip.h */
 
 /* Closed by ps_input_close, also after an open that failed. */
 typedef struct ps_input {

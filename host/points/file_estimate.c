@@ -8,8 +8,8 @@
 
 enum { BEGINNING = 1 << 14 };
 
-/* Bytes of the file; of a gzip file as many as texts usually come to. Arrays of an archive are taken
- * to be stored. */
+/* Bytes of the file; of a gzip file as many as texts usually come to. Arrays of an archive are
+ * taken to be stored. */
 static double size_of(const char *path, ps_file_estimate *out, ps_input *input) {
     const double usual = 3; /* of text compressed by gzip */
     struct stat found;

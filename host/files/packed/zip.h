@@ -3,8 +3,8 @@
  * The directory at the end of the archive says where members are, so it must be a regular file.
  * Inflating is zlib's; a library for the rest would bring several of ciphers and other compressions
  * into every start of the program, and be used for a table of a few fields. */
-#ifndef PS_FILES_ZIP_H
-#define PS_FILES_ZIP_H
+#ifndef PS_FILES_PACKED_ZIP_H
+#define PS_FILES_PACKED_ZIP_H
 
 #include "base/status.h"
 

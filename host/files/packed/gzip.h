@@ -1,6 +1,6 @@
 /* Decompression of gzip data as they are read, through zlib. Private to host/files. */
-#ifndef PS_FILES_GZIP_H
-#define PS_FILES_GZIP_H
+#ifndef PS_FILES_PACKED_GZIP_H
+#define PS_FILES_PACKED_GZIP_H
 
 #include "base/status.h"
 

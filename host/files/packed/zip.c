@@ -1,9 +1,9 @@
-#include "files/zip.h"
+#include "files/packed/zip.h"
 
 #include "base/memory.h"
 #include "base/text.h"
 #include "files/descriptor.h"
-#include "files/gzip.h"
+#include "files/packed/gzip.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -91,23 +91,25 @@ static uint32_t word_at(const unsigned char *bytes) {
     return (uint32_t)number_at(bytes, sizeof(uint32_t));
 }
 
-static pspec_status fail_damaged(const archive *of, const char *what) {
-    return ps_fail(of->error, PSPEC_ERROR_INPUT, "%s: a damaged zip archive: %s", of->name, what);
+static pspec_status fail_damaged(const archive *whole, const char *what) {
+    return ps_fail(whole->error, PSPEC_ERROR_INPUT, "%s: a damaged zip archive: %s", whole->name,
+                   what);
 }
 
-static pspec_status read_at(const archive *of, uint64_t offset, void *out, size_t num_bytes) {
+static pspec_status read_at(const archive *whole, uint64_t offset, void *out, size_t num_bytes) {
     unsigned char *next = out;
-    if (offset > of->num_bytes || num_bytes > of->num_bytes - offset) {
-        return fail_damaged(of, "it ends too early");
+    if (offset > whole->num_bytes || num_bytes > whole->num_bytes - offset) {
+        return fail_damaged(whole, "it ends too early");
     }
-    if (lseek(of->descriptor, (off_t)offset, SEEK_SET) != (off_t)offset) {
-        return ps_read_fail(of->name, of->error);
+    if (lseek(whole->descriptor, (off_t)offset, SEEK_SET) != (off_t)offset) {
+        return ps_read_fail(whole->name, whole->error);
     }
     while (num_bytes > 0) {
         size_t count = 0;
-        PS_TRY(ps_descriptor_read(of->descriptor, of->name, next, num_bytes, &count, of->error));
+        PS_TRY(ps_descriptor_read(whole->descriptor, whole->name, next, num_bytes, &count,
+                                  whole->error));
         if (count == 0) {
-            return fail_damaged(of, "it ends too early");
+            return fail_damaged(whole, "it ends too early");
         }
         next += count;
         num_bytes -= count;
@@ -122,57 +124,58 @@ static bool begins(const unsigned char *bytes, const char *signature) {
 /* ---- the directory ----------------------------------------------------------------------- */
 
 /* The fields of large archives stand in a record of their own. */
-static pspec_status find_end64(archive *of, uint64_t end) {
+static pspec_status find_end64(archive *whole, uint64_t end) {
     unsigned char locator[LOCATOR_BYTES];
     unsigned char record[END64_BYTES];
     if (end < LOCATOR_BYTES) {
         return PSPEC_OK;
     }
-    PS_TRY(read_at(of, end - LOCATOR_BYTES, locator, sizeof locator));
+    PS_TRY(read_at(whole, end - LOCATOR_BYTES, locator, sizeof locator));
     if (!begins(locator, "PK\6\7")) {
         return PSPEC_OK;
     }
-    PS_TRY(read_at(of, number_at(locator + LOCATOR_OFFSET, 8), record, sizeof record));
+    PS_TRY(read_at(whole, number_at(locator + LOCATOR_OFFSET, 8), record, sizeof record));
     if (!begins(record, "PK\6\6")) {
-        return fail_damaged(of, "its zip64 directory is not where it should be");
+        return fail_damaged(whole, "its zip64 directory is not where it should be");
     }
-    of->num_entries = number_at(record + END64_ENTRIES, 8);
-    of->directory_bytes = number_at(record + END64_SIZE, 8);
-    of->directory_offset = number_at(record + END64_OFFSET, 8);
+    whole->num_entries = number_at(record + END64_ENTRIES, 8);
+    whole->directory_bytes = number_at(record + END64_SIZE, 8);
+    whole->directory_offset = number_at(record + END64_OFFSET, 8);
     return PSPEC_OK;
 }
 
 /* The record stands at the end, before a comment that may contain anything. */
-static pspec_status find_end(archive *of, unsigned char *tail) {
+static pspec_status find_end(archive *whole, unsigned char *tail) {
     const size_t most = END_BYTES + MOST_COMMENT;
-    const size_t num = of->num_bytes < most ? (size_t)of->num_bytes : most;
+    const size_t num = whole->num_bytes < most ? (size_t)whole->num_bytes : most;
     if (num < END_BYTES) {
-        return fail_damaged(of, "it ends too early");
+        return fail_damaged(whole, "it ends too early");
     }
-    PS_TRY(read_at(of, of->num_bytes - num, tail, num));
+    PS_TRY(read_at(whole, whole->num_bytes - num, tail, num));
     for (size_t at = num - END_BYTES + 1; at-- > 0;) {
         if (begins(tail + at, "PK\5\6")) {
-            of->num_entries = half_at(tail + at + END_ENTRIES);
-            of->directory_bytes = word_at(tail + at + END_SIZE);
-            of->directory_offset = word_at(tail + at + END_OFFSET);
-            return find_end64(of, of->num_bytes - num + at);
+            whole->num_entries = half_at(tail + at + END_ENTRIES);
+            whole->directory_bytes = word_at(tail + at + END_SIZE);
+            whole->directory_offset = word_at(tail + at + END_OFFSET);
+            return find_end64(whole, whole->num_bytes - num + at);
         }
     }
-    return fail_damaged(of, "it has no directory at its end");
+    return fail_damaged(whole, "it has no directory at its end");
 }
 
-static pspec_status read_directory(archive *of) {
+static pspec_status read_directory(archive *whole) {
     unsigned char *tail = NULL;
-    PS_TRY(PS_NEW(&tail, END_BYTES + MOST_COMMENT, "the end of an archive", of->error));
-    const pspec_status status = find_end(of, tail);
+    PS_TRY(PS_NEW(&tail, END_BYTES + MOST_COMMENT, "the end of an archive", whole->error));
+    const pspec_status status = find_end(whole, tail);
     free(tail);
     PS_TRY(status);
-    if (of->directory_bytes > MOST_DIRECTORY) {
-        return fail_damaged(of, "its directory is too large");
+    if (whole->directory_bytes > MOST_DIRECTORY) {
+        return fail_damaged(whole, "its directory is too large");
     }
-    PS_TRY(PS_NEW(&of->directory, (size_t)of->directory_bytes + 1, "a directory of an archive",
-                  of->error));
-    return read_at(of, of->directory_offset, of->directory, (size_t)of->directory_bytes);
+    PS_TRY(PS_NEW(&whole->directory, (size_t)whole->directory_bytes + 1,
+                  "a directory of an archive", whole->error));
+    return read_at(whole, whole->directory_offset, whole->directory,
+                   (size_t)whole->directory_bytes);
 }
 
 /* ---- an entry ---------------------------------------------------------------------------- */
@@ -218,11 +221,11 @@ static bool take_extra(entry *out, const unsigned char *record, const unsigned c
 }
 
 /* The entry at *at, which moves on. */
-static pspec_status take_entry(const archive *of, size_t *at, entry *out) {
-    const unsigned char *const record = of->directory + *at;
-    const size_t left = (size_t)of->directory_bytes - *at;
+static pspec_status take_entry(const archive *whole, size_t *at, entry *out) {
+    const unsigned char *const record = whole->directory + *at;
+    const size_t left = (size_t)whole->directory_bytes - *at;
     if (left < ENTRY_BYTES || !begins(record, "PK\1\2")) {
-        return fail_damaged(of, "its directory ends too early");
+        return fail_damaged(whole, "its directory ends too early");
     }
     const size_t name_bytes = half_at(record + ENTRY_NAME_BYTES);
     const size_t extra_bytes = half_at(record + ENTRY_EXTRA_BYTES);
@@ -236,7 +239,7 @@ static pspec_status take_entry(const archive *of, size_t *at, entry *out) {
                    .size = word_at(record + ENTRY_SIZE),
                    .offset = word_at(record + ENTRY_OFFSET)};
     if (all > left || !take_extra(out, record, record + ENTRY_BYTES + name_bytes, extra_bytes)) {
-        return fail_damaged(of, "its directory ends too early");
+        return fail_damaged(whole, "its directory ends too early");
     }
     *at += all;
     return PSPEC_OK;
@@ -260,31 +263,32 @@ static void append_name(ps_text *names, const entry *one) {
     }
 }
 
-static pspec_status fail_several(const archive *of, const char *wanted, const ps_text *names) {
-    return names->failed ? ps_fail(of->error, PSPEC_ERROR_MEMORY, "not enough memory for names")
-                         : ps_fail(of->error, PSPEC_ERROR_INPUT,
+static pspec_status fail_several(const archive *whole, const char *wanted, const ps_text *names) {
+    return names->failed ? ps_fail(whole->error, PSPEC_ERROR_MEMORY, "not enough memory for names")
+                         : ps_fail(whole->error, PSPEC_ERROR_INPUT,
                                    "%s holds several arrays (%.200s), none of them called \"%s\": "
                                    "numpy.savez(FILE, %s=array) calls one so",
-                                   of->name, ps_text_string(names), wanted, wanted);
+                                   whole->name, ps_text_string(names), wanted, wanted);
 }
 
-static pspec_status choose(const archive *of, const char *wanted, entry *out) {
+static pspec_status choose(const archive *whole, const char *wanted, entry *out) {
     size_t at = 0;
     ps_text names = {0};
     bool is_found = false;
     pspec_status status = PSPEC_OK;
-    for (uint64_t i = 0; i < of->num_entries && !is_found && status == PSPEC_OK; i++) {
-        status = take_entry(of, &at, out);
+    for (uint64_t i = 0; i < whole->num_entries && !is_found && status == PSPEC_OK; i++) {
+        status = take_entry(whole, &at, out);
         if (status == PSPEC_OK) {
             is_found = is_called(out, wanted);
             ps_text_append(&names, "%s", i > 0 ? ", " : "");
             append_name(&names, out);
         }
     }
-    if (status == PSPEC_OK && of->num_entries == 0) {
-        status = ps_fail(of->error, PSPEC_ERROR_INPUT, "%s is an empty zip archive", of->name);
-    } else if (status == PSPEC_OK && !is_found && of->num_entries > 1) {
-        status = fail_several(of, wanted, &names);
+    if (status == PSPEC_OK && whole->num_entries == 0) {
+        status =
+            ps_fail(whole->error, PSPEC_ERROR_INPUT, "%s is an empty zip archive", whole->name);
+    } else if (status == PSPEC_OK && !is_found && whole->num_entries > 1) {
+        status = fail_several(whole, wanted, &names);
     }
     ps_text_free(&names);
     return status;
@@ -292,49 +296,49 @@ static pspec_status choose(const archive *of, const char *wanted, entry *out) {
 
 /* ---- opening ----------------------------------------------------------------------------- */
 
-static pspec_status start_member(ps_zip *zip, const archive *of, const entry *one) {
+static pspec_status start_member(ps_zip *zip, const archive *whole, const entry *one) {
     unsigned char local[LOCAL_BYTES];
     if ((one->flags & FLAG_ENCRYPTED) != 0 || (one->method != STORED && one->method != DEFLATED)) {
-        return ps_fail(of->error, PSPEC_ERROR_INPUT,
+        return ps_fail(whole->error, PSPEC_ERROR_INPUT,
                        "%s: its member is encrypted, or compressed otherwise than by deflate; "
                        "numpy.savez and savez_compressed write archives that can be read",
-                       of->name);
+                       whole->name);
     }
-    PS_TRY(read_at(of, one->offset, local, sizeof local));
+    PS_TRY(read_at(whole, one->offset, local, sizeof local));
     const uint64_t start = one->offset + LOCAL_BYTES + half_at(local + LOCAL_NAME_BYTES) +
                            half_at(local + LOCAL_EXTRA_BYTES);
     if (!begins(local, "PK\3\4")) {
-        return fail_damaged(of, "a member is not where its directory says");
+        return fail_damaged(whole, "a member is not where its directory says");
     }
-    PS_TRY(read_at(of, start, local, 0)); /* goes there */
+    PS_TRY(read_at(whole, start, local, 0)); /* goes there */
     zip->size = one->size;
     zip->crc = one->crc;
     return one->method == STORED ? PSPEC_OK
-                                 : ps_gzip_create(&zip->inflater, PS_GZIP_RAW, of->descriptor,
-                                                  of->name, NULL, 0, of->error);
+                                 : ps_gzip_create(&zip->inflater, PS_GZIP_RAW, whole->descriptor,
+                                                  whole->name, NULL, 0, whole->error);
 }
 
-static pspec_status open_member(ps_zip *zip, archive *of, const char *wanted) {
+static pspec_status open_member(ps_zip *zip, archive *whole, const char *wanted) {
     entry one = {0};
-    const off_t end = lseek(of->descriptor, 0, SEEK_END);
+    const off_t end = lseek(whole->descriptor, 0, SEEK_END);
     if (end < 0) {
-        return ps_read_fail(of->name, of->error);
+        return ps_read_fail(whole->name, whole->error);
     }
-    of->num_bytes = (uint64_t)end;
-    PS_TRY(read_directory(of));
-    PS_TRY(choose(of, wanted, &one));
-    return start_member(zip, of, &one);
+    whole->num_bytes = (uint64_t)end;
+    PS_TRY(read_directory(whole));
+    PS_TRY(choose(whole, wanted, &one));
+    return start_member(zip, whole, &one);
 }
 
 pspec_status ps_zip_open(ps_zip **out, int descriptor, const char *name, const char *wanted,
                          ps_error *error) {
-    archive of = {.descriptor = descriptor, .name = name, .error = error};
+    archive whole = {.descriptor = descriptor, .name = name, .error = error};
     PS_TRY(PS_NEW(out, 1, "an archive", error));
     (*out)->descriptor = descriptor;
     (*out)->name = name;
     (*out)->crc_read = (uint32_t)crc32(0, NULL, 0);
-    const pspec_status status = open_member(*out, &of, wanted);
-    free(of.directory);
+    const pspec_status status = open_member(*out, &whole, wanted);
+    free(whole.directory);
     return status;
 }
 

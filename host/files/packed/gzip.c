@@ -1,4 +1,4 @@
-#include "files/gzip.h"
+#include "files/packed/gzip.h"
 
 #include "base/memory.h"
 #include "files/descriptor.h"
