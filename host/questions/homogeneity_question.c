@@ -16,11 +16,14 @@ ps_request ps_homogeneity_request(const ps_request *arguments) {
     return own;
 }
 
-pspec_status ps_homogeneity_domain(bool *on_sphere, const ps_request *arguments, ps_error *error) {
+/* Samplers say where their points lie; files are of the sphere when one of --domain sphere, --lift,
+ * --hemisphere and --max-degree says so. */
+static pspec_status find_domain(bool *on_sphere, const ps_request *arguments, ps_error *error) {
     ps_sampler_request sampler = {0};
-    *on_sphere =
+    const bool is_said =
         arguments->reading.domain == PS_DOMAIN_SPHERE || arguments->reading.lift != PS_NO_LIFT ||
         arguments->is_given[PS_OPTION_HEMISPHERE] || arguments->is_given[PS_OPTION_MAX_DEGREE];
+    *on_sphere = is_said && arguments->reading.domain != PS_DOMAIN_TORUS;
     if (arguments->num_samplers > 0) {
         PS_TRY(ps_sampler_parse(&sampler, arguments->samplers[0], error));
         *on_sphere = ps_sampler_is_on_sphere(&sampler);
@@ -33,7 +36,8 @@ static pspec_status check_domain(const ps_request *own, bool on_sphere, ps_error
     static const ps_option_id torus[] = {PS_OPTION_DIMENSION, PS_OPTION_MAX_FREQUENCY,
                                          PS_OPTION_WRAP, PS_NUM_OPTIONS};
     static const ps_option_id sphere[] = {PS_OPTION_MAX_DEGREE, PS_OPTION_HEMISPHERE,
-                                          PS_OPTION_NORMALIZE_VECTORS, PS_NUM_OPTIONS};
+                                          PS_OPTION_NORMALIZE_VECTORS, PS_OPTION_LIFT,
+                                          PS_NUM_OPTIONS};
     for (const ps_option_id *id = on_sphere ? torus : sphere; *id != PS_NUM_OPTIONS; id++) {
         if (own->is_given[*id]) {
             return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
@@ -63,7 +67,7 @@ pspec_status ps_homogeneity_question_make(ps_question_list *out, const ps_reques
                                           ps_error *error) {
     bool on_sphere = false;
     PS_TRY(check_request(own, error));
-    PS_TRY(ps_homogeneity_domain(&on_sphere, own, error));
+    PS_TRY(find_domain(&on_sphere, own, error));
     PS_TRY(check_domain(own, on_sphere, error));
     PS_TRY(ps_questions_make(out, own, on_sphere ? PS_QUESTION_ANGULAR : PS_QUESTION_POWER, error));
     ps_power_question *const question = &out->questions[0];

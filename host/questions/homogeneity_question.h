@@ -4,11 +4,6 @@
 
 #include "questions/question.h"
 
-/* Samplers say where their points lie; files are of the sphere when one of --domain sphere, --lift,
- * --hemisphere and --max-degree says so. */
-pspec_status ps_homogeneity_domain(bool *on_sphere, const ps_request *arguments,
-                                   ps_error *error) PS_MUST_CHECK;
-
 /* What is asked with the defaults of this question. */
 ps_request ps_homogeneity_request(const ps_request *arguments);
 

@@ -78,6 +78,8 @@ refuses 'does not go with' --homogeneous --against saved.json --sampler white
 refuses '-l is for points of the sphere' --homogeneous --sampler white -l 4
 refuses '-k is for points of the torus' --homogeneous --sampler white-sphere -k 4
 refuses '--hemisphere is for points of the sphere' --homogeneous --sampler white --hemisphere
+refuses '--lift is for points of the sphere' --homogeneous --domain torus --lift sphere sets.txt
+refuses 'it says how point files are read' --homogeneous --domain sphere --sampler white
 refuses 'one sampler is checked at a time' --homogeneous --sampler white --sampler jittered
 refuses '9 realizations cannot tell' --homogeneous --sampler white -m 9 -n 64
 refuses 'at least' --homogeneous --sampler white -m 9 --false-alarm-rate 1e-9
