@@ -263,35 +263,43 @@ static void append_name(ps_text *names, const entry *one) {
     }
 }
 
-static pspec_status fail_several(const archive *whole, const char *wanted, const ps_text *names) {
-    return names->failed ? ps_fail(whole->error, PSPEC_ERROR_MEMORY, "not enough memory for names")
-                         : ps_fail(whole->error, PSPEC_ERROR_INPUT,
-                                   "%s holds several arrays (%.200s), none of them called \"%s\": "
-                                   "numpy.savez(FILE, %s=array) calls one so",
-                                   whole->name, ps_text_string(names), wanted, wanted);
-}
-
-static pspec_status choose(const archive *whole, const char *wanted, entry *out) {
+/* Entries were taken before. */
+static pspec_status fail_several(const archive *whole, const char *wanted) {
     size_t at = 0;
+    entry one;
     ps_text names = {0};
-    bool is_found = false;
     pspec_status status = PSPEC_OK;
-    for (uint64_t i = 0; i < whole->num_entries && !is_found && status == PSPEC_OK; i++) {
-        status = take_entry(whole, &at, out);
-        if (status == PSPEC_OK) {
-            is_found = is_called(out, wanted);
-            ps_text_append(&names, "%s", i > 0 ? ", " : "");
-            append_name(&names, out);
-        }
+    for (uint64_t i = 0; i < whole->num_entries && status == PSPEC_OK; i++) {
+        status = take_entry(whole, &at, &one);
+        ps_text_append(&names, "%s", i > 0 ? ", " : "");
+        append_name(&names, &one);
     }
-    if (status == PSPEC_OK && whole->num_entries == 0) {
-        status =
-            ps_fail(whole->error, PSPEC_ERROR_INPUT, "%s is an empty zip archive", whole->name);
-    } else if (status == PSPEC_OK && !is_found && whole->num_entries > 1) {
-        status = fail_several(whole, wanted, &names);
+    if (status == PSPEC_OK) {
+        status = ps_text_check(&names, whole->error);
+    }
+    if (status == PSPEC_OK) {
+        status = ps_fail(whole->error, PSPEC_ERROR_INPUT,
+                         "%s holds several arrays (%.200s), none of them called \"%s\": "
+                         "numpy.savez(FILE, %s=array) calls one so",
+                         whole->name, ps_text_string(&names), wanted, wanted);
     }
     ps_text_free(&names);
     return status;
+}
+
+/* The last one stands for the only one. */
+static pspec_status choose(const archive *whole, const char *wanted, entry *out) {
+    size_t at = 0;
+    for (uint64_t i = 0; i < whole->num_entries; i++) {
+        PS_TRY(take_entry(whole, &at, out));
+        if (is_called(out, wanted)) {
+            return PSPEC_OK;
+        }
+    }
+    if (whole->num_entries == 0) {
+        return ps_fail(whole->error, PSPEC_ERROR_INPUT, "%s is an empty zip archive", whole->name);
+    }
+    return whole->num_entries == 1 ? PSPEC_OK : fail_several(whole, wanted);
 }
 
 /* ---- opening ----------------------------------------------------------------------------- */
