@@ -33,11 +33,12 @@ static pspec_status check_weights(const ps_request *arguments, ps_error *error) 
                        "%s is about --weights optimal, which was not given",
                        ps_option_show(arguments, PS_OPTION_WEIGHT_SUM).text);
     }
-    return arguments->weights_out != NULL &&
+    return (arguments->weights_out != NULL || arguments->wants_array) &&
                    (arguments->num_samplers > 1 || ps_num_realizations_asked(arguments) > 1)
                ? ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "--weights-out has the weights of one rule, but several samplers or "
-                         "realizations were asked for")
+                         "%s has the weights of one rule, but several samplers or realizations "
+                         "were asked for",
+                         arguments->wants_array ? "arrays" : "--weights-out")
                : PSPEC_OK;
 }
 
@@ -75,7 +76,7 @@ static ps_quadrature_question make_question(const ps_request *arguments, const p
         .paths = arguments->files,
         .num_paths = arguments->num_files,
         .weights = arguments->weights,
-        .keeps_weights = arguments->weights_out != NULL,
+        .keeps_weights = arguments->weights_out != NULL || arguments->wants_array,
         .point_options = ps_point_options_make(arguments),
         .drops_below_horizon = arguments->drop_below_horizon,
         .max_degree = (size_t)arguments->max_degree,

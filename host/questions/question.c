@@ -106,6 +106,11 @@ static pspec_status check_results(const ps_request *arguments, ps_error *error) 
                                  ps_option_show(arguments, pairs[i].b).text, pairs[i].why, error);
         }
     }
+    if (arguments->wants_array &&
+        (arguments->frequencies.path != NULL || arguments->frequencies.per_ring > 0)) {
+        return fail_conflict(arguments->frequencies.path != NULL ? "frequencies" : "per-ring",
+                             "arrays", "they do not fill an array", error);
+    }
     if (arguments->full != NULL && arguments->num_samplers > 1) {
         return fail_conflict("--full", "several samplers", "one array has one file", error);
     }
@@ -190,7 +195,7 @@ static ps_power_question make_question(const ps_request *arguments, ps_question_
         .per_ring_seed = arguments->seed,
         /* the picture of one spectrum shows the corners; several, and subsets, are curves only */
         .wants_full_array = arguments->full != NULL || arguments->coefficients != NULL ||
-                            arguments->wants_picture ||
+                            arguments->wants_picture || arguments->wants_array ||
                             (arguments->plot != NULL && arguments->num_samplers <= 1 &&
                              arguments->frequencies.per_ring == 0),
         .normalization = choose_normalization(arguments, kind),

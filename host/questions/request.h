@@ -120,6 +120,7 @@ typedef struct ps_request {
         quiet, verbose;
     /* The picture shows the averaged periodogram on the whole square; no option asks for it. */
     bool wants_picture;
+    bool wants_array;  /* the answer has its array, too (results/kind.h); no option asks for it */
     bool effective;    /* --normalize effective */
     double smoothness; /* 1.5 unless given */
     size_t num_files;

@@ -10,9 +10,7 @@
 
 /* ---- --full ------------------------------------------------------------------------------ */
 
-/* P(0) = N W^2 / W^2 = N, N being the mean over the realizations, a constant; or W^2 / V, which
- * each has its own of. */
-static ps_mean dc_power(const ps_request *arguments, const ps_spectrum *spectrum) {
+ps_mean ps_power_dc(const ps_request *arguments, const ps_spectrum *spectrum) {
     return arguments->effective ? spectrum->sample_size : (ps_mean){.mean = spectrum->mean_points};
 }
 
@@ -25,7 +23,7 @@ static pspec_status write_array(const char *path, const ps_request *arguments,
     for (unsigned axis = 0; axis < set->dimension; axis++) {
         shape[axis] = 2 * (size_t)set->max_frequency + 1;
     }
-    PS_TRY(ps_spectrum_full(spectrum, which, dc_power(arguments, spectrum), &array, &num_entries,
+    PS_TRY(ps_spectrum_full(spectrum, which, ps_power_dc(arguments, spectrum), &array, &num_entries,
                             error));
     const pspec_status status = ps_npy_write(path, set->dimension, shape, array, error);
     free(array);

@@ -23,4 +23,8 @@ pspec_status ps_power_write_full(const ps_request *arguments, const ps_power_job
 pspec_status ps_power_write_coefficients(const ps_request *arguments, const ps_power_job *job,
                                          ps_error *error) PS_MUST_CHECK;
 
+/* P(0) = N W^2 / W^2 = N, N being the mean over the realizations, a constant; or W^2 / V, which
+ * each has its own of. */
+ps_mean ps_power_dc(const ps_request *arguments, const ps_spectrum *spectrum);
+
 #endif

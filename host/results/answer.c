@@ -45,6 +45,14 @@ void ps_answer_tell_missing(const ps_answer_hooks *hooks, const char *format, ..
     va_end(arguments);
 }
 
+size_t ps_answer_num_entries(const ps_answer *answer) {
+    size_t num = answer->array != NULL ? 1 : 0;
+    for (unsigned axis = 0; axis < answer->rank; axis++) {
+        num *= answer->shape[axis];
+    }
+    return num;
+}
+
 pspec_status ps_answer_make(ps_answer *out, const ps_result_kind *kind, const ps_request *request,
                             const ps_answer_hooks *hooks, ps_error *error) {
     void *computed = NULL;

@@ -16,24 +16,29 @@ static pspec_status compute(void **out, const ps_request *request, const ps_answ
     return ps_spectra_compute(out, request, PS_QUESTION_POWER, hooks, error);
 }
 
-/* Lists, and subsets of rings, fill no array. */
-static pspec_status take_array(ps_answer *out, const ps_spectrum *spectrum, ps_error *error) {
+/* Lists, and subsets of rings, fill no array. Pictures have no DC. */
+static pspec_status take_array(ps_answer *out, const ps_spectrum *spectrum,
+                               const ps_request *request, ps_error *error) {
     enum { PLANE = 2 };
     size_t num = 0;
     const ps_frequencies *const set = &spectrum->frequencies;
-    if (set->dimension != PLANE || set->kind != PS_FREQUENCIES_BOX) {
+    if (set->kind != PS_FREQUENCIES_BOX || (set->dimension != PLANE && !request->wants_array)) {
         return PSPEC_OK;
     }
-    PS_TRY(ps_spectrum_full(spectrum, 0, (ps_mean){0}, &out->array, &num, error));
-    out->side = 2 * (size_t)set->max_frequency + 1;
+    const ps_mean dc = request->wants_array ? ps_power_dc(request, spectrum) : (ps_mean){0};
+    PS_TRY(ps_spectrum_full(spectrum, 0, dc, &out->array, &num, error));
+    out->rank = set->dimension;
+    for (unsigned axis = 0; axis < set->dimension; axis++) {
+        out->shape[axis] = 2 * (size_t)set->max_frequency + 1;
+    }
     return PSPEC_OK;
 }
 
 static pspec_status tabulate(ps_answer *out, const void *computed, const ps_request *request,
                              ps_error *error) {
     const ps_spectra *const spectra = computed;
-    if (request->wants_picture) {
-        PS_TRY(take_array(out, ps_power_job_spectrum(spectra->jobs[0]), error));
+    if (request->wants_picture || request->wants_array) {
+        PS_TRY(take_array(out, ps_power_job_spectrum(spectra->jobs[0]), request, error));
     }
     return ps_spectra_tabulate(out, computed, request, ps_power_table, error);
 }
@@ -63,6 +68,7 @@ const ps_result_kind ps_result_power = {
     .samples = PS_DOMAIN_TORUS,
     .counted = "realizations",
     .has_images = true,
+    .has_arrays = true,
     .check_arguments = ps_power_check_arrays,
     .check_question = check_question,
     .plan = plan,

@@ -8,6 +8,7 @@
 #include "results/spectra.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 /* One rule, or one mean over realizations, for each sampler or for the files. */
 typedef struct rules {
@@ -93,9 +94,21 @@ static pspec_status compute(void **out, const ps_request *request, const ps_answ
     return PSPEC_OK;
 }
 
+static pspec_status take_weights(ps_answer *out, const ps_quadrature_result *result,
+                                 ps_error *error) {
+    PS_TRY(PS_NEW(&out->array, result->num_weights, "weights of an answer", error));
+    memcpy(out->array, result->weights, result->num_weights * sizeof *out->array);
+    out->rank = 1;
+    out->shape[0] = result->num_weights;
+    return PSPEC_OK;
+}
+
 static pspec_status tabulate(ps_answer *out, const void *computed, const ps_request *request,
                              ps_error *error) {
     const rules *const work = computed;
+    if (request->wants_array) {
+        PS_TRY(take_weights(out, &work->results[0], error));
+    }
     return ps_quadrature_table(&out->table, request, &work->list, work->results, error);
 }
 
@@ -157,6 +170,7 @@ const ps_result_kind ps_result_quadrature = {
     .weights = "equal|column|optimal|FILE",
     .samples = PS_DOMAIN_SPHERE,
     .counted = "realizations",
+    .has_arrays = true,
     .check_arguments = check_weights_out,
     .check_question = check_question,
     .plan = plan,

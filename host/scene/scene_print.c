@@ -81,6 +81,9 @@ static void print_result(const ps_scene_result *result, ps_text *out) {
     if (result->wants_pictures) {
         ps_text_append(out, ", \"pictures\": \"true\"");
     }
+    if (result->wants_arrays) {
+        ps_text_append(out, ", \"arrays\": \"true\"");
+    }
     for (size_t i = 0; i < result->num_entries; i++) {
         print_entry(&result->entries[i], out);
     }

@@ -14,8 +14,8 @@ void ps_scene_consider(ps_scene_nearest *best, const char *typed, const char *kn
     }
 }
 
-static const char *const own_keys[] = {"result",   "name",  "title",   "plot",
-                                       "pictures", "files", "samplers"};
+static const char *const own_keys[] = {"result",   "name",   "title", "plot",
+                                       "pictures", "arrays", "files", "samplers"};
 enum { NUM_OWN_KEYS = sizeof own_keys / sizeof own_keys[0] };
 
 /* The option that a key of a result means; -1: none. */
@@ -121,6 +121,9 @@ static pspec_status take_pair(const ps_scene_reader *reader, ps_scene_result *ou
     }
     if (strcmp(key, "pictures") == 0 && out->kind->has_images) {
         return take_switch(reader, value, key, &out->wants_pictures);
+    }
+    if (strcmp(key, "arrays") == 0 && out->kind->has_arrays) {
+        return take_switch(reader, value, key, &out->wants_arrays);
     }
     const int option = find_option(out->kind, key);
     if (option < 0) {

@@ -66,7 +66,7 @@ make_inputs() {
 scene: 1
 defaults: {engine: host_direct, no-self-check: true}
 results:
-  - {result: power, files: points.txt, max-frequency: 2, plot: false}
+  - {result: power, files: points.txt, max-frequency: 2, plot: false, arrays: true}
   - {result: truncation, brdf: diffuse, max-degree: 1, plot: false}
 EOF
     printf 'scene: 1\nresults:\n  - {result: pairs, engine: host_direct, samplers: zphi, points: 8, max-degree: 4}\n' >drawn.yaml

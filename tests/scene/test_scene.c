@@ -238,6 +238,7 @@ static void assert_same_scene(const ps_scene *a, const ps_scene *b) {
         assert_true(is_same_text(a->results[i].title, b->results[i].title));
         assert_int_equal(a->results[i].wants_plot, b->results[i].wants_plot);
         assert_int_equal(a->results[i].wants_pictures, b->results[i].wants_pictures);
+        assert_int_equal(a->results[i].wants_arrays, b->results[i].wants_arrays);
         for (size_t q = 0; q < num; q++) {
             ps_scene_question one = make(a, i, q);
             assert_command(b, i, q, one.request.command_line);
@@ -289,7 +290,8 @@ static void records_ask_the_same(void **state) {
     assert_record(state,
                   "scene: 1\ntitle: A \"title\" \\ <&>\ndescription: |\n  two\n  lines\n"
                   "defaults: {seed: 3, files: [[a, b c], d]}\nresults:\n"
-                  "  - {result: power, name: x, title: 'it''s', points: 16..64, pictures: true}\n"
+                  "  - {result: power, name: x, title: 'it''s', points: 16..64, pictures: true, "
+                  "arrays: true}\n"
                   "  - {result: quadrature, brdf: ['zonal:file=l', diffuse], weights: [w, equal]}\n"
                   "  - {result: check, against: s, samplers: white, plot: false, no-skip: true}\n",
                   2);

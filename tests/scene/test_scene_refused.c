@@ -98,6 +98,7 @@ static void keys_of_results(void **state) {
         {POWER "    output: a.csv\n", 4, "output: unknown key"},
         {POWER "    device: cpu\n", 4, "device: unknown key"},
         {HEAD "  - result: angular\n    pictures: true\n", 4, "pictures: unknown key"},
+        {HEAD "  - result: angular\n    arrays: true\n", 4, "arrays: unknown key"},
         {HEAD "  - result: truncation\n    files: a\n", 4, "files: not a key of this result"},
         {POWER "    points: 3\n    points: 4\n", 5, "points: this key stands in line 4 already"},
         {POWER "    sampler: white\n    samplers: white\n", 5, "sampler: stands in line 4 already"},

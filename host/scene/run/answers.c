@@ -57,7 +57,7 @@ static pspec_status digest(const ps_answer *answer, char out[PS_DIGEST_BYTES], p
         }
     }
     ps_text_append_bytes(&bytes, (const char *)answer->array,
-                         answer->side * answer->side * sizeof(double));
+                         ps_answer_num_entries(answer) * sizeof(double));
     ps_digest_bytes(ps_text_string(&bytes), bytes.length, out);
     const pspec_status status = ps_text_check(&bytes, error);
     ps_text_free(&bytes);

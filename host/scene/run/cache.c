@@ -106,57 +106,80 @@ static pspec_status add_files(ps_text *key, const ps_request *request, ps_error 
 static pspec_status make_key(const ps_run *run, ps_run_question *question, ps_error *error) {
     ps_text *const key = &question->key;
     const ps_request *const request = &question->asked.request;
-    ps_text_append(key, "%s%s\npicture %d\nno-skip %d\n", ps_text_string(&run->identity),
-                   request->command_line, request->wants_picture, request->accuracy.no_skip);
+    ps_text_append(key, "%s%s\npicture %d\narray %d\nno-skip %d\n", ps_text_string(&run->identity),
+                   request->command_line, request->wants_picture, request->wants_array,
+                   request->accuracy.no_skip);
     PS_TRY(add_files(key, request, error));
     return ps_text_check(key, error);
 }
 
 /* ---- answers as bytes -------------------------------------------------------------------- */
 
-/* What it took, the size of the packed table and the side of the array; the table, the array. */
+/* What it took, the size of the packed table and the shape of the array; the table, the array. */
 typedef struct packed_head {
     double seconds;
-    uint64_t table_bytes, side;
+    uint64_t table_bytes, rank, shape[PS_ANSWER_RANK];
 } packed_head;
 
 static pspec_status pack(const ps_answer *answer, double seconds, ps_text *out, ps_error *error) {
     void *bytes = NULL;
     size_t num = 0;
     PS_TRY(ps_table_pack(answer->table, &bytes, &num, error));
-    const packed_head head = {seconds, num, answer->side};
+    packed_head head = {.seconds = seconds, .table_bytes = num, .rank = answer->rank};
+    for (unsigned axis = 0; axis < answer->rank; axis++) {
+        head.shape[axis] = answer->shape[axis];
+    }
     ps_text_append_bytes(out, (const char *)&head, sizeof head);
     ps_text_append_bytes(out, bytes, num);
     ps_text_append_bytes(out, (const char *)answer->array,
-                         answer->side * answer->side * sizeof(double));
+                         ps_answer_num_entries(answer) * sizeof(double));
     free(bytes);
     return ps_text_check(out, error);
+}
+
+/* Bytes of the array, or more than there are. */
+static size_t count_array_bytes(const packed_head *head, size_t most) {
+    size_t bytes = head->rank > 0 ? sizeof(double) : 0;
+    for (uint64_t axis = 0; axis < head->rank && axis < PS_ANSWER_RANK; axis++) {
+        if (head->shape[axis] > most ||
+            !ps_size_multiply(bytes, (size_t)head->shape[axis], &bytes)) {
+            return SIZE_MAX;
+        }
+    }
+    return head->rank <= PS_ANSWER_RANK ? bytes : SIZE_MAX;
+}
+
+static pspec_status unpack_array(ps_answer *out, const packed_head *head, const char *bytes,
+                                 size_t num_bytes, ps_error *error) {
+    if (num_bytes == 0) {
+        return PSPEC_OK;
+    }
+    PS_TRY(ps_allocate_for(&out->array, num_bytes, 1, "an array", error));
+    memcpy(out->array, bytes, num_bytes);
+    out->rank = (unsigned)head->rank;
+    for (unsigned axis = 0; axis < out->rank; axis++) {
+        out->shape[axis] = (size_t)head->shape[axis];
+    }
+    return PSPEC_OK;
 }
 
 /* What another version may have packed is no answer: PSPEC_ERROR_INPUT. */
 static pspec_status unpack(ps_answer *out, double *seconds, const char *bytes, size_t num,
                            ps_error *error) {
     packed_head head;
-    void *array = NULL;
     if (num < sizeof head) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "an entry of %zu bytes is no answer", num);
     }
     memcpy(&head, bytes, sizeof head);
     const size_t rest = num - sizeof head;
-    if (head.table_bytes > rest || head.side > rest ||
-        head.side * head.side * sizeof(double) != rest - head.table_bytes) {
+    if (head.table_bytes > rest ||
+        count_array_bytes(&head, rest) != rest - (size_t)head.table_bytes) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "an entry of %zu bytes is cut off", num);
     }
-    PS_TRY(ps_table_unpack(&out->table, bytes + sizeof head, (size_t)head.table_bytes, error));
-    if (head.side > 0) {
-        const size_t num_entries = (size_t)(head.side * head.side);
-        PS_TRY(ps_allocate(&array, num_entries, sizeof(double), "an array", error));
-        memcpy(array, bytes + sizeof head + head.table_bytes, num_entries * sizeof(double));
-    }
-    out->array = array;
-    out->side = (size_t)head.side;
+    const size_t table_bytes = (size_t)head.table_bytes;
+    PS_TRY(ps_table_unpack(&out->table, bytes + sizeof head, table_bytes, error));
     *seconds = head.seconds;
-    return PSPEC_OK;
+    return unpack_array(out, &head, bytes + sizeof head + table_bytes, rest - table_bytes, error);
 }
 
 /* ---- to and fro ------------------------------------------------------------------------------ */

@@ -4,14 +4,22 @@
 #include "scene/run/run.h"
 
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 const char ps_run_table_ending[] = ".csv";
 const char ps_run_summary_ending[] = ".summary.csv";
 const char ps_run_picture_ending[] = ".svg";
+const char ps_run_array_ending[] = ".npy";
 const char ps_run_record_name[] = "record.json";
 const char ps_run_page_name[] = "index.html";
+
+ps_array_suffix ps_run_array_suffix(size_t question) {
+    ps_array_suffix out;
+    snprintf(out.text, sizeof out.text, "-array-%zu", question + 1);
+    return out;
+}
 
 static pspec_status add(ps_run_files *files, const ps_scene_result *result, const char *name,
                         const char *suffix, const char *ending, ps_error *error) {
@@ -33,6 +41,10 @@ static pspec_status add_result(ps_run_files *files, const ps_run_result *result,
     const ps_scene_result *const asked = result->asked;
     PS_TRY(add(files, asked, asked->name, "", ps_run_table_ending, error));
     PS_TRY(add(files, asked, asked->name, "", ps_run_summary_ending, error));
+    for (size_t q = 0; asked->wants_arrays && q < result->num; q++) {
+        PS_TRY(add(files, asked, asked->name, ps_run_array_suffix(q).text, ps_run_array_ending,
+                   error));
+    }
     for (size_t i = 0; i < result->pictures.num; i++) {
         PS_TRY(add(files, asked, asked->name, result->pictures.all[i].suffix, ps_run_picture_ending,
                    error));

@@ -27,7 +27,13 @@ typedef struct ps_run_files {
 
 /* Names are made of these, here and where files are written. */
 extern const char ps_run_table_ending[], ps_run_summary_ending[], ps_run_picture_ending[];
+extern const char ps_run_array_ending[];
 extern const char ps_run_record_name[], ps_run_page_name[];
+/* "-array-1", of the first question of a result. */
+typedef struct ps_array_suffix {
+    char text[32];
+} ps_array_suffix;
+ps_array_suffix ps_run_array_suffix(size_t question);
 
 /* All files that a run may write. Two results that want the same one are PSPEC_ERROR_INPUT, with
  * the line of one. Freed by ps_run_files_free, also after an error. */

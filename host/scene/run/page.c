@@ -210,8 +210,14 @@ static void print_result(const ps_run_result *result, ps_text *out) {
     print_text(asked->title != NULL ? asked->title : asked->name, out);
     ps_text_append(out,
                    "</h2>\n<p class=\"facts\">%s; tables <a href=\"%s.csv\">%s.csv</a>, "
-                   "<a href=\"%s.summary.csv\">%s.summary.csv</a></p>\n",
+                   "<a href=\"%s.summary.csv\">%s.summary.csv</a>",
                    asked->kind->name, asked->name, asked->name, asked->name, asked->name);
+    if (asked->wants_arrays) {
+        ps_text_append(out, "; arrays %s%s%s to %s%s%s, in the order of the summary", asked->name,
+                       ps_run_array_suffix(0).text, ps_run_array_ending, asked->name,
+                       ps_run_array_suffix(result->num - 1).text, ps_run_array_ending);
+    }
+    ps_text_append(out, "</p>\n");
     print_plots(result, out);
     print_summary(result, out);
     print_plan(result, out);

@@ -1,4 +1,5 @@
 /* The files of a run. */
+#include "files/npy.h"
 #include "files/output_file.h"
 #include "scene/run/run.h"
 
@@ -52,6 +53,23 @@ static pspec_status write_table(const ps_run *run, const ps_table *table, const 
     return status;
 }
 
+static pspec_status write_array(const ps_run *run, const ps_answer *answer, const char *name,
+                                size_t question, ps_error *error) {
+    ps_text path = {0};
+    ps_text_append(&path, "%s/%s%s%s", run->folder, name, ps_run_array_suffix(question).text,
+                   ps_run_array_ending);
+    pspec_status status = ps_text_check(&path, error);
+    if (status == PSPEC_OK) {
+        status =
+            ps_npy_write(ps_text_string(&path), answer->rank, answer->shape, answer->array, error);
+    }
+    if (status == PSPEC_OK) {
+        note_written(run, ps_text_string(&path));
+    }
+    ps_text_free(&path);
+    return status;
+}
+
 typedef pspec_status make_text(const ps_run *, ps_text *, ps_error *);
 
 static pspec_status write_text(const ps_run *run, const char *name, make_text *make,
@@ -76,7 +94,11 @@ static pspec_status write_tables(const ps_run *run, ps_run_result *result, ps_er
     const char *const name = result->asked->name;
     PS_TRY(ps_run_make_tables(run, result, error));
     PS_TRY(write_table(run, result->table, name, ps_run_table_ending, error));
-    return write_table(run, result->summary, name, ps_run_summary_ending, error);
+    PS_TRY(write_table(run, result->summary, name, ps_run_summary_ending, error));
+    for (size_t q = 0; result->asked->wants_arrays && q < result->num; q++) {
+        PS_TRY(write_array(run, &result->questions[q].answer, name, q, error));
+    }
+    return PSPEC_OK;
 }
 
 static pspec_status write_pictures(ps_run *run, ps_run_result *result, ps_error *error) {
