@@ -32,6 +32,7 @@ add_program_test(cli_weights)   # weights at the ends of the range of doubles, s
 add_program_test(cli_terminal)  # tables on a terminal, in files and in pipes
 add_program_test(cli_check)     # verdicts against saved spectra, exit codes, what is refused
 add_program_test(cli_homogeneous) # homogeneity of samplers, files and scenes
+add_program_test(cli_units)     # the number of compute units chooses nothing
 add_program_test(cli_bench)      # run time against error, figures per device: rows, files, what is refused
 if(POINTSPEC_BUILD_BENCH)
   add_program_test(cli_plan $<TARGET_FILE:bench_plan>) # seconds against those that commands take, phases

@@ -87,10 +87,10 @@ static void estimate(ps_candidate *candidate, const ps_problem *asked, const ps_
     } while (candidate->batch > 1 &&
              (candidate->is_crowded || (limit > 0 && candidate->bytes > limit)));
     candidate->kernels = work.kernels + kernels_of_averages(candidate->engine);
-    candidate->cost = ps_cost_seconds(&work, used, candidate->precision);
-    candidate->seconds =
-        candidate->cost * ps_figures_scale(limits != NULL ? limits->figures : NULL,
-                                           candidate->engine->name, candidate->precision);
+    candidate->cost = ps_cost_typical(&work, used, candidate->precision);
+    candidate->seconds = ps_cost_seconds(&work, used, candidate->precision) *
+                         ps_figures_scale(limits != NULL ? limits->figures : NULL,
+                                          candidate->engine->name, candidate->precision);
     candidate->error = ps_engine_error_in(candidate->engine, asked, survey->error);
     candidate->floor_error = ps_engine_floor_error(candidate->engine, asked, survey->error);
 }

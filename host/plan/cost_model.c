@@ -1,5 +1,7 @@
 #include "plan/cost_model.h"
 
+#include "device/kind.h"
+
 /* Measured rates. Machine: 2 cores of a Zen 5 EPYC (AVX-512) at a nominal 2.6 GHz, PoCL 3.1,
  * Debian 12, 2026-11. Regenerate with `./dev bench calibrate`, which prints this table. The numbers
  * are work per second as a share of the nominal peak of ps_cost_nominal_flops, so that they carry
@@ -37,22 +39,23 @@ enum { DEFAULT_CLOCK_MHZ = 1000, PIPES = 2, FLOPS_PER_FMA = 2 };
 /* A GPU compute unit (streaming multiprocessor) runs this many float lanes per clock and pipe. */
 enum { GPU_UNIT_LANES = 64 };
 
-double ps_cost_nominal_flops(const ps_device_limits *limits, ps_precision precision) {
-    const double clock = 1e6 * (limits->clock_mhz > 0 ? limits->clock_mhz : DEFAULT_CLOCK_MHZ);
+static double peak_of(const ps_device_limits *limits, ps_precision precision, double units,
+                      double clock_mhz) {
+    const double hertz = 1e6;
     double lanes =
         precision == PS_SINGLE ? limits->native_float_lanes : limits->native_double_lanes;
     if (limits->has_dedicated_local_memory) {
         lanes = precision == PS_SINGLE ? GPU_UNIT_LANES : GPU_UNIT_LANES / 2;
     }
-    return limits->compute_units * clock * (lanes > 1 ? lanes : 1) * PIPES * FLOPS_PER_FMA;
+    return units * hertz * clock_mhz * (lanes > 1 ? lanes : 1) * PIPES * FLOPS_PER_FMA;
 }
 
-double ps_cost_seconds(const ps_work *work, const ps_device_limits *limits,
-                       ps_precision precision) {
-    if (limits == NULL || precision == PS_EXTENDED) {
-        return work->phases * host_seconds_per_phase;
-    }
-    const double peak = ps_cost_nominal_flops(limits, precision);
+double ps_cost_nominal_flops(const ps_device_limits *limits, ps_precision precision) {
+    return peak_of(limits, precision, limits->compute_units,
+                   limits->clock_mhz > 0 ? limits->clock_mhz : DEFAULT_CLOCK_MHZ);
+}
+
+static double seconds_at(const ps_work *work, double peak, ps_precision precision) {
     return work->phases / (peak * device_rates[precision].phases_per_flop) +
            work->product_flops / (peak * device_rates[precision].product_share) +
            work->transform_flops / (peak * device_rates[precision].transform_share) +
@@ -60,6 +63,23 @@ double ps_cost_seconds(const ps_work *work, const ps_device_limits *limits,
            work->pair_degrees / (peak * device_rates[precision].pair_degrees_per_flop) +
            work->binned_pairs / (peak * device_rates[precision].pairs_per_flop) +
            work->launches * seconds_per_launch;
+}
+
+double ps_cost_seconds(const ps_work *work, const ps_device_limits *limits,
+                       ps_precision precision) {
+    return limits == NULL || precision == PS_EXTENDED
+               ? work->phases * host_seconds_per_phase
+               : seconds_at(work, ps_cost_nominal_flops(limits, precision), precision);
+}
+
+double ps_cost_typical(const ps_work *work, const ps_device_limits *limits,
+                       ps_precision precision) {
+    if (limits == NULL || precision == PS_EXTENDED) {
+        return ps_cost_seconds(work, NULL, precision);
+    }
+    const ps_typical_device typical = ps_device_typical(limits);
+    return seconds_at(work, peak_of(limits, precision, typical.compute_units, typical.clock_mhz),
+                      precision);
 }
 
 double ps_cost_rule_seconds(double pairs, double terms) {

@@ -11,6 +11,8 @@ double ps_cost_nominal_flops(const ps_device_limits *limits, ps_precision precis
 /* Estimated seconds of a whole job. A pure function: nothing is timed while planning. limits is
  * NULL for work on the host. */
 double ps_cost_seconds(const ps_work *work, const ps_device_limits *limits, ps_precision precision);
+/* The same on the typical device of that kind (device/kind.h), by which engines are chosen. */
+double ps_cost_typical(const ps_work *work, const ps_device_limits *limits, ps_precision precision);
 
 /* Estimates the kernel form of quadrature rules on one core of the host: pairs of points, and
  * (point, degree) of kappa. */

@@ -238,6 +238,10 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                          .help = "what the cache of results may take on the disk; 0: nothing is "
                                  "taken from it or kept (default 1e9)",
                          COUNT(cache_bytes), .minimum = 0, .maximum = INT64_MAX},
+    [PS_OPTION_RECORDED_ENGINES] = {NAMED("recorded-engines", 0, NULL), OF(0, BIT(run)),
+                                    .help = "answer the questions of a record by the engines, and "
+                                            "in the precisions, that it names",
+                                    FLAG(recorded_engines)},
     [PS_OPTION_NO_SKIP] = {NAMED("no-skip", 0, NULL), OF(SETS, BIT(run)),
                            .help = "do also what the question does not need",
                            FLAG(accuracy.no_skip)},

@@ -66,6 +66,7 @@ typedef enum ps_option_id {
     PS_OPTION_DEVICE,            /* --device SELECTOR */
     PS_OPTION_MEMORY,            /* --memory SIZE */
     PS_OPTION_CACHE,             /* --cache BYTES */
+    PS_OPTION_RECORDED_ENGINES,  /* --recorded-engines */
     PS_OPTION_NO_SKIP,           /* --no-skip */
     PS_OPTION_NO_SELF_CHECK,     /* --no-self-check */
     PS_OPTION_OUTPUT,            /* -o, --output FILE */
@@ -116,8 +117,8 @@ typedef struct ps_request {
     ps_point_options reading;
     ps_point_range points; /* of each set; {0} unless given */
     ps_plot_axes plot_axes;
-    bool homogenize, homogeneous, hemisphere, drop_below_horizon, merge, calibrate, quick, scenes,
-        quiet, verbose;
+    bool recorded_engines, homogenize, homogeneous, hemisphere, drop_below_horizon, merge,
+        calibrate, quick, scenes, quiet, verbose;
     /* The picture shows the averaged periodogram on the whole square; no option asks for it. */
     bool wants_picture;
     bool wants_array;  /* the answer has its array, too (results/kind.h); no option asks for it */

@@ -57,7 +57,9 @@ typedef struct ps_scene {
     /* of a record: what the questions, in their order, gave then; NULL in other scenes */
     size_t num_digests;
     const char **digests;
-    const char *recorded_version, *recorded_device;
+    const char *recorded_version, *recorded_device, *recorded_kind;
+    size_t num_engines; /* engine and precision of each question, "" where there was none */
+    const char **engines, **precisions;
     size_t num_files;
     /* That the run wrote, each "DIGEST NAME"; - for the digest of one that it did not finish */
     const char **files;
@@ -96,6 +98,10 @@ size_t ps_scene_num_questions(const ps_scene_result *result);
 /* Freed by ps_scene_question_free, also after an error. */
 pspec_status ps_scene_question_make(ps_scene_question *out, const ps_scene_result *result,
                                     size_t number, ps_error *error) PS_MUST_CHECK;
+/* Has the question answered by the engine of a record, "(NAME ..)", in that precision, unless it
+ * names an engine itself; "" is none. */
+pspec_status ps_scene_question_use(ps_scene_question *question, const char *engine,
+                                   const char *precision, ps_error *error) PS_MUST_CHECK;
 void ps_scene_question_free(ps_scene_question *question);
 
 /* The value that question `number` has of an entry. */

@@ -1,4 +1,5 @@
 /* The questions of a result: one for each combination of its values. */
+#include "engines/engine.h"
 #include "questions/option_text.h"
 #include "scene/scene_file.h"
 
@@ -56,6 +57,45 @@ pspec_status ps_scene_question_make(ps_scene_question *out, const ps_scene_resul
     out->request.wants_array = result->wants_arrays;
     out->request.command_line = ps_text_string(&out->command);
     return PSPEC_OK;
+}
+
+/* The word outlives the question. */
+static pspec_status use_word(ps_scene_question *question, ps_option_id id, const char *word,
+                             ps_error *error) {
+    if (question->request.is_given[id] || !ps_result_asks(question->result->kind, id)) {
+        return PSPEC_OK;
+    }
+    ps_option_append(&question->command, id, word);
+    PS_TRY(ps_text_check(&question->command, error));
+    question->request.command_line = ps_text_string(&question->command);
+    return ps_option_apply(&question->request, id, ps_result_words(question->result->kind, id),
+                           word, error);
+}
+
+/* "(NAME ..)" */
+static bool is_of_engine(const char *description, const char *name) {
+    const size_t length = strlen(name);
+    return description[0] == '(' && strncmp(description + 1, name, length) == 0 &&
+           strchr(" )", description[1 + length]) != NULL;
+}
+
+pspec_status ps_scene_question_use(ps_scene_question *question, const char *engine,
+                                   const char *precision, ps_error *error) {
+    size_t i = 0;
+    if (engine[0] == '\0') {
+        return PSPEC_OK;
+    }
+    while (ps_engines[i] != NULL && !is_of_engine(engine, ps_engines[i]->name)) {
+        i++;
+    }
+    if (ps_engines[i] == NULL) {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "the record names an engine \"%.60s\" that this "
+                       "version does not have",
+                       engine);
+    }
+    PS_TRY(use_word(question, PS_OPTION_ENGINE, ps_engines[i]->name, error));
+    return use_word(question, PS_OPTION_PRECISION, precision, error);
 }
 
 void ps_scene_question_free(ps_scene_question *question) {

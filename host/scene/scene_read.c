@@ -67,6 +67,41 @@ static pspec_status take_texts(const ps_scene_reader *reader, const ps_scene_nod
     return PSPEC_OK;
 }
 
+static pspec_status take_engine(const ps_scene_reader *reader, const ps_scene_node *question,
+                                size_t number) {
+    if (question->kind != PS_NODE_MAPPING) {
+        return ps_scene_complain(reader->file, question->line, "questions", "no list of mappings");
+    }
+    reader->scene->engines[number] = reader->scene->precisions[number] = "";
+    for (size_t i = 0; i < ps_scene_num_pairs(question); i++) {
+        const char *key = NULL;
+        const ps_scene_node *value = NULL;
+        PS_TRY(ps_scene_pair(reader->file, question, i, &key, &value));
+        if (strcmp(key, "engine") == 0) {
+            PS_TRY(ps_scene_take_text(reader->file, value, key, &reader->scene->engines[number]));
+        } else if (strcmp(key, "precision") == 0) {
+            PS_TRY(
+                ps_scene_take_text(reader->file, value, key, &reader->scene->precisions[number]));
+        }
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status take_engines(const ps_scene_reader *reader, const ps_scene_node *node) {
+    ps_scene *const scene = reader->scene;
+    const size_t num = ps_scene_num_items(node);
+    void *memory = NULL;
+    PS_TRY(ps_scene_allocate(scene, 2 * num, sizeof *scene->engines, &memory, reader->file->error));
+    scene->engines = memory;
+    scene->precisions = scene->engines + num;
+    const ps_scene_node *item = ps_scene_first_item(node);
+    for (size_t i = 0; i < num; i++, item = item->next) {
+        PS_TRY(take_engine(reader, item, i));
+    }
+    scene->num_engines = num;
+    return PSPEC_OK;
+}
+
 /* What a run wrote (docs/user/scenes.md); other keys are for people. */
 static pspec_status take_record(const ps_scene_reader *reader, const ps_scene_node *node) {
     if (node->kind != PS_NODE_MAPPING) {
@@ -88,6 +123,10 @@ static pspec_status take_record(const ps_scene_reader *reader, const ps_scene_no
             PS_TRY(ps_scene_take_text(reader->file, value, key, &reader->scene->recorded_version));
         } else if (strcmp(key, "device") == 0) {
             PS_TRY(ps_scene_take_text(reader->file, value, key, &reader->scene->recorded_device));
+        } else if (strcmp(key, "kind") == 0) {
+            PS_TRY(ps_scene_take_text(reader->file, value, key, &reader->scene->recorded_kind));
+        } else if (strcmp(key, "questions") == 0) {
+            PS_TRY(take_engines(reader, value));
         }
     }
     return PSPEC_OK;

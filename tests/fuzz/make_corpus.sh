@@ -329,7 +329,7 @@ defaults: &d {points: &n [16, 32]}
 results: [&r {result: power, points: *n, title: "\u2028\x80\N"}, {result: power, files: &f [-a, "b 'c"], seed: *n}]
 EOF
 printf '{"scene": "1", "results": [{"result": "power", "name": "a", "plot": "true", "files": [["a", "b"]]}], "record": {"folder": "/x/",
-"device": "d", "pointspec_version": "0", "questions": [{"seed": "1"}], "digests": ["0a", "0b"]}}\n' | seed scene record ''
+"device": "d", "pointspec_version": "0", "kind": "k", "questions": [{"seed": "1", "engine": "(host_direct)", "precision": "extended"}], "digests": ["0a", "0b"]}}\n' | seed scene record ''
 printf 'scene: 1\nresults: &a\n  - *a\n' | seed scene itself ''
 printf '[[[[[[[[[[[[[[[[[[[[[' | seed scene nest ''
 printf 'scene: 1\nresults:\n  - {result: power, pionts: 3}\n' | seed scene typing ''

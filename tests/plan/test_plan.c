@@ -214,9 +214,66 @@ static void forced_to_a_device_that_is_not_there(void **state) {
     assert_non_null(strstr(said.message, "needs an OpenCL device"));
 }
 
+/* How many compute units a device has, how fast they are, their caches and what was measured choose
+ * nothing: the same engine in the same precision, with the same error. */
+static void check_kind(const ps_problem *problem, const ps_device_limits *first) {
+    static const ps_figures slow = {
+        .is_measured = true,
+        .num_engines = 2,
+        .engines = {{"torus_nufft", {100, 100, 1}}, {"sphere_grid", {100, 100, 1}}}};
+    ps_plan plans[2];
+    test_make_plan(&plans[0], problem, first, &test_any_plan);
+    for (unsigned units = 1; units <= 128; units *= 8) {
+        ps_device_limits other = *first;
+        other.compute_units = units;
+        other.clock_mhz = 500 + 37 * units;
+        other.cache_bytes = (uint64_t)units << 20;
+        other.figures = units > 1 ? &slow : NULL;
+        test_make_plan(&plans[1], problem, &other, &test_any_plan);
+        const ps_candidate *const a = plans[0].chosen;
+        const ps_candidate *const b = plans[1].chosen;
+        assert_true((a == NULL) == (b == NULL));
+        if (a != NULL && (a->engine != b->engine || a->precision != b->precision)) {
+            fail_msg("N = %llu, K = %d, %llu realizations: %s by %u units, %s by %u",
+                     (unsigned long long)problem->num_points,
+                     (int)problem->frequencies->max_frequency,
+                     (unsigned long long)problem->num_realizations, a->engine->name,
+                     first->compute_units, b->engine->name, units);
+        }
+        assert_true(a == NULL || a->error == b->error);
+    }
+}
+
+static void choices_are_of_the_kind(void **state) {
+    (void)state;
+    const ps_device_limits devices[] = {test_cpu(), test_gpu(true), test_gpu(false)};
+    for (size_t i = 0; i < sizeof devices / sizeof devices[0]; i++) {
+        for (uint64_t num_points = 64; num_points <= 1 << 16; num_points *= 32) {
+            for (unsigned dimension = 0; dimension <= 3; dimension++) {
+                for (int32_t largest = 16; largest <= 128; largest *= 8) {
+                    ps_frequencies set = {0};
+                    if (dimension == 0) {
+                        assert_ok(ps_frequencies_degrees(&set, largest, false, error));
+                    } else {
+                        set = test_lattice(dimension, dimension < 3 ? largest : largest / 8);
+                    }
+                    for (uint64_t num = 1; num <= 100; num *= 100) {
+                        ps_problem problem = test_problem(&set, num_points, 1e-6);
+                        problem.num_realizations = num;
+                        check_kind(&problem, &devices[i]);
+                        problem.tolerance = 1e-10;
+                        check_kind(&problem, &devices[i]);
+                    }
+                }
+            }
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(same_question_same_answer),
+        cmocka_unit_test(choices_are_of_the_kind),
         cmocka_unit_test(every_tolerance_is_kept),
         cmocka_unit_test(without_a_device_the_host_does_it),
         cmocka_unit_test(devices_are_used_for_what_they_can),

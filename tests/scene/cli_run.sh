@@ -141,6 +141,24 @@ sed -E '/"digests"/,$ { 0,/"[0-9a-f]{32}"/ s/"[0-9a-f]{32}"/"0000000000000000000
 runs 3 altered.json
 says 'has other bits than the record, which is of pointspec'
 [[ -s altered/index.html ]] || complain "no page of an altered record"
+# a record of another kind of device: what differs is said, and the engines of then can be asked for
+sed -E 's/"kind": ".*"/"kind": "another driver"/; s/"engine": "\(host_direct/"engine": "(torus_direct/' altered.json >other.json
+runs 3 other.json -o other
+says 'a device of another kind (another driver) than this one ('
+says '--recorded-engines takes the engines of then: pointspec power'
+grep -q '"kind": "[^"]*, vectors of [0-9]* and [0-9]*, local memory' other/record.json || complain "no kind: $(grep kind other/record.json)"
+printf 'scene: 1\nresults:\n  - {result: power, engine: host_direct, samplers: [white, jittered], points: 64, max-frequency: 6}\n' >forced.yaml
+runs 0 forced.yaml -o forced
+sed '/"engine": \["host_direct"\]/d' forced/record.json >free.json
+runs 3 free.json -o free
+[[ $(grep -c '(torus_[a-z]* ' free/record.json) == 2 && $(<err) != *'another kind'* ]] || complain "the engine of a record is taken unasked: $(<err)"
+runs 0 free.json -o recorded --recorded-engines
+[[ $(grep -c -- '--engine host_direct --precision extended' recorded/record.json) == 2 ]] || complain "engines: $(grep command recorded/record.json)"
+sed 's/(host_direct/(sorcery/' free.json >magic.json
+runs 2 magic.json -o magic --recorded-engines
+says 'the record names an engine "(sorcery'
+runs 2 ../small.yaml -o none --recorded-engines
+says '--recorded-engines is for records'
 sed -E '/"digests"/,$ s/"[0-9a-f]{32}",//' record.json >short.json
 runs 3 short.json
 cd ..

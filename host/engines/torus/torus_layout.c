@@ -1,6 +1,7 @@
 #include "engines/torus/torus_layout.h"
 
 #include "base/round.h"
+#include "device/kind.h"
 #include "device/reals.h"
 #include "engines/torus/torus_split.h"
 
@@ -23,13 +24,6 @@ enum { LARGEST_GROUP = 1024 };
 /* Largest slab: lists need no tables, but partial sums of every chunk. */
 enum { LARGEST_SLAB_CHUNKS = 64 };
 
-/* Cache to plan with when a device does not tell. */
-enum { DEFAULT_CACHE_BYTES = 8 << 20 };
-
-static double cache_bytes(const ps_device_limits *limits) {
-    return limits->cache_bytes > 0 ? (double)limits->cache_bytes : DEFAULT_CACHE_BYTES;
-}
-
 /* Tables of a grid, or partial sums of a list, that one chunk of a realization takes. */
 static double chunk_bytes(const ps_torus_layout *layout) {
     const double row = (double)layout->lanes * (double)layout->real_bytes;
@@ -44,7 +38,8 @@ static void choose_slab(ps_torus_layout *layout, const ps_problem *problem,
     const double room = known == 0                      ? ROOM_WHEN_UNKNOWN
                         : known < ROOM_FOR_REALIZATIONS ? (double)known
                                                         : ROOM_FOR_REALIZATIONS;
-    const double fitting = group_share * cache_bytes(limits) / room / chunk_bytes(layout);
+    const double fitting =
+        group_share * ps_device_typical(limits).cache_bytes / room / chunk_bytes(layout);
     const size_t needed = ps_divide_up((size_t)problem->num_points, PS_TORUS_CHUNK);
     size_t chunks = needed < LARGEST_SLAB_CHUNKS ? needed : LARGEST_SLAB_CHUNKS;
     if (fitting < (double)chunks) {
@@ -73,8 +68,9 @@ static uint64_t group_member_bytes(const ps_torus_layout *layout, unsigned dimen
 static void choose_group(ps_torus_layout *layout, const ps_problem *problem,
                          const ps_device_limits *limits) {
     const double member = (double)group_member_bytes(layout, problem->frequencies->dimension);
-    const double budget =
-        limits->has_dedicated_local_memory ? gpu_group_bytes : group_share * cache_bytes(limits);
+    const double budget = limits->has_dedicated_local_memory
+                              ? gpu_group_bytes
+                              : group_share * ps_device_typical(limits).cache_bytes;
     const double fitting = budget / member;
     const uint64_t known = problem->num_realizations;
     double group = known > 0 && known < LARGEST_GROUP ? (double)known : LARGEST_GROUP;

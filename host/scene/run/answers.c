@@ -9,10 +9,28 @@
 
 /* ---- questions --------------------------------------------------------------------------- */
 
+/* Those of the record, of question number `number` of the scene. */
+static pspec_status use_recorded(const ps_run *run, size_t number, ps_scene_question *asked,
+                                 ps_error *error) {
+    const ps_scene *const scene = run->scene;
+    if (!run->arguments->recorded_engines) {
+        return PSPEC_OK;
+    }
+    return number < scene->num_engines
+               ? ps_scene_question_use(asked, scene->engines[number], scene->precisions[number],
+                                       error)
+               : ps_fail(error, PSPEC_ERROR_INPUT,
+                         "--recorded-engines is for records, and this scene names no engines of a "
+                         "former run");
+}
+
 static pspec_status ask_one(ps_run *run, ps_run_result *result, size_t number, ps_error *error) {
     ps_scene_question *const asked = &result->questions[number].asked;
     pspec_status status = ps_scene_question_make(asked, result->asked, number, error);
     result->num = number + 1;
+    if (status == PSPEC_OK) {
+        status = use_recorded(run, run->num_questions + number, asked, error);
+    }
     if (run->arguments->accuracy.no_skip) {
         asked->request.accuracy.no_skip = true;
     }

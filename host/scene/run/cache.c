@@ -20,13 +20,14 @@ static bool identify_program(ps_text *out) {
     return is_known;
 }
 
-static pspec_status identify_device(const ps_run *run, ps_text *out, ps_error *error) {
+static pspec_status identify_device(ps_run *run, ps_text *out, ps_error *error) {
     ps_device_limits *all = NULL;
     size_t num = 0;
     size_t index = 0;
     ps_error none = {0};
     const pspec_status listed = ps_device_list(&all, &num, &none);
     if (listed == PSPEC_ERROR_NO_DEVICE) {
+        run->kind = ps_device_kind_of(NULL);
         ps_text_append(out, "no device\n");
         return PSPEC_OK;
     }
@@ -34,16 +35,14 @@ static pspec_status identify_device(const ps_run *run, ps_text *out, ps_error *e
         *error = none;
         return listed;
     }
-    ps_figures figures; /* plans, and so bits, depend on them */
-    pspec_status status = ps_device_choose(all, num, run->arguments->limits.device, &index, error);
-    if (status == PSPEC_OK) {
-        status = ps_figures_read(&figures, run->arguments->limits.cache_folder, &all[index], error);
-    }
+    const pspec_status status =
+        ps_device_choose(all, num, run->arguments->limits.device, &index, error);
     if (status == PSPEC_OK) {
         const ps_device_limits *const limits = &all[index];
-        ps_text_append(out, "%s\n%s\n%s\n%s\n%u %u\nfigures %s\n", limits->platform, limits->name,
+        ps_text_append(out, "%s\n%s\n%s\n%s\n%u %u\n", limits->platform, limits->name,
                        limits->driver, limits->version, limits->native_float_lanes,
-                       limits->native_double_lanes, figures.is_measured ? figures.note : "");
+                       limits->native_double_lanes);
+        run->kind = ps_device_kind_of(limits);
     }
     free(all);
     return status;

@@ -82,7 +82,8 @@ pspec_status ps_run_record(const ps_run *run, ps_text *out, ps_error *error) {
     ps_text_append(out, ",\n  \"record\": {\n    \"pointspec_version\": ");
     ps_scene_print_text(PS_VERSION, out);
     print_pair("device", find_device(run), out);
-    /* version and digest of the program; platform, name, driver, lanes and figures of the device */
+    print_pair("kind", run->kind.text, out);
+    /* version and digest of the program; platform, name, driver and lanes of the device */
     print_pair("identity", ps_text_string(&run->identity), out);
     print_pair("command", run->arguments->command_line, out);
     PS_TRY(print_folder(run, out, error));

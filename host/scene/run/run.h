@@ -18,6 +18,7 @@
 #ifndef PS_SCENE_RUN_RUN_H
 #define PS_SCENE_RUN_RUN_H
 
+#include "device/kind.h"
 #include "files/digest.h"
 #include "results/kind.h"
 #include "scene/run/files.h"
@@ -54,10 +55,11 @@ typedef struct ps_run {
     ps_answer_hooks hooks; /* the watch hears of the work for each question */
     const ps_request *arguments;
     const ps_scene *scene;
-    const char *folder; /* for the results */
-    ps_cache *cache;    /* NULL: none */
-    ps_text identity;   /* of program and device, for the keys of the cache */
-    ps_device *device;  /* that of the hooks, or opened here; NULL: none yet */
+    const char *folder;  /* for the results */
+    ps_cache *cache;     /* NULL: none */
+    ps_text identity;    /* of program and device, for the keys of the cache */
+    ps_device_kind kind; /* of the device */
+    ps_device *device;   /* that of the hooks, or opened here; NULL: none yet */
     bool owns_device;
     bool lacks_device; /* a plan that goes on without */
     size_t num_results, num_questions, num_cached;

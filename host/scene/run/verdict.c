@@ -3,6 +3,38 @@
 
 #include <string.h>
 
+/* What is not as it was when the record was made. */
+static void say_what_differs(const ps_run *run, ps_text *out) {
+    const ps_scene *const scene = run->scene;
+    const char *const version =
+        scene->recorded_version != NULL ? scene->recorded_version : "another version";
+    ps_text_append(out, "which is of pointspec %s on %s", version,
+                   scene->recorded_device != NULL ? scene->recorded_device : "another device");
+    if (scene->recorded_kind == NULL || strcmp(scene->recorded_kind, run->kind.text) == 0) {
+        return;
+    }
+    ps_text_append(out, ", a device of another kind (%s) than this one (%s)", scene->recorded_kind,
+                   run->kind.text);
+    if (!run->arguments->recorded_engines) {
+        ps_text_append(out, "; --recorded-engines takes the engines of then");
+    }
+}
+
+static pspec_status fail_digest(const ps_run *run, const ps_run_result *result, size_t question,
+                                ps_error *error) {
+    ps_text differs = {0};
+    say_what_differs(run, &differs);
+    pspec_status status = ps_text_check(&differs, error);
+    if (status == PSPEC_OK) {
+        status = ps_fail(error, PSPEC_ERROR_CHECK,
+                         "question %zu of result %s has other bits than the record, %s: %s",
+                         question + 1, result->asked->name, ps_text_string(&differs),
+                         result->questions[question].asked.request.command_line);
+    }
+    ps_text_free(&differs);
+    return status;
+}
+
 static pspec_status compare_with_record(const ps_run *run, ps_error *error) {
     const ps_scene *const scene = run->scene;
     size_t number = 0;
@@ -14,13 +46,7 @@ static pspec_status compare_with_record(const ps_run *run, ps_error *error) {
         for (size_t q = 0; q < result->num; q++, number++) {
             if (number >= scene->num_digests ||
                 strcmp(scene->digests[number], result->questions[q].digest) != 0) {
-                return ps_fail(error, PSPEC_ERROR_CHECK,
-                               "question %zu of result %s has other bits than the record, which is "
-                               "of pointspec %s on %s: %s",
-                               q + 1, result->asked->name,
-                               scene->recorded_version != NULL ? scene->recorded_version : "?",
-                               scene->recorded_device != NULL ? scene->recorded_device : "?",
-                               result->questions[q].asked.request.command_line);
+                return fail_digest(run, result, q, error);
             }
         }
     }

@@ -1,6 +1,7 @@
 #include "engines/torus/nufft/layout.h"
 
 #include "base/round.h"
+#include "device/kind.h"
 #include "device/reals.h"
 #include "engines/nufft/kernels.h"
 #include "engines/nufft/choose.h"
@@ -11,7 +12,7 @@
  * last-level cache, on GPUs enough to fill the device. */
 static const double work_share = 0.25;
 static const double gpu_work_bytes = 512.0 * 1024 * 1024;
-enum { DEFAULT_CACHE_BYTES = 8 << 20, MOST_AT_ONCE = 1024 };
+enum { MOST_AT_ONCE = 1024 };
 
 /* How much each point of a chunk turns, kernels/nufft/spread.h. */
 enum { TURN_REALS = 2 * PS_NUFFT_CHUNK };
@@ -64,9 +65,9 @@ static uint64_t largest_of(const uint64_t *numbers, size_t num) {
  * units, no more than there are. */
 static size_t fitting_parts(const ps_problem *problem, const ps_device_limits *limits, double each,
                             size_t unit) {
-    const double cache =
-        limits->cache_bytes > 0 ? (double)limits->cache_bytes : DEFAULT_CACHE_BYTES;
-    const double budget = limits->has_dedicated_local_memory ? gpu_work_bytes : work_share * cache;
+    const double budget = limits->has_dedicated_local_memory
+                              ? gpu_work_bytes
+                              : work_share * ps_device_typical(limits).cache_bytes;
     const double fitting = fmin(budget / each, MOST_AT_ONCE);
     const size_t units = fitting > (double)unit ? (size_t)fitting / unit : 1;
     const uint64_t known = problem->num_realizations;

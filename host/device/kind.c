@@ -1,0 +1,23 @@
+#include "device/kind.h"
+
+#include <stdio.h>
+
+ps_device_kind ps_device_kind_of(const ps_device_limits *limits) {
+    ps_device_kind out;
+    if (limits == NULL) {
+        return (ps_device_kind){"the host"};
+    }
+    snprintf(out.text, sizeof out.text, "%s %s, vectors of %u and %u, local memory %s",
+             limits->platform, limits->driver, limits->native_float_lanes,
+             limits->native_double_lanes,
+             limits->has_dedicated_local_memory ? "of its own" : "in the cache");
+    return out;
+}
+
+/* CPUs: the machine on which the rates of plan/cost_model.c were measured. GPUs: a card of a data
+ * centre; nothing was measured on one yet. */
+ps_typical_device ps_device_typical(const ps_device_limits *limits) {
+    static const ps_typical_device cpu = {2, 2600, 32 << 20};
+    static const ps_typical_device gpu = {100, 1500, 40 << 20};
+    return limits->has_dedicated_local_memory ? gpu : cpu;
+}
