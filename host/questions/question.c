@@ -111,6 +111,15 @@ static pspec_status check_results(const ps_request *arguments, ps_error *error) 
         return fail_conflict(arguments->frequencies.path != NULL ? "frequencies" : "per-ring",
                              "arrays", "they do not fill an array", error);
     }
+    if (arguments->wants_coefficients && arguments->wants_picture) {
+        return fail_conflict("pictures", "arrays: coefficients", "an answer has one array", error);
+    }
+    if (arguments->wants_coefficients &&
+        (arguments->accuracy.standard_error > 0 || arguments->frequencies.per_ring > 0)) {
+        return fail_conflict(arguments->frequencies.per_ring > 0 ? "per-ring" : "standard-error",
+                             "arrays: coefficients", "they are of whole arrays of every set",
+                             error);
+    }
     if (arguments->full != NULL && arguments->num_samplers > 1) {
         return fail_conflict("--full", "several samplers", "one array has one file", error);
     }
@@ -138,8 +147,12 @@ static void fill_points(ps_power_question *question, const ps_request *arguments
     question->point_options.domain = domain;
 }
 
+static bool wants_coefficients(const ps_request *arguments) {
+    return arguments->coefficients != NULL || arguments->wants_coefficients;
+}
+
 static ps_harmonics find_harmonics(const ps_request *arguments, ps_question_kind kind) {
-    if (arguments->coefficients == NULL) {
+    if (!wants_coefficients(arguments)) {
         return PS_NO_HARMONICS;
     }
     if (kind == PS_QUESTION_POWER) {
@@ -194,7 +207,7 @@ static ps_power_question make_question(const ps_request *arguments, ps_question_
         .frequencies = arguments->frequencies,
         .per_ring_seed = arguments->seed,
         /* the picture of one spectrum shows the corners; several, and subsets, are curves only */
-        .wants_full_array = arguments->full != NULL || arguments->coefficients != NULL ||
+        .wants_full_array = arguments->full != NULL || wants_coefficients(arguments) ||
                             arguments->wants_picture || arguments->wants_array ||
                             (arguments->plot != NULL && arguments->num_samplers <= 1 &&
                              arguments->frequencies.per_ring == 0),

@@ -121,7 +121,8 @@ typedef struct ps_request {
         calibrate, quick, scenes, quiet, verbose;
     /* The picture shows the averaged periodogram on the whole square; no option asks for it. */
     bool wants_picture;
-    bool wants_array;  /* the answer has its array, too (results/kind.h); no option asks for it */
+    /* The answer has its array, or its coefficients (results/kind.h); no option asks for them. */
+    bool wants_array, wants_coefficients;
     bool effective;    /* --normalize effective */
     double smoothness; /* 1.5 unless given */
     size_t num_files;

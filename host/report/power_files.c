@@ -77,14 +77,8 @@ static void fill_box(const ps_frequencies *set, const double *amplitudes, size_t
     }
 }
 
-typedef struct complex_array {
-    unsigned rank;
-    size_t shape[PS_MAX_TORUS_DIMENSION + 1];
-    size_t num_entries; /* of a set */
-} complex_array;
-
-static complex_array find_shape(const ps_frequencies *set, size_t num_sets) {
-    complex_array out = {.num_entries = 1};
+static ps_complex_shape find_shape(const ps_frequencies *set, size_t num_sets) {
+    ps_complex_shape out = {.num_entries = 1};
     if (num_sets > 1) {
         out.shape[out.rank++] = num_sets;
     }
@@ -99,12 +93,31 @@ static complex_array find_shape(const ps_frequencies *set, size_t num_sets) {
     return out;
 }
 
+pspec_status ps_power_coefficients(const ps_power_job *job, double **out, ps_complex_shape *shape,
+                                   ps_error *error) {
+    const ps_frequencies *const set = ps_power_job_problem(job)->frequencies;
+    size_t num_sets = 0;
+    const double *amplitudes = ps_power_job_amplitudes(job, &num_sets);
+    *shape = find_shape(set, num_sets);
+    PS_TRY(ps_allocate_for(out, num_sets, 2 * shape->num_entries * sizeof **out, "coefficients",
+                           error));
+    for (size_t r = 0; r < num_sets; r++, amplitudes += 2 + 2 * set->num) {
+        double *const box = *out + r * 2 * shape->num_entries;
+        if (set->kind == PS_FREQUENCIES_LIST) {
+            memcpy(box, amplitudes + 2, 2 * shape->num_entries * sizeof *box);
+        } else {
+            fill_box(set, amplitudes, shape->num_entries, box);
+        }
+    }
+    return PSPEC_OK;
+}
+
 pspec_status ps_power_write_coefficients(const ps_request *arguments, const ps_power_job *job,
                                          ps_error *error) {
     const ps_frequencies *const set = ps_power_job_problem(job)->frequencies;
     size_t num_sets = 0;
     const double *amplitudes = ps_power_job_amplitudes(job, &num_sets);
-    const complex_array shape = find_shape(set, num_sets);
+    const ps_complex_shape shape = find_shape(set, num_sets);
     double *box = NULL;
     ps_output_file *file = NULL;
     if (set->kind != PS_FREQUENCIES_LIST) {

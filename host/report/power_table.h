@@ -20,6 +20,14 @@ pspec_status ps_power_write_full(const ps_request *arguments, const ps_power_job
 
 /* --coefficients: S(k) of every set, complex128 [sets][2K+1]..[2K+1], or [sets][frequencies] of a
  * list; without the first axis where there is one set. */
+typedef struct ps_complex_shape {
+    unsigned rank;
+    size_t shape[PS_MAX_TORUS_DIMENSION + 1];
+    size_t num_entries; /* of a set */
+} ps_complex_shape;
+/* The same in memory, pairs of doubles, freed by the caller. */
+pspec_status ps_power_coefficients(const ps_power_job *job, double **out, ps_complex_shape *shape,
+                                   ps_error *error) PS_MUST_CHECK;
 pspec_status ps_power_write_coefficients(const ps_request *arguments, const ps_power_job *job,
                                          ps_error *error) PS_MUST_CHECK;
 

@@ -1,8 +1,11 @@
 /* The averaged angular power spectrum of sets on the sphere. */
+#include "base/memory.h"
 #include "files/npy.h"
 #include "report/angular_table.h"
 #include "results/compare.h"
 #include "results/spectra.h"
+
+#include <string.h>
 
 static pspec_status check_coefficients(const ps_request *request, ps_error *error) {
     if (request->coefficients == NULL) {
@@ -27,8 +30,22 @@ static pspec_status compute(void **out, const ps_request *request, const ps_answ
     return ps_spectra_compute(out, request, PS_QUESTION_ANGULAR, hooks, error);
 }
 
+static pspec_status take_coefficients(ps_answer *out, const ps_power_job *job, ps_error *error) {
+    const size_t num = ps_num_coefficients_at(ps_power_job_problem(job)->frequencies);
+    PS_TRY(PS_NEW(&out->array, num, "coefficients of an answer", error));
+    memcpy(out->array, ps_power_job_coefficients(job), num * sizeof *out->array);
+    out->is_complex = true;
+    out->rank = 1;
+    out->shape[0] = num / 2;
+    return PSPEC_OK;
+}
+
 static pspec_status tabulate(ps_answer *out, const void *computed, const ps_request *request,
                              ps_error *error) {
+    const ps_spectra *const spectra = computed;
+    if (request->wants_coefficients) {
+        PS_TRY(take_coefficients(out, spectra->jobs[0], error));
+    }
     return ps_spectra_tabulate(out, computed, request, ps_angular_table, error);
 }
 
@@ -51,6 +68,7 @@ const ps_result_kind ps_result_angular = {
     .taker = PS_TAKER_BIT(angular),
     .samples = PS_DOMAIN_SPHERE,
     .counted = "realizations",
+    .has_coefficients = true,
     .check_arguments = check_coefficients,
     .check_question = check_question,
     .plan = plan,

@@ -46,7 +46,7 @@ void ps_answer_tell_missing(const ps_answer_hooks *hooks, const char *format, ..
 }
 
 size_t ps_answer_num_entries(const ps_answer *answer) {
-    size_t num = answer->array != NULL ? 1 : 0;
+    size_t num = answer->array == NULL ? 0 : answer->is_complex ? 2 : 1;
     for (unsigned axis = 0; axis < answer->rank; axis++) {
         num *= answer->shape[axis];
     }

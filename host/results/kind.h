@@ -49,13 +49,15 @@ bool ps_answer_is_interrupted(const ps_answer_hooks *hooks);
 void ps_answer_warn(const ps_answer_hooks *hooks, const char *format, ...) PS_PRINTF(2, 3);
 void ps_answer_tell_missing(const ps_answer_hooks *hooks, const char *format, ...) PS_PRINTF(2, 3);
 
-enum { PS_ANSWER_RANK = PS_MAX_TORUS_DIMENSION };
+enum { PS_ANSWER_RANK = PS_MAX_TORUS_DIMENSION + 1 };
 
 typedef struct ps_answer {
     ps_table *table;
     /* The averaged periodogram on the whole box, [2K+1]^d, or the weights of the only rule, where
-     * request->wants_array, or wants_picture in the plane, and there are such; NULL: none */
+     * request->wants_array, or wants_picture in the plane, and there are such; complex
+     * coefficients, as --coefficients writes them, where request->wants_coefficients; NULL: none */
     double *array;
+    bool is_complex; /* pairs (real, imaginary) */
     unsigned rank;
     size_t shape[PS_ANSWER_RANK];
     ps_error verdict; /* PSPEC_ERROR_CHECK where differences were found; else status PSPEC_OK */
@@ -79,9 +81,10 @@ typedef struct ps_result_kind {
     ps_domain samples;   /* which samplers it takes */
     const char *counted; /* what its work counts: "realizations" */
     bool is_of_host;     /* no device is needed, whatever is asked */
-    bool has_images;  /* its answers may have a picture, which scenes ask for by the key pictures */
-    bool has_arrays;  /* its answers may have an array, which scenes ask for by the key arrays */
-    bool has_verdict; /* whose rows are words, too: no NPY */
+    bool has_images; /* its answers may have a picture, which scenes ask for by the key pictures */
+    bool has_arrays; /* its answers may have an array, which scenes ask for by the key arrays, */
+    bool has_coefficients; /* or coefficients, by arrays: coefficients */
+    bool has_verdict;      /* whose rows are words, too: no NPY */
 
     /* Does a scene's default of this option say nothing to it? NULL: all are taken. */
     bool (*leaves_default)(ps_option_id id);
@@ -130,7 +133,7 @@ static inline bool ps_result_asks(const ps_result_kind *kind, ps_option_id id) {
     return (ps_options[id].questions & kind->taker) != 0;
 }
 
-/* Numbers of the array; 0: none. */
+/* Doubles of the array; 0: none. */
 size_t ps_answer_num_entries(const ps_answer *answer);
 
 /* Computes and tabulates, and keeps nothing else. *out is freed by ps_answer_free, also after an

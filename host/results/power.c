@@ -3,6 +3,8 @@
 #include "results/compare.h"
 #include "results/spectra.h"
 
+#include <string.h>
+
 static pspec_status check_question(const ps_request *request, ps_error *error) {
     return ps_spectra_check(request, PS_QUESTION_POWER, error);
 }
@@ -34,10 +36,21 @@ static pspec_status take_array(ps_answer *out, const ps_spectrum *spectrum,
     return PSPEC_OK;
 }
 
+static pspec_status take_coefficients(ps_answer *out, const ps_power_job *job, ps_error *error) {
+    ps_complex_shape shape;
+    PS_TRY(ps_power_coefficients(job, &out->array, &shape, error));
+    out->is_complex = true;
+    out->rank = shape.rank;
+    memcpy(out->shape, shape.shape, sizeof out->shape);
+    return PSPEC_OK;
+}
+
 static pspec_status tabulate(ps_answer *out, const void *computed, const ps_request *request,
                              ps_error *error) {
     const ps_spectra *const spectra = computed;
-    if (request->wants_picture || request->wants_array) {
+    if (request->wants_coefficients) {
+        PS_TRY(take_coefficients(out, spectra->jobs[0], error));
+    } else if (request->wants_picture || request->wants_array) {
         PS_TRY(take_array(out, ps_power_job_spectrum(spectra->jobs[0]), request, error));
     }
     return ps_spectra_tabulate(out, computed, request, ps_power_table, error);
@@ -69,6 +82,7 @@ const ps_result_kind ps_result_power = {
     .counted = "realizations",
     .has_images = true,
     .has_arrays = true,
+    .has_coefficients = true,
     .check_arguments = ps_power_check_arrays,
     .check_question = check_question,
     .plan = plan,

@@ -44,7 +44,8 @@ typedef struct ps_scene_result {
     bool wants_plot; /* unless the file says no */
     /* The file asks for pictures of the averaged periodogram of every question. */
     bool wants_pictures;
-    bool wants_arrays; /* the file asks for the array of every question */
+    bool wants_arrays;       /* the file asks for the array of every question, */
+    bool wants_coefficients; /* which are then its coefficients */
 } ps_scene_result;
 
 typedef struct ps_scene {

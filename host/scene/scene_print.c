@@ -82,7 +82,8 @@ static void print_result(const ps_scene_result *result, ps_text *out) {
         ps_text_append(out, ", \"pictures\": \"true\"");
     }
     if (result->wants_arrays) {
-        ps_text_append(out, ", \"arrays\": \"true\"");
+        ps_text_append(out, ", \"arrays\": \"%s\"",
+                       result->wants_coefficients ? "coefficients" : "true");
     }
     for (size_t i = 0; i < result->num_entries; i++) {
         print_entry(&result->entries[i], out);

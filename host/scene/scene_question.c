@@ -54,7 +54,8 @@ pspec_status ps_scene_question_make(ps_scene_question *out, const ps_scene_resul
     PS_TRY(ps_text_check(&out->command, error));
     out->request.quiet = true;
     out->request.wants_picture = result->wants_pictures;
-    out->request.wants_array = result->wants_arrays;
+    out->request.wants_array = result->wants_arrays && !result->wants_coefficients;
+    out->request.wants_coefficients = result->wants_coefficients;
     out->request.command_line = ps_text_string(&out->command);
     return PSPEC_OK;
 }

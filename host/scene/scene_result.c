@@ -105,6 +105,21 @@ static pspec_status take_kind(const ps_scene_reader *reader, const ps_scene_node
         ps_text_suggest(text, best.word, best.distance, "; did you mean ", "?").text);
 }
 
+/* true, false or coefficients, as the kind has them. */
+static pspec_status take_arrays(const ps_scene_reader *reader, const ps_scene_node *node,
+                                ps_scene_result *out) {
+    const char *text = NULL;
+    const ps_result_kind *const kind = out->kind;
+    PS_TRY(ps_scene_take_text(reader->file, node, "arrays", &text));
+    out->wants_coefficients = kind->has_coefficients && strcmp(text, "coefficients") == 0;
+    out->wants_arrays = out->wants_coefficients || (kind->has_arrays && strcmp(text, "true") == 0);
+    return out->wants_arrays || strcmp(text, "false") == 0
+               ? PSPEC_OK
+               : ps_scene_complain(reader->file, node->line, "arrays", "%sfalse%s, not \"%s\"",
+                                   kind->has_arrays ? "true or " : "",
+                                   kind->has_coefficients ? " or coefficients" : "", text);
+}
+
 static pspec_status take_pair(const ps_scene_reader *reader, ps_scene_result *out, const char *key,
                               int line, const ps_scene_node *value) {
     if (strcmp(key, "result") == 0) {
@@ -122,8 +137,8 @@ static pspec_status take_pair(const ps_scene_reader *reader, ps_scene_result *ou
     if (strcmp(key, "pictures") == 0 && out->kind->has_images) {
         return take_switch(reader, value, key, &out->wants_pictures);
     }
-    if (strcmp(key, "arrays") == 0 && out->kind->has_arrays) {
-        return take_switch(reader, value, key, &out->wants_arrays);
+    if (strcmp(key, "arrays") == 0 && (out->kind->has_arrays || out->kind->has_coefficients)) {
+        return take_arrays(reader, value, out);
     }
     const int option = find_option(out->kind, key);
     if (option < 0) {

@@ -30,7 +30,7 @@ defaults: {engine: host_direct, seed: 7}
 results:
   - {result: power, name: plane, title: 'A <b> & "c"', samplers: [white, jittered], points: 16..64, realizations: 3, max-frequency: 4, pictures: true, arrays: true}
   - {result: power, name: files, seed: 1, files: [[sets/a&b.txt], [sets/-c.txt]], max-frequency: 3, per-ring: 2, pictures: true}
-  - {result: power, name: list, samplers: white, points: 8, frequencies: vectors.txt, pictures: true}
+  - {result: power, name: list, samplers: white, points: 8, frequencies: vectors.txt, arrays: coefficients}
   - {result: angular, samplers: [zphi, white-sphere], points: 16, max-degree: 5, realizations: 2}
   - {result: pairs, samplers: zphi, points: 16, max-degree: 5, realizations: 2}
   - {result: quadrature, samplers: [fibonacci-hemisphere, white-hemisphere], weights: [equal, optimal], points: 4..8, brdf: diffuse, max-degree: 4, arrays: true}
@@ -48,7 +48,7 @@ done
 for name in plane plane-picture-{1..6} files angular-4 pairs-5-{sums,c2} quadrature-6-{d2,c2,e2,convergence} truncation-7-{error,points} check-8-scores; do
     [[ -s first/$name.svg ]] || complain "no picture $name"
 done
-[[ $(find first -type f | wc -l) == 50 ]] || complain "other files: $(ls first)"
+[[ $(find first -type f | wc -l) == 51 ]] || complain "other files: $(ls first)"
 # the header of a table is one line for each key
 ! grep -v '^# [a-z_0-9]*: \|^[a-z0-9./&-]*,' first/plane.csv >odd || complain "odd lines: $(<odd)"
 
@@ -62,7 +62,7 @@ check_rows() { # NAME FIRST-COLUMN-OF-THE-COMMAND
     done <commands >expected
     if [[ ! -s rows ]] || ! cmp -s rows expected; then complain "$1: other rows than its commands have"; fi
 }
-# arrays are those of --full and --weights-out
+# arrays are those of --full, --weights-out and --coefficients
 check_arrays() { # NAME OPTION
     local line='' number=0
     sed -n 's/^# command: pointspec //p' "first/$1.csv" >commands
@@ -71,10 +71,15 @@ check_arrays() { # NAME OPTION
         eval "\"\$program\" $line $2 expected.npy" >/dev/null
         cmp -s "first/$1-array-$number.npy" expected.npy || complain "$1-array-$number is not what $2 writes"
     done <commands
-    ((number > 1)) || complain "$1 has no commands"
+    ((number > 0)) || complain "$1 has no commands"
 }
 check_arrays plane --full
 check_arrays quadrature-6 --weights-out
+check_arrays list --coefficients
+printf 'scene: 1\nresults:\n  - {result: %s, arrays: coefficients}\n' 'angular, engine: host_direct, samplers: [zphi, white-sphere], points: 12, max-degree: 4' >turned.yaml
+runs 0 turned.yaml -o turned
+"$program" angular --engine host_direct --sampler white-sphere -n 12 -l 4 --coefficients expected.npy >/dev/null
+cmp -s turned/angular-1-array-2.npy expected.npy || complain "c_lm of a scene are not those of --coefficients"
 check_rows plane 3
 check_rows files 2
 check_rows list 1

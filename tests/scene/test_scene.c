@@ -239,6 +239,7 @@ static void assert_same_scene(const ps_scene *a, const ps_scene *b) {
         assert_int_equal(a->results[i].wants_plot, b->results[i].wants_plot);
         assert_int_equal(a->results[i].wants_pictures, b->results[i].wants_pictures);
         assert_int_equal(a->results[i].wants_arrays, b->results[i].wants_arrays);
+        assert_int_equal(a->results[i].wants_coefficients, b->results[i].wants_coefficients);
         for (size_t q = 0; q < num; q++) {
             ps_scene_question one = make(a, i, q);
             assert_command(b, i, q, one.request.command_line);
@@ -293,7 +294,8 @@ static void records_ask_the_same(void **state) {
                   "  - {result: power, name: x, title: 'it''s', points: 16..64, pictures: true, "
                   "arrays: true}\n"
                   "  - {result: quadrature, brdf: ['zonal:file=l', diffuse], weights: [w, equal]}\n"
-                  "  - {result: check, against: s, samplers: white, plot: false, no-skip: true}\n",
+                  "  - {result: check, against: s, samplers: white, plot: false, no-skip: true}\n"
+                  "  - {result: angular, samplers: zphi, arrays: coefficients}\n",
                   2);
     /* characters that YAML refuses, or folds, unless they are escaped */
     assert_record(

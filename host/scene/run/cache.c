@@ -105,9 +105,9 @@ static pspec_status add_files(ps_text *key, const ps_request *request, ps_error 
 static pspec_status make_key(const ps_run *run, ps_run_question *question, ps_error *error) {
     ps_text *const key = &question->key;
     const ps_request *const request = &question->asked.request;
-    ps_text_append(key, "%s%s\npicture %d\narray %d\nno-skip %d\n", ps_text_string(&run->identity),
-                   request->command_line, request->wants_picture, request->wants_array,
-                   request->accuracy.no_skip);
+    ps_text_append(key, "%s%s\npicture %d\narray %d %d\nno-skip %d\n",
+                   ps_text_string(&run->identity), request->command_line, request->wants_picture,
+                   request->wants_array, request->wants_coefficients, request->accuracy.no_skip);
     PS_TRY(add_files(key, request, error));
     return ps_text_check(key, error);
 }
@@ -117,14 +117,17 @@ static pspec_status make_key(const ps_run *run, ps_run_question *question, ps_er
 /* What it took, the size of the packed table and the shape of the array; the table, the array. */
 typedef struct packed_head {
     double seconds;
-    uint64_t table_bytes, rank, shape[PS_ANSWER_RANK];
+    uint64_t table_bytes, is_complex, rank, shape[PS_ANSWER_RANK];
 } packed_head;
 
 static pspec_status pack(const ps_answer *answer, double seconds, ps_text *out, ps_error *error) {
     void *bytes = NULL;
     size_t num = 0;
     PS_TRY(ps_table_pack(answer->table, &bytes, &num, error));
-    packed_head head = {.seconds = seconds, .table_bytes = num, .rank = answer->rank};
+    packed_head head = {.seconds = seconds,
+                        .table_bytes = num,
+                        .is_complex = answer->is_complex,
+                        .rank = answer->rank};
     for (unsigned axis = 0; axis < answer->rank; axis++) {
         head.shape[axis] = answer->shape[axis];
     }
@@ -139,6 +142,7 @@ static pspec_status pack(const ps_answer *answer, double seconds, ps_text *out, 
 /* Bytes of the array, or more than there are. */
 static size_t count_array_bytes(const packed_head *head, size_t most) {
     size_t bytes = head->rank > 0 ? sizeof(double) : 0;
+    bytes *= head->is_complex != 0 ? 2 : 1;
     for (uint64_t axis = 0; axis < head->rank && axis < PS_ANSWER_RANK; axis++) {
         if (head->shape[axis] > most ||
             !ps_size_multiply(bytes, (size_t)head->shape[axis], &bytes)) {
@@ -155,6 +159,7 @@ static pspec_status unpack_array(ps_answer *out, const packed_head *head, const 
     }
     PS_TRY(ps_allocate_for(&out->array, num_bytes, 1, "an array", error));
     memcpy(out->array, bytes, num_bytes);
+    out->is_complex = head->is_complex != 0;
     out->rank = (unsigned)head->rank;
     for (unsigned axis = 0; axis < out->rank; axis++) {
         out->shape[axis] = (size_t)head->shape[axis];

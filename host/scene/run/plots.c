@@ -8,7 +8,9 @@ static pspec_status draw_image(const ps_artist *artist, const ps_picture *what) 
     const ps_answer *const answer = &artist->result->questions[what->curves[0]].answer;
     const double points = ps_cell_number(ps_table_find_meta(answer->table, "points"));
     const ps_plot_image image = {answer->shape[0], answer->array, sqrt(points)};
-    return answer->rank == 2 && points > 0 ? ps_draw_curves(artist, what, &image) : PSPEC_OK;
+    return answer->rank == 2 && !answer->is_complex && points > 0
+               ? ps_draw_curves(artist, what, &image)
+               : PSPEC_OK;
 }
 
 /* Lists of frequencies have no normalized ones, and no picture. */
