@@ -8,7 +8,7 @@
 #include "device/device.h"
 
 typedef struct ps_device_kind {
-    char text[400]; /* "PLATFORM DRIVER, vectors of 16 and 8, local memory of the cache" */
+    char text[400]; /* "PLATFORM DRIVER, vectors of 16 and 8, local memory in the cache" */
 } ps_device_kind;
 
 /* limits: NULL for the host without a device. */

@@ -2,7 +2,6 @@
 #include "base/memory.h"
 #include "pointspec_version.h"
 #include "scene/run/run.h"
-#include "store/figures_file.h"
 #include "tables/table_pack.h"
 
 #include <stdlib.h>
