@@ -17,7 +17,8 @@ ps_device_kind ps_device_kind_of(const ps_device_limits *limits);
 /* What choices take a device of its kind to have, whatever it has. */
 typedef struct ps_typical_device {
     double compute_units, clock_mhz;
-    double cache_bytes; /* of the last level */
+    double cache_bytes;  /* of the last level */
+    size_t served_units; /* layouts cut work into shares for so many */
 } ps_typical_device;
 ps_typical_device ps_device_typical(const ps_device_limits *limits);
 

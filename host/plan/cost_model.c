@@ -88,9 +88,9 @@ double ps_cost_rule_seconds(double pairs, double terms) {
 
 /* ---- batches ----------------------------------------------------------------------------- */
 
-/* CPU: the share of the last-level cache that a batch may fill. GPU: bytes of a batch; enough work
- * for a hundred compute units, far below any card's memory. Memory: share of the device's memory
- * that a job may take. */
+/* CPU: the share of the typical last-level cache that a batch may fill. GPU: bytes of a batch;
+ * enough work for a hundred compute units, far below any card's memory. Memory: share of the
+ * device's memory that a job may take. */
 static const double cache_share = 0.5;
 static const double gpu_batch_bytes = 1024.0 * 1024 * 1024;
 static const double memory_share = 0.5;
@@ -106,8 +106,9 @@ size_t ps_cost_batch(const ps_work *work, const ps_device_limits *limits,
     if (limits == NULL) {
         return 1; /* the referee takes long enough on one realization */
     }
-    double budget = limits->has_dedicated_local_memory ? gpu_batch_bytes
-                                                       : cache_share * (double)limits->cache_bytes;
+    const double cache_bytes = (double)ps_device_typical(limits).cache_bytes;
+    double budget =
+        limits->has_dedicated_local_memory ? gpu_batch_bytes : cache_share * cache_bytes;
     const double memory = memory_share * (double)limits->global_bytes - work->fixed_bytes;
     const double wanted = work->wanted_batch * work->bytes_per_realization;
     budget = budget > wanted ? budget : wanted;

@@ -44,10 +44,10 @@ static pspec_status check_realizations(const ps_request *own, uint64_t num, size
     return num >= least
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INPUT,
-                         "%llu realizations cannot tell: among %zu phases even equal ones would "
+                         "%llu realization%s cannot tell: among %zu phases even equal ones would "
                          "not be an alarm at a rate of %g; at least %llu realizations are needed",
-                         (unsigned long long)num, num_tests, own->false_alarm_rate,
-                         (unsigned long long)least);
+                         (unsigned long long)num, num == 1 ? "" : "s", num_tests,
+                         own->false_alarm_rate, (unsigned long long)least);
 }
 
 /* The fewest that any number of phases needs are asked for before hours of work. */

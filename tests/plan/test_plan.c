@@ -215,7 +215,7 @@ static void forced_to_a_device_that_is_not_there(void **state) {
 }
 
 /* How many compute units a device has, how fast they are, their caches and what was measured choose
- * nothing: the same engine in the same precision, with the same error. */
+ * nothing: the same engine in the same precision, with the same error, layout and batch. */
 static void check_kind(const ps_problem *problem, const ps_device_limits *first) {
     static const ps_figures slow = {
         .is_measured = true,
@@ -240,7 +240,10 @@ static void check_kind(const ps_problem *problem, const ps_device_limits *first)
                      (unsigned long long)problem->num_realizations, a->engine->name,
                      first->compute_units, b->engine->name, units);
         }
-        assert_true(a == NULL || a->error == b->error);
+        if (a != NULL) {
+            assert_true(a->error == b->error);
+            assert_true(a->device_bytes == b->device_bytes && a->batch == b->batch);
+        }
     }
 }
 

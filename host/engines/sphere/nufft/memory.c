@@ -1,5 +1,6 @@
 /* What sphere_nufft and sphere_grid keep in memory, and how many realizations side by side. */
 #include "base/round.h"
+#include "device/kind.h"
 #include "device/reals.h"
 #include "engines/nufft/fft.h"
 #include "engines/sphere/nufft/shape.h"
@@ -146,8 +147,7 @@ static uint64_t table_bytes(const ps_sphere_shape *shape, size_t real_bytes) {
 
 void ps_sphere_count_memory(ps_sphere_shape *shape, const ps_problem *problem,
                             const ps_device_limits *limits, size_t real_bytes) {
-    const size_t cores = limits->compute_units > 0 ? limits->compute_units : 1;
-    choose_at_once(shape, problem, cores, real_bytes);
+    choose_at_once(shape, problem, ps_device_typical(limits).served_units, real_bytes);
     const ps_sphere_bytes bytes = ps_sphere_bytes_of(shape, real_bytes);
     const uint64_t sorted = shape->is_sorted ? bytes.turns + bytes.weights : 0;
     const uint64_t host_each = 2 * shape->half_pitch * sizeof(double);

@@ -203,7 +203,8 @@ static uint32_t choose_group(const ps_nufft_layout *layout, const ps_problem *pr
     const uint32_t largest = room > 1 ? (uint32_t)room : 1;
     uint64_t groups = ps_divide_up(layout->num_tiles, largest);
     const bool has_one = problem->num_realizations == 1 && layout->choice.num_axes == 1;
-    groups = has_one && groups < limits->compute_units ? limits->compute_units : groups;
+    const size_t cores = ps_device_typical(limits).served_units;
+    groups = has_one && groups < cores ? cores : groups;
     return (uint32_t)ps_divide_up(layout->num_tiles, groups);
 }
 
@@ -233,7 +234,7 @@ static bool fits_whole(const ps_nufft_layout *layout, const ps_device_limits *li
  * realizations: as many as keep all cores at work. */
 static void count_whole(ps_nufft_layout *layout, const ps_problem *problem,
                         const ps_device_limits *limits) {
-    const size_t cores = limits->compute_units > 0 ? limits->compute_units : 1;
+    const size_t cores = ps_device_typical(limits).served_units;
     const uint64_t point = problem->frequencies->dimension * sizeof(uint64_t) + layout->real_bytes;
     const double each = 2 * (double)(layout->part_points * point);
     layout->parts = fitting_parts(problem, limits, each, cores);
