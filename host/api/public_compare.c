@@ -29,11 +29,11 @@ static pspec_status check_question(const ps_spectrum_sums *saved, const ps_spect
                          "power or effective");
 }
 
-/* N V / W^2, from means over the realizations. */
 static double unit_of(const ps_spectrum_sums *sums) {
-    return sums->normalization == PSPEC_NORMALIZATION_EFFECTIVE
-               ? 1
-               : sums->totals.sum_points / sums->totals.sample_sizes.sum;
+    const ps_pattern_totals *const totals = &sums->totals;
+    return ps_compared_unit(sums->normalization, ps_pattern_mean_points(totals),
+                            totals->sample_sizes.sum / (double)totals->num_realizations,
+                            totals->smallest_points);
 }
 
 static pspec_status make_side(ps_compared **out, const pspec_spectrum *spectrum, ps_error *error) {

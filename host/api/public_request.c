@@ -40,6 +40,7 @@ static pspec_status check_common(const ps_public_request *request, ps_error *err
     }
     if (request->normalization != PSPEC_NORMALIZATION_POWER &&
         request->normalization != PSPEC_NORMALIZATION_EFFECTIVE &&
+        request->normalization != PSPEC_NORMALIZATION_INTEGRAL &&
         !(request->is_on_sphere && request->normalization == PSPEC_NORMALIZATION_PAIRS)) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "there is no normalization %d",
                        (int)request->normalization);

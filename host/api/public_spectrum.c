@@ -2,7 +2,7 @@
 #include "api/public_objects.h"
 #include "base/memory.h"
 #include "base/workers.h"
-#include "spectra/spectrum_file.h"
+#include "spectra/file/spectrum_file.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -204,7 +204,7 @@ uint64_t pspec_spectrum_num_realizations(const pspec_spectrum *spectrum) {
 }
 
 double pspec_spectrum_mean_points(const pspec_spectrum *spectrum) {
-    return spectrum->sums.totals.sum_points / (double)spectrum->sums.totals.num_realizations;
+    return ps_pattern_mean_points(&spectrum->sums.totals);
 }
 
 double pspec_spectrum_error(const pspec_spectrum *spectrum) {

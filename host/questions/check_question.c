@@ -11,7 +11,7 @@ ps_request ps_check_request(const ps_request *arguments, const ps_saved_spectrum
     own.hemisphere = saved->on_hemisphere;
     own.frequencies.bins = saved->bin_rule;
     own.frequencies.per_ring = saved->per_ring;
-    own.effective = saved->normalization == PSPEC_NORMALIZATION_EFFECTIVE;
+    own.normalization = saved->normalization;
     if (arguments->num_samplers == 0) {
         return own;
     }

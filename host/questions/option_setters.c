@@ -384,9 +384,11 @@ pspec_status ps_set_morph(const ps_option *option, const char *shown, const char
 pspec_status ps_set_normalize(const ps_option *option, const char *shown, const char *words,
                               const char *value, ps_request *arguments, ps_error *error) {
     (void)option;
+    static const pspec_normalization meant[] = {
+        PSPEC_NORMALIZATION_POWER, PSPEC_NORMALIZATION_EFFECTIVE, PSPEC_NORMALIZATION_INTEGRAL};
     int index = 0;
     PS_TRY(find_word(shown, words, value, &index, error));
-    arguments->effective = index == 1;
+    arguments->normalization = meant[index];
     return PSPEC_OK;
 }
 

@@ -130,10 +130,11 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                         .help = "write the whole array too, shape (2K+1)^D, DC in the middle, and "
                                 "its standard error to FILE.standard_error.npy",
                         TEXT(full)},
-    [PS_OPTION_NORMALIZE] = {NAMED("normalize", 0, "power|effective"),
-                             OF(BIT(power) | BIT(angular), 0),
-                             .help = "N |S|^2 / W^2, or |S|^2 / sum w^2 (default power)",
-                             .set = ps_set_normalize},
+    [PS_OPTION_NORMALIZE] =
+        {NAMED("normalize", 0, "power|effective|integral"), OF(BIT(power) | BIT(angular), 0),
+         .help = "N |S|^2 / W^2 with N of each set (default power), |S|^2 / sum w^2, "
+                 "or mean(N) mean(|S|^2 / W^2)",
+         .set = ps_set_normalize},
     [PS_OPTION_HOMOGENIZE] = {NAMED("homogenize", 0, NULL), OF(SETS, BIT(sample)),
                               .help = "shift every realization by one random vector, mod 1; "
                                       "points of the sphere are rotated",

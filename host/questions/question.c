@@ -165,10 +165,7 @@ static ps_harmonics find_harmonics(const ps_request *arguments, ps_question_kind
 
 static pspec_normalization choose_normalization(const ps_request *arguments,
                                                 ps_question_kind kind) {
-    if (kind == PS_QUESTION_PAIRS) {
-        return PSPEC_NORMALIZATION_PAIRS;
-    }
-    return arguments->effective ? PSPEC_NORMALIZATION_EFFECTIVE : PSPEC_NORMALIZATION_POWER;
+    return kind == PS_QUESTION_PAIRS ? PSPEC_NORMALIZATION_PAIRS : arguments->normalization;
 }
 
 static ps_domain domain_of(ps_question_kind kind) {

@@ -39,7 +39,7 @@ typedef enum ps_option_id {
     PS_OPTION_BINS,              /* --bins round|floor|width=P/Q|relative=P/Q|shells */
     PS_OPTION_PER_RING,          /* --per-ring S */
     PS_OPTION_FULL,              /* --full FILE.npy */
-    PS_OPTION_NORMALIZE,         /* --normalize power|effective */
+    PS_OPTION_NORMALIZE,         /* --normalize power|effective|integral */
     PS_OPTION_HOMOGENIZE,        /* --homogenize */
     PS_OPTION_WEIGHTS,           /* --weights equal|column|FILE */
     PS_OPTION_WEIGHT_SUM,        /* --weight-sum free|one */
@@ -123,8 +123,8 @@ typedef struct ps_request {
     bool wants_picture;
     /* The answer has its array, or its coefficients (results/kind.h); no option asks for them. */
     bool wants_array, wants_coefficients;
-    bool effective;    /* --normalize effective */
-    double smoothness; /* 1.5 unless given */
+    pspec_normalization normalization; /* never that of pairs */
+    double smoothness;                 /* 1.5 unless given */
     size_t num_files;
     const char **files;       /* the remaining words; "-" is standard input */
     const char *command_line; /* the whole line, for headers */

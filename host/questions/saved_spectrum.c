@@ -2,8 +2,8 @@
 
 #include "base/memory.h"
 #include "files/input_file.h"
-#include "spectra/spectrum_file.h"
-#include "spectra/spectrum_format.h"
+#include "spectra/file/spectrum_file.h"
+#include "spectra/file/spectrum_format.h"
 
 #include <stdlib.h>
 #include <string.h>

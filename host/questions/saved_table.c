@@ -79,15 +79,31 @@ static pspec_status read_points(const reader *source) {
     return PSPEC_OK;
 }
 
+/* Before the normalization of integrals had a name, power was that where N differed. */
+static bool is_of_integrals(const cJSON *item) {
+    static const char *const old[] = {"power: N |S|^2 / (sum w)^2", "power: N Q(l) / (sum w)^2"};
+    return cJSON_IsString(item) &&
+           (strcmp(item->valuestring, old[0]) == 0 || strcmp(item->valuestring, old[1]) == 0);
+}
+
 static pspec_status read_normalization(const reader *source) {
+    static const struct {
+        const char *beginning;
+        pspec_normalization normalization;
+    } words[] = {{"effective", PSPEC_NORMALIZATION_EFFECTIVE},
+                 {"integral", PSPEC_NORMALIZATION_INTEGRAL},
+                 {"power", PSPEC_NORMALIZATION_POWER}};
     const cJSON *const item = entry(source, "normalization");
-    const bool is_effective = begins_with(item, "effective");
-    source->out->normalization =
-        is_effective ? PSPEC_NORMALIZATION_EFFECTIVE : PSPEC_NORMALIZATION_POWER;
-    return is_effective || begins_with(item, "power")
-               ? PSPEC_OK
-               : fail_damaged(source,
-                              "\"normalization\" of \"meta\" is neither power nor effective");
+    ps_saved_spectrum *const out = source->out;
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
+        if (begins_with(item, words[i].beginning)) {
+            const bool is_old = is_of_integrals(item) && out->smallest_points < out->largest_points;
+            out->normalization = is_old ? PSPEC_NORMALIZATION_INTEGRAL : words[i].normalization;
+            return PSPEC_OK;
+        }
+    }
+    return fail_damaged(source,
+                        "\"normalization\" of \"meta\" is none of power, effective, integral");
 }
 
 /* Tables of rings by rounding say nothing. */

@@ -11,7 +11,11 @@
 /* ---- --full ------------------------------------------------------------------------------ */
 
 ps_mean ps_power_dc(const ps_request *arguments, const ps_spectrum *spectrum) {
-    return arguments->effective ? spectrum->sample_size : (ps_mean){.mean = spectrum->mean_points};
+    const bool is_known = spectrum->smallest_points == spectrum->largest_points ||
+                          arguments->normalization == PSPEC_NORMALIZATION_INTEGRAL;
+    return arguments->normalization == PSPEC_NORMALIZATION_EFFECTIVE
+               ? spectrum->sample_size
+               : (ps_mean){spectrum->mean_points, is_known ? 0 : spectrum->points_error};
 }
 
 static pspec_status write_array(const char *path, const ps_request *arguments,

@@ -59,10 +59,16 @@ static const char *name_normalization(const ps_request *arguments, const ps_prob
     if (problem->measure == PS_OF_PAIR_SUMS) {
         return "pairs: Q(l), weights 1/N unless given";
     }
-    if (on_sphere) {
-        return arguments->effective ? "effective: Q(l) / sum w^2" : "power: N Q(l) / (sum w)^2";
+    switch (arguments->normalization) {
+    case PSPEC_NORMALIZATION_EFFECTIVE:
+        return on_sphere ? "effective: Q(l) / sum w^2" : "effective: |S|^2 / sum w^2";
+    case PSPEC_NORMALIZATION_INTEGRAL:
+        return on_sphere ? "integral: mean(N) mean(Q(l) / (sum w)^2)"
+                         : "integral: mean(N) mean(|S|^2 / (sum w)^2)";
+    default:
+        return on_sphere ? "power: N Q(l) / (sum w)^2, N of each set"
+                         : "power: N |S|^2 / (sum w)^2, N of each set";
     }
-    return arguments->effective ? "effective: |S|^2 / sum w^2" : "power: N |S|^2 / (sum w)^2";
 }
 
 static void put_common(header *head, const ps_request *arguments, const ps_problem *problem) {
@@ -76,6 +82,25 @@ static void put_common(header *head, const ps_request *arguments, const ps_probl
     if (arguments->num_samplers > 0) {
         put(head, "homogenize", PS_TEXT(arguments->homogenize ? "yes" : "no"));
     }
+}
+
+/* Sets whose N differ by less are as good as of one N. */
+static const double notable_ratio = 1.1;
+
+/* Averages over sets of different N mix spectra, which change with N. */
+static void put_different_points(header *head, const ps_request *arguments,
+                                 const ps_spectrum *spectrum) {
+    if (!((double)spectrum->largest_points > notable_ratio * (double)spectrum->smallest_points)) {
+        return;
+    }
+    put(head, "different_points",
+        PS_TEXT(arguments->normalization == PSPEC_NORMALIZATION_INTEGRAL
+                    ? "every set counts by |S|^2 / W^2, as variances of integrals want it; white "
+                      "noise is above 1"
+                : arguments->normalization == PSPEC_NORMALIZATION_EFFECTIVE
+                    ? "every set is divided by its own sum w^2; white noise is 1"
+                    : "every set counts with its own N, so that white noise is 1; variances of "
+                      "integrals want --normalize integral"));
 }
 
 static void put_points(header *head, const ps_spectrum *spectrum, const ps_needs *needs) {
@@ -188,6 +213,9 @@ static void put_job(header *head, const ps_request *arguments, const ps_power_jo
                            : head->status;
     }
     put_points(head, ps_power_job_spectrum(job), ps_power_job_needs(job));
+    if (ps_power_job_problem(job)->measure != PS_OF_PAIR_SUMS) {
+        put_different_points(head, arguments, ps_power_job_spectrum(job));
+    }
     put_look(head, arguments, job);
     put_lengths(head, ps_power_job_accuracy(job));
     put_frequencies(head, arguments, ps_power_job_problem(job)->frequencies);

@@ -117,13 +117,13 @@ static pspec_status check_bins(const ps_saved_spectrum *saved, const ps_spectrum
                          measured->num_bins);
 }
 
-/* N V / W^2 is taken to be that of the measured sets on both sides. */
+/* The unit is taken to be that of the measured sets on both sides. */
 static void make_sides(ps_compared *saved_side, ps_compared *measured_side,
                        const ps_saved_spectrum *saved, const ps_power_job *job) {
     const ps_spectrum *const measured = ps_power_job_spectrum(job);
     const double modes = ps_compared_modes(&measured->frequencies);
-    const bool is_effective = saved->normalization == PSPEC_NORMALIZATION_EFFECTIVE;
-    const double unit = is_effective ? 1 : measured->mean_points / measured->sample_size.mean;
+    const double unit = ps_compared_unit(saved->normalization, measured->mean_points,
+                                         measured->sample_size.mean, measured->smallest_points);
     for (size_t b = 0; b < measured->num_bins; b++) {
         const ps_saved_bin *const x = &saved->bins[b];
         const ps_spectrum_bin *const y = &measured->bins[b];

@@ -17,6 +17,19 @@ double ps_compared_modes(const ps_frequencies *frequencies) {
                                                     : pow(2 * last + 1, frequencies->dimension) - 1;
 }
 
+double ps_compared_unit(pspec_normalization normalization, double mean_points,
+                        double mean_sample_size, uint64_t smallest_points) {
+    const double of_weights = mean_points / mean_sample_size;
+    switch (normalization) {
+    case PSPEC_NORMALIZATION_EFFECTIVE:
+        return 1;
+    case PSPEC_NORMALIZATION_INTEGRAL:
+        return of_weights * mean_points / (double)smallest_points;
+    default:
+        return of_weights;
+    }
+}
+
 /* |S + dS|^2 - |S|^2 <= 2 |S| |dS| + |dS|^2, and at worst all of the error is in this bin. */
 double ps_compared_error(double power, double error, double share, double unit) {
     const double e = error / sqrt(share);

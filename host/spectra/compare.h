@@ -50,9 +50,14 @@ pspec_status ps_compare(ps_comparison *out, size_t num_bins, const ps_compared *
  * box where it is not known whether corners were left out. */
 double ps_compared_modes(const ps_frequencies *frequencies);
 
+/* The power of white noise: N V / W^2 from means over the realizations, of N and of W^2 / V; 1 with
+ * equal weights and under the effective normalization. Under that of integrals sets of few points
+ * have more, at most as if all were the smallest. */
+double ps_compared_unit(pspec_normalization normalization, double mean_points,
+                        double mean_sample_size, uint64_t smallest_points);
+
 /* Bound of the error of a power, of an engine whose error of S is `error` sqrt(V), root mean square
- * over all frequencies, of which the bin has the share `share`; unit: power of white noise, N V /
- * W^2 (1 with equal weights and under the effective normalization). */
+ * over all frequencies, of which the bin has the share `share`; unit: ps_compared_unit. */
 double ps_compared_error(double power, double error, double share, double unit);
 
 #endif

@@ -30,6 +30,17 @@ static void describe_some(void *payload, unsigned index, unsigned count) {
     }
 }
 
+double ps_pattern_mean_points(const ps_pattern_totals *totals) {
+    return (totals->points.sum + totals->points.sum_low) / (double)totals->num_realizations;
+}
+
+double ps_spectrum_factor(pspec_normalization normalization, const ps_pattern_totals *totals,
+                          double reference_points) {
+    return normalization == PSPEC_NORMALIZATION_INTEGRAL
+               ? ps_pattern_mean_points(totals) / reference_points
+               : 1;
+}
+
 static void fill_bins(ps_spectrum *out, const ps_bins *bins, const ps_mean *means, double factor) {
     const double unit =
         pow(out->mean_points, 1.0 / ps_frequencies_space_dimension(&out->frequencies));
@@ -71,11 +82,12 @@ pspec_status ps_spectrum_from_means(ps_spectrum *out, const ps_frequencies *freq
                                     ps_error *error) {
     const double n = (double)totals->num_realizations;
     *out = (ps_spectrum){.num_realizations = totals->num_realizations,
-                         .mean_points = totals->sum_points / n,
                          .smallest_points = totals->smallest_points,
                          .largest_points = totals->largest_points,
                          .mean_weight_sum = totals->sum_weights / n,
                          .powers = powers};
+    ps_sums_finish(&totals->points, totals->num_realizations, &out->mean_points,
+                   &out->points_error);
     ps_sums_finish(&totals->sample_sizes, totals->num_realizations, &out->sample_size.mean,
                    &out->sample_size.standard_error);
     const pspec_status status = fill(out, frequencies, bins, bin_means, factor, error);
@@ -118,6 +130,7 @@ void ps_spectrum_free(ps_spectrum *spectrum) {
 void ps_spectrum_repeat(ps_spectrum *spectrum, uint64_t num_realizations) {
     spectrum->num_realizations = num_realizations;
     spectrum->sample_size.standard_error = 0;
+    spectrum->points_error = 0;
     for (size_t b = 0; b < spectrum->num_bins; b++) {
         if (spectrum->bins[b].num_computed == spectrum->bins[b].count) {
             spectrum->bins[b].standard_error = 0;

@@ -19,6 +19,7 @@ typedef struct ps_spectrum {
     ps_frequencies frequencies; /* a copy of its own */
     uint64_t num_realizations;
     double mean_points;
+    double points_error; /* standard error of the mean of N */
     size_t smallest_points, largest_points;
     double mean_weight_sum;
     /* W^2 / V, the effective power at DC; its standard error: nan for one set */
@@ -31,13 +32,19 @@ typedef struct ps_spectrum {
 /* What happened to the realizations besides their powers. */
 typedef struct ps_pattern_totals {
     uint64_t num_realizations;
-    double sum_points, sum_weights;
+    double sum_weights;
+    ps_sums points;       /* of N */
     ps_sums sample_sizes; /* of W^2 / V, the effective sample size */
     size_t smallest_points, largest_points;
 } ps_pattern_totals;
 
-/* factor multiplies every accumulated power (mean N over reference N, see
- * jobs/parts/estimator.h). */
+double ps_pattern_mean_points(const ps_pattern_totals *totals);
+
+/* mean(N) / N_ref under the normalization of integrals, else 1. */
+double ps_spectrum_factor(pspec_normalization normalization, const ps_pattern_totals *totals,
+                          double reference_points);
+
+/* factor multiplies every accumulated power (ps_spectrum_factor). */
 pspec_status ps_spectrum_create(ps_spectrum *out, const ps_frequencies *frequencies,
                                 const ps_bins *bins, ps_accumulator *accumulator, double factor,
                                 const ps_pattern_totals *totals, bool with_frequencies,

@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "base/workers.h"
+#include "spectra/file/spectrum_format.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -121,18 +122,18 @@ static pspec_status compare_frequencies(const ps_frequencies *a, const ps_freque
 
 pspec_status ps_spectrum_sums_require_same(const ps_spectrum_sums *a, const ps_spectrum_sums *b,
                                            const char *which, ps_error *error) {
-    static const char *const normalizations[] = {"power", "effective", "pairs"};
     PS_TRY(compare_frequencies(&a->frequencies, &b->frequencies, which, error));
     if (a->normalization != b->normalization) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "%s has the normalization %s instead of %s", which,
-                       normalizations[b->normalization], normalizations[a->normalization]);
+                       ps_spectrum_normalizations[b->normalization],
+                       ps_spectrum_normalizations[a->normalization]);
     }
     return PSPEC_OK;
 }
 
 static void add_totals(ps_pattern_totals *totals, const ps_pattern_totals *other) {
     totals->num_realizations += other->num_realizations;
-    totals->sum_points += other->sum_points;
+    ps_sums_merge(&totals->points, &other->points, 1);
     totals->sum_weights += other->sum_weights;
     ps_sums_merge(&totals->sample_sizes, &other->sample_sizes, 1);
     if (other->smallest_points < totals->smallest_points) {
@@ -193,9 +194,8 @@ pspec_status ps_spectrum_sums_finish(const ps_spectrum_sums *sums, const ps_bins
     ps_mean *powers = NULL;
     pspec_status status = PSPEC_OK;
     const uint64_t num = sums->totals.num_realizations;
-    const double factor = sums->normalization == PSPEC_NORMALIZATION_POWER
-                              ? sums->totals.sum_points / (double)num / sums->reference_points
-                              : 1;
+    const double factor =
+        ps_spectrum_factor(sums->normalization, &sums->totals, sums->reference_points);
     *out = (ps_spectrum){0};
     PS_TRY_OUT(status, PS_NEW(&bin_means, bins->num, "the bins", error));
     PS_TRY_OUT(status, PS_NEW(&powers, sums->frequencies.num, "the powers", error));

@@ -1,8 +1,8 @@
 /* What a spectrum is made of: sums over realizations, not means, so that spectra of parts of a job
  * can be added up to the spectrum of the whole.
  *
- * Under the default normalization the sums are of q = N_ref |S|^2 / W^2, N_ref being a number of
- * points that was fixed when summing began (jobs/parts/estimator.h); sums of another N_ref are
+ * Under the normalization of integrals the sums are of q = N_ref |S|^2 / W^2, N_ref being a number
+ * of points that was fixed when summing began (jobs/parts/estimator.h); sums of another N_ref are
  * rescaled.
  */
 #ifndef PS_SPECTRA_SPECTRUM_SUMS_H
@@ -13,7 +13,7 @@
 typedef struct ps_spectrum_sums {
     ps_frequencies frequencies; /* its own, enumerated */
     pspec_normalization normalization;
-    double reference_points; /* N_ref; 1 under the effective normalization */
+    double reference_points; /* N_ref; 1 under the other normalizations */
     double error;            /* largest bound of the numerical error of S */
     ps_pattern_totals totals;
     size_t num_bins; /* all, the unreported one included */

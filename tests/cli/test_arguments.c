@@ -102,8 +102,8 @@ static void every_option_finds_its_field(void **state) {
     assert_int_equal(l.arguments.frequencies.max_frequency, 1 << 28);
     assert_true(l.arguments.accuracy.tolerance == 0.5 && l.arguments.accuracy.floor == 1e-4);
     assert_int_equal(l.arguments.limits.constraints.precision, 1);
-    assert_true(l.arguments.effective && l.arguments.accuracy.no_skip &&
-                !l.arguments.accuracy.no_self_check);
+    assert_true(l.arguments.normalization == PSPEC_NORMALIZATION_EFFECTIVE &&
+                l.arguments.accuracy.no_skip && !l.arguments.accuracy.no_self_check);
     ps_arguments_free(&l.arguments);
     must_parse(&l,
                "--bins width=4/6 --homogenize --wrap --no-self-check --profile --quiet --verbose "
@@ -213,7 +213,7 @@ static void words_are_checked(void **state) {
     (void)state;
     static const bad_line bad[] = {
         {"--precision half", "--precision: \"half\" is not one of auto, single, double, extended"},
-        {"--normalize Power", "--normalize: \"Power\" is not one of power, effective"},
+        {"--normalize Power", "--normalize: \"Power\" is not one of power, effective, integral"},
         {"--format cs", "--format: \"cs\" is not one of csv, json, npy, jsonl, text"},
         {"--format csv|json", "--format: \"csv|json\" is not one of csv, json, npy, jsonl, text"},
         {"--format=", "--format: \"\" is not one of csv, json, npy, jsonl, text"},

@@ -202,12 +202,14 @@ printf -- '--tol=0\n' | seed arguments tolerance '\0'
 
 # ---- spectra: the harness adds the checksum --------------------------------------------------
 
-# spectrum FREQUENCIES MAX_FREQUENCY NUM_FREQUENCIES BINS NUM_BINS NORMALIZATION: header, totals, sample sizes
+# spectrum FREQUENCIES MAX_FREQUENCY NUM_FREQUENCIES BINS NUM_BINS NORMALIZATION: header, totals, points, sample sizes
+# of the format VERSION
+VERSION=3
 spectrum() {
-    printf 'pointspec spectrum 2\npointspec_version: 0.1.0\ndimension: 2\nfrequencies: %s\n' "$1"
+    printf 'pointspec spectrum %s\npointspec_version: 0.1.0\ndimension: 2\nfrequencies: %s\n' $VERSION "$1"
     printf 'max_frequency: %s\nnum_frequencies: %s\nbins: %s\nnum_bins: %s\n' "$2" "$3" "$4" "$5"
     printf 'normalization: %s\nrealizations: 2\nsmallest_points: 4\nlargest_points: 4\n\n' "$6"
-    f64 4 8 8 1e-7
+    if ((VERSION == 2)); then f64 4 8 8 1e-7; else f64 4 8 1e-7 8 0 32 0; fi
     f64 8 0 32 0
 }
 sums() { # NUMBER
@@ -226,6 +228,9 @@ sums() { # NUMBER
     u32 6 0 && f64 2.125
     sums 6
 } | seed spectrum sample '\1'
+{ spectrum box 1 4 rings 2 integral; sums 6; } | seed spectrum integral '\1'
+{ VERSION=2; spectrum box 1 4 rings 2 power; sums 6; } | seed spectrum old '\1'
+{ VERSION=2; spectrum box 1 4 rings 2 power | sed 's/smallest_points: 4/smallest_points: 3/'; sums 6; } | seed spectrum old-different '\1'
 { spectrum box 1 4 rings 2 power; sums 6; } | seed spectrum unchecked '\0'
 
 # entry KEY DATA: a file of the cache, whose checksums the target sets

@@ -242,48 +242,59 @@ static void merging_duplicates_changes_nothing(void **state) {
     ps_frequencies_free(&grid);
 }
 
-/* Realizations of different N: mean(N) mean(|S|^2 / W^2), standard error likewise. */
-static void different_numbers_of_points(void **state) {
-    (void)state;
+/* Realizations of different N: the mean of N |S|^2 / W^2, or mean(N) mean(|S|^2 / W^2); standard
+ * errors likewise. */
+static void check_different_points(pspec_normalization normalization) {
     enum { M = 9 };
     ps_frequencies grid = test_make_lattice(2, 4, false);
     test_sample what = test_make_sample(M, 2, 50, 17, true);
     double *squares =
         test_run_engine(&ps_host_direct, PS_EXTENDED, NULL, &grid, what.patterns, M, M);
-    const ps_estimator_options options =
-        test_make_options(&grid, &ps_torus_direct, PS_SINGLE, 50, M);
+    ps_estimator_options options = test_make_options(&grid, &ps_torus_direct, PS_SINGLE, 50, M);
+    options.normalization = normalization;
     ps_spectrum spectrum = test_estimate(&options, &what, M, device);
     double mean_points = 0;
-    double inverse_w2[M] = {0};
+    double factors[M] = {0};
     for (size_t r = 0; r < M; r++) {
         double sum = 0;
         for (size_t j = 0; j < what.patterns[r].num_points; j++) {
             sum += what.patterns[r].weights[j];
         }
-        inverse_w2[r] = 1 / sum / sum;
-        mean_points += (double)what.patterns[r].num_points;
+        factors[r] = 1 / sum / sum;
+        mean_points += (double)what.patterns[r].num_points / M;
     }
-    mean_points /= M;
-    assert_true(spectrum.mean_points == mean_points);
+    for (size_t r = 0; r < M; r++) {
+        factors[r] *= normalization == PSPEC_NORMALIZATION_INTEGRAL
+                          ? mean_points
+                          : (double)what.patterns[r].num_points;
+    }
+    assert_true(fabs(spectrum.mean_points - mean_points) < 1e-12 * mean_points);
+    assert_true(fabs(spectrum.points_error - 17 * sqrt(7.5 / M)) < 1e-12 * mean_points);
     assert_int_equal(spectrum.smallest_points, 50);
     assert_int_equal(spectrum.largest_points, 50 + 17 * (M - 1));
     for (size_t i = 0; i < grid.num; i++) {
         double mean = 0;
         double variance = 0;
         for (size_t r = 0; r < M; r++) {
-            mean += squares[r * grid.num + i] * inverse_w2[r] / M;
+            mean += squares[r * grid.num + i] * factors[r] / M;
         }
         for (size_t r = 0; r < M; r++) {
-            variance += pow(squares[r * grid.num + i] * inverse_w2[r] - mean, 2) / (M - 1);
+            variance += pow(squares[r * grid.num + i] * factors[r] - mean, 2) / (M - 1);
         }
-        const double error = mean_points * sqrt(variance / M);
-        assert_true(fabs(spectrum.powers[i].mean - mean_points * mean) < 1e-5 * mean_points * mean);
+        const double error = sqrt(variance / M);
+        assert_true(fabs(spectrum.powers[i].mean - mean) < 1e-5 * mean);
         assert_true(fabs(spectrum.powers[i].standard_error - error) < 1e-5 * error);
     }
     free(squares);
     ps_spectrum_free(&spectrum);
     test_free_sample(&what);
     ps_frequencies_free(&grid);
+}
+
+static void different_numbers_of_points(void **state) {
+    (void)state;
+    check_different_points(PSPEC_NORMALIZATION_POWER);
+    check_different_points(PSPEC_NORMALIZATION_INTEGRAL);
 }
 
 /* White noise, exactly at finite N: <P> = 1, Var P = (N-1)/N, variance of a ring mean of n_b

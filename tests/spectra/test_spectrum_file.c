@@ -4,6 +4,7 @@
 #include "harness_public.h"
 #include "test_folder.h"
 
+#include <math.h>
 #include <pthread.h>
 #include <zlib.h>
 
@@ -43,8 +44,9 @@ static void saving_and_loading_changes_no_bit(void **state) {
             const size_t most = kind == 5 ? 1 : 3; /* relative widths are of one number of points */
             request.num_points = what.patterns[0].num_points;
             request.bins = bins[kind];
-            request.normalization =
-                kind == 2 ? PSPEC_NORMALIZATION_EFFECTIVE : PSPEC_NORMALIZATION_POWER;
+            request.normalization = kind == 2   ? PSPEC_NORMALIZATION_EFFECTIVE
+                                    : kind == 0 ? PSPEC_NORMALIZATION_INTEGRAL
+                                                : PSPEC_NORMALIZATION_POWER;
             request.frequencies = kind == 3 ? list : NULL;
             request.num_frequencies = kind == 3 ? 8 / dimension : 0;
             for (size_t num = 1; num <= most; num += 2) { /* 1: standard errors are nan */
@@ -112,10 +114,20 @@ static void damage_is_found(void **state) {
     free(bytes);
 }
 
+enum { CHECKSUM_BYTES = 4 };
+
+/* bytes[length + CHECKSUM_BYTES], at whose end the checksum comes */
+static void write_with_checksum(const char *path, unsigned char *bytes, size_t length) {
+    const uLong checksum = crc32(crc32(0, NULL, 0), bytes, (uInt)length);
+    for (size_t i = 0; i < CHECKSUM_BYTES; i++) {
+        bytes[length + i] = (unsigned char)(checksum >> (8 * i));
+    }
+    assert_true(test_write_file(path, bytes, length + CHECKSUM_BYTES));
+}
+
 /* The file with one piece of its header replaced, and a checksum that fits. */
 static void check_hostile(const char *path, const char *bytes, size_t num_bytes, const char *from,
                           const char *to, const char *part) {
-    enum { CHECKSUM_BYTES = 4 };
     const char *place = strstr(bytes, from);
     assert_non_null(place);
     const size_t before = (size_t)(place - bytes);
@@ -125,19 +137,16 @@ static void check_hostile(const char *path, const char *bytes, size_t num_bytes,
     memcpy(hostile, bytes, before);
     memcpy(hostile + before, to, strlen(to));
     memcpy(hostile + before + strlen(to), place + strlen(from), after);
-    const uLong checksum = crc32(crc32(0, NULL, 0), hostile, (uInt)length);
-    for (size_t i = 0; i < CHECKSUM_BYTES; i++) {
-        hostile[length + i] = (unsigned char)(checksum >> (8 * i));
-    }
-    assert_true(test_write_file(path, hostile, length + CHECKSUM_BYTES));
+    write_with_checksum(path, hostile, length);
     assert_refused(path, part);
     free(hostile);
 }
 
 static void hostile_files_are_refused(void **state) {
     static const char *const changes[][3] = {
-        {"spectrum 2\n", "spectrum 1\n", "another version"},
-        {"spectrum 2\n", "spectrum 20\n", "another version"},
+        {"spectrum 3\n", "spectrum 1\n", "another version"},
+        {"spectrum 3\n", "spectrum 2\n", "more in it"},
+        {"spectrum 3\n", "spectrum 30\n", "another version"},
         {"pointspec spec", "pointspac spec", "not a spectrum file"},
         {"dimension: 2", "dimension: 7", "from 1 to 6"},
         {"dimension: 2", "dimension: 0", "from 1 to 6"},
@@ -194,6 +203,93 @@ static void other_files_are_refused(void **state) {
     pspec_spectrum_destroy(spectrum);
     test_free_sample(&what);
     pspec_context_destroy(context);
+}
+
+/* ---- version 2 of the format ------------------------------------------------------------- */
+
+/* A file as version 2 had it, of a spectrum for integrals, which it called power: no name of that
+ * normalization, and the sum of N among the totals instead of its sums. */
+static void write_version_2(const char *path, const char *bytes, size_t num_bytes) {
+    static const char from[] = "normalization: integral";
+    static const char to[] = "normalization: power";
+    enum { REAL = sizeof(double), OLD_TOTALS = 4 };
+    const char *const word = strstr(bytes, from);
+    assert_non_null(word);
+    const char *const end = strstr(bytes, "\n\n") + 2;
+    const size_t head = (size_t)(end - bytes) - (sizeof from - sizeof to);
+    const size_t rest = num_bytes - CHECKSUM_BYTES - (size_t)(end - bytes) - 7 * REAL;
+    unsigned char *const old = malloc(num_bytes);
+    memcpy(old, bytes, (size_t)(word - bytes));
+    memcpy(old + (word - bytes), to, sizeof to - 1);
+    memcpy(old + (word - bytes) + sizeof to - 1, word + sizeof from - 1,
+           (size_t)(end - word) - (sizeof from - 1));
+    *strchr((char *)old, '3') = '2';
+    memcpy(old + head, end, REAL);                       /* N_ref */
+    memcpy(old + head + REAL, end + 3 * REAL, REAL);     /* sum of N */
+    memcpy(old + head + 2 * REAL, end + REAL, 2 * REAL); /* sum of W, error */
+    memcpy(old + head + OLD_TOTALS * REAL, end + 7 * REAL, rest);
+    write_with_checksum(path, old, head + OLD_TOTALS * REAL + rest);
+    free(old);
+}
+
+/* The spectrum for integrals of patterns, saved as version 2 had it, and read. */
+static pspec_spectrum *through_version_2(pspec_context *context, const char *path,
+                                         const test_sample *what) {
+    pspec_power_request request = test_host_request();
+    pspec_spectrum *loaded = NULL;
+    size_t num_bytes = 0;
+    request.normalization = PSPEC_NORMALIZATION_INTEGRAL;
+    request.num_points = 77;
+    pspec_spectrum *spectrum = test_public_spectrum(context, &request, what->patterns, what->num);
+    assert_int_equal(pspec_spectrum_save(spectrum, context, path), PSPEC_OK);
+    pspec_spectrum_destroy(spectrum);
+    char *const bytes = test_read_file(path, &num_bytes);
+    write_version_2(path, bytes, num_bytes);
+    free(bytes);
+    if (pspec_spectrum_load(&loaded, context, path) != PSPEC_OK) {
+        fail_msg("%s", pspec_context_message(context));
+    }
+    return loaded;
+}
+
+/* What version 2 called power is that of today where all N are one, else that for integrals: the
+ * same numbers, and it goes only with its like. */
+static void check_version_2(const char *path, size_t increment) {
+    pspec_context *context = pspec_context_create();
+    test_sample what = test_make_sample(3, 2, TEST_NUM_POINTS, increment, true);
+    pspec_power_request request = test_host_request();
+    pspec_spectrum *const old = through_version_2(context, path, &what);
+    size_t num = 0;
+    for (int is_integral = 0; is_integral < 2; is_integral++) {
+        const bool is_same = increment == 0 ? !is_integral : is_integral;
+        request.normalization =
+            is_integral ? PSPEC_NORMALIZATION_INTEGRAL : PSPEC_NORMALIZATION_POWER;
+        pspec_spectrum *now = test_public_spectrum(context, &request, what.patterns, what.num);
+        const pspec_spectrum *const both[] = {old, now};
+        pspec_spectrum *merged = NULL;
+        assert_int_equal(pspec_spectrum_merge(&merged, context, both, 2),
+                         is_same ? PSPEC_OK : PSPEC_ERROR_INPUT);
+        assert_true(pspec_spectrum_mean_points(old) == pspec_spectrum_mean_points(now));
+        pspec_spectrum_frequencies(now, &num);
+        for (size_t i = 0; i < num && is_same; i++) {
+            const double power = pspec_spectrum_powers(now)[i];
+            const double error = pspec_spectrum_standard_errors(now)[i];
+            assert_true(fabs(pspec_spectrum_powers(old)[i] / power - 1) < 1e-14);
+            assert_true(fabs(pspec_spectrum_standard_errors(old)[i] / error - 1) < 1e-13);
+        }
+        pspec_spectrum_destroy(merged);
+        pspec_spectrum_destroy(now);
+    }
+    pspec_spectrum_destroy(old);
+    test_free_sample(&what);
+    pspec_context_destroy(context);
+}
+
+static void version_2_is_read_as_what_it_is(void **state) {
+    char path[TEST_PATH_BYTES];
+    test_path(*state, "version-2", path);
+    check_version_2(path, 0);
+    check_version_2(path, 7);
 }
 
 /* ---- threads ----------------------------------------------------------------------------- */
@@ -276,6 +372,7 @@ int main(void) {
         cmocka_unit_test(damage_is_found),
         cmocka_unit_test(hostile_files_are_refused),
         cmocka_unit_test(other_files_are_refused),
+        cmocka_unit_test(version_2_is_read_as_what_it_is),
         cmocka_unit_test(contexts_in_threads),
         cmocka_unit_test(test_gsl_is_left_alone),
     };

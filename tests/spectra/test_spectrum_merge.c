@@ -63,12 +63,13 @@ static void merged_parts_are_the_whole(void **state) {
     pspec_context_destroy(context);
 }
 
-/* Parts whose plans expected other numbers of points have sums in other units. */
-static void other_numbers_of_points(void **state) {
-    (void)state;
+/* Parts whose plans expected other numbers of points have sums in other units, where they are for
+ * integrals. */
+static void check_other_numbers(pspec_normalization normalization) {
     pspec_context *context = pspec_context_create();
     test_sample what = test_make_sample(REALIZATIONS, 2, TEST_NUM_POINTS, 7, true);
     pspec_power_request request = test_host_request();
+    request.normalization = normalization;
     pspec_spectrum *whole = test_public_spectrum(context, &request, what.patterns, REALIZATIONS);
     pspec_spectrum *first = test_public_spectrum(context, &request, what.patterns, 4);
     request.num_points = 77;
@@ -92,6 +93,12 @@ static void other_numbers_of_points(void **state) {
     pspec_spectrum_destroy(merged);
     test_free_sample(&what);
     pspec_context_destroy(context);
+}
+
+static void other_numbers_of_points(void **state) {
+    (void)state;
+    check_other_numbers(PSPEC_NORMALIZATION_POWER);
+    check_other_numbers(PSPEC_NORMALIZATION_INTEGRAL);
 }
 
 static void check_refused(pspec_context *context, const pspec_spectrum *a,

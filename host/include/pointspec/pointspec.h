@@ -7,6 +7,10 @@
  *     S(k) = sum_j w_j exp(-2 pi i k.x_j),   W = sum_j w_j,   V = sum_j w_j^2
  *     power, default normalization:    P(k) = N |S(k)|^2 / W^2     (unit weights: |S|^2 / N)
  *     power, effective normalization:  P(k) = |S(k)|^2 / V
+ *     power, for integrals:            P(k) = mean(N) |S(k)|^2 / W^2
+ *
+ * The last differs from the first where realizations have different N: the first counts each with
+ * its own N.
  *
  * Weights are not all 0, and |w_j| sum to at most 1e290. Sums over pairs and quadrature, whose
  * results have the units of weights, take sets whose largest |w_j| is between 1e-60 and 1e60,

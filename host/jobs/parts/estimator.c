@@ -64,7 +64,9 @@ pspec_status ps_estimator_create(ps_estimator **out, const ps_estimator_options 
     self->options = *options;
     self->device = device;
     self->batch = options->batch;
-    self->reference_points = (double)options->problem.num_points;
+    self->reference_points = options->normalization == PSPEC_NORMALIZATION_INTEGRAL
+                                 ? (double)options->problem.num_points
+                                 : 1;
     pspec_status status = create_arrays(self, error);
     if (status == PSPEC_OK) {
         status = create_parts(self, error);
@@ -154,7 +156,7 @@ static pspec_status prepare(ps_estimator *self, const pspec_pattern *patterns,
             PS_TRY(ps_estimator_check(self, &patterns[r], self->totals.num_realizations + r, &found,
                                       error));
         }
-        ps_estimator_set_sums(self, r, sums != NULL ? &sums[r] : &found);
+        ps_estimator_set_sums(self, r, patterns[r].num_points, sums != NULL ? &sums[r] : &found);
         *longest = patterns[r].num_points > *longest ? patterns[r].num_points : *longest;
     }
     return PSPEC_OK;
@@ -178,7 +180,7 @@ static void count_patterns(ps_estimator *self, const pspec_pattern *patterns, si
         const bool is_first = totals->num_realizations == 0;
         totals->num_realizations++;
         self->accuracy.length_error = fmax(self->accuracy.length_error, self->sums[r].length_error);
-        totals->sum_points += (double)num_points;
+        ps_sums_add(&totals->points, (double)num_points);
         ps_sums_add(&totals->sample_sizes, self->sums[r].weight_sum * self->sums[r].weight_sum /
                                                self->sums[r].weight_square_sum);
         totals->sum_weights += ps_estimator_weight_sum(self, &self->sums[r]);

@@ -1,9 +1,9 @@
 /* The streaming estimator: point sets go in, averages come out. Batches, memory, numerical error.
  *
- * Normalization. Rows hold q = N_ref |S|^2 / W^2 (N_ref fixed for the job: powers of order 1 in
- * float) or |S|^2 / V; a mean over realizations of different N is mean(N) / N_ref mean(q)
- * (docs/mathematics/statistics.md#different-numbers-of-points: average p = |S|^2 / W^2, then
- * P = mean(N) mean(p)).
+ * Normalization. Rows hold N |S|^2 / W^2 with N of each realization, or |S|^2 / V. What variances
+ * of integrals need, mean(N) mean(|S|^2 / W^2), is mean(N) / N_ref mean(q), rows being
+ * q = N_ref |S|^2 / W^2 (N_ref fixed for the job: powers of order 1 in float;
+ * docs/mathematics/statistics.md#different-numbers-of-points).
  */
 #ifndef PS_JOBS_PARTS_ESTIMATOR_H
 #define PS_JOBS_PARTS_ESTIMATOR_H

@@ -13,7 +13,7 @@ struct ps_estimator {
     ps_bins bins;
     uint32_t *slots;
     ps_accumulator *accumulator;
-    double reference_points; /* N_ref */
+    double reference_points; /* N_ref: 1 but under the normalization of integrals */
     double *scales;          /* [batch] */
     int *exponents;          /* [batch] of the weights */
     ps_pattern_sums *sums;   /* [batch] */
@@ -38,7 +38,8 @@ double ps_estimator_error_of(const ps_estimator *self, double mean_power,
                              const ps_pattern_sums *sums);
 
 /* Sums, scale and exponent of a pattern of the batch. */
-void ps_estimator_set_sums(ps_estimator *self, size_t pattern, const ps_pattern_sums *sums);
+void ps_estimator_set_sums(ps_estimator *self, size_t pattern, uint64_t num_points,
+                           const ps_pattern_sums *sums);
 /* W of the weights that the normalization means: where there are none, 1/N each under that of
  * pairs. */
 double ps_estimator_weight_sum(const ps_estimator *self, const ps_pattern_sums *sums);

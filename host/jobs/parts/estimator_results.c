@@ -41,11 +41,7 @@ static pspec_status require_realizations(const ps_estimator *self, ps_error *err
 
 /* From the units of rows to those of the result. */
 static double find_factor(const ps_estimator *self) {
-    const ps_pattern_totals *totals = &self->totals;
-    const double mean_points = totals->sum_points / (double)totals->num_realizations;
-    return self->options.normalization == PSPEC_NORMALIZATION_POWER
-               ? mean_points / self->reference_points
-               : 1;
+    return ps_spectrum_factor(self->options.normalization, &self->totals, self->reference_points);
 }
 
 pspec_status ps_estimator_spectrum(ps_estimator *estimator, ps_spectrum *out, ps_error *error) {
@@ -71,8 +67,7 @@ pspec_status ps_estimator_sums(ps_estimator *estimator, ps_spectrum_sums *out, p
     PS_TRY(require_realizations(estimator, error));
     PS_TRY(ps_spectrum_sums_create(out, options->problem.frequencies, estimator->bins.num, error));
     out->normalization = options->normalization;
-    out->reference_points =
-        options->normalization == PSPEC_NORMALIZATION_POWER ? estimator->reference_points : 1;
+    out->reference_points = estimator->reference_points;
     out->totals = estimator->totals;
     out->error = ps_estimator_accuracy(estimator).error;
     const pspec_status status =

@@ -93,7 +93,7 @@ pspec_status ps_estimator_add_stream(ps_estimator *estimator, const ps_pattern_s
     PS_TRY(ps_pattern_check_size(estimator->options.problem.frequencies, stream->num_points,
                                  count.realization, error));
     PS_TRY(ps_estimator_get_ready(estimator, stream->num_points, error));
-    ps_estimator_set_sums(estimator, 0, &stream->sums);
+    ps_estimator_set_sums(estimator, 0, stream->num_points, &stream->sums);
     PS_TRY(add_blocks(estimator, stream, &count, error));
     PS_TRY(check_count(estimator, stream, &count, error));
     PS_TRY(

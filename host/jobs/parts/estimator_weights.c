@@ -3,12 +3,16 @@
 
 #include <math.h>
 
-void ps_estimator_set_sums(ps_estimator *self, size_t pattern, const ps_pattern_sums *sums) {
+void ps_estimator_set_sums(ps_estimator *self, size_t pattern, uint64_t num_points,
+                           const ps_pattern_sums *sums) {
     const double sum = sums->weight_sum;
     self->sums[pattern] = *sums;
     self->exponents[pattern] = sums->exponent;
     switch (self->options.normalization) {
     case PSPEC_NORMALIZATION_POWER:
+        self->scales[pattern] = (double)num_points / (sum * sum);
+        break;
+    case PSPEC_NORMALIZATION_INTEGRAL:
         self->scales[pattern] = self->reference_points / (sum * sum);
         break;
     case PSPEC_NORMALIZATION_EFFECTIVE:

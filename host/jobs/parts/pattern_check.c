@@ -137,7 +137,8 @@ pspec_status ps_pattern_count_finish(const ps_pattern_count *count,
     PS_TRY(normalization == PSPEC_NORMALIZATION_PAIRS
                ? ps_pattern_check_largest(count->largest, count->realization, error)
                : check_size(count, error));
-    if (normalization == PSPEC_NORMALIZATION_POWER) {
+    if (normalization == PSPEC_NORMALIZATION_POWER ||
+        normalization == PSPEC_NORMALIZATION_INTEGRAL) {
         PS_TRY(check_sum(count, error));
     }
     *sums = (ps_pattern_sums){count->exponent,      false,

@@ -46,7 +46,7 @@ pspec_status ps_pattern_count_add(ps_pattern_count *count, const pspec_pattern *
 /* The same for weights that come without points. */
 pspec_status ps_pattern_count_weights(ps_pattern_count *count, const double *weights,
                                       size_t num_weights, ps_error *error) PS_MUST_CHECK;
-/* W = 0 under the default normalization, and sums that are too large, are PSPEC_ERROR_INPUT. */
+/* W = 0 where powers are divided by it, and sums that are too large, are PSPEC_ERROR_INPUT. */
 pspec_status ps_pattern_count_finish(const ps_pattern_count *count,
                                      pspec_normalization normalization, ps_pattern_sums *sums,
                                      ps_error *error) PS_MUST_CHECK;

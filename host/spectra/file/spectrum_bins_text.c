@@ -1,6 +1,6 @@
 /* The rule of bins in spectrum files. */
 #include "base/text.h"
-#include "spectra/spectrum_format.h"
+#include "spectra/file/spectrum_format.h"
 
 #include <inttypes.h>
 #include <stdio.h>

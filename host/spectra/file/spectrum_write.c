@@ -1,7 +1,7 @@
 #include "base/text.h"
 #include "files/output_file.h"
-#include "spectra/spectrum_file.h"
-#include "spectra/spectrum_format.h"
+#include "spectra/file/spectrum_file.h"
+#include "spectra/file/spectrum_format.h"
 
 #include "pointspec_version.h"
 
@@ -76,10 +76,11 @@ static void describe(const ps_spectrum_sums *sums, ps_text *text) {
 
 static void write_all(writer *out, const ps_spectrum_sums *sums, const ps_text *header) {
     const ps_frequencies *set = &sums->frequencies;
-    const double totals[PS_SPECTRUM_TOTALS] = {sums->reference_points, sums->totals.sum_points,
-                                               sums->totals.sum_weights, sums->error};
+    const double totals[PS_SPECTRUM_TOTALS] = {sums->reference_points, sums->totals.sum_weights,
+                                               sums->error};
     write_bytes(out, header->data, header->length);
     write_doubles(out, totals, PS_SPECTRUM_TOTALS);
+    write_sums(out, &sums->totals.points, 1);
     write_sums(out, &sums->totals.sample_sizes, 1);
     for (size_t i = 0; set->kind == PS_FREQUENCIES_LIST && i < set->num * set->dimension; i++) {
         write_integer(out, (uint32_t)set->vectors[i], sizeof set->vectors[i]);

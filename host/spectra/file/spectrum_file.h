@@ -1,7 +1,7 @@
 /* Spectra in files: the sums, bit by bit, with a checksum. The format is in
  * docs/user/spectrum_file.md. */
-#ifndef PS_SPECTRA_SPECTRUM_FILE_H
-#define PS_SPECTRA_SPECTRUM_FILE_H
+#ifndef PS_SPECTRA_FILE_SPECTRUM_FILE_H
+#define PS_SPECTRA_FILE_SPECTRUM_FILE_H
 
 #include "spectra/spectrum_sums.h"
 
