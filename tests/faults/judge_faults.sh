@@ -3,7 +3,8 @@
 # one line for each: NAME CLASS VERDICT FUNCTION REMARK. Started by run_faults.sh, which sets FAULTS_PROGRAM and
 # FAULTS_SCRATCH and has written, for every command line, cases/NAME/{words,stdin,things,expected/}.
 set -euo pipefail
-run=$FAULTS_SCRATCH/run.$$ initial=$FAULTS_SCRATCH/initial
+# As long as the name of the folder where run_faults.sh runs the same: the program's texts have its path, and grow with it.
+run=$FAULTS_SCRATCH/run.$(printf %07d $$) initial=$FAULTS_SCRATCH/initial
 trap 'rm -rf "$run"' EXIT
 # shellcheck source=tests/faults/same.sh
 . "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/same.sh"

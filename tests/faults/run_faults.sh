@@ -45,7 +45,7 @@ check_symbols() {
 
 # The run without faults: its outputs, its calls, and again, for both must be the same every time.
 prepare_case() { # NAME STDIN [VARIABLE=VALUE...] WORD...
-    local name=$1 case=$scratch/cases/$1 stdin words round
+    local name=$1 case=$scratch/cases/$1 run=$scratch/run.0000000 stdin words round
     read_line "$@"
     mkdir -p "$case"
     printf '%s\n' "${words[@]}" >"$case/words"
@@ -54,11 +54,12 @@ prepare_case() { # NAME STDIN [VARIABLE=VALUE...] WORD...
     { printf 'standard (in|out)put|temporary file|gnuplot|kernel source|/dev/null'
         printf '%s\n' "${words[@]}" | sed -nE 's/^([a-z:]*=)?([a-z]*)\.[a-z]*$/|\2\\./p' | tr -d '\n'; } >"$case/things"
     for round in expected again; do
-        mkdir "$case/$round"
-        cp -r "$scratch/initial" "$case/$round/folder"
-        (cd "$case/$round/folder" && POINTSPEC_FAULT_REPORT=$case/$round.report \
-            env "${words[@]}" <"$(<"$case/stdin")" >"$case/$round/stdout" 2>"$case/$round.stderr") ||
+        mkdir "$run"
+        cp -r "$scratch/initial" "$run/folder"
+        (cd "$run/folder" && POINTSPEC_FAULT_REPORT=$case/$round.report \
+            env "${words[@]}" <"$(<"$case/stdin")" >"$run/stdout" 2>"$case/$round.stderr") ||
             { echo "run_faults: $name fails without faults: $(<"$case/$round.stderr")" >&2; return 1; }
+        mv "$run" "$case/$round"
     done
     if grep -q '^leak\|^unknown' "$case/expected.report" || ! diff -r "${same[@]}" "$case/expected" "$case/again" ||
         ! diff "$case/expected.report" "$case/again.report"; then
