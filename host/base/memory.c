@@ -2,7 +2,7 @@
 
 #include "base/memory.h"
 
-#include "base/memory_limit.h"
+#include "base/process/memory_limit.h"
 
 #include <stdint.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 #include "base/text.h"
 
 #include "base/memory.h"
-#include "base/memory_limit.h"
+#include "base/process/memory_limit.h"
 
 #include <ctype.h>
 #include <errno.h>

@@ -1,6 +1,6 @@
 /* The program: finds the command, parses its words, runs it, turns its status into an exit code and
  * its message into one line on standard error. */
-#include "base/memory_limit.h"
+#include "base/process/memory_limit.h"
 #include "base/text.h"
 #include "cli/command.h"
 #include "cli/shown.h"
@@ -10,7 +10,6 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <gsl/gsl_errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -31,7 +30,6 @@ static void occupy_standard_streams(void) {
 static void prepare_process(void) {
     occupy_standard_streams();
     ps_signals_prepare();
-    gsl_set_error_handler_off(); /* GSL would abort */
 }
 
 /* ---- messages ------------------------------------------------------------------------------ */

@@ -3,6 +3,7 @@
 #include "device/drivers.h"
 
 #include "base/memory.h"
+#include "base/process/process_lock.h"
 #include "base/text.h"
 
 #include <ctype.h>
@@ -140,7 +141,7 @@ static pspec_status read_limits(cl_device_id id, ps_device_limits *limits, ps_er
     return ask.status;
 }
 
-pspec_status ps_device_list(ps_device_limits **limits, size_t *num_devices, ps_error *error) {
+static pspec_status list_devices(ps_device_limits **limits, size_t *num_devices, ps_error *error) {
     cl_device_id devices[MAX_DEVICES];
     ps_device_limits *list = NULL;
     *limits = NULL;
@@ -155,6 +156,13 @@ pspec_status ps_device_list(ps_device_limits **limits, size_t *num_devices, ps_e
     }
     *limits = list;
     return PSPEC_OK;
+}
+
+pspec_status ps_device_list(ps_device_limits **limits, size_t *num_devices, ps_error *error) {
+    ps_process_lock();
+    const pspec_status status = list_devices(limits, num_devices, error);
+    ps_process_unlock();
+    return status;
 }
 
 /* ---- choosing ---------------------------------------------------------------------------- */
@@ -283,19 +291,23 @@ static pspec_status open_queue(ps_device *device, ps_error *error) {
     return PSPEC_OK;
 }
 
-pspec_status ps_device_open(ps_device **out, const char *selector, bool with_profile,
-                            ps_error *error) {
+static pspec_status find_and_open(ps_device *device, const char *selector, ps_error *error) {
     cl_device_id devices[MAX_DEVICES];
     size_t num_devices = 0;
-    *out = NULL;
     PS_TRY(find_devices(devices, &num_devices, error));
+    PS_TRY(choose_among(devices, num_devices, selector, device, error));
+    return open_queue(device, error);
+}
+
+pspec_status ps_device_open(ps_device **out, const char *selector, bool with_profile,
+                            ps_error *error) {
     ps_device *device = NULL;
+    *out = NULL;
     PS_TRY(PS_NEW(&device, 1, "a device", error));
     device->has_profile = with_profile;
-    pspec_status status = choose_among(devices, num_devices, selector, device, error);
-    if (status == PSPEC_OK) {
-        status = open_queue(device, error);
-    }
+    ps_process_lock();
+    const pspec_status status = find_and_open(device, selector, error);
+    ps_process_unlock();
     if (status != PSPEC_OK) {
         ps_device_close(device);
         return status;
@@ -314,12 +326,14 @@ void ps_device_close(ps_device *device) {
     }
     free(device->programs);
     free(device->figures);
+    ps_process_lock();
     if (device->queue != NULL) {
         clReleaseCommandQueue(device->queue);
     }
     if (device->context != NULL) {
         clReleaseContext(device->context);
     }
+    ps_process_unlock();
     free(device);
 }
 

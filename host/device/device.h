@@ -1,7 +1,9 @@
 /* An OpenCL device: choice, limits, buffers, programs, launches, profile.
  *
  * A ps_device owns its context, one in-order queue and every program built through it. One thread
- * at a time. Nothing here knows what the kernels compute.
+ * at a time; different devices, or the same one opened twice, in different threads: looking,
+ * opening and closing go under the lock of the process, since PoCL has none there. Nothing here
+ * knows what the kernels compute.
  */
 #ifndef PS_DEVICE_DEVICE_H
 #define PS_DEVICE_DEVICE_H

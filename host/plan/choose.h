@@ -9,7 +9,7 @@
 #ifndef PS_PLAN_CHOOSE_H
 #define PS_PLAN_CHOOSE_H
 
-#include "base/memory_limit.h"
+#include "base/process/memory_limit.h"
 #include "engines/engine.h"
 
 typedef struct ps_candidate {

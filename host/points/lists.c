@@ -1,6 +1,6 @@
 /* Lists that come beside points: frequency vectors, weights, tables of two columns. */
 #include "base/memory.h"
-#include "base/memory_limit.h"
+#include "base/process/memory_limit.h"
 #include "files/decimal.h"
 #include "files/npy.h"
 #include "files/output_file.h"

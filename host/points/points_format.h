@@ -2,7 +2,7 @@
 #ifndef PS_POINTS_POINTS_FORMAT_H
 #define PS_POINTS_POINTS_FORMAT_H
 
-#include "base/memory_limit.h"
+#include "base/process/memory_limit.h"
 #include "base/text.h"
 #include "files/input_file.h"
 #include "files/output_file.h"

@@ -1,6 +1,6 @@
 /* Reading, as far as it is the same for all formats: blocks of rows become checked points. */
 #include "base/memory.h"
-#include "base/memory_limit.h"
+#include "base/process/memory_limit.h"
 #include "points/points_format.h"
 
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* From the text of a value to a field of ps_request. */
 #include "questions/option_setters.h"
 
-#include "base/memory_limit.h"
+#include "base/process/memory_limit.h"
 #include "base/text.h"
 #include "frequencies/frequencies.h"
 #include "math/sobolev.h"

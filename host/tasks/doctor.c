@@ -1,6 +1,6 @@
 #include "tasks/doctor.h"
 
-#include "base/memory_limit.h"
+#include "base/process/memory_limit.h"
 #include "base/text.h"
 #include "device/drivers.h"
 #include "plots/plot.h"

@@ -2,7 +2,7 @@
 #include "tasks/points.h"
 
 #include "base/memory.h"
-#include "base/memory_limit.h"
+#include "base/process/memory_limit.h"
 #include "jobs/convert.h"
 #include "questions/question.h"
 #include "report/output_check.h"

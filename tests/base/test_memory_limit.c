@@ -3,7 +3,7 @@
 #include "harness.h"
 
 #include "base/memory.h"
-#include "base/memory_limit.h"
+#include "base/process/memory_limit.h"
 
 #include <stdio.h>
 #include <stdlib.h>

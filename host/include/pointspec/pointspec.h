@@ -42,7 +42,9 @@
  * points to belongs to the object. Arguments are only borrowed for the call.
  *
  * **Threads.** One context, and the plans made from it, may be used by one thread at a time;
- * different contexts are independent. A spectrum may be read by any number of threads.
+ * different contexts are independent, the first use of a device included. A spectrum may be read by
+ * any number of threads. GSL has one error handler for the process: while a call of this library is
+ * inside GSL the handler is off for everybody, and afterwards it is the one that was there.
  *
  * **Errors.** Whatever can fail returns a #pspec_status; the sentence that goes with it (what,
  * where, which value, which limit) is pspec_context_message(). Objects arrive through the first

@@ -1,5 +1,7 @@
 #include "math/random/distributions.h"
 
+#include "math/gsl_fence.h"
+
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 
@@ -29,8 +31,7 @@ double ps_gamma_ratio_score(double x, double a, double y, double b) {
     return fabs(r) < middle ? r : r + log(u / r) / r;
 }
 
-/* What GSL is asked lies where it never calls its error handler, which would abort the program:
- * tests look at that. Below the least number of degrees of freedom all scores have the probability
+/* What GSL is asked lies where it never calls its error handler: tests look at that. Below the least number of degrees of freedom all scores have the probability
  * 1. */
 double ps_student_two_sided(double score, double degrees_of_freedom) {
     const double least = 1e-6;
@@ -43,9 +44,13 @@ double ps_student_two_sided(double score, double degrees_of_freedom) {
     if (isinf(score)) {
         return 0;
     }
-    return degrees_of_freedom < least
-               ? 1
-               : fmin(1, 2 * gsl_cdf_tdist_Q(distance, fmin(degrees_of_freedom, most)));
+    if (degrees_of_freedom < least) {
+        return 1;
+    }
+    ps_gsl_enter();
+    const double tail = gsl_cdf_tdist_Q(distance, fmin(degrees_of_freedom, most));
+    ps_gsl_leave();
+    return fmin(1, 2 * tail);
 }
 
 double ps_student_score(double probability, double degrees_of_freedom) {
@@ -69,5 +74,11 @@ double ps_student_score(double probability, double degrees_of_freedom) {
 
 double ps_normal_score(double probability) {
     const double least = 1e-300;
-    return probability < 1 ? gsl_cdf_ugaussian_Qinv(fmax(probability, least) / 2) : 0;
+    if (!(probability < 1)) {
+        return 0;
+    }
+    ps_gsl_enter();
+    const double score = gsl_cdf_ugaussian_Qinv(fmax(probability, least) / 2);
+    ps_gsl_leave();
+    return score;
 }

@@ -6,8 +6,8 @@
  * sentence, and never decides what is computed: only a limit that somebody typed does that
  * (plan/choose.h).
  */
-#ifndef PS_BASE_MEMORY_LIMIT_H
-#define PS_BASE_MEMORY_LIMIT_H
+#ifndef PS_BASE_PROCESS_MEMORY_LIMIT_H
+#define PS_BASE_PROCESS_MEMORY_LIMIT_H
 
 #include "base/status.h"
 

@@ -1,6 +1,6 @@
-#include "base/memory_limit.h"
+#include "base/process/memory_limit.h"
 
-#include "base/proc_files.h"
+#include "base/process/proc_files.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,8 +1,8 @@
 /* Numbers out of the files of /proc and of cgroups. Names are below a folder root, "" for this
  * machine. False: the file, or what is looked for, is not there or is no number. Private to
  * host/base. */
-#ifndef PS_BASE_PROC_FILES_H
-#define PS_BASE_PROC_FILES_H
+#ifndef PS_BASE_PROCESS_PROC_FILES_H
+#define PS_BASE_PROCESS_PROC_FILES_H
 
 #include <stdbool.h>
 #include <stddef.h>

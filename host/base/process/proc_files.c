@@ -1,4 +1,4 @@
-#include "base/proc_files.h"
+#include "base/process/proc_files.h"
 
 #include <fcntl.h>
 #include <stdio.h>

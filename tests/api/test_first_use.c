@@ -1,0 +1,119 @@
+/* Threads whose first use of a device coincides, each with a context of its own. Drivers initialise
+ * a process once, so every start is a new process; this one never touches a device. */
+#include "harness_public.h"
+
+#include "harness.h"
+
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { MOST_THREADS = 6, STARTS = 30, NUM_RINGS = 4 };
+
+typedef struct work {
+    pthread_barrier_t *barrier;
+    pspec_pattern pattern;
+    bool is_done;
+    double powers[NUM_RINGS];
+} work;
+
+static bool compute(work *self, pspec_context *context) {
+    pspec_power_request request = PSPEC_POWER_REQUEST_INIT;
+    pspec_plan *plan = NULL;
+    pspec_spectrum *spectrum = NULL;
+    size_t num = 0;
+    request.max_frequency = NUM_RINGS;
+    request.num_points = self->pattern.num_points;
+    request.engine = "torus_direct";
+    bool is_done = pspec_plan_create(&plan, context, &request) == PSPEC_OK &&
+                   pspec_plan_run(plan, &self->pattern, 1) == PSPEC_OK &&
+                   pspec_spectrum_create(&spectrum, plan) == PSPEC_OK;
+    const pspec_bin *const bins = is_done ? pspec_spectrum_bins(spectrum, &num) : NULL;
+    is_done = is_done && num == NUM_RINGS;
+    for (size_t b = 0; b < NUM_RINGS && is_done; b++) {
+        self->powers[b] = bins[b].power;
+    }
+    pspec_spectrum_destroy(spectrum);
+    pspec_plan_destroy(plan);
+    return is_done;
+}
+
+static void *use_device(void *payload) {
+    work *const self = payload;
+    pthread_barrier_wait(self->barrier);
+    pspec_context *const context = pspec_context_create();
+    self->is_done = context != NULL && compute(self, context);
+    if (!self->is_done && context != NULL) {
+        fprintf(stderr, "a thread: %s\n", pspec_context_message(context));
+    }
+    pspec_context_destroy(context);
+    return NULL;
+}
+
+/* In a process of its own: true where all threads have the same bits. */
+static bool start(unsigned num_threads, const pspec_pattern *pattern) {
+    pthread_barrier_t barrier;
+    pthread_t threads[MOST_THREADS];
+    work all[MOST_THREADS];
+    bool is_good = pthread_barrier_init(&barrier, NULL, num_threads) == 0;
+    for (unsigned i = 0; i < num_threads; i++) {
+        all[i] = (work){.barrier = &barrier, .pattern = *pattern};
+        is_good = pthread_create(&threads[i], NULL, use_device, &all[i]) == 0 && is_good;
+    }
+    for (unsigned i = 0; i < num_threads; i++) {
+        pthread_join(threads[i], NULL);
+        is_good = is_good && all[i].is_done &&
+                  memcmp(all[i].powers, all[0].powers, sizeof all[0].powers) == 0;
+    }
+    return is_good;
+}
+
+static void first_uses_coincide(void **state) {
+    (void)state;
+    static const unsigned numbers[] = {2, MOST_THREADS};
+    test_sample what = test_make_sample(1, 2, TEST_NUM_POINTS, 0, false);
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
+        unsigned num_good = 0;
+        for (unsigned s = 0; s < STARTS; s++) {
+            int status = 0;
+            const pid_t child = fork();
+            if (child == 0) {
+                _exit(start(numbers[i], what.patterns) ? 0 : 1);
+            }
+            assert_true(child > 0 && waitpid(child, &status, 0) == child);
+            num_good += WIFEXITED(status) && WEXITSTATUS(status) == 0;
+        }
+        if (num_good != STARTS) {
+            fail_msg("%u of %d starts of %u threads went well", num_good, STARTS, numbers[i]);
+        }
+    }
+    test_free_sample(&what);
+}
+
+/* 77: no device, nothing to test. */
+static bool has_device(void) {
+    int status = 0;
+    const pid_t child = fork();
+    if (child == 0) {
+        pspec_context *const context = pspec_context_create();
+        pspec_power_request request = PSPEC_POWER_REQUEST_INIT;
+        pspec_plan *plan = NULL;
+        request.engine = "torus_direct";
+        _exit(pspec_plan_create(&plan, context, &request) == PSPEC_ERROR_NO_DEVICE ? 1 : 0);
+    }
+    return child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status) &&
+           WEXITSTATUS(status) == 0;
+}
+
+int main(void) {
+    const int skipped = 77;
+    const struct CMUnitTest tests[] = {cmocka_unit_test(first_uses_coincide)};
+    if (!has_device()) {
+        puts("first_use: no OpenCL device, skipped");
+        return skipped;
+    }
+    return cmocka_run_group_tests_name("first_use", tests, NULL, NULL);
+}
