@@ -227,9 +227,13 @@ static pspec_status parse_weights(number_list *list, const char *text, size_t li
     return PSPEC_OK;
 }
 
-/* The first byte tells: no text begins with it. */
-static bool is_npy(const ps_input *input) {
-    return input->buffer[input->begin] == (unsigned char)ps_format_npy.magic[0];
+/* The first byte tells: no text begins with it. Of what is compressed it has to be unpacked. */
+static pspec_status find_npy(ps_input *input, bool *is_npy, ps_error *error) {
+    const unsigned char *bytes = NULL;
+    size_t num = 0;
+    PS_TRY(ps_input_peek(input, 1, &bytes, &num, error));
+    *is_npy = num > 0 && bytes[0] == (unsigned char)ps_format_npy.magic[0];
+    return PSPEC_OK;
 }
 
 /* In blocks, so that a pipe that promises too much does not claim the memory for it. */
@@ -275,9 +279,10 @@ pspec_status ps_read_weights(const char *path, uint64_t num_wanted, double **wei
     snprintf(why, sizeof why, "weights, and a set has %llu points", (unsigned long long)num_wanted);
     number_list list = {.input = &input, .most_values = num_wanted, .why_values = why};
     pspec_status status = PSPEC_OK;
+    bool is_npy = false;
     PS_TRY_OUT(status, ps_input_open_array(&input, path, "weights", error));
-    PS_TRY_OUT(status,
-               is_npy(&input) ? read_npy(&list, error) : read_lines(&list, parse_weights, error));
+    PS_TRY_OUT(status, find_npy(&input, &is_npy, error));
+    PS_TRY_OUT(status, is_npy ? read_npy(&list, error) : read_lines(&list, parse_weights, error));
     *weights = list.values;
     *num_weights = list.num_values;
     list.values = NULL;

@@ -152,4 +152,26 @@ command=convert
 runs 0 --columns xyw plane.txt -o plane.npy
 runs 0 --columns xyw plane.npy -o after.txt
 diff <(awk '{ print $3 }' before.txt) <(awk '!/^#/ { print $3 }' after.txt) >diff.txt || complain "convert: $(<diff.txt)"
+# ---- an array of weights is one however it is packed, in every command
+make_sets 1 2 3.5
+cut -d' ' -f1-2 plane.txt >xy.txt
+cut -d' ' -f1-3 sphere.txt >xyz.txt
+cut -d' ' -f3 plane.txt >weights.txt
+{
+    header="{'descr': '<f8', 'fortran_order': False, 'shape': (3,), }"
+    printf '\x93NUMPY\1\0\x76\0%-117s\n' "$header"
+    printf '\0\0\0\0\0\0\xf0\x3f\0\0\0\0\0\0\0\x40\0\0\0\0\0\0\x0c\x40'
+} >weights.npy
+gzip -c weights.npy >weights.npy.gz
+for name in power angular pairs quadrature; do
+    on $name
+    words=("${words[@]/*.txt/xyz.txt}") words=("${words[@]/xyzw/xyz}")
+    [[ $name != power ]] || words=(--engine host_direct -k 3 xy.txt)
+    runs 0 "${words[@]}" --weights weights.txt
+    rows >expected
+    for file in weights.npy weights.npy.gz; do
+        runs 0 "${words[@]}" --weights $file
+        rows | cmp -s - expected || complain "$name: $file gives other numbers than weights.txt"
+    done
+done
 finish

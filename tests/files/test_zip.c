@@ -1,6 +1,8 @@
 /* Arrays of zip archives: as numpy writes them, as streams write them, and damaged. */
 #include "harness_points.h"
 
+#include "files/npy.h"
+
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -231,17 +233,16 @@ static void reads_arrays(void **state) {
     free(points.data);
 }
 
-/* Weights of a file are its array "weights". */
-static void reads_weights(void **state) {
-    static unsigned char weights[] = "0.5\n2\n";
+/* The array "weights" of an archive with points, too. */
+static void check_weights(void **state, bytes weights, const style *packed) {
     char path[TEST_PATH_BYTES];
     double *found = NULL;
     size_t num = 0;
     ps_error error = {0};
     bytes points = make_array(2);
     member members[] = {{.name = "points.npy", .content = points},
-                        {.name = "weights.npy", .content = {weights, sizeof weights - 1}}};
-    bytes archive = make_archive(&styles[1], members, 2);
+                        {.name = "weights.npy", .content = weights}};
+    bytes archive = make_archive(packed, members, 2);
     assert_true(test_write_file(test_path(*state, "w.npz", path), archive.data, archive.num));
     assert_int_equal(ps_read_weights(path, 2, &found, &num, &error), PSPEC_OK);
     assert_int_equal(num, 2);
@@ -249,6 +250,25 @@ static void reads_weights(void **state) {
     free(found);
     free(archive.data);
     free(points.data);
+}
+
+/* As numpy.savez writes them, and as text that somebody put there. */
+static void reads_weights(void **state) {
+    static unsigned char text[] = "0.5\n2\n";
+    static const double values[] = {0.5, 2};
+    const size_t shape[] = {2};
+    char path[TEST_PATH_BYTES];
+    bytes array = {0};
+    ps_error error = {0};
+    assert_int_equal(ps_npy_write(test_path(*state, "w.npy", path), 1, shape, values, &error),
+                     PSPEC_OK);
+    array.data = (unsigned char *)test_read_file(path, &array.num);
+    assert_non_null(array.data);
+    for (size_t i = 0; i < sizeof styles / sizeof styles[0]; i++) {
+        check_weights(state, array, &styles[i]);
+    }
+    check_weights(state, (bytes){text, sizeof text - 1}, &styles[1]);
+    free(array.data);
 }
 
 /* ---- refusals ---------------------------------------------------------------------------- */
