@@ -20,7 +20,13 @@ for sampler in white jittered sobol sobol:scramble=owen sobol:scramble=xor halto
 done
 is same --sampler white -n 64
 is same --sampler white -n 64 -d 3 -k 5
-is different --sampler jittered -n 64 -m 600 -d 3 -k 8
+# In three dimensions products off the axes would drown those on them, and so would a frequency far beyond the strata.
+is different --sampler jittered -n 64 -d 3 -s 1
+is same --sampler jittered -n 64 -d 3 -s 1 --homogenize
+is different --sampler latin-hypercube -n 16 -k 80
+[[ $(<err) =~ 'first of all ('(0,16|16,0)') of products up to 20 on axis '[12]' (their mean' ]] || complain "strata of axes: $(<err)"
+is same --sampler latin-hypercube -n 16 -k 80 --homogenize
+is different --sampler jittered -n 64 -k 64
 is different --sampler jittered -n 16 -d 1
 for sampler in zphi spiral; do
     is same --sampler "$sampler" --homogenize -n 64
@@ -35,11 +41,12 @@ is different --sampler white-hemisphere -n 64 -l 4
 is different --sampler jittered -n 64 -m 60 -s 3
 says 'translations change the law of these realizations'
 [[ $(key invariance) == translations && $(key realizations) == 60 && $(key max_frequency) == 16 ]] || complain "header: $(<out)"
-# 16 + 16 * 33 frequencies, and a sum of products for each shift; rings up to the corners
-[[ $(key different) == *"of 1088 phases" && $(rows) == 24 ]] || complain "table: $(<out)"
+# 16 + 16 * 33 frequencies; sums of products up to 8, 4, 2, 1 for shifts of the plane and of each axis; rings up to the
+# corners
+[[ $(key different) == *"of 1344 phases" && $(rows) == 24 ]] || complain "table: $(<out)"
 [[ $(grep '^bin' out) == bin,phases,resultant,z_score,p_value,adjusted_p_value,worst,verdict ]] || complain "columns: $(<out)"
-[[ $(grep -c ',different$' out) == 1 && $(grep ',different$' out) =~ ^8,.*'"('(8,0|0,8)') of products",different'$ ]] || complain "row: $(<out)"
-awk -F, '/^[0-9]/ { phases += $2 } END { exit phases != 1088 }' out || complain "phases: $(<out)"
+[[ $(grep -c ',different$' out) == 1 && $(grep ',different$' out) =~ ^8,.*'"('(8,0|0,8)') of products up to '[48](' on axis '[12])?'",different'$ ]] || complain "row: $(<out)"
+awk -F, '/^[0-9]/ { phases += $2 } END { exit phases != 1344 }' out || complain "phases: $(<out)"
 cp out first
 runs 3 --homogeneous --sampler jittered -n 64 -m 60 -s 3
 cmp -s out first || complain "not the same bits"
@@ -81,7 +88,18 @@ refuses '--hemisphere is for points of the sphere' --homogeneous --sampler white
 refuses '--lift is for points of the sphere' --homogeneous --domain torus --lift sphere sets.txt
 refuses 'it says how point files are read' --homogeneous --domain sphere --sampler white
 refuses 'one sampler is checked at a time' --homogeneous --sampler white --sampler jittered
-refuses '9 realizations cannot tell' --homogeneous --sampler white -m 9 -n 64
+# One number, before the work: the same for 1 realization and for 9, and for plans and scenes.
+for m in 1 9; do
+    refuses "among 1344 phases even equal ones would not be an alarm at a rate of 0.001; at least 10 realizations are needed" \
+        --homogeneous --sampler white -m $m -n 64
+done
+refuses 'among 2112 phases' --homogeneous --sampler white-sphere -m 9 -n 64
+is same --sampler white -m 10 -n 64
+"$program" plan check --homogeneous --sampler white -m 9 -n 64 >out 2>err && complain "a plan of too few"
+[[ $(<err) == *'at least 10 realizations are needed' ]] || complain "a plan of too few: $(<err)"
+"$program" sample --sampler white -n 64 -m 9 -o few.txt
+refuses 'among 1344 phases even equal ones would not be an alarm at a rate of 0.001; at least 10 realizations are needed' \
+    --homogeneous few.txt
 refuses 'at least' --homogeneous --sampler white -m 9 --false-alarm-rate 1e-9
 refuses 'in dimension 4 the largest frequency must be given' --homogeneous --sampler white -n 64 -d 4
 refuses 'the saved spectrum says it' --against saved.json --sampler white -k 4

@@ -16,6 +16,25 @@ static bool is_on_sphere(const ps_frequencies *set) {
     return set->kind == PS_FREQUENCIES_DEGREES;
 }
 
+/* " up to 20 on axes 1 and 3"; axes are not named where all are meant. */
+static void append_family(ps_text *out, const ps_phase_label *label, unsigned dimension) {
+    const unsigned all = (1U << dimension) - 1;
+    unsigned left = label->axes;
+    ps_text_append(out, " up to %d", (int)label->reach);
+    if (label->axes == all) {
+        return;
+    }
+    ps_text_append(out, " on %s", (left & (left - 1)) == 0 ? "axis" : "axes");
+    for (unsigned axis = 0; axis < dimension; axis++) {
+        const unsigned bit = 1U << axis;
+        if ((left & bit) != 0) {
+            const bool is_first = left == label->axes;
+            left &= ~bit;
+            ps_text_append(out, "%s %u", is_first ? "" : left == 0 ? " and" : ",", axis + 1);
+        }
+    }
+}
+
 pspec_status ps_phase_label_write(const ps_phase_label *label, const ps_frequencies *set,
                                   ps_text *out, ps_error *error) {
     const char *const what = label->is_product ? "products" : "amplitudes";
@@ -28,6 +47,9 @@ pspec_status ps_phase_label_write(const ps_phase_label *label, const ps_frequenc
         ps_text_append(out, "%s%d", axis == 0 ? "(" : ",", (int)label->k[axis]);
     }
     ps_text_append(out, ") of %s", what);
+    if (label->is_product) {
+        append_family(out, label, set->dimension);
+    }
     return ps_text_check(out, error);
 }
 

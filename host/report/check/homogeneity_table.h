@@ -4,15 +4,8 @@
 #define PS_REPORT_CHECK_HOMOGENEITY_TABLE_H
 
 #include "questions/question.h"
-#include "spectra/phases/phase_tests.h"
+#include "spectra/phases/invariance.h"
 #include "tables/table.h"
-
-/* What a test is of. */
-typedef struct ps_phase_label {
-    int32_t k[PS_MAX_TORUS_DIMENSION]; /* frequency, or degree and order */
-    bool is_turned;                    /* on the sphere: about the x axis instead of z */
-    bool is_product;                   /* of sums of products instead of amplitudes */
-} ps_phase_label;
 
 typedef struct ps_homogeneity_results {
     const ps_power_job *job;
@@ -22,7 +15,8 @@ typedef struct ps_homogeneity_results {
     size_t num_different;
 } ps_homogeneity_results;
 
-/* "(16,0) of products", "degree 4, order 2 of amplitudes, about x" */
+/* "(16,0) of amplitudes", "(16,0) of products up to 20 on axis 1", "degree 4, order 2 of amplitudes,
+ * about x" */
 pspec_status ps_phase_label_write(const ps_phase_label *label, const ps_frequencies *set,
                                   ps_text *out, ps_error *error) PS_MUST_CHECK;
 

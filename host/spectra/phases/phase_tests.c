@@ -35,21 +35,38 @@ uint64_t ps_phase_tests_least(size_t num_tests, double false_alarm_rate) {
     return num;
 }
 
+/* Gathers the tests that can tell, those without enough phases being 1 whatever the others are.
+ * Which they are depends on moduli alone, so that Holm's method need not count the others. */
+static size_t gather(ps_phase_test *tests, size_t num, double *values) {
+    size_t num_able = 0;
+    for (size_t i = 0; i < num; i++) {
+        ps_phase_test *const test = &tests[i];
+        test->resultant =
+            test->num > 0 ? fmin(1, hypot(test->cosines, test->sines) / (double)test->num) : 0;
+        test->p_value = ps_rayleigh_p_value(test->num, test->resultant);
+        if (test->num >= FEWEST_PHASES) {
+            values[num_able++] = test->p_value;
+        }
+    }
+    return num_able;
+}
+
+static void scatter(ps_phase_test *tests, size_t num, const double *adjusted,
+                    double false_alarm_rate) {
+    for (size_t i = 0; i < num; i++) {
+        tests[i].adjusted_p_value = tests[i].num >= FEWEST_PHASES ? *adjusted++ : 1;
+        tests[i].differs = tests[i].adjusted_p_value <= false_alarm_rate;
+    }
+}
+
 pspec_status ps_phase_tests_judge(ps_phase_test *tests, size_t num, double false_alarm_rate,
                                   ps_error *error) {
     double *values = NULL;
     PS_TRY(PS_NEW(&values, 2 * num, "probabilities of phases", error));
     double *const adjusted = values + num;
-    for (size_t i = 0; i < num; i++) {
-        ps_phase_test *const test = &tests[i];
-        test->resultant =
-            test->num > 0 ? fmin(1, hypot(test->cosines, test->sines) / (double)test->num) : 0;
-        values[i] = test->p_value = ps_rayleigh_p_value(test->num, test->resultant);
-    }
-    const pspec_status status = ps_holm_adjust(num, values, adjusted, error);
-    for (size_t i = 0; status == PSPEC_OK && i < num; i++) {
-        tests[i].adjusted_p_value = adjusted[i];
-        tests[i].differs = adjusted[i] <= false_alarm_rate;
+    const pspec_status status = ps_holm_adjust(gather(tests, num, values), values, adjusted, error);
+    if (status == PSPEC_OK) {
+        scatter(tests, num, adjusted, false_alarm_rate);
     }
     free(values);
     return status;

@@ -39,7 +39,8 @@ double ps_rayleigh_p_value(uint64_t num, double resultant);
  * that rate. */
 uint64_t ps_phase_tests_least(size_t num_tests, double false_alarm_rate);
 
-/* Fills what is made of the sums. */
+/* Fills what is made of the sums. Quantities of fewer than eight phases do not count in Holm's
+ * method, and never differ. */
 pspec_status ps_phase_tests_judge(ps_phase_test *tests, size_t num, double false_alarm_rate,
                                   ps_error *error) PS_MUST_CHECK;
 

@@ -4,134 +4,158 @@
 
 #include <gsl/gsl_fft_complex.h>
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 struct ps_shift_products {
-    const ps_frequencies *box;
-    size_t side, cells; /* of the grid, side^d */
-    double *grid;       /* [cells][2] */
-    double *line;       /* [side][2]: a stride of a power of two would miss the caches */
+    ps_shift_family *families;
+    size_t num_families, num_sums;
+    double *grid; /* [cells of the largest family][2] */
+    double *line; /* [largest side][2]: a stride of a power of two would miss the caches */
 };
 
-/* Differences go from -K to K. */
-static size_t find_side(const ps_frequencies *box) {
-    const size_t least = 2 * (size_t)box->max_frequency + 1;
-    size_t side = 1;
-    while (side < least) {
-        side *= 2;
+/* (1 + side)^d - 1 is the sum over sets of axes; a transform is of so many sets. */
+double ps_shift_products_cells(const ps_frequencies *box) {
+    double cells = 0;
+    for (int32_t reach = box->max_frequency / 2; reach > 0; reach /= 2) {
+        const double side = (double)ps_shift_side(reach);
+        cells += pow(1 + side, box->dimension) - 1;
     }
-    return side;
+    return cells / PS_SHIFT_SETS;
 }
 
-double ps_shift_products_cells(const ps_frequencies *box) {
-    double cells = 1;
-    for (unsigned axis = 0; axis < box->dimension; axis++) {
-        cells *= (double)find_side(box);
+/* That of all axes and the largest reach comes first; with K = 1 there is none. */
+static pspec_status allocate_grid(ps_shift_products *self, ps_error *error) {
+    const ps_shift_family *const largest = self->families;
+    size_t cells = 1;
+    for (unsigned axis = 0; self->num_families > 0 && axis < largest->dimension; axis++) {
+        if (!ps_size_multiply(cells, largest->side, &cells)) {
+            return ps_fail(error, PSPEC_ERROR_MEMORY,
+                           "a grid of %zu^%u numbers for products of amplitudes is too large",
+                           largest->side, largest->dimension);
+        }
     }
-    return cells;
+    PS_TRY(PS_NEW(&self->line, self->num_families > 0 ? 2 * largest->side : 1,
+                  "a line of amplitudes", error));
+    return ps_allocate_for(&self->grid, cells, 2 * sizeof(double), "a grid of amplitudes", error);
 }
 
 pspec_status ps_shift_products_create(ps_shift_products **out, const ps_frequencies *box,
                                       ps_error *error) {
-    const size_t side = find_side(box);
-    size_t cells = 1;
     PS_TRY(PS_NEW(out, 1, "products of amplitudes", error));
-    for (unsigned axis = 0; axis < box->dimension; axis++) {
-        if (!ps_size_multiply(cells, side, &cells)) {
-            return ps_fail(error, PSPEC_ERROR_MEMORY,
-                           "a grid of %zu^%u numbers for products of amplitudes is too large", side,
-                           box->dimension);
-        }
-    }
     ps_shift_products *const self = *out;
-    self->box = box;
-    self->side = side;
-    self->cells = cells;
-    PS_TRY(PS_NEW(&self->line, 2 * side, "a line of amplitudes", error));
-    return ps_allocate_for(&self->grid, cells, 2 * sizeof(double), "a grid of amplitudes", error);
+    self->num_sums = ps_shift_families_sums(box);
+    PS_TRY(ps_shift_families_list(&self->families, &self->num_families, box, error));
+    for (size_t i = 0; i < self->num_families; i++) {
+        PS_TRY(ps_shift_family_fill(&self->families[i], box, error));
+    }
+    return allocate_grid(self, error);
 }
 
 void ps_shift_products_destroy(ps_shift_products *products) {
     if (products != NULL) {
+        ps_shift_families_free(products->families, products->num_families);
         free(products->grid);
         free(products->line);
         free(products);
     }
 }
 
-/* ---- one set ----------------------------------------------------------------------------- */
-
-/* sign -1: that of -k. */
-static size_t find_cell(const ps_shift_products *self, const int32_t *k, int sign) {
-    size_t cell = 0;
-    for (unsigned axis = 0; axis < self->box->dimension; axis++) {
-        const int32_t component = sign * k[axis];
-        const size_t place = component < 0 ? self->side - (size_t)-component : (size_t)component;
-        cell = cell * self->side + place;
-    }
-    return cell;
+const ps_shift_family *ps_shift_products_families(const ps_shift_products *products, size_t *num) {
+    *num = products->num_families;
+    return products->families;
 }
 
-static bool is_in_half(const ps_frequencies *box, const int32_t *k) {
-    bool is_in = true;
-    for (unsigned axis = 0; axis < box->dimension; axis++) {
-        is_in = is_in && abs(k[axis]) <= box->max_frequency / 2;
-    }
-    return is_in;
-}
-
-/* S(-k) is the conjugate of S(k). */
-static void spread(ps_shift_products *self, const double *amplitudes) {
-    memset(self->grid, 0, 2 * self->cells * sizeof *self->grid);
-    for (size_t i = 0; i < self->box->num; i++) {
-        const int32_t *const k = self->box->vectors + i * self->box->dimension;
-        if (!is_in_half(self->box, k)) {
-            continue;
-        }
-        double *const cell = self->grid + 2 * find_cell(self, k, 1);
-        double *const opposite = self->grid + 2 * find_cell(self, k, -1);
-        cell[0] = opposite[0] = amplitudes[2 * i];
-        cell[1] = amplitudes[2 * i + 1];
-        opposite[1] = -amplitudes[2 * i + 1];
-    }
-}
+/* ---- transforms -------------------------------------------------------------------------- */
 
 /* Numbers `stride` apart. GSL refuses no length that is a power of two. */
-static void transform_line(ps_shift_products *self, double *first, size_t stride,
+static void transform_line(ps_shift_products *self, size_t side, double *first, size_t stride,
                            gsl_fft_direction direction) {
     const size_t number = 2 * sizeof *first;
-    for (size_t i = 0; i < self->side; i++) {
+    for (size_t i = 0; i < side; i++) {
         memcpy(self->line + 2 * i, first + 2 * stride * i, number);
     }
-    gsl_fft_complex_radix2_transform(self->line, 1, self->side, direction);
-    for (size_t i = 0; i < self->side; i++) {
+    gsl_fft_complex_radix2_transform(self->line, 1, side, direction);
+    for (size_t i = 0; i < side; i++) {
         memcpy(first + 2 * stride * i, self->line + 2 * i, number);
     }
 }
 
 /* Every line along every axis, in place. */
-static void transform(ps_shift_products *self, gsl_fft_direction direction) {
+static void transform(ps_shift_products *self, const ps_shift_family *family, size_t cells,
+                      gsl_fft_direction direction) {
+    const size_t side = family->side;
     size_t stride = 1;
-    for (unsigned axis = 0; axis < self->box->dimension; axis++, stride *= self->side) {
-        for (size_t line = 0; line < self->cells / self->side; line++) {
-            const size_t first = line / stride * stride * self->side + line % stride;
-            transform_line(self, self->grid + 2 * first, stride, direction);
+    for (unsigned axis = 0; axis < family->dimension; axis++, stride *= side) {
+        for (size_t line = 0; line < cells / side; line++) {
+            const size_t first = line / stride * stride * side + line % stride;
+            transform_line(self, side, self->grid + 2 * first, stride, direction);
         }
     }
 }
 
-void ps_shift_products_run(ps_shift_products *self, const double *amplitudes, double *out) {
-    spread(self, amplitudes);
-    transform(self, gsl_fft_backward);
-    for (size_t i = 0; i < self->cells; i++) {
-        double *const cell = self->grid + 2 * i;
-        cell[0] = (cell[0] * cell[0] + cell[1] * cell[1]) / (double)self->cells;
-        cell[1] = 0;
+/* ---- sets -------------------------------------------------------------------------------- */
+
+/* Adds S'(k), or with `is_second` i times that; S(-k) is the conjugate of S(k). */
+static double spread(ps_shift_products *self, const ps_shift_family *family,
+                     const double *amplitudes, bool is_second) {
+    double sum = 0;
+    for (size_t i = 0; i < family->num_members; i++) {
+        const ps_shift_member *const member = &family->members[i];
+        const double re = member->weight * amplitudes[2 * member->frequency];
+        const double im = member->weight * amplitudes[2 * member->frequency + 1];
+        double *const cell = self->grid + 2 * member->cell;
+        double *const opposite = self->grid + 2 * member->opposite;
+        cell[0] += is_second ? -im : re;
+        cell[1] += is_second ? re : im;
+        opposite[0] += is_second ? im : re;
+        opposite[1] += is_second ? re : -im;
+        sum += 2 * (re * re + im * im);
     }
-    transform(self, gsl_fft_forward);
-    for (size_t i = 0; i < self->box->num; i++) {
-        const int32_t *const k = self->box->vectors + i * self->box->dimension;
-        memcpy(out + 2 * i, self->grid + 2 * find_cell(self, k, 1), 2 * sizeof *out);
+    return sum;
+}
+
+/* The real part is f of the first set, the imaginary part that of the second. */
+static void square(ps_shift_products *self, size_t cells) {
+    for (size_t i = 0; i < 2 * cells; i++) {
+        self->grid[i] *= self->grid[i] / (double)cells;
+    }
+}
+
+/* Of F = Z_1 + i Z_2, where Z(-h) is the conjugate of Z(h). */
+static void pick(const ps_shift_products *self, const ps_shift_family *family, size_t num_sets,
+                 double *out) {
+    int32_t h[PS_MAX_TORUS_DIMENSION];
+    for (size_t i = 0; i < family->num; i++) {
+        ps_shift_family_shift(family, i, h);
+        const double *const there = self->grid + 2 * ps_shift_family_cell(family, h, 1);
+        const double *const opposite = self->grid + 2 * ps_shift_family_cell(family, h, -1);
+        double *const first = out + 2 * (family->first + i);
+        first[0] = (there[0] + opposite[0]) / 2;
+        first[1] = (there[1] - opposite[1]) / 2;
+        if (num_sets > 1) {
+            double *const second = first + 2 * self->num_sums;
+            second[0] = (there[1] + opposite[1]) / 2;
+            second[1] = (opposite[0] - there[0]) / 2;
+        }
+    }
+}
+
+void ps_shift_products_run(ps_shift_products *self, size_t num_sets, const double *amplitudes,
+                           size_t stride, double *out, double *norms) {
+    for (size_t f = 0; f < self->num_families; f++) {
+        const ps_shift_family *const family = &self->families[f];
+        const size_t cells = (size_t)ps_shift_family_cells(family);
+        double sum = 0;
+        memset(self->grid, 0, 2 * cells * sizeof *self->grid);
+        for (size_t r = 0; r < num_sets; r++) {
+            sum += spread(self, family, amplitudes + r * stride, r > 0);
+        }
+        norms[f] = sqrt(sum);
+        transform(self, family, cells, gsl_fft_backward);
+        square(self, cells);
+        transform(self, family, cells, gsl_fft_forward);
+        pick(self, family, num_sets, out);
     }
 }
