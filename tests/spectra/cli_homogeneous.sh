@@ -79,6 +79,19 @@ code=0
 [[ $code == 3 && -s scene/torus.csv && -s scene/sphere.csv ]] || complain "scene: exit $code: $(<err)"
 [[ $(grep -c '^jittered,.*,different$' scene/torus.csv) == 2 && $(grep -c '^white,.*,same$' scene/torus.csv) == 23 ]] || complain "scene: $(grep -v ^# scene/torus.csv)"
 [[ $(grep -vc '^#' scene/sphere.csv) == 5 ]] || complain "scene: $(<scene/sphere.csv)"
+[[ $(<err) == *': 1 check found sets that are not homogeneous: '*' phases are not uniform in torus ('* ]] || complain "scene: $(<err)"
+cat >both.yaml <<'END'
+scene: 1
+defaults: {points: 64, engine: host_direct}
+results:
+  - {result: check, against: saved.json, samplers: white}
+  - {result: check, name: two, homogeneous: true, max-frequency: 9, samplers: [jittered, regular]}
+END
+"$program" power --sampler jittered -n 64 -m 16 -o saved.json
+code=0
+"$program" run both.yaml -o both --quiet 2>err || code=$?
+[[ $code == 3 && $(<err) == *': 1 check found another spectrum than the saved one, and 2 checks found sets that are not homogeneous: '*' differ in '* ]] ||
+    complain "scene of both: exit $code: $(<err)"
 
 # ---- what is refused ----
 refuses 'does not go with' --homogeneous --against saved.json --sampler white

@@ -31,7 +31,8 @@ const ps_command ps_command_run = {
         "summary of each result, pictures, index.html, which shows all of it, and record.json, "
         "which is a scene too: running it makes the same results and says whether they have the "
         "same bits. Answers are kept in a cache that all scenes share. Exit status 3 when a check "
-        "finds another spectrum than the saved one, or a record is not repeated.",
+        "finds another spectrum than the saved one or sets that are not homogeneous, or a record "
+        "is not repeated.",
     .task = &ps_task_run,
     .takes = PS_TAKER_BIT(run),
     .makes_folder = true,

@@ -63,8 +63,8 @@ PSPEC_EXPORT pspec_cell pspec_table_entry(const pspec_table *table, size_t i, co
 PSPEC_EXPORT pspec_cell pspec_table_find_entry(const pspec_table *table, const char *key);
 
 /** "", or the sentence with which the program would end in exit status 3: a check found another
- * spectrum than the saved one, a record was not repeated, a device is not in order. Belongs to the
- * table. */
+ * spectrum than the saved one or sets that are not homogeneous, a record was not repeated, a device
+ * is not in order. Belongs to the table. */
 PSPEC_EXPORT const char *pspec_table_verdict(const pspec_table *table);
 
 /** Writes the table to a file that appears when it is complete, byte for byte as the program does.

@@ -57,30 +57,68 @@ static pspec_status compare_with_record(const ps_run *run, ps_error *error) {
                          scene->num_digests, number);
 }
 
-/* Looks for the answers that have another verdict than "same". */
+/* Answers with another verdict than "same": the first of all, and how many ask which question. */
+typedef struct differences {
+    size_t num_spectra, num_homogeneous;
+    const ps_run_question *first;
+    const ps_run_result *first_result;
+} differences;
+
+static void add_difference(differences *found, const ps_run_result *result,
+                           const ps_run_question *question) {
+    const ps_cell verdict = ps_table_find_meta(question->answer.table, "verdict");
+    if (verdict.kind != PS_CELL_TEXT || strcmp(verdict.text, "different") != 0) {
+        return;
+    }
+    if (found->first == NULL) {
+        found->first = question;
+        found->first_result = result;
+    }
+    if (question->asked.request.homogeneous) {
+        found->num_homogeneous++;
+    } else {
+        found->num_spectra++;
+    }
+}
+
+/* "2 checks found another spectrum than the saved one, and 1 check found sets that are not
+ * homogeneous: 3 of 24 rings differ in NAME (COMMAND)" */
+static void describe_differences(const differences *found, ps_text *out) {
+    const size_t a = found->num_spectra;
+    const size_t b = found->num_homogeneous;
+    const ps_cell different = ps_table_find_meta(found->first->answer.table, "different");
+    if (a > 0) {
+        ps_text_append(out, "%zu check%s found another spectrum than the saved one%s", a,
+                       a == 1 ? "" : "s", b > 0 ? ", and " : "");
+    }
+    if (b > 0) {
+        ps_text_append(out, "%zu check%s found sets that are not homogeneous", b,
+                       b == 1 ? "" : "s");
+    }
+    ps_text_append(out, ": %s %s in %s (%s)",
+                   different.kind == PS_CELL_TEXT ? different.text : "some",
+                   found->first->asked.request.homogeneous ? "are not uniform" : "differ",
+                   found->first_result->asked->name, found->first->asked.request.command_line);
+}
+
 static pspec_status find_differences(const ps_run *run, ps_error *error) {
-    size_t num = 0;
-    const ps_run_question *first = NULL;
-    const ps_run_result *first_result = NULL;
+    differences found = {0};
     for (size_t i = 0; i < run->num_results; i++) {
         for (size_t q = 0; q < run->results[i].num; q++) {
-            const ps_run_question *const question = &run->results[i].questions[q];
-            const ps_cell verdict = ps_table_find_meta(question->answer.table, "verdict");
-            if (verdict.kind == PS_CELL_TEXT && strcmp(verdict.text, "different") == 0) {
-                first = num++ == 0 ? question : first;
-                first_result = num == 1 ? &run->results[i] : first_result;
-            }
+            add_difference(&found, &run->results[i], &run->results[i].questions[q]);
         }
     }
-    if (num == 0) {
+    if (found.first == NULL) {
         return PSPEC_OK;
     }
-    const ps_cell different = ps_table_find_meta(first->answer.table, "different");
-    return ps_fail(error, PSPEC_ERROR_CHECK,
-                   "%zu check%s found another spectrum than the saved one: %s differ in %s (%s)",
-                   num, num == 1 ? "" : "s",
-                   different.kind == PS_CELL_TEXT ? different.text : "some",
-                   first_result->asked->name, first->asked.request.command_line);
+    ps_text text = {0};
+    describe_differences(&found, &text);
+    pspec_status status = ps_text_check(&text, error);
+    if (status == PSPEC_OK) {
+        status = ps_fail(error, PSPEC_ERROR_CHECK, "%s", ps_text_string(&text));
+    }
+    ps_text_free(&text);
+    return status;
 }
 
 pspec_status ps_run_judge(const ps_run *run, ps_error *error) {
