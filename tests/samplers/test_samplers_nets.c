@@ -134,6 +134,29 @@ static void sobol_agrees_with_joe_and_kuo(void **state) {
     free(points);
 }
 
+/* m_1, m_2, .. of axes 2 to 5, where point 2^b has the coordinate m_(b+1) / 2^(b+1). The first
+ * ones, as many as the degree of the polynomial, stand in new-joe-kuo-6.21201 under the dimensions
+ * 3 to 6; the rest are what Joe and Kuo's recurrence makes of them, as in SciPy's qmc.Sobol(6). */
+static void sobol_has_the_published_direction_numbers(void **state) {
+    (void)state;
+    enum { FIRST_AXIS = 2, NUM_DIGITS = 10 };
+    static const double m[][NUM_DIGITS] = {
+        {1, 3, 3, 9, 29, 23, 71, 197, 209, 627},
+        {1, 3, 1, 5, 31, 29, 81, 147, 433, 149},
+        {1, 1, 1, 11, 31, 55, 61, 157, 181, 191},
+        {1, 1, 3, 3, 25, 9, 43, 251, 449, 449},
+    };
+    const ps_sampler_request request = make_request("sobol", 1 << NUM_DIGITS, PS_MAX_DIMENSION);
+    double *points = generate_points(&request, 0);
+    for (unsigned axis = FIRST_AXIS; axis < PS_MAX_DIMENSION; axis++) {
+        for (int b = 0; b < NUM_DIGITS; b++) {
+            const double x = points[((size_t)1 << b) * PS_MAX_DIMENSION + axis];
+            assert_true(x == ldexp(m[axis - FIRST_AXIS][b], -b - 1));
+        }
+    }
+    free(points);
+}
+
 /* The plane by the recipe of docs/mathematics/samplers.md#digital-nets, one point at a time. */
 static void digital_sets_follow_the_recipe(void **state) {
     (void)state;
@@ -235,6 +258,7 @@ int main(void) {
         cmocka_unit_test(plane_sets_are_0_m_2_nets),
         cmocka_unit_test(every_projection_of_sobol_is_a_net),
         cmocka_unit_test(sobol_agrees_with_joe_and_kuo),
+        cmocka_unit_test(sobol_has_the_published_direction_numbers),
         cmocka_unit_test(digital_sets_follow_the_recipe),
         cmocka_unit_test(owen_fills_every_digit),
         cmocka_unit_test(owen_is_nested_and_xor_is_not),
