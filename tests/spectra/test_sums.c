@@ -108,6 +108,75 @@ static void one_number_has_no_standard_error(void **state) {
     assert_true(isnan(mean) && isnan(standard_error));
 }
 
+/* ---- merged sums ---- */
+
+static ps_sums sums_of(const double *x, size_t count) {
+    ps_sums sums = {0};
+    for (size_t i = 0; i < count; i++) {
+        ps_sums_add(&sums, x[i]);
+    }
+    return sums;
+}
+
+/* All four numbers are of the sum to its last digit, also those that lie in low parts alone. */
+static void merged_pairs_keep_low_parts(void **state) {
+    (void)state;
+    const double tiny = 0x1p-80;
+    const ps_sums other = {1, tiny, 1, 3 * tiny};
+    ps_sums sums = {1, 5 * tiny, 1, 7 * tiny};
+    ps_sums_merge(&sums, &other, 1);
+    assert_true(sums.sum == 2 && sums.sum_low == 6 * tiny);
+    assert_true(sums.square == 2 && sums.square_low == 10 * tiny);
+    ps_sums_merge(&sums, &other, 4); /* squares 16 times */
+    assert_true(sums.sum == 6 && sums.sum_low == 10 * tiny);
+    assert_true(sums.square == 18 && sums.square_low == 58 * tiny);
+}
+
+/* Where the factor has all digits, products are exact, too: f x and f^2 x are sums of two doubles
+ * each. */
+static void merged_pairs_keep_products(void **state) {
+    (void)state;
+    const double factor = 1 + DBL_EPSILON;
+    const ps_sums other = {1 + DBL_EPSILON, 0, 1, 0};
+    ps_sums sums = {0};
+    ps_sums_merge(&sums, &other, factor);
+    /* (1 + e)^2 = 1 + 2 e + e^2 */
+    assert_true(sums.sum == 1 + 2 * DBL_EPSILON && sums.sum_low == DBL_EPSILON * DBL_EPSILON);
+    assert_true(sums.square == 1 + 2 * DBL_EPSILON && sums.square_low == DBL_EPSILON * DBL_EPSILON);
+}
+
+/* Parts of numbers whose variance is 1e-16 of the mean squared, merged one after another and as a
+ * tree, have the variance of the whole. */
+static void merged_parts_keep_the_variance(void **state) {
+    (void)state;
+    enum { PARTS = 64, COUNT = 64 * PARTS };
+    double x[COUNT];
+    ps_sums parts[PARTS];
+    uint64_t seed = 9;
+    double expected[2];
+    double found[2];
+    for (size_t i = 0; i < COUNT; i++) {
+        x[i] = 1e8 + test_uniform(&seed);
+    }
+    finish(x, COUNT, &expected[0], &expected[1]);
+    ps_sums chain = {0};
+    for (size_t i = 0; i < PARTS; i++) {
+        parts[i] = sums_of(x + i * (COUNT / PARTS), COUNT / PARTS);
+        ps_sums_merge(&chain, &parts[i], 1);
+    }
+    for (size_t step = 1; step < PARTS; step *= 2) {
+        for (size_t i = 0; i < PARTS; i += 2 * step) {
+            ps_sums_merge(&parts[i], &parts[i + step], 1);
+        }
+    }
+    const ps_sums both[] = {chain, parts[0]};
+    for (size_t i = 0; i < 2; i++) {
+        ps_sums_finish(&both[i], COUNT, &found[0], &found[1]);
+        assert_true(found[0] == expected[0]);
+        assert_true(fabs(found[1] / expected[1] - 1) < 1e-12);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ordinary_numbers),
@@ -115,6 +184,9 @@ int main(void) {
         cmocka_unit_test(two_numbers),
         cmocka_unit_test(equal_numbers_have_no_error),
         cmocka_unit_test(one_number_has_no_standard_error),
+        cmocka_unit_test(merged_pairs_keep_low_parts),
+        cmocka_unit_test(merged_pairs_keep_products),
+        cmocka_unit_test(merged_parts_keep_the_variance),
     };
     return cmocka_run_group_tests_name("sums", tests, NULL, NULL);
 }
