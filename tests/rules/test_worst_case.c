@@ -142,6 +142,48 @@ static void kappa_is_consistent(void **state) {
     free(kappa);
 }
 
+/* ---- pairs of many blocks ------------------------------------------------------------------- */
+
+static double sum_all_pairs(const ps_rule *rule, double smoothness) {
+    long double sum = 0;
+    for (size_t i = 0; i < rule->num_points; i++) {
+        for (size_t j = 0; j < rule->num_points; j++) {
+            const double w = rule->weights != NULL ? rule->weights[i] * rule->weights[j] : 1;
+            sum += w * ps_sobolev_distance(smoothness, rule->points + 3 * i, rule->points + 3 * j);
+        }
+    }
+    return (double)sum;
+}
+
+/* The sets of the reference are of one block. Pairs within a block and of two blocks are all there,
+ * and count as often as in the plain double sum. */
+static void pairs_of_blocks(void **state) {
+    enum { MOST = 2 * PS_SOBOLEV_CHUNK + 5 };
+    static const size_t nums[] = {1, PS_SOBOLEV_CHUNK, PS_SOBOLEV_CHUNK + 1, MOST};
+    double points[3 * MOST];
+    double weights[MOST];
+    uint64_t random = 21;
+    (void)state;
+    for (size_t j = 0; j < MOST; j++) {
+        const double z = 2 * test_uniform(&random) - 1;
+        const double azimuth = PS_TWO_PI * test_uniform(&random);
+        points[3 * j] = sqrt(1 - z * z) * cos(azimuth);
+        points[3 * j + 1] = sqrt(1 - z * z) * sin(azimuth);
+        points[3 * j + 2] = z;
+        weights[j] = test_uniform(&random) - 0.25;
+    }
+    for (size_t i = 0; i < sizeof nums / sizeof nums[0]; i++) {
+        const double num = (double)nums[i];
+        const ps_rule plain = {nums[i], points, NULL};
+        const ps_rule weighted = {nums[i], points, weights};
+        double sum = 0;
+        assert_ok(ps_rule_distance(&plain, 1.5, NULL, &sum, error));
+        assert_true(fabs(sum - sum_all_pairs(&plain, 1.5) / num / num) <= 1e-14);
+        assert_ok(ps_rule_distance(&weighted, 1.3, NULL, &sum, error));
+        assert_true(fabs(sum - sum_all_pairs(&weighted, 1.3)) <= 1e-14 * num * num);
+    }
+}
+
 /* ---- the sets of the reference ------------------------------------------------------------- */
 
 typedef struct worst {
@@ -316,6 +358,7 @@ int main(void) {
                                        cmocka_unit_test(diffuse_distance),
                                        cmocka_unit_test(diffuse_rings),
                                        cmocka_unit_test(kappa_is_consistent),
+                                       cmocka_unit_test(pairs_of_blocks),
                                        cmocka_unit_test(reference_sets),
                                        cmocka_unit_test(interpolation)};
     return cmocka_run_group_tests_name("worst_case", tests, NULL, NULL);

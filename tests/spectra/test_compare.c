@@ -6,6 +6,7 @@
 #include "harness.h"
 
 #include "math/pi.h"
+#include "math/random/distributions.h"
 #include "math/random/random.h"
 #include "spectra/compare.h"
 
@@ -191,6 +192,25 @@ static void numerical_errors(void **state) {
     assert_near(ps_compared_error(0.08, 1e-3, 0.01, 2), 2 * (2 * 0.2 * 1e-2 + 1e-4), 1e-15);
 }
 
+/* Where realizations of both sides scatter alike, by s around 1, that is the scatter of both
+ * together, however many there are of each; with it, what is detectable has a closed form. */
+static void scatter_of_both_sides(void **state) {
+    (void)state;
+    static const uint64_t nums[][2] = {{2, 2}, {16, 16}, {3, 50}, {50, 3}, {9, 1}, {1, 9}};
+    const double s = 0.3;
+    const double ninety_percent = 1.2815515655446004;
+    for (size_t i = 0; i < sizeof nums / sizeof nums[0]; i++) {
+        const double m = (double)nums[i][0];
+        const double n = (double)nums[i][1];
+        const ps_compared saved = {1, m > 1 ? s / sqrt(m) : NAN, 0};
+        const ps_compared measured = {1, n > 1 ? s / sqrt(n) : NAN, 0};
+        const double score = ps_student_score(0.01, (m + n - 2) / (1 + s * s));
+        const double expected = expm1((score + ninety_percent) * s * sqrt(1 / m + 1 / n));
+        const double found = compare_one(saved, nums[i][0], measured, nums[i][1]).detectable;
+        assert_near(found / expected, 1, 1e-9);
+    }
+}
+
 /* Adjusted probabilities by hand, and the verdicts at the first of them. */
 static void holm(void **state) {
     (void)state;
@@ -258,6 +278,7 @@ int main(void) {
         cmocka_unit_test(power),
         cmocka_unit_test(deterministic_sets),
         cmocka_unit_test(numerical_errors),
+        cmocka_unit_test(scatter_of_both_sides),
         cmocka_unit_test(holm),
         cmocka_unit_test(nonsense),
         cmocka_unit_test(numbers_of_modes),
