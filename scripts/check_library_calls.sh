@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # check_library_calls.sh [ROOT]: the library never prints, exits or aborts; only host/cli/ may.
-# One file switches GSL's error handler, and what calls GSL stands beside it in host/math, but for constants and
-# pure indices. One file may name stdout, the one that opens the path "-".
+# One file switches GSL's error handler, and only its room calls GSL, always inside the fence. One file may name stdout, the one that opens the path "-".
 set -euo pipefail
 cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"
 
@@ -16,11 +15,15 @@ while IFS= read -r file; do
     text=$("${CC:-gcc}" -w -fpreprocessed -dD -E -P "$file" | sed -E 's/"([^"\\]|\\.)*"/""/g')
     pattern=$forbidden
     [[ $file == host/files/output_file.c ]] || pattern+="|$stdout"
-    [[ $file == host/math/gsl_fence.c ]] || pattern+="|$handler"
+    [[ $file == host/math/gsl/fence.c ]] || pattern+="|$handler"
     if found=$(grep -E "$pattern" <<<"$text"); then
         echo "$file: printing, exit or abort in the library:" >&2
         sed -E 's/^[[:space:]]*/    /' <<<"$found" >&2
         bad=1
     fi
 done < <(find host -name '*.[ch]' -not -path 'host/cli/*' | sort)
+if found=$(grep -rn '#include <gsl/' host --include='*.[ch]' | grep -v '^host/math/'); then
+    printf 'GSL outside of host/math:\n%s\n' "$found" >&2
+    bad=1
+fi
 exit $bad

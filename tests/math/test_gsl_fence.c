@@ -1,7 +1,7 @@
 /* GSL's error handler is off inside the fence, in any thread, and what it was afterwards. */
 #include "harness.h"
 
-#include "math/gsl_fence.h"
+#include "math/gsl/fence.h"
 
 #include <gsl/gsl_errno.h>
 #include <pthread.h>

@@ -1,6 +1,6 @@
 /* The one thing of the library that can change and that no object owns: a mutex, for what the
  * process has once. PoCL initialises its devices without a lock, so looking for devices, opening
- * and closing them go under it; GSL has one error handler, which math/gsl_fence.h switches.
+ * and closing them go under it; GSL has one error handler, which math/gsl/fence.h switches.
  */
 #ifndef PS_BASE_PROCESS_PROCESS_LOCK_H
 #define PS_BASE_PROCESS_PROCESS_LOCK_H

@@ -1,6 +1,6 @@
 #include "math/random/distributions.h"
 
-#include "math/gsl_fence.h"
+#include "math/gsl/fence.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>

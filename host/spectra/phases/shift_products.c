@@ -1,8 +1,7 @@
 #include "spectra/phases/shift_products.h"
 
 #include "base/memory.h"
-
-#include <gsl/gsl_fft_complex.h>
+#include "math/gsl/fourier.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -69,14 +68,14 @@ const ps_shift_family *ps_shift_products_families(const ps_shift_products *produ
 
 /* ---- transforms -------------------------------------------------------------------------- */
 
-/* Numbers `stride` apart. GSL refuses no length that is a power of two. */
+/* Numbers `stride` apart. */
 static void transform_line(ps_shift_products *self, size_t side, double *first, size_t stride,
-                           gsl_fft_direction direction) {
+                           int sign) {
     const size_t number = 2 * sizeof *first;
     for (size_t i = 0; i < side; i++) {
         memcpy(self->line + 2 * i, first + 2 * stride * i, number);
     }
-    gsl_fft_complex_radix2_transform(self->line, 1, side, direction);
+    ps_fourier(self->line, side, sign);
     for (size_t i = 0; i < side; i++) {
         memcpy(first + 2 * stride * i, self->line + 2 * i, number);
     }
@@ -84,13 +83,13 @@ static void transform_line(ps_shift_products *self, size_t side, double *first, 
 
 /* Every line along every axis, in place. */
 static void transform(ps_shift_products *self, const ps_shift_family *family, size_t cells,
-                      gsl_fft_direction direction) {
+                      int sign) {
     const size_t side = family->side;
     size_t stride = 1;
     for (unsigned axis = 0; axis < family->dimension; axis++, stride *= side) {
         for (size_t line = 0; line < cells / side; line++) {
             const size_t first = line / stride * stride * side + line % stride;
-            transform_line(self, side, self->grid + 2 * first, stride, direction);
+            transform_line(self, side, self->grid + 2 * first, stride, sign);
         }
     }
 }
@@ -153,9 +152,9 @@ void ps_shift_products_run(ps_shift_products *self, size_t num_sets, const doubl
             sum += spread(self, family, amplitudes + r * stride, r > 0);
         }
         norms[f] = sqrt(sum);
-        transform(self, family, cells, gsl_fft_backward);
+        transform(self, family, cells, 1);
         square(self, cells);
-        transform(self, family, cells, gsl_fft_forward);
+        transform(self, family, cells, -1);
         pick(self, family, num_sets, out);
     }
 }

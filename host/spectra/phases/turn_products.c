@@ -2,16 +2,15 @@
 
 #include "base/memory.h"
 #include "math/gauss_legendre.h"
-
-#include <gsl/gsl_fft_complex.h>
-#include <gsl/gsl_sf_legendre.h>
+#include "math/gsl/fourier.h"
+#include "math/gsl/legendre.h"
 
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* GSL has functions degree by degree, and so have inner arrays here what belongs to them: number
- * l (l + 1) / 2 + m is of degree l and order m. */
+/* Legendre functions stand degree by degree (ps_legendre_place), and so do inner arrays here what
+ * belongs to them. */
 struct ps_turn_products {
     size_t max_degree;
     size_t num_nodes, num_azimuths;
@@ -43,7 +42,7 @@ pspec_status ps_turn_products_create(ps_turn_products **out, int32_t max_degree,
         self->num_azimuths *= 2;
     }
     PS_TRY(PS_NEW(&self->nodes, 2 * self->num_nodes, "nodes in z", error));
-    PS_TRY(PS_NEW(&self->functions, gsl_sf_legendre_array_n(degree), "Legendre functions", error));
+    PS_TRY(PS_NEW(&self->functions, ps_legendre_room(degree), "Legendre functions", error));
     self->num = (degree + 1) * (degree + 2); /* pairs of l and m, twice */
     PS_TRY(PS_NEW(&self->coefficients, PS_TURN_SETS * self->num, "coefficients by degrees", error));
     PS_TRY(PS_NEW(&self->sums, PS_TURN_SETS * self->num, "coefficients by degrees", error));
@@ -71,7 +70,7 @@ static void sum_orders(ps_turn_products *self, const double *coefficients) {
     double *const circle = self->circle;
     memset(circle, 0, 2 * self->num_azimuths * sizeof *circle);
     for (size_t l = 1; l <= self->max_degree / 2; l++) {
-        const size_t first = gsl_sf_legendre_array_index(l, 0);
+        const size_t first = ps_legendre_place(l, 0);
         const double *const functions = self->functions + first;
         const double *const c = coefficients + 2 * first;
         for (size_t m = 0; m <= l; m++) {
@@ -86,24 +85,23 @@ static void sum_orders(ps_turn_products *self, const double *coefficients) {
     }
 }
 
-/* The orders of f become those of f^2, times the number of azimuths. GSL refuses no length that is
- * a power of two. */
+/* The orders of f become those of f^2, times the number of azimuths. */
 static void square(ps_turn_products *self) {
     double *const circle = self->circle;
     const size_t num = self->num_azimuths;
-    gsl_fft_complex_radix2_backward(circle, 1, num);
+    ps_fourier(circle, num, 1);
     for (size_t j = 0; j < num; j++) {
         circle[2 * j] *= circle[2 * j];
         circle[2 * j + 1] = 0;
     }
-    gsl_fft_complex_radix2_forward(circle, 1, num);
+    ps_fourier(circle, num, -1);
 }
 
 /* Integrating with exp(i m phi) picks the order -m, the conjugate of m. */
 static void add_node(const ps_turn_products *self, double weight, double *all_sums) {
     const double *const circle = self->circle;
     for (size_t l = 0; l <= self->max_degree; l++) {
-        const size_t first = gsl_sf_legendre_array_index(l, 0);
+        const size_t first = ps_legendre_place(l, 0);
         const double *const functions = self->functions + first;
         double *const sums = all_sums + 2 * first;
         for (size_t m = 0; m <= l; m++) {
@@ -122,7 +120,7 @@ static void reorder(const ps_turn_products *self, bool to_degrees, double *by_or
     for (size_t m = 0; m <= last; m++) {
         for (size_t l = m; l <= last; l++) {
             double *const a = by_orders + 2 * (m * (2 * last + 1 - m) / 2 + l);
-            double *const b = by_degrees + 2 * gsl_sf_legendre_array_index(l, m);
+            double *const b = by_degrees + 2 * ps_legendre_place(l, m);
             memcpy(to_degrees ? b : a, to_degrees ? a : b, 2 * sizeof *a);
         }
     }
@@ -137,9 +135,7 @@ void ps_turn_products_run(ps_turn_products *self, size_t num_sets, const double 
         reorder(self, true, out + r * self->num, self->coefficients + r * self->num);
     }
     for (size_t i = 0; i < self->num_nodes; i++) {
-        /* fails for |z| > 1 alone */
-        gsl_sf_legendre_array(GSL_SF_LEGENDRE_SPHARM, self->max_degree, 2 * self->nodes[i] - 1,
-                              self->functions);
+        ps_legendre_functions(self->max_degree, 2 * self->nodes[i] - 1, self->functions);
         for (size_t r = 0; r < num_sets; r++) {
             sum_orders(self, self->coefficients + r * self->num);
             square(self);

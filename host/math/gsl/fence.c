@@ -1,4 +1,4 @@
-#include "math/gsl_fence.h"
+#include "math/gsl/fence.h"
 
 #include "base/process/process_lock.h"
 
