@@ -3,6 +3,7 @@
 #include "base/text.h"
 #include "frequencies/frequency_sample.h"
 #include "points/points.h"
+#include "questions/option_inputs.h"
 #include "questions/option_setters.h"
 
 #include <stdio.h>
@@ -64,7 +65,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_AGAINST] = {NAMED("against", 0, "FILE"), OF(BIT(check), 0),
                            .help =
                                "the saved spectrum: what power or angular wrote with -o FILE.json",
-                           TEXT(against)},
+                           TEXT(against), .input = ps_input_all},
     [PS_OPTION_HOMOGENEOUS] = {NAMED("homogeneous", 0, NULL), OF(BIT(check), 0),
                                .help = "instead: are realizations invariant under translations, "
                                        "on the sphere under rotations, in distribution?",
@@ -74,7 +75,8 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                             "above 0 and below 1 (default 0.001)",
                                     .set = ps_set_false_alarm_rate},
     [PS_OPTION_BRDF] = {NAMED("brdf", 0, "NAME[:key=value,...]"), OF(LOBES, 0),
-                        .help = "lobe of reflection; the names are below", TEXT(brdf)},
+                        .help = "lobe of reflection; the names are below", TEXT(brdf),
+                        .input = ps_input_of_lobe},
     [PS_OPTION_SMOOTHNESS] = {NAMED("smoothness", 0, "S"), OF(LOBES, 0),
                               .help = "of the integrands, functions of the Sobolev space H^S, "
                                       "1 < S < 2 (default 1.5)",
@@ -115,7 +117,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                              WORD(harmonics)},
     [PS_OPTION_FREQUENCIES] = {NAMED("frequencies", 0, "FILE"), OF(BIT(power), 0),
                                .help = "only the integer frequency vectors in FILE, one per line",
-                               TEXT(frequencies.path)},
+                               TEXT(frequencies.path), .input = ps_input_all},
     [PS_OPTION_BINS] = {NAMED("bins", 0, PS_BIN_RULES), OF(BIT(power), 0),
                         .help = "rings: of width 1 about whole |k| (round, the default), or by "
                                 "floor of |k|, of |k| Q/P or of |k| Q/P N^(-1/d); or exact shells "
@@ -143,7 +145,8 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                            .help = "equal: all 1, weights of the files are dropped; column: the "
                                    "last one of the files (default: those that the format or "
                                    "--columns has, else all 1)",
-                           .set = ps_set_weights},
+                           .set = ps_set_weights, .offset = offsetof(ps_request, weights.path),
+                           .input = ps_input_of_weights},
     [PS_OPTION_WEIGHT_SUM] = {NAMED("weight-sum", 0, "free|one"), OF(BIT(quadrature), 0),
                               .help = "of --weights optimal: those that make the error smallest, "
                                       "or those that do among weights whose sum is 1 (default "

@@ -39,6 +39,9 @@ typedef struct ps_option ps_option;
 typedef pspec_status ps_option_setter(const ps_option *option, const char *shown, const char *words,
                                       const char *value, ps_request *arguments, ps_error *error);
 
+/* The file that a value makes a question read, a part of the value; NULL: none. */
+typedef const char *ps_option_input(const char *words, const char *value);
+
 struct ps_option {
     const char *name;    /* without its dashes */
     const char *metavar; /* NULL: takes no value */
@@ -50,6 +53,8 @@ struct ps_option {
     size_t offset; /* of the field of ps_request, for setters that serve several options */
     uint64_t minimum, maximum;
     char letter; /* 0: none */
+    /* NULL: no value of it names a file that is read. Else `offset` is of the field with the text */
+    ps_option_input *input;
 };
 
 extern const ps_option ps_options[PS_NUM_OPTIONS];
@@ -64,6 +69,18 @@ ps_shown_option ps_option_show(const ps_request *request, ps_option_id id);
 /* Calls the setter of the option, whose form the request has already. */
 pspec_status ps_option_set(ps_request *request, ps_option_id id, const char *words,
                            const char *value, ps_error *error) PS_MUST_CHECK;
+
+/* A file that a request reads. */
+typedef struct ps_request_input {
+    ps_shown_option option; /* that names it */
+    const char *path;       /* "-" is standard input; borrowed */
+} ps_request_input;
+/* Every file that is read, in the order of options, then those of points: visit is called for each
+ * until it fails. The only list: caches, records and checks of outputs ask it. */
+typedef pspec_status ps_request_visit_input(void *payload, const ps_request_input *input,
+                                            ps_error *error);
+pspec_status ps_request_visit_inputs(const ps_request *request, ps_request_visit_input *visit,
+                                     void *payload, ps_error *error) PS_MUST_CHECK;
 
 /* What a value of --weights is where these words are admitted, "equal|column|FILE": the name of a
  * file where it is none of the others and FILE is admitted; PS_WEIGHTS_GIVEN: nothing. */

@@ -49,45 +49,34 @@ static pspec_status check_pair(const named_path *output, const named_path *other
                     : PSPEC_OK;
 }
 
-static pspec_status check_inputs(const named_path *output, const ps_request *arguments,
-                                 ps_error *error) {
-    if (arguments->weights.path != NULL) {
-        PS_TRY(check_pair(output, &(named_path){"--weights", arguments->weights.path}, error));
+static pspec_status compare_with_input(void *payload, const ps_request_input *input,
+                                       ps_error *error) {
+    const named_path *const output = payload;
+    return check_pair(output, &(named_path){input->option.text, input->path}, error);
+}
+
+static pspec_status compare_with_standard_output(void *payload, const ps_request_input *input,
+                                                 ps_error *error) {
+    const struct stat *const output = payload;
+    struct stat facts;
+    bool is_known = false;
+    if (strcmp(input->path, "-") == 0) {
+        is_known = fstat(STDIN_FILENO, &facts) == 0;
+    } else {
+        PS_TRY(look_up(input->path, &facts, &is_known, error));
     }
-    if (arguments->frequencies.path != NULL) {
-        PS_TRY(
-            check_pair(output, &(named_path){"--frequencies", arguments->frequencies.path}, error));
-    }
-    if (arguments->against != NULL) {
-        PS_TRY(check_pair(output, &(named_path){"--against", arguments->against}, error));
-    }
-    for (size_t i = 0; i < arguments->num_files; i++) {
-        PS_TRY(check_pair(output, &(named_path){"the input", arguments->files[i]}, error));
-    }
-    return PSPEC_OK;
+    return is_known && facts.st_dev == output->st_dev && facts.st_ino == output->st_ino
+               ? ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "%s \"%s\" is also the standard output", input->option.text, input->path)
+               : PSPEC_OK;
 }
 
 /* "convert a >>a" would read what it writes, without an end. */
 static pspec_status check_standard_output(const ps_request *arguments, ps_error *error) {
     struct stat output;
-    struct stat input;
-    if (fstat(STDOUT_FILENO, &output) != 0 || !S_ISREG(output.st_mode)) {
-        return PSPEC_OK;
-    }
-    for (size_t i = 0; i < arguments->num_files; i++) {
-        const char *const path = arguments->files[i];
-        bool is_known = false;
-        if (strcmp(path, "-") == 0) {
-            is_known = fstat(STDIN_FILENO, &input) == 0;
-        } else {
-            PS_TRY(look_up(path, &input, &is_known, error));
-        }
-        if (is_known && input.st_dev == output.st_dev && input.st_ino == output.st_ino) {
-            return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                           "the input \"%s\" is also the standard output", path);
-        }
-    }
-    return PSPEC_OK;
+    return fstat(STDOUT_FILENO, &output) == 0 && S_ISREG(output.st_mode)
+               ? ps_request_visit_inputs(arguments, compare_with_standard_output, &output, error)
+               : PSPEC_OK;
 }
 
 static bool is_stream(const char *path) {
@@ -121,9 +110,24 @@ static void replace_ending(ps_text *out, const char *path, const char *ending) {
     ps_text_append(out, "%s", ending);
 }
 
-static pspec_status check_all(const named_path *outputs, size_t num, const ps_request *arguments,
+/* The table goes there too, unless it has a file. */
+static pspec_status check_stream(const named_path *output, const ps_request *arguments,
+                                 ps_error *error) {
+    return arguments->output == NULL || is_stream(arguments->output)
+               ? ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "%s - and the table would both go to standard output; -o FILE keeps them "
+                         "apart",
+                         output->option)
+               : PSPEC_OK;
+}
+
+static pspec_status check_all(named_path *outputs, size_t num, const ps_request *arguments,
                               ps_error *error) {
     for (size_t i = 0; i < num; i++) {
+        if (outputs[i].path != NULL && outputs[i].path != arguments->output &&
+            is_stream(outputs[i].path)) {
+            PS_TRY(check_stream(&outputs[i], arguments, error));
+        }
         if (outputs[i].path == NULL || is_stream(outputs[i].path)) {
             continue;
         }
@@ -132,7 +136,7 @@ static pspec_status check_all(const named_path *outputs, size_t num, const ps_re
                 PS_TRY(check_pair(&outputs[i], &outputs[j], error));
             }
         }
-        PS_TRY(check_inputs(&outputs[i], arguments, error));
+        PS_TRY(ps_request_visit_inputs(arguments, compare_with_input, &outputs[i], error));
         PS_TRY(check_folder(outputs[i].path, error));
     }
     return PSPEC_OK;
@@ -151,7 +155,7 @@ pspec_status ps_outputs_check(const ps_request *arguments, bool is_table, ps_err
         replace_ending(&standard_errors, arguments->full, ".standard_error.npy");
     }
     const ps_shown_option shown = ps_option_show(arguments, PS_OPTION_OUTPUT);
-    const named_path outputs[] = {
+    named_path outputs[] = {
         {shown.text, arguments->output},
         {"--full", arguments->full},
         {"--coefficients", arguments->coefficients},

@@ -18,33 +18,29 @@ static pspec_status complain_of_stream(const ps_scene_file *file, const ps_scene
                              "a scene can be run again, standard input (-) cannot");
 }
 
-/* From what the scene's folder is relative to. */
-static pspec_status resolve(ps_scene *scene, const ps_scene_file *file, const ps_scene_value *value,
-                            const char **path) {
-    if (strcmp(*path, "-") == 0) {
-        return complain_of_stream(file, value);
+const char *ps_scene_find_path(const ps_result_kind *kind, int option, const char *text) {
+    if (option == PS_SCENE_FILES) {
+        return text;
     }
-    /* "-odd.txt" alone would be an option in the command line of the question */
-    const char *const folder = scene->folder[0] == '\0' && (*path)[0] == '-' ? "./" : scene->folder;
-    return is_absolute(*path) ? PSPEC_OK : ps_scene_copy(scene, folder, *path, path, file->error);
+    ps_option_input *const find =
+        option >= 0 && option < PS_NUM_OPTIONS ? ps_options[option].input : NULL;
+    return find != NULL ? find(ps_result_words(kind, (ps_option_id)option), text) : NULL;
 }
 
-/* The table of a lobe, "zonal:file=PATH". */
-static pspec_status resolve_lobe(ps_scene *scene, const ps_scene_file *file,
-                                 ps_scene_value *value) {
-    static const char key[] = "file=";
-    const char **const text = &value->texts[0];
-    const char *const found = strstr(*text, key);
-    if (found == NULL || is_absolute(found + strlen(key))) {
-        return PSPEC_OK;
-    }
-    if (strcmp(found + strlen(key), "-") == 0) {
+/* The path, a part of *text, becomes relative to what the scene's folder is relative to. */
+static pspec_status resolve(ps_scene *scene, const ps_scene_file *file, const ps_scene_value *value,
+                            const char **text, const char *path) {
+    if (strcmp(path, "-") == 0) {
         return complain_of_stream(file, value);
     }
+    if (is_absolute(path)) {
+        return PSPEC_OK;
+    }
+    /* "-odd.txt" alone would be an option in the command line of the question */
+    const bool is_odd = scene->folder[0] == '\0' && path == *text && path[0] == '-';
     ps_text joined = {0};
-    const size_t before = (size_t)(found - *text) + strlen(key);
-    ps_text_append_bytes(&joined, *text, before);
-    ps_text_append(&joined, "%s%s", scene->folder, found + strlen(key));
+    ps_text_append_bytes(&joined, *text, (size_t)(path - *text));
+    ps_text_append(&joined, "%s%s", is_odd ? "./" : scene->folder, path);
     pspec_status status = ps_text_check(&joined, file->error);
     if (status == PSPEC_OK) {
         status = ps_scene_copy(scene, "", ps_text_string(&joined), text, file->error);
@@ -53,21 +49,15 @@ static pspec_status resolve_lobe(ps_scene *scene, const ps_scene_file *file,
     return status;
 }
 
-bool ps_scene_is_path(const ps_result_kind *kind, int option, const char *text) {
-    if (option == PS_OPTION_WEIGHTS) {
-        return ps_weights_find(ps_result_words(kind, PS_OPTION_WEIGHTS), text) == PS_WEIGHTS_FILE;
-    }
-    return option == PS_SCENE_FILES || option == PS_OPTION_FREQUENCIES ||
-           option == PS_OPTION_AGAINST;
-}
-
 static pspec_status resolve_paths(ps_scene *scene, const ps_scene_file *file,
                                   const ps_result_kind *kind, int option, ps_scene_value *value) {
-    const bool is_path = ps_scene_is_path(kind, option, value->texts[0]);
-    for (size_t i = 0; is_path && i < value->num_texts; i++) {
-        PS_TRY(resolve(scene, file, value, &value->texts[i]));
+    for (size_t i = 0; i < value->num_texts; i++) {
+        const char *const path = ps_scene_find_path(kind, option, value->texts[i]);
+        if (path != NULL) {
+            PS_TRY(resolve(scene, file, value, &value->texts[i], path));
+        }
     }
-    return option == PS_OPTION_BRDF ? resolve_lobe(scene, file, value) : PSPEC_OK;
+    return PSPEC_OK;
 }
 
 /* ---- values ------------------------------------------------------------------------------ */

@@ -71,8 +71,9 @@ pspec_status ps_scene_take_entry(ps_scene *scene, const ps_scene_file *file,
                                  const ps_result_kind *kind, int option, const char *key,
                                  const ps_scene_node *value, ps_scene_entry *out) PS_MUST_CHECK;
 
-/* Is the value of an option of the kind a path, and no word? */
-bool ps_scene_is_path(const ps_result_kind *kind, int option, const char *text);
+/* The path of a file that is read in the value of an option of the kind, a part of text; NULL: it
+ * names none. */
+const char *ps_scene_find_path(const ps_result_kind *kind, int option, const char *text);
 
 /* What reads a scene. */
 typedef struct ps_scene_reader {

@@ -59,24 +59,26 @@ static pspec_status check_path(const input *place, const char *path) {
                                    (long long)facts.st_size, (unsigned long long)MOST_BYTES);
 }
 
+static pspec_status visit_value(const ps_scene *scene, const ps_scene_result *result,
+                                const ps_scene_entry *entry, const ps_scene_value *value,
+                                ps_scene_visit_input *visit, void *payload, ps_error *error) {
+    for (size_t i = 0; i < value->num_texts; i++) {
+        const char *const path = ps_scene_find_path(result->kind, entry->option, value->texts[i]);
+        if (path != NULL) {
+            PS_TRY(visit(payload, scene, entry, value, path, error));
+        }
+    }
+    return PSPEC_OK;
+}
+
 pspec_status ps_scene_visit_inputs(const ps_scene *scene, ps_scene_visit_input *visit,
                                    void *payload, ps_error *error) {
-    static const char lobe[] = "file=";
     for (size_t r = 0; r < scene->num_results; r++) {
-        for (size_t e = 0; e < scene->results[r].num_entries; e++) {
-            const ps_scene_entry *const entry = &scene->results[r].entries[e];
+        const ps_scene_result *const result = &scene->results[r];
+        for (size_t e = 0; e < result->num_entries; e++) {
+            const ps_scene_entry *const entry = &result->entries[e];
             for (size_t v = 0; v < entry->num_values; v++) {
-                const ps_scene_value *const value = &entry->values[v];
-                const char *const found =
-                    entry->option == PS_OPTION_BRDF ? strstr(value->texts[0], lobe) : NULL;
-                const bool is_path =
-                    ps_scene_is_path(scene->results[r].kind, entry->option, value->texts[0]);
-                for (size_t i = 0; is_path && i < value->num_texts; i++) {
-                    PS_TRY(visit(payload, scene, entry, value, value->texts[i], error));
-                }
-                if (found != NULL) {
-                    PS_TRY(visit(payload, scene, entry, value, found + strlen(lobe), error));
-                }
+                PS_TRY(visit_value(scene, result, entry, &entry->values[v], visit, payload, error));
             }
         }
     }

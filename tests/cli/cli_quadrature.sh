@@ -75,6 +75,13 @@ refuses 'is below the horizon' --brdf diffuse plane.npy --lift sphere
 refuses 'does not go with --sampler' --brdf diffuse --sampler jittered:lift=hemisphere -n 64 --lift hemisphere
 refuses '"w.foo": weights are written to .npy or .txt, not .foo' --brdf diffuse --weights optimal --weights-out w.foo some.txt
 refuses 'are the same file' --brdf diffuse --weights optimal --weights-out some.txt some.txt
+printf '0,1\n1,.5\n2,.25\n' >z.txt
+cp z.txt z.csv
+refuses '--weights-out "z.txt" and --brdf "z.txt" are the same file' --brdf zonal:file=z.txt --weights-out z.txt some.txt
+refuses '-o "z.csv" and --brdf "z.csv" are the same file' --brdf zonal:file=z.csv -o z.csv some.txt
+refuses '--weights-out - and the table would both go to standard output' --brdf diffuse --weights-out - some.txt
+refuses '--weights-out - and the table would both go to standard output' --brdf diffuse --weights-out - -o - some.txt
+cmp -s z.txt z.csv || complain "a lobe was written over"
 refuses '--weights-out has the weights of one rule' --brdf diffuse --weights-out w.txt --sampler white-hemisphere -n 4 -m 2
 printf '0 0 1\n#\n0 0.6 0.8\n' >two.txt
 refuses 'the weights of one rule are to be kept, but there are several sets' --brdf diffuse --weights-out w2.txt two.txt

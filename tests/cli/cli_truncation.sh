@@ -52,4 +52,9 @@ refuses 'not "t.gif"' --brdf diffuse --plot t.gif
 refuses '"none" is not one of' --brdf diffuse --harmonics none
 printf '0 1\n2 1\n' >bad.txt
 refuses 'bad.txt, line 2: 2 is no cosine' --brdf zonal:file=bad.txt
+# The table of the lobe is an input.
+printf '0,1\n1,.5\n2,.25\n' >own.csv
+cp own.csv kept.csv
+refuses '-o "own.csv" and --brdf "own.csv" are the same file' --brdf zonal:file=own.csv -o own.csv
+cmp -s own.csv kept.csv || complain "a lobe was written over"
 finish

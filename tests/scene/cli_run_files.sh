@@ -44,6 +44,24 @@ refuses 'same.yaml:5: name: "a" and "a-picture-1" would write the same file a-pi
 sed 's/a-picture-1}/a-picture-1, plot: false}/' same.yaml >other.yaml
 runs 0 --cache 0 other.yaml -o other
 
+# A file that the scene reads is not written over, by whatever name.
+mkdir into
+printf '0.1,0.2\n0.7,0.4\n' >into/z.csv
+cp into/z.csv kept.csv
+cat >into.yaml <<'SCENE'
+scene: 1
+results:
+  - {result: power, name: z, files: [into/z.csv], max-frequency: 2, engine: host_direct, plot: false}
+SCENE
+ln -s into linked
+for folder in into linked ./into; do
+    refuses "z.csv\" is read by the scene and would be written over" into.yaml -o $folder
+done
+cmp -s into/z.csv kept.csv || complain "a scene wrote over what it reads"
+[[ $(ls into) == z.csv ]] || complain "a refused run left $(ls into)"
+runs 0 --cache 0 into.yaml -o beside
+runs 0 --cache 0 beside/record.json -o beside
+
 # ---- another scene in the folder -----------------------------------------------------------------
 scene_of() { # RESULT...: power spectra of those names, in scene.yaml
     printf 'scene: 1\ndefaults: {points: 4, max-frequency: 2, engine: host_direct}\nresults:\n' >scene.yaml

@@ -76,29 +76,12 @@ pspec_status ps_run_open_cache(ps_run *run, ps_error *error) {
 
 /* Everything that the bits of an answer depend on: the program, the device, the question, and what
  * is in the files. */
-static pspec_status add_file(ps_text *key, const char *path, ps_error *error) {
+static pspec_status add_file(void *payload, const ps_request_input *input, ps_error *error) {
     char digest[PS_DIGEST_BYTES];
-    PS_TRY(ps_digest_file(path, digest, error));
+    ps_text *const key = payload;
+    PS_TRY(ps_digest_file(input->path, digest, error));
     ps_text_append(key, "file %s\n", digest);
     return PSPEC_OK;
-}
-
-static pspec_status add_files(ps_text *key, const ps_request *request, ps_error *error) {
-    static const char table_of_lobe[] = "file=";
-    for (size_t i = 0; i < request->num_files; i++) {
-        PS_TRY(add_file(key, request->files[i], error));
-    }
-    if (request->weights.path != NULL) {
-        PS_TRY(add_file(key, request->weights.path, error));
-    }
-    if (request->frequencies.path != NULL) {
-        PS_TRY(add_file(key, request->frequencies.path, error));
-    }
-    if (request->against != NULL) {
-        PS_TRY(add_file(key, request->against, error));
-    }
-    const char *const lobe = request->brdf != NULL ? strstr(request->brdf, table_of_lobe) : NULL;
-    return lobe != NULL ? add_file(key, lobe + strlen(table_of_lobe), error) : PSPEC_OK;
 }
 
 static pspec_status make_key(const ps_run *run, ps_run_question *question, ps_error *error) {
@@ -107,7 +90,7 @@ static pspec_status make_key(const ps_run *run, ps_run_question *question, ps_er
     ps_text_append(key, "%s%s\npicture %d\narray %d %d\nno-skip %d\n",
                    ps_text_string(&run->identity), request->command_line, request->wants_picture,
                    request->wants_array, request->wants_coefficients, request->accuracy.no_skip);
-    PS_TRY(add_files(key, request, error));
+    PS_TRY(ps_request_visit_inputs(request, add_file, key, error));
     return ps_text_check(key, error);
 }
 

@@ -57,6 +57,8 @@ pspec_status ps_run_make_folder(const char *path, ps_error *error) PS_MUST_CHECK
 /* Reads its record, if there is one, and refuses to write over a file that it does not name:
  * somebody's own. A record that is no record, or of a version that named no files, says nothing. */
 pspec_status ps_run_read_former(struct ps_run *run, ps_error *error) PS_MUST_CHECK;
+/* Refuses to write over a file that the scene reads, whatever its names are. */
+pspec_status ps_run_check_inputs(const struct ps_run *run, ps_error *error) PS_MUST_CHECK;
 /* Removes what the former run wrote and this one did not: plain names in the folder, regular files
  * that have the bytes of then and that the scene does not read. Warns of what went, and what stayed
  * because it changed. */

@@ -28,6 +28,33 @@ static const char *find_former(const ps_run *run, const char *name) {
     return NULL;
 }
 
+/* ---- what the scene reads ---------------------------------------------------------------- */
+
+typedef struct same_file {
+    const struct stat *as;
+    bool is_found;
+} same_file;
+
+static pspec_status compare_input(void *payload, const ps_scene *scene, const ps_scene_entry *entry,
+                                  const ps_scene_value *value, const char *path, ps_error *error) {
+    same_file *const same = payload;
+    struct stat facts;
+    (void)scene, (void)entry, (void)value, (void)error;
+    same->is_found =
+        same->is_found || (stat(path, &facts) == 0 && facts.st_dev == same->as->st_dev &&
+                           facts.st_ino == same->as->st_ino);
+    return PSPEC_OK;
+}
+
+static pspec_status is_input(const ps_run *run, const struct stat *facts, bool *out,
+                             ps_error *error) {
+    same_file same = {facts, false};
+    PS_TRY(ps_scene_visit_inputs(run->scene, compare_input, &same, error));
+    PS_TRY(compare_input(&same, NULL, NULL, NULL, run->scene->path, error));
+    *out = same.is_found;
+    return PSPEC_OK;
+}
+
 /* ---- before the work --------------------------------------------------------------------- */
 
 /* After a call that did not find the file. */
@@ -77,6 +104,37 @@ static pspec_status read_record(ps_run *run, const char *path, ps_error *error) 
     return PSPEC_OK;
 }
 
+/* A name that the run writes is a file that the scene reads. */
+static pspec_status refuse_written_input(const ps_run *run, const ps_run_file *file,
+                                         ps_error *error) {
+    struct stat facts;
+    bool is_read = false;
+    ps_text path = {0};
+    ps_text_append(&path, "%s/%s", run->folder, file->name);
+    pspec_status status = ps_text_check(&path, error);
+    if (status == PSPEC_OK && stat(ps_text_string(&path), &facts) == 0) {
+        status = is_input(run, &facts, &is_read, error);
+    }
+    if (status == PSPEC_OK && is_read) {
+        status = ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "\"%s\" is read by the scene and would be written over; another name of "
+                         "the result or another folder by -o FOLDER keeps it",
+                         ps_text_string(&path));
+    }
+    ps_text_free(&path);
+    return status;
+}
+
+/* Record and page are the run's own: a record may be run again into its folder. */
+pspec_status ps_run_check_inputs(const ps_run *run, ps_error *error) {
+    for (size_t i = 0; i < run->files.num; i++) {
+        if (run->files.all[i].result != NULL) {
+            PS_TRY(refuse_written_input(run, &run->files.all[i], error));
+        }
+    }
+    return PSPEC_OK;
+}
+
 pspec_status ps_run_read_former(ps_run *run, ps_error *error) {
     ps_text path = {0};
     ps_text_append(&path, "%s/%s", run->folder, ps_run_record_name);
@@ -95,31 +153,6 @@ pspec_status ps_run_read_former(ps_run *run, ps_error *error) {
 }
 
 /* ---- after the work ---------------------------------------------------------------------- */
-
-typedef struct same_file {
-    const struct stat *as;
-    bool is_found;
-} same_file;
-
-static pspec_status compare_input(void *payload, const ps_scene *scene, const ps_scene_entry *entry,
-                                  const ps_scene_value *value, const char *path, ps_error *error) {
-    same_file *const same = payload;
-    struct stat facts;
-    (void)scene, (void)entry, (void)value, (void)error;
-    same->is_found =
-        same->is_found || (stat(path, &facts) == 0 && facts.st_dev == same->as->st_dev &&
-                           facts.st_ino == same->as->st_ino);
-    return PSPEC_OK;
-}
-
-static pspec_status is_input(const ps_run *run, const struct stat *facts, bool *out,
-                             ps_error *error) {
-    same_file same = {facts, false};
-    PS_TRY(ps_scene_visit_inputs(run->scene, compare_input, &same, error));
-    PS_TRY(compare_input(&same, NULL, NULL, NULL, run->scene->path, error));
-    *out = same.is_found;
-    return PSPEC_OK;
-}
 
 typedef enum fate { GONE_BEFORE, REMOVED, KEPT_INPUT, KEPT_CHANGED, KEPT_IN_VAIN } fate;
 

@@ -35,6 +35,7 @@ static void warn_of_gnuplot(const ps_run *run) {
 
 pspec_status ps_run_prepare(ps_run *run, ps_error *error) {
     PS_TRY(ps_run_ask(run, error));
+    PS_TRY(ps_run_check_inputs(run, error));
     PS_TRY(ps_run_check_folder(run->folder, error));
     PS_TRY(ps_run_read_former(run, error));
     PS_TRY(ps_run_open_cache(run, error));
