@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # configure.sh PRESET [cmake options]: configures build/PRESET of the working folder. A build folder that came along
-# with a copied checkout is of another source folder, which CMake refuses: it is begun anew then.
+# with a copied checkout is of another source folder, which CMake refuses: it is begun anew then. Waits while another
+# process configures or builds there: commands of ./dev may run at the same time.
 set -euo pipefail
 preset=$1
 shift
@@ -14,4 +15,5 @@ if [[ -f $cache ]]; then
         fresh=(--fresh)
     fi
 fi
-cmake "${fresh[@]}" --preset "$preset" "$@" >/dev/null # what goes wrong is on standard error
+mkdir -p build
+flock "build/$preset.lock" cmake "${fresh[@]}" --preset "$preset" "$@" >/dev/null # what goes wrong is on standard error

@@ -1,10 +1,13 @@
 #!/usr/bin/env bash
-# fuzz.sh PROGRAM SECONDS [TARGET...]: runs libFuzzer on each target, or on those named, for SECONDS (0:
-# an hour in total), FUZZ_JOBS of them at a time (1). Prints a table, also kept as table.txt; everything
+# fuzz.sh PROGRAM [--seed NUMBER] SECONDS [TARGET...]: runs libFuzzer on each target, or on those named, for SECONDS (0:
+# an hour in total), FUZZ_JOBS of them at a time (1). With --seed a third of the targets, those that NUMBER chooses, have
+# SECONDS and the others a tenth, and NUMBER is libFuzzer's seed, too. Prints a table, also kept as table.txt; everything
 # goes to fuzz-output/: TARGET/corpus grows from run to run, TARGET/log is what libFuzzer said, and
 # TARGET/crash-* (leak-, oom-, timeout-) are inputs that broke something. Those make it exit with 1.
 set -euo pipefail
 program=$(realpath "$1")
+seed=''
+[[ $2 != --seed ]] || { seed=$3 && shift 2; }
 seconds=$2
 shift 2
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
@@ -34,12 +37,12 @@ export ASAN_OPTIONS=quarantine_size_mb=16:${ASAN_OPTIONS-}
 export UBSAN_OPTIONS=print_stacktrace=1:${UBSAN_OPTIONS-}
 limits=(-malloc_limit_mb=100 -rss_limit_mb=1024 -timeout=10 -max_len=8192)
 
-run_target() { # TARGET
-    local folder=$output/$1 options=()
+run_target() { # TARGET SECONDS
+    local folder=$output/$1 options=(-seed="${seed:-0}") # 0: another one every time
     [[ ${dictionary[$1]} == - ]] || options=(-dict="$tests/${dictionary[$1]}")
     mkdir -p "$folder/corpus"
     rm -f "$folder"/{crash,leak,oom,timeout,slow-unit}-*
-    "$program" "--target=$1" "${limits[@]}" "${options[@]}" -max_total_time="$seconds" \
+    "$program" "--target=$1" "${limits[@]}" "${options[@]}" -max_total_time="$2" \
         -artifact_prefix="$folder/" -print_final_stats=1 "$folder/corpus" "$tests/corpus/$1" \
         >"$folder/log" 2>&1 || true # the files tell
 }
@@ -69,10 +72,14 @@ show_table() {
 }
 
 mkdir -p "$output"
+# Another third for every number modulo 3.
+every=3 shorter=10 number=${seed:-0}
 for target in "$@"; do
+    given=$seconds
+    [[ -z $seed ]] || ((number++ % every == 0)) || given=$(((seconds + shorter - 1) / shorter))
     while (($(jobs -rp | wc -l) >= jobs)); do wait -n; done
-    echo "fuzz: $target, $seconds s" >&2
-    run_target "$target" &
+    echo "fuzz: $target, $given s" >&2
+    run_target "$target" "$given" &
 done
 wait
 show_table "$@" | tee "$output/table.txt"

@@ -4,10 +4,16 @@ target_sources(test_arguments PRIVATE
 target_sources(test_scene PRIVATE
   ${PROJECT_SOURCE_DIR}/host/cli/arguments.c ${PROJECT_SOURCE_DIR}/host/cli/command.c)
 
+# These run every command, and so show what a second compiler makes of the program; the others ask the same of it again.
+set(PORTABLE_TESTS cli_errors cli_examples cli_program)
+
 function(add_program_test name)
   file(GLOB_RECURSE script ${CMAKE_CURRENT_SOURCE_DIR}/${name}.sh)
-  add_script_test(${name} unit ${script}
+  add_script_test(${name} "unit;program" ${script}
     $<TARGET_FILE:pointspec_program> ${ARGN})
+  if(name IN_LIST PORTABLE_TESTS)
+    set_tests_properties(${name} PROPERTIES LABELS unit)
+  endif()
   set_tests_properties(${name} PROPERTIES
     ENVIRONMENT "POCL_CACHE_DIR=${POINTSPEC_TEST_CACHE}")
 endfunction()

@@ -2,21 +2,22 @@
 # built files runs without them.
 function(add_script_test name label)
   add_test(NAME ${name} COMMAND bash ${ARGN})
-  set_tests_properties(${name} PROPERTIES LABELS ${label} TIMEOUT 300)
+  set_tests_properties(${name} PROPERTIES LABELS "${label}" TIMEOUT 300)
 endfunction()
 
 add_script_test(headers unit ${CMAKE_CURRENT_SOURCE_DIR}/project/test_headers.sh
   ${PROJECT_SOURCE_DIR} ${CMAKE_C_COMPILER})
-add_script_test(layers unit ${PROJECT_SOURCE_DIR}/scripts/check_layers.sh)
-add_script_test(gates unit ${PROJECT_SOURCE_DIR}/scripts/check_gates.sh)
+add_script_test(layers "unit;sources" ${PROJECT_SOURCE_DIR}/scripts/check_layers.sh)
+add_script_test(gates "unit;sources" ${PROJECT_SOURCE_DIR}/scripts/check_gates.sh)
 add_script_test(circles unit ${PROJECT_SOURCE_DIR}/scripts/check_circles.sh ${PROJECT_BINARY_DIR})
-add_script_test(pages unit ${PROJECT_SOURCE_DIR}/scripts/check_pages.sh)
-add_script_test(library_calls unit ${PROJECT_SOURCE_DIR}/scripts/check_library_calls.sh)
-add_script_test(copied_checkout unit ${CMAKE_CURRENT_SOURCE_DIR}/project/copied_checkout.sh ${PROJECT_SOURCE_DIR})
-add_script_test(gpu_kernel_tests unit ${CMAKE_CURRENT_SOURCE_DIR}/project/gpu_kernel_tests.sh
+add_script_test(pages "unit;sources" ${PROJECT_SOURCE_DIR}/scripts/check_pages.sh)
+add_script_test(library_calls "unit;sources" ${PROJECT_SOURCE_DIR}/scripts/check_library_calls.sh)
+add_script_test(copied_checkout "unit;sources" ${CMAKE_CURRENT_SOURCE_DIR}/project/copied_checkout.sh ${PROJECT_SOURCE_DIR})
+add_script_test(stages "unit;sources" ${CMAKE_CURRENT_SOURCE_DIR}/project/stages.sh ${PROJECT_SOURCE_DIR})
+add_script_test(gpu_kernel_tests "unit;sources" ${CMAKE_CURRENT_SOURCE_DIR}/project/gpu_kernel_tests.sh
   ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR})
 # The reference of the header is made without a warning; skipped where there is no doxygen.
-add_script_test(reference unit ${PROJECT_SOURCE_DIR}/scripts/reference.sh
+add_script_test(reference "unit;sources" ${PROJECT_SOURCE_DIR}/scripts/reference.sh
   ${PROJECT_BINARY_DIR}/reference)
 set_tests_properties(reference PROPERTIES SKIP_RETURN_CODE 77)
 add_script_test(no_blas unit ${CMAKE_CURRENT_SOURCE_DIR}/project/no_blas.sh

@@ -86,7 +86,7 @@ configure() { # PRESET
 }
 
 build() { # PRESET [cmake --build arguments]
-    cmake --build --preset "$1" --parallel "${JOBS:-$(nproc)}" "${@:2}" >>"$out/build.txt" 2>&1
+    flock "build/$1.lock" cmake --build --preset "$1" --parallel "${JOBS:-$(nproc)}" "${@:2}" >>"$out/build.txt" 2>&1
 }
 
 # The dev build has assertions, which the release does not.

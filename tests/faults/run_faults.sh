@@ -1,19 +1,22 @@
 #!/usr/bin/env bash
-# run_faults.sh PROGRAM [--sample N] [--only NAME[,NAME...]] [--table]: makes the allocations, file calls and OpenCL calls
-# of every command line of commands.txt fail one by one, and judges what the program does then (see
-# docs/developer/reliability.md). PROGRAM is pointspec_faults. --sample takes about N faults, evenly; --table prints
-# the table of docs/developer/reliability.md.
+# run_faults.sh PROGRAM [--sample N [--seed NUMBER]] [--only NAME[,NAME...]] [--fault NAME:CLASS:NUMBER[+]] [--table]:
+# makes the allocations, file calls and OpenCL calls of every command line of commands.txt fail one by one, and judges
+# what the program does then (see docs/developer/reliability.md). PROGRAM is pointspec_faults. --sample takes about N
+# faults, evenly, beginning where --seed says; --fault takes one; --table prints the table of
+# docs/developer/reliability.md.
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 program=$(realpath "$1")
 shift
-sample=0 only='' wants_table=no
+sample=0 seed='' only='' fault='' wants_table=no
 while (($#)); do
     case $1 in
     --sample) sample=$2 && shift ;;
+    --seed) seed=$2 && shift ;;
     --only) only=$2 && shift ;;
+    --fault) fault=$2 only=${2%%:*} && shift ;;
     --table) wants_table=yes ;;
-    *) sed -n '2,5s/^# //p' "$0" >&2 && exit 2 ;;
+    *) sed -n '2,6s/^# //p' "$0" >&2 && exit 2 ;;
     esac
     shift
 done
@@ -115,16 +118,19 @@ print_table() {
 check_symbols
 make_inputs
 prepare_cases
+[[ -z $fault ]] || echo "$fault" >"$scratch/faults"
 total=$(wc -l <"$scratch/faults")
 step=$((sample > 0 && total > sample ? total / sample : 1))
 # Neighbours go to different workers, which take 16 at a time.
-awk -v step=$step 'NR % step == int(step / 2)  || step == 1' "$scratch/faults" |
+awk -v step=$step -v first=$((${seed:-$((step / 2))} % step)) 'NR % step == first' "$scratch/faults" |
     xargs -P "${JOBS:-$(nproc)}" -n 16 bash "$here/judge_faults.sh" >"$scratch/unsorted"
 sort -s -k 1,1 "$scratch/unsorted" | awk -v list="$here/commands.txt" '{ line[$1] = line[$1] $0 "\n" }
     END { while ((getline row < list) > 0) { split(row, word); printf "%s", line[word[1]] } }' >"$scratch/verdicts"
 check_tolerated >"$scratch/judged"
 [[ -z ${FAULTS_VERDICTS-} ]] || cp "$scratch/judged" "$FAULTS_VERDICTS"
 grep ' FAILED ' "$scratch/judged" | head -n 200 >&2 || true
+awk '$3 == "FAILED" && num++ < 20 { sub(/:$/, "", $5); print "again: ./dev faults --fault " $1 ":" $2 ":" $5 }' \
+    "$scratch/judged" >&2
 [[ $wants_table == no ]] || print_table
 injected=$(wc -l <"$scratch/judged") failures=$(grep -c ' FAILED ' "$scratch/judged" || true)
 echo "run_faults: $injected of $total faults, $failures failures, $SECONDS s" >&2

@@ -2,16 +2,18 @@
 # run_limits.sh PROGRAM [the options of run_faults.sh]: starts every command line of commands.txt under limits of
 # address space, open files, sizes of files and processor time, and of a memory cgroup where one can be made. Each must
 # end, with a known exit code, one sentence where it is not 0, and nothing left behind (see docs/developer/reliability.md).
-# --sample takes about N/12 of them, evenly, for a start takes as long as a dozen faults.
+# --sample takes about N/12 of them, evenly, for a start takes as long as a dozen faults; --fault takes none.
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 program=$(realpath "$1")
 shift
-sample=0 only='' faults_per_start=12
+sample=0 seed=0 only='' faults_per_start=12
 while (($#)); do
     case $1 in
     --sample) sample=$(($2 / faults_per_start + 1)) && shift ;;
     --table) ;;
+    --fault) exit 0 ;;
+    --seed) seed=$2 && shift ;;
     --only) only=$2 && shift ;;
     *) sed -n '2,5s/^# //p' "$0" >&2 && exit 2 ;;
     esac
@@ -129,7 +131,7 @@ for line in "${lines[@]}"; do
     driver=''
     for limit in "${limits[@]}"; do
         num=$((num + 1))
-        ((num % step == 0)) || continue
+        ((num % step == seed % step)) || continue
         read -r kind number <<<"$limit"
         [[ $kind != cgroup || $has_groups == yes ]] || continue
         group=${groups[0]-}
