@@ -2,7 +2,7 @@
 # built files runs without them.
 function(add_script_test name label)
   add_test(NAME ${name} COMMAND bash ${ARGN})
-  set_tests_properties(${name} PROPERTIES LABELS "${label}" TIMEOUT 300)
+  set_tests_properties(${name} PROPERTIES LABELS "${label}" TIMEOUT ${TEST_PATIENCE})
 endfunction()
 
 add_script_test(headers unit ${CMAKE_CURRENT_SOURCE_DIR}/project/test_headers.sh

@@ -125,10 +125,8 @@ fi
     exec "$program" angular --engine host_direct --sampler white-hemisphere -n 2e5 -l 3000 \
         --harmonics hemispherical --coefficients long.npy -o long.csv </dev/null >out 2>err
 ) &
-for ((i = 0; i < 100; i++)); do
-    ! grep -q hours err 2>/dev/null || break
-    sleep 0.1
-done
+wait_until $! grep -q hours err
+wait_until_it_catches $!
 kill -TERM $!
 code=0
 wait $! || code=$?

@@ -115,7 +115,8 @@ refuses 'wrong.yaml:' --scenes wrong.yaml
 # stopped in the middle: no file
 "$program" bench -o long.csv >out 2>err &
 pid=$!
-sleep 0.7
+wait_until_it_catches $pid
+sleep 0.5 # and some way into its work
 kill -TERM $pid # the shell has background jobs ignore SIGINT
 code=0
 wait $pid || code=$?

@@ -4,6 +4,8 @@
 # convert. What files of other tools look like is in cli_formats.sh.
 set -euo pipefail
 program=$(realpath "$1")
+# shellcheck source=tests/harness/moments.sh
+. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../harness/moments.sh"
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cd "$scratch"
@@ -247,7 +249,8 @@ yes '0.5 0.25' >endless &
 feeder=$!
 env --default-signal=INT "$program" convert endless -o interrupted/points.npy 2>err &
 reader=$!
-sleep 0.5
+wait_until_it_catches $reader
+sleep 0.5 # and some way into its work
 kill -s INT $reader
 code=0
 wait $reader || code=$?

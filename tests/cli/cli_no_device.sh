@@ -10,7 +10,7 @@ power=("$program" power --sampler white -n 16 -k 4)
 refused() { # SENTENCE VARIABLE=VALUE...
     local sentence=$1 code=0
     shift
-    env "$@" timeout 60 "${power[@]}" >out 2>err || code=$?
+    env "$@" timeout 600 "${power[@]}" >out 2>err || code=$?
     [[ $code == 1 && $(wc -l <err) == 1 && $(<err) == *"$sentence"* && $(<err) == *host_direct* ]] ||
         complain "$*: exit $code: $(<err)"
 }
@@ -28,7 +28,7 @@ if "$program" devices 2>/dev/null | grep -q ',Portable Computing Language,'; the
         code=0
         # Sanitizers map more than that before the program begins.
         (ulimit -v $kib && "$program" --version) >/dev/null 2>&1 || continue
-        (ulimit -v $kib; timeout -s KILL 60 "${power[@]}" >out 2>err) || code=$?
+        (ulimit -v $kib; timeout -s KILL 600 "${power[@]}" >out 2>err) || code=$?
         [[ $code == 0 || ($code == 1 && $(wc -l <err) == 1 && $(<err) == *"ulimit -v"*) ]] ||
             complain "ulimit -v $kib: exit $code: $(<err)"
         ((kib > 200000)) || [[ $(<err) == *host_direct* ]] || complain "ulimit -v $kib: $(<err)"

@@ -64,5 +64,8 @@ plan run scene.yaml
 grep -q '^# phase: pictures; .*; 1 by gnuplot' plan.csv || complain "scene: $(<plan.csv)"
 grep -q '^a:2,,phase,' plan.csv || complain "rows of phases: $(<plan.csv)"
 
-"$bench" --quick "$program" >table.txt 2>&1 || complain "seconds: $(<table.txt)"
+# The yardstick stands beside the command and not in it: what else runs may change between the two, but not every time.
+for try in 1 2 3; do
+    "$bench" --quick "$program" >table.txt 2>&1 && break || ((try < 3)) || complain "seconds: $(<table.txt)"
+done
 exit $bad

@@ -3,6 +3,7 @@
 # temporary files, no children.
 set -euo pipefail
 program=$(realpath "$1")
+here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cd "$scratch"
@@ -17,47 +18,34 @@ complain() {
     bad=1
 }
 
-# The promise is 1 s. Machines with more to do than they have processors need longer for anything: what is
-# measured is what is above the time that such a machine takes to end a process that only sleeps.
+# shellcheck source=tests/harness/moments.sh
+. "$here/../harness/moments.sh"
+
+# The promise is 1 s, of a machine with nothing else to do.
 limit=1.5
-now() { date +%s.%N; }
-exceeds() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a > b) }'; }
-minus() { awk -v a="$1" -v b="$2" 'BEGIN { print a - b }'; }
 
-catches_term() { # PROCESS
-    local term=0x4000 # bit 14 is SIGTERM, 15
-    local caught
-    caught=$(awk '/^SigCgt/ { print $2 }' "/proc/$1/status" 2>/dev/null) || return 0
-    (((16#${caught:-0} & term) != 0))
-}
+# What is asked for here has room beside other work, on a machine where 6 GB are free.
+ulimit -v 6000000
 
-# The seconds that a process needs to end when nothing keeps it.
-slowness() {
-    local begin
-    sleep 100 &
-    begin=$(now)
-    kill -TERM $!
-    wait $! 2>/dev/null || true
-    minus "$(now)" "$begin"
-}
-
-# interrupts SIGNAL SECONDS ARGS...: the signal comes so long after the start. Files belong into work/.
+# interrupts SIGNAL MOMENT ARGS...: the signal comes so many seconds after the start, or when there is such a file. Files
+# belong into work/.
 interrupts() {
-    local signal=$1 moment=$2 code=0 pid begin took left
+    local signal=$1 moment=$2 code=0 pid begin end left
     shift 2
     # Background jobs ignore SIGINT, which the program respects; env takes that back.
     env --default-signal=INT "$program" "$@" >/dev/null 2>err </dev/null &
     pid=$!
-    until [[ ! -e /proc/$pid ]] || catches_term $pid; do sleep 0.02; done
-    sleep "$moment"
+    wait_until_it_catches $pid
+    case $moment in
+    [0-9]*) sleep "$moment" ;;
+    *) wait_until $pid test -s "$moment" ;;
+    esac
     begin=$(now)
-    kill -s "$signal" $pid 2>/dev/null || complain "ended before $moment s: $*: $(<err)"
+    kill -s "$signal" $pid 2>/dev/null || complain "ended before $moment: $*: $(<err)"
     wait $pid || code=$?
-    took=$(minus "$(now)" "$begin")
-    if exceeds "$took" $limit && exceeds "$(minus "$took" "$(slowness)")" $limit; then
-        complain "$took s after $signal: $*"
-    fi
-    [[ -z ${VERBOSE-} ]] || printf '%-5s %6.3f s  %s: %s\n' "$signal" "$took" "$*" "$(<err)"
+    end=$(now)
+    ! took_longer "$begin" "$end" $limit || late+=("$signal: $*")
+    [[ -z ${VERBOSE-} ]] || printf '%-5s %s .. %s s  %s: %s\n' "$signal" "$begin" "$end" "$*" "$(<err)"
     [[ $code == 130 ]] || complain "$signal: exit $code: $*: $(<err)"
     # A driver whose compiler was interrupted may have its own words about that.
     [[ $(grep -c '^pointspec.*: interrupted' err) == 1 && $(grep -c '^pointspec' err) == 1 ]] ||
@@ -66,34 +54,48 @@ interrupts() {
     [[ -z $left ]] || complain "$signal leaves $left: $*"
     rm -rf work/* tmp/*
 }
+# What else runs may be different in the very moment: who is late is asked again, and is late every time.
+ends_in_time() { # SIGNAL MOMENT ARGS...
+    local try
+    for try in 1 2 3; do
+        late=()
+        interrupts "$@"
+        ((${#late[@]})) || return 0
+    done
+    complain "more than $limit s, $try times: ${late[*]}"
+}
 
 # ---- what takes long, of every command
 hemisphere=(--sampler fibonacci-hemisphere --brdf diffuse --smoothness 1.5)
-interrupts INT 1 quadrature -n 1e6 "${hemisphere[@]}" -l 8 --weights optimal -o work/a.csv
-interrupts TERM 1.5 quadrature -n 15000 "${hemisphere[@]}" -l 8 --weights optimal -o work/a.csv
-interrupts INT 0.5 quadrature -n 1e6 "${hemisphere[@]}" -l 8 -o work/a.csv
-interrupts HUP 1 pairs --sampler white-sphere -n 20000 -m 100 -l 3000 -o work/a.csv
-interrupts INT 1 power --sampler white -d 1 -n 1024 -k 268435456 -o work/a.csv
-interrupts INT 0.3 power --sampler white -d 1 -n 1024 -k 268435456 -o work/a.csv
-interrupts TERM 1 power --sampler white -d 6 -n 4096 -k 60 --per-ring 100000 -o work/a.csv
-interrupts INT 1 sample --sampler white -n 3e8 -o work/a.npy
-interrupts TERM 1 sample --sampler sobol -n 1e8 -o work/a.txt
-interrupts INT 0.7 power --sampler white -n 65536 -k 300 --engine host_direct -o work/a.csv
-interrupts HUP 0.7 angular --sampler white-sphere -n 1e6 -m 100 -l 500 -o work/a.csv
-interrupts INT 0.3 truncation --brdf glossy:n=30 --harmonics hemispherical -l 400 -o work/a.csv
-interrupts TERM 1 stress
-interrupts INT 1 bench
+ends_in_time INT 1 quadrature -n 1e6 "${hemisphere[@]}" -l 8 --weights optimal -o work/a.csv
+ends_in_time TERM 1.5 quadrature -n 15000 "${hemisphere[@]}" -l 8 --weights optimal -o work/a.csv
+ends_in_time INT 0.5 quadrature -n 1e6 "${hemisphere[@]}" -l 8 -o work/a.csv
+ends_in_time HUP 1 pairs --sampler white-sphere -n 20000 -m 100 -l 3000 -o work/a.csv
+ends_in_time INT 1 power --sampler white -d 1 -n 1024 -k 20000000 -o work/a.csv
+ends_in_time INT 0.3 power --sampler white -d 1 -n 1024 -k 20000000 -o work/a.csv
+ends_in_time TERM 1 power --sampler white -d 6 -n 4096 -k 60 --per-ring 100000 -o work/a.csv
+ends_in_time INT 1 sample --sampler white -n 1e8 -m 3 -o work/a.npy
+ends_in_time TERM 1 sample --sampler sobol -n 1e8 -o work/a.txt
+ends_in_time INT 0.7 power --sampler white -n 65536 -k 300 --engine host_direct -o work/a.csv
+ends_in_time HUP 0.7 angular --sampler white-sphere -n 1e6 -m 100 -l 500 -o work/a.csv
+ends_in_time INT 0.3 truncation --brdf glossy:n=30 --harmonics hemispherical -l 400 -o work/a.csv
+ends_in_time TERM 1 stress
+ends_in_time INT 1 bench
 mkfifo endless
-interrupts INT 0.3 convert --input-format rps /dev/zero -o work/a.npy
-interrupts TERM 0.3 power --input-format csv endless -k 8 -o work/a.csv # nobody writes to the pipe
+ends_in_time INT 0.3 convert --input-format rps /dev/zero -o work/a.npy
+ends_in_time TERM 0.3 power --input-format csv endless -k 8 -o work/a.csv # nobody writes to the pipe
 
 # ---- what takes long has a name on a terminal, and is never "0 of something at 0/s"
-shows() { # PATTERN SECONDS ARGS...
-    local pattern=$1 seconds=$2
+shows() { # PATTERN SECONDS ARGS...: within so many seconds, or within more where other work is in the way
+    local pattern=$1 seconds=$2 patience
     shift 2
-    script -qec "timeout -s INT $seconds $program $*" /dev/null </dev/null >seen || true
-    tr '\r' '\n' <seen | grep -qE "$pattern" || complain "no \"$pattern\": $*: $(tr '\r' '\n' <seen | tail -n 3)"
-    if tr '\r' '\n' <seen | grep -qE '(^|[^0-9.])0 (of [0-9]+ )?[a-z]+, 0/s'; then complain "no progress: $*"; fi
+    for patience in 1 4 16; do
+        script -qec "timeout -s INT $((patience * seconds)) $program $*" /dev/null </dev/null >seen || true
+        tr '\r' '\n' <seen >lines
+        ! grep -qE "$pattern" lines || break
+    done
+    grep -qE "$pattern" lines || complain "no \"$pattern\": $*: $(tail -n 3 lines)"
+    if grep -qE '(^|[^0-9.])0 (of [0-9]+ )?[a-z]+, 0/s' lines; then complain "no progress: $*"; fi
 }
 if command -v script >/dev/null; then
     shows '^weights: [0-9]+ of 1000000 rows of an approximate inverse, .* left' 4 \
@@ -114,10 +116,10 @@ exec sleep 100
 END
 chmod +x bin/gnuplot
 GNUPLOT_PID=$scratch/child PATH=$scratch/bin:$PATH \
-    interrupts TERM 1 power --sampler white -n 64 -k 4 -o work.csv --plot work/a.png
+    ends_in_time TERM "$scratch/child" power --sampler white -n 64 -k 4 -o work.csv --plot work/a.png
 lives() { [[ -e /proc/$1/stat && $(awk '{ print $3 }' "/proc/$1/stat" 2>/dev/null) != [ZX] ]]; }
 [[ -s child ]] || complain "gnuplot was not started"
-for _ in 1 2 3 4 5 6 7 8 9 10; do lives "$(<child)" && sleep 0.2; done
+for ((i = 0; i < 300; i++)); do lives "$(<child)" && sleep 0.2; done
 if lives "$(<child)"; then complain "gnuplot lives on"; fi
 
 # ---- the limit of file sizes is a sentence
@@ -147,7 +149,7 @@ rm -rf work/*
 # ---- inside a driver that compiles, in the first second
 export POCL_CACHE_DIR=$scratch/pocl
 mkdir "$POCL_CACHE_DIR"
-interrupts INT 0.4 power --sampler white -n 4096 -k 64 -m 1000 -o work/a.csv
-interrupts TERM 0.4 angular --sampler white-sphere -n 4096 -l 64 -m 1000 -o work/a.csv
+ends_in_time INT 0.4 power --sampler white -n 4096 -k 64 -m 1000 -o work/a.csv
+ends_in_time TERM 0.4 angular --sampler white-sphere -n 4096 -l 64 -m 1000 -o work/a.csv
 
 exit $bad

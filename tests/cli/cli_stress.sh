@@ -47,7 +47,8 @@ refuses '--tol is not an option of this command' --tol 1e-3
 runs_long() {
     "$program" stress -o long.csv --quick >out 2>err &
     local pid=$! code=0
-    sleep 0.7
+    wait_until_it_catches $pid
+    sleep 0.5 # and some way into its work
     kill -TERM $pid # the shell has background jobs ignore SIGINT
     wait $pid || code=$?
     [[ $code == 130 && ! -e long.csv && $(<err) == *interrupted* ]] || complain "interrupted: $code, $(<err)"

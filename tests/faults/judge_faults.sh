@@ -24,7 +24,7 @@ run_program() { # CASE FAULT
     code=0 failed=none leaks=
     rm -f "$run/report"
     (cd "$run/folder" &&
-        POINTSPEC_FAULT=$2 POINTSPEC_FAULT_REPORT=$run/report exec timeout 60 env \
+        POINTSPEC_FAULT=$2 POINTSPEC_FAULT_REPORT=$run/report exec timeout 600 env \
             "${words[@]}" <"$(<"$1/stdin")" >"$run/stdout" 2>"$run/stderr") || code=$?
     mapfile -t said <"$run/stderr"
     [[ -f $run/report ]] || return 0

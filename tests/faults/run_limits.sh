@@ -19,8 +19,8 @@ while (($#)); do
     esac
     shift
 done
-# Seconds within which everything must have ended, also a cold build on a slow machine; then SIGTERM, which must work.
-patience=60 deaf=10
+# Seconds after which something hangs, also a cold build on a machine with much to do; then SIGTERM, which must work.
+patience=600 deaf=60
 limits=("-v 40000" "-v 100000" "-v 200000" "-v 400000" "-v 800000" "-v 1500000" "-v 4000000"
     "-n 4" "-n 5" "-n 7" "-n 10" "-n 20" "-f 0" "-f 1" "-f 8" "-t 1"
     "cgroup 24" "cgroup 80" "cgroup 400")

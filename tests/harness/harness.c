@@ -1,11 +1,13 @@
 #include "harness.h"
 
+#include "base/workers.h"
 #include "verify/stress_shapes.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 cJSON *test_read_reference(const char *name) {
     char path[512];
@@ -168,4 +170,8 @@ double test_engine_error(const ps_engine *engine, const ps_problem *problem, ps_
 
 double test_uniform(uint64_t *state) {
     return ps_stress_uniform(state);
+}
+
+double test_own_seconds(void) {
+    return (double)clock() / CLOCKS_PER_SEC / ps_workers_most();
 }

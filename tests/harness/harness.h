@@ -77,4 +77,8 @@ double test_engine_error(const ps_engine *engine, const ps_problem *problem, ps_
 /* Reproducible numbers in [0,1) for tests that must not depend on math/random. */
 double test_uniform(uint64_t *state);
 
+/* Seconds that all processors together have worked for this process: unlike those of the clock they
+ * do not pass faster where other processes are in the way. */
+double test_own_seconds(void);
+
 #endif

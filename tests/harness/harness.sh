@@ -1,6 +1,8 @@
 # shellcheck shell=bash
 # To be sourced by the test of a command: . harness.sh COMMAND PROGRAM. Goes to an empty folder.
 set -euo pipefail
+# shellcheck source=tests/harness/moments.sh
+. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/moments.sh"
 command=$1
 program=$(realpath "$2")
 scratch=$(mktemp -d)

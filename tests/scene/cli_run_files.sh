@@ -14,11 +14,11 @@ refuses_input() { # PART KEY: LINE OF YAML
     printf 'scene: 1\nresults:\n  - result: %s\n    %s\n' "$2" "$3" >input.yaml
     checked=$((checked + 1))
     local code=0
-    timeout 20 "$program" run input.yaml -o refused </dev/null >out 2>err || code=$?
+    timeout 600 "$program" run input.yaml -o refused </dev/null >out 2>err || code=$?
     [[ $code == 2 && $(wc -l <err) == 1 && $(<err) == *"input.yaml:$4"*"$1"* && ! -e refused ]] ||
         complain "exit $code, not \"$1\": $3: $(<err)"
     code=0
-    timeout 20 "$program" plan run input.yaml </dev/null >out 2>err || code=$?
+    timeout 600 "$program" plan run input.yaml </dev/null >out 2>err || code=$?
     [[ $code == 2 && $(<err) == *"input.yaml:$4"*"$1"* ]] || complain "plan: exit $code: $3: $(<err)"
 }
 for file in pipe:pipe link:device /dev/null:device /dev/zero:device /dev/stdin:'' folder:folder empty:empty endless:bytes; do

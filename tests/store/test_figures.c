@@ -235,7 +235,7 @@ static void files(void **state) {
     write_some(path.data, "");
     read_note(folder.data, "empty");
     assert_int_equal(remove(path.data), 0);
-    alarm(60); /* instead of for ever */
+    alarm(600); /* instead of for ever */
     assert_int_equal(mkfifo(path.data, 0600), 0);
     read_note(folder.data, "is no file");
     assert_ok(ps_figures_write(folder.data, &figures, &limits, error));
