@@ -20,7 +20,7 @@ run_stage() { # NAME COMMAND...
     # shellcheck disable=SC2064 # this process
     trap "kill $!" TERM
     wait $! || code=$?
-    times | tail -n 1 >"${log%.log}.time"
+    times >"${log%.log}.time" # of this process, then of its children
     exit $code
 }
 
@@ -33,7 +33,7 @@ end_stage() { # PROCESS CODE
     *) verdict="FAILED, exit code $2" ;;
     esac
     [[ $verdict == ok ]] || failed=1
-    cpu=$(tr 'ms' '  ' <"$folder/$name.time" | awk '{ printf "%.0f", 60 * ($1 + $3) + $2 + $4 }')
+    cpu=$(tail -n 1 "$folder/$name.time" | tr 'ms' '  ' | awk '{ printf "%.0f", 60 * ($1 + $3) + $2 + $4 }')
     all_cpu=$((all_cpu + cpu))
     printf '\n==== %s\n' "$name"
     cat "$folder/$name.log"

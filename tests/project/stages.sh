@@ -40,6 +40,11 @@ code=0
 printf '%s\n' 'a touch a' 'b rm a' 'c test ! -e a' | "$stages" 1 $patience logs >out || code=$?
 [[ $code == 0 ]] || fail "one at a time: $(<out)"
 
+# What computes has used a processor.
+echo "awk 'BEGIN { for (i = 0; i < 1e8; i++) sum += i }'" >busy
+echo "busy bash busy" | "$stages" 1 $patience logs >out || fail "busy: $(<out)"
+grep -qE '^busy +[0-9]+ +[1-9][0-9]*  ok$' out || fail "no time of processors: $(<out)"
+
 # What hangs is ended, and what it started, too.
 mkfifo never
 code=0
