@@ -14,6 +14,8 @@ add_script_test(pages "unit;sources" ${PROJECT_SOURCE_DIR}/scripts/check_pages.s
 add_script_test(library_calls "unit;sources" ${PROJECT_SOURCE_DIR}/scripts/check_library_calls.sh)
 add_script_test(copied_checkout "unit;sources" ${CMAKE_CURRENT_SOURCE_DIR}/project/copied_checkout.sh ${PROJECT_SOURCE_DIR})
 add_script_test(stages "unit;sources" ${CMAKE_CURRENT_SOURCE_DIR}/project/stages.sh ${PROJECT_SOURCE_DIR})
+add_script_test(changed_tests "unit;sources" ${CMAKE_CURRENT_SOURCE_DIR}/project/changed_tests.sh
+  ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR})
 add_script_test(gpu_kernel_tests "unit;sources" ${CMAKE_CURRENT_SOURCE_DIR}/project/gpu_kernel_tests.sh
   ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR})
 # The reference of the header is made without a warning; skipped where there is no doxygen.
