@@ -133,6 +133,11 @@ void ps_device_set_max_allocation(ps_device *device, uint64_t bytes) {
     device->limits.max_allocation_bytes = is_smaller ? bytes : device->own_max_allocation;
 }
 
+void ps_device_set_local_bytes(ps_device *device, uint64_t bytes) {
+    const bool is_smaller = bytes > 0 && bytes < device->own_local_bytes;
+    device->limits.local_bytes = is_smaller ? bytes : device->own_local_bytes;
+}
+
 uint64_t ps_device_most_buffer_bytes(const ps_device *device) {
     return device->most_buffer_bytes;
 }

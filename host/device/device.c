@@ -272,6 +272,7 @@ static pspec_status choose_among(const cl_device_id *devices, size_t num_devices
     device->id = devices[index];
     device->limits = limits[index];
     device->own_max_allocation = limits[index].max_allocation_bytes;
+    device->own_local_bytes = limits[index].local_bytes;
     device->own_unified_memory = limits[index].has_unified_memory;
     return PSPEC_OK;
 }

@@ -125,6 +125,10 @@ void ps_device_set_unified_memory(ps_device *device, bool is_wanted);
  * too: results do not depend on it. */
 void ps_device_set_max_allocation(ps_device *device, uint64_t bytes);
 
+/* The local memory from now on, at most what the device has; 0 restores that. For tests: what is
+ * planned with less runs with less. */
+void ps_device_set_local_bytes(ps_device *device, uint64_t bytes);
+
 /* ---- programs and kernels -------------------------------------------------------------------- */
 
 /* The kernel `name` of source file `source` (below kernels/), built with the -D options given, for

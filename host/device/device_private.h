@@ -17,6 +17,7 @@ enum { PS_PROFILE_ROWS = 64 }; /* more kernels than the product has; further one
 struct ps_device {
     ps_device_limits limits;
     uint64_t own_max_allocation; /* see ps_device_set_max_allocation */
+    uint64_t own_local_bytes;    /* see ps_device_set_local_bytes */
     bool own_unified_memory;     /* see ps_device_set_unified_memory */
     cl_device_id id;
     cl_context context;

@@ -1,7 +1,7 @@
 /* Points of one large set spread on the whole fine grid, as real numbers, a block of rows by each
  * work-group. Launch: (work-items of one group, outer cells * blocks).
  *
- * Rows lie along the last axis; blocks are BLOCK_ROWS cells of the axis before it. In three
+ * Rows lie along the last axis; blocks are block_rows cells of the axis before it. In three
  * dimensions axis 0 is the outer one; in two there is none: outer_n and outer_width are 1.
  *
  *   places, sorted, heights  of nufft/sort.cl, in parts
@@ -10,13 +10,11 @@
  *   outer_window, block_window, last_window  coefficients of nufft/window.h
  *   high, low [outer cell][cell of the block's axis][cell of the last axis]: pairs of numbers, continued unless
  *             is_first; a slab of them, the blocks from first_block on
- *   rows      local, [BLOCK_ROWS][last_n + last_bins]; last_n is a multiple of LANES
+ *   rows      local, [block_rows][last_n + last_bins]; last_n is a multiple of LANES
  *   windows, cells  local, of a chunk: nufft/chunk.h
  */
 #include "nufft/chunk.h"
 #include "shared/pair.h"
-
-#define BLOCK_ROWS 8
 
 /* Rows of a block that a window touches which begins `row_before + 1 - width` rows from the first.
  */
@@ -97,19 +95,19 @@ nufft_grid(const grid_numbers numbers, __global const ulong *restrict places,
     const uint block_n = numbers.block.n, block_width = numbers.block.width;
     const uint last_n = numbers.last.n, last_bins = numbers.last.bins;
     const uint num_parts = numbers.num_parts, dimension = numbers.dimension;
-    const uint first_block = numbers.first_block;
-    const uint num_blocks = (block_n + BLOCK_ROWS - 1) / BLOCK_ROWS;
+    const uint first_block = numbers.first_block, block_rows = numbers.block_rows;
+    const uint num_blocks = (block_n + block_rows - 1) / block_rows;
     const size_t block = first_block + get_global_id(1);
     const uint outer_cell = block / num_blocks;
-    const uint first_row = block % num_blocks * BLOCK_ROWS;
-    const uint num_rows = min((uint)BLOCK_ROWS, block_n - first_row);
+    const uint first_row = block % num_blocks * block_rows;
+    const uint num_rows = min(block_rows, block_n - first_row);
     const window_axis across = make_chunk_window(block_window, numbers.block, dimension - 2);
     const window_axis along = make_chunk_window(last_window, numbers.last, dimension - 1);
     chunk_axes axes = {make_chunk_window(outer_window, numbers.outer, 0), across, along, dimension,
                        0};
     const chunk chunk = make_chunk(windows, cells, across, along);
     const size_t slab_row =
-        first_block / num_blocks * (size_t)block_n + first_block % num_blocks * BLOCK_ROWS;
+        first_block / num_blocks * (size_t)block_n + first_block % num_blocks * block_rows;
     const size_t at = ((size_t)outer_cell * block_n + first_row - slab_row) * last_n;
     for (uint i = get_local_id(0); i < num_rows * (last_n + last_bins); i += get_local_size(0)) {
         rows[i] = 0;

@@ -51,6 +51,8 @@ typedef struct rows_numbers {
 typedef struct grid_numbers {
     window_numbers outer, block, last;
     ps_u32 num_parts, dimension, first_block, is_first;
+    ps_u32 block_rows; /* of a work-group */
+    ps_u32 unused;     /* fills the size up to whole numbers of eight bytes */
 } grid_numbers;
 
 typedef struct first_numbers {
@@ -71,7 +73,7 @@ typedef struct powers_numbers {
 SAME_SIZE(sort_numbers, 48);
 SAME_SIZE(tile_numbers, 64);
 SAME_SIZE(rows_numbers, 80);
-SAME_SIZE(grid_numbers, 64);
+SAME_SIZE(grid_numbers, 72);
 SAME_SIZE(first_numbers, 40);
 SAME_SIZE(powers_numbers, 32);
 

@@ -1,7 +1,7 @@
 #include "engines/torus/nufft/grid.h"
 
 #include "base/round.h"
-#include "engines/nufft/kernels.h"
+#include "engines/torus/nufft/local.h"
 
 #include <stdio.h>
 
@@ -99,22 +99,23 @@ static pspec_status spread_on(ps_nufft_grid *self, uint32_t slab, size_t num_par
     const ps_nufft_plan none = {.coefficients = block->coefficients,
                                 .axis = {.n = 1, .window = {.width = 1}}};
     const ps_nufft_plan *outer = axes == 3 ? &self->plans[0] : &none;
-    const size_t across = ps_divide_up(block->axis.n, PS_NUFFT_BLOCK_ROWS);
+    const size_t block_rows = self->layout->block_rows;
+    const size_t across = ps_divide_up(block->axis.n, block_rows);
     const size_t rows = slab_rows(self->layout, slab);
-    const size_t num_blocks = axes == 3 ? rows * across : ps_divide_up(rows, PS_NUFFT_BLOCK_ROWS);
+    const size_t num_blocks = axes == 3 ? rows * across : ps_divide_up(rows, block_rows);
     const size_t first_row = (size_t)slab * self->layout->slab_rows;
-    const size_t first_block = axes == 3 ? first_row * across : first_row / PS_NUFFT_BLOCK_ROWS;
+    const size_t first_block = axes == 3 ? first_row * across : first_row / block_rows;
     const double flops = 2.0 * (double)num_points * outer->axis.window.width *
                          block->axis.window.width * last->bins * (double)rows /
                          self->plans[0].axis.n;
     const ps_range range = ps_nufft_group_range(self->device, num_blocks, 1, flops);
-    const size_t row_bytes = (last->axis.n + last->bins) * self->layout->real_bytes;
-    const size_t windows = PS_NUFFT_CHUNK * (block->bins + last->bins + 3);
+    const ps_nufft_local local = ps_nufft_grid_local(self->layout);
     const grid_numbers numbers = {.outer = ps_nufft_window_numbers(outer),
                                   .block = ps_nufft_window_numbers(block),
                                   .last = ps_nufft_window_numbers(last),
                                   .num_parts = (uint32_t)num_parts,
                                   .dimension = axes,
+                                  .block_rows = self->layout->block_rows,
                                   .first_block = (uint32_t)first_block,
                                   .is_first = self->is_empty ? 1 : 0};
     return PS_LAUNCH(self->device, self->spread, &range, error, PS_STRUCT(numbers),
@@ -122,9 +123,8 @@ static pspec_status spread_on(ps_nufft_grid *self, uint32_t slab, size_t num_par
                      PS_BUFFER(self->places->heights), PS_BUFFER(self->places->starts),
                      PS_BUFFER(outer->coefficients), PS_BUFFER(block->coefficients),
                      PS_BUFFER(last->coefficients), PS_BUFFER(self->high[slab]),
-                     PS_BUFFER(self->low[slab]), PS_LOCAL(PS_NUFFT_BLOCK_ROWS * row_bytes),
-                     PS_LOCAL(windows * self->layout->real_bytes),
-                     PS_LOCAL(2 * PS_NUFFT_CHUNK * sizeof(uint32_t)));
+                     PS_BUFFER(self->low[slab]), PS_LOCAL(local.rows), PS_LOCAL(local.windows),
+                     PS_LOCAL(local.cells));
 }
 
 static pspec_status spread(ps_nufft_grid *self, size_t num_parts, size_t num_points,

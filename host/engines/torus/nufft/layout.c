@@ -3,8 +3,9 @@
 #include "base/round.h"
 #include "device/kind.h"
 #include "device/reals.h"
-#include "engines/nufft/kernels.h"
 #include "engines/nufft/choose.h"
+#include "engines/nufft/kernels.h"
+#include "engines/torus/nufft/local.h"
 
 #include <math.h>
 
@@ -13,9 +14,6 @@
 static const double work_share = 0.25;
 static const double gpu_work_bytes = 512.0 * 1024 * 1024;
 enum { MOST_AT_ONCE = 1024 };
-
-/* How much each point of a chunk turns, kernels/nufft/spread.h. */
-enum { TURN_REALS = 2 * PS_NUFFT_CHUNK };
 
 static uint64_t starts_bytes(const ps_nufft_layout *layout) {
     return ((uint64_t)layout->num_keys + 2) * sizeof(uint32_t);
@@ -135,7 +133,7 @@ static void split_grid(ps_nufft_layout *layout, uint64_t limit) {
     enum { STRIPS = 16 };
     const uint64_t n = layout->choice.axes[0].n;
     const uint64_t columns = layout->grid_reals / n;
-    const uint64_t unit = layout->choice.num_axes == 2 ? PS_NUFFT_BLOCK_ROWS : 1;
+    const uint64_t unit = layout->choice.num_axes == 2 ? layout->block_rows : 1;
     const uint64_t lanes = 2 * layout->lanes;
     const uint64_t tile_rows = columns * lanes * layout->real_bytes;
     const uint64_t tile_transformed =
@@ -181,17 +179,6 @@ static void measure_grid(ps_nufft_layout *layout, const ps_problem *problem, uin
                                  : largest_of(buffers, sizeof buffers / sizeof buffers[0]);
 }
 
-/* A tile takes its row, and how much each point of a chunk turns. */
-static size_t tile_bytes(const ps_nufft_layout *layout) {
-    return layout->row_bytes + TURN_REALS * layout->real_bytes;
-}
-
-/* Counts what a chunk takes without its turns. */
-static size_t chunk_bytes(const ps_nufft_layout *layout) {
-    return layout->chunk_reals * layout->real_bytes +
-           PS_NUFFT_CHUNK * (sizeof(uint64_t) + sizeof(uint32_t));
-}
-
 /* Tiles of a work-group share windows and phases. One on GPUs, where there is little local memory;
  * on CPUs what it holds, in groups of equal size, but work for all cores. */
 static uint32_t choose_group(const ps_nufft_layout *layout, const ps_problem *problem,
@@ -199,9 +186,8 @@ static uint32_t choose_group(const ps_nufft_layout *layout, const ps_problem *pr
     if (limits->has_dedicated_local_memory) {
         return 1;
     }
-    const size_t room = (limits->local_bytes - chunk_bytes(layout)) / tile_bytes(layout);
-    const uint32_t largest = room > 1 ? (uint32_t)room : 1;
-    uint64_t groups = ps_divide_up(layout->num_tiles, largest);
+    uint64_t groups =
+        ps_divide_up(layout->num_tiles, ps_nufft_fitting_tiles(layout, limits->local_bytes));
     const bool has_one = problem->num_realizations == 1 && layout->choice.num_axes == 1;
     const size_t cores = ps_device_typical(limits).served_units;
     groups = has_one && groups < cores ? cores : groups;
@@ -222,12 +208,6 @@ static uint64_t whole_table_bytes(const ps_nufft_layout *layout) {
     const uint64_t cells = (uint64_t)choice->lengths[0] + choice->lengths[1];
     const uint64_t reals = layout->stride + turns + 2 * cells;
     return reals * layout->real_bytes + cells * sizeof(uint32_t) + choice->num_axes * SMALL;
-}
-
-static bool fits_whole(const ps_nufft_layout *layout, const ps_device_limits *limits) {
-    return layout->whole.window_reals * layout->real_bytes +
-               2 * PS_NUFFT_CHUNK * sizeof(uint32_t) <=
-           limits->local_bytes;
 }
 
 /* Points on the host and on the device, grids and rows of the work-groups, tables. Parts are
@@ -258,7 +238,7 @@ static void measure_whole(ps_nufft_layout *layout, const ps_problem *problem,
     uint32_t kept[2];
     ps_nufft_whole_kept(choice, kept);
     layout->whole = ps_nufft_whole_measure(choice, layout->lanes);
-    while (layout->lanes > 0 && !fits_whole(layout, limits)) {
+    while (layout->lanes > 0 && ps_nufft_local_bytes(layout) > limits->local_bytes) {
         layout->lanes /= 2;
         layout->whole =
             layout->lanes > 0 ? ps_nufft_whole_measure(choice, layout->lanes) : layout->whole;
@@ -278,7 +258,7 @@ static void measure_whole(ps_nufft_layout *layout, const ps_problem *problem,
 static bool measure_rows(ps_nufft_layout *layout, const ps_problem *problem,
                          const ps_device_limits *limits) {
     measure_axes(layout);
-    while (layout->lanes > 0 && tile_bytes(layout) + chunk_bytes(layout) > limits->local_bytes) {
+    while (layout->lanes > 0 && ps_nufft_fitting_tiles(layout, limits->local_bytes) < 1) {
         layout->lanes /= 2;
         measure_axes(layout);
     }
@@ -286,7 +266,6 @@ static bool measure_rows(ps_nufft_layout *layout, const ps_problem *problem,
         return false;
     }
     layout->group = choose_group(layout, problem, limits);
-    layout->chunk_reals += layout->group * TURN_REALS;
     layout->bytes_per_realization = layout->stride * layout->real_bytes;
     layout->largest_buffer_per_realization = layout->bytes_per_realization;
     return true;
@@ -306,10 +285,22 @@ static void measure_tiles(ps_nufft_layout *layout, const ps_problem *problem,
     }
 }
 
+/* Rows of a block, as many as local memory has room for; false: it has no room for one. Bits and
+ * choices do not depend on them, and not the cost by which engines are compared: where rows are so
+ * long, transforms take most of the time. */
+static bool choose_block_rows(ps_nufft_layout *layout, const ps_device_limits *limits) {
+    layout->block_rows = PS_NUFFT_BLOCK_ROWS;
+    while (layout->block_rows > 0 && ps_nufft_local_bytes(layout) > limits->local_bytes) {
+        layout->block_rows /= 2;
+    }
+    layout->lanes = layout->block_rows > 0 ? layout->lanes : 0;
+    return layout->lanes > 0;
+}
+
 static void measure_large(ps_nufft_layout *layout, const ps_problem *problem,
                           const ps_device_limits *limits) {
     const uint64_t most = layout->choice.chunk / PS_NUFFT_MOST_PARTS;
-    if (measure_rows(layout, problem, limits)) {
+    if (measure_rows(layout, problem, limits) && choose_block_rows(layout, limits)) {
         set_part_points(layout, problem->num_points < most ? problem->num_points : most);
         measure_grid(layout, problem, limits->max_allocation_bytes);
         layout->host_bytes = host_point_bytes(layout, problem, limits) * layout->part_places;

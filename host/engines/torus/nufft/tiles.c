@@ -4,6 +4,7 @@
 #include "base/round.h"
 #include "device/reals.h"
 #include "engines/nufft/kernels.h"
+#include "engines/torus/nufft/local.h"
 #include "math/pi.h"
 
 #include <math.h>
@@ -85,7 +86,7 @@ static size_t row_bytes(const ps_nufft_tiles *self, const ps_nufft_axis *axis) {
 /* Local memory of a work-group, as kernels/nufft/spread.h has it. */
 #define LOCAL_ARGUMENTS(self, axis)                                                                \
     PS_LOCAL((self)->layout->group *row_bytes(self, axis)),                                        \
-        PS_LOCAL((self)->layout->chunk_reals *(self)->layout->real_bytes),                         \
+        PS_LOCAL(ps_nufft_chunk_reals((self)->layout) * (self)->layout->real_bytes),               \
         PS_LOCAL(PS_NUFFT_CHUNK * sizeof(uint64_t)), PS_LOCAL(PS_NUFFT_CHUNK * sizeof(uint32_t))
 
 static size_t num_groups(const ps_nufft_tiles *self) {

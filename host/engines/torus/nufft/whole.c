@@ -2,7 +2,7 @@
 
 #include "base/memory.h"
 #include "device/reals.h"
-#include "engines/nufft/kernels.h"
+#include "engines/torus/nufft/local.h"
 #include "math/pi.h"
 #include "nufft/whole.h"
 
@@ -189,6 +189,7 @@ pspec_status ps_nufft_whole_run(ps_nufft_whole *whole, size_t num_realizations,
     const whole_numbers numbers =
         numbers_of(whole, across, along, num_realizations, target->realization);
     const ps_range range = range_of(whole, num_realizations, whole->num_points);
+    const ps_nufft_local local = ps_nufft_whole_local(whole->layout);
     return PS_LAUNCH(whole->device, whole->kernel, &range, error, PS_STRUCT(numbers),
                      PS_BUFFER(whole->points.points), PS_BUFFER(whole->points.weights),
                      PS_BUFFER(whole->points.offsets), PS_BUFFER(across->coefficients),
@@ -196,7 +197,5 @@ pspec_status ps_nufft_whole_run(ps_nufft_whole *whole, size_t num_realizations,
                      WHOLE_TRANSFORM(&whole->transforms[1]), PS_BUFFER(whole->lane_turns),
                      PS_BUFFER(whole->tile_turns), PS_BUFFER(whole->gains), PS_BUFFER(*means),
                      PS_BUFFER(*target->scales), PS_BUFFER(*target->power), PS_BUFFER(whole->grids),
-                     PS_BUFFER(whole->rows),
-                     PS_LOCAL(whole->layout->whole.window_reals * whole->layout->real_bytes),
-                     PS_LOCAL(2 * PS_NUFFT_CHUNK * sizeof(uint32_t)));
+                     PS_BUFFER(whole->rows), PS_LOCAL(local.windows), PS_LOCAL(local.cells));
 }

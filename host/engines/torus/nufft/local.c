@@ -1,0 +1,67 @@
+#include "engines/torus/nufft/local.h"
+
+#include "engines/nufft/kernels.h"
+
+/* How much each point of a chunk turns, kernels/nufft/spread.h. */
+enum { TURN_REALS = 2 * PS_NUFFT_CHUNK };
+
+size_t ps_nufft_chunk_reals(const ps_nufft_layout *layout) {
+    return layout->chunk_reals + layout->group * TURN_REALS;
+}
+
+static size_t tiles_and_chunk(const ps_nufft_layout *layout, size_t num_tiles) {
+    const size_t tile = layout->row_bytes + TURN_REALS * layout->real_bytes;
+    const size_t chunk = layout->chunk_reals * layout->real_bytes +
+                         PS_NUFFT_CHUNK * (sizeof(uint64_t) + sizeof(uint32_t));
+    return num_tiles * tile + chunk;
+}
+
+size_t ps_nufft_fitting_tiles(const ps_nufft_layout *layout, uint64_t local_bytes) {
+    const size_t chunk = tiles_and_chunk(layout, 0);
+    const size_t tile = tiles_and_chunk(layout, 1) - chunk;
+    return local_bytes > chunk ? (size_t)(local_bytes - chunk) / tile : 0;
+}
+
+static const size_t cells_bytes = 2 * PS_NUFFT_CHUNK * sizeof(uint32_t);
+
+ps_nufft_local ps_nufft_grid_local(const ps_nufft_layout *layout) {
+    const ps_nufft_choice *choice = &layout->choice;
+    const ps_nufft_axis *block = &choice->axes[choice->num_axes - 2];
+    const ps_nufft_axis *last = &choice->axes[choice->num_axes - 1];
+    const size_t bins = ps_nufft_bins(last);
+    return (ps_nufft_local){.rows = layout->block_rows * (last->n + bins) * layout->real_bytes,
+                            .windows = PS_NUFFT_CHUNK * (ps_nufft_bins(block) + bins + 3) *
+                                       layout->real_bytes,
+                            .cells = cells_bytes};
+}
+
+ps_nufft_local ps_nufft_whole_local(const ps_nufft_layout *layout) {
+    return (ps_nufft_local){.windows = layout->whole.window_reals * layout->real_bytes,
+                            .cells = cells_bytes};
+}
+
+static size_t sum(ps_nufft_local local) {
+    return local.rows + local.windows + local.cells;
+}
+
+static size_t whole_bytes(const ps_nufft_layout *layout) {
+    return sum(ps_nufft_whole_local(layout));
+}
+
+static size_t tiles_bytes(const ps_nufft_layout *layout) {
+    return tiles_and_chunk(layout, layout->group);
+}
+
+/* Transforms have a row. */
+static size_t large_bytes(const ps_nufft_layout *layout) {
+    const size_t spread = sum(ps_nufft_grid_local(layout));
+    return spread > layout->row_bytes ? spread : layout->row_bytes;
+}
+
+size_t ps_nufft_local_bytes(const ps_nufft_layout *layout) {
+    static size_t (*const bytes[PS_NUFFT_NUM_WAYS])(const ps_nufft_layout *) = {
+        [PS_NUFFT_TILES] = tiles_bytes,
+        [PS_NUFFT_LARGE] = large_bytes,
+        [PS_NUFFT_WHOLE] = whole_bytes};
+    return bytes[ps_nufft_way_of(&layout->choice)](layout);
+}
