@@ -61,7 +61,8 @@ typedef struct ps_work {
     double product_flops; /* additions and multiplications of products of tables */
     /* What a device at its peak would do while spreading and transforming */
     double transform_flops;
-    double harmonics;             /* (point, degree, order) triples, orders from 0 on */
+    double harmonics;             /* (point, degree, order) triples, orders from 0 on, and what
+                                     begins and ends them in units of the same time */
     double pair_degrees;          /* (pair of points, degree), each pair once */
     double binned_pairs;          /* pairs of points put into a histogram */
     double launches;              /* kernel launches */

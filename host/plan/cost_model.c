@@ -11,14 +11,15 @@ static const struct {
     double phases_per_flop; /* cosine-sine pairs per nominal flop: torus/list.cl with its table */
     double product_share;   /* share of the nominal peak that torus/product.cl reaches */
     double transform_share; /* share of its cycles that nufft/ takes */
-    double harmonics_per_flop; /* (point, degree, order) triples per nominal flop: sphere/sums.cl */
+    double harmonics_per_flop; /* (point, degree, order) triples per nominal flop: sphere/sums.cl,
+                                  on 2 cores of an EPYC with AVX2 */
     /* pairs/sums.cl and histogram.cl, per nominal flop: on 2 cores of a EPYC with AVX2,
      * bench_pairs, 2026-11 */
     double pair_degrees_per_flop; /* (pair, degree) */
     double pairs_per_flop;        /* pairs into a histogram */
 } device_rates[2] = {
-    [PS_SINGLE] = {0.010, 1.15, 1.0, 0.024, 0.114, 0.005},
-    [PS_DOUBLE] = {0.0133, 1.14, 1.0, 0.026, 0.113, 0.005},
+    [PS_SINGLE] = {0.010, 1.15, 1.0, 0.056, 0.114, 0.005},
+    [PS_DOUBLE] = {0.0133, 1.14, 1.0, 0.053, 0.113, 0.005},
 };
 
 /* Long double cosine and sine of one (point, frequency) pair on one core, same machine. */

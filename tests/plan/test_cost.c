@@ -4,6 +4,7 @@
 
 #include "engines/nufft/choose.h"
 #include "engines/nufft/cost.h"
+#include "engines/sphere/sphere_direct.h"
 #include "plan/cost_model.h"
 
 #include <math.h>
@@ -121,6 +122,71 @@ static void cost_grows_with_the_problem(void **state) {
     }
 }
 
+/* ---- direct sums of the sphere --------------------------------------------------------------- */
+
+static double harmonics_of(int32_t max_degree, uint64_t num_points, uint64_t num_realizations) {
+    const ps_device_limits limits = test_cpu();
+    ps_frequencies degrees = {0};
+    assert_ok(ps_frequencies_degrees(&degrees, max_degree, false, error));
+    ps_problem problem = test_problem(&degrees, num_points, 1e-4);
+    problem.num_realizations = num_realizations;
+    const double found = ps_sphere_direct.survey(&problem, &limits, PS_SINGLE).work.harmonics;
+    ps_frequencies_free(&degrees);
+    return found;
+}
+
+/* The kernel walks up blocks of 8 degrees, whatever there is of them, and points come to the device
+ * before: few degrees cost far more than their (L + 1)(L + 2) / 2 harmonics of a point, many nearly
+ * those. */
+static void few_degrees_cost_whole_blocks(void **state) {
+    (void)state;
+    const double points = 1024;
+    assert_true(harmonics_of(4, 1024, 1000) >= 1000 * points * 5 * 8);
+    assert_true(harmonics_of(4, 1024, 1000) >= 1000 * points * 10 * 15);
+    assert_true(harmonics_of(9, 1024, 1000) >= 1000 * points * 12 * 8);
+    const double many = 1001.0 * 1002 / 2;
+    assert_true(harmonics_of(1000, 1024, 1000) <= 1.2 * 1000 * points * many);
+}
+
+/* One realization of up to 16 orders is one work-item: the other core of the typical CPU waits. */
+static void one_item_has_one_core(void **state) {
+    (void)state;
+    const double alone = harmonics_of(12, 1 << 20, 1);
+    assert_true(alone > 0.6 * harmonics_of(12, 1 << 20, 2));
+    assert_true(harmonics_of(12, 1 << 20, 1000) < 1000 * alone);
+}
+
+/* The table of the host is most of what few points cost at large degrees: one, and one for every
+ * realization where it does not fit into memory as a whole. */
+static void tables_are_counted(void **state) {
+    (void)state;
+    const double degrees = 32768;
+    assert_true(harmonics_of(32768, 2, 1) > 100 * degrees * degrees / 2);
+    assert_true(harmonics_of(32768, 2, 10) > 9 * harmonics_of(32768, 2, 1));
+    assert_true(harmonics_of(500, 2, 10) < 9 * harmonics_of(500, 2, 1));
+}
+
+/* Transforms are for many points, direct sums for few, at few degrees, too. */
+static void choice_at_few_degrees(void **state) {
+    (void)state;
+    static const struct {
+        int32_t max_degree;
+        uint64_t num_points;
+        bool is_direct;
+    } cases[] = {{4, 1024, false}, {8, 256, false}, {16, 16, true}, {256, 16, true}};
+    const ps_device_limits limits = test_cpu();
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        ps_frequencies degrees = {0};
+        ps_plan plan;
+        assert_ok(ps_frequencies_degrees(&degrees, cases[i].max_degree, false, error));
+        ps_problem problem = test_problem(&degrees, cases[i].num_points, 1e-4);
+        problem.num_realizations = 1000;
+        test_make_plan(&plan, &problem, &limits, &test_any_plan);
+        assert_true((plan.chosen->engine == &ps_sphere_direct) == cases[i].is_direct);
+        ps_frequencies_free(&degrees);
+    }
+}
+
 /* ---- parts of fast transforms -------------------------------------------------------------- */
 
 /* Every part that has cycles is counted somewhere: tiles in two and three dimensions, a large grid,
@@ -162,6 +228,10 @@ int main(void) {
         cmocka_unit_test(limit_of_the_user),
         cmocka_unit_test(batches),
         cmocka_unit_test(cost_grows_with_the_problem),
+        cmocka_unit_test(few_degrees_cost_whole_blocks),
+        cmocka_unit_test(one_item_has_one_core),
+        cmocka_unit_test(tables_are_counted),
+        cmocka_unit_test(choice_at_few_degrees),
         cmocka_unit_test(every_part_is_counted),
     };
     return cmocka_run_group_tests_name("cost", tests, NULL, NULL);

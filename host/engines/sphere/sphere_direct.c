@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/round.h"
 #include "device/reals.h"
+#include "engines/sphere/sphere_cost.h"
 #include "engines/sphere/sphere_error.h"
 #include "engines/sphere/sphere_layout.h"
 #include "engines/sphere/sphere_points.h"
@@ -28,22 +29,19 @@ typedef struct sphere_direct {
     long double *constants; /* [L + 1] of the orders */
     double *host_table;     /* [pass_blocks][PS_SPHERE_BLOCK_REALS] */
     uint32_t *host_blocks;  /* [pass_orders] */
-    void *host_rows; /* one realization's sums of an order, or powers, as the device has them */
-    double *power;   /* [batch][number of degrees] */
+    void *host_rows;        /* sums of an order, or powers of a batch, as the device has them */
+    double *power;          /* [batch][number of degrees] */
     ps_buffer table, blocks, sums, powers;
 } sphere_direct;
 
 /* ---- what the planner asks --------------------------------------------------------------- */
 
-static ps_work work_of(const ps_sphere_layout *layout, const ps_problem *problem) {
-    const double realizations =
-        problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
-    const double points = (double)ps_round_up(problem->num_points, layout->lanes) * realizations;
-    const double orders = layout->max_degree + 1.0;
+static ps_work work_of(const ps_sphere_layout *layout, const ps_problem *problem,
+                       const ps_device_limits *limits) {
     const double slabs = ceil((double)problem->num_points / (double)layout->slab);
     const double launches = 2 * slabs + 1;
     const double kernels = 3; /* vectors, sums, powers */
-    return (ps_work){.harmonics = points * orders * (orders + 1) / 2,
+    return (ps_work){.harmonics = ps_sphere_harmonics(layout, problem, limits),
                      .kernels = kernels,
                      .launches = launches * (double)layout->num_passes,
                      .fixed_bytes = layout->fixed_bytes,
@@ -65,7 +63,7 @@ static ps_survey survey(const ps_problem *problem, const ps_device_limits *limit
     if (layout.largest_buffer > most || layout.largest_buffer_per_realization > most) {
         result.why_not = "needs a larger buffer than the device allows";
     }
-    result.work = work_of(&layout, problem);
+    result.work = work_of(&layout, problem, limits);
     result.error = ps_sphere_error(problem, precision, ps_expected_power(problem));
     return result;
 }
@@ -122,13 +120,15 @@ out:
 static pspec_status allocate_on_host(sphere_direct *self, ps_error *error) {
     const ps_sphere_layout *layout = &self->layout;
     const size_t num = self->problem.frequencies->num;
+    const size_t powers = self->batch * PS_SPHERE_POWERS;
+    const size_t rows = powers > PS_SPHERE_SUMS ? powers : PS_SPHERE_SUMS;
     PS_TRY(
         PS_NEW(&self->constants, (size_t)layout->max_degree + 1, "constants of the orders", error));
     PS_TRY(PS_NEW(&self->host_table, layout->pass_blocks * PS_SPHERE_BLOCK_REALS,
                   "a table of Legendre functions", error));
     PS_TRY(PS_NEW(&self->host_blocks, layout->pass_orders, "places of orders", error));
-    PS_TRY(ps_allocate(&self->host_rows, PS_SPHERE_SUMS * layout->stride, layout->real_bytes,
-                       "sums of an order", error));
+    PS_TRY(ps_allocate(&self->host_rows, rows * layout->stride, layout->real_bytes,
+                       "powers of a batch", error));
     PS_TRY(PS_NEW(&self->power, self->batch * num, "the powers of a batch", error));
     self->constants[0] = sqrtl(1 / PS_FOUR_PI_L);
     for (int32_t m = 1; m <= layout->max_degree; m++) {
@@ -299,17 +299,18 @@ static pspec_status read_order(sphere_direct *self, size_t order, int32_t m, boo
     return PSPEC_OK;
 }
 
-/* Q(l) = (4 pi / (2l + 1)) (|c_l0|^2 + 2 sum_{m > 0} |c_lm|^2). */
+/* Q(l) = (4 pi / (2l + 1)) (|c_l0|^2 + 2 sum_{m > 0} |c_lm|^2). Of the whole batch in one go: with
+ * few degrees a read of every row took ten times as long as the sums. */
 static pspec_status read_powers(sphere_direct *self, const ps_batch *batch, ps_error *error) {
     const ps_frequencies *set = self->problem.frequencies;
     const size_t stride = self->layout.stride;
-    const size_t bytes = PS_SPHERE_POWERS * stride * self->layout.real_bytes;
+    const size_t row = PS_SPHERE_POWERS * stride;
+    PS_TRY(ps_buffer_read(self->device, &self->powers, 0, self->host_rows,
+                          batch->num_patterns * row * self->layout.real_bytes, error));
     for (size_t r = 0; r < batch->num_patterns; r++) {
-        PS_TRY(
-            ps_buffer_read(self->device, &self->powers, r * bytes, self->host_rows, bytes, error));
         for (size_t i = 0; i < set->num; i++) {
             const size_t l = (size_t)set->vectors[i];
-            const double half = real_at(self, l) + real_at(self, stride + l);
+            const double half = real_at(self, r * row + l) + real_at(self, r * row + stride + l);
             self->power[r * set->num + i] =
                 2 * PS_FOUR_PI / (2 * (double)l + 1) * half * batch->scales[r];
         }

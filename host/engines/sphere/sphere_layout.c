@@ -54,8 +54,8 @@ static void count_bytes(ps_sphere_layout *layout) {
     const double table = (double)(layout->pass_blocks * PS_SPHERE_BLOCK_REALS) * real_bytes +
                          (double)(layout->pass_orders * sizeof(uint32_t));
     layout->largest_buffer = table;
-    layout->fixed_bytes = 2 * table; /* on the host, too */
-    layout->bytes_per_realization = sums + powers + points;
+    layout->fixed_bytes = 2 * table;                            /* on the host, too */
+    layout->bytes_per_realization = sums + 2 * powers + points; /* powers on the host, too */
     layout->point_bytes = (double)layout->slab * (PS_SPHERE_DIMENSION + 1) * sizeof(double);
     layout->largest_buffer_per_realization = sums > points ? sums : points;
 }

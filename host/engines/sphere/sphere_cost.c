@@ -1,0 +1,40 @@
+#include "engines/sphere/sphere_cost.h"
+
+#include "base/round.h"
+#include "device/kind.h"
+#include "engines/sphere/sphere_table.h"
+
+#include <math.h>
+
+/* In harmonics (0.23 and 0.48 nanoseconds of a core): an order of a point begins; a point comes to
+ * the device and is prepared; a block of degrees of a realization ends, lanes are added up and
+ * squared; a block of the table is made on the host. Least squares of the CPU time of realizations
+ * of 2 to 4096 points at L = 1 to 4096, within 1.5 of each (bench_choice; 2 cores of a Zen 3 EPYC,
+ * AVX2, PoCL 3.1, 2026-11). What one core of the host does while the others wait counts twice. */
+static const struct {
+    double order, point, block, table;
+} costs[2] = {[PS_SINGLE] = {7, 260, 300, 1300}, [PS_DOUBLE] = {9, 110, 130, 400}};
+
+/* How much longer the device takes because work-items are not shared out evenly: one realization of
+ * few orders has one, which has one core. */
+static double idle_factor(double items, const ps_device_limits *limits) {
+    const double units = ps_device_typical(limits).compute_units;
+    return ceil(items / units) * units / items;
+}
+
+double ps_sphere_harmonics(const ps_sphere_layout *layout, const ps_problem *problem,
+                           const ps_device_limits *limits) {
+    const double realizations =
+        problem->num_realizations > 0 ? (double)problem->num_realizations : 1;
+    const size_t orders = (size_t)layout->max_degree + 1;
+    const double blocks = (double)ps_sphere_all_blocks(layout->max_degree, 0, orders, NULL);
+    const double points = (double)ps_round_up(problem->num_points, layout->lanes);
+    const double items = (double)ps_divide_up(orders, PS_SPHERE_ORDERS) * realizations;
+    const double tables = layout->num_passes == 1 ? 1 : realizations; /* made for every batch */
+    const double sums =
+        points * (PS_SPHERE_DEGREES * blocks + costs[layout->precision].order * (double)orders) +
+        costs[layout->precision].block * blocks;
+    return realizations * (sums * idle_factor(items, limits) +
+                           costs[layout->precision].point * (double)problem->num_points) +
+           tables * costs[layout->precision].table * blocks;
+}

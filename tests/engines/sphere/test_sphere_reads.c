@@ -1,0 +1,71 @@
+/* sphere_direct reads the powers of a batch in one go: a read of its own for every realization took
+ * ten times as long as the sums of few points and degrees. */
+#include "harness.h"
+
+#include "engines/sphere/sphere_direct.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static ps_device *device;
+
+/* Linked in the place of clEnqueueReadBuffer (tests/CMakeLists.txt). */
+static size_t num_reads;
+cl_int __real_clEnqueueReadBuffer(cl_command_queue queue, cl_mem buffer, cl_bool is_blocking,
+                                  size_t offset, size_t bytes, void *to, cl_uint num_events,
+                                  const cl_event *events, cl_event *event);
+cl_int __wrap_clEnqueueReadBuffer(cl_command_queue queue, cl_mem buffer, cl_bool is_blocking,
+                                  size_t offset, size_t bytes, void *to, cl_uint num_events,
+                                  const cl_event *events, cl_event *event);
+cl_int __wrap_clEnqueueReadBuffer(cl_command_queue queue, cl_mem buffer, cl_bool is_blocking,
+                                  size_t offset, size_t bytes, void *to, cl_uint num_events,
+                                  const cl_event *events, cl_event *event) {
+    num_reads++;
+    return __real_clEnqueueReadBuffer(queue, buffer, is_blocking, offset, bytes, to, num_events,
+                                      events, event);
+}
+
+enum { REALIZATIONS = 40, POINTS = 3, DEGREE = 5 };
+
+static void make_points(double *points) {
+    uint64_t random = 11;
+    for (size_t j = 0; j < (size_t)REALIZATIONS * POINTS; j++) {
+        const double z = 2 * test_uniform(&random) - 1;
+        const double angle = 6 * test_uniform(&random);
+        points[3 * j] = sqrt(1 - z * z) * cos(angle);
+        points[3 * j + 1] = sqrt(1 - z * z) * sin(angle);
+        points[3 * j + 2] = z;
+    }
+}
+
+/* One read of 40 realizations, and the bits of 40 batches. */
+static void one_read_of_a_batch(void **state) {
+    (void)state;
+    ps_frequencies degrees = {0};
+    double points[3 * REALIZATIONS * POINTS];
+    pspec_pattern patterns[REALIZATIONS];
+    make_points(points);
+    for (size_t r = 0; r < REALIZATIONS; r++) {
+        patterns[r] = (pspec_pattern){3, POINTS, points + 3 * POINTS * r, NULL};
+    }
+    assert_ok(ps_frequencies_degrees(&degrees, DEGREE, false, error));
+    assert_ok(ps_frequencies_enumerate(&degrees, error));
+    num_reads = 0;
+    double *together = test_run_engine(&ps_sphere_direct, PS_SINGLE, device, &degrees, patterns,
+                                       REALIZATIONS, REALIZATIONS);
+    assert_int_equal(num_reads, 1);
+    double *alone =
+        test_run_engine(&ps_sphere_direct, PS_SINGLE, device, &degrees, patterns, REALIZATIONS, 1);
+    assert_memory_equal(together, alone, REALIZATIONS * degrees.num * sizeof(double));
+    free(together);
+    free(alone);
+    ps_frequencies_free(&degrees);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(one_read_of_a_batch)};
+    device = test_open_device();
+    const int failures = cmocka_run_group_tests_name("sphere_reads", tests, NULL, NULL);
+    ps_device_close(device);
+    return failures;
+}
