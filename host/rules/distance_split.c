@@ -195,19 +195,28 @@ static pspec_status fill(ps_distance_split *split, ps_error *error) {
     return ps_cells_fill(&split->cells, split->rule, error);
 }
 
-pspec_status ps_distance_split_create(ps_distance_split **out, const ps_rule *rule, bool *pays,
-                                      ps_error *error) {
-    const double num = (double)rule->num_points;
+/* Cells, and pairs of them that are only counted. */
+static pspec_status begin(ps_distance_split **out, const ps_rule *rule, ps_error *error) {
     PS_TRY(PS_NEW(out, 1, "a sum of pairs", error));
     (*out)->rule = rule;
     PS_TRY(ps_cells_create(&(*out)->cells, rule, error));
     meet_faces(*out);
-    const bool is_less = (*out)->cells.largest <= LARGEST_LEAF &&
-                         (*out)->num_distances <= share_that_pays * num * num / 2;
+    return PSPEC_OK;
+}
+
+static bool is_less(const ps_distance_split *split) {
+    const double num = (double)split->rule->num_points;
+    return split->cells.largest <= LARGEST_LEAF &&
+           split->num_distances <= share_that_pays * num * num / 2;
+}
+
+pspec_status ps_distance_split_create(ps_distance_split **out, const ps_rule *rule, bool *pays,
+                                      ps_error *error) {
+    PS_TRY(begin(out, rule, error));
     if (pays != NULL) {
-        *pays = is_less;
+        *pays = is_less(*out);
     }
-    return is_less || pays == NULL ? fill(*out, error) : PSPEC_OK;
+    return pays == NULL || *pays ? fill(*out, error) : PSPEC_OK;
 }
 
 void ps_distance_split_destroy(ps_distance_split *split) {
@@ -225,6 +234,21 @@ double ps_distance_count(double num_points) {
     const double each = 8500;
     const double whole = num_points * num_points / 2;
     return num_points > PS_DISTANCE_MOST_WHOLE ? fmin(each * num_points, whole) : whole;
+}
+
+pspec_status ps_distance_count_of(const ps_rule *rule, double *num_distances, ps_error *error) {
+    const double num = (double)rule->num_points;
+    ps_distance_split *split = NULL;
+    *num_distances = num * num / 2;
+    if (rule->num_points <= PS_DISTANCE_MOST_WHOLE) {
+        return PSPEC_OK;
+    }
+    const pspec_status status = begin(&split, rule, error);
+    if (status == PSPEC_OK && is_less(split)) {
+        *num_distances = split->num_distances;
+    }
+    ps_distance_split_destroy(split);
+    return status;
 }
 
 uint64_t ps_distance_bytes(uint64_t num_points) {

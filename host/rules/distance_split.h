@@ -36,6 +36,10 @@ pspec_status ps_distance_split_sum(ps_distance_split *split, double smoothness,
 /* How many distances are computed for so many points: all pairs, or what the split leaves of them
  * for points that are spread out. */
 double ps_distance_count(double num_points);
+/* The same for points that are known: where many are in one place all pairs are left. Takes as long
+ * as sorting them. */
+pspec_status ps_distance_count_of(const ps_rule *rule, double *num_distances,
+                                  ps_error *error) PS_MUST_CHECK;
 /* Bytes that ps_rule_distance takes at most for points that are spread out. */
 uint64_t ps_distance_bytes(uint64_t num_points);
 

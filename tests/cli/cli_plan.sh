@@ -41,6 +41,18 @@ few=$(phase "worst-case error")
 plan quadrature --brdf diffuse --sampler fibonacci-hemisphere -n 200000
 is_about "$(awk -v a="$few" 'BEGIN { print 2 * a }')" "$(phase "worst-case error")" 1.02 || complain "pairs: $few $(<plan.csv)"
 
+# points of a file that are in one place: all their pairs, which nothing splits
+awk 'BEGIN { for (i = 0; i < 40000; i++) print "0 0 1" }' >place.txt
+plan quadrature --brdf diffuse --columns xyz place.txt
+grep -q '^# phase: worst-case error; .*; 8e+08 distances' plan.csv || complain "one place: $(<plan.csv)"
+
+# of more than 131072 points the self-check makes powers of the beginning
+plan power --sampler white -n 131072 -k 2000
+few=$(phase self-check)
+plan power --sampler white -n 131073 -k 2000
+awk -v a="$few" -v b="$(phase self-check)" -v p="$(phase powers)" 'BEGIN { exit !(b > a + p / 2) }' ||
+    complain "beginning: $few $(<plan.csv)"
+
 # no self-check, no seconds for it; sets of files are counted before they are read
 plan power --sampler white -n 1e5 -k 16
 [[ -n $(phase self-check) ]] || complain "self-check: $(<plan.csv)"

@@ -218,11 +218,42 @@ static void planned(void **state) {
     assert_true(ps_distance_bytes(200000) == 2 * ps_distance_bytes(100000));
 }
 
+static double count_of(const double *points, size_t num) {
+    const ps_rule rule = {num, points, NULL};
+    double found = 0;
+    assert_ok(ps_distance_count_of(&rule, &found, error));
+    return found;
+}
+
+/* Of known points: of few all pairs, of points that are spread out about what is planned without
+ * them, of clumps all pairs in a clump. */
+static void counted(void **state) {
+    enum { NUM = 40000, CLUMPS = 4 };
+    const double all = 0.5 * NUM * NUM;
+    double *points = test_rule_points("fibonacci", NUM, 0);
+    (void)state;
+    assert_true(count_of(points, 1000) == 500000);
+    assert_true(count_of(points, NUM) < 1.5 * ps_distance_count(NUM));
+    assert_true(count_of(points, NUM) > ps_distance_count(NUM) / 1.5);
+    for (size_t j = 0; j < NUM; j++) {
+        memcpy(points + 3 * j, points + 3 * (NUM / CLUMPS) * (j % CLUMPS), 3 * sizeof *points);
+    }
+    assert_true(count_of(points, NUM) >= all / CLUMPS && count_of(points, NUM) <= all);
+    assert_true(count_of(points, NUM) > 0.7 * ps_distance_count(NUM));
+    for (size_t j = 0; j < NUM; j++) {
+        memcpy(points + 3 * j, points, 3 * sizeof *points);
+    }
+    assert_true(count_of(points, NUM) == all);
+    assert_true(all > 2 * ps_distance_count(NUM)); /* what was said of them before */
+    free(points);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(many_points), cmocka_unit_test(narrow_lobes),
         cmocka_unit_test(sphere_mean), cmocka_unit_test(permutation),
         cmocka_unit_test(edges),       cmocka_unit_test(one_place),
-        cmocka_unit_test(stopped),     cmocka_unit_test(planned)};
+        cmocka_unit_test(stopped),     cmocka_unit_test(planned),
+        cmocka_unit_test(counted)};
     return cmocka_run_group_tests_name("distance_split", tests, NULL, NULL);
 }

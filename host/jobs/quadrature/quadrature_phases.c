@@ -76,12 +76,12 @@ static void add_rules(const ps_quadrature_setup *setup, const ps_quadrature_ques
             add_gradients(question, points, sets, phases);
         }
     }
+    const double distances =
+        setup->num_distances > 0 ? setup->num_distances : ps_distance_count(points);
     ps_phases_add_sets(phases, "worst-case error",
-                       needs_powers(question) ? PS_HOST_PAIR_POWER : PS_HOST_PAIR,
-                       ps_distance_count(points), sets);
+                       needs_powers(question) ? PS_HOST_PAIR_POWER : PS_HOST_PAIR, distances, sets);
     ps_phases_say(phases, "worst-case error", "%.4g distances of pairs of points, %.3g bytes",
-                  sets * ps_distance_count(points),
-                  (double)ps_distance_bytes(setup->problem.num_points));
+                  sets * distances, (double)ps_distance_bytes(setup->problem.num_points));
 }
 
 double ps_quadrature_phases(const ps_quadrature_setup *setup,

@@ -5,6 +5,7 @@
 #include "jobs/quadrature/quadrature_rules.h"
 #include "math/pi.h"
 #include "math/sobolev.h"
+#include "rules/distance_split.h"
 #include "store/figures_file.h"
 
 #include <math.h>
@@ -168,6 +169,19 @@ pspec_status ps_quadrature_setup_make(ps_quadrature_setup *out,
     return PSPEC_OK;
 }
 
+/* Points that lie together leave more pairs than those of samplers: where they are known they are
+ * counted. For the seconds that plan prints alone. */
+static pspec_status count_distances(ps_quadrature_setup *out, const ps_rules *rules,
+                                    ps_error *error) {
+    enum { DIMENSION = 3 };
+    const ps_point_set *const set = &rules->waiting[0];
+    if (rules->num_waiting == 0 || set->dimension != DIMENSION) {
+        return PSPEC_OK;
+    }
+    const ps_rule rule = {.num_points = set->num_points, .points = set->points};
+    return ps_distance_count_of(&rule, &out->num_distances, error);
+}
+
 pspec_status ps_quadrature_setup_ask(ps_quadrature_setup *out,
                                      const ps_quadrature_question *question, ps_error *error) {
     ps_rules rules = {.question = question};
@@ -178,6 +192,9 @@ pspec_status ps_quadrature_setup_ask(ps_quadrature_setup *out,
     }
     if (status == PSPEC_OK) {
         status = ps_quadrature_setup_make(out, question, &shape, error);
+    }
+    if (status == PSPEC_OK) {
+        status = count_distances(out, &rules, error);
     }
     if (status == PSPEC_OK) {
         status = ps_quadrature_needs_rate(out, question, error);

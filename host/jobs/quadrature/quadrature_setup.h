@@ -27,6 +27,7 @@ typedef struct ps_quadrature_setup {
     size_t max_degree;
     size_t most_degree;     /* that would be there if no degree were skipped */
     double beyond_bound;    /* of what those in between are of E^2 */
+    double num_distances;   /* of pairs of points of the first set; 0: it was not looked at */
     char degrees_note[192]; /* why it ends there; "" when L was asked for */
     char weights_note[256]; /* how optimal weights will be made; "" without */
 } ps_quadrature_setup;

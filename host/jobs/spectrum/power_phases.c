@@ -1,8 +1,10 @@
 #include "jobs/spectrum/power_phases.h"
 
+#include "engines/error_units.h"
 #include "jobs/parts/point_phases.h"
 #include "jobs/parts/self_check.h"
 #include "jobs/spectrum/power_job_private.h"
+#include "plan/cost_model.h"
 #include "spectra/phases/shift_products.h"
 #include "spectra/phases/turn_products.h"
 
@@ -84,6 +86,28 @@ static void add_frequencies(const ps_power_job *job, ps_phases *phases) {
     ps_phases_say(phases, name, "%.4g of them, and their rings", num);
 }
 
+/* Of large sets the engine makes powers of the beginning, too: as long as its share of what all
+ * points take. */
+static double beginning_seconds(const ps_power_job *job) {
+    const ps_candidate *const chosen = job->plan.chosen;
+    if (chosen == NULL || !chosen->engine->needs_device ||
+        job->problem.num_points <= PS_SELF_CHECK_POINTS) {
+        return 0;
+    }
+    const ps_device_limits *const limits = ps_device_get_limits(job->device);
+    ps_problem all = ps_engine_problem(chosen->engine, &job->problem);
+    all.planned_points = (uint64_t)ps_planned_points(&all);
+    ps_problem beginning = all;
+    beginning.num_points = PS_SELF_CHECK_POINTS;
+    beginning.num_realizations = 1;
+    const ps_survey whole = chosen->engine->survey(&all, limits, chosen->precision);
+    const ps_survey part = chosen->engine->survey(&beginning, limits, chosen->precision);
+    return whole.why_not != NULL || part.why_not != NULL
+               ? 0
+               : chosen->seconds * ps_cost_typical(&part.work, limits, chosen->precision) /
+                     ps_cost_typical(&whole.work, limits, chosen->precision);
+}
+
 static void add_check(const ps_power_job *job, ps_phases *phases) {
     bool is_of_degrees = false;
     if (job->question->accuracy.no_self_check) {
@@ -92,6 +116,7 @@ static void add_check(const ps_power_job *job, ps_phases *phases) {
     const double terms = ps_self_check_count(&job->frequencies, job->num_points, &is_of_degrees);
     ps_phases_add(phases, "self-check", is_of_degrees ? PS_HOST_REFEREE_DEGREE : PS_HOST_REFEREE,
                   terms);
+    ps_phases_add_seconds(phases, "self-check", beginning_seconds(job));
     ps_phases_say(phases, "self-check", "%.3g terms in long double", terms);
 }
 
