@@ -30,7 +30,7 @@ typedef struct reading_case {
 static const reading_case cases[] = {
     {"utk-text", true, "numpy.loadtxt(f)"},
     {"csv", true, "numpy.loadtxt(f, delimiter=',')"},
-    {"edat", true, "numpy.loadtxt(f, skiprows=2)"},
+    {"edat", true, "numpy.loadtxt(f, skiprows=3)"},
     {"psa-text", true, "numpy.loadtxt(f, skiprows=1)"},
     {"gbn", true, "numpy.loadtxt(f, skiprows=1)"},
     {"eps", true, NULL},

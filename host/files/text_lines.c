@@ -122,18 +122,20 @@ pspec_status ps_lines_fill(ps_lines *lines, bool *has_line, ps_error *error) {
     return PSPEC_OK;
 }
 
-static const char *find_second(const ps_lines *lines) {
-    const char *const next =
-        (const char *)memchr(lines->cursor, '\n', (size_t)(lines->lines_end - lines->cursor)) + 1;
-    return next < lines->lines_end ? next : NULL;
+static const char *find_after(const ps_lines *lines, size_t num_after) {
+    const char *line = lines->cursor;
+    for (size_t i = 0; i < num_after && line < lines->lines_end; i++) {
+        line = (const char *)memchr(line, '\n', (size_t)(lines->lines_end - line)) + 1;
+    }
+    return line < lines->lines_end ? line : NULL;
 }
 
-pspec_status ps_lines_peek_second(ps_lines *lines, const char **line, ps_error *error) {
+pspec_status ps_lines_peek(ps_lines *lines, size_t num_after, const char **line, ps_error *error) {
     make_room(lines);
-    while (find_second(lines) == NULL && !lines->is_at_end && !is_full(lines)) {
+    while (find_after(lines, num_after) == NULL && !lines->is_at_end && !is_full(lines)) {
         PS_TRY(read_more(lines, error));
     }
-    *line = find_second(lines);
+    *line = find_after(lines, num_after);
     return PSPEC_OK;
 }
 

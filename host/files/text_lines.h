@@ -26,10 +26,10 @@ void ps_lines_close(ps_lines *lines);
  * Pointers into the buffer do not survive this call. */
 pspec_status ps_lines_fill(ps_lines *lines, bool *has_line, ps_error *error) PS_MUST_CHECK;
 
-/* The line after the one at cursor, which must be there; NULL when there is none, or none that fits
- * the buffer. Pointers into the buffer do not survive this call. */
-pspec_status ps_lines_peek_second(ps_lines *lines, const char **line,
-                                  ps_error *error) PS_MUST_CHECK;
+/* The line that comes num_after lines after the one at cursor, which must be there; NULL when there
+ * is none, or none that fits the buffer. Pointers into the buffer do not survive this call. */
+pspec_status ps_lines_peek(ps_lines *lines, size_t num_after, const char **line,
+                           ps_error *error) PS_MUST_CHECK;
 
 /* Moves cursor past the line at it. */
 void ps_lines_skip(ps_lines *lines);

@@ -135,7 +135,8 @@ static pspec_status find_format(ps_point_reader *reader, const char *path, ps_er
     if (reader->format == NULL) {
         PS_TRY(find_by_name(reader, path, error));
     }
-    return reader->format == NULL ? ps_text_detect(reader, error) : PSPEC_OK;
+    const bool may_have_header = reader->format == &ps_format_edat; /* or be bare points */
+    return reader->format == NULL || may_have_header ? ps_text_detect(reader, error) : PSPEC_OK;
 }
 
 /* ---- opening and closing ----------------------------------------------------------------- */

@@ -1,8 +1,7 @@
-/* Formats of text that no first bytes tell apart: the first two lines do. */
+/* Formats of text that no first bytes tell apart: the first lines do. */
 #include "files/decimal.h"
 #include "points/points_text.h"
 
-#include <math.h>
 #include <string.h>
 
 /* The first line as counts: one whole number ("N") or two ("N d"). */
@@ -30,10 +29,7 @@ static pspec_status detect_counts(ps_point_reader *reader, const char *second, p
     double counts[2] = {0};
     double row[PS_MAX_COLUMNS];
     const unsigned num = count_header(state->lines.cursor, counts);
-    unsigned columns = PS_MAX_COLUMNS;
-    while (columns > 0 && ps_row_parse(second, ' ', columns, row) == NULL) {
-        columns--;
-    }
+    const unsigned columns = ps_text_parse_line(second, row);
     if (num == 1 && columns >= 2) {
         reader->format = &ps_format_psa_text;
     } else if (num == 2 && counts[1] == columns && (columns != 2 || !reader->options.wrap)) {
@@ -47,30 +43,6 @@ static pspec_status detect_counts(ps_point_reader *reader, const char *second, p
     return PSPEC_OK;
 }
 
-/* "0 0" and "1 1" are corners of a domain, or points to be wrapped onto one place. */
-static pspec_status detect_corners(const ps_point_reader *reader, const char *second,
-                                   ps_error *error) {
-    const ps_text_state *const state = reader->state;
-    double lower[PS_MAX_COLUMNS];
-    double upper[PS_MAX_COLUMNS];
-    unsigned columns = PS_MAX_COLUMNS;
-    while (columns > 0 && ps_row_parse(state->lines.cursor, ' ', columns, lower) == NULL) {
-        columns--;
-    }
-    if (columns == 0 || ps_row_parse(second, ' ', columns, upper) == NULL) {
-        return PSPEC_OK;
-    }
-    for (unsigned j = 0; j < columns; j++) {
-        if (lower[j] != floor(lower[j]) || upper[j] != floor(upper[j]) || lower[j] >= upper[j]) {
-            return PSPEC_OK;
-        }
-    }
-    return ps_fail(error, PSPEC_ERROR_INPUT,
-                   "%s: are the first two lines points to be wrapped, or the corners of a domain? "
-                   "--input-format utk-text or edat",
-                   reader->input.name);
-}
-
 static bool is_text(const char *line) {
     while (*line == '\t' || *line == '\r' || (unsigned char)*line >= ' ') {
         line++;
@@ -78,8 +50,20 @@ static bool is_text(const char *line) {
     return *line == '\n';
 }
 
-pspec_status ps_text_detect(ps_point_reader *reader, ps_error *error) {
+/* Formats of text whose rows have blanks, by their first lines. */
+static pspec_status detect_blanks(ps_point_reader *reader, bool is_named_edat, ps_error *error) {
+    ps_text_state *const state = reader->state;
     const char *second = NULL;
+    PS_TRY(ps_edat_detect(reader, is_named_edat, error));
+    if (reader->format != &ps_format_utk_text) {
+        return PSPEC_OK;
+    }
+    PS_TRY(ps_lines_peek(&state->lines, 1, &second, error));
+    return second != NULL ? detect_counts(reader, second, error) : PSPEC_OK;
+}
+
+pspec_status ps_text_detect(ps_point_reader *reader, ps_error *error) {
+    const bool is_named_edat = reader->format == &ps_format_edat;
     reader->format = &ps_format_utk_text; /* whose close frees what is made here */
     PS_TRY(ps_text_open_lines(reader, ' ', error));
     ps_text_state *const state = reader->state;
@@ -89,14 +73,9 @@ pspec_status ps_text_detect(ps_point_reader *reader, ps_error *error) {
                        "pairs are read with --input-format rps",
                        reader->input.name);
     }
-    PS_TRY(ps_lines_peek_second(&state->lines, &second, error));
     if (strcspn(state->lines.cursor, ",;") < strcspn(state->lines.cursor, "\n")) {
         reader->format = &ps_format_csv;
-    } else if (second != NULL) {
-        PS_TRY(detect_counts(reader, second, error));
-        if (reader->format == &ps_format_utk_text && reader->options.wrap) {
-            PS_TRY(detect_corners(reader, second, error));
-        }
+        return PSPEC_OK;
     }
-    return PSPEC_OK;
+    return detect_blanks(reader, is_named_edat, error);
 }

@@ -107,7 +107,8 @@ extern const ps_point_format ps_format_utk_text, ps_format_csv, ps_format_edat, 
 pspec_status ps_point_format_find(const char *name, const ps_point_format **out,
                                   ps_error *error) PS_MUST_CHECK;
 
-/* Which of the formats without a header a text is; reads the first two lines. */
+/* Which of the formats of text it is; looks at the first lines. A format that the name of the file
+ * tells, and that these do not confirm, is none. */
 pspec_status ps_text_detect(ps_point_reader *reader, ps_error *error) PS_MUST_CHECK;
 
 #endif

@@ -1,6 +1,5 @@
-/* Text with one point per line: utk-text (blanks between coordinates), csv (commas), and edat (like
- * utk-text, after two lines that hold the corners of the domain). A '#' at the start of a line ends
- * a set.
+/* Text with one point per line: utk-text (blanks between coordinates) and csv (commas); edat reads
+ * its rows here, too. A '#' at the start of a line ends a set.
  *
  * Lenient where nothing can be misunderstood: tabs, CR LF, no '\n' at the end, '#' lines before the
  * first set, one '#' line after the last, blank lines at the very end. */
@@ -8,7 +7,6 @@
 #include "files/decimal.h"
 #include "points/points_text.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -30,6 +28,14 @@ pspec_status ps_text_next_line(ps_text_state *state, ps_line_kind *kind, ps_erro
     const char *const text = ps_skip_blanks(lines->cursor);
     *kind = *text == '#' ? PS_LINE_MARK : ps_ends_line(text) ? PS_LINE_BLANK : PS_LINE_POINT;
     return PSPEC_OK;
+}
+
+unsigned ps_text_parse_line(const char *line, double row[PS_MAX_COLUMNS]) {
+    unsigned columns = PS_MAX_COLUMNS;
+    while (columns > 0 && ps_row_parse(line, ' ', columns, row) == NULL) {
+        columns--;
+    }
+    return columns;
 }
 
 /* After a blank line there may only be more of them. */
@@ -80,7 +86,7 @@ static pspec_status take_header(ps_point_reader *reader, ps_error *error) {
     const char *const names = reader->options.column_names;
     const char *row = NULL;
     char where[PS_PLACE_BYTES];
-    PS_TRY(ps_lines_peek_second(lines, &row, error));
+    PS_TRY(ps_lines_peek(lines, 1, &row, error));
     if (row == NULL || !ps_text_header_is(lines->cursor, state->separator)) {
         return names == NULL
                    ? PSPEC_OK
@@ -97,8 +103,7 @@ static pspec_status take_header(ps_point_reader *reader, ps_error *error) {
     return PSPEC_OK;
 }
 
-/* The first row fixes the number of columns for all sets of the input. */
-static pspec_status fix_columns(ps_point_reader *reader, ps_error *error) {
+pspec_status ps_text_fix_columns(ps_point_reader *reader, ps_error *error) {
     ps_text_state *const state = reader->state;
     size_t num_columns = state->header.num_chosen;
     if (!state->header.chooses) {
@@ -129,7 +134,7 @@ pspec_status ps_text_open_lines(ps_point_reader *reader, char separator, ps_erro
 static pspec_status open_utk(ps_point_reader *reader, ps_error *error) {
     PS_TRY(ps_text_open_lines(reader, ' ', error));
     PS_TRY(take_header(reader, error));
-    return fix_columns(reader, error);
+    return ps_text_fix_columns(reader, error);
 }
 
 /* Where the first line has a semicolon, columns lie between semicolons. */
@@ -141,50 +146,7 @@ static pspec_status open_csv(ps_point_reader *reader, ps_error *error) {
         state->separator = ';';
     }
     PS_TRY(take_header(reader, error));
-    return fix_columns(reader, error);
-}
-
-static pspec_status read_corner(ps_point_reader *reader, double *corner, ps_error *error) {
-    ps_text_state *const state = reader->state;
-    size_t num_columns = 0;
-    PS_TRY(ps_row_count(&state->lines, state->separator, &num_columns, error));
-    if (num_columns > PS_MAX_DIMENSION ||
-        (state->num_corners != 0 && num_columns != state->num_corners) ||
-        ps_row_parse(state->lines.cursor, state->separator, num_columns, corner) == NULL) {
-        return ps_fail(error, PSPEC_ERROR_INPUT,
-                       "%s, line %zu: not a corner of the domain, as the first two lines of EDAT "
-                       "files are",
-                       reader->input.name, state->lines.line_number);
-    }
-    state->num_corners = (unsigned)num_columns;
-    ps_lines_skip(&state->lines);
-    return skip_marks(state, error);
-}
-
-static pspec_status open_edat(ps_point_reader *reader, ps_error *error) {
-    double corner[PS_MAX_DIMENSION] = {0};
-    PS_TRY(ps_text_open_lines(reader, ' ', error));
-    ps_text_state *const state = reader->state;
-    PS_TRY(read_corner(reader, state->origin, error));
-    PS_TRY(read_corner(reader, corner, error));
-    for (unsigned j = 0; j < state->num_corners; j++) {
-        state->size[j] = corner[j] - state->origin[j];
-        if (!(state->size[j] > 0 && isfinite(state->size[j]))) {
-            return ps_fail(error, PSPEC_ERROR_INPUT,
-                           "%s: the corners %g and %g of the domain enclose nothing",
-                           reader->input.name, state->origin[j], corner[j]);
-        }
-        state->is_scaled = state->is_scaled || state->origin[j] != 0 || state->size[j] != 1;
-    }
-    PS_TRY(fix_columns(reader, error));
-    if (reader->columns == state->num_corners + 1) {
-        reader->options.weight_column = true; /* the corners tell that it is no coordinate */
-    }
-    return reader->columns == state->num_corners || reader->columns == state->num_corners + 1
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INPUT,
-                         "%s, line %zu: %u columns in a domain of dimension %u", reader->input.name,
-                         state->columns_line, reader->columns, state->num_corners);
+    return ps_text_fix_columns(reader, error);
 }
 
 void ps_text_close(ps_point_reader *reader) {
@@ -218,12 +180,6 @@ static pspec_status refuse_line(const ps_point_reader *reader, ps_error *error) 
     return ps_fail(error, PSPEC_ERROR_INPUT, "%s, line %zu: %zu column%s, where line %zu has %u",
                    reader->input.name, state->lines.line_number, num_columns,
                    num_columns == 1 ? "" : "s", state->columns_line, reader->columns);
-}
-
-static void scale_row(const ps_text_state *state, double *row) {
-    for (unsigned j = 0; j < state->num_corners; j++) {
-        row[j] = (row[j] - state->origin[j]) / state->size[j];
-    }
 }
 
 /* Lines one by one: columns that are not chosen may hold anything. */
@@ -260,9 +216,6 @@ static void read_rows(const ps_point_reader *reader, ps_rows_read *out) {
                                   out->capacity - out->num, &num_rows);
     lines->line_number += num_rows;
     out->num += num_rows;
-    for (size_t i = 0; state->is_scaled && i < num_rows; i++) {
-        scale_row(state, rows + i * reader->columns);
-    }
 }
 
 static pspec_status end_set(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
@@ -288,7 +241,7 @@ static pspec_status end_input(ps_point_reader *reader, ps_rows_read *out, bool i
     return is_blank ? read_blank_end(reader->state, error) : PSPEC_OK;
 }
 
-static pspec_status read_text(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
+pspec_status ps_text_read(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
     ps_text_state *const state = reader->state;
     ps_line_kind kind = PS_LINE_POINT;
     reader->first_line = state->lines.line_number;
@@ -337,24 +290,14 @@ static void write_csv(ps_point_writer *writer, const double *rows, size_t num_ro
     write_rows(writer, rows, num_rows, ',');
 }
 
-static void begin_set(ps_point_writer *writer) {
+void ps_text_begin_set(ps_point_writer *writer) {
     if (writer->num_sets > 0) {
         ps_output_write(writer->file, "#\n", 1, 2);
     }
 }
 
-static void begin_nothing(ps_point_writer *writer) {
+void ps_text_begin(ps_point_writer *writer) {
     (void)writer; /* no header */
-}
-
-static void begin_edat(ps_point_writer *writer) {
-    for (int corner = 0; corner < 2; corner++) {
-        for (unsigned j = 0; j < writer->shape.dimension; j++) {
-            const char text[] = {(char)('0' + corner),
-                                 j + 1 < writer->shape.dimension ? ' ' : '\n'};
-            ps_output_write(writer->file, text, 1, sizeof text);
-        }
-    }
 }
 
 /* ---- the formats ------------------------------------------------------------------------- */
@@ -366,30 +309,19 @@ enum {
 
 const ps_point_format ps_format_utk_text = {.name = "utk-text",
                                             .open = open_utk,
-                                            .read = read_text,
+                                            .read = ps_text_read,
                                             .close = ps_text_close,
                                             .abilities = ANY_POINTS,
-                                            .begin = begin_nothing,
-                                            .begin_set = begin_set,
+                                            .begin = ps_text_begin,
+                                            .begin_set = ps_text_begin_set,
                                             .write = ps_text_write_rows};
 
 const ps_point_format ps_format_csv = {.name = "csv",
                                        .endings = {".csv"},
                                        .open = open_csv,
-                                       .read = read_text,
+                                       .read = ps_text_read,
                                        .close = ps_text_close,
                                        .abilities = ANY_POINTS,
-                                       .begin = begin_nothing,
-                                       .begin_set = begin_set,
+                                       .begin = ps_text_begin,
+                                       .begin_set = ps_text_begin_set,
                                        .write = write_csv};
-
-const ps_point_format ps_format_edat = {.name = "edat",
-                                        .endings = {".edat"},
-                                        .open = open_edat,
-                                        .read = read_text,
-                                        .close = ps_text_close,
-                                        .abilities =
-                                            PS_HOLDS_SETS | PS_HOLDS_WEIGHTS | PS_HOLDS_TORUS,
-                                        .begin = begin_edat,
-                                        .begin_set = begin_set,
-                                        .write = ps_text_write_rows};

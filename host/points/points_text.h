@@ -14,10 +14,10 @@ typedef struct ps_text_state {
     ps_text_header header;
     size_t promised; /* points, by a count at the beginning of the file */
     bool is_in_line; /* the cursor is not at the beginning of a line (such files only) */
-    /* edat: coordinate j becomes (x - origin[j]) / size[j] */
-    bool is_scaled;
-    unsigned num_corners;
-    double origin[PS_MAX_DIMENSION], size[PS_MAX_DIMENSION];
+    /* edat: the domain of this set */
+    unsigned num_corners; /* coordinates of a corner */
+    bool needs_header;    /* the next line is that of the next set */
+    double lower[PS_MAX_DIMENSION], upper[PS_MAX_DIMENSION];
 } ps_text_state;
 
 typedef enum ps_line_kind { PS_LINE_POINT, PS_LINE_MARK, PS_LINE_BLANK, PS_LINE_NONE } ps_line_kind;
@@ -32,8 +32,22 @@ pspec_status ps_text_open_lines(ps_point_reader *reader, char separator,
                                 ps_error *error) PS_MUST_CHECK;
 /* Fixes the number of columns of all rows. */
 void ps_text_set_columns(ps_point_reader *reader, unsigned columns);
+/* The row at the cursor fixes it for all sets of the input. */
+pspec_status ps_text_fix_columns(ps_point_reader *reader, ps_error *error) PS_MUST_CHECK;
+pspec_status ps_text_read(ps_point_reader *reader, ps_rows_read *out,
+                          ps_error *error) PS_MUST_CHECK;
 void ps_text_close(ps_point_reader *reader);
 
+/* The numbers between blanks of a line, at most PS_MAX_COLUMNS; 0: the line has others. */
+unsigned ps_text_parse_line(const char *line, double row[PS_MAX_COLUMNS]);
+
+/* Makes edat the format where the lines at the cursor are its header, and refuses those that could
+ * also be points. is_named: the file has the name of one. */
+pspec_status ps_edat_detect(ps_point_reader *reader, bool is_named, ps_error *error) PS_MUST_CHECK;
+
+/* No header, and '#' between sets. */
+void ps_text_begin(ps_point_writer *writer);
+void ps_text_begin_set(ps_point_writer *writer);
 /* Rows of numbers between blanks, shortest digits. */
 void ps_text_write_rows(ps_point_writer *writer, const double *rows, size_t num_rows);
 

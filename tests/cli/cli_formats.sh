@@ -190,11 +190,22 @@ near '0.000000 0.000000 1.000000|0.000000 1.000000 0.000000|-1.000000 0.000000 0
 refuses 'line 3: 180, 0 are not theta (0 to pi)' --columns theta-phi <(sed '1,2s/.*/0 0/' healpix.txt) -o none
 refuses 'coordinate 90 is outside [0,1)' healpix.txt
 
-# ---- UTK edat: corners of the domain in front
-file corners.edat '-1 -1\n1 1\n0 -0.5\n0.5 -0.75\n'
-file weights.edat '0 0\n1 1\n0.5 0.25 0.5\n0.75 0.125 0.25\n'
-file wrong.edat '1 1\n0 0\n0.5 0.25\n'
+# ---- UTK edat: corners of the domain and its toricity before every set, or nothing at all
+file corners.edat '-1 -1\n1 1\n0\n0 -0.5\n0.5 -0.75\n'
+file weights.edat '0 0\n1 1\n1\n0.5 0.25 0.5\n0.75 0.125 0.25\n'
+file wrong.edat '1 1\n0 0\n1\n0.5 0.25\n'
+file toricity.edat '0.0\t0.0\n1.0\t1.0\n1\n0.375\t0.1875\n0.75\t0.5625\n0.125\t0.8125\n0.5\t0.4375\n'
+file two_sets.edat '0 0\n1 1\n1\n0.1 0.2\n0.6 0.7\n#\n0 0\n1 1\n1\n0.3 0.4\n0.8 0.9\n'
+file no_header.edat '0.10\t0.20\n0.90\t0.95\n0.5\t0.4\n0.7\t0.6\n'
+file no_toricity.edat '0 0\n1 1\n0.5 0.25\n'
 reads "$square" corners.edat
+reads '0.375 0.1875|0.75 0.5625|0.125 0.8125|0.5 0.4375' toricity.edat
+reads '0.1 0.2|0.6 0.7|#|0.3 0.4|0.8 0.9' two_sets.edat
+reads '0 0|1 1|1|0.1 0.2|0.6 0.7|#|0 0|1 1|1|0.3 0.4|0.8 0.9' --format edat two_sets.edat
+reads '0.1 0.2|0.9 0.95|0.5 0.4|0.7 0.6' no_header.edat
+refuses 'set 1 does not begin with the three lines of EDAT;--input-format utk-text' --input-format edat no_header.edat
+refuses 'look like corners of a domain;--input-format utk-text' no_toricity.edat
+reads '0 0|0 0|0.5 0.25' --wrap --input-format utk-text no_toricity.edat
 reads '0.5 0.25 0.5|0.75 0.125 0.25' weights.edat
 reads "$square" --weights equal weights.edat
 refuses 'enclose nothing' wrong.edat
