@@ -156,14 +156,21 @@ static pspec_status check_options(const ps_point_options *options, ps_error *err
     return PSPEC_OK;
 }
 
+/* Only text with one point per line may have names of columns. */
 static pspec_status check_names(const ps_point_reader *reader, ps_error *error) {
+    const ps_point_options *const options = &reader->options;
     const bool may_have_names =
         reader->format == &ps_format_utk_text || reader->format == &ps_format_csv;
-    return reader->options.column_names == NULL || may_have_names
+    if (!may_have_names && options->column_names != NULL) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "%s: --columns names columns (%s), and %s has no names", reader->input.name,
+                       options->column_names, reader->format->name);
+    }
+    return may_have_names || options->header == NULL || strcmp(options->header, "yes") != 0
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "%s: --columns names columns (%s), and %s has no names",
-                         reader->input.name, reader->options.column_names, reader->format->name);
+                         "%s: --header yes is about names of columns, and %s has no names",
+                         reader->input.name, reader->format->name);
 }
 
 pspec_status ps_points_open(ps_point_reader **out, const char *path,

@@ -54,6 +54,9 @@ static bool is_text(const char *line) {
 static pspec_status detect_blanks(ps_point_reader *reader, bool is_named_edat, ps_error *error) {
     ps_text_state *const state = reader->state;
     const char *second = NULL;
+    if (reader->options.header != NULL && strcmp(reader->options.header, "yes") == 0) {
+        return PSPEC_OK; /* the first line is nothing else */
+    }
     PS_TRY(ps_edat_detect(reader, is_named_edat, error));
     if (reader->format != &ps_format_utk_text) {
         return PSPEC_OK;

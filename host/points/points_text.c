@@ -7,6 +7,7 @@
 #include "files/decimal.h"
 #include "points/points_text.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -79,30 +80,6 @@ void ps_text_set_columns(ps_point_reader *reader, unsigned columns) {
     state->parser.separator = state->separator;
 }
 
-/* A line of names before the rows says which columns there are. */
-static pspec_status take_header(ps_point_reader *reader, ps_error *error) {
-    ps_text_state *const state = reader->state;
-    ps_lines *const lines = &state->lines;
-    const char *const names = reader->options.column_names;
-    const char *row = NULL;
-    char where[PS_PLACE_BYTES];
-    PS_TRY(ps_lines_peek(lines, 1, &row, error));
-    if (row == NULL || !ps_text_header_is(lines->cursor, state->separator)) {
-        return names == NULL
-                   ? PSPEC_OK
-                   : ps_fail(error, PSPEC_ERROR_INPUT,
-                             "%s: --columns names columns (%s), and the first line has no names",
-                             reader->input.name, names);
-    }
-    snprintf(where, sizeof where, "%.440s, line %zu", reader->input.name, lines->line_number);
-    PS_TRY(ps_text_header_read(&state->header, lines->cursor, row, state->separator, names, where,
-                               error));
-    reader->own_columns = ps_text_header_layout(&state->header);
-    reader->chosen = state->header.chooses ? state->header.used : NULL;
-    ps_lines_skip(lines);
-    return PSPEC_OK;
-}
-
 pspec_status ps_text_fix_columns(ps_point_reader *reader, ps_error *error) {
     ps_text_state *const state = reader->state;
     size_t num_columns = state->header.num_chosen;
@@ -133,7 +110,7 @@ pspec_status ps_text_open_lines(ps_point_reader *reader, char separator, ps_erro
 
 static pspec_status open_utk(ps_point_reader *reader, ps_error *error) {
     PS_TRY(ps_text_open_lines(reader, ' ', error));
-    PS_TRY(take_header(reader, error));
+    PS_TRY(ps_text_take_header(reader, error));
     return ps_text_fix_columns(reader, error);
 }
 
@@ -145,7 +122,7 @@ static pspec_status open_csv(ps_point_reader *reader, ps_error *error) {
     if (memchr(line, ';', strcspn(line, "\n")) != NULL) {
         state->separator = ';';
     }
-    PS_TRY(take_header(reader, error));
+    PS_TRY(ps_text_take_header(reader, error));
     return ps_text_fix_columns(reader, error);
 }
 
@@ -227,6 +204,7 @@ static pspec_status end_set(ps_point_reader *reader, ps_rows_read *out, ps_error
                        (unsigned long long)reader->num_sets + 1);
     }
     ps_lines_skip(&state->lines);
+    state->header.index.may_restart = true;
     out->end = PS_END_OF_SET;
     return PSPEC_OK;
 }
@@ -286,8 +264,26 @@ void ps_text_write_rows(ps_point_writer *writer, const double *rows, size_t num_
     write_rows(writer, rows, num_rows, ' ');
 }
 
+/* A first line "0" or "0 1" could be labels of columns: its 0 becomes 0.0. */
+static void write_unlabelled(ps_point_writer *writer, const double *rows, size_t num_rows,
+                             char separator) {
+    bool are_labels =
+        num_rows > 0 && writer->num_sets == 0 && writer->rows_in_set == 0 && !signbit(rows[0]);
+    for (unsigned j = 0; are_labels && j < writer->columns; j++) {
+        are_labels = rows[j] == j;
+    }
+    if (are_labels) {
+        ps_output_write(writer->file, "0.", 1, 2);
+    }
+    write_rows(writer, rows, num_rows, separator);
+}
+
+static void write_utk(ps_point_writer *writer, const double *rows, size_t num_rows) {
+    write_unlabelled(writer, rows, num_rows, ' ');
+}
+
 static void write_csv(ps_point_writer *writer, const double *rows, size_t num_rows) {
-    write_rows(writer, rows, num_rows, ',');
+    write_unlabelled(writer, rows, num_rows, ',');
 }
 
 void ps_text_begin_set(ps_point_writer *writer) {
@@ -314,7 +310,7 @@ const ps_point_format ps_format_utk_text = {.name = "utk-text",
                                             .abilities = ANY_POINTS,
                                             .begin = ps_text_begin,
                                             .begin_set = ps_text_begin_set,
-                                            .write = ps_text_write_rows};
+                                            .write = write_utk};
 
 const ps_point_format ps_format_csv = {.name = "csv",
                                        .endings = {".csv"},

@@ -32,7 +32,9 @@ pspec_status ps_text_open_lines(ps_point_reader *reader, char separator,
                                 ps_error *error) PS_MUST_CHECK;
 /* Fixes the number of columns of all rows. */
 void ps_text_set_columns(ps_point_reader *reader, unsigned columns);
-/* The row at the cursor fixes it for all sets of the input. */
+/* A line of names before the rows says which columns there are. */
+pspec_status ps_text_take_header(ps_point_reader *reader, ps_error *error) PS_MUST_CHECK;
+/* The row at the cursor fixes the number of columns for all sets of the input. */
 pspec_status ps_text_fix_columns(ps_point_reader *reader, ps_error *error) PS_MUST_CHECK;
 pspec_status ps_text_read(ps_point_reader *reader, ps_rows_read *out,
                           ps_error *error) PS_MUST_CHECK;

@@ -13,6 +13,7 @@
 typedef struct field {
     const char *text;
     size_t length;
+    bool is_quoted;
 } field;
 
 static bool ends_field(const char *text, char separator, bool is_quoted) {
@@ -30,17 +31,18 @@ static bool next_field(const char **text, char separator, bool *is_more, field *
     if (ps_ends_line(at) && (separator == ' ' || !*is_more)) {
         return false;
     }
-    const bool is_quoted = *at == '"';
-    at += is_quoted;
+    out->is_quoted = *at == '"';
+    at += out->is_quoted;
     out->text = at;
-    while (!ends_field(at, separator, is_quoted)) {
+    while (!ends_field(at, separator, out->is_quoted)) {
         at++;
     }
     out->length = (size_t)(at - out->text);
-    while (!is_quoted && out->length > 0 && strchr(" \t", out->text[out->length - 1]) != NULL) {
+    while (!out->is_quoted && out->length > 0 &&
+           strchr(" \t", out->text[out->length - 1]) != NULL) {
         out->length--;
     }
-    at = ps_skip_blanks(at + (is_quoted && *at == '"'));
+    at = ps_skip_blanks(at + (out->is_quoted && *at == '"'));
     *is_more = separator != ' ' && *at == separator;
     *text = at + *is_more;
     return true;
@@ -55,18 +57,22 @@ static bool is_not_finite(field token) {
     return ps_token_is_not_finite(token.text, token.length);
 }
 
+static bool is_printable(field token) {
+    size_t i = 0;
+    size_t bytes = 1;
+    while (i < token.length && bytes > 0) {
+        bytes = ps_text_character(token.text + i);
+        i += bytes;
+    }
+    return bytes > 0;
+}
+
 /* Printable text that begins with a letter, of any alphabet. */
 static bool is_name(field token) {
     const unsigned char first = token.length > 0 ? (unsigned char)token.text[0] : 0;
     const unsigned char beyond_ascii = 0x80;
-    for (size_t i = 0; i < token.length;) {
-        const size_t bytes = ps_text_character(token.text + i);
-        if (bytes == 0) {
-            return false;
-        }
-        i += bytes;
-    }
-    return (isalpha(first) != 0 || first == '_' || first >= beyond_ascii) && !is_not_finite(token);
+    return is_printable(token) && (isalpha(first) != 0 || first == '_' || first >= beyond_ascii) &&
+           !is_not_finite(token);
 }
 
 bool ps_text_header_is(const char *line, char separator) {
@@ -86,6 +92,43 @@ bool ps_text_header_is(const char *line, char separator) {
     /* ",0,1" are labels beside an index, which has none */
     return num_names + num_empty + (begins_empty ? num_numbers : 0) == num && num_empty < num &&
            num_names + num_numbers > 0;
+}
+
+/* At most this many digits, which every uint64_t has room for; the value in *out. */
+static bool is_whole(field token, uint64_t *out) {
+    enum { MOST_DIGITS = 18 };
+    *out = 0;
+    for (size_t i = 0; i < token.length; i++) {
+        if (isdigit((unsigned char)token.text[i]) == 0) {
+            return false;
+        }
+        *out = *out * 10 + (uint64_t)(token.text[i] - '0');
+    }
+    return token.length > 0 && token.length <= MOST_DIGITS;
+}
+
+bool ps_text_header_is_numbered(const char *line, char separator) {
+    field token;
+    bool is_more = true;
+    uint64_t value = 0;
+    uint64_t num = 0;
+    while (next_field(&line, separator, &is_more, &token)) {
+        if (!is_whole(token, &value) || value != num++) {
+            return false;
+        }
+    }
+    return num > 0;
+}
+
+bool ps_text_header_is_decimal(const char *line, char separator) {
+    field token;
+    bool is_more = true;
+    while (next_field(&line, separator, &is_more, &token)) {
+        if (strcspn(token.text, ".eE\n") >= token.length) {
+            return false;
+        }
+    }
+    return true;
 }
 
 /* ---- which columns ----------------------------------------------------------------------- */
@@ -120,8 +163,10 @@ static pspec_status fail_name(const field *names, unsigned num, const char *name
 static void choose(ps_text_header *out, unsigned column, field name) {
     const size_t used = strlen(out->used);
     out->places[column] = (short)out->num_chosen++;
-    snprintf(out->used + used, sizeof out->used - used, "%s%.*s", used > 0 ? "," : "",
-             (int)name.length, name.text);
+    if (used + 1 + name.length < sizeof out->used) { /* no half characters */
+        snprintf(out->used + used, sizeof out->used - used, "%s%.*s", used > 0 ? "," : "",
+                 (int)name.length, name.text);
+    }
 }
 
 /* "x,y" */
@@ -164,12 +209,55 @@ static pspec_status read_names(ps_text_header *out, field names[PS_MOST_FILE_COL
                        "%s: %u names of columns, but the line after it has %u (at most %d)", where,
                        num_names, num_fields, PS_MOST_FILE_COLUMNS);
     }
-    names[0] = (field){line, 0};
+    names[0] = (field){.text = line};
+    out->lacks_name = first == 1;
     for (unsigned i = first; i < num_fields; i++) {
         next_field(&line, separator, &is_more, &names[i]);
+        if (!is_printable(names[i])) {
+            return ps_fail(error, PSPEC_ERROR_INPUT, "%s: the name of column %u is no text", where,
+                           i + 1);
+        }
     }
     out->num_columns = num_fields;
     return PSPEC_OK;
+}
+
+/* What the names have in common at the beginning, or at the end. */
+static size_t common_length(const field *names, unsigned num, bool at_end) {
+    size_t common = names[0].length;
+    for (unsigned i = 1; i < num; i++) {
+        size_t length = 0;
+        while (length < common && length < names[i].length &&
+               (at_end ? names[0].text[names[0].length - 1 - length] ==
+                             names[i].text[names[i].length - 1 - length]
+                       : names[0].text[length] == names[i].text[length])) {
+            length++;
+        }
+        common = length;
+    }
+    return common;
+}
+
+/* Do the names count, by a number ("x1", "x2") or by a letter ("px", "py"), with the same text
+ * around it? "w" is the name of weights. */
+static bool are_similar(const field *names, unsigned num) {
+    const size_t before = num > 0 ? common_length(names, num, false) : 0;
+    const size_t after = num > 0 ? common_length(names, num, true) : 0;
+    uint64_t first = 0;
+    bool are = true;
+    for (unsigned i = 0; num > 1 && i < num; i++) {
+        if (names[i].length <= before + after) {
+            return false;
+        }
+        const field middle = {.text = names[i].text + before,
+                              .length = names[i].length - before - after};
+        const bool is_letter = middle.length == 1 && isalpha((unsigned char)middle.text[0]) != 0;
+        uint64_t value = is_letter ? (unsigned char)middle.text[0] : 0;
+        are = are && (is_letter || is_whole(middle, &value));
+        first = i == 0 ? value : first;
+        are = are && value == first + i;
+    }
+    return are && !(num > 1 && is_same(names[num - 1], "w", 1));
 }
 
 pspec_status ps_text_header_read(ps_text_header *out, const char *line, const char *row,
@@ -189,6 +277,9 @@ pspec_status ps_text_header_read(ps_text_header *out, const char *line, const ch
             choose(out, i, found[i]);
         }
     }
+    /* Where a name is missing, those that are wanted may be the names of other columns. */
+    out->has_index = out->places[0] < 0 && (names == NULL || out->lacks_name);
+    out->are_similar = are_similar(found + (out->places[0] < 0), out->num_chosen);
     out->chooses = out->num_chosen < out->num_columns;
     for (unsigned i = 0; i < out->num_columns; i++) {
         out->chooses = out->chooses || out->places[i] != (short)i;
@@ -201,41 +292,41 @@ pspec_status ps_text_header_read(ps_text_header *out, const char *line, const ch
                          where, out->num_chosen, PS_MAX_DIMENSION);
 }
 
-const char *ps_text_header_layout(const ps_text_header *header) {
-    static const struct {
-        const char *names, *layout;
-    } known[] = {{"x,y", "xy"},
-                 {"x,y,w", "xyw"},
-                 {"x,y,weight", "xyw"},
-                 {"x,y,z", "xyz"},
-                 {"x,y,z,w", "xyzw"},
-                 {"x,y,z,weight", "xyzw"},
-                 {"theta,phi", "theta-phi"},
-                 {"theta,phi,w", "theta-phi-w"},
-                 {"theta,phi,weight", "theta-phi-w"},
-                 {"phi,theta", "phi-theta"},
-                 {"phi,theta,w", "phi-theta-w"},
-                 {"phi,theta,weight", "phi-theta-w"},
-                 {"lon,lat", "lon-lat"},
-                 {"lon,lat,w", "lon-lat-w"},
-                 {"lon,lat,weight", "lon-lat-w"}};
-    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
-        if (strcmp(header->used, known[i].names) == 0) {
-            return known[i].layout;
-        }
-    }
-    return NULL;
-}
-
 /* ---- rows -------------------------------------------------------------------------------- */
 
-const char *ps_text_header_row(const ps_text_header *header, const char *line, char separator,
+/* What the index is after this row, whose first field it is; false: it is none. Quotes make text of
+ * numbers only where others have none. */
+static bool next_index(ps_row_index *index, field token, bool are_all_quoted) {
+    uint64_t value = 0;
+    const bool is_text = token.length > 0 && !is_not_finite(token) &&
+                         (!is_number(token) || (token.is_quoted && !are_all_quoted));
+    if (index->kind == PS_INDEX_UNKNOWN) {
+        index->kind = is_text ? PS_INDEX_TEXT : PS_INDEX_NUMBERS;
+        index->may_restart = true;
+    }
+    if (index->kind == PS_INDEX_TEXT) {
+        return is_text;
+    }
+    if (!is_whole(token, &value) || !(value == index->next || (index->may_restart && value <= 1))) {
+        return false;
+    }
+    index->next = value + 1;
+    index->may_restart = false;
+    return true;
+}
+
+const char *ps_text_header_row(ps_text_header *header, const char *line, char separator,
                                double *row) {
     field token;
     bool is_more = true;
     unsigned column = 0;
+    ps_row_index index = header->index;
     while (next_field(&line, separator, &is_more, &token)) {
         if (column >= header->num_columns) {
+            return NULL;
+        }
+        if (column == 0 && header->has_index &&
+            !next_index(&index, token, *ps_skip_blanks(line) == '"')) {
             return NULL;
         }
         const short place = header->places[column++];
@@ -245,7 +336,25 @@ const char *ps_text_header_row(const ps_text_header *header, const char *line, c
         }
     }
     line += *line == '\r';
-    return column == header->num_columns && *line == '\n' ? line : NULL;
+    if (column != header->num_columns || *line != '\n') {
+        return NULL;
+    }
+    header->index = index;
+    return line;
+}
+
+static pspec_status refuse_index(const ps_text_header *header, field token, const char *where,
+                                 ps_error *error) {
+    char shown[PS_TOKEN_BYTES];
+    char advice[PS_TOKEN_BYTES];
+    snprintf(advice, sizeof advice, "the header names %u of %u columns; it must name all",
+             header->num_columns - 1, header->num_columns);
+    return ps_fail(error, PSPEC_ERROR_INPUT,
+                   "%s: \"%s\" in a column without a name, which is no index (text, or the rows "
+                   "counted from 0 or 1 on); %s",
+                   where, ps_token_show(shown, token.text, token.length),
+                   header->lacks_name ? advice
+                                      : "--columns with names, as in x,y, passes over others");
 }
 
 pspec_status ps_text_header_refuse(const ps_text_header *header, const char *line, char separator,
@@ -254,12 +363,17 @@ pspec_status ps_text_header_refuse(const ps_text_header *header, const char *lin
     char shown[PS_TOKEN_BYTES];
     field token;
     bool is_more = true;
+    ps_row_index index = header->index;
     if (num != header->num_columns) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "%s: %u column%s, where the header names %u",
                        where, num, num == 1 ? "" : "s", header->num_columns);
     }
     for (unsigned i = 0; i < num; i++) {
         next_field(&line, separator, &is_more, &token);
+        if (i == 0 && header->has_index &&
+            !next_index(&index, token, *ps_skip_blanks(line) == '"')) {
+            return refuse_index(header, token, where, error);
+        }
         if (header->places[i] >= 0 && !is_number(token)) {
             break;
         }

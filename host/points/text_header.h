@@ -8,14 +8,27 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 /* More columns than a data frame of points has. */
 enum { PS_MOST_FILE_COLUMNS = 64 };
+
+/* What a column without a name holds, which is passed over: text, or the numbers of the rows of the
+ * file or of a set, from 0 or from 1 on. Anything else could be a coordinate. */
+typedef struct ps_row_index {
+    enum { PS_INDEX_UNKNOWN = 0, PS_INDEX_TEXT, PS_INDEX_NUMBERS } kind;
+    uint64_t next;
+    bool may_restart; /* a set begins */
+} ps_row_index;
 
 typedef struct ps_text_header {
     bool is_there;
     unsigned num_columns; /* of the file */
     unsigned num_chosen;
+    bool has_index;   /* the first column is passed over for want of a name */
+    bool lacks_name;  /* there is a name less than columns */
+    bool are_similar; /* names like x, y, z or x1, x2: nothing but coordinates */
+    ps_row_index index;
     bool chooses;                       /* not all columns as they stand */
     short places[PS_MOST_FILE_COLUMNS]; /* of each column in a row; -1: it is passed over */
     char used[128];                     /* "x,y", the names of the chosen ones */
@@ -25,17 +38,20 @@ typedef struct ps_text_header {
  * empty name of an index. */
 bool ps_text_header_is(const char *line, char separator);
 
+/* Is it "0", "0,1" and so on: labels of columns that nobody named, or a point? */
+bool ps_text_header_is_numbered(const char *line, char separator);
+/* Have all numbers of this row a decimal point or an exponent? Labels have none. */
+bool ps_text_header_is_decimal(const char *line, char separator);
+
 /* Reads the names at line and looks at the row after it; where: "FILE, line 1". names: the chosen
  * ones, separated by commas, or NULL: all but an index. */
 pspec_status ps_text_header_read(ps_text_header *out, const char *line, const char *row,
                                  char separator, const char *names, const char *where,
                                  ps_error *error) PS_MUST_CHECK;
 
-/* The layout that the names of the chosen columns mean ("xyw", "theta-phi"), or NULL. */
-const char *ps_text_header_layout(const ps_text_header *header);
-
-/* The chosen numbers of a line, or NULL where it is no such row; returns its '\n'. */
-const char *ps_text_header_row(const ps_text_header *header, const char *line, char separator,
+/* The chosen numbers of a line, or NULL where it is no such row; returns its '\n'. The rows of a
+ * file are to come in order. */
+const char *ps_text_header_row(ps_text_header *header, const char *line, char separator,
                                double *row);
 /* Why it is none. */
 pspec_status ps_text_header_refuse(const ps_text_header *header, const char *line, char separator,

@@ -166,6 +166,10 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                    "degrees); or names with commas, as in x,y, that the first "
                                    "line of a text has",
                            .set = ps_set_columns, .offset = offsetof(ps_request, reading.columns)},
+    [PS_OPTION_HEADER] = {NAMED("header", 0, "yes|no"), OF(SETS, BIT(convert)),
+                          .help = "has the first line of a text names of columns? (default: found "
+                                  "out)",
+                          WORD(reading.header)},
     [PS_OPTION_DOMAIN] = {NAMED("domain", 0, "torus|sphere"), OF(BIT(check), BIT(convert)),
                           .help = "where the points lie (default: found out; check: on the torus)",
                           .set = ps_set_domain},

@@ -75,7 +75,7 @@ half4='\0\0\0\x3f' quarter4='\0\0\x80\x3e'                 # float32
 minus4='\xff\xff\xff\xff'
 for type in 0 2; do file whole$type.bin "$(header $type 1 2 1)$zero4$zero4"; done
 for type in 1 3; do file whole$type.bin "$(header $type 1 2 1)$zero8$zero8"; done
-for type in 0 1 2 3; do reads '0|0' whole$type.bin; done
+for type in 0 1 2 3; do reads '0.0|0' whole$type.bin; done
 file int32.bin "$(header 0 1 3 3)$(word 1)$zero4$zero4$zero4$minus4$zero4$zero4$zero4$(word 1)"
 file uint64.bin "$(header 3 1 1 3)$zero8$zero8\1\0\0\0\0\0\0\0"
 file uint32.bin "$(header 2 1 1 1)$minus4"
@@ -246,6 +246,62 @@ refuses 'words.csv, line 3: "zero" is not a number' words.csv
 refuses 'alone.csv, line 1: "x" is not a number' alone.csv
 refuses 'names columns (x,y), and the first line has no names' --columns x,y utk.dat
 refuses 'and npy has no names' --columns x,y torus.npy
+# a column without a name is an index: text, or the rows counted from 0 or 1 on, of the file or of a set
+file three.csv 'x,y\n0.5,0.25,0.125\n0.75,0.125,0\n'
+file unnamed.csv ',x,y\n3,0.5,0.25\n7,0.75,0.125\n'
+file zeros.csv ',x,y\n0,0.5,0.25\n0,0.75,0.125\n'
+file from_1.csv 'x,y\n1,0.5,0.25\n2,0.75,0.125\n#\n1,0,0.5\n#\n2,0.5,0\n'
+file text_index.csv 'x,y\na,0.5,0.25\nb,0.75,0.125\n'
+file text_ends.csv 'x,y\na,0.5,0.25\n3,0.75,0.125\n'
+file quoted_index.txt '"x" "y"\n"3" 0.5 0.25\n"7" 0.75 0.125\n'
+refuses 'three.csv, line 2: "0.5" in a column without a name;names 2 of 3 columns' three.csv
+refuses 'three.csv, line 2: "0.5" in a column without a name;names 2 of 3 columns' --columns x,y three.csv
+refuses 'line 2: "3" in a column without a name;--columns with names' unnamed.csv
+reads "$square" --columns x,y unnamed.csv
+refuses 'line 3: "0" in a column without a name' zeros.csv -o none
+reads "$square|#|0 0.5|#|0.5 0" from_1.csv
+reads "$square" text_index.csv
+refuses 'line 3: "3" in a column without a name' text_ends.csv -o none
+reads "$square" quoted_index.txt
+# labels that nobody gave, 0,1 and so on, or a first point: rows of decimals leave it open
+file labels.csv '0,1\n0.5,0.25\n0.75,0.125\n'
+file label.txt '0\n0.5\n#\n0.75\n'
+file zero_again.txt '0\n0.5\n#\n0\n'
+file zero_point.txt '0.0\n0.5\n'
+file labels3.txt '0 1 2\n0.5 0.25 0.125\n'
+refuses 'labels.csv, line 1: labels of columns, or a point?;--header yes or no' labels.csv
+refuses '--header yes or no' --wrap labels.csv
+refuses '--header yes or no' --normalize-vectors labels3.txt
+reads "$square" --header yes labels.csv
+reads '0.25 0.5|0.125 0.75' --columns 1,0 labels.csv
+reads "0 0|$square" --wrap --header no labels.csv
+refuses 'coordinate 1 is outside' --header no labels.csv
+refuses 'label.txt, line 1: labels of columns, or a point?' label.txt
+reads '0.5|#|0.75' --header yes label.txt
+reads '0.0|0.5|#|0.75' --header no label.txt # which is read without the option
+reads '0.0|0.5|#|0' zero_again.txt
+reads '0.0|0.5' zero_point.txt
+reads '0.75 0.125' --header yes -d 2 utk.dat
+refuses '--header yes is about names of columns, and npy has no names' --header yes torus.npy
+refuses '--header: "maybe" is not one of yes, no' --header maybe labels.csv
+"$program" sample --sampler sobol -d 1 -n 4 -m 2 >first
+reads "$(tr '\n' '|' <first | sed 's/|$//')" first
+[[ $(head -n 1 first) == 0.0 ]] || complain "the first point of sobol is $(head -n 1 first)"
+# names that count are coordinates; others could be anything
+file radii.txt 'x y r\n0.5 0.25 0.125\n'
+file counted.csv 'x9,x10,x11\n0.5,0.25,0.125\n'
+file letters.csv 'px,py\n0.5,0.25\n'
+file sky.csv 'ra,dec\n0.5,0.25\n'
+file uvw.csv 'u,v,w\n0.5,0.25,0.125\n'
+for name in radii.txt sky.csv uvw.csv; do refuses "$name, line 1: are these all coordinates?;--columns" $name; done
+refuses '"x" is not a number' --header no radii.txt
+reads '0.5 0.25 0.125' --columns x,y,r radii.txt
+reads '0.5 0.25' --columns x,y radii.txt
+reads '0.5 0.25 0.125' -d 3 radii.txt
+reads '0.5 0.25 0.125' --quiet --columns xyw radii.txt
+reads '0.5 0.25 0.125' --quiet --weights column radii.txt
+reads '0.5 0.25 0.125' counted.csv
+reads '0.5 0.25' letters.csv
 "$1" power -k 2 --engine host_direct frame.csv >table.csv 2>err || { echo "cli_formats: power refuses the table of a data frame: $(<err)" && bad=1; }
 grep -q '^# input_columns: xy (columns x,y)$' table.csv || { echo "cli_formats: $(grep input_ table.csv)" && bad=1; }
 

@@ -2,7 +2,8 @@
  *
  *   0  domain (2 bits), weight column, ignore weights, wrap, normalize, keep angles, whole read by pipe
  *   1  columns: 0 none, else one of PS_POINT_COLUMNS
- *   2  dimension (3 bits), blocks by pipe, blocks are kept, the writer is told the counts
+ *   2  dimension (3 bits), blocks by pipe, blocks are kept, the writer is told the counts,
+ *      --header (2 bits)
  *   3  points per set
  *   4  sets: first (4 bits), last (4 bits); last 0 means all
  *   5  points of a block, less 1
@@ -35,6 +36,7 @@ static void take_choices(fuzz_choices *out, fuzz_bytes *input, const char *forma
                          char columns[COLUMNS_BYTES]) {
     static const ps_domain domains[] = {PS_DOMAIN_TORUS, PS_DOMAIN_SPHERE, PS_DOMAIN_ANY,
                                         PS_DOMAIN_ANY};
+    static const char *const headers[] = {NULL, "yes", "no", NULL};
     const uint8_t flags = fuzz_take(input);
     out->options.format = format;
     out->options.domain = domains[flags & 3];
@@ -50,6 +52,7 @@ static void take_choices(fuzz_choices *out, fuzz_bytes *input, const char *forma
     out->blocks_from_pipe = (more_flags & 8) != 0;
     out->keeps_blocks = (more_flags & 16) != 0;
     out->tells_counts = (more_flags & 32) != 0;
+    out->options.header = headers[more_flags >> 6];
     out->options.points_per_set = fuzz_take(input);
     const uint8_t range = fuzz_take(input);
     out->options.sets.first = range & 15;

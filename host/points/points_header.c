@@ -1,0 +1,122 @@
+/* The first line of a text: has it names of columns? */
+#include "files/text_lines.h"
+#include "points/points_text.h"
+#include "points/text_header.h"
+
+#include <string.h>
+
+/* Have all numbers of the rows after this line decimal points, up to the last that is looked at? */
+static pspec_status are_decimals(ps_text_state *state, bool *are, ps_error *error) {
+    enum { MOST_ROWS = 1000 };
+    ps_lines *const lines = &state->lines;
+    const char *line = NULL;
+    size_t num_rows = 0;
+    PS_TRY(ps_lines_peek(lines, MOST_ROWS, &line, error)); /* so that they are there */
+    line = lines->cursor;
+    for (*are = true; *are && num_rows < MOST_ROWS; num_rows++) {
+        line = (const char *)memchr(line, '\n', (size_t)(lines->lines_end - line)) + 1;
+        if (line == lines->lines_end) {
+            break;
+        }
+        const bool is_row = *line != '#' && !ps_ends_line(ps_skip_blanks(line));
+        *are = !is_row || ps_text_header_is_decimal(line, state->separator);
+    }
+    *are = *are && num_rows > 0;
+    return PSPEC_OK;
+}
+
+static bool says(const char *option, const char *word) {
+    return option != NULL && strcmp(option, word) == 0;
+}
+
+/* Is the first line one of names? */
+static pspec_status find_header(ps_point_reader *reader, bool *is_there, ps_error *error) {
+    ps_text_state *const state = reader->state;
+    const ps_point_options *const options = &reader->options;
+    const char *const line = state->lines.cursor;
+    const bool is_numbered = ps_text_header_is_numbered(line, state->separator);
+    bool are_labels = false;
+    *is_there = ps_text_header_is(line, state->separator) || says(options->header, "yes") ||
+                (is_numbered && options->column_names != NULL);
+    if (says(options->header, "no")) {
+        *is_there = false;
+    } else if (!*is_there && is_numbered) {
+        PS_TRY(are_decimals(state, &are_labels, error));
+    }
+    return !are_labels ? PSPEC_OK
+                       : ps_fail(error, PSPEC_ERROR_INPUT,
+                                 "%s, line %zu: labels of columns, or a point? Its numbers have no "
+                                 "decimal points, and those after it have; --header yes or no",
+                                 reader->input.name, state->lines.line_number);
+}
+
+/* Names like "x,y,r" do not tell that all are coordinates. */
+static pspec_status check_similar(const ps_point_reader *reader, const char *where,
+                                  ps_error *error) {
+    const ps_text_state *const state = reader->state;
+    const ps_point_options *const options = &reader->options;
+    char shown[PS_TOKEN_BYTES];
+    const bool is_told = options->column_names != NULL || options->columns != NULL ||
+                         options->dimension != 0 || options->weight_column;
+    return is_told || reader->own_columns != NULL || state->header.are_similar
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INPUT,
+                         "%s: are these all coordinates? --columns %s says so, or chooses among "
+                         "them; --weights column, that the last is the weight",
+                         where,
+                         ps_token_show(shown, state->header.used, strlen(state->header.used)));
+}
+
+/* The layout that the names of the chosen columns mean ("xyw", "theta-phi"), or NULL. */
+static const char *layout_of(const ps_text_header *header) {
+    static const struct {
+        const char *names, *layout;
+    } known[] = {{"x,y", "xy"},
+                 {"x,y,w", "xyw"},
+                 {"x,y,weight", "xyw"},
+                 {"x,y,z", "xyz"},
+                 {"x,y,z,w", "xyzw"},
+                 {"x,y,z,weight", "xyzw"},
+                 {"theta,phi", "theta-phi"},
+                 {"theta,phi,w", "theta-phi-w"},
+                 {"theta,phi,weight", "theta-phi-w"},
+                 {"phi,theta", "phi-theta"},
+                 {"phi,theta,w", "phi-theta-w"},
+                 {"phi,theta,weight", "phi-theta-w"},
+                 {"lon,lat", "lon-lat"},
+                 {"lon,lat,w", "lon-lat-w"},
+                 {"lon,lat,weight", "lon-lat-w"}};
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+        if (strcmp(header->used, known[i].names) == 0) {
+            return known[i].layout;
+        }
+    }
+    return NULL;
+}
+
+pspec_status ps_text_take_header(ps_point_reader *reader, ps_error *error) {
+    ps_text_state *const state = reader->state;
+    ps_lines *const lines = &state->lines;
+    const char *const names = reader->options.column_names;
+    const char *row = NULL;
+    bool is_there = false;
+    char where[PS_PLACE_BYTES];
+    PS_TRY(ps_lines_peek(lines, 1, &row, error));
+    PS_TRY(row != NULL ? find_header(reader, &is_there, error) : PSPEC_OK);
+    PS_TRY(ps_lines_peek(lines, 1, &row, error)); /* it may have moved */
+    if (!is_there) {
+        return names == NULL
+                   ? PSPEC_OK
+                   : ps_fail(error, PSPEC_ERROR_INPUT,
+                             "%s: --columns names columns (%s), and the first line has no names",
+                             reader->input.name, names);
+    }
+    snprintf(where, sizeof where, "%.440s, line %zu", reader->input.name, lines->line_number);
+    PS_TRY(ps_text_header_read(&state->header, lines->cursor, row, state->separator, names, where,
+                               error));
+    reader->own_columns = layout_of(&state->header);
+    reader->chosen = state->header.chooses ? state->header.used : NULL;
+    PS_TRY(check_similar(reader, where, error));
+    ps_lines_skip(lines);
+    return PSPEC_OK;
+}
