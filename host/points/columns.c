@@ -63,6 +63,28 @@ bool ps_layout_is_plain(const ps_layout *layout) {
             (layout->coordinates == PS_ANGLES && layout->angles == PS_THETA_PHI));
 }
 
+unsigned ps_columns_told(const ps_point_options *options) {
+    enum { PLANE = 2 };
+    const named_layout *const layout =
+        options->columns != NULL ? find_named(options->columns) : NULL;
+    if (layout != NULL) {
+        return layout->columns;
+    }
+    const unsigned dimension = options->lift != PS_NO_LIFT ? PLANE : options->dimension;
+    return dimension > 0 ? dimension + options->weight_column : 0;
+}
+
+bool ps_columns_agree(const ps_point_options *options, size_t columns) {
+    const unsigned told = ps_columns_told(options);
+    if (told > 0) {
+        return columns == told;
+    }
+    return options->domain == PS_DOMAIN_SPHERE
+               ? columns == 3U + options->weight_column || columns == 4
+               : columns > options->weight_column &&
+                     columns <= (size_t)PS_MAX_DIMENSION + options->weight_column;
+}
+
 /* ---- which columns mean what ------------------------------------------------------------- */
 
 static pspec_status set_torus(ps_layout *out, const ps_columns_question *question, bool has_weight,
@@ -171,6 +193,21 @@ static bool looks_like_sphere(const ps_columns_question *question) {
            (options->normalize_vectors || ps_is_unit_vector(question->first));
 }
 
+/* The columns of an array (3, N), or (4, N) with weights. */
+static pspec_status resolve_by_shape(ps_layout *out, const ps_columns_question *question,
+                                     ps_error *error) {
+    const ps_point_options *const options = question->options;
+    if (!options->normalize_vectors && !ps_is_unit_vector(question->first)) {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "%s: columns of an array that are no unit vectors; are they points, or its "
+                       "rows angles? --transpose or --columns theta-phi-w",
+                       question->where);
+    }
+    PS_TRY(resolve_sphere(out, question, error));
+    out->by_shape = true;
+    return PSPEC_OK;
+}
+
 /* Directions taken mod 1 would be points of no meaning. */
 static pspec_status check_wrap(const ps_columns_question *question, ps_error *error) {
     const ps_point_options *options = question->options;
@@ -231,6 +268,8 @@ pspec_status ps_columns_resolve(ps_layout *out, const ps_columns_question *quest
                            "columns \"%s\" are none of " PS_POINT_COLUMNS, name);
         }
         PS_TRY(resolve_named(out, question, layout, error));
+    } else if (question->by_shape) {
+        PS_TRY(resolve_by_shape(out, question, error));
     } else if (options->domain == PS_DOMAIN_SPHERE ||
                (options->domain == PS_DOMAIN_ANY && looks_like_sphere(question))) {
         PS_TRY(resolve_sphere(out, question, error));

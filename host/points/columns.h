@@ -22,6 +22,7 @@ typedef struct ps_layout {
     ps_lift lift;          /* rows are points (x, y) of the plane, which become vectors */
     bool has_weight_column;
     bool drops_weight;
+    bool by_shape; /* nothing but the shape of an array and its first point told that */
 } ps_layout;
 
 /* The facts that decide about the layout of a file. */
@@ -30,8 +31,14 @@ typedef struct ps_columns_question {
     unsigned columns;    /* of a row */
     const char *own;     /* layout that the format prescribes, or NULL */
     const double *first; /* the first row */
+    bool by_shape;       /* of the columns of an array, which are points if they are unit vectors */
     const ps_point_options *options;
 } ps_columns_question;
+
+/* How many columns a row has by the options, 0: they do not tell. */
+unsigned ps_columns_told(const ps_point_options *options);
+/* May a row have so many columns, as far as the options tell? */
+bool ps_columns_agree(const ps_point_options *options, size_t columns);
 
 pspec_status ps_columns_resolve(ps_layout *out, const ps_columns_question *question,
                                 ps_error *error) PS_MUST_CHECK;

@@ -262,37 +262,34 @@ static pspec_status refuse_torus(const ps_layout *layout, const ps_point_options
     return PSPEC_OK;
 }
 
-static pspec_status refuse_vector(const ps_point_options *options, const char *where,
-                                  const double *row, ps_error *error) {
+static pspec_status refuse_vector(const ps_layout *layout, const ps_point_options *options,
+                                  const char *where, const double *row, ps_error *error) {
     char text[3][NUMBER_BYTES];
     for (int axis = 0; axis < 3; axis++) {
         show_number(text[axis], row[axis]);
     }
     double vector[3] = {row[0], row[1], row[2]};
     const bool has_direction = normalize(vector);
-    return ps_fail(error, PSPEC_ERROR_INPUT, "%s: (%s, %s, %s) %s%s", where, text[0], text[1],
-                   text[2],
-                   has_direction ? "is not a unit vector; --normalize-vectors would divide it by "
-                                   "its length"
-                                 : "has no direction",
-                   has_direction && options->domain == PS_DOMAIN_ANY
-                       ? "; for points of the torus say --domain torus"
-                       : "");
+    return ps_fail(
+        error, PSPEC_ERROR_INPUT, "%s: (%s, %s, %s) %s%s", where, text[0], text[1], text[2],
+        has_direction ? "is not a unit vector; --normalize-vectors would divide it by "
+                        "its length"
+                      : "has no direction",
+        layout->by_shape ? "; --transpose reads other points, --columns theta-phi-w rows of angles"
+        : has_direction && options->domain == PS_DOMAIN_ANY
+            ? "; for points of the torus say --domain torus"
+            : "");
 }
 
-static pspec_status refuse_angles(const ps_layout *layout, const ps_point_options *options,
-                                  const char *where, const double *row, ps_error *error) {
+static pspec_status refuse_angles(const ps_layout *layout, const char *where, const double *row,
+                                  ps_error *error) {
     char text[2][NUMBER_BYTES];
-    const bool was_guessed = options->format == NULL && options->columns == NULL;
-    return ps_fail(error, PSPEC_ERROR_INPUT, "%s: %s, %s are not %s%s", where,
+    return ps_fail(error, PSPEC_ERROR_INPUT, "%s: %s, %s are not %s", where,
                    show_number(text[0], row[0]), show_number(text[1], row[1]),
                    layout->angles == PS_LON_LAT
                        ? "longitude and latitude in degrees (up to 360 and 90)"
                    : layout->angles == PS_THETA_PHI ? "theta (0 to pi) and phi (up to 2 pi)"
-                                                    : "phi (up to 2 pi) and theta (0 to pi)",
-                   was_guessed ? "; an array (2, N) or (3, N) is taken for rows of angles: "
-                                 "transpose it where its rows are x, y, z"
-                               : "");
+                                                    : "phi (up to 2 pi) and theta (0 to pi)");
 }
 
 pspec_status ps_columns_refuse(const ps_layout *layout, const ps_point_options *options,
@@ -303,11 +300,11 @@ pspec_status ps_columns_refuse(const ps_layout *layout, const ps_point_options *
     } else if (layout->coordinates == PS_TORUS_COORDINATES) {
         PS_TRY(refuse_torus(layout, options, where, row, error));
     } else if (layout->angles != PS_NO_ANGLES && !are_angles(layout->angles, row)) {
-        return refuse_angles(layout, options, where, row, error);
+        return refuse_angles(layout, where, row, error);
     } else if (layout->angles == PS_NO_ANGLES) {
         double vector[3] = {row[0], row[1], row[2]};
         if (accept_vectors(options->normalize_vectors, vector, 1) == 0) {
-            return refuse_vector(options, where, row, error);
+            return refuse_vector(layout, options, where, row, error);
         }
     }
     char text[NUMBER_BYTES];

@@ -166,6 +166,12 @@ static pspec_status check_names(const ps_point_reader *reader, ps_error *error) 
                        "%s: --columns names columns (%s), and %s has no names", reader->input.name,
                        options->column_names, reader->format->name);
     }
+    if (options->transpose && reader->format != &ps_format_npy &&
+        reader->format != &ps_format_openquad) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "%s: --transpose is for arrays, and this is %s", reader->input.name,
+                       reader->format->name);
+    }
     return may_have_names || options->header == NULL || strcmp(options->header, "yes") != 0
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,

@@ -64,6 +64,7 @@ typedef struct ps_point_options {
     const char *columns;      /* NULL: found out, else one of PS_POINT_COLUMNS */
     const char *column_names; /* NULL, or "x,y": of a text with a line of names */
     const char *header;       /* NULL: found out, "yes" or "no": is the first line one of names? */
+    bool transpose;           /* points are the columns of an array of two axes */
     unsigned dimension;       /* of the torus; 0: from the file; otherwise it must agree */
     size_t points_per_set; /* of formats that do not say (rps), where 0 means that all is one set;
                                sets of other formats must have so many, unless 0 */

@@ -1,5 +1,6 @@
 /* Formats of text that no first bytes tell apart: the first lines do. */
 #include "files/decimal.h"
+#include "math/unit_vector.h"
 #include "points/points_text.h"
 
 #include <string.h>
@@ -50,6 +51,50 @@ static bool is_text(const char *line) {
     return *line == '\n';
 }
 
+/* Numbers of a line that has nothing else, or 0. */
+static size_t count_numbers(const char *line) {
+    size_t num = 0;
+    double value = 0;
+    for (line = ps_skip_blanks(line); !ps_ends_line(line); line = ps_skip_blanks(line)) {
+        const size_t length = ps_token_length(line);
+        if (length == 0 || ps_decimal_parse(line, &value) != line + length) {
+            return 0;
+        }
+        num++;
+        line += length;
+    }
+    return num;
+}
+
+/* A set of one line may be one point, or all its points one after the other. */
+static pspec_status detect_tokens(ps_point_reader *reader, ps_error *error) {
+    enum { SEVERAL = 4, VECTOR = 3 }; /* at least two points of the plane */
+    const ps_point_options *const options = &reader->options;
+    const char *const line = ((ps_text_state *)reader->state)->lines.cursor;
+    const bool may_be_sphere = options->domain != PS_DOMAIN_TORUS;
+    const size_t num = count_numbers(line);
+    const size_t told = ps_columns_told(options);
+    double row[PS_MAX_COLUMNS] = {0};
+    if (told > 0) {
+        reader->format = num > told && num % told == 0 ? &ps_format_tokens : reader->format;
+        return PSPEC_OK;
+    }
+    const bool is_vector = may_be_sphere && num == VECTOR + 1 &&
+                           ps_text_parse_line(line, row) == num &&
+                           (options->normalize_vectors || ps_is_unit_vector(row));
+    if (num < SEVERAL || is_vector) {
+        return PSPEC_OK;
+    }
+    return ps_fail(
+        error, PSPEC_ERROR_INPUT,
+        "%s, line %zu: %zu numbers and no other line: one point, or one after the other? "
+        "%s",
+        reader->input.name, ((ps_text_state *)reader->state)->lines.line_number, num,
+        options->domain == PS_DOMAIN_SPHERE
+            ? "--columns, as in xyz, says what a point is"
+            : "-d says how many dimensions a point has, as in -d 2");
+}
+
 /* Formats of text whose rows have blanks, by their first lines. */
 static pspec_status detect_blanks(ps_point_reader *reader, bool is_named_edat, ps_error *error) {
     ps_text_state *const state = reader->state;
@@ -62,7 +107,9 @@ static pspec_status detect_blanks(ps_point_reader *reader, bool is_named_edat, p
         return PSPEC_OK;
     }
     PS_TRY(ps_lines_peek(&state->lines, 1, &second, error));
-    return second != NULL ? detect_counts(reader, second, error) : PSPEC_OK;
+    const char *const text = second != NULL ? ps_skip_blanks(second) : NULL;
+    const bool is_alone = text == NULL || *text == '#' || ps_ends_line(text);
+    return is_alone ? detect_tokens(reader, error) : detect_counts(reader, second, error);
 }
 
 pspec_status ps_text_detect(ps_point_reader *reader, ps_error *error) {

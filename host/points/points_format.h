@@ -66,6 +66,7 @@ struct ps_point_reader {
     /* set by the format */
     unsigned columns;        /* of every row */
     const char *own_columns; /* name of the layout that the format prescribes, or NULL */
+    bool by_shape;           /* columns of an array that may be vectors: the first one tells */
     const char *chosen;      /* names of the columns that are read, where not all are, or NULL */
     size_t rows_per_set;     /* when it is known and really there; else 0 */
     size_t block_values;     /* numbers of a read, if not as many as fit the cache of a core */
@@ -103,6 +104,8 @@ const char *ps_place_show(char place[PS_PLACE_BYTES], const ps_point_reader *rea
 extern const ps_point_format ps_format_utk_text, ps_format_csv, ps_format_edat, ps_format_psa_text,
     ps_format_gbn, ps_format_eps, ps_format_utk_binary, ps_format_rps, ps_format_npy,
     ps_format_openquad;
+/* Numbers in lines that mean nothing; in no table, for only the options tell it from utk-text. */
+extern const ps_point_format ps_format_tokens;
 
 pspec_status ps_point_format_find(const char *name, const ps_point_format **out,
                                   ps_error *error) PS_MUST_CHECK;

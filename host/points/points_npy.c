@@ -1,6 +1,7 @@
 /* NPY arrays of points: (N,) is one set in one dimension, (N, c) one set of c columns, (M, N, c) M
- * sets. openquad: (2, N) and (3, N) hold theta, phi and perhaps weights in rows, which is how an
- * array (N, 2) or (N, 3) in Fortran order lies in the file. Set and row are counted from 1. */
+ * sets. Where the options or the numbers tell, (c, N) is one set whose points are the columns:
+ * so an array (N, c) in Fortran order lies in the file. openquad is such an array, of theta, phi
+ * and perhaps weights. Set and row are counted from 1. */
 #include "base/memory.h"
 #include "base/text.h"
 #include "files/npy.h"
@@ -38,37 +39,81 @@ static pspec_status fail_shape(const ps_point_reader *reader, const char *what, 
     return PSPEC_ERROR_INPUT;
 }
 
-/* Two or three long rows are angles, as openquad writes them; short ones could be points, too. */
-static pspec_status detect_openquad(ps_point_reader *reader, ps_error *error) {
+/* The columns are points, or would have to be: do the options or the first column tell? */
+static pspec_status check_columns(ps_point_reader *reader, bool *are_points, ps_error *error) {
     const ps_npy_header *const header = &((const npy_state *)reader->state)->header;
-    const ps_point_options *options = &reader->options;
-    const bool is_told = options->format != NULL || options->columns != NULL ||
-                         options->dimension != 0 || options->domain == PS_DOMAIN_TORUS;
-    if (is_told || header->rank != 2 || header->is_fortran_order ||
-        (header->shape[0] != 2 && header->shape[0] != 3)) {
+    const ps_point_options *const options = &reader->options;
+    const size_t rows = header->shape[0];
+    const bool may_be_sphere = options->domain != PS_DOMAIN_TORUS && !options->wrap;
+    *are_points = true;
+    if (ps_columns_told(options) > 0) {
         return PSPEC_OK;
     }
-    if (header->shape[1] <= PS_MAX_COLUMNS && header->shape[1] > 1) {
-        return fail_shape(reader, "points, or rows of angles? --input-format npy or openquad",
-                          error);
+    if (may_be_sphere && rows == 2) {
+        return fail_shape(
+            reader,
+            "are its columns points of the plane, or its rows angles? --transpose, or "
+            "--columns theta-phi, phi-theta or lon-lat",
+            error);
     }
-    if (header->shape[1] > PS_MAX_COLUMNS) {
-        reader->format = &ps_format_openquad;
-    }
-    return PSPEC_OK;
+    reader->by_shape = options->domain == PS_DOMAIN_SPHERE ||
+                       (may_be_sphere && rows == 3U + options->weight_column);
+    return reader->by_shape
+               ? PSPEC_OK
+               : fail_shape(reader, "are its columns the points? --transpose reads them", error);
 }
 
-static pspec_status interpret_openquad(ps_point_reader *reader, ps_error *error) {
-    npy_state *const state = reader->state;
-    const ps_npy_header *const header = &state->header;
-    if (header->rank != 2 || header->shape[0] < 2 || header->shape[0] > 3) {
-        return fail_shape(reader, "openquad has (2, N) or (3, N): theta, phi, and perhaps weights",
+/* Rows of an array of two axes are points, (N, d), unless nothing but its columns could be; which
+ * of both is open where it has no more rows than columns, and few. */
+static pspec_status find_points(ps_point_reader *reader, bool *are_columns, ps_error *error) {
+    const ps_npy_header *const header = &((const npy_state *)reader->state)->header;
+    const ps_point_options *const options = &reader->options;
+    *are_columns = options->transpose;
+    if (options->transpose && header->rank != 2) {
+        return fail_shape(reader, "--transpose is for arrays of two axes", error);
+    }
+    if (options->transpose || options->format != NULL || header->rank != 2) {
+        return PSPEC_OK;
+    }
+    const size_t num_rows = header->shape[0];
+    const size_t num_columns = header->shape[1];
+    const bool may_be_rows = ps_columns_agree(options, num_columns);
+    const bool may_be_columns = ps_columns_agree(options, num_rows);
+    if (may_be_rows && may_be_columns && num_rows <= num_columns && num_columns > 1) {
+        return fail_shape(reader,
+                          "are its rows the points, or its columns? --input-format npy or "
+                          "--transpose, or openquad for rows of angles",
                           error);
     }
+    /* what -d says could lack a column of weights */
+    const bool is_refused =
+        options->columns == NULL && options->dimension > 0 && num_columns <= PS_MAX_COLUMNS;
+    const bool are_angles = num_rows == 2 && num_columns > PS_MAX_COLUMNS;
+    return !may_be_rows && (may_be_columns || are_angles) && !is_refused
+               ? check_columns(reader, are_columns, error)
+               : PSPEC_OK;
+}
+
+static void take_columns(ps_point_reader *reader) {
+    npy_state *const state = reader->state;
+    const ps_npy_header *const header = &state->header;
     state->num_sets = 1;
     state->num_points = header->shape[1];
     state->is_fortran_order = !header->is_fortran_order;
     reader->columns = (unsigned)header->shape[0];
+}
+
+static pspec_status interpret_openquad(ps_point_reader *reader, ps_error *error) {
+    const ps_npy_header *const header = &((const npy_state *)reader->state)->header;
+    if (header->rank != 2 || header->shape[0] < 2 || header->shape[0] > 3) {
+        return fail_shape(reader, "openquad has (2, N) or (3, N): theta, phi, and perhaps weights",
+                          error);
+    }
+    if (reader->options.transpose) {
+        return fail_shape(reader, "--transpose does not go with openquad, whose rows are angles",
+                          error);
+    }
+    take_columns(reader);
     reader->own_columns = reader->columns == 3 ? "theta-phi-w" : "theta-phi";
     return PSPEC_OK;
 }
@@ -77,16 +122,18 @@ static pspec_status interpret_points(ps_point_reader *reader, ps_error *error) {
     npy_state *const state = reader->state;
     const ps_npy_header *const header = &state->header;
     const size_t *const extent = header->shape;
+    bool are_columns = false;
+    PS_TRY(find_points(reader, &are_columns, error));
+    if (are_columns && extent[0] <= PS_MAX_COLUMNS) {
+        take_columns(reader);
+        return PSPEC_OK;
+    }
     if (header->rank < 1 || header->rank > 3) {
         return fail_shape(reader, "points are (N, d), (M, N, d) or (N)", error);
     }
     const size_t columns = header->rank == 1 ? 1 : extent[header->rank - 1];
     if (columns > PS_MAX_COLUMNS) {
-        return fail_shape(reader,
-                          header->rank == 2 && extent[0] <= PS_MAX_COLUMNS
-                              ? "points are rows, so transpose it"
-                              : "points are rows of at most 6 dimensions",
-                          error);
+        return fail_shape(reader, "points are rows of at most 6 dimensions", error);
     }
     state->num_sets = header->rank == 3 ? extent[0] : 1;
     state->num_points = header->rank == 3 ? extent[1] : extent[0];
@@ -102,7 +149,6 @@ static pspec_status open_npy(ps_point_reader *reader, ps_error *error) {
     if (state->header.num_elements == 0) {
         return ps_fail(error, PSPEC_ERROR_INPUT, "%s holds no points", reader->input.name);
     }
-    PS_TRY(detect_openquad(reader, error));
     PS_TRY(reader->format == &ps_format_openquad ? interpret_openquad(reader, error)
                                                  : interpret_points(reader, error));
     state->data_position = reader->input.is_seekable ? ps_input_position(&reader->input) : -1;

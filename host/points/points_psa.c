@@ -1,6 +1,7 @@
-/* Text that begins with the number of points: psa-text (of PSA, and GBN in the plane), "N" and then
- * N times "x y" (or "x y w"); gbn, "N d" and then N times d numbers. What follows is ignored, as
- * these tools do; line breaks mean nothing. One set per file. */
+/* Text whose line breaks mean nothing. With the number of points at its beginning: psa-text (of
+ * PSA, and GBN in the plane), "N" and then N times "x y" (or "x y w"); gbn, "N d" and then N times
+ * d numbers. What follows is ignored, as these tools do; one set per file. And tokens, the numbers
+ * alone, as pbrt's pspec reads them, with '#' lines between sets. */
 #include "base/memory.h"
 #include "files/decimal.h"
 #include "points/points_text.h"
@@ -169,6 +170,68 @@ static pspec_status read_psa(ps_point_reader *reader, ps_rows_read *out, ps_erro
     return PSPEC_OK;
 }
 
+/* ---- tokens ------------------------------------------------------------------------------ */
+
+static pspec_status open_tokens(ps_point_reader *reader, ps_error *error) {
+    PS_TRY(ps_text_open_lines(reader, ' ', error));
+    ps_text_set_columns(reader, ps_columns_told(&reader->options));
+    return PSPEC_OK;
+}
+
+/* A set ends at the cursor, or the input does. */
+static pspec_status end_tokens(ps_point_reader *reader, ps_rows_read *out, ps_line_kind kind,
+                               ps_error *error) {
+    ps_text_state *const state = reader->state;
+    if (state->num_partial > 0) {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "%s, line %zu: set %llu ends inside a point, after %u of its %u numbers",
+                       reader->input.name, state->lines.line_number,
+                       (unsigned long long)reader->num_sets + 1, state->num_partial,
+                       reader->columns);
+    }
+    if (kind == PS_LINE_MARK && state->is_in_line) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "%s, line %zu: a '#' behind numbers",
+                       reader->input.name, state->lines.line_number);
+    }
+    if (kind == PS_LINE_MARK) {
+        return ps_text_end_set(reader, out, error);
+    }
+    out->end = PS_END_OF_INPUT;
+    return PSPEC_OK;
+}
+
+static pspec_status read_token(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
+    ps_text_state *const state = reader->state;
+    bool has_number = false;
+    PS_TRY(next_number(reader, &state->partial[state->num_partial], &has_number, error));
+    state->is_in_line = true;
+    if (++state->num_partial == reader->columns) {
+        memcpy(out->rows + out->num * reader->columns, state->partial,
+               reader->columns * sizeof *state->partial);
+        out->num++;
+        state->num_partial = 0;
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status read_tokens(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
+    ps_text_state *const state = reader->state;
+    ps_line_kind kind = PS_LINE_NONE;
+    pspec_status status = PSPEC_OK;
+    while (status == PSPEC_OK && out->num < out->capacity && out->end == PS_MORE_ROWS) {
+        PS_TRY(ps_text_next_line(state, &kind, error));
+        if (kind == PS_LINE_BLANK) {
+            ps_lines_skip(&state->lines);
+            state->is_in_line = false;
+        } else if (kind == PS_LINE_POINT) {
+            status = read_token(reader, out, error);
+        } else {
+            status = end_tokens(reader, out, kind, error);
+        }
+    }
+    return out->num > 0 ? PSPEC_OK : status; /* the next call finds it again */
+}
+
 /* ---- writing ----------------------------------------------------------------------------- */
 
 /* Counts that become known at the end are written again over blanks of the same length. */
@@ -206,3 +269,6 @@ const ps_point_format ps_format_gbn = {.name = "gbn",
                                        .abilities = PS_HOLDS_TORUS | PS_NEEDS_COUNTS,
                                        .begin = begin_gbn,
                                        .write = ps_text_write_rows};
+
+const ps_point_format ps_format_tokens = {
+    .name = "tokens", .open = open_tokens, .read = read_tokens, .close = ps_text_close};

@@ -78,6 +78,7 @@ static pspec_status resolve_layout(ps_point_reader *reader, const double *first,
         .columns = reader->columns,
         .own = reader->own_columns,
         .first = first,
+        .by_shape = reader->by_shape,
         .options = &reader->options,
     };
     PS_TRY(ps_columns_resolve(&reader->layout, &question, error));

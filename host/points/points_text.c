@@ -195,7 +195,7 @@ static void read_rows(const ps_point_reader *reader, ps_rows_read *out) {
     out->num += num_rows;
 }
 
-static pspec_status end_set(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
+pspec_status ps_text_end_set(ps_point_reader *reader, ps_rows_read *out, ps_error *error) {
     ps_text_state *const state = reader->state;
     if (reader->rows_in_set + out->num == 0) {
         return ps_fail(error, PSPEC_ERROR_INPUT,
@@ -226,7 +226,7 @@ pspec_status ps_text_read(ps_point_reader *reader, ps_rows_read *out, ps_error *
     while (out->num < out->capacity) {
         PS_TRY(ps_text_next_line(state, &kind, error));
         if (kind == PS_LINE_MARK) {
-            return end_set(reader, out, error);
+            return ps_text_end_set(reader, out, error);
         }
         if (kind == PS_LINE_NONE || kind == PS_LINE_BLANK) {
             return end_input(reader, out, kind == PS_LINE_BLANK, error);

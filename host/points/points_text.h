@@ -14,6 +14,9 @@ typedef struct ps_text_state {
     ps_text_header header;
     size_t promised; /* points, by a count at the beginning of the file */
     bool is_in_line; /* the cursor is not at the beginning of a line (such files only) */
+    /* tokens: numbers of the point that is being read */
+    unsigned num_partial;
+    double partial[PS_MAX_COLUMNS];
     /* edat: the domain of this set */
     unsigned num_corners; /* coordinates of a corner */
     bool needs_header;    /* the next line is that of the next set */
@@ -36,6 +39,9 @@ void ps_text_set_columns(ps_point_reader *reader, unsigned columns);
 pspec_status ps_text_take_header(ps_point_reader *reader, ps_error *error) PS_MUST_CHECK;
 /* The row at the cursor fixes the number of columns for all sets of the input. */
 pspec_status ps_text_fix_columns(ps_point_reader *reader, ps_error *error) PS_MUST_CHECK;
+/* At the '#' line that ends a set. */
+pspec_status ps_text_end_set(ps_point_reader *reader, ps_rows_read *out,
+                             ps_error *error) PS_MUST_CHECK;
 pspec_status ps_text_read(ps_point_reader *reader, ps_rows_read *out,
                           ps_error *error) PS_MUST_CHECK;
 void ps_text_close(ps_point_reader *reader);

@@ -225,6 +225,15 @@ static void describe_reading(const ps_point_writer *writer, char *text, size_t t
         snprintf(option, sizeof option, "-d %u", writer->shape.dimension);
         append_hint(text, text_bytes, what, option);
     }
+    const unsigned several = 4; /* as in points_detect.c */
+    if (is_torus && writer->format == &ps_format_utk_text && writer->shape.num_points == 1 &&
+        writer->columns >= several) {
+        snprintf(option, sizeof option, "-d %u", writer->shape.dimension);
+        append_hint(text, text_bytes, "that a line is one point", option);
+    }
+    if (writer->format == &ps_format_openquad) {
+        append_hint(text, text_bytes, "that its rows are angles", "--input-format openquad");
+    }
     if (is_torus && writer->shape.has_weights && writer->format != &ps_format_edat) {
         append_hint(text, text_bytes, "that its last column holds weights", "--weights column");
     }

@@ -170,6 +170,9 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                           .help = "has the first line of a text names of columns? (default: found "
                                   "out)",
                           WORD(reading.header)},
+    [PS_OPTION_TRANSPOSE] = {NAMED("transpose", 0, NULL), OF(SETS, BIT(convert)),
+                             .help = "points are the columns of arrays, as in shape (2, N)",
+                             FLAG(reading.transpose)},
     [PS_OPTION_DOMAIN] = {NAMED("domain", 0, "torus|sphere"), OF(BIT(check), BIT(convert)),
                           .help = "where the points lie (default: found out; check: on the torus)",
                           .set = ps_set_domain},

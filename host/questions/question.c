@@ -18,6 +18,7 @@ ps_option_source ps_option_source_of(ps_option_id id) {
     case PS_OPTION_INPUT_FORMAT:
     case PS_OPTION_COLUMNS:
     case PS_OPTION_HEADER:
+    case PS_OPTION_TRANSPOSE:
     case PS_OPTION_DOMAIN:
     case PS_OPTION_WRAP:
     case PS_OPTION_NORMALIZE_VECTORS:

@@ -47,6 +47,7 @@ typedef enum ps_option_id {
     PS_OPTION_INPUT_FORMAT,      /* --input-format NAME */
     PS_OPTION_COLUMNS,           /* --columns NAME */
     PS_OPTION_HEADER,            /* --header yes|no */
+    PS_OPTION_TRANSPOSE,         /* --transpose */
     PS_OPTION_DOMAIN,            /* --domain torus|sphere */
     PS_OPTION_WRAP,              /* --wrap */
     PS_OPTION_BOX,               /* --box X0,X1 */

@@ -171,14 +171,18 @@ says 'tolerance'
 printf '0.1 0.2\n0.3 0.4\n' >plane.txt
 runs 2 -l 3 plane.txt
 
-# Columns instead of rows, as healpy makes them, look like rows of angles.
-{
+# Columns instead of rows, as healpy makes them: vectors where they have length 1, and nothing else without a word.
+array() { # BYTE: eight columns (x, 0, 0), x being -1 or 0.5
     printf '\x93NUMPY\x01\x00\x76\x00%-117s\n' "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 8), }"
-    for ((i = 0; i < 8; i++)); do printf '\0\0\0\0\0\0\xf0\xbf'; done # -1
+    for ((i = 0; i < 8; i++)); do printf '%b' "\\0\\0\\0\\0\\0\\0$1"; done
     head -c 128 /dev/zero
-} >columns.npy
-runs 2 -l 3 columns.npy
-says 'transpose it where its rows are x, y, z'
+}
+array '\xf0\xbf' >columns.npy
+array '\xe0\x3f' >angles.npy
+runs 0 --engine host_direct -l 3 columns.npy
+[[ $(powers) == '1:8.000000000 2:8.000000000 3:8.000000000 ' ]] || complain "columns: $(powers)"
+runs 2 -l 3 angles.npy
+says 'no unit vectors; are they points, or its rows angles? --transpose or --columns theta-phi-w'
 
 # Degree 0 of many regular points rounds into low degrees by more than the mean of all degrees: the
 # self-check does not take that for a device that computes wrongly, and it is no more than it allows.

@@ -80,7 +80,8 @@ options_to_read() { # FORMAT KIND DIMENSION SETS WEIGHTS
     options=()
     case $1,$2,$5 in
     rps,*) options=(-n "$points" -d "$3") ;;
-    openquad,*) options=(--to-columns theta-phi) ;;
+    openquad,*,column) options=(--columns theta-phi-w --to-columns theta-phi) ;;
+    openquad,*) options=(--columns theta-phi --to-columns theta-phi) ;;
     *,a,column) options=(--columns theta-phi-w --to-columns theta-phi) ;;
     *,a,*) options=(--columns theta-phi --to-columns theta-phi) ;;
     *,column) options=(--weights column) ;;

@@ -136,6 +136,16 @@ refuses 'not whole sets of 3' -n 3 points.rps
 refuses 'not whole points' odd.rps
 reads "$square" points.eps
 
+# ---- pbrt's pspec: tokens
+file pts-a '0 0 0.5 0.5\n'
+file tokens.dat '0 0 0.5 0.5\n#\n0.25 0\n0.75\n0.5\n'
+refuses 'pts-a, line 1: 4 numbers and no other line: one point, or one after the other?;-d' pts-a
+reads '0 0 0.5 0.5' --quiet -d 4 pts-a
+reads '0 0|0.5 0.5' -d 2 pts-a
+reads '0.0|0|0.5|0.5' -d 1 pts-a
+reads '0 0|0.5 0.5|#|0.25 0|0.75 0.5' -d 2 tokens.dat
+refuses 'set 1, row 1' --columns xyz --domain sphere <(printf '0 0 2 0 1 0\n') -o none
+
 # ---- deepsampling: bare text of 6 decimals, or numpy's %.18e
 file pcf.txt '0.500000 0.250000\n7.500000000000000000e-01 1.250000000000000000e-01\n'
 reads "$square" pcf.txt
@@ -169,17 +179,45 @@ file quad.npy "$(npy '(2, 8)' "$(eight "$half")$(eight "$quarter")")"
 file square.npy "$(npy '(2, 2)' "$half$quarter$quarter$zero8")"
 file torus.npy "$(npy '(1, 2, 2)' "$half$quarter$quarter$zero8")"
 file weighted.npy "$(npy '(2, 3)' "$half$quarter$quarter$zero8$half$half")"
-reads '0 0 1 0.5|0 0 1 0.5|0 0 1 0.5|0 0 1 0.5|0 0 1 0.5|0 0 1 0.5|0 0 1 0.5|0 0 1 0.5' gauss.npy
-reads '0.5 0.25' --select-points 8 --to-columns theta-phi quad.npy
-reads '0.25 0.5' --select-points 8 --to-columns phi-theta quad.npy
-refuses 'points, or rows of angles?;--input-format npy or openquad' square.npy
+# Rows of (2, N) and (3, N) may be coordinates, too: nothing but the options, or unit vectors, tell.
+poles='0 0 1 0.5|0 0 1 0.5|0 0 1 0.5|0 0 1 0.5|0 0 1 0.5|0 0 1 0.5|0 0 1 0.5|0 0 1 0.5'
+many() { printf "$1|%.0s" 1 2 3 4 5 6 7; printf '%s' "$1"; }
+refuses 'no unit vectors;--transpose or --columns theta-phi-w' gauss.npy
+reads "$poles" --columns theta-phi-w gauss.npy
+reads "$poles" --input-format openquad gauss.npy
+reads "$(many '0 0 0.5')" --transpose gauss.npy
+reads "$(many '0 0 0.5')" --columns xyz gauss.npy
+reads "$(many '0 0 0.5')" -d 3 gauss.npy
+refuses 'shape (2, 8): are its columns points of the plane, or its rows angles?;--transpose;--columns theta-phi, phi-theta or lon-lat' quad.npy
+refuses 'shape (2, 8): are its columns points of the plane' --domain sphere quad.npy
+refuses 'shape (2, 8): are its columns the points? --transpose' --domain torus quad.npy
+reads "$(many '0.5 0.25')" --transpose quad.npy
+reads "$(many '0.5 0.25')" -d 2 quad.npy
+reads '0.5 0.25' --select-points 8 --columns theta-phi --to-columns theta-phi quad.npy
+reads '0.25 0.5' --select-points 8 --columns theta-phi --to-columns phi-theta quad.npy
+reads '0.5 0.25' --select-points 8 --columns phi-theta --to-columns phi-theta quad.npy
+refuses 'are its rows the points, or its columns?;--input-format npy or --transpose, or openquad' square.npy
 reads '0.5 0.25|0.25 0' --input-format npy square.npy
-reads '0.5 0.25|0.25 0' -d 2 square.npy
-reads '0.5 0.25|0.25 0' --domain torus square.npy
+reads '0.5 0.25|0.25 0' --transpose <(cat square.npy) # a symmetric array
+refuses '--input-format npy or --transpose' --domain torus square.npy
+refuses '--input-format npy or --transpose' -d 2 square.npy
 reads '0.5 0.25|0.25 0' --input-format openquad --to-columns theta-phi square.npy
 reads '0.5 0.25|0.25 0' torus.npy
-refuses '--input-format npy or openquad' weighted.npy
+refuses 'shape (1, 2, 2): --transpose is for arrays of two axes' --transpose torus.npy
+refuses '--transpose is for arrays, and this is utk-text' --transpose utk.dat
+refuses '--transpose does not go with openquad' --transpose --input-format openquad square.npy
+refuses '--input-format npy or --transpose' weighted.npy
 reads '0.5 0.25 0.25|0 0.5 0.5' --columns xyw weighted.npy
+reads '0.5 0|0.25 0.5|0.25 0.5' --transpose weighted.npy
+refuses '3 columns, but the dimension asked for is 2' -d 2 weighted.npy
+one='\0\0\0\0\0\0\xf0\x3f' minus='\0\0\0\0\0\0\xf0\xbf' o=$zero8
+file axes.npy "$(npy '(3, 8)' "$one$minus$o$o$o$o$one$o$o$o$one$minus$o$o$o$one$o$o$o$o$one$minus$o$o")"
+file bent.npy "$(npy '(3, 8)' "$one$minus$o$o$o$o$one$o$o$o$one$minus$o$o$o$one$o$o$o$o$one$minus$o$half")"
+axes='1 0 0|-1 0 0|0 1 0|0 -1 0|0 0 1|0 0 -1|1 0 0|0 1 0'
+reads "$axes" axes.npy
+reads "$axes" --domain sphere axes.npy
+reads "$axes" <(cat axes.npy)
+refuses 'set 1, row 8: (0, 1, 0.5) is not a unit vector;--transpose reads other points, --columns theta-phi-w' bent.npy -o none
 file graef.dat '0 0\n1.5707963267948966 1.5707963267948966\n'
 file healpix.txt '0 90\n90 0\n180 0\n270 -90\n'
 refuses '2 columns; which angles are they?;theta-phi, phi-theta or lon-lat' --domain sphere graef.dat

@@ -130,6 +130,11 @@ archive() {
 { npy '<f8' False '2, 2'; f64 0.5 0.25 0 0.75; } | archive 1 points.npy | seed npy archive "$torus"
 { npy '<f8' False '2, 2'; f64 0.5 0.25 0 0.75; } | archive 0 arr_0.npy | seed npy archive-stored "$torus"
 
+# coordinates as rows
+{ npy '<f8' False '3, 2'; f64 0 1 0 0 1 0; } | seed npy transposed "$(options 00 00 c0 00 00 01)"
+{ npy '<f8' False '3, 8'; f64 1 -1 0 0 0 0 1 0 0 0 1 -1 0 0 0 1 0 0 0 0 1 -1 0 0; } | seed detection columns "$any"
+{ npy '<f8' False '3, 8'; f64 1 -1 0 0 0 0 1 0 0 0 1 -1 0 0 0 1 0 0 0 0 1 -1 0 0.5; } | seed detection bent "$sphere"
+{ npy '<f8' False '2, 8'; f64 0 1 2 3 0 1 2 3 0 1 2 3 4 5 6 0; } | seed detection theta-phi "$theta_phi"
 angles=$(options 43 00 20 00 00 01)
 { npy '<f8' False '2, 2'; f64 0.5 1.5 0 6; } | seed openquad angles "$angles"
 { npy '<f8' False '3, 2'; f64 0.5 1.5 0 6 1 2; } | seed openquad weights "$sphere"
@@ -141,6 +146,8 @@ printf '%b' "$points" | seed detection text "$torus"
 printf '0.1,0.2\n' | seed detection csv "$any"
 printf '3\n%b' "$points" | seed detection psa "$any"
 printf '2 3\n0.1 0.2 0.3\n0.4 0.5 0.6\n' | seed detection gbn "$any"
+printf '0 0 0.5 0.5\n#\n0.1 0\n0.5\n' | seed detection tokens "$(options 00 00 02 00 00 00)"
+printf '0 0 0.5 0.5 0.1 0.2' | seed detection tokens-piped "$(options 00 00 0a 00 00 01)"
 printf '0 0\n1 2\n1\n0.5 0.25\n' | seed detection edat "$any"
 printf '%%!PS\n0.5 0.25 p\n' | seed detection eps "$any"
 { utk 5 1 1 2; f64 0.5 0.25; } | seed detection utk "$any"

@@ -3,7 +3,7 @@
  *   0  domain (2 bits), weight column, ignore weights, wrap, normalize, keep angles, whole read by pipe
  *   1  columns: 0 none, else one of PS_POINT_COLUMNS
  *   2  dimension (3 bits), blocks by pipe, blocks are kept, the writer is told the counts,
- *      --header (2 bits)
+ *      --header or --transpose (2 bits)
  *   3  points per set
  *   4  sets: first (4 bits), last (4 bits); last 0 means all
  *   5  points of a block, less 1
@@ -53,6 +53,7 @@ static void take_choices(fuzz_choices *out, fuzz_bytes *input, const char *forma
     out->keeps_blocks = (more_flags & 16) != 0;
     out->tells_counts = (more_flags & 32) != 0;
     out->options.header = headers[more_flags >> 6];
+    out->options.transpose = more_flags >> 6 == 3;
     out->options.points_per_set = fuzz_take(input);
     const uint8_t range = fuzz_take(input);
     out->options.sets.first = range & 15;

@@ -44,7 +44,7 @@ static void reads_well_formed_text(void **state) {
         {"0.5 0.25\n\n \n\r\n", 1, 1, 0.25, 2},
         {"0.5 0.25\n#\n0.1 0.2\n#\n\n", 2, 2, 0.2, 2},
         {"0.5", 1, 1, 0.5, 1},
-        {"1e-1 0.2 0.3 0.4 .5 6E-1\n", 1, 1, 0.6, 6},
+        {"0 0 0 0 0 0\n1e-1 0.2 0.3 0.4 .5 6E-1\n", 1, 2, 0.6, 6},
         {"-0.0 0.99999999999999988898\n", 1, 1, 0.99999999999999988898, 2},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
@@ -95,8 +95,8 @@ static void refuses_bad_text(void **state) {
         {"\x89PNG\x01\x02\n", &defaults, "points.txt is neither text nor begins like a format"},
         {"0.5 0.5\n\n0.5 0.5\n", &defaults, "line 2: a blank line, and more after it"},
         {"0.5 0.5\n#\n#\n0.5 0.5\n", &defaults, "line 3: set 2 has no points"},
-        {".1 .1 .1 .1 .1 .1 .1\n", &defaults, "line 1: 7 columns; at most 6 dimensions"},
-        {".1 .1 .1 .1 .1 .1 .1 .1\n", &weighted, "line 1: 8 columns; at most 6 dimensions"},
+        {".1 .1 .1 .1 .1 .1 .1\n.1\n", &defaults, "line 1: 7 columns; at most 6 dimensions"},
+        {".1 .1 .1 .1 .1 .1 .1 .1\n.1\n", &weighted, "line 1: 8 columns; at most 6 dimensions"},
         {"0.5 0.5 2\n", &plane, "line 1: 3 columns, but the dimension asked for is 2 (is the last"},
         {"0.5\n", &plane, "line 1: 1 column, but the dimension asked for is 2"},
         {"0.5\n", &weighted, "line 1: 1 column; with a weight column there must be at least 2"},

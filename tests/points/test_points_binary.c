@@ -174,7 +174,7 @@ static void reads_openquad(void **state) {
                         .has_weights = true};
     test_path(*state, "a.npy", path);
     assert_int_equal(test_points_write(path, "openquad", &set, 1, true, NULL, &error), PSPEC_OK);
-    const ps_point_options options = {ANY, .keep_angles = true};
+    ps_point_options options = {ANY, .keep_angles = true, .format = "openquad"};
     assert_int_equal(test_points_read(&all, path, &options, &error), PSPEC_OK);
     assert_string_equal(all.format, "openquad");
     assert_string_equal(all.columns, "theta-phi-w");
@@ -182,12 +182,23 @@ static void reads_openquad(void **state) {
     assert_memory_equal(all.points, points, sizeof points);
     assert_memory_equal(all.weights, weights, sizeof weights);
     test_points_free(&all);
+    /* its rows could be anything: the options tell */
+    options.format = NULL;
+    assert_int_equal(test_points_read(&all, path, &options, &error), PSPEC_ERROR_INPUT);
+    assert_non_null(strstr(error.message, "no unit vectors"));
+    test_points_free(&all);
+    options.columns = "theta-phi-w";
+    assert_int_equal(test_points_read(&all, path, &options, &error), PSPEC_OK);
+    assert_string_equal(all.format, "npy");
+    assert_memory_equal(all.points, points, sizeof points);
+    assert_memory_equal(all.weights, weights, sizeof weights);
+    test_points_free(&all);
     /* short rows could be points */
     set.num_points = 3;
     assert_int_equal(test_points_write(path, "openquad", &set, 1, true, NULL, &error), PSPEC_OK);
     assert_int_equal(test_points_read(&all, path, &options, &error), PSPEC_ERROR_INPUT);
-    assert_non_null(
-        strstr(error.message, "shape (3, 3): points, or rows of angles? --input-format"));
+    assert_non_null(strstr(error.message, "shape (3, 3): are its rows the points, or its columns? "
+                                          "--input-format npy or --transpose"));
     test_points_free(&all);
 }
 

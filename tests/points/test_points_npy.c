@@ -144,7 +144,7 @@ static void reads_every_type(void **state) {
         char dictionary[256];
         const bool is_little = i % 2 != 0;
         const size_t num_bytes = cases[i / 2].num_bytes;
-        const ps_point_options options = {.box_high = cases[i / 2].high};
+        const ps_point_options options = {.format = "npy", .box_high = cases[i / 2].high};
         ps_error error = {0};
         ps_point_reader *reader = NULL;
         ps_point_set set = {0};
@@ -176,9 +176,9 @@ static void reads_every_type(void **state) {
 }
 
 static void refuses_bad_arrays(void **state) {
-    const ps_point_options defaults = {0};
+    const ps_point_options defaults = {.format = "npy"};
     const ps_point_options plane = {.dimension = 2};
-    const ps_point_options weighted = {.weight_column = true};
+    const ps_point_options weighted = {.format = "npy", .weight_column = true};
     static const char two_by_two[] = "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 2), }";
     const struct {
         const char *dictionary;
