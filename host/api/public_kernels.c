@@ -66,8 +66,9 @@ pspec_status pspec_kernel_sums(pspec_context *context, const pspec_pattern *patt
             (ps_isotropic_kernel){kernels[k].coefficients != NULL ? kernels[k].num_coefficients : 0,
                                   kernels[k].coefficients, kernels[k].power};
     }
-    const pspec_status status = ps_pairs_isotropic_sums(
-        context->device, pattern, facts.exponent, own, num_kernels, tolerance, sums, bounds, error);
+    const pspec_status status =
+        ps_pairs_isotropic_sums(context->device, pattern, facts.exponent, own, num_kernels,
+                                tolerance, sums, bounds, &context->watch, error);
     free(own);
     if (status == PSPEC_OK) {
         scale(pattern, &facts, num_kernels, sums, bounds);

@@ -17,6 +17,12 @@ static pspec_status check_degree(int32_t max_degree, ps_error *error) {
                          "max_degree %d is not between 0 and %d", (int)max_degree, MOST_DEGREE);
 }
 
+static pspec_status check_room(bool is_there, pspec_context *context) {
+    return is_there ? PSPEC_OK
+                    : ps_fail(&context->error, PSPEC_ERROR_INVALID_ARGUMENT,
+                              "there is no room for what is computed");
+}
+
 static pspec_status parse_brdf(ps_brdf **out, pspec_context *context, const char *text) {
     return text != NULL ? ps_brdf_parse(out, text, &context->error)
                         : ps_fail(&context->error, PSPEC_ERROR_INVALID_ARGUMENT,
@@ -30,6 +36,7 @@ pspec_status pspec_brdf_coefficients(pspec_context *context, const char *brdf, i
         return PSPEC_ERROR_INVALID_ARGUMENT;
     }
     PS_TRY(check_degree(max_degree, &context->error));
+    PS_TRY(check_room(b != NULL, context));
     PS_TRY(parse_brdf(&lobe, context, brdf));
     const size_t last = (size_t)max_degree;
     const pspec_status status = hemispherical != 0
@@ -66,6 +73,7 @@ pspec_status pspec_truncation(pspec_context *context, const char *brdf, double s
     ps_error *const error = &context->error;
     const size_t last = max_degree > 0 ? (size_t)max_degree : 0;
     PS_TRY(check_degree(max_degree, error));
+    PS_TRY(check_room(errors != NULL && bounds != NULL, context));
     PS_TRY(parse_brdf(&lobe, context, brdf));
     /* twice the degrees: the last one's rest is then mostly summed, not bracketed */
     PS_TRY_OUT(status, ps_representer_create(&representer, lobe, smoothness,

@@ -216,10 +216,10 @@ static pspec_status create_plan(pspec_plan **out, pspec_context *context,
 pspec_status pspec_plan_create(pspec_plan **out, pspec_context *context,
                                const pspec_power_request *request) {
     ps_public_request checked = {0};
-    *out = NULL;
-    if (context == NULL) {
+    if (out == NULL || context == NULL) {
         return PSPEC_ERROR_INVALID_ARGUMENT;
     }
+    *out = NULL;
     PS_TRY(ps_public_request_power(&checked, request, &context->error));
     return create_plan(out, context, &checked);
 }
@@ -227,10 +227,10 @@ pspec_status pspec_plan_create(pspec_plan **out, pspec_context *context,
 pspec_status pspec_plan_create_angular(pspec_plan **out, pspec_context *context,
                                        const pspec_angular_request *request) {
     ps_public_request checked = {0};
-    *out = NULL;
-    if (context == NULL) {
+    if (out == NULL || context == NULL) {
         return PSPEC_ERROR_INVALID_ARGUMENT;
     }
+    *out = NULL;
     PS_TRY(ps_public_request_angular(&checked, request, &context->error));
     return create_plan(out, context, &checked);
 }

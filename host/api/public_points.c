@@ -53,7 +53,8 @@ pspec_status pspec_sampler_generate(const pspec_sampler *sampler, pspec_context 
         return PSPEC_ERROR_INVALID_ARGUMENT;
     }
     return sampler != NULL && points != NULL
-               ? ps_sampler_generate(&sampler->request, realization, points, &context->error)
+               ? ps_sampler_generate(&sampler->request, realization, points, &context->watch,
+                                     &context->error)
                : ps_fail(&context->error, PSPEC_ERROR_INVALID_ARGUMENT,
                          "there is no sampler, or no room for its points");
 }

@@ -148,10 +148,10 @@ pspec_status pspec_quadrature_create(pspec_quadrature **out, pspec_context *cont
                                      const pspec_quadrature_request *request,
                                      const pspec_pattern *patterns, size_t num_patterns) {
     void *memory = NULL;
-    *out = NULL;
-    if (context == NULL) {
+    if (out == NULL || context == NULL) {
         return PSPEC_ERROR_INVALID_ARGUMENT;
     }
+    *out = NULL;
     PS_TRY(check_request(request, patterns, num_patterns, &context->error));
     PS_TRY(ps_allocate(&memory, 1, sizeof(pspec_quadrature), "an analysis", &context->error));
     const pspec_status status = analyse(memory, context, request, patterns, num_patterns);

@@ -92,10 +92,10 @@ const ps_spectrum_sums *ps_public_sums(const pspec_spectrum *spectrum) {
 pspec_status pspec_spectrum_create(pspec_spectrum **out, pspec_plan *plan) {
     ps_spectrum_sums sums = {0};
     const ps_bins *bins = NULL;
-    *out = NULL;
-    if (plan == NULL) {
+    if (out == NULL || plan == NULL) {
         return PSPEC_ERROR_INVALID_ARGUMENT;
     }
+    *out = NULL;
     PS_TRY(ps_plan_sums(plan, &sums, &bins));
     return ps_public_spectrum(out, &sums, bins, &ps_plan_context(plan)->error);
 }
@@ -134,10 +134,10 @@ pspec_status pspec_spectrum_save(const pspec_spectrum *spectrum, pspec_context *
 pspec_status pspec_spectrum_load(pspec_spectrum **out, pspec_context *context, const char *path) {
     ps_spectrum_sums sums = {0};
     ps_bins bins = {0};
-    *out = NULL;
-    if (context == NULL) {
+    if (out == NULL || context == NULL) {
         return PSPEC_ERROR_INVALID_ARGUMENT;
     }
+    *out = NULL;
     if (path == NULL) {
         return ps_fail(&context->error, PSPEC_ERROR_INVALID_ARGUMENT, "there is no name of a file");
     }
@@ -167,10 +167,10 @@ pspec_status pspec_spectrum_merge(pspec_spectrum **out, pspec_context *context,
                                   const pspec_spectrum *const *spectra, size_t num_spectra) {
     ps_spectrum_sums sums = {0};
     ps_bins bins = {0};
-    *out = NULL;
-    if (context == NULL) {
+    if (out == NULL || context == NULL) {
         return PSPEC_ERROR_INVALID_ARGUMENT;
     }
+    *out = NULL;
     if (num_spectra == 0 || spectra == NULL) {
         return ps_fail(&context->error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "there are no spectra to merge");

@@ -39,6 +39,13 @@ pspec_status ps_batch_go_on(const ps_batch *batch, ps_error *error) {
                : PSPEC_OK;
 }
 
+pspec_status ps_batch_go_on_after(const ps_batch *batch, ps_device *device, ps_error *error) {
+    if (batch->should_stop != NULL) {
+        PS_TRY(ps_device_finish(device, error));
+    }
+    return ps_batch_go_on(batch, error);
+}
+
 size_t ps_batch_longest(const ps_batch *batch) {
     size_t longest = 1;
     for (size_t r = 0; r < batch->num_patterns; r++) {

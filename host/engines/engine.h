@@ -99,6 +99,10 @@ enum { PS_PAIR_BEGIN_DEGREES = 12 };
 
 /* PSPEC_ERROR_CANCELLED when the batch is to stop. */
 pspec_status ps_batch_go_on(const ps_batch *batch, ps_error *error) PS_MUST_CHECK;
+/* The same once the device has done what was launched, for launches that follow each other without
+ * points for the device in between: the driver would take them all, and nobody could stop them. */
+pspec_status ps_batch_go_on_after(const ps_batch *batch, ps_device *device,
+                                  ps_error *error) PS_MUST_CHECK;
 /* Points of the largest pattern, 1 at least. */
 size_t ps_batch_longest(const ps_batch *batch);
 

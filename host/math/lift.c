@@ -24,9 +24,8 @@ void ps_sphere_point(ps_height height, ps_turns azimuth, double point[PS_VECTOR_
     point[2] = height.z + 0.0;
 }
 
-void ps_sphere_lift(bool on_hemisphere, size_t num_points, double *points) {
-    for (size_t j = num_points;
-         j-- > 0;) { /* from the end: a vector takes more room than its pair */
+void ps_sphere_lift(bool on_hemisphere, size_t first, size_t end, double *points) {
+    for (size_t j = end; j-- > first;) { /* from the end: a vector takes more room than its pair */
         const double x = points[2 * j];
         const double y = points[2 * j + 1];
         ps_sphere_point(ps_height_of_area(on_hemisphere, x), ps_turns_of(y),

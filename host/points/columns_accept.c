@@ -174,7 +174,7 @@ static size_t accept_lifted(const ps_layout *layout, const ps_point_options *opt
                             double *points, size_t num) {
     const bool on_hemisphere = layout->lift == PS_LIFT_TO_HEMISPHERE;
     const size_t good = accept_torus(2, options, points, num);
-    ps_sphere_lift(on_hemisphere, good, points);
+    ps_sphere_lift(on_hemisphere, 0, good, points);
     if (on_hemisphere) {
         ps_morph_points(&options->morph, good, points);
     }

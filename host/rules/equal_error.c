@@ -12,7 +12,7 @@ pspec_status ps_fibonacci_error(const ps_representer *representer, const ps_morp
     double *points = NULL;
     ps_kernel_error found = {0};
     PS_TRY(ps_allocate_for(&points, num_points, 3 * sizeof(double), "points", error));
-    ps_fibonacci_points(num_points, 2 * (uint64_t)num_points, points);
+    ps_fibonacci_points(0, num_points, 2 * (uint64_t)num_points, points);
     ps_morph_points(morph, num_points, points);
     const ps_rule rule = {num_points, points, NULL};
     const pspec_status status = ps_kernel_error_of(representer, &rule, NULL, NULL, &found, error);

@@ -4,6 +4,7 @@
 #include "math/random/random.h"
 #include "math/random/rotation.h"
 #include "math/lift.h"
+#include "samplers/pace.h"
 #include "samplers/values.h"
 
 /* Indices, and sums of an index and a 53-bit offset, stay far inside the doubles; 2^40 points of
@@ -99,44 +100,78 @@ pspec_status ps_sampler_resolve(ps_sampler_request *request, ps_error *error) {
 
 /* ---- points -------------------------------------------------------------------------------- */
 
+typedef struct shift {
+    unsigned dimension;
+    double by[PS_MAX_DIMENSION];
+} shift;
+
 /* x + shift < 2, and a sum that reaches 1 loses exactly 1: the result stays in [0,1). */
-static void shift_points(const ps_sampler_request *request, uint64_t realization, double *points) {
-    double shift[PS_MAX_DIMENSION];
-    ps_random random = ps_random_init(request->seed, PS_STREAM_SHIFT, realization);
-    for (unsigned i = 0; i < request->dimension; i++) {
-        shift[i] = ps_random_uniform(&random);
-    }
-    for (size_t j = 0; j < request->num_points; j++) {
-        for (unsigned i = 0; i < request->dimension; i++) {
-            const double sum = *points + shift[i];
-            *points++ = sum < 1 ? sum : sum - 1;
+static void add_shift(const void *payload, size_t first, size_t end, double *points) {
+    const shift *const self = payload;
+    double *x = points + first * self->dimension;
+    for (size_t j = first; j < end; j++) {
+        for (unsigned i = 0; i < self->dimension; i++) {
+            const double sum = *x + self->by[i];
+            *x++ = sum < 1 ? sum : sum - 1;
         }
     }
 }
 
-static void rotate_points(const ps_sampler_request *request, uint64_t realization, double *points) {
+static pspec_status shift_points(const ps_sampler_request *request, uint64_t realization,
+                                 double *points, ps_error *error) {
+    shift self = {.dimension = request->dimension};
+    ps_random random = ps_random_init(request->seed, PS_STREAM_SHIFT, realization);
+    for (unsigned i = 0; i < request->dimension; i++) {
+        self.by[i] = ps_random_uniform(&random);
+    }
+    return ps_sampler_pieces(request, "sampler: points shifted", add_shift, &self, points, error);
+}
+
+static void rotate(const void *payload, size_t first, size_t end, double *points) {
+    ps_rotate(payload, points + PS_VECTOR_DIMENSION * first, end - first);
+}
+
+static void fold(const void *payload, size_t first, size_t end, double *points) {
+    (void)payload;
+    ps_sphere_fold(end - first, points + PS_VECTOR_DIMENSION * first);
+}
+
+static void morph(const void *payload, size_t first, size_t end, double *points) {
+    ps_morph_points(payload, end - first, points + PS_VECTOR_DIMENSION * first);
+}
+
+static pspec_status rotate_points(const ps_sampler_request *request, uint64_t realization,
+                                  double *points, ps_error *error) {
     ps_random random = ps_random_init(request->seed, PS_STREAM_ROTATION, realization);
     const ps_rotation rotation = ps_rotation_random(&random);
-    ps_rotate(&rotation, points, request->num_points);
-    if (ps_sampler_is_on_hemisphere(request)) {
-        ps_sphere_fold(request->num_points, points);
+    PS_TRY(ps_sampler_pieces(request, "sampler: points rotated", rotate, &rotation, points, error));
+    return ps_sampler_is_on_hemisphere(request)
+               ? ps_sampler_pieces(request, "sampler: points folded", fold, NULL, points, error)
+               : PSPEC_OK;
+}
+
+static pspec_status homogenize_points(const ps_sampler_request *request, uint64_t realization,
+                                      double *points, ps_error *error) {
+    if (!request->homogenize) {
+        return PSPEC_OK;
     }
+    return ps_sampler_is_on_sphere(request) ? rotate_points(request, realization, points, error)
+                                            : shift_points(request, realization, points, error);
 }
 
 pspec_status ps_sampler_generate(const ps_sampler_request *request, uint64_t realization,
-                                 double *points, ps_error *error) {
-    const ps_sampler_request own = own_request(request);
+                                 double *points, const ps_watch *watch, ps_error *error) {
+    ps_sampler_request whole = *request;
+    whole.watch = watch;
+    const ps_sampler_request own = own_request(&whole);
     PS_TRY(own.sampler->generate(&own, realization, points, error));
     if (request->lift != PS_SAMPLES_TORUS) {
-        ps_sphere_lift(request->lift == PS_SAMPLES_HEMISPHERE, request->num_points, points);
+        PS_TRY(ps_sampler_lift(&whole, request->lift == PS_SAMPLES_HEMISPHERE, points, error));
     }
-    if (request->homogenize && ps_sampler_is_on_sphere(request)) {
-        rotate_points(request, realization, points);
-    } else if (request->homogenize) {
-        shift_points(request, realization, points);
-    }
-    if (ps_sampler_is_on_hemisphere(request)) {
-        ps_morph_points(&request->morph, request->num_points, points);
+    PS_TRY(homogenize_points(&whole, realization, points, error));
+    if (ps_sampler_is_on_hemisphere(request) && request->morph.kind != PS_MORPH_NONE) {
+        PS_TRY(ps_sampler_pieces(&whole, "sampler: points morphed", morph, &request->morph, points,
+                                 error));
     }
     return PSPEC_OK;
 }

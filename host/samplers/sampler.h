@@ -14,6 +14,7 @@
 
 #include "base/grammar.h"
 #include "base/status.h"
+#include "base/watch.h"
 #include "math/lift.h"
 #include "math/morph.h"
 
@@ -69,6 +70,7 @@ typedef struct ps_sampler_request {
                         sphere: one uniform random rotation; hemisphere: the same, u with z < 0
                         becoming -u */
     char values[PS_MAX_SAMPLER_PARAMETERS][PS_MAX_SAMPLER_VALUE];
+    const ps_watch *watch; /* of ps_sampler_generate while it works, for samplers/pace.h */
 } ps_sampler_request;
 
 struct ps_sampler {
@@ -111,9 +113,11 @@ pspec_status ps_sampler_resolve(ps_sampler_request *request, ps_error *error) PS
 pspec_status ps_sampler_check(const ps_sampler_request *request, ps_error *error) PS_MUST_CHECK;
 
 /* Writes realization r of the request, points [num_points][dimension], random shift or rotation
- * included when it is homogenized, then morphed. */
+ * included when it is homogenized, then morphed. watch, which may be NULL, is told of many points;
+ * when it asks to stop, that is PSPEC_ERROR_CANCELLED. */
 pspec_status ps_sampler_generate(const ps_sampler_request *request, uint64_t realization,
-                                 double *points, ps_error *error) PS_MUST_CHECK;
+                                 double *points, const ps_watch *watch,
+                                 ps_error *error) PS_MUST_CHECK;
 
 /* The sampler's note on this request, NULL when there is nothing to say. Static storage. */
 const char *ps_sampler_note(const ps_sampler_request *request);

@@ -46,13 +46,49 @@ pspec_status ps_points_find_sampler(ps_sampler_request *out, const ps_request *r
     return ps_sampler_request_make(out, request, 0, error);
 }
 
+/* Block by block: the system takes gigabytes in one call, too, but no signal before it has them. */
+static pspec_status write_points(const ps_point_set *set, ps_point_writer *writer,
+                                 const ps_watch *watch, ps_error *error) {
+    enum { BLOCK_POINTS = 1 << 17 }; /* some megabytes: hundredths of a second as text */
+    ps_point_set block = *set;
+    for (size_t first = 0; first < set->num_points; first += BLOCK_POINTS) {
+        const size_t left = set->num_points - first;
+        const bool is_last = left <= BLOCK_POINTS;
+        block.points = set->points + first * set->dimension;
+        block.num_points = is_last ? left : BLOCK_POINTS;
+        PS_TRY(ps_points_write(writer, &block, is_last, error));
+        if (!is_last) {
+            PS_TRY(ps_watch_tell(watch, "points written", first + BLOCK_POINTS, set->num_points,
+                                 NULL, error));
+        }
+    }
+    return PSPEC_OK;
+}
+
+/* Where there are several realizations, they are what is counted. */
+typedef struct realizations {
+    const ps_watch *watch;
+    uint64_t done, num;
+} realizations;
+
+static int tell_realizations(const ps_watch_report *report, void *payload) {
+    const realizations *const self = payload;
+    const ps_watch_report whole = {"realizations", self->done, self->num, NULL};
+    return self->watch->tell == NULL
+               ? 0
+               : self->watch->tell(self->num > 1 ? &whole : report, self->watch->payload);
+}
+
 /* set: the points' place, of one realization. */
 static pspec_status write_realizations(const ps_sampler_request *sampler, uint64_t num_realizations,
                                        const ps_point_set *set, ps_point_writer *writer,
                                        const ps_answer_hooks *hooks, ps_error *error) {
+    realizations all = {&hooks->watch, 0, num_realizations};
+    const ps_watch watch = {tell_realizations, &all};
     for (uint64_t r = 0; r < num_realizations; r++) {
-        PS_TRY(ps_sampler_generate(sampler, r, set->points, error));
-        PS_TRY(ps_points_write(writer, set, true, error));
+        all.done = r;
+        PS_TRY(ps_sampler_generate(sampler, r, set->points, &watch, error));
+        PS_TRY(write_points(set, writer, &watch, error));
         PS_TRY(ps_watch_tell(&hooks->watch, "realizations", r + 1, num_realizations, NULL, error));
     }
     return PSPEC_OK;

@@ -1,10 +1,11 @@
-/* The progress callback: long phases of the host have a name, and end soon after it has asked them
- * to. */
+/* The progress callback: long phases have a name, and end soon after it has asked them to. */
 #include "base/clock.h"
 #include "harness_quadrature.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { MANY = 200000 }; /* points: minutes of pairs */
 
@@ -95,9 +96,134 @@ static void interpolation(void **state) {
     pspec_context_destroy(context);
 }
 
+/* ---- points of a sampler --------------------------------------------------------------------- */
+
+/* Stops at call number `stop`, from 0 on. */
+typedef struct counter {
+    uint64_t stop, num;
+} counter;
+
+static int count(const pspec_progress_report *report, void *payload) {
+    counter *const self = payload;
+    assert_non_null(strstr(report->phase, "sampler: "));
+    assert_true(report->done > 0 && report->done <= report->total);
+    return self->num++ == self->stop;
+}
+
+static pspec_status generate(const pspec_sampler *sampler, uint64_t stop, uint64_t *num_told,
+                             double *points) {
+    counter counted = {stop, 0};
+    pspec_context *const context = pspec_context_create();
+    pspec_context_set_progress(context, count, &counted);
+    const pspec_status status = pspec_sampler_generate(sampler, context, 0, points);
+    assert_true((status == PSPEC_ERROR_CANCELLED) ==
+                (strstr(pspec_context_message(context), "interrupted after") != NULL));
+    *num_told = counted.num;
+    pspec_context_destroy(context);
+    return status;
+}
+
+/* The callback is asked in the middle of every pass over the points, and every call may stop it;
+ * the points are what they are without one. */
+static void try_sampler(const char *name, const char *num_points, uint64_t expected) {
+    const pspec_option options[] = {
+        {"sampler", name}, {"points", num_points}, {"homogenize", NULL}};
+    pspec_context *const context = pspec_context_create();
+    pspec_sampler *sampler = NULL;
+    uint64_t num_told = 0;
+    assert_int_equal(pspec_sampler_create(&sampler, context, options, 3), PSPEC_OK);
+    const pspec_sampler_shape shape = pspec_sampler_get_shape(sampler);
+    const size_t bytes = shape.num_points * shape.dimension * sizeof(double);
+    double *const points = malloc(bytes), *const plain = malloc(bytes);
+    for (uint64_t stop = 0; stop < expected; stop++) {
+        assert_int_equal(generate(sampler, stop, &num_told, points), PSPEC_ERROR_CANCELLED);
+        assert_int_equal(num_told, stop + 1);
+    }
+    assert_int_equal(generate(sampler, expected, &num_told, points), PSPEC_OK);
+    assert_int_equal(num_told, expected);
+    assert_int_equal(pspec_sampler_generate(sampler, context, 0, plain), PSPEC_OK);
+    assert_memory_equal(points, plain, bytes);
+    free(points);
+    free(plain);
+    pspec_sampler_destroy(sampler);
+    pspec_context_destroy(context);
+}
+
+/* Two pieces of points: one call a pass. Shifts and rotations are one pass, the hemisphere's two,
+ * lifts and morphs one each. */
+static void samplers(void **state) {
+    static const char two_pieces[] = "32768";
+    static const struct {
+        const char *name, *num_points;
+        uint64_t passes;
+    } all[] = {
+        {"white", two_pieces, 2},
+        {"regular", two_pieces, 3},
+        {"jittered", two_pieces, 3},
+        {"latin-hypercube", two_pieces, 6},
+        {"latin-hypercube:offset=centred", two_pieces, 6},
+        {"sobol:scramble=owen", two_pieces, 2},
+        {"halton", two_pieces, 2},
+        {"hammersley", two_pieces, 2},
+        {"larcher-pillichshammer", two_pieces, 2},
+        {"white-sphere", two_pieces, 3},
+        {"zphi", two_pieces, 4},
+        {"healpix", "27648", 3}, /* 12 48^2, less than two pieces */
+        {"healpix-jittered", "27648", 3},
+        {"fibonacci", two_pieces, 2},
+        {"spiral", two_pieces, 2},
+        {"white-hemisphere", two_pieces, 4},
+        {"fibonacci-hemisphere:morph=diffuse", two_pieces, 4},
+        {"white:lift=sphere", two_pieces, 3},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
+        try_sampler(all[i].name, all[i].num_points, all[i].passes);
+    }
+}
+
+/* Blocks of a set are written one by one; nothing is left of a file that was begun. */
+static void written_points(void **state) {
+    (void)state;
+    listener heard = {.phase = "points written", .least = 200000};
+    char folder[] = "/tmp/pointspec-cancel-XXXXXX";
+    char path[sizeof folder + 8];
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/a.npy", folder);
+    const pspec_option options[] = {{"sampler", "white"}, {"points", "500000"}, {"output", path}};
+    pspec_context *const context = pspec_context_create();
+    pspec_context_set_progress(context, listen, &heard);
+    assert_int_equal(pspec_sample(context, options, 3), PSPEC_ERROR_CANCELLED);
+    assert_string_equal(pspec_context_message(context),
+                        "interrupted after 262144 of 500000 points written");
+    assert_int_equal(rmdir(folder), 0); /* it is empty */
+    pspec_context_destroy(context);
+}
+
+static void kernel_sums(void **state) {
+    enum { NUM = 20000 };
+    (void)state;
+    listener heard = {.phase = "slabs of pairs of points", .least = 2};
+    pspec_context *const context = pspec_context_create();
+    double *const points = test_rule_points("fibonacci-hemisphere", NUM, 0);
+    const pspec_pattern pattern = {3, NUM, points, NULL};
+    const pspec_kernel kernel = {NULL, 0, 0.5};
+    double sum = 0, bound = 0;
+    pspec_context_set_progress(context, listen, &heard);
+    assert_int_equal(pspec_kernel_sums(context, &pattern, &kernel, 1, 1e-5, &sum, &bound),
+                     PSPEC_ERROR_CANCELLED);
+    check_end(&heard, context);
+    free(points);
+    pspec_context_destroy(context);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(worst_case_error), cmocka_unit_test(weights_by_gradients),
-        cmocka_unit_test(weights_by_cholesky), cmocka_unit_test(interpolation)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(worst_case_error),
+                                       cmocka_unit_test(weights_by_gradients),
+                                       cmocka_unit_test(weights_by_cholesky),
+                                       cmocka_unit_test(interpolation),
+                                       cmocka_unit_test(samplers),
+                                       cmocka_unit_test(kernel_sums),
+                                       cmocka_unit_test(written_points)};
     return cmocka_run_group_tests_name("cancel", tests, NULL, NULL);
 }

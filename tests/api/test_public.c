@@ -247,6 +247,35 @@ static void destroys_accept_null(void **state) {
     pspec_context_destroy(NULL);
 }
 
+/* Nowhere to put the answer: a status, whatever else is right or NULL. */
+static void no_place_for_the_answer(void **state) {
+    (void)state;
+    enum { INVALID = PSPEC_ERROR_INVALID_ARGUMENT };
+    static const double points[] = {0.25, 0.5};
+    const pspec_pattern pattern = {2, 1, points, NULL};
+    const pspec_power_request power = PSPEC_POWER_REQUEST_INIT;
+    const pspec_angular_request angular = PSPEC_ANGULAR_REQUEST_INIT;
+    const pspec_quadrature_request quadrature = PSPEC_QUADRATURE_REQUEST_INIT;
+    pspec_context *const contexts[] = {pspec_context_create(), NULL};
+    double b[1];
+    for (size_t i = 0; i < 2; i++) {
+        pspec_context *const context = contexts[i];
+        assert_int_equal(pspec_plan_create(NULL, context, &power), INVALID);
+        assert_int_equal(pspec_plan_create_angular(NULL, context, &angular), INVALID);
+        assert_int_equal(pspec_quadrature_create(NULL, context, &quadrature, &pattern, 1), INVALID);
+        assert_int_equal(pspec_spectrum_load(NULL, context, "none.npz"), INVALID);
+        assert_int_equal(pspec_spectrum_merge(NULL, context, NULL, 0), INVALID);
+        assert_int_equal(pspec_interpolant_create(NULL, context, 1, points, points, 1.5), INVALID);
+        assert_int_equal(pspec_sampler_create(NULL, context, NULL, 0), INVALID);
+        assert_int_equal(pspec_answer(NULL, context, "power", NULL, 0), INVALID);
+        assert_int_equal(pspec_brdf_coefficients(context, "diffuse", 0, 0, NULL), INVALID);
+        assert_int_equal(pspec_truncation(context, "diffuse", 1.5, 0, 0, NULL, b, NULL), INVALID);
+        assert_int_equal(pspec_truncation(context, "diffuse", 1.5, 0, 0, b, NULL, NULL), INVALID);
+    }
+    assert_int_equal(pspec_spectrum_create(NULL, NULL), INVALID);
+    pspec_context_destroy(contexts[0]);
+}
+
 /* ---- coefficients of a pattern ----------------------------------------------------------- */
 
 /* |S|^2 N / W^2 is the power of every frequency, in one order; torus_nufft has none. */
@@ -303,6 +332,7 @@ int main(void) {
         cmocka_unit_test(weights_count_where_there_are_any),
         cmocka_unit_test(contexts_in_threads),
         cmocka_unit_test(destroys_accept_null),
+        cmocka_unit_test(no_place_for_the_answer),
         cmocka_unit_test(test_gsl_is_left_alone),
     };
     test_watch_gsl();

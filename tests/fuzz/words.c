@@ -22,7 +22,7 @@ static void check_points(const ps_sampler_request *request) {
     const size_t count = request->num_points * request->dimension;
     double *const points = fuzz_allocate(NULL, count, sizeof *points);
     ps_error error = {0};
-    const pspec_status status = ps_sampler_generate(request, 0, points, &error);
+    const pspec_status status = ps_sampler_generate(request, 0, points, NULL, &error);
     fuzz_check_error(status, &error, FUZZ_QUOTES_INPUT);
     for (size_t i = 0; status == PSPEC_OK && i < count; i++) {
         if (!is_coordinate(request, points[i])) {

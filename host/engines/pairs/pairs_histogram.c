@@ -334,7 +334,7 @@ static pspec_status run(void *state, const ps_batch *batch, ps_rows *rows, ps_er
     PS_TRY(ps_pairs_points_upload(&self->points, batch, error));
     for (uint64_t first = 0; first < num_runs; first += slab) {
         const uint64_t rest = num_runs - first;
-        PS_TRY(ps_batch_go_on(batch, error));
+        PS_TRY(ps_batch_go_on_after(batch, self->device, error));
         PS_TRY(
             add_slab(self, batch->num_patterns, first, rest < slab ? (size_t)rest : slab, error));
     }

@@ -19,6 +19,8 @@ typedef struct sums_of_pairs {
     const pspec_pattern *pattern;
     int exponent;
     double tolerance;
+    const ps_watch *watch; /* or NULL */
+    uint64_t num_slabs;    /* that the engine has begun */
     ps_frequencies degrees;
     ps_problem problem;
     double weight_sum, weight_size, weight_square; /* W, sum |w|, sum w^2 */
@@ -93,18 +95,35 @@ static pspec_status allocate(sums_of_pairs *self, ps_error *error) {
     return PSPEC_OK;
 }
 
+/* Of the engine's slabs, whose number is its own affair, those are counted that it asks for. */
+static bool should_stop(void *payload) {
+    sums_of_pairs *const self = payload;
+    const bool stops = ps_watch_tell(self->watch, "slabs of pairs of points", self->num_slabs, 0,
+                                     NULL, NULL) != PSPEC_OK;
+    self->num_slabs += stops ? 0 : 1;
+    return stops;
+}
+
 static pspec_status run_engine(sums_of_pairs *self, void *state, ps_precision precision,
                                ps_error *error) {
     const double scale = 1;
     const ps_batch batch = {.num_patterns = 1,
                             .patterns = self->pattern,
                             .scales = &scale,
-                            .exponents = &self->exponent};
+                            .exponents = &self->exponent,
+                            .should_stop = self->watch != NULL ? should_stop : NULL,
+                            .payload = self};
     const int32_t last = self->degrees.max_frequency;
+    pspec_status status = PSPEC_OK;
     ps_rows rows;
     self->num_bins = ps_pairs_histogram_num_bins(state);
     PS_TRY(allocate(self, error));
-    PS_TRY(ps_pairs_histogram.run(state, &batch, &rows, error));
+    status = ps_pairs_histogram.run(state, &batch, &rows, error);
+    if (status == PSPEC_ERROR_CANCELLED) {
+        return ps_fail(error, status, "interrupted after %llu slabs of pairs of points",
+                       (unsigned long long)self->num_slabs);
+    }
+    PS_TRY(status);
     PS_TRY(ps_pairs_histogram_weights(state, self->weights, error));
     self->q[0] = self->weight_sum * self->weight_sum;
     double mean_power = 0;
@@ -270,12 +289,19 @@ static void sort_directions(const sums_of_pairs *self, direction *all) {
     qsort(all, num, sizeof *all, by_height);
 }
 
-/* What below_rho is off by, over pairs nearer than rho, each once. */
-static double add_near(const chord *shape, size_t num, const direction *all) {
+/* Adds what below_rho is off by, over pairs nearer than rho, each once. */
+static pspec_status add_near(const chord *shape, size_t num, const direction *all,
+                             const ps_watch *watch, ps_neumaier *total, ps_error *error) {
+    enum { PAIRS_AT_A_TIME = 1 << 22 }; /* some hundredths of a second */
     const double rho = sqrt(shape->rho_square);
     ps_neumaier sum = {0, 0};
+    uint64_t pairs = 0;
     for (size_t i = 0; i < num; i++) {
-        for (size_t j = i + 1; j < num && all[j].u[2] - all[i].u[2] < rho; j++) {
+        if (pairs >= PAIRS_AT_A_TIME) {
+            PS_TRY(ps_watch_tell(watch, "points with their neighbours", i, num, NULL, error));
+            pairs = 0;
+        }
+        for (size_t j = i + 1; j < num && all[j].u[2] - all[i].u[2] < rho; j++, pairs++) {
             long double square = 0;
             for (int axis = 0; axis < PS_SPHERE_DIMENSION; axis++) {
                 const long double step = all[j].u[axis] - all[i].u[axis];
@@ -288,7 +314,8 @@ static double add_near(const chord *shape, size_t num, const direction *all) {
             }
         }
     }
-    return ps_neumaier_value(&sum);
+    ps_neumaier_add(total, ps_neumaier_value(&sum));
+    return PSPEC_OK;
 }
 
 /* ---- kernels ----------------------------------------------------------------------------- */
@@ -310,11 +337,12 @@ static pspec_status sum_chords(const sums_of_pairs *self, double power, double *
     }
     PS_TRY(PS_NEW(&directions, self->pattern->num_points, "directions", error));
     sort_directions(self, directions);
-    ps_neumaier_add(&total, add_near(&kernel, self->pattern->num_points, directions));
+    const pspec_status status =
+        add_near(&kernel, self->pattern->num_points, directions, self->watch, &total, error);
     free(directions);
     *sum = 2 * ps_neumaier_value(&total);
     *bound = kernel.bound + pow(4, power) * self->rounding;
-    return PSPEC_OK;
+    return status;
 }
 
 static void sum_zonal(const sums_of_pairs *self, const ps_isotropic_kernel *kernel, double *sum,
@@ -363,9 +391,12 @@ static pspec_status sum_kernels(sums_of_pairs *self, const ps_isotropic_kernel *
 pspec_status ps_pairs_isotropic_sums(ps_device *device, const pspec_pattern *pattern, int exponent,
                                      const ps_isotropic_kernel *kernels, size_t num_kernels,
                                      double tolerance, double *sums, double *bounds,
-                                     ps_error *error) {
-    sums_of_pairs self = {
-        .device = device, .pattern = pattern, .exponent = exponent, .tolerance = tolerance};
+                                     const ps_watch *watch, ps_error *error) {
+    sums_of_pairs self = {.device = device,
+                          .pattern = pattern,
+                          .exponent = exponent,
+                          .tolerance = tolerance,
+                          .watch = watch};
     PS_TRY(check_kernels(kernels, num_kernels, error));
     add_weights(&self);
     const pspec_status status = sum_kernels(&self, kernels, num_kernels, sums, bounds, error);

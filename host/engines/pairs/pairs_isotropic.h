@@ -27,6 +27,7 @@
 #ifndef PS_ENGINES_PAIRS_PAIRS_ISOTROPIC_H
 #define PS_ENGINES_PAIRS_PAIRS_ISOTROPIC_H
 
+#include "base/watch.h"
 #include "engines/engine.h"
 
 typedef struct ps_isotropic_kernel {
@@ -38,10 +39,11 @@ typedef struct ps_isotropic_kernel {
 /* sums[k] of the kernels for a pattern that was checked, whose weights are w 2^-exponent, and
  * bounds[k] of their errors in units of (sum |w|)^2. Single precision where it is enough for the
  * tolerance, in the same units; PSPEC_ERROR_TOLERANCE where nothing is. sum |w| is that of the
- * weights 2^-exponent, which may be any number that is not 0. */
+ * weights 2^-exponent, which may be any number that is not 0. watch, which may be NULL, may stop it:
+ * PSPEC_ERROR_CANCELLED. */
 pspec_status ps_pairs_isotropic_sums(ps_device *device, const pspec_pattern *pattern, int exponent,
                                      const ps_isotropic_kernel *kernels, size_t num_kernels,
                                      double tolerance, double *sums, double *bounds,
-                                     ps_error *error) PS_MUST_CHECK;
+                                     const ps_watch *watch, ps_error *error) PS_MUST_CHECK;
 
 #endif

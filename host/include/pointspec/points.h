@@ -47,7 +47,8 @@ PSPEC_EXPORT pspec_sampler_shape pspec_sampler_get_shape(const pspec_sampler *sa
 /** Writes realization number `realization`, from 0 on, to points[num_points][dimension] with room
  * from the caller: doubles of [0,1), or unit vectors. It depends on nothing but the options and
  * that number, and is to the bit what pspec_sample() and pspec_answer() have. The context is for
- * the sentence of an error. */
+ * the sentence of an error, and for its progress callback, which may cancel while many points are
+ * made (#PSPEC_ERROR_CANCELLED): what points has then is not defined. */
 PSPEC_EXPORT pspec_status pspec_sampler_generate(const pspec_sampler *sampler,
                                                  pspec_context *context, uint64_t realization,
                                                  double *points);

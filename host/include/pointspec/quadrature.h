@@ -124,7 +124,8 @@ typedef struct pspec_kernel {
  * distances; bounds[k] on the error of each. Both have room for num_kernels numbers, from the
  * caller. The bounds are at most the tolerance times (sum |w|)^2, or #PSPEC_ERROR_TOLERANCE says
  * that this cannot be. Needs a device, in double precision below a tolerance of about 1e-5; memory
- * is not limited. #PSPEC_ERROR_INPUT names a point that cannot be used. */
+ * is not limited. The progress callback is asked several times a second and may cancel.
+ * #PSPEC_ERROR_INPUT names a point that cannot be used. */
 PSPEC_EXPORT pspec_status pspec_kernel_sums(pspec_context *context, const pspec_pattern *pattern,
                                             const pspec_kernel *kernels, size_t num_kernels,
                                             double tolerance, double *sums, double *bounds);

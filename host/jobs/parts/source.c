@@ -11,6 +11,7 @@ struct ps_source {
     bool is_turned; /* ps_source_turn */
     /* sampler */
     ps_sampler_request request;
+    ps_watch watch;
     uint64_t num_realizations, next_realization;
     /* memory: patterns is NULL for others; next_realization counts them */
     const pspec_pattern *patterns;
@@ -40,11 +41,12 @@ static pspec_status create(ps_source **out, ps_error *error) {
 }
 
 pspec_status ps_source_sampler(ps_source **out, const ps_sampler_request *request,
-                               uint64_t num_realizations, ps_error *error) {
+                               uint64_t num_realizations, const ps_watch *watch, ps_error *error) {
     *out = NULL;
     PS_TRY(ps_sampler_check(request, error));
     PS_TRY(create(out, error));
     (*out)->request = *request;
+    (*out)->watch = watch != NULL ? *watch : (ps_watch){0};
     (*out)->num_realizations = num_realizations;
     return PSPEC_OK;
 }
@@ -139,7 +141,8 @@ static pspec_status next_sample(ps_source *source, ps_point_set *set, bool *has_
     set->dimension = request->dimension;
     set->num_points = request->num_points;
     set->has_weights = false;
-    PS_TRY(ps_sampler_generate(request, source->next_realization++, set->points, error));
+    PS_TRY(ps_sampler_generate(request, source->next_realization++, set->points, &source->watch,
+                               error));
     turn(source, set, 0);
     return PSPEC_OK;
 }

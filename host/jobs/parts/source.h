@@ -16,9 +16,11 @@
 typedef struct ps_source ps_source;
 
 /* The sampler's realizations 0 .. num_realizations - 1, with torus coordinates or unit vectors;
- * request is resolved, and copied. */
+ * request is resolved, and copied, and so is watch, which may be NULL: it is told while the points
+ * of a large set are made. */
 pspec_status ps_source_sampler(ps_source **out, const ps_sampler_request *request,
-                               uint64_t num_realizations, ps_error *error) PS_MUST_CHECK;
+                               uint64_t num_realizations, const ps_watch *watch,
+                               ps_error *error) PS_MUST_CHECK;
 
 /* Bytes of a set that is read as a whole: some million points. Larger ones come in blocks of about
  * so many bytes, which are enough to keep a device busy. */

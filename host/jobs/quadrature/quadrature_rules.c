@@ -17,7 +17,7 @@ static pspec_status open_source(ps_rules *rules, ps_error *error) {
     const ps_quadrature_question *const question = rules->question;
     if (question->sampler != NULL) {
         return ps_source_sampler(&rules->source, question->sampler, question->num_realizations,
-                                 error);
+                                 &question->watch, error);
     }
     if (question->patterns != NULL) {
         return ps_source_patterns(&rules->source, question->patterns, question->num_patterns,

@@ -18,6 +18,22 @@ static void turn(ps_power_job *job) {
     }
 }
 
+static pspec_status report_progress(const ps_power_job *job, ps_error *error) {
+    return ps_watch_tell(&job->question->watch, "realizations", job->runner.num_done,
+                         job->num_realizations, NULL, error);
+}
+
+/* Asked by the engine while it works, and while points are made or counted: progress has not changed
+ * since the last batch. */
+static bool should_stop(void *payload) {
+    return report_progress(payload, NULL) != PSPEC_OK;
+}
+
+static int ask_while_sampling(const ps_watch_report *report, void *payload) {
+    (void)report;
+    return should_stop(payload);
+}
+
 /* The sampler as it is needed: without shifts that nobody sees, one realization that stands for
  * all. */
 static pspec_status open_sampler(ps_power_job *job, ps_error *error) {
@@ -25,20 +41,10 @@ static pspec_status open_sampler(ps_power_job *job, ps_error *error) {
     job->request = *question->sampler;
     job->request.homogenize = question->sampler->homogenize && !job->needs.no_shift;
     job->num_realizations = job->needs.one_realization ? 1 : question->num_realizations;
-    PS_TRY(ps_source_sampler(&job->sets.source, &job->request, job->num_realizations, error));
+    PS_TRY(ps_source_sampler(&job->sets.source, &job->request, job->num_realizations,
+                             &(ps_watch){ask_while_sampling, job}, error));
     turn(job);
     return PSPEC_OK;
-}
-
-static pspec_status report_progress(const ps_power_job *job, ps_error *error) {
-    return ps_watch_tell(&job->question->watch, "realizations", job->runner.num_done,
-                         job->num_realizations, NULL, error);
-}
-
-/* Asked by the engine while it works, and while points are counted: progress has not changed since
- * the last batch. */
-static bool should_stop(void *payload) {
-    return report_progress(payload, NULL) != PSPEC_OK;
 }
 
 /* A quarter of a limit that was typed leaves room for what computes with the points. */

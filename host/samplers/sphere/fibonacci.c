@@ -8,9 +8,7 @@
 static pspec_status generate(const ps_sampler_request *request, uint64_t realization,
                              double *points, ps_error *error) {
     (void)realization;
-    (void)error;
-    ps_fibonacci_points(request->num_points, request->num_points, points);
-    return PSPEC_OK;
+    return ps_fibonacci_generate(request, request->num_points, points, error);
 }
 
 const ps_sampler ps_sampler_fibonacci = {

@@ -1,21 +1,17 @@
 /* HEALPix: the centres of 12 nside^2 pixels of equal area, in RING order; P(l) = 0 for odd l. */
 #include "samplers/list.h"
 
+#include "samplers/pace.h"
 #include "samplers/sphere/healpix_pixels.h"
 #include "samplers/values.h"
-
-static const double CENTRE = 0.5;
 
 static pspec_status generate(const ps_sampler_request *request, uint64_t realization,
                              double *points, ps_error *error) {
     (void)realization;
     uint64_t nside = 0;
     PS_TRY(ps_healpix_nside(request, &nside, error));
-    for (size_t i = 0; i < 2 * request->num_points; i++) {
-        points[i] = CENTRE;
-    }
-    ps_healpix_place(nside, points);
-    return PSPEC_OK;
+    PS_TRY(ps_sampler_fill_centres(request, 2, points, error));
+    return ps_healpix_place(request, nside, points, error);
 }
 
 const ps_sampler ps_sampler_healpix = {

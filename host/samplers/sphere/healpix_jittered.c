@@ -3,7 +3,7 @@
  * small l. */
 #include "samplers/list.h"
 
-#include "math/random/random.h"
+#include "samplers/pace.h"
 #include "samplers/sphere/healpix_pixels.h"
 #include "samplers/values.h"
 
@@ -12,9 +12,8 @@ static pspec_status generate(const ps_sampler_request *request, uint64_t realiza
     uint64_t nside = 0;
     PS_TRY(ps_healpix_nside(request, &nside, error));
     ps_random random = ps_random_init(request->seed, PS_STREAM_COORDINATES, realization);
-    ps_random_fill_uniform(&random, points, 2 * request->num_points);
-    ps_healpix_place(nside, points);
-    return PSPEC_OK;
+    PS_TRY(ps_sampler_fill_uniform(request, &random, 2, points, error));
+    return ps_healpix_place(request, nside, points, error);
 }
 
 const ps_sampler ps_sampler_healpix_jittered = {

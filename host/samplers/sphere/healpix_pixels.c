@@ -12,6 +12,7 @@
 
 #include "base/text.h"
 #include "math/lift.h"
+#include "samplers/pace.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -162,7 +163,8 @@ static void place(int64_t nside, const pixel *p, double ox, double oy, double *p
 
 /* Rings 1 .. 4 nside - 1 from the north. Backwards, since a vector takes more room than its
  * offset. */
-void ps_healpix_place(uint64_t num_side, double *points) {
+pspec_status ps_healpix_place(const ps_sampler_request *request, uint64_t num_side, double *points,
+                              ps_error *error) {
     const int64_t nside = (int64_t)num_side;
     size_t j = (size_t)points_of(num_side);
     for (int64_t ring = 4 * nside - 1; ring > 0; ring--) {
@@ -173,7 +175,10 @@ void ps_healpix_place(uint64_t num_side, double *points) {
             const pixel p = is_cap ? pixel_of_cap(nside, to_pole, k, to_south < ring)
                                    : pixel_of_belt(nside, ring, k);
             j--;
+            PS_TRY(ps_sampler_go_on(request, "sampler: points in pixels",
+                                    request->num_points - 1 - j, error));
             place(nside, &p, points[2 * j], points[2 * j + 1], points + PS_VECTOR_DIMENSION * j);
         }
     }
+    return PSPEC_OK;
 }

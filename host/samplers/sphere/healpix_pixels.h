@@ -20,7 +20,9 @@ pspec_status ps_healpix_check(const ps_sampler_request *request, ps_error *error
 
 /* Turns offsets in the pixels, [num_points][2] in [0,1) at the beginning of the array, into unit
  * vectors [num_points][3]. The map from offsets to the sphere preserves area, (1/2, 1/2) is the
- * centre of a pixel; the axes of offsets go north-east and north-west. */
-void ps_healpix_place(uint64_t nside, double *points);
+ * centre of a pixel; the axes of offsets go north-east and north-west. PSPEC_ERROR_CANCELLED where
+ * the watch asks to stop. */
+pspec_status ps_healpix_place(const ps_sampler_request *request, uint64_t nside, double *points,
+                              ps_error *error) PS_MUST_CHECK;
 
 #endif

@@ -1,6 +1,7 @@
 #include "samplers/sphere/spherical_fibonacci.h"
 
 #include "math/lift.h"
+#include "samplers/pace.h"
 
 /* 2^128/Phi to the nearest whole number: j times its error stays below one unit of 2^-64 for any j
  * of 64 bits, where a constant of 64 bits is off by 2.5e-14 of a turn at j = 1e7 already. */
@@ -24,11 +25,20 @@ uint64_t ps_fibonacci_fraction(uint64_t j) {
     return j * INVERSE_PHI_HIGH + product_high(j, INVERSE_PHI_LOW); /* whole turns drop out */
 }
 
-void ps_fibonacci_points(size_t num_points, uint64_t num_heights, double *points) {
+void ps_fibonacci_points(size_t first, size_t end, uint64_t num_heights, double *points) {
     const double denominator = (double)num_heights;
-    for (size_t j = 0; j < num_points; j++) {
+    for (size_t j = first; j < end; j++) {
         const ps_height height = ps_height_of_ratio(denominator - (2 * (double)j + 1), denominator);
         ps_sphere_point(height, ps_turns_of_fraction(ps_fibonacci_fraction(j)),
                         points + PS_VECTOR_DIMENSION * j);
     }
+}
+
+static void make_piece(const void *payload, size_t first, size_t end, double *points) {
+    ps_fibonacci_points(first, end, *(const uint64_t *)payload, points);
+}
+
+pspec_status ps_fibonacci_generate(const ps_sampler_request *request, uint64_t num_heights,
+                                   double *points, ps_error *error) {
+    return ps_sampler_pieces(request, PS_PACE_POINTS_MADE, make_piece, &num_heights, points, error);
 }

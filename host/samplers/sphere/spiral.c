@@ -4,6 +4,7 @@
 
 #include "math/pi.h"
 #include "math/lift.h"
+#include "samplers/pace.h"
 #include "samplers/values.h"
 
 #include <math.h>
@@ -25,9 +26,9 @@ static ps_turns azimuth(double num_points, double j) {
 static pspec_status generate(const ps_sampler_request *request, uint64_t realization,
                              double *points, ps_error *error) {
     (void)realization;
-    (void)error;
     const double num_points = (double)request->num_points;
     for (size_t j = 0; j < request->num_points; j++) {
+        PS_TRY(ps_sampler_go_on(request, PS_PACE_POINTS_MADE, j, error));
         const ps_height height = ps_height_of_ratio(num_points - (2 * (double)j + 1), num_points);
         ps_sphere_point(height, azimuth(num_points, (double)j), points + PS_VECTOR_DIMENSION * j);
     }

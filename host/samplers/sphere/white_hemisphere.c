@@ -2,17 +2,14 @@
  * The same points as white:lift=hemisphere. */
 #include "samplers/list.h"
 
-#include "math/random/random.h"
-#include "math/lift.h"
+#include "samplers/pace.h"
 #include "samplers/values.h"
 
 static pspec_status generate(const ps_sampler_request *request, uint64_t realization,
                              double *points, ps_error *error) {
-    (void)error;
     ps_random random = ps_random_init(request->seed, PS_STREAM_COORDINATES, realization);
-    ps_random_fill_uniform(&random, points, 2 * request->num_points);
-    ps_sphere_lift(true, request->num_points, points);
-    return PSPEC_OK;
+    PS_TRY(ps_sampler_fill_uniform(request, &random, 2, points, error));
+    return ps_sampler_lift(request, true, points, error);
 }
 
 const ps_sampler ps_sampler_white_hemisphere = {

@@ -5,8 +5,7 @@
 #include "samplers/list.h"
 
 #include "math/pi.h"
-#include "math/random/random.h"
-#include "math/lift.h"
+#include "samplers/pace.h"
 #include "samplers/torus/strata.h"
 #include "samplers/values.h"
 
@@ -91,10 +90,9 @@ static pspec_status generate(const ps_sampler_request *request, uint64_t realiza
     ps_sampler_request plane = *request;
     plane.dimension = NUM_AXES;
     ps_random random = ps_random_init(request->seed, PS_STREAM_COORDINATES, realization);
-    ps_random_fill_uniform(&random, points, NUM_AXES * request->num_points);
-    ps_strata_place(&plane, counts, points);
-    ps_sphere_lift(false, request->num_points, points);
-    return PSPEC_OK;
+    PS_TRY(ps_sampler_fill_uniform(request, &random, NUM_AXES, points, error));
+    PS_TRY(ps_strata_place(&plane, counts, points, error));
+    return ps_sampler_lift(request, false, points, error);
 }
 
 const ps_sampler ps_sampler_zphi = {

@@ -1,6 +1,6 @@
 #include "samplers/torus/digital_net.h"
 
-#include "math/random/random.h"
+#include "samplers/pace.h"
 #include "samplers/values.h"
 
 enum {
@@ -94,9 +94,9 @@ static void step(const ps_digital_net *net, uint64_t j, uint32_t words[PS_MAX_DI
     }
 }
 
-void ps_digital_net_generate(const ps_digital_net *net, ps_net_scramble scramble,
-                             const ps_sampler_request *request, uint64_t realization,
-                             double *points) {
+pspec_status ps_digital_net_generate(const ps_digital_net *net, ps_net_scramble scramble,
+                                     const ps_sampler_request *request, uint64_t realization,
+                                     double *points, ps_error *error) {
     const ps_random stream = ps_random_init(request->seed, PS_STREAM_SCRAMBLE, realization);
     uint64_t shifts[PS_MAX_DIMENSION];
     uint32_t words[PS_MAX_DIMENSION];
@@ -105,6 +105,7 @@ void ps_digital_net_generate(const ps_digital_net *net, ps_net_scramble scramble
         words[i] = net->origin[i];
     }
     for (size_t j = 0; j < request->num_points; j++) {
+        PS_TRY(ps_sampler_go_on(request, PS_PACE_POINTS_MADE, j, error));
         if (j > 0) {
             step(net, j, words);
         }
@@ -116,4 +117,5 @@ void ps_digital_net_generate(const ps_digital_net *net, ps_net_scramble scramble
             *points++ = (double)(int64_t)digits * COORDINATE_STEP;
         }
     }
+    return PSPEC_OK;
 }

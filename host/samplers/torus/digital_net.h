@@ -40,9 +40,10 @@ pspec_status ps_digital_net_scramble(const ps_sampler_request *request, unsigned
 /* Is that parameter "none"? Then every realization has the same points. */
 bool ps_digital_net_is_plain(const ps_sampler_request *request, unsigned i_parameter);
 
-/* Writes the first num_points points of the net, scrambled for this realization. */
-void ps_digital_net_generate(const ps_digital_net *net, ps_net_scramble scramble,
-                             const ps_sampler_request *request, uint64_t realization,
-                             double *points);
+/* Writes the first num_points points of the net, scrambled for this realization.
+ * PSPEC_ERROR_CANCELLED where the watch asks to stop. */
+pspec_status ps_digital_net_generate(const ps_digital_net *net, ps_net_scramble scramble,
+                                     const ps_sampler_request *request, uint64_t realization,
+                                     double *points, ps_error *error) PS_MUST_CHECK;
 
 #endif

@@ -3,6 +3,7 @@
 #include "samplers/list.h"
 
 #include "base/text.h"
+#include "samplers/pace.h"
 #include "samplers/torus/radical_inverse.h"
 #include "samplers/values.h"
 
@@ -26,6 +27,7 @@ static pspec_status generate(const ps_sampler_request *request, uint64_t realiza
     uint64_t start = 0;
     PS_TRY(first_index(request, &start, error));
     for (size_t j = 0; j < request->num_points; j++) {
+        PS_TRY(ps_sampler_go_on(request, PS_PACE_POINTS_MADE, j, error));
         for (unsigned i = 0; i < request->dimension; i++) {
             points[j * request->dimension + i] = ps_radical_inverse(i, start + j);
         }

@@ -2,6 +2,7 @@
  * N = 2^m, m > 1, N D* = m/3 + 13/9 - (-1)^m 4/(9 2^m) exactly. */
 #include "samplers/list.h"
 
+#include "samplers/pace.h"
 #include "samplers/torus/radical_inverse.h"
 #include "samplers/values.h"
 
@@ -12,9 +13,9 @@ static pspec_status check(const ps_sampler_request *request, ps_error *error) {
 static pspec_status generate(const ps_sampler_request *request, uint64_t realization,
                              double *points, ps_error *error) {
     (void)realization;
-    (void)error;
     for (size_t j = 0; j < request->num_points; j++) {
         double *point = points + j * request->dimension;
+        PS_TRY(ps_sampler_go_on(request, PS_PACE_POINTS_MADE, j, error));
         point[0] = (double)j / (double)request->num_points;
         for (unsigned i = 1; i < request->dimension; i++) {
             point[i] = ps_radical_inverse(i - 1, j);

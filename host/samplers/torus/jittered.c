@@ -2,7 +2,7 @@
  * P(k) = 1 - prod_i sinc^2(k_i/m_i), docs/mathematics/samplers.md#spectra-on-the-torus. */
 #include "samplers/list.h"
 
-#include "math/random/random.h"
+#include "samplers/pace.h"
 #include "samplers/torus/strata.h"
 #include "samplers/values.h"
 
@@ -18,9 +18,8 @@ static pspec_status generate(const ps_sampler_request *request, uint64_t realiza
     uint64_t counts[PS_MAX_DIMENSION];
     PS_TRY(ps_strata_resolve(request, STRATA, counts, error));
     ps_random random = ps_random_init(request->seed, PS_STREAM_COORDINATES, realization);
-    ps_random_fill_uniform(&random, points, request->num_points * request->dimension);
-    ps_strata_place(request, counts, points);
-    return PSPEC_OK;
+    PS_TRY(ps_sampler_fill_uniform(request, &random, request->dimension, points, error));
+    return ps_strata_place(request, counts, points, error);
 }
 
 const ps_sampler ps_sampler_jittered = {

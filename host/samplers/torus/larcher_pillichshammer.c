@@ -66,8 +66,7 @@ static pspec_status generate(const ps_sampler_request *request, uint64_t realiza
     PS_TRY(ps_sampler_choice(request, CENTRED, ANSWERS, &is_centred, error));
     ps_digital_net net = {.dimension = request->dimension};
     build_net(log2_points(request), is_centred, &net);
-    ps_digital_net_generate(&net, scramble, request, realization, points);
-    return PSPEC_OK;
+    return ps_digital_net_generate(&net, scramble, request, realization, points, error);
 }
 
 const ps_sampler ps_sampler_larcher_pillichshammer = {

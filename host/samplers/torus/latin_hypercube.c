@@ -3,7 +3,7 @@
  * docs/mathematics/samplers.md#spectra-on-the-torus. */
 #include "samplers/list.h"
 
-#include "math/random/random.h"
+#include "samplers/pace.h"
 #include "samplers/torus/strata.h"
 #include "samplers/values.h"
 
@@ -19,35 +19,47 @@ static pspec_status check(const ps_sampler_request *request, ps_error *error) {
 
 /* Fisher-Yates on one column, in place: a whole number below 2^53 is exact as a double, so that no
  * second array is needed. */
-static void permute_axis(ps_random *random, size_t num_points, unsigned stride, double *column) {
+static pspec_status permute_axis(const ps_sampler_request *request, ps_random *random,
+                                 double *column, ps_error *error) {
+    const size_t num_points = request->num_points;
+    const size_t stride = request->dimension;
     for (size_t j = 0; j < num_points; j++) {
+        PS_TRY(ps_sampler_go_on(request, "sampler: strata of an axis", j, error));
         column[j * stride] = (double)j;
     }
     for (size_t j = num_points; j > 1; j--) {
+        PS_TRY(ps_sampler_go_on(request, "sampler: strata in random order", num_points - j, error));
         const size_t other = (size_t)ps_random_below(random, j) * stride;
         const size_t last = (j - 1) * stride;
         const double kept = column[other];
         column[other] = column[last];
         column[last] = kept;
     }
+    return PSPEC_OK;
 }
 
-static void add_jitter(ps_random *random, double num_strata, double *points, size_t count) {
-    enum { CHUNK = 256 }; /* uniforms made at a time: 2 KB, and a whole number of Philox blocks */
-    double xi[CHUNK];
-    for (size_t begin = 0; begin < count; begin += CHUNK) {
-        const size_t length = count - begin < CHUNK ? count - begin : CHUNK;
-        ps_random_fill_uniform(random, xi, length);
-        for (size_t i = 0; i < length; i++) {
-            points[begin + i] = ps_stratum_point(points[begin + i], xi[i], num_strata);
+/* At random within the strata, or in their centres where random is NULL. */
+static pspec_status place(const ps_sampler_request *request, ps_random *random, double *points,
+                          ps_error *error) {
+    enum { CHUNK = 256 }; /* points at a time: a whole number of Philox blocks, and of pieces */
+    const double num_strata = (double)request->num_points;
+    double xi[CHUNK * PS_MAX_DIMENSION];
+    for (size_t i = 0; i < sizeof xi / sizeof xi[0]; i++) {
+        xi[i] = CENTRE;
+    }
+    for (size_t first = 0; first < request->num_points; first += CHUNK) {
+        const size_t left = request->num_points - first;
+        const size_t num = (left < CHUNK ? left : CHUNK) * request->dimension;
+        double *const some = points + first * request->dimension;
+        PS_TRY(ps_sampler_go_on(request, "sampler: points in strata", first, error));
+        if (random != NULL) {
+            ps_random_fill_uniform(random, xi, num);
+        }
+        for (size_t i = 0; i < num; i++) {
+            some[i] = ps_stratum_point(some[i], xi[i], num_strata);
         }
     }
-}
-
-static void centre(double num_strata, double *points, size_t count) {
-    for (size_t i = 0; i < count; i++) {
-        points[i] = ps_stratum_point(points[i], CENTRE, num_strata);
-    }
+    return PSPEC_OK;
 }
 
 static pspec_status generate(const ps_sampler_request *request, uint64_t realization,
@@ -56,16 +68,10 @@ static pspec_status generate(const ps_sampler_request *request, uint64_t realiza
     PS_TRY(ps_sampler_choice(request, OFFSET, OFFSETS, &offset, error));
     ps_random order = ps_random_init(request->seed, PS_STREAM_PERMUTATION, realization);
     ps_random jitter = ps_random_init(request->seed, PS_STREAM_COORDINATES, realization);
-    const size_t num_points = request->num_points;
     for (unsigned i = 0; i < request->dimension; i++) {
-        permute_axis(&order, num_points, request->dimension, points + i);
+        PS_TRY(permute_axis(request, &order, points + i, error));
     }
-    if (offset == OFFSET_CENTRED) {
-        centre((double)num_points, points, num_points * request->dimension);
-    } else {
-        add_jitter(&jitter, (double)num_points, points, num_points * request->dimension);
-    }
-    return PSPEC_OK;
+    return place(request, offset == OFFSET_CENTRED ? NULL : &jitter, points, error);
 }
 
 const ps_sampler ps_sampler_latin_hypercube = {

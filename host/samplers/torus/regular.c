@@ -2,11 +2,11 @@
  * divides k_i, else 0. */
 #include "samplers/list.h"
 
+#include "samplers/pace.h"
 #include "samplers/torus/strata.h"
 #include "samplers/values.h"
 
 enum { STRATA };
-static const double CENTRE = 0.5;
 
 static pspec_status check(const ps_sampler_request *request, ps_error *error) {
     uint64_t counts[PS_MAX_DIMENSION];
@@ -18,11 +18,8 @@ static pspec_status generate(const ps_sampler_request *request, uint64_t realiza
     (void)realization;
     uint64_t counts[PS_MAX_DIMENSION];
     PS_TRY(ps_strata_resolve(request, STRATA, counts, error));
-    for (size_t i = 0; i < request->num_points * request->dimension; i++) {
-        points[i] = CENTRE;
-    }
-    ps_strata_place(request, counts, points);
-    return PSPEC_OK;
+    PS_TRY(ps_sampler_fill_centres(request, request->dimension, points, error));
+    return ps_strata_place(request, counts, points, error);
 }
 
 const ps_sampler ps_sampler_regular = {

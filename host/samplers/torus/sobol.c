@@ -72,8 +72,7 @@ static pspec_status generate(const ps_sampler_request *request, uint64_t realiza
     PS_TRY(ps_digital_net_scramble(request, SCRAMBLE, &scramble, error));
     ps_digital_net net = {.dimension = request->dimension};
     build_net(&net);
-    ps_digital_net_generate(&net, scramble, request, realization, points);
-    return PSPEC_OK;
+    return ps_digital_net_generate(&net, scramble, request, realization, points, error);
 }
 
 /* The first two dimensions are the same in every table of direction numbers, the others are not. */

@@ -1,5 +1,7 @@
 #include "samplers/torus/strata.h"
 
+#include "samplers/pace.h"
+
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -118,8 +120,9 @@ static void advance(double *cell, const double *counts, unsigned dimension) {
     }
 }
 
-void ps_strata_place(const ps_sampler_request *request, const uint64_t counts[PS_MAX_DIMENSION],
-                     double *points) {
+pspec_status ps_strata_place(const ps_sampler_request *request,
+                             const uint64_t counts[PS_MAX_DIMENSION], double *points,
+                             ps_error *error) {
     double cell[PS_MAX_DIMENSION] = {0};
     double m[PS_MAX_DIMENSION] = {0};
     for (unsigned i = 0; i < request->dimension; i++) {
@@ -127,9 +130,11 @@ void ps_strata_place(const ps_sampler_request *request, const uint64_t counts[PS
     }
     for (size_t j = 0; j < request->num_points; j++) {
         double *point = points + j * request->dimension;
+        PS_TRY(ps_sampler_go_on(request, "sampler: points in strata", j, error));
         for (unsigned i = 0; i < request->dimension; i++) {
             point[i] = ps_stratum_point(cell[i], point[i], m[i]);
         }
         advance(cell, m, request->dimension);
     }
+    return PSPEC_OK;
 }

@@ -21,9 +21,11 @@ pspec_status ps_strata_read(const ps_sampler_request *request, unsigned i_parame
                             unsigned num_axes, uint64_t counts[PS_MAX_DIMENSION],
                             ps_error *error) PS_MUST_CHECK;
 
-/* Turns offsets in [0,1) within the stratum into points, in place; the last axis moves fastest. */
-void ps_strata_place(const ps_sampler_request *request, const uint64_t counts[PS_MAX_DIMENSION],
-                     double *points);
+/* Turns offsets in [0,1) within the stratum into points, in place; the last axis moves fastest.
+ * PSPEC_ERROR_CANCELLED where the watch asks to stop. */
+pspec_status ps_strata_place(const ps_sampler_request *request,
+                             const uint64_t counts[PS_MAX_DIMENSION], double *points,
+                             ps_error *error) PS_MUST_CHECK;
 
 /* (i + offset)/m within [i/m, (i+1)/m), exactly: rounding never carries a point out of its stratum,
  * neither in exact arithmetic nor for a reader who computes floor(x * m). i < m <= 2^40. */

@@ -1,15 +1,13 @@
 /* White noise: independent uniform points; P(k) = 1 at every k != 0, the unit of all spectra. */
 #include "samplers/list.h"
 
-#include "math/random/random.h"
+#include "samplers/pace.h"
 #include "samplers/values.h"
 
 static pspec_status generate(const ps_sampler_request *request, uint64_t realization,
                              double *points, ps_error *error) {
-    (void)error;
     ps_random random = ps_random_init(request->seed, PS_STREAM_COORDINATES, realization);
-    ps_random_fill_uniform(&random, points, request->num_points * request->dimension);
-    return PSPEC_OK;
+    return ps_sampler_fill_uniform(request, &random, request->dimension, points, error);
 }
 
 const ps_sampler ps_sampler_white = {

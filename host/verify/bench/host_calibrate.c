@@ -69,7 +69,7 @@ static pspec_status prepare(ps_probe_data *data, void **memory, ps_error *error)
     PS_TRY(ps_sampler_parse(&white, "white-sphere", error));
     white.num_points = PS_PROBE_POINTS;
     PS_TRY(ps_sampler_resolve(&white, error));
-    return ps_sampler_generate(&white, 0, data->points, error);
+    return ps_sampler_generate(&white, 0, data->points, NULL, error);
 }
 
 pspec_status ps_bench_calibrate_host(const ps_bench_options *options, const char *folder,

@@ -37,7 +37,7 @@ static pspec_status sample(ps_probe_data *data, const ps_probe *what, double *pr
     PS_TRY(ps_sampler_resolve(&request, error));
     const bool is_on_sphere = ps_sampler_is_on_sphere(&request);
     *predicted = predict(what, (double)request.num_points * (is_on_sphere ? 1 : request.dimension));
-    return ps_sampler_generate(&request, 0, data->numbers, error);
+    return ps_sampler_generate(&request, 0, data->numbers, NULL, error);
 }
 
 static pspec_status write_points(ps_probe_data *data, const ps_probe *what, double *predicted,

@@ -47,7 +47,7 @@ static void compare(const pspec_pattern *set) {
         const double tolerance = limit_of(tolerances[i]);
         double sums[NUM_POWERS], bounds[NUM_POWERS];
         assert_ok(ps_pairs_isotropic_sums(device, set, 0, chords, NUM_POWERS, tolerance, sums,
-                                          bounds, error));
+                                          bounds, NULL, error));
         for (size_t k = 0; k < NUM_POWERS; k++) {
             const double off = fabs((double)(sums[k] - exact_chords(set, chords[k].power)));
             print_message("tolerance %.0e, power %.1f: off by %.1e, bound %.1e\n", tolerance,
@@ -106,7 +106,7 @@ static void direct_sums(void **state) {
     const ps_batch batch = {.num_patterns = 1, .patterns = &set};
     double sums[NUM_POWERS], bounds[NUM_POWERS], direct = 0;
     assert_ok(ps_pairs_isotropic_sums(device, &set, 0, chords, NUM_POWERS, tolerance, sums, bounds,
-                                      error));
+                                      NULL, error));
     for (size_t k = 0; k < NUM_POWERS - 1; k++) {
         assert_ok(ps_pairs_chord_sums(device, precision, chords[k].power, &batch, &direct, error));
         assert_true(fabs(sums[k] - direct) <= tolerance * NUM * NUM);
@@ -134,7 +134,8 @@ static void zonal_kernels(void **state) {
     const pspec_pattern set = {3, NUM, points, weights};
     const ps_isotropic_kernel kernels[3] = {
         {LAST + 1, one, 0}, {LAST + 1, series, 0}, {.power = s - 1}};
-    assert_ok(ps_pairs_isotropic_sums(device, &set, 0, kernels, 3, tolerance, sums, bounds, error));
+    assert_ok(
+        ps_pairs_isotropic_sums(device, &set, 0, kernels, 3, tolerance, sums, bounds, NULL, error));
     const double size = test_weight_sizes(&set);
     long double *exact = test_pair_sums(&set, LAST);
     assert_true(fabs((double)(sums[0] + 3 * exact[LAST])) <= bounds[0] * size * size);
@@ -150,8 +151,8 @@ static void zonal_kernels(void **state) {
     assert_true(fabs(rest) <= tau * size * size + (bounds[1] + bounds[2]) * size * size);
     /* weights as mantissas: powers of two change nothing */
     double scaled[3];
-    assert_ok(
-        ps_pairs_isotropic_sums(device, &set, -9, kernels, 3, tolerance, scaled, bounds, error));
+    assert_ok(ps_pairs_isotropic_sums(device, &set, -9, kernels, 3, tolerance, scaled, bounds, NULL,
+                                      error));
     for (size_t k = 0; k < 3; k++) {
         assert_true(scaled[k] == ldexp(sums[k], 18));
     }
@@ -207,6 +208,52 @@ static void public_library(void **state) {
     free(points);
 }
 
+/* Says stop when a phase is so far. */
+typedef struct stopper {
+    const char *phase;
+    uint64_t least;
+    uint64_t num_told;
+} stopper;
+
+static int tell(const ps_watch_report *report, void *payload) {
+    stopper *const self = payload;
+    const bool is_meant = strcmp(report->phase, self->phase) == 0;
+    self->num_told += is_meant ? 1 : 0;
+    return is_meant && report->done >= self->least;
+}
+
+/* Between slabs of pairs, whose launches are waited for, and among pairs that are so near that the
+ * host adds them up: all of a clump are. */
+static void stops(void **state) {
+    enum { MANY = 8192 };
+    (void)state;
+    double *points = test_sphere_white_set(MANY, &seed);
+    const pspec_pattern set = {3, MANY, points, NULL};
+    const double tolerance = limit_of(1e-8);
+    double sum = 0, bound = 0;
+    ps_error failure = {0};
+    stopper slabs = {"slabs of pairs of points", 1, 0},
+            near = {"points with their neighbours", 1, 0};
+    const ps_watch of_slabs = {tell, &slabs}, of_near = {tell, &near};
+    assert_int_equal(ps_pairs_isotropic_sums(device, &set, 0, chords, 1, tolerance, &sum, &bound,
+                                             &of_slabs, &failure),
+                     PSPEC_ERROR_CANCELLED);
+    assert_int_equal(slabs.num_told, 2);
+    assert_string_equal(failure.message, "interrupted after 1 slabs of pairs of points");
+    for (size_t j = 0; j < MANY; j++) {
+        points[3 * j] *= 1e-3;
+        points[3 * j + 1] *= 1e-3;
+        points[3 * j + 2] =
+            sqrt(1 - points[3 * j] * points[3 * j] - points[3 * j + 1] * points[3 * j + 1]);
+    }
+    assert_int_equal(ps_pairs_isotropic_sums(device, &set, 0, chords, 1, tolerance, &sum, &bound,
+                                             &of_near, &failure),
+                     PSPEC_ERROR_CANCELLED);
+    assert_int_equal(near.num_told, 1);
+    assert_non_null(strstr(failure.message, "points with their neighbours"));
+    free(points);
+}
+
 static void nonsense(void **state) {
     (void)state;
     const double point[] = {0, 0, 1}, bad[] = {1, NAN};
@@ -216,15 +263,15 @@ static void nonsense(void **state) {
     double sum = 7, bound = 7;
     ps_error failure = {0};
     for (size_t k = 0; k < 4; k++) {
-        assert_int_equal(
-            ps_pairs_isotropic_sums(device, &set, 0, &kernels[k], 1, 1e-4, &sum, &bound, &failure),
-            PSPEC_ERROR_INVALID_ARGUMENT);
+        assert_int_equal(ps_pairs_isotropic_sums(device, &set, 0, &kernels[k], 1, 1e-4, &sum,
+                                                 &bound, NULL, &failure),
+                         PSPEC_ERROR_INVALID_ARGUMENT);
     }
     assert_int_equal(
-        ps_pairs_isotropic_sums(device, &set, 0, chords, 1, 1e-20, &sum, &bound, &failure),
+        ps_pairs_isotropic_sums(device, &set, 0, chords, 1, 1e-20, &sum, &bound, NULL, &failure),
         PSPEC_ERROR_TOLERANCE);
     /* one point: nothing but the diagonal */
-    assert_ok(ps_pairs_isotropic_sums(device, &set, 0, chords, 1, 1e-4, &sum, &bound, error));
+    assert_ok(ps_pairs_isotropic_sums(device, &set, 0, chords, 1, 1e-4, &sum, &bound, NULL, error));
     assert_true(sum == 0);
 }
 
@@ -232,7 +279,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(white_points),   cmocka_unit_test(hard_points),
         cmocka_unit_test(direct_sums),    cmocka_unit_test(zonal_kernels),
-        cmocka_unit_test(public_library), cmocka_unit_test(nonsense)};
+        cmocka_unit_test(public_library), cmocka_unit_test(stops),
+        cmocka_unit_test(nonsense)};
     device = test_open_device();
     const int failures = cmocka_run_group_tests_name("pairs_isotropic", tests, NULL, NULL);
     ps_device_close(device);
