@@ -22,6 +22,7 @@ struct ps_output_file {
     char *temporary;      /* where the data are until commit; NULL: written directly */
     mode_t mode;          /* permissions that the target had, 0: it is new */
     int reason;           /* errno of the first ps_output_write that failed, or 0 */
+    size_t unsettled;     /* bytes of ps_output_write that may not be on the disk */
     bool is_caller_owned; /* standard output is not ours to close */
 };
 
@@ -55,6 +56,11 @@ static void destroy(ps_output_file *file) {
     free(file->target);
     free(file->temporary);
     free(file);
+}
+
+/* Pipes and devices cannot be made durable, and say EINVAL. */
+static bool is_durable(int descriptor) {
+    return fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS || errno == ENOTSUP;
 }
 
 /* The descriptors of this process under their file names: replacing them would be a surprise. */
@@ -174,16 +180,42 @@ FILE *ps_output_stream(ps_output_file *file) {
     return file->stream;
 }
 
-void ps_output_write(ps_output_file *file, const void *data, size_t element_bytes, size_t count) {
+/* On to the disk, so that commit has little left to wait for: no signal ends that wait. What has no
+ * name of ours is made durable by nobody. */
+static void settle(ps_output_file *file, size_t bytes) {
+    enum { BYTES_AT_A_TIME = 1 << 24 }; /* a fifth of a second of a slow disk */
+    file->unsettled += bytes;
+    if (file->temporary == NULL || file->waiting != NULL || file->unsettled < BYTES_AT_A_TIME) {
+        return;
+    }
+    file->unsettled = 0;
     errno = 0;
-    if (fwrite(data, element_bytes, count, file->stream) != count && file->reason == 0) {
-        file->reason = errno;
+    if (fflush(file->stream) != 0 || !is_durable(fileno(file->stream))) {
+        file->reason = errno != 0 ? errno : EIO;
+    }
+}
+
+/* Piece by piece: a call of the system that takes gigabytes hears no signal before it has them. */
+void ps_output_write(ps_output_file *file, const void *data, size_t element_bytes, size_t count) {
+    enum { PIECE_BYTES = 1 << 22 };
+    const char *next = data;
+    const size_t most = PIECE_BYTES / element_bytes + 1;
+    while (count > 0 && file->reason == 0) {
+        const size_t num = count < most ? count : most;
+        errno = 0;
+        if (fwrite(next, element_bytes, num, file->stream) == num) {
+            settle(file, num * element_bytes);
+        } else {
+            file->reason = errno != 0 ? errno : EIO;
+        }
+        next += num * element_bytes;
+        count -= num;
     }
 }
 
 pspec_status ps_output_check(ps_output_file *file, ps_error *error) {
     errno = 0;
-    if (fflush(file->stream) != 0 || ferror(file->stream)) {
+    if (fflush(file->stream) != 0 || ferror(file->stream) || file->reason != 0) {
         return fail_write(file->name, file->reason != 0 ? file->reason : errno, error);
     }
     return PSPEC_OK;
@@ -224,11 +256,6 @@ static pspec_status copy_waiting(ps_output_file *file, ps_error *error) {
     }
     end_waiting(file);
     return ps_output_check(file, error);
-}
-
-/* Pipes and devices cannot be made durable, and say EINVAL. */
-static bool is_durable(int descriptor) {
-    return fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS || errno == ENOTSUP;
 }
 
 /* The new name itself is in the folder, which has its own way to the disk. Failure is not reported:
