@@ -12,6 +12,7 @@
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 /* ---- the process --------------------------------------------------------------------------- */
@@ -209,7 +210,22 @@ static int fail_program_option(const char *word) {
         &error);
 }
 
+/* Below this the end comes in the middle of the work, by SIGSEGV: blocks of files alone are 64 KiB on
+ * the stack. */
+static pspec_status check_stack(ps_error *error) {
+    enum { LEAST_BYTES = 256 << 10 };
+    struct rlimit limit;
+    return getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY ||
+                   limit.rlim_cur >= LEAST_BYTES
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_MEMORY,
+                         "the limit of stacks, %llu KiB (ulimit -s), is below the %d KiB that this "
+                         "program and its threads need",
+                         (unsigned long long)limit.rlim_cur >> 10, LEAST_BYTES >> 10);
+}
+
 int main(int argc, char **argv) {
+    ps_error error = {0};
     prepare_process();
     if (argc < 2) {
         return complain_of_nothing();
@@ -225,5 +241,9 @@ int main(int argc, char **argv) {
     if (strcmp(first, "help") == 0) {
         return run_help(argc > 2 ? argv[2] : NULL);
     }
-    return first[0] == '-' ? fail_program_option(first) : run_command(argc - 1, argv + 1);
+    if (first[0] == '-') {
+        return fail_program_option(first);
+    }
+    return check_stack(&error) == PSPEC_OK ? run_command(argc - 1, argv + 1)
+                                           : report("", error.status, &error);
 }

@@ -38,7 +38,7 @@ void ps_drivers_free(ps_drivers *drivers);
 pspec_status ps_drivers_fail(ps_error *error);
 
 /* Drivers make threads and end the process when these cannot have their stacks: fails, as above,
- * when the limit of address space leaves less than they take. */
+ * when the limits of address space, data or stacks leave less than they take. */
 pspec_status ps_drivers_check_room(ps_error *error) PS_MUST_CHECK;
 
 /* Where PoCL keeps compiled kernels; empty where it chooses a folder itself. */

@@ -91,39 +91,68 @@ static bool has_pocl(const ps_drivers *drivers) {
     return false;
 }
 
-/* ---- address space -------------------------------------------------------------------------- */
+/* ---- limits of the process ------------------------------------------------------------------ */
 
 /* What PoCL 3.1 with LLVM 14 maps, and of each of its threads the stack and the arena of malloc:
  * measured with (ulimit -v N; pointspec devices) and VmPeak in /proc/PID/status, and rounded up. */
 static const uint64_t driver_bytes = UINT64_C(240) << 20;
 static const uint64_t thread_bytes = UINT64_C(16) << 20;
 
+/* The part of it that can be written to, measured with ulimit -d; and the least limit of that with
+ * which PoCL, which takes it for its memory, goes on: 128 MiB, and what it has by then. */
+static const uint64_t data_bytes = UINT64_C(80) << 20;
+static const uint64_t least_data_limit = UINT64_C(160) << 20;
+
+/* Threads of a driver, which compile, have stacks of the limit: 100 KiB did with kernels of the
+ * torus, 64 KiB did not. */
+static const uint64_t least_stack_limit = UINT64_C(256) << 10;
+
 /* False: there is no limit. */
-static bool has_limit(uint64_t *bytes) {
+static bool has_limit(int resource, uint64_t *bytes) {
     struct rlimit limit;
-    const bool is_known = getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+    const bool is_known = getrlimit(resource, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
     *bytes = is_known ? (uint64_t)limit.rlim_cur : 0;
     return is_known;
 }
 
-pspec_status ps_drivers_check_room(ps_error *error) {
-    const long processors = sysconf(_SC_NPROCESSORS_ONLN);
-    const uint64_t needed =
-        driver_bytes + (processors > 0 ? (uint64_t)processors : 1) * thread_bytes;
-    uint64_t limit = 0;
-    if (!has_limit(&limit) || needed > SIZE_MAX) {
-        return PSPEC_OK;
+/* Whether so many bytes can be mapped now, or more than there are addresses. */
+static bool can_map(uint64_t bytes, int protection) {
+    if (bytes > SIZE_MAX) {
+        return true;
     }
     void *const room =
-        mmap(NULL, (size_t)needed, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+        mmap(NULL, (size_t)bytes, protection, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (room != MAP_FAILED) {
-        munmap(room, (size_t)needed);
-        return PSPEC_OK;
+        munmap(room, (size_t)bytes);
     }
+    return room != MAP_FAILED;
+}
+
+static pspec_status fail_room(uint64_t needed, const char *what, uint64_t limit,
+                              const char *command, ps_error *error) {
     return ps_fail(error, PSPEC_ERROR_NO_DEVICE,
-                   "an OpenCL driver takes about %" PRIu64 " bytes of address space, which the "
-                   "limit of %" PRIu64 " bytes (ulimit -v) does not leave%s",
-                   needed, limit, no_device_needed);
+                   "an OpenCL driver takes about %" PRIu64 " bytes of %s, which the limit of "
+                   "%" PRIu64 " bytes (%s) does not leave%s",
+                   needed, what, limit, command, no_device_needed);
+}
+
+pspec_status ps_drivers_check_room(ps_error *error) {
+    const long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    const uint64_t threads = (processors > 0 ? (uint64_t)processors : 1) * thread_bytes;
+    uint64_t limit = 0;
+    if (has_limit(RLIMIT_AS, &limit) && !can_map(driver_bytes + threads, PROT_NONE)) {
+        return fail_room(driver_bytes + threads, "address space", limit, "ulimit -v", error);
+    }
+    if (has_limit(RLIMIT_DATA, &limit) &&
+        (limit < least_data_limit || !can_map(data_bytes + threads, PROT_READ | PROT_WRITE))) {
+        const uint64_t needed = data_bytes + threads;
+        return fail_room(needed < least_data_limit ? least_data_limit : needed, "data", limit,
+                         "ulimit -d", error);
+    }
+    if (has_limit(RLIMIT_STACK, &limit) && limit < least_stack_limit) {
+        return fail_room(least_stack_limit, "stack for each thread", limit, "ulimit -s", error);
+    }
+    return PSPEC_OK;
 }
 
 /* ---- the sentence --------------------------------------------------------------------------- */

@@ -1,9 +1,12 @@
 /* Sentences for plans that nothing is left of: what stands in the way, and what would help. */
 #include "engines/error_units.h"
 #include "plan/choose_private.h"
+#include "plan/memory_model.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
+#include <unistd.h>
 
 const ps_candidate *ps_plan_fitting(const ps_plan *plan) {
     const ps_candidate *best = NULL;
@@ -72,17 +75,62 @@ static void say_what_is_smaller(char *out, size_t out_bytes, const ps_plan *plan
              ps_size_show(bytes, fitting->bytes), fitting->seconds);
 }
 
+/* Is there an engine of the host for it that would find room where no driver is loaded? */
+static bool has_host_engine(const ps_plan *plan, const ps_problem *problem) {
+    for (size_t i = 0; i < plan->num_candidates; i++) {
+        const ps_candidate *const one = &plan->candidates[i];
+        if (!one->is_excluded && one->is_applicable && !one->engine->needs_device &&
+            one->error <= problem->tolerance && one->host_bytes <= PS_MEMORY_OF_DRIVER) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The limit of the process that would do, where it is one that is in the way, and an engine that
+ * needs no driver; as the end of a sentence. */
+static void say_what_would_do(char *out, size_t out_bytes, const ps_plan *plan,
+                              const ps_problem *problem) {
+    const double step = 1e4; /* KiB: what is used changes by a little from start to start */
+    /* Each thread of the driver takes so much of malloc's address space where there is room. */
+    const double arena = 64.0 * 1024 * 1024;
+    const long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    const ps_candidate *const chosen = plan->chosen;
+    const double kept = chosen->engine->needs_device ? PS_MEMORY_OF_DRIVER : PS_MEMORY_OF_PROGRAM;
+    const double missing = chosen->host_bytes + kept - (double)plan->room.bytes;
+    const char *const other = chosen->engine->needs_device && has_host_engine(plan, problem)
+                                  ? "; --engine host_direct needs no driver"
+                                  : "";
+    ps_memory_limits limits;
+    ps_memory_limits_find(&limits, "");
+    const bool is_own = limits.least == PS_MEMORY_ADDRESS_SPACE || limits.least == PS_MEMORY_DATA;
+    if (!is_own || strcmp(limits.bounds[limits.least].place, plan->room.by) != 0) {
+        snprintf(out, out_bytes, "%s", other);
+        return;
+    }
+    const double arenas =
+        limits.least == PS_MEMORY_ADDRESS_SPACE && chosen->engine->needs_device && processors > 0
+            ? (double)processors * arena
+            : 0;
+    const double kibibytes = ((double)limits.bounds[limits.least].limit + missing + arenas) / 1024;
+    snprintf(out, out_bytes, "; %.16s %.0f would do%s", plan->room.by,
+             ceil(kibibytes / step + 1) * step, other);
+}
+
 /* There is no room for the chosen one. */
 static pspec_status fail_crowded(const ps_plan *plan, const ps_problem *problem, ps_error *error) {
     const ps_candidate *const chosen = plan->chosen;
     char needed[PS_SIZE_TEXT];
     char there[PS_SIZE_TEXT];
     char kept[PS_SIZE_TEXT];
-    char advice[160];
+    char advice[192];
     const double reserve = (double)plan->room.bytes - chosen->host_room;
     say_what_is_smaller(advice, sizeof advice, plan);
     if (advice[0] == '\0') {
         say_what_fits(advice, sizeof advice, plan, problem);
+    }
+    if (advice[0] == '\0') {
+        say_what_would_do(advice, sizeof advice, plan, problem);
     }
     return ps_fail(error, PSPEC_ERROR_MEMORY,
                    "%s (%s) needs %s of memory, but %s leaves %s, and %s of them are kept for %s%s",

@@ -72,6 +72,32 @@ if (ulimit -v 1000000) 2>/dev/null; then
         bash -c 'ulimit -v 1000000; "$1" power --sampler white -n 1000000 -k 5000' _ "$program"
 fi
 
+# ---- limits of data and stacks: PoCL aborts with the one, and nothing is safe with the other ----
+# shellcheck disable=SC2016
+if (ulimit -d 100000) 2>/dev/null; then
+    says 1 'an OpenCL driver takes about [0-9]+ bytes of data, which the limit of 102400000 bytes \(ulimit -d\) does not leave' \
+        bash -c 'ulimit -d 100000; exec "$1" power --sampler white -n 1000 -k 8' _ "$program"
+    says 0 '^8,' bash -c 'ulimit -d 100000; exec "$1" power --sampler white -n 1000 -k 8 --engine host_direct' _ "$program"
+fi
+# shellcheck disable=SC2016
+if (ulimit -s 64) 2>/dev/null; then
+    for command in 'power --sampler white -n 1000 -k 8' 'sample --sampler white' devices; do
+        says 1 'the limit of stacks, 64 KiB \(ulimit -s\), is below the 256 KiB that this program and its threads need$' \
+            bash -c 'ulimit -s 64; exec "$1" $2' _ "$program" "$command"
+    done
+    says 0 '^8,' bash -c 'ulimit -s 256; exec "$1" power --sampler white -n 1000 -k 8' _ "$program"
+fi
+# shellcheck disable=SC2016
+if (ulimit -v 300000) 2>/dev/null; then # the driver starts, and leaves next to nothing
+    code=0
+    bash -c 'ulimit -v 300000; exec "$1" power --sampler white -n 1000 -k 8' _ "$program" >out 2>err || code=$?
+    ((code == 1)) && grep -qE 'ulimit -v.*host_direct' err || ((code == 0)) || complain "ulimit -v 300000: $code, $(<err)"
+    limit=$(sed -nE 's/.*; ulimit -v ([0-9]+) would do.*/\1/p' err)
+    if [[ -n $limit ]]; then
+        says 0 '^8,' bash -c 'ulimit -v $2; exec "$1" power --sampler white -n 1000 -k 8' _ "$program" "$limit"
+    fi
+fi
+
 # ---- limits that are typed --------------------------------------------------------------------
 
 says 1 '1000000 points in 2 dimensions take 15.26M of memory, above the limit of 1M$' \

@@ -22,6 +22,7 @@ done
 # Seconds after which something hangs, also a cold build on a machine with much to do; then SIGTERM, which must work.
 patience=600 deaf=60
 limits=("-v 40000" "-v 100000" "-v 200000" "-v 400000" "-v 800000" "-v 1500000" "-v 4000000"
+    "-d 50000" "-d 100000" "-d 180000" "-s 64" "-s 256"
     "-n 4" "-n 5" "-n 7" "-n 10" "-n 20" "-f 0" "-f 1" "-f 8" "-t 1"
     "cgroup 24" "cgroup 80" "cgroup 400")
 scratch=$(mktemp -d)
