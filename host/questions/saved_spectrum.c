@@ -16,7 +16,8 @@ static pspec_status copy_bins(ps_saved_spectrum *out, const ps_spectrum *average
     out->num_bins = averages->num_bins;
     for (size_t b = 0; b < averages->num_bins; b++) {
         const ps_spectrum_bin *const bin = &averages->bins[b];
-        out->bins[b] = (ps_saved_bin){bin->key, bin->power, bin->standard_error};
+        out->bins[b] =
+            (ps_saved_bin){bin->key, bin->power, bin->standard_error, bin->frequency, bin->count};
     }
     return PSPEC_OK;
 }

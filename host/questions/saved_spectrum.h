@@ -13,6 +13,8 @@
 typedef struct ps_saved_bin {
     int64_t key; /* ring number (from 0 on by widths above 1), |k|^2 of a shell, or degree */
     double power, standard_error; /* nan: one realization */
+    double frequency;             /* mean |k|, or the degree */
+    uint64_t count;               /* lattice points of both signs; 0: the file does not say */
 } ps_saved_bin;
 
 typedef struct ps_saved_spectrum {

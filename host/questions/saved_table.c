@@ -14,6 +14,9 @@
 /* Whole numbers up to here are exact in a double, which cJSON keeps numbers in. */
 #define MOST_EXACT ((uint64_t)1 << 53)
 
+/* Powers and their errors whose squares, of up to 2^53 realizations, are numbers. */
+#define MOST_POWER 1e140
+
 typedef struct reader {
     ps_saved_spectrum *out;
     const cJSON *root, *meta;
@@ -169,7 +172,7 @@ static pspec_status read_header(const reader *source) {
 
 /* Where the numbers of a row stand, and by which names since schema 2. */
 typedef struct places {
-    int key, frequency, power, standard_error, num;
+    int key, frequency, count, power, standard_error, num;
     const char *key_name;
 } places;
 
@@ -202,9 +205,13 @@ static pspec_status find_places(const reader *source, places *at) {
                             "without --frequencies");
     }
     const char *const key_name = source->out->on_sphere ? "degree" : "bin";
-    *at = (places){find_column(columns, key_name), find_column(columns, "frequency"),
-                   find_column(columns, "power"),  find_column(columns, "standard_error"),
-                   cJSON_GetArraySize(columns),    key_name};
+    *at = (places){.key = find_column(columns, key_name),
+                   .frequency = find_column(columns, "frequency"),
+                   .count = find_column(columns, "count"),
+                   .power = find_column(columns, "power"),
+                   .standard_error = find_column(columns, "standard_error"),
+                   .num = cJSON_GetArraySize(columns),
+                   .key_name = key_name};
     return at->key >= 0 && at->power >= 0 && at->standard_error >= 0 &&
                    (source->out->on_sphere || at->frequency >= 0)
                ? PSPEC_OK
@@ -214,12 +221,11 @@ static pspec_status find_places(const reader *source, places *at) {
 /* null where there is one realization, and only there. */
 static bool take_standard_error(const ps_saved_spectrum *out, const cJSON *item, double *value) {
     *value = cJSON_IsNumber(item) ? item->valuedouble : NAN;
-    return out->num_realizations == 1 || (*value >= 0 && isfinite(*value));
+    return out->num_realizations == 1 || (*value >= 0 && *value <= MOST_POWER);
 }
 
 /* at->num cells, in an array or, since schema 2, in an object. */
-static bool take_row(ps_saved_spectrum *out, const places *at, const cJSON *row,
-                     double *frequency) {
+static bool take_row(ps_saved_spectrum *out, const places *at, const cJSON *row) {
     ps_saved_bin *const bin = &out->bins[out->num_bins];
     /* Degree 1, or the bin of the shortest frequencies but DC. */
     const int64_t first = out->on_sphere ? 1 : ps_bin_rule_find(&out->bin_rule, 1);
@@ -231,15 +237,17 @@ static bool take_row(ps_saved_spectrum *out, const places *at, const cJSON *row,
         at->frequency >= 0 ? find_cell(row, at->frequency, "frequency") : number;
     uint64_t key = 0;
     if (cJSON_GetArraySize(row) != at->num || !take_whole(number, least, MOST_EXACT, &key) ||
-        !cJSON_IsNumber(power) || !(power->valuedouble >= 0 && isfinite(power->valuedouble)) ||
+        !cJSON_IsNumber(power) || !(power->valuedouble >= 0 && power->valuedouble <= MOST_POWER) ||
         !cJSON_IsNumber(where) ||
+        (at->count >= 0 &&
+         !take_whole(find_cell(row, at->count, "count"), 1, MOST_EXACT, &bin->count)) ||
         !take_standard_error(out, find_cell(row, at->standard_error, "standard_error"),
                              &bin->standard_error)) {
         return false;
     }
     bin->key = (int64_t)key;
     bin->power = power->valuedouble;
-    *frequency = where->valuedouble;
+    bin->frequency = where->valuedouble;
     out->num_bins++;
     return true;
 }
@@ -252,9 +260,10 @@ static bool is_shell(double frequency, int64_t key) {
 }
 
 /* Tables of versions that knew rings by rounding and shells do not say which they have. */
-static void find_old_shells(ps_saved_spectrum *out, double frequency) {
+static void find_old_shells(ps_saved_spectrum *out) {
+    const ps_saved_bin *const last = &out->bins[out->num_bins - 1];
     if (!out->on_sphere && out->bin_rule.kind == PS_BINS_ROUND &&
-        is_shell(frequency, out->bins[out->num_bins - 1].key)) {
+        is_shell(last->frequency, last->key)) {
         out->bin_rule = (ps_bin_rule){.kind = PS_BINS_SHELLS};
     }
 }
@@ -264,20 +273,19 @@ static pspec_status read_rows(const reader *source) {
     const cJSON *row = NULL;
     ps_saved_spectrum *const out = source->out;
     places at = {0};
-    double frequency = 0;
     PS_TRY(find_places(source, &at));
     if (!cJSON_IsArray(rows) || rows->child == NULL) {
         return fail_damaged(source, "there are no \"rows\"");
     }
     PS_TRY(PS_NEW(&out->bins, (size_t)cJSON_GetArraySize(rows), "saved bins", source->error));
     cJSON_ArrayForEach(row, rows) {
-        if (!take_row(out, &at, row, &frequency)) {
+        if (!take_row(out, &at, row)) {
             return ps_fail(source->error, PSPEC_ERROR_INPUT,
                            "\"%s\": row %zu is not what pointspec power or angular writes",
                            source->name, out->num_bins + 1);
         }
     }
-    find_old_shells(out, frequency);
+    find_old_shells(out);
     return PSPEC_OK;
 }
 
@@ -310,13 +318,51 @@ static pspec_status fail_parse(const char *text, const char *end, const char *na
                        : ps_fail(error, PSPEC_ERROR_MEMORY, "not enough memory for \"%s\"", name);
 }
 
+static const char *skip_blanks(const char *at, const char *end) {
+    while (at < end && strchr(" \t\r\n", *at) != NULL && *at != '\0') {
+        at++;
+    }
+    return at;
+}
+
+/* The lines after the head of JSON Lines, each a row. *at: where they begin, then where that ends. */
+static bool take_lines(cJSON *root, const char **at, const char *end) {
+    cJSON *const rows = cJSON_AddArrayToObject(root, "rows");
+    bool is_good = rows != NULL;
+    while (is_good && (*at = skip_blanks(*at, end)) < end) {
+        const char *next = NULL;
+        cJSON *const row = cJSON_ParseWithLengthOpts(*at, (size_t)(end - *at), &next, false);
+        is_good = cJSON_IsObject(row) && cJSON_AddItemToArray(rows, row);
+        if (is_good) {
+            *at = next;
+        } else {
+            cJSON_Delete(row);
+        }
+    }
+    return is_good;
+}
+
+/* Nothing follows a table; lines follow the head of JSON Lines. */
+static pspec_status take_rest(cJSON *root, const char *text, const char *at, const char *end,
+                              const char *name, ps_error *error) {
+    const bool has_rows = cJSON_GetObjectItemCaseSensitive(root, "rows") != NULL;
+    const bool is_good = has_rows ? (at = skip_blanks(at, end)) == end : take_lines(root, &at, end);
+    return is_good ? PSPEC_OK
+                   : ps_fail(error, PSPEC_ERROR_INPUT, "\"%s\" is damaged: %s at byte %zu", name,
+                             has_rows ? "there is more behind the table," : "no row of JSON Lines",
+                             (size_t)(at - text) + 1);
+}
+
 pspec_status ps_saved_table_parse(ps_saved_spectrum *out, const char *text, size_t num_bytes,
                                   const char *name, ps_error *error) {
     const char *end = NULL;
     cJSON *const root = cJSON_ParseWithLengthOpts(text, num_bytes, &end, false);
     reader source = {.out = out, .root = root, .name = name, .error = error};
-    const pspec_status status =
-        root != NULL ? read_root(&source) : fail_parse(text, end, name, error);
+    pspec_status status = root != NULL ? take_rest(root, text, end, text + num_bytes, name, error)
+                                       : fail_parse(text, end, name, error);
+    if (status == PSPEC_OK) {
+        status = read_root(&source);
+    }
     cJSON_Delete(root);
     return status;
 }

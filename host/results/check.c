@@ -100,6 +100,25 @@ static pspec_status check_points(const ps_saved_spectrum *saved, const ps_spectr
                      path, saved->mean_points);
 }
 
+/* Do the rows of the file tell of these frequencies? Its digits are all there, but the order of a sum
+ * may be another. */
+static pspec_status check_frequency(const ps_saved_bin *saved, const ps_spectrum_bin *measured,
+                                    const char *path, const char *name, ps_error *error) {
+    const double rounding = 1e-9;
+    if (fabs(saved->frequency - measured->frequency) > rounding * measured->frequency) {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "\"%s\": %s %lld has the frequency %.10g, which cannot be: it is %.10g",
+                       path, name, (long long)saved->key, saved->frequency, measured->frequency);
+    }
+    return saved->count == 0 || saved->count == measured->count
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INPUT,
+                         "\"%s\": %s %lld has the count %llu, which cannot be: there are %llu "
+                         "frequencies",
+                         path, name, (long long)saved->key, (unsigned long long)saved->count,
+                         (unsigned long long)measured->count);
+}
+
 static pspec_status check_bins(const ps_saved_spectrum *saved, const ps_spectrum *measured,
                                const char *path, ps_error *error) {
     const char *const name = ps_check_bin_name(saved);
@@ -109,6 +128,7 @@ static pspec_status check_bins(const ps_saved_spectrum *saved, const ps_spectrum
                            "\"%s\" lacks %s %lld, or what comes before it is out of place", path,
                            name, (long long)measured->bins[b].key);
         }
+        PS_TRY(check_frequency(&saved->bins[b], &measured->bins[b], path, name, error));
     }
     return saved->num_bins == measured->num_bins
                ? PSPEC_OK

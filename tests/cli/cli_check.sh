@@ -118,6 +118,25 @@ damaged() { # PART SED-SCRIPT
     refuses "$1" --against bad.json sets.txt
 }
 refuses 'is no saved spectrum' --against sets.txt sets.txt
+cat saved.json <(echo '{"rows": []}') >bad.json
+refuses 'is damaged: there is more behind the table, at byte' --against bad.json sets.txt
+cat saved.json <(printf '\n \t\n') >blank.json
+runs 0 "${host[@]}" --against blank.json sets.txt
+damaged 'ring 2 has the frequency 1.5, which cannot be: it is 2.157' 's/"frequency": 2.157[0-9]*/"frequency": 1.5/'
+damaged 'ring 1 has the count 7, which cannot be: there are 8 frequencies' 's/"count": 8,/"count": 7,/'
+damaged 'row 1 is not what' 's/"count": 8,/"count": 0,/'
+damaged 'row 1 is not what' '0,/"standard_error": [0-9.e-]*/s//"standard_error": 1e200/'
+# JSON Lines are the same table
+"$program" power "${host[@]}" --sampler jittered -n 64 -m 40 -k 5 -o lines.jsonl
+"$program" power "${host[@]}" --sampler jittered -n 64 -m 40 -k 5 -o lines.json
+runs 0 "${host[@]}" --against lines.jsonl --sampler jittered -m 20
+grep -v '^# \(command\|against\)' out >of_lines
+runs 0 "${host[@]}" --against lines.json --sampler jittered -m 20
+cmp -s of_lines <(grep -v '^# \(command\|against\)' out) || complain "JSON Lines are compared otherwise: $(diff of_lines out)"
+head -c -40 lines.jsonl >bad.jsonl
+refuses 'is damaged: no row of JSON Lines at byte' --against bad.jsonl --sampler jittered
+head -n 3 lines.jsonl >bad.jsonl
+refuses '"bad.jsonl" lacks ring' --against bad.jsonl --sampler jittered -m 2
 head -c 900 saved.json >bad.json
 refuses 'no JSON at byte' --against bad.json sets.txt
 damaged 'no table of pointspec' 's/"schema": 2,$/"schema": 3,/'
