@@ -45,10 +45,26 @@ static ps_option_id find_nearest(const ps_command *command, const char *name, si
     return nearest;
 }
 
+/* Options of versions before. */
+static const char *find_former(const char *name) {
+    static const char *const names[][2] = {{"shells", "--bins shells"}};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        if (strcmp(name, names[i][0]) == 0) {
+            return names[i][1];
+        }
+    }
+    return NULL;
+}
+
 /* name: without dashes and value. is_known: some other command has that option. */
 static pspec_status fail_option(const parser *p, shown_option shown, const char *name,
                                 bool is_known) {
     size_t distance = 0;
+    const char *const former = find_former(name);
+    if (former != NULL) {
+        return ps_fail(p->error, PSPEC_ERROR_INVALID_ARGUMENT, "unknown option %.*s; it is %s now",
+                       shown.length, shown.text, former);
+    }
     const ps_option *const nearest = &ps_options[find_nearest(p->command, name, &distance)];
     const char letter[] = {nearest->letter, '\0'};
     const bool has_letter = strlen(name) == 1 && nearest->letter == tolower((unsigned char)name[0]);

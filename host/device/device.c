@@ -250,10 +250,10 @@ pspec_status ps_device_choose(const ps_device_limits *limits, size_t num_devices
     for (size_t i = 0; i < num_devices; i++) {
         ps_text_append(&names, "%snumber %zu, \"%s\"", i > 0 ? "; " : "", i, limits[i].name);
     }
-    ps_fail(error, PSPEC_ERROR_NO_DEVICE, "no OpenCL device fits \"%s\"; %s %s", selector,
+    ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "no OpenCL device fits \"%s\"; %s %s", selector,
             num_devices == 1 ? "the only one is" : "there are", ps_text_string(&names));
     ps_text_free(&names);
-    return PSPEC_ERROR_NO_DEVICE;
+    return PSPEC_ERROR_INVALID_ARGUMENT;
 }
 
 /* ---- opening ----------------------------------------------------------------------------- */

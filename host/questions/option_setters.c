@@ -11,8 +11,9 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The size of a box and differences in it are numbers. */
+/* The size of a box and differences in it are numbers, and its inverse is, too. */
 #define MOST_BOX 1e300
+#define LEAST_BOX 1e-300
 
 /* ---- setters ------------------------------------------------------------------------------- */
 
@@ -122,14 +123,14 @@ pspec_status ps_set_max_frequency(const ps_option *option, const char *shown, co
     return PSPEC_OK;
 }
 
-/* A number above 0, up to maximum. */
+/* A number above 0, up to maximum, as `most` says at the end of a sentence. */
 static pspec_status parse_positive(const char *shown, const char *value, double maximum,
-                                   double *out, ps_error *error) {
+                                   const char *most, double *out, ps_error *error) {
     double number = 0;
     PS_TRY(ps_parse_number(value, shown, -DBL_MAX, DBL_MAX, &number, error));
     if (number <= 0 || number > maximum) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: %s is not above 0%s", shown, value,
-                       maximum < DBL_MAX ? " and at most 1" : "");
+                       most);
     }
     *out = number;
     return PSPEC_OK;
@@ -138,29 +139,31 @@ static pspec_status parse_positive(const char *shown, const char *value, double 
 pspec_status ps_set_tolerance(const ps_option *option, const char *shown, const char *words,
                               const char *value, ps_request *arguments, ps_error *error) {
     (void)option, (void)words;
-    return parse_positive(shown, value, 1, &arguments->accuracy.tolerance, error);
+    return parse_positive(shown, value, 1, " and at most 1", &arguments->accuracy.tolerance, error);
 }
 
 pspec_status ps_set_floor(const ps_option *option, const char *shown, const char *words,
                           const char *value, ps_request *arguments, ps_error *error) {
     (void)option, (void)words;
-    return parse_positive(shown, value, DBL_MAX, &arguments->accuracy.floor, error);
+    return parse_positive(shown, value, DBL_MAX, "", &arguments->accuracy.floor, error);
 }
 
 pspec_status ps_set_standard_error(const ps_option *option, const char *shown, const char *words,
                                    const char *value, ps_request *arguments, ps_error *error) {
     (void)option, (void)words;
-    return parse_positive(shown, value, 1, &arguments->accuracy.standard_error, error);
+    return parse_positive(shown, value, 1, " and at most 1", &arguments->accuracy.standard_error,
+                          error);
 }
 
 pspec_status ps_set_false_alarm_rate(const ps_option *option, const char *shown, const char *words,
                                      const char *value, ps_request *arguments, ps_error *error) {
     (void)option, (void)words;
-    PS_TRY(parse_positive(shown, value, 1, &arguments->false_alarm_rate, error));
+    PS_TRY(
+        parse_positive(shown, value, DBL_MAX, " and below 1", &arguments->false_alarm_rate, error));
     return arguments->false_alarm_rate < 1
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "%s: %s is not below 1: every check would fail", shown, value);
+                         "%s: %s is not above 0 and below 1: every check would fail", shown, value);
 }
 
 pspec_status ps_set_smoothness(const ps_option *option, const char *shown, const char *words,
@@ -320,10 +323,15 @@ pspec_status ps_set_box(const ps_option *option, const char *shown, const char *
     snprintf(first, sizeof first, "%.*s", (int)(comma - value), value);
     PS_TRY(ps_parse_number(first, shown, -MOST_BOX, MOST_BOX, &reading->box_low, error));
     PS_TRY(ps_parse_number(comma + 1, shown, -MOST_BOX, MOST_BOX, &reading->box_high, error));
-    return reading->box_low < reading->box_high
+    if (!(reading->box_low < reading->box_high)) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "%s: %s is no interval: X0 must be below X1", shown, value);
+    }
+    return reading->box_high - reading->box_low >= LEAST_BOX
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "%s: %s is no interval: X0 must be below X1", shown, value);
+                         "%s: %s is %.3g wide, and must be at least %g", shown, value,
+                         reading->box_high - reading->box_low, LEAST_BOX);
 }
 
 /* A comma tells names of columns from what columns are. */

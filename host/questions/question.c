@@ -99,7 +99,8 @@ static pspec_status check_results(const ps_request *arguments, ps_error *error) 
          "it is that of rings, and a list has none"},
         {PS_OPTION_PER_RING, PS_OPTION_STANDARD_ERROR,
          "more realizations do not mend the error of the choice"},
-        {PS_OPTION_COEFFICIENTS, PS_OPTION_STANDARD_ERROR, "coefficients are of one set"},
+        {PS_OPTION_COEFFICIENTS, PS_OPTION_STANDARD_ERROR,
+         "coefficients are of sets whose number is known before"},
         {PS_OPTION_COEFFICIENTS, PS_OPTION_PER_RING, "a subset does not fill an array"},
         {PS_OPTION_FULL, PS_OPTION_PER_RING, "a subset does not fill an array"}};
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {

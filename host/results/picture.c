@@ -23,6 +23,17 @@ static bool is_all(const ps_request *request) {
            is_discarded(request->output);
 }
 
+/* gnuplot would say it at the end of the work. */
+static pspec_status check_range(const char *axis, bool is_log, bool has_range, const double *range,
+                                ps_error *error) {
+    return !is_log || !has_range || range[0] > 0
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "--plot-range: the %s axis is logarithmic by --plot-log, and cannot begin "
+                         "at %g",
+                         axis, range[0]);
+}
+
 pspec_status ps_picture_check(const ps_request *request, const ps_answer_hooks *hooks,
                               ps_error *error) {
     ps_text path = {0};
@@ -39,6 +50,8 @@ pspec_status ps_picture_check(const ps_request *request, const ps_answer_hooks *
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "--plot draws .png, .svg and .pdf, not \"%s\"", request->plot);
     }
+    PS_TRY(check_range("x", axes->is_log_x, axes->has_x, axes->x, error));
+    PS_TRY(check_range("y", axes->is_log_y, axes->has_y, axes->y, error));
     pspec_status status = ps_plot_find_gnuplot(&path, &reason);
     if (status == PSPEC_ERROR_MEMORY || (status != PSPEC_OK && is_all(request))) {
         *error = reason;

@@ -109,17 +109,55 @@ static void print_blanks(size_t num, FILE *stream) {
 
 /* ---- header lines ------------------------------------------------------------------------ */
 
+/* Seconds and bytes of a plan's phases, "powers; at most 0.0014 s; 4e+06 bytes": in the units of the
+ * columns. A number of the name of seconds needs no unit behind it. */
+static const char *replace_number(char out[CELL_BYTES], const char *text, bool are_seconds) {
+    char *end = NULL;
+    const double value = strtod(text, &end);
+    const bool has_number = end != text && isfinite(value);
+    const char *name = NULL;
+    if (has_number && strncmp(end, " s", 2) == 0 && (end[2] == ';' || end[2] == '\0')) {
+        name = "seconds";
+        end += 2;
+    } else if (has_number && strncmp(end, " bytes", 6) == 0) {
+        name = "bytes";
+        end += 6;
+    } else if (has_number && are_seconds && *end == '\0') {
+        name = "seconds";
+    }
+    return name != NULL && shows_unit(out, name, value) ? end : NULL;
+}
+
+static void print_in_units(const char *text, bool are_seconds, FILE *stream) {
+    char own[CELL_BYTES];
+    char letter[2] = "";
+    for (bool is_start = true; *text != '\0';) {
+        const char *const end = is_start ? replace_number(own, text, are_seconds) : NULL;
+        if (end != NULL) {
+            fputs(own, stream);
+            text = end;
+        } else {
+            letter[0] = *text++;
+            print_text(letter, stream);
+        }
+        is_start = letter[0] == ' ';
+    }
+}
+
 static void print_head(const ps_table *table, FILE *stream) {
     for (size_t i = 0; i < table->num_meta; i++) {
         char own[CELL_BYTES];
         const ps_table_entry *const entry = &table->meta[i];
         print_text(entry->key, stream);
         fputs(": ", stream);
-        print_text(show_cell(own, entry->key, &entry->value), stream);
-        /* "at most 0.42", of a plan */
-        const bool lacks_unit =
-            entry->value.kind == PS_CELL_TEXT && is_named(entry->key, "seconds");
-        fputs(lacks_unit ? " s\n" : "\n", stream);
+        const bool are_seconds = is_named(entry->key, "seconds"); /* "at most 0.42", of a plan */
+        if (entry->value.kind == PS_CELL_TEXT &&
+            (are_seconds || strcmp(entry->key, "phase") == 0)) {
+            print_in_units(entry->value.text, are_seconds, stream);
+        } else {
+            print_text(show_cell(own, entry->key, &entry->value), stream);
+        }
+        putc('\n', stream);
     }
     if (table->num_meta > 0 && table->num_rows > 0) {
         putc('\n', stream);

@@ -102,7 +102,7 @@ refuses '--against "saved.json" are the same file' --against saved.json sets.txt
 refuses 'standard input is none' --against - sets.txt
 runs 1 --against no-such.json sets.txt
 says 'cannot read no-such.json'
-refuses 'is not below 1' --against saved.json sets.txt --false-alarm-rate 1
+refuses 'is not above 0 and below 1' --against saved.json sets.txt --false-alarm-rate 1
 refuses 'above 0' --against saved.json sets.txt --false-alarm-rate 0
 refuses 'did you mean --against' --agains saved.json sets.txt
 "$program" sample --sampler white -n 63 -o fewer.txt

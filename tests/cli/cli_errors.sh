@@ -220,6 +220,13 @@ power 2 '--per-ring' --sampler white -n 16 -d 6 -k 20
 power 2 '--plot-log and --plot-range are about --plot, which was not given' --sampler white -n 16 -k 4 --plot-log x
 power 2 '--plot-range: "2" is not one of X0..X1,Y0..Y1' --sampler white -n 16 -k 4 --plot x.png --plot-range 2
 power 2 '--plot-range: 2..1 is no interval' --sampler white -n 16 -k 4 --plot x.png --plot-range ,2..1
+# before the work, which these would take very long for
+power 2 '--plot-range: the x axis is logarithmic by --plot-log, and cannot begin at 0' \
+    --sampler white -n 1e9 -k 4 --plot x.png --plot-log xy --plot-range 0..5
+power 2 '--plot-range: the y axis is logarithmic by --plot-log, and cannot begin at -1' \
+    --sampler white -n 1e9 -k 4 --plot x.png --plot-log y --plot-range 0..5,-1..1
+power 2 '--coefficients does not go with --standard-error: coefficients are of sets whose number is known before' \
+    --sampler white -n 16 -k 4 --coefficients c.npy --standard-error 0.1
 power 2 '--plot-log: "z" is not one of x, y, xy, none' --sampler white -n 16 -k 4 --plot x.png --plot-log z
 power 2 '--bins: "width=0" is none of round|floor|' --sampler white -n 16 -k 4 --bins width=0
 power 2 '--bins: "rings" is none of ' --sampler white -n 16 -k 4 --bins rings
@@ -242,7 +249,7 @@ power 2 'between 1 and 2000' --sampler white -n 16 -d 4 -k 2001 --per-ring 9
     large=(--sampler white -n 16 -d 4 -k 900 --per-ring 600000)
     power 2 'there is no engine "nonsense"' "${large[@]}" --engine nonsense
     power 2 'is not for points on the torus' "${large[@]}" --engine sphere_nufft
-    power 1 'no OpenCL device fits "nonsense"' "${large[@]}" --device nonsense
+    power 2 'no OpenCL device fits "nonsense"' "${large[@]}" --device nonsense
     power 1 'missing.txt: No such file' "${large[@]}" --weights missing.txt
     power 1 'No such file' "${large[@]}" -o missing/result.csv
     power 2 '--full does not go with --per-ring' "${large[@]}" --full full.npy
@@ -250,16 +257,16 @@ power 2 'between 1 and 2000' --sampler white -n 16 -d 4 -k 2001 --per-ring 9
 ) || bad=1
 # What is wrong with a name is said before a file is read, here one that never ends and holds no points.
 refuses 2 'there is no engine "nonsense"' power -k 8 --engine nonsense /dev/zero
-refuses 1 'no OpenCL device fits "nonsense"' power -k 8 --device nonsense /dev/zero
+refuses 2 'no OpenCL device fits "nonsense"' power -k 8 --device nonsense /dev/zero
 refuses 1 'missing.txt: No such file' power -k 8 --weights missing.txt /dev/zero
 refuses 1 'missing.txt: No such file' power --frequencies missing.txt /dev/zero
 refuses 1 'missing.txt: No such file' angular -l 8 /dev/zero missing.txt
 refuses 2 'there is no engine "nonsense"' quadrature --brdf diffuse -l 8 --engine nonsense /dev/zero
 refuses 1 'missing.txt: No such file' quadrature --brdf diffuse -l 8 --weights missing.txt /dev/zero
-refuses 1 'no OpenCL device fits "nonsense"' quadrature --brdf diffuse -l 8 --device nonsense /dev/zero
-refuses 1 'no OpenCL device fits "nonsense"' plan quadrature --brdf diffuse -l 8 --device nonsense /dev/zero
-refuses 1 'no OpenCL device fits "nonsense"' pairs -l 8 --device nonsense /dev/zero
-refuses 1 'no OpenCL device fits "nonsense"' angular -l 8 --device nonsense /dev/zero
+refuses 2 'no OpenCL device fits "nonsense"' quadrature --brdf diffuse -l 8 --device nonsense /dev/zero
+refuses 2 'no OpenCL device fits "nonsense"' plan quadrature --brdf diffuse -l 8 --device nonsense /dev/zero
+refuses 2 'no OpenCL device fits "nonsense"' pairs -l 8 --device nonsense /dev/zero
+refuses 2 'no OpenCL device fits "nonsense"' angular -l 8 --device nonsense /dev/zero
 says_exactly 'can be indexed; a list of frequencies has no such limit' power --sampler white -n 16 -d 2 -k 100000
 says_exactly '(--per-ring) and lists of frequencies have no such limit' power --sampler white -n 16 -d 5 -k 200
 says_exactly 'in dimension 5 can be indexed' power --sampler white -n 16 -d 5 -k 200 --full full.npy
@@ -301,14 +308,14 @@ refuses 2 'name of an output is empty' sample "${white[@]}" -o ''
 refuses 2 '"ply" is not one of utk-text, csv, psa-text' sample "${white[@]}" --format ply
 
 # ---- devices
-refuses 1 'no OpenCL device fits "quantum"' devices --device quantum
-refuses 1 'no OpenCL device fits "99"' devices --device 99
+refuses 2 'no OpenCL device fits "quantum"' devices --device quantum
+refuses 2 'no OpenCL device fits "99"' devices --device 99
 refuses 2 'gzip is read, but not written' sample --sampler white -n 4 -o out.txt.gz
 refuses 2 'gzip is read, but not written' power --engine host_direct --sampler white -n 4 -k 2 -o out.csv.gz
 refuses 2 'standard input (-) is named 2 times' angular -l 3 - -
 refuses 2 '"npy" is not one of csv, json' devices --format npy
 refuses 2 'no file is read' devices list
-POINTSPEC_DEVICE=quantum refuses 1 'no OpenCL device fits "quantum"' devices
+POINTSPEC_DEVICE=quantum refuses 2 'no OpenCL device fits "quantum"' devices
 OCL_ICD_VENDORS=$scratch/none refuses 1 'no OpenCL driver can be found' power --sampler white -n 4 -k 2 # devices: cli_no_device
 
 echo "cli_errors: $checked command lines"

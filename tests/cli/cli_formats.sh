@@ -258,6 +258,8 @@ reads '0.9999999999999999 0' --box -1,1 nearly.txt # x + 1 rounds to 2
 refuses 'line 2: coordinate 384 is outside [0,300) of --box; --wrap would reduce it' --box 0,300 pixels.txt -o none
 reads '0.25 0.5|0.5 0' --wrap --box 1,2 <(printf '0.25 0.5\n1.5 2\n')
 refuses '--box: 1,1 is no interval: X0 must be below X1' --box 1,1 pixels.txt
+refuses '--box: 0,1e-309 is 1e-309 wide, and must be at least 1e-300' --box 0,1e-309 pixels.txt
+refuses '--box: -1e-308,1e-308 is 2e-308 wide, and must be at least 1e-300' --box -1e-308,1e-308 pixels.txt
 refuses '--box: "1" is not one of X0,X1' --box 1 pixels.txt
 refuses '"inf" is not a finite number' --box 0,inf pixels.txt
 refuses '--box is for points of the torus, and these are of the sphere' --box 0,2 --domain sphere <(printf '0 0 1\n')

@@ -38,7 +38,9 @@ done
 # units, blocks, and what is missing
 on_terminal plan "${words[@]}" >shown
 grep -qE '^host_direct:extended +chosen +[0-9.]+ (ms|s) +[0-9.]+ (B|kB) ' shown || complain "no units in a plan: $(<shown)"
-grep -qE '^seconds: [0-9.]+ s$' shown || complain "no unit of all seconds: $(grep '^seconds' shown)"
+! grep -qE '^phase: .*([0-9]e[+-]?[0-9]+ s;|[0-9] bytes)' shown || complain "phases have other units: $(grep ^phase shown)"
+grep -qE '^phase: .*; [0-9.]+ (ns|us|ms);' shown || complain "phases have no small units: $(grep ^phase shown)"
+grep -qE '^seconds: [0-9.]+ m?s$' shown || complain "no unit of all seconds: $(grep '^seconds' shown)"
 on_terminal devices >shown
 [[ $(grep -cE '^name +[^ ]|^global_bytes +[0-9.]+ [GMT]B$' shown) == $((2 * $(grep -c '^index ' shown))) ]] || complain "devices are no blocks: $(<shown)"
 "$program" power --sampler white -n 16 -k 2 --engine host_direct --format text >one.txt

@@ -69,7 +69,7 @@ static void unknown_selectors(void **state) {
     size_t index = 0;
     ps_error said = {0};
     assert_int_equal(ps_device_choose(made_up, NUM_MADE_UP, "Radeon", &index, &said),
-                     PSPEC_ERROR_NO_DEVICE);
+                     PSPEC_ERROR_INVALID_ARGUMENT);
     assert_non_null(strstr(said.message, "\"Radeon\""));
     for (size_t i = 0; i < NUM_MADE_UP; i++) {
         assert_non_null(strstr(said.message, made_up[i].name));
@@ -77,14 +77,16 @@ static void unknown_selectors(void **state) {
     const char *const indices[] = {"4", "100", "99999999999999999999"};
     for (size_t i = 0; i < 3; i++) {
         assert_int_equal(ps_device_choose(made_up, NUM_MADE_UP, indices[i], &index, &said),
-                         PSPEC_ERROR_NO_DEVICE);
+                         PSPEC_ERROR_INVALID_ARGUMENT);
         assert_non_null(strstr(said.message, indices[i]));
     }
-    assert_int_equal(ps_device_choose(made_up, 1, "gpu", &index, &said), PSPEC_ERROR_NO_DEVICE);
+    assert_int_equal(ps_device_choose(made_up, 1, "gpu", &index, &said),
+                     PSPEC_ERROR_INVALID_ARGUMENT);
     assert_string_equal(
         said.message,
         "no OpenCL device fits \"gpu\"; the only one is number 0, \"Fast Chip FC-1\"");
-    assert_int_equal(ps_device_choose(made_up, 2, "gpu", &index, &said), PSPEC_ERROR_NO_DEVICE);
+    assert_int_equal(ps_device_choose(made_up, 2, "gpu", &index, &said),
+                     PSPEC_ERROR_INVALID_ARGUMENT);
     assert_string_equal(said.message,
                         "no OpenCL device fits \"gpu\"; there are number 0, \"Fast Chip FC-1\"; "
                         "number 1, \"Example Core i7\"");
@@ -113,7 +115,8 @@ static void listed_devices_can_be_chosen(void **state) {
     }
     free(limits);
     ps_device *none = NULL;
-    assert_int_equal(ps_device_open(&none, "no such device", false, &said), PSPEC_ERROR_NO_DEVICE);
+    assert_int_equal(ps_device_open(&none, "no such device", false, &said),
+                     PSPEC_ERROR_INVALID_ARGUMENT);
     assert_null(none);
 }
 

@@ -26,7 +26,7 @@ typedef enum pspec_status {
     PSPEC_ERROR_INPUT = 2,     /**< points, weights, frequencies or files that cannot be used */
     PSPEC_ERROR_IO = 3,        /**< the system refused to read or write */
     PSPEC_ERROR_MEMORY = 4,    /**< host memory, or the memory limit */
-    PSPEC_ERROR_NO_DEVICE = 5, /**< no OpenCL driver, or no device that fits the selector */
+    PSPEC_ERROR_NO_DEVICE = 5, /**< no OpenCL driver that starts, or none that has a device */
     PSPEC_ERROR_DEVICE = 6,    /**< an OpenCL call failed */
     PSPEC_ERROR_BUILD = 7,     /**< a kernel did not compile; the log is in the message */
     PSPEC_ERROR_TOLERANCE = 8, /**< no engine reaches the tolerance asked for */
