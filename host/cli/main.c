@@ -210,8 +210,8 @@ static int fail_program_option(const char *word) {
         &error);
 }
 
-/* Below this the end comes in the middle of the work, by SIGSEGV: blocks of files alone are 64 KiB on
- * the stack. */
+/* Below this the end comes in the middle of the work, by SIGSEGV: blocks of files alone are 64 KiB
+ * on the stack. */
 static pspec_status check_stack(ps_error *error) {
     enum { LEAST_BYTES = 256 << 10 };
     struct rlimit limit;

@@ -31,8 +31,8 @@ ps_height ps_height_of_area(bool on_hemisphere, double x);
 void ps_sphere_point(ps_height height, ps_turns azimuth, double point[PS_VECTOR_DIMENSION]);
 
 /* Lambert's cylindrical equal-area map: points (x, y) of the plane, [..][2] at the beginning of the
- * array, become unit vectors [..][3] with height by ps_height_of_area(x) and azimuth y turns. Points
- * first .. end - 1 of them: those after them must be vectors already, or not wanted. */
+ * array, become unit vectors [..][3] with height by ps_height_of_area(x) and azimuth y turns.
+ * Points first .. end - 1 of them: those after them must be vectors already, or not wanted. */
 void ps_sphere_lift(bool on_hemisphere, size_t first, size_t end, double *points);
 
 /* Turns every point z < 0 into its antipode: the hemisphere as the projective plane. */

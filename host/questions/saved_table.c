@@ -325,7 +325,7 @@ static const char *skip_blanks(const char *at, const char *end) {
     return at;
 }
 
-/* The lines after the head of JSON Lines, each a row. *at: where they begin, then where that ends. */
+/* The lines after the head of JSON Lines, each a row. *at: where they begin, then their end. */
 static bool take_lines(cJSON *root, const char **at, const char *end) {
     cJSON *const rows = cJSON_AddArrayToObject(root, "rows");
     bool is_good = rows != NULL;

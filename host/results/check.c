@@ -100,8 +100,8 @@ static pspec_status check_points(const ps_saved_spectrum *saved, const ps_spectr
                      path, saved->mean_points);
 }
 
-/* Do the rows of the file tell of these frequencies? Its digits are all there, but the order of a sum
- * may be another. */
+/* Do the rows of the file tell of these frequencies? Its digits are all there, but the order of a
+ * sum may be another. */
 static pspec_status check_frequency(const ps_saved_bin *saved, const ps_spectrum_bin *measured,
                                     const char *path, const char *name, ps_error *error) {
     const double rounding = 1e-9;

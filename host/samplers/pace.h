@@ -1,5 +1,5 @@
-/* The points of a realization are made by pieces: between two of them whoever waits for the points is
- * told how many are done, and may stop the rest.
+/* The points of a realization are made by pieces: between two of them whoever waits for the points
+ * is told how many are done, and may stop the rest.
  */
 #ifndef PS_SAMPLERS_PACE_H
 #define PS_SAMPLERS_PACE_H

@@ -152,6 +152,8 @@ pspec_status ps_points_sample(const ps_request *request, const ps_answer_hooks *
     PS_TRY(check_memory(&sampler, request->limits.constraints.memory_limit, error));
     PS_TRY(ps_allocate(&points, sampler.num_points, sampler.dimension * sizeof(double), "points",
                        error));
+    /* gigabytes in small pages take half a second to give back, also where a signal ends it */
+    ps_memory_use_large_pages(points, sampler.num_points * sampler.dimension * sizeof(double));
     const pspec_status status = write_sets(request, &sampler, points, hooks, error);
     free(points);
     return status;

@@ -39,8 +39,8 @@ typedef struct ps_isotropic_kernel {
 /* sums[k] of the kernels for a pattern that was checked, whose weights are w 2^-exponent, and
  * bounds[k] of their errors in units of (sum |w|)^2. Single precision where it is enough for the
  * tolerance, in the same units; PSPEC_ERROR_TOLERANCE where nothing is. sum |w| is that of the
- * weights 2^-exponent, which may be any number that is not 0. watch, which may be NULL, may stop it:
- * PSPEC_ERROR_CANCELLED. */
+ * weights 2^-exponent, which may be any number that is not 0. watch, which may be NULL, may stop
+ * it: PSPEC_ERROR_CANCELLED. */
 pspec_status ps_pairs_isotropic_sums(ps_device *device, const pspec_pattern *pattern, int exponent,
                                      const ps_isotropic_kernel *kernels, size_t num_kernels,
                                      double tolerance, double *sums, double *bounds,

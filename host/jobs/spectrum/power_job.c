@@ -23,8 +23,8 @@ static pspec_status report_progress(const ps_power_job *job, ps_error *error) {
                          job->num_realizations, NULL, error);
 }
 
-/* Asked by the engine while it works, and while points are made or counted: progress has not changed
- * since the last batch. */
+/* Asked by the engine while it works, and while points are made or counted: progress has not
+ * changed since the last batch. */
 static bool should_stop(void *payload) {
     return report_progress(payload, NULL) != PSPEC_OK;
 }
