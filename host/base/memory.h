@@ -1,6 +1,6 @@
 /* Allocation with checked size arithmetic: a product that overflows is an error, not a small block.
- * So is an array that the limits of this machine leave no room for (base/process/memory_limit.h), since
- * using it would end the program. */
+ * So is an array that the limits of this machine leave no room for
+ * (base/process/memory_limit.h), since using it would end the program. */
 #ifndef PS_BASE_MEMORY_H
 #define PS_BASE_MEMORY_H
 

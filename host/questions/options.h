@@ -53,7 +53,7 @@ struct ps_option {
     size_t offset; /* of the field of ps_request, for setters that serve several options */
     uint64_t minimum, maximum;
     char letter; /* 0: none */
-    /* NULL: no value of it names a file that is read. Else `offset` is of the field with the text */
+    /* NULL: no value of it names a file that is read. Else offset is of the field with the text */
     ps_option_input *input;
 };
 

@@ -31,8 +31,8 @@ double ps_gamma_ratio_score(double x, double a, double y, double b) {
     return fabs(r) < middle ? r : r + log(u / r) / r;
 }
 
-/* What GSL is asked lies where it never calls its error handler: tests look at that. Below the least number of degrees of freedom all scores have the probability
- * 1. */
+/* What GSL is asked lies where it never calls its error handler: tests look at that. Below the
+ * least number of degrees of freedom all scores have the probability 1. */
 double ps_student_two_sided(double score, double degrees_of_freedom) {
     const double least = 1e-6;
     const double most = 1e18;
