@@ -47,7 +47,16 @@ static pspec_status identify_device(ps_run *run, ps_text *out, ps_error *error) 
     return status;
 }
 
-/* Kernels of somebody's own are not part of the key: their results are not kept. */
+/* Not where skips are off. Kernels of somebody's own are not part of the key: their results are not
+ * kept. A record is repeated to see whether this machine gives the same bits, which a cache of the
+ * run itself would answer by what it wrote. */
+static bool uses_cache(const ps_run *run) {
+    const ps_request *const arguments = run->arguments;
+    return arguments->cache_bytes > 0 && !arguments->accuracy.no_skip &&
+           arguments->limits.cache_folder != NULL && getenv("POINTSPEC_KERNEL_DIR") == NULL &&
+           run->scene->num_digests == 0;
+}
+
 pspec_status ps_run_open_cache(ps_run *run, ps_error *error) {
     const uint64_t most = run->arguments->cache_bytes;
     ps_text folder = {0};
@@ -55,9 +64,7 @@ pspec_status ps_run_open_cache(ps_run *run, ps_error *error) {
     const bool is_known = identify_program(&run->identity);
     PS_TRY(identify_device(run, &run->identity, error));
     PS_TRY(ps_text_check(&run->identity, error));
-    if (most == 0 || run->arguments->accuracy.no_skip ||
-        run->arguments->limits.cache_folder == NULL || !is_known ||
-        getenv("POINTSPEC_KERNEL_DIR") != NULL) {
+    if (!is_known || !uses_cache(run)) {
         return PSPEC_OK;
     }
     ps_text_append(&folder, "%s/results", run->arguments->limits.cache_folder);
