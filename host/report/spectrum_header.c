@@ -194,6 +194,20 @@ static void put_look(header *head, const ps_request *arguments, const ps_power_j
     put(head, "relative_standard_error", PS_TEXT(text));
 }
 
+/* Points of a smaller box look like a spectrum of clusters. */
+static void put_empty_axis(header *head, const ps_power_job *job) {
+    char text[192];
+    ps_empty_axis empty = {0};
+    if (ps_power_job_empty_axis(job, &empty)) {
+        snprintf(text, sizeof text,
+                 "axis %u of the first set has no point from %.3g to %.3g%s: if the points are of "
+                 "a smaller box, --box X0,X1 takes that for the unit cell",
+                 empty.axis + 1, empty.begin, empty.end,
+                 empty.end <= empty.begin ? ", through 1" : "");
+        put(head, "empty", PS_TEXT(text));
+    }
+}
+
 static void put_job(header *head, const ps_request *arguments, const ps_power_job *job,
                     size_t index) {
     const ps_device_limits *limits = ps_power_job_limits(job);
@@ -217,6 +231,7 @@ static void put_job(header *head, const ps_request *arguments, const ps_power_jo
         put_different_points(head, arguments, ps_power_job_spectrum(job));
     }
     put_look(head, arguments, job);
+    put_empty_axis(head, job);
     put_lengths(head, ps_power_job_accuracy(job));
     put_frequencies(head, arguments, ps_power_job_problem(job)->frequencies);
     put(head, "device",

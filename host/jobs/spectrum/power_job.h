@@ -14,6 +14,7 @@
 #include "frequencies/frequencies_spec.h"
 #include "jobs/parts/estimator.h"
 #include "jobs/parts/source.h"
+#include "jobs/spectrum/empty_axis.h"
 #include "plan/needs.h"
 #include "plan/specs.h"
 #include "points/weights_spec.h"
@@ -82,6 +83,9 @@ const ps_sampler_request *ps_power_job_sampler(const ps_power_job *job); /* NULL
 
 /* What is known after run. Borrowed. */
 const ps_spectrum *ps_power_job_spectrum(const ps_power_job *job);
+/* A piece of an axis that the first set of files leaves empty, unlike uniform points; false: none,
+ * or nobody looked (samplers, the sphere, with --box). */
+bool ps_power_job_empty_axis(const ps_power_job *job, ps_empty_axis *out);
 const ps_accuracy *ps_power_job_accuracy(const ps_power_job *job);
 /* "(torus_direct ...)" */
 const char *ps_power_job_description(const ps_power_job *job);

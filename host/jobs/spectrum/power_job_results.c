@@ -25,6 +25,10 @@ const char *ps_power_job_source_format(const ps_power_job *job) {
     return ps_source_format(job->sets.source);
 }
 
+bool ps_power_job_empty_axis(const ps_power_job *job, ps_empty_axis *out) {
+    return ps_axis_cells_find_empty(&job->sets.first_cells, out);
+}
+
 const char *ps_power_job_source_columns(const ps_power_job *job) {
     return ps_source_columns(job->sets.source);
 }

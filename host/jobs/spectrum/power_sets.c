@@ -44,6 +44,8 @@ pspec_status ps_power_sets_allocate(ps_power_sets *sets, size_t capacity, ps_err
 
 pspec_status ps_power_sets_rewind(ps_power_sets *sets, ps_error *error) {
     sets->has_next = false;
+    sets->has_looked = false;
+    sets->first_cells = (ps_axis_cells){0};
     return ps_source_rewind(sets->source, error);
 }
 
@@ -79,6 +81,13 @@ static pspec_pattern show(const ps_power_sets *sets, const ps_point_set *set, si
                            sets->weights != NULL ? sets->weights + position : own};
 }
 
+static void look_at(ps_power_sets *sets, const pspec_pattern *block, bool ends_set) {
+    if (sets->looks_at_axes && !sets->has_looked) {
+        ps_axis_cells_add(&sets->first_cells, block);
+        sets->has_looked = ends_set;
+    }
+}
+
 static void exchange(ps_point_set *a, ps_point_set *b) {
     const ps_point_set kept = *a;
     *a = *b;
@@ -91,6 +100,7 @@ static pspec_status take_next(ps_power_sets *sets, size_t at, ps_error *error) {
     exchange(set, &sets->next);
     sets->has_next = false;
     sets->patterns[at] = show(sets, set, 0, set->num_points, 0);
+    look_at(sets, &sets->patterns[at], true);
     return check_weights(sets, set->num_points, error);
 }
 
@@ -149,6 +159,7 @@ static pspec_status next_block(void *payload, size_t unit, pspec_pattern *block,
     }
     *block = show(sets, set, 0, sets->used, sets->num_streamed);
     sets->num_streamed += sets->used;
+    look_at(sets, block, sets->num_streamed == sets->part.count.num_points);
     return PSPEC_OK;
 }
 

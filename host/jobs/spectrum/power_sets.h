@@ -6,6 +6,7 @@
 
 #include "jobs/parts/estimator.h"
 #include "jobs/parts/source.h"
+#include "jobs/spectrum/empty_axis.h"
 
 typedef struct ps_power_sets {
     ps_source *source;        /* owned */
@@ -20,6 +21,9 @@ typedef struct ps_power_sets {
     size_t capacity;
     size_t used; /* points of next that the estimator has had */
     uint64_t num_streamed;
+    /* Where the points of the first set are; only with looks_at_axes */
+    bool looks_at_axes, has_looked;
+    ps_axis_cells first_cells;
 } ps_power_sets;
 
 void ps_power_sets_free(ps_power_sets *sets);
