@@ -8,9 +8,9 @@
 
 /* In harmonics (0.23 and 0.48 nanoseconds of a core): an order of a point begins; a point comes to
  * the device and is prepared; a block of degrees of a realization ends, lanes are added up and
- * squared; a block of the table is made on the host. Least squares of the CPU time of realizations
- * of 2 to 4096 points at L = 1 to 4096, within 1.5 of each (bench_choice; 2 cores of a Zen 3 EPYC,
- * AVX2, PoCL 3.1, 2026-11). What one core of the host does while the others wait counts twice. */
+ * squared; a block of the table is made on the host. Fitted by hand to the CPU time of realizations
+ * of 2 to 4096 points at L = 1 to 4096 (bench_choice; 2 cores of an EPYC with AVX2, PoCL 3.1,
+ * 2026-11). What one core of the host does while the others wait counts twice. */
 static const struct {
     double order, point, block, table;
 } costs[2] = {[PS_SINGLE] = {7, 260, 300, 1300}, [PS_DOUBLE] = {9, 110, 130, 400}};
