@@ -8,8 +8,8 @@
 #include "samplers/sampler.h"
 
 /* Points of a piece: 40 ms of the slowest, a Sobol' net of six dimensions scrambled by Owen's tree
- * (2.5 us a point, 2 shared cores of an EPYC with AVX2, 2026-11). A power of two, which keeps pieces of random numbers whole blocks of the
- * generator. */
+ * (2.5 us a point, 2 shared cores of an EPYC with AVX2, 2026-11). A power of two, which keeps
+ * pieces of random numbers whole blocks of the generator. */
 enum { PS_PACE_POINTS = 1 << 14 };
 
 /* What is counted while coordinates are made. */
