@@ -244,8 +244,8 @@ static void hostile_files(void **state) {
     assert_int_equal(pspec_spectrum_save(spectrum, context, path), PSPEC_OK);
     char *bytes = test_read_file(path, &num_bytes);
     const size_t header = (size_t)(strstr(bytes, "\n\n") + 2 - bytes);
-    const size_t list = header + 8 * sizeof(double);
-    const size_t rings = list + 3 * 4 * 3 * sizeof(int32_t); /* all three rings are sampled */
+    const size_t list = header + (3 + 2 * 4) * sizeof(double); /* totals, two sums */
+    const size_t rings = list + 3 * 4 * 3 * sizeof(int32_t);   /* all three rings are sampled */
     const size_t per_ring = (size_t)(strstr(bytes, "per_ring: 4") + 10 - bytes);
     refuse_changed(context, path, bytes, num_bytes, per_ring, '4' ^ '5');
     refuse_changed(context, path, bytes, num_bytes, per_ring, '4' ^ '1');
