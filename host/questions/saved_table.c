@@ -325,41 +325,56 @@ static const char *skip_blanks(const char *at, const char *end) {
     return at;
 }
 
-/* The lines after the head of JSON Lines, each a row. *at: where they begin, then their end. */
-static bool take_lines(cJSON *root, const char **at, const char *end) {
-    cJSON *const rows = cJSON_AddArrayToObject(root, "rows");
-    bool is_good = rows != NULL;
-    while (is_good && (*at = skip_blanks(*at, end)) < end) {
-        const char *next = NULL;
-        cJSON *const row = cJSON_ParseWithLengthOpts(*at, (size_t)(end - *at), &next, false);
-        is_good = cJSON_IsObject(row) && cJSON_AddItemToArray(rows, row);
-        if (is_good) {
-            *at = next;
-        } else {
-            cJSON_Delete(row);
-        }
-    }
-    return is_good;
+/* The text of a saved table. */
+typedef struct saved_text {
+    const char *begin, *end, *name;
+    ps_error *error;
+} saved_text;
+
+static pspec_status fail_at(const saved_text *text, const char *at, const char *what) {
+    return ps_fail(text->error, PSPEC_ERROR_INPUT, "\"%s\" is damaged: %s at byte %zu", text->name,
+                   what, (size_t)(at - text->begin) + 1);
 }
 
-/* Nothing follows a table; lines follow the head of JSON Lines. */
-static pspec_status take_rest(cJSON *root, const char *text, const char *at, const char *end,
-                              const char *name, ps_error *error) {
-    const bool has_rows = cJSON_GetObjectItemCaseSensitive(root, "rows") != NULL;
-    const bool is_good = has_rows ? (at = skip_blanks(at, end)) == end : take_lines(root, &at, end);
-    return is_good ? PSPEC_OK
-                   : ps_fail(error, PSPEC_ERROR_INPUT, "\"%s\" is damaged: %s at byte %zu", name,
-                             has_rows ? "there is more behind the table," : "no row of JSON Lines",
-                             (size_t)(at - text) + 1);
+/* One line of JSON Lines, an object; *at: its beginning, then its end. */
+static pspec_status take_line(cJSON *rows, const saved_text *text, const char **at) {
+    const char *next = NULL;
+    cJSON *const row = cJSON_ParseWithLengthOpts(*at, (size_t)(text->end - *at), &next, false);
+    if (row == NULL && next == NULL) {
+        return fail_parse(text->begin, NULL, text->name, text->error);
+    }
+    if (!cJSON_IsObject(row) || !cJSON_AddItemToArray(rows, row)) {
+        cJSON_Delete(row);
+        return fail_at(text, *at, "no row of JSON Lines");
+    }
+    *at = next;
+    return PSPEC_OK;
+}
+
+/* Nothing follows a table; lines, each a row, follow the head of JSON Lines. */
+static pspec_status take_rest(cJSON *root, const saved_text *text, const char *at) {
+    at = skip_blanks(at, text->end);
+    if (cJSON_GetObjectItemCaseSensitive(root, "rows") != NULL) {
+        return at == text->end ? PSPEC_OK : fail_at(text, at, "there is more behind the table,");
+    }
+    cJSON *const rows = cJSON_AddArrayToObject(root, "rows");
+    if (rows == NULL) {
+        return fail_parse(text->begin, NULL, text->name, text->error);
+    }
+    for (; at < text->end; at = skip_blanks(at, text->end)) {
+        PS_TRY(take_line(rows, text, &at));
+    }
+    return PSPEC_OK;
 }
 
 pspec_status ps_saved_table_parse(ps_saved_spectrum *out, const char *text, size_t num_bytes,
                                   const char *name, ps_error *error) {
     const char *end = NULL;
     cJSON *const root = cJSON_ParseWithLengthOpts(text, num_bytes, &end, false);
+    const saved_text whole = {text, text + num_bytes, name, error};
     reader source = {.out = out, .root = root, .name = name, .error = error};
-    pspec_status status = root != NULL ? take_rest(root, text, end, text + num_bytes, name, error)
-                                       : fail_parse(text, end, name, error);
+    pspec_status status =
+        root != NULL ? take_rest(root, &whole, end) : fail_parse(text, end, name, error);
     if (status == PSPEC_OK) {
         status = read_root(&source);
     }

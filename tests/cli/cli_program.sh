@@ -153,7 +153,7 @@ grep -q '^index,default,name,type,' out || complain "columns of devices"
 [[ $(grep -v '^#' out | grep -c '^[0-9]*,1,') == 1 ]] || complain "one default device"
 quietly devices --format json
 grep -q '"schema": *2' out || complain "JSON of devices"
-POINTSPEC_DEVICE=quantum runs 1 devices
+POINTSPEC_DEVICE=quantum runs 2 devices
 POINTSPEC_DEVICE=quantum quietly devices --device 0
 
 # ---- the header repeats the command line so that a shell takes it back

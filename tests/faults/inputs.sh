@@ -59,6 +59,7 @@ make_inputs() {
     make_fortran_array >columns.npy
     make_archive points.npy arr_0.npy >packed.npz
     "$program" power --engine host_direct --sampler white -n 8 -m 3 -k 2 -o saved.json
+    "$program" power --engine host_direct --sampler white -n 8 -m 3 -k 2 -o saved.jsonl
     "$program" angular --engine host_direct --sampler zphi -n 6 -m 3 -l 2 -o sphere.json
     POINTSPEC_CACHE_DIR=$scratch/cache "$program" bench --calibrate --case list --quick -o /dev/null
     for ending in csv json npy png txt; do echo "an earlier result" >old.$ending; done

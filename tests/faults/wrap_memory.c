@@ -36,6 +36,20 @@ ALLOCATION(cJSON_ParseWithLengthOpts, cJSON *,
            (text, length, end, needs_nul))
 ALLOCATION(cJSON_PrintUnformatted, char *, (const cJSON *item), (item))
 
+/* What belongs to a tree from then on is given back with its root. */
+WRAPPER(cJSON_AddArrayToObject, cJSON *, (cJSON * object, const char *name)) {
+    return is_refused("cJSON_AddArrayToObject") ? NULL
+                                                : __real_cJSON_AddArrayToObject(object, name);
+}
+
+WRAPPER(cJSON_AddItemToArray, cJSON_bool, (cJSON * array, cJSON *item)) {
+    const cJSON_bool is_added = __real_cJSON_AddItemToArray(array, item);
+    if (is_added) {
+        fault_lose(item);
+    }
+    return is_added;
+}
+
 WRAPPER(realloc, void *, (void *old, size_t bytes)) {
     if (is_refused("realloc")) {
         return NULL;

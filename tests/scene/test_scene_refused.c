@@ -162,7 +162,7 @@ static void values_out_of_range(void **state) {
         {HEAD "  - result: truncation\n    harmonics: odd\n", 4,
          "harmonics: \"odd\" is not one of"},
         {HEAD "  - result: check\n    false-alarm-rate: 1\n", 4,
-         "false-alarm-rate: 1 is not below"},
+         "false-alarm-rate: 1 is not above 0 and below 1"},
         {"scene: 1\ndefaults:\n  points: 0\nresults:\n  - result: power\n", 3, "points: 0 is not"},
     };
     REFUSE(list);

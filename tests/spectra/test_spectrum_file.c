@@ -223,7 +223,7 @@ static void write_version_2(const char *path, const char *bytes, size_t num_byte
     memcpy(old + (word - bytes), to, sizeof to - 1);
     memcpy(old + (word - bytes) + sizeof to - 1, word + sizeof from - 1,
            (size_t)(end - word) - (sizeof from - 1));
-    *strchr((char *)old, '3') = '2';
+    *(char *)memchr(old, '3', head) = '2';               /* of the magic line */
     memcpy(old + head, end, REAL);                       /* N_ref */
     memcpy(old + head + REAL, end + 3 * REAL, REAL);     /* sum of N */
     memcpy(old + head + 2 * REAL, end + REAL, 2 * REAL); /* sum of W, error */
