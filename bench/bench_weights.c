@@ -27,7 +27,7 @@ static double *make_points(size_t num) {
     }
     BENCH_TRY(ps_sampler_parse(&request, "fibonacci-hemisphere:morph=diffuse", error));
     BENCH_TRY(ps_sampler_resolve(&request, error));
-    BENCH_TRY(ps_sampler_generate(&request, 0, points, NULL, error));
+    BENCH_TRY(ps_sampler_generate(&request, 0, points, NULL, NULL, error));
     return points;
 }
 

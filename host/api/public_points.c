@@ -44,19 +44,27 @@ pspec_sampler_shape pspec_sampler_get_shape(const pspec_sampler *sampler) {
     const pspec_domain domain = ps_sampler_is_on_hemisphere(request) ? PSPEC_DOMAIN_HEMISPHERE
                                 : ps_sampler_is_on_sphere(request)   ? PSPEC_DOMAIN_SPHERE
                                                                      : PSPEC_DOMAIN_TORUS;
-    return (pspec_sampler_shape){domain, request->dimension, request->num_points};
+    return (pspec_sampler_shape){domain, request->dimension, request->num_points,
+                                 ps_sampler_most_points(request)};
 }
 
 pspec_status pspec_sampler_generate(const pspec_sampler *sampler, pspec_context *context,
-                                    uint64_t realization, double *points) {
+                                    uint64_t realization, double *points, size_t *num_points) {
     if (context == NULL) {
         return PSPEC_ERROR_INVALID_ARGUMENT;
     }
-    return sampler != NULL && points != NULL
-               ? ps_sampler_generate(&sampler->request, realization, points, &context->watch,
-                                     &context->error)
-               : ps_fail(&context->error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "there is no sampler, or no room for its points");
+    ps_error *const error = &context->error;
+    if (sampler == NULL || points == NULL) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "there is no sampler, or no room for its points");
+    }
+    if (num_points == NULL && ps_sampler_varies(&sampler->request)) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "there is no place for the number of points, which changes from realization "
+                       "to realization");
+    }
+    return ps_sampler_generate(&sampler->request, realization, points, num_points, &context->watch,
+                               error);
 }
 
 /* ---- into files -------------------------------------------------------------------------- */

@@ -17,20 +17,6 @@ static const struct {
     [PS_HOST_KERNEL] = {"kernel", 34e-3, false},  /* a kernel that the driver's cache has */
     [PS_HOST_MEMORY] = {"memory", 0.5e-9, false}, /* a byte that is touched for the first time */
 
-    [PS_HOST_WHITE] = {"white", 4.5e-9,
-                       false}, /* of samplers: a coordinate, on the sphere a point */
-    [PS_HOST_REGULAR] = {"regular", 2.2e-9, false},
-    [PS_HOST_JITTERED] = {"jittered", 7e-9, false},
-    [PS_HOST_LATIN] = {"latin-hypercube", 15e-9, false},
-    [PS_HOST_SOBOL] = {"sobol", 1.7e-9, false},
-    [PS_HOST_NET] = {"net", 1.7e-9, false},   /* nets with their digits exchanged */
-    [PS_HOST_OWEN] = {"owen", 160e-9, false}, /* and scrambled by Owen's way */
-    [PS_HOST_HALTON] = {"halton", 9.5e-9, false},
-    [PS_HOST_WHITE_SPHERE] = {"white-sphere", 37e-9, false},
-    [PS_HOST_ZPHI] = {"zphi", 34e-9, false},
-    [PS_HOST_HEALPIX] = {"healpix", 28e-9, false},
-    [PS_HOST_FIBONACCI] = {"fibonacci", 21e-9, false},
-    [PS_HOST_SPIRAL] = {"spiral", 105e-9, false},
     [PS_HOST_LIFT] = {"lift", 40e-9, false},   /* a point, to the sphere */
     [PS_HOST_MOVE] = {"move", 3e-9, false},    /* a point, shifted or rotated */
     [PS_HOST_MORPH] = {"morph", 30e-9, false}, /* a point, to a lobe's density */

@@ -14,20 +14,7 @@ typedef enum ps_host_kind {
     PS_HOST_DRIVER,
     PS_HOST_KERNEL,
     PS_HOST_MEMORY,
-    /* points of samplers */
-    PS_HOST_WHITE,
-    PS_HOST_REGULAR,
-    PS_HOST_JITTERED,
-    PS_HOST_LATIN,
-    PS_HOST_SOBOL,
-    PS_HOST_NET,
-    PS_HOST_OWEN,
-    PS_HOST_HALTON,
-    PS_HOST_WHITE_SPHERE,
-    PS_HOST_ZPHI,
-    PS_HOST_HEALPIX,
-    PS_HOST_FIBONACCI,
-    PS_HOST_SPIRAL,
+    /* points of samplers, besides what their rows say */
     PS_HOST_LIFT,
     PS_HOST_MOVE,
     PS_HOST_MORPH,
@@ -71,7 +58,7 @@ typedef enum ps_host_kind {
     PS_NUM_HOST_KINDS
 } ps_host_kind;
 
-/* "white", for files of figures and tables. */
+/* "lift", for files of figures and tables. */
 const char *ps_host_kind_name(ps_host_kind kind);
 
 /* Estimates the seconds of so many units; figures: what was measured of this host, NULL: nothing.

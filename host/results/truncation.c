@@ -127,10 +127,9 @@ static pspec_status find_errors(truncation *answer, double bracket, ps_error *er
 
 /* ---- plan ---------------------------------------------------------------------------------- */
 
-/* Pairs, and points, of a rule. */
+/* Pairs, and points, of a rule; making the points takes nothing beside. */
 static void add_rule(const truncation *answer, ps_phases *phases, double num) {
     static const char name[] = "points of equal error";
-    ps_phases_add(phases, name, PS_HOST_FIBONACCI, num);
     ps_phases_add_sets(phases, name, PS_HOST_KAPPA, num * (double)answer->representer.num_terms, 1);
     ps_phases_add_sets(phases, name,
                        answer->arguments->smoothness == 1.5 ? PS_HOST_PAIR : PS_HOST_PAIR_POWER,

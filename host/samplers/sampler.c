@@ -36,6 +36,28 @@ static ps_sampler_request own_request(const ps_sampler_request *request) {
     return own;
 }
 
+size_t ps_sampler_most_points(const ps_sampler_request *request) {
+    const ps_sampler_request own = own_request(request);
+    return own.sampler->most_points != NULL ? own.sampler->most_points(&own) : own.num_points;
+}
+
+bool ps_sampler_varies(const ps_sampler_request *request) {
+    const ps_sampler_request own = own_request(request);
+    return own.sampler->varies != NULL && own.sampler->varies(&own);
+}
+
+double ps_sampler_numbers(const ps_sampler_request *request) {
+    const ps_sampler_request own = own_request(request);
+    return (double)own.num_points * (ps_sampler_is_on_sphere(&own) ? 1 : own.dimension);
+}
+
+double ps_sampler_seconds(const ps_sampler_request *request) {
+    const ps_sampler_request own = own_request(request);
+    return own.sampler->seconds != NULL
+               ? own.sampler->seconds(&own)
+               : ps_sampler_numbers(&own) * own.sampler->nanoseconds * PS_NANOSECOND;
+}
+
 /* ---- checks -------------------------------------------------------------------------------- */
 
 static pspec_status check_dimension(const ps_sampler_request *request, ps_error *error) {
@@ -67,7 +89,13 @@ static pspec_status check_size(const ps_sampler_request *request, ps_error *erro
                        request->sampler->name);
     }
     PS_TRY(ps_sampler_limit_points(request, MAXIMUM_POINTS, error));
-    if (!ps_size_multiply(request->num_points, request->dimension, &count) ||
+    if (request->num_points < request->sampler->minimum_points) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "sampler %s: %zu point%s asked for, it makes %zu and more",
+                       request->sampler->name, request->num_points,
+                       request->num_points == 1 ? "" : "s", request->sampler->minimum_points);
+    }
+    if (!ps_size_multiply(ps_sampler_most_points(request), request->dimension, &count) ||
         !ps_size_multiply(count, sizeof(double), &num_bytes)) {
         return ps_fail(error, PSPEC_ERROR_MEMORY,
                        "sampler %s: %zu points of %u coordinates exceed the address space",
@@ -159,12 +187,24 @@ static pspec_status homogenize_points(const ps_sampler_request *request, uint64_
                                             : shift_points(request, realization, points, error);
 }
 
+/* The points of the sampler itself; their number is left in the request. */
+static pspec_status generate_own(ps_sampler_request *request, uint64_t realization, double *points,
+                                 ps_error *error) {
+    const ps_sampler_request own = own_request(request);
+    return own.sampler->generate != NULL
+               ? own.sampler->generate(&own, realization, points, error)
+               : own.sampler->generate_some(&own, realization, points, &request->num_points, error);
+}
+
 pspec_status ps_sampler_generate(const ps_sampler_request *request, uint64_t realization,
-                                 double *points, const ps_watch *watch, ps_error *error) {
+                                 double *points, size_t *num_points, const ps_watch *watch,
+                                 ps_error *error) {
     ps_sampler_request whole = *request;
     whole.watch = watch;
-    const ps_sampler_request own = own_request(&whole);
-    PS_TRY(own.sampler->generate(&own, realization, points, error));
+    PS_TRY(generate_own(&whole, realization, points, error));
+    if (num_points != NULL) {
+        *num_points = whole.num_points;
+    }
     if (request->lift != PS_SAMPLES_TORUS) {
         PS_TRY(ps_sampler_lift(&whole, request->lift == PS_SAMPLES_HEMISPHERE, points, error));
     }

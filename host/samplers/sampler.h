@@ -24,6 +24,9 @@
 
 enum { PS_MAX_DIMENSION = 6, PS_MAX_SAMPLER_PARAMETERS = 4, PS_MAX_SAMPLER_VALUE = 64 };
 
+/* What costs of samplers are in. */
+#define PS_NANOSECOND 1e-9
+
 /* What ps_sampler_resolve takes for what is 0 in a request, unless the sampler says more. */
 enum { PS_DEFAULT_POINTS = 1024, PS_DEFAULT_DIMENSION = 2 };
 
@@ -80,7 +83,19 @@ struct ps_sampler {
     ps_sampler_domain domain;   /* where its own points lie, without a lift */
     unsigned maximum_dimension; /* of the torus only; the plane is always among them */
     unsigned minimum_dimension; /* 1 unless it says more */
+    size_t minimum_points;      /* 1 unless it says more */
     ps_sampler_parameter parameters[PS_MAX_SAMPLER_PARAMETERS + 1]; /* ended by key == NULL */
+
+    /* What a realization costs on one core of the machine of plan/host_cost.c: nanoseconds of a
+     * coordinate, on the sphere of a point; or, where it is not so simple, seconds. */
+    double nanoseconds;
+    double (*seconds)(const ps_sampler_request *);
+
+    /* Where the number of points changes from realization to realization, about the request's; the
+     * member may be NULL: never. */
+    bool (*varies)(const ps_sampler_request *);
+    /* Points that there must be room for; NULL: the request's number. */
+    size_t (*most_points)(const ps_sampler_request *);
 
     /* Every realization the same points, before homogenize (may depend on the parameters). */
     bool (*is_deterministic)(const ps_sampler_request *);
@@ -91,9 +106,14 @@ struct ps_sampler {
     pspec_status (*open_points)(const ps_sampler_request *, size_t *num_points, ps_error *);
     /* Are number of points, dimension and parameter values admissible? NULL: always. */
     pspec_status (*check)(const ps_sampler_request *, ps_error *);
-    /* Writes realization r: points [num_points][dimension], each in [0,1), or unit vectors. */
+    /* Writes realization r: points [num_points][dimension], each in [0,1), or unit vectors. Work
+     * that takes long tells the watch of the request, and ends where it asks to (samplers/pace.h).
+     */
     pspec_status (*generate)(const ps_sampler_request *, uint64_t realization, double *points,
                              ps_error *);
+    /* Instead of it where most_points is there: *num_points is how many were written. */
+    pspec_status (*generate_some)(const ps_sampler_request *, uint64_t realization, double *points,
+                                  size_t *num_points, ps_error *);
 };
 
 /* All samplers, ended by NULL. */
@@ -112,12 +132,23 @@ pspec_status ps_sampler_resolve(ps_sampler_request *request, ps_error *error) PS
  * open; a request must have passed it, or have been resolved, before sampling. */
 pspec_status ps_sampler_check(const ps_sampler_request *request, ps_error *error) PS_MUST_CHECK;
 
-/* Writes realization r of the request, points [num_points][dimension], random shift or rotation
- * included when it is homogenized, then morphed. watch, which may be NULL, is told of many points;
- * when it asks to stop, that is PSPEC_ERROR_CANCELLED. */
+/* Writes realization r of the request, points [*num_points][dimension] with room for
+ * ps_sampler_most_points, random shift or rotation included when it is homogenized, then morphed.
+ * num_points may be NULL where their number does not vary. watch, which may be NULL, is told of
+ * long work; when it asks to stop, that is PSPEC_ERROR_CANCELLED. */
 pspec_status ps_sampler_generate(const ps_sampler_request *request, uint64_t realization,
-                                 double *points, const ps_watch *watch,
+                                 double *points, size_t *num_points, const ps_watch *watch,
                                  ps_error *error) PS_MUST_CHECK;
+
+/* Room that a realization needs, in points: those of the request unless their number varies. */
+size_t ps_sampler_most_points(const ps_sampler_request *request);
+/* Does the number of points change from realization to realization? */
+bool ps_sampler_varies(const ps_sampler_request *request);
+/* Numbers of a realization as costs count them: coordinates, on the sphere points. */
+double ps_sampler_numbers(const ps_sampler_request *request);
+/* Seconds of a realization on one core of the machine of plan/host_cost.c, without what lift,
+ * homogenize and morph add. */
+double ps_sampler_seconds(const ps_sampler_request *request);
 
 /* The sampler's note on this request, NULL when there is nothing to say. Static storage. */
 const char *ps_sampler_note(const ps_sampler_request *request);

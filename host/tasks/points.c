@@ -81,13 +81,13 @@ static int tell_realizations(const ps_watch_report *report, void *payload) {
 
 /* set: the points' place, of one realization. */
 static pspec_status write_realizations(const ps_sampler_request *sampler, uint64_t num_realizations,
-                                       const ps_point_set *set, ps_point_writer *writer,
+                                       ps_point_set *set, ps_point_writer *writer,
                                        const ps_answer_hooks *hooks, ps_error *error) {
     realizations all = {&hooks->watch, 0, num_realizations};
     const ps_watch watch = {tell_realizations, &all};
     for (uint64_t r = 0; r < num_realizations; r++) {
         all.done = r;
-        PS_TRY(ps_sampler_generate(sampler, r, set->points, &watch, error));
+        PS_TRY(ps_sampler_generate(sampler, r, set->points, &set->num_points, &watch, error));
         PS_TRY(write_points(set, writer, &watch, error));
         PS_TRY(ps_watch_tell(&hooks->watch, "realizations", r + 1, num_realizations, NULL, error));
     }
@@ -106,7 +106,8 @@ static void tell_loss(const ps_point_writer *writer, const ps_answer_hooks *hook
 /* One realization is in memory at a time. */
 static pspec_status check_memory(const ps_sampler_request *sampler, uint64_t limit,
                                  ps_error *error) {
-    const double bytes = (double)sampler->num_points * sampler->dimension * (double)sizeof(double);
+    const double bytes =
+        (double)ps_sampler_most_points(sampler) * sampler->dimension * (double)sizeof(double);
     char needed[PS_SIZE_TEXT];
     char allowed[PS_SIZE_TEXT];
     return limit == 0 || bytes <= (double)limit
@@ -123,12 +124,11 @@ static pspec_status write_sets(const ps_request *request, const ps_sampler_reque
     ps_point_writer *writer = NULL;
     const ps_coordinates coordinates =
         ps_sampler_is_on_sphere(sampler) ? PS_UNIT_VECTORS : PS_TORUS_COORDINATES;
-    const ps_point_set set = {.coordinates = coordinates,
-                              .dimension = sampler->dimension,
-                              .num_points = sampler->num_points,
-                              .points = points};
+    ps_point_set set = {
+        .coordinates = coordinates, .dimension = sampler->dimension, .points = points};
     const ps_point_shape shape = {.num_sets = (size_t)request->num_realizations,
-                                  .num_points = sampler->num_points,
+                                  .num_points =
+                                      ps_sampler_varies(sampler) ? 0 : sampler->num_points,
                                   .coordinates = coordinates,
                                   .dimension = sampler->dimension};
     PS_TRY(ps_points_create(&writer, request->output, request->format, &shape, error));
@@ -150,10 +150,10 @@ pspec_status ps_points_sample(const ps_request *request, const ps_answer_hooks *
     void *points = NULL;
     PS_TRY(ps_points_find_sampler(&sampler, request, error));
     PS_TRY(check_memory(&sampler, request->limits.constraints.memory_limit, error));
-    PS_TRY(ps_allocate(&points, sampler.num_points, sampler.dimension * sizeof(double), "points",
-                       error));
+    const size_t most = ps_sampler_most_points(&sampler);
+    PS_TRY(ps_allocate(&points, most, sampler.dimension * sizeof(double), "points", error));
     /* gigabytes in small pages take half a second to give back, also where a signal ends it */
-    ps_memory_use_large_pages(points, sampler.num_points * sampler.dimension * sizeof(double));
+    ps_memory_use_large_pages(points, most * sampler.dimension * sizeof(double));
     const pspec_status status = write_sets(request, &sampler, points, hooks, error);
     free(points);
     return status;

@@ -115,7 +115,7 @@ static pspec_status generate(const pspec_sampler *sampler, uint64_t stop, uint64
     counter counted = {stop, 0};
     pspec_context *const context = pspec_context_create();
     pspec_context_set_progress(context, count, &counted);
-    const pspec_status status = pspec_sampler_generate(sampler, context, 0, points);
+    const pspec_status status = pspec_sampler_generate(sampler, context, 0, points, NULL);
     assert_true((status == PSPEC_ERROR_CANCELLED) ==
                 (strstr(pspec_context_message(context), "interrupted after") != NULL));
     *num_told = counted.num;
@@ -141,7 +141,7 @@ static void try_sampler(const char *name, const char *num_points, uint64_t expec
     }
     assert_int_equal(generate(sampler, expected, &num_told, points), PSPEC_OK);
     assert_int_equal(num_told, expected);
-    assert_int_equal(pspec_sampler_generate(sampler, context, 0, plain), PSPEC_OK);
+    assert_int_equal(pspec_sampler_generate(sampler, context, 0, plain, NULL), PSPEC_OK);
     assert_memory_equal(points, plain, bytes);
     free(points);
     free(plain);

@@ -111,12 +111,12 @@ static void samplers_fill_arrays(void **state) {
     assert_true(num > R * sizeof points);
     const char *const data = bytes + num - R * sizeof points;
     for (uint64_t r = R; r-- > 0;) { /* in any order */
-        assert_done(pspec_sampler_generate(sampler, context, r, points));
+        assert_done(pspec_sampler_generate(sampler, context, r, points, NULL));
         assert_memory_equal(points, data + r * sizeof points, sizeof points);
     }
     free(bytes);
-    assert_refused(pspec_sampler_generate(sampler, context, 0, NULL), "no room");
-    assert_refused(pspec_sampler_generate(NULL, context, 0, points), "no sampler");
+    assert_refused(pspec_sampler_generate(sampler, context, 0, NULL, NULL), "no room");
+    assert_refused(pspec_sampler_generate(NULL, context, 0, points, NULL), "no sampler");
     pspec_sampler_destroy(sampler);
     pspec_sampler_destroy(NULL);
 }

@@ -19,12 +19,17 @@ static bool is_coordinate(const ps_sampler_request *request, double number) {
 }
 
 static void check_points(const ps_sampler_request *request) {
-    const size_t count = request->num_points * request->dimension;
-    double *const points = fuzz_allocate(NULL, count, sizeof *points);
+    const size_t most = ps_sampler_most_points(request);
+    double *const points = fuzz_allocate(NULL, most * request->dimension, sizeof *points);
     ps_error error = {0};
-    const pspec_status status = ps_sampler_generate(request, 0, points, NULL, &error);
+    size_t num = 0;
+    const pspec_status status = ps_sampler_generate(request, 0, points, &num, NULL, &error);
     fuzz_check_error(status, &error, FUZZ_QUOTES_INPUT);
-    for (size_t i = 0; status == PSPEC_OK && i < count; i++) {
+    if (status == PSPEC_OK &&
+        (num > most || (num != request->num_points && !ps_sampler_varies(request)))) {
+        fuzz_fail("%s: %zu points for %zu", request->sampler->name, num, request->num_points);
+    }
+    for (size_t i = 0; status == PSPEC_OK && i < num * request->dimension; i++) {
         if (!is_coordinate(request, points[i])) {
             fuzz_fail("%s: coordinate %.17g", request->sampler->name, points[i]);
         }

@@ -18,7 +18,7 @@ double *test_rule_points(const char *text, size_t num, uint64_t realization) {
     double *points = calloc(3 * num, sizeof *points);
     assert_ok(ps_sampler_parse(&request, text, error));
     assert_ok(ps_sampler_resolve(&request, error));
-    assert_ok(ps_sampler_generate(&request, realization, points, NULL, error));
+    assert_ok(ps_sampler_generate(&request, realization, points, NULL, NULL, error));
     return points;
 }
 

@@ -61,7 +61,8 @@ static void samplers_leave_nothing_empty(void **state) {
         assert_int_equal(ps_sampler_parse(&request, cases[i].name, &error), PSPEC_OK);
         assert_int_equal(ps_sampler_resolve(&request, &error), PSPEC_OK);
         for (uint64_t r = 0; r < 20; r++) {
-            assert_int_equal(ps_sampler_generate(&request, r, points, NULL, &error), PSPEC_OK);
+            assert_int_equal(ps_sampler_generate(&request, r, points, NULL, NULL, &error),
+                             PSPEC_OK);
             if (find(points, 2, cases[i].num, &out)) {
                 fail_msg("%s, N = %zu: axis %u from %g to %g", cases[i].name, cases[i].num,
                          out.axis, out.begin, out.end);

@@ -98,7 +98,7 @@ static double deviation(const ps_sampler_request *request) {
     double *points = calloc(3 * num, sizeof *points);
     double *shares = calloc(num, sizeof *shares);
     double worst = 0;
-    assert_ok(ps_sampler_generate(request, 0, points, NULL, error));
+    assert_ok(ps_sampler_generate(request, 0, points, NULL, NULL, error));
     for (size_t j = 0; j < num; j++) {
         const double *u = points + 3 * j;
         assert_true(u[2] >= 0 && fabs(u[0] * u[0] + u[1] * u[1] + u[2] * u[2] - 1) <= 1e-15);
@@ -143,10 +143,10 @@ static void azimuths(void **state) {
     double a[3 * NUM];
     double b[3 * NUM];
     (void)state;
-    assert_ok(ps_sampler_generate(&plain, 5, a, NULL, error));
-    assert_ok(ps_sampler_generate(&none, 5, b, NULL, error));
+    assert_ok(ps_sampler_generate(&plain, 5, a, NULL, NULL, error));
+    assert_ok(ps_sampler_generate(&none, 5, b, NULL, NULL, error));
     assert_memory_equal(a, b, sizeof a);
-    assert_ok(ps_sampler_generate(&glossy, 5, b, NULL, error));
+    assert_ok(ps_sampler_generate(&glossy, 5, b, NULL, NULL, error));
     for (size_t j = 0; j < NUM; j++) {
         const double *u = a + 3 * j;
         const double *v = b + 3 * j;

@@ -43,7 +43,7 @@ static inline double *allocate_points(const ps_sampler_request *request) {
 static inline void generate_into(const ps_sampler_request *request, uint64_t realization,
                                  double *points) {
     ps_error error = {0};
-    if (ps_sampler_generate(request, realization, points, NULL, &error) != PSPEC_OK) {
+    if (ps_sampler_generate(request, realization, points, NULL, NULL, &error) != PSPEC_OK) {
         fail_msg("%s", error.message);
     }
 }

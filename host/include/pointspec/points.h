@@ -30,8 +30,11 @@ typedef enum pspec_domain {
 typedef struct pspec_sampler_shape {
     pspec_domain domain; /**< where they lie */
     unsigned dimension;  /**< numbers of a point: d, or 3 */
-    /** Of a realization; samplers of lattices may make another number than was asked for. */
+    /** Of a realization; samplers of lattices may make another number than was asked for. Where it
+     * changes from realization to realization, about their mean. */
     size_t num_points;
+    /** That a realization needs room for: num_points unless their number changes. */
+    size_t most_points;
 } pspec_sampler_shape;
 
 /** A sampler by the options of pointspec sample: "sampler", "points", "dimension", "seed",
@@ -44,14 +47,15 @@ PSPEC_EXPORT void pspec_sampler_destroy(pspec_sampler *sampler);
 /** What points it makes. */
 PSPEC_EXPORT pspec_sampler_shape pspec_sampler_get_shape(const pspec_sampler *sampler);
 
-/** Writes realization number `realization`, from 0 on, to points[num_points][dimension] with room
- * from the caller: doubles of [0,1), or unit vectors. It depends on nothing but the options and
- * that number, and is to the bit what pspec_sample() and pspec_answer() have. The context is for
- * the sentence of an error, and for its progress callback, which may cancel while many points are
- * made (#PSPEC_ERROR_CANCELLED): what points has then is not defined. */
+/** Writes realization number `realization`, from 0 on, to points[*num_points][dimension] with room
+ * for most_points from the caller: doubles of [0,1), or unit vectors. num_points may be NULL where
+ * the number does not change from realization to realization. It all depends on nothing but the
+ * options and that number, and is to the bit what pspec_sample() and pspec_answer() have. The
+ * context is for the sentence of an error, and for its progress callback, which may cancel while
+ * many points are made (#PSPEC_ERROR_CANCELLED): what points has then is not defined. */
 PSPEC_EXPORT pspec_status pspec_sampler_generate(const pspec_sampler *sampler,
                                                  pspec_context *context, uint64_t realization,
-                                                 double *points);
+                                                 double *points, size_t *num_points);
 
 /** Writes realizations of a sampler into the file "output", byte for byte as pointspec sample:
  * options of pspec_sampler_create(), "realizations" and "format". What the format cannot keep is

@@ -132,17 +132,16 @@ static pspec_status next_sample(ps_source *source, ps_point_set *set, bool *has_
     }
     size_t count = 0;
     void *points = set->points;
-    if (!ps_size_multiply(request->num_points, request->dimension, &count)) {
+    if (!ps_size_multiply(ps_sampler_most_points(request), request->dimension, &count)) {
         return ps_fail(error, PSPEC_ERROR_MEMORY, "%zu points are too many", request->num_points);
     }
     PS_TRY(ps_grow(&points, &set->points_capacity, count, sizeof(double), "points", error));
     set->points = points;
     set->coordinates = ps_sampler_is_on_sphere(request) ? PS_UNIT_VECTORS : PS_TORUS_COORDINATES;
     set->dimension = request->dimension;
-    set->num_points = request->num_points;
     set->has_weights = false;
-    PS_TRY(ps_sampler_generate(request, source->next_realization++, set->points, &source->watch,
-                               error));
+    PS_TRY(ps_sampler_generate(request, source->next_realization++, set->points, &set->num_points,
+                               &source->watch, error));
     turn(source, set, 0);
     return PSPEC_OK;
 }

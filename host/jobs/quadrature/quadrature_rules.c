@@ -48,10 +48,12 @@ pspec_status ps_rules_open(ps_rules *rules, ps_rule_shape *shape, ps_error *erro
     PS_TRY(open_source(rules, error));
     if (question->sampler != NULL) {
         shape->num_points = question->sampler->num_points;
+        shape->most_points = ps_sampler_most_points(question->sampler);
         shape->has_several = question->num_realizations > 1;
     } else {
         PS_TRY(read_ahead(rules, error));
         shape->num_points = rules->waiting[0].num_points;
+        shape->most_points = shape->num_points;
         shape->has_several = rules->num_waiting > 1;
     }
     if (shape->num_points == 0) {

@@ -92,7 +92,7 @@ static ps_problem make_problem(const ps_quadrature_setup *setup,
     /* |dc_lm| is e relative to white noise: Q is then off by 4 e at most */
     const double amplitudes = 4;
     return (ps_problem){.frequencies = &setup->frequencies,
-                        .num_points = shape->num_points,
+                        .num_points = shape->most_points,
                         .planned_points = shape->num_points,
                         .num_realizations = setup->planned_realizations,
                         .has_weights = true,

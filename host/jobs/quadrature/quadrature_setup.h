@@ -7,8 +7,9 @@
 
 /* What is known of the rules before the first is computed with. */
 typedef struct ps_rule_shape {
-    size_t num_points; /* of the first */
-    bool has_several;  /* of them */
+    size_t num_points;  /* of the first, or that a sampler is asked for */
+    size_t most_points; /* of any, as far as it is known */
+    bool has_several;   /* of them */
 } ps_rule_shape;
 
 typedef struct ps_quadrature_setup {

@@ -74,6 +74,7 @@ static pspec_status find_shape(ps_power_job *job, ps_error *error) {
     if (question->sampler != NULL) {
         job->dimension = question->sampler->dimension;
         job->num_points = question->sampler->num_points;
+        job->most_points = ps_sampler_most_points(question->sampler);
         return PSPEC_OK;
     }
     PS_TRY(open_files(job, error));
@@ -85,6 +86,7 @@ static pspec_status find_shape(ps_power_job *job, ps_error *error) {
     }
     job->dimension = job->sets.next.dimension;
     job->num_points = ps_power_sets_next_points(&job->sets);
+    job->most_points = job->num_points;
     return PSPEC_OK;
 }
 
@@ -137,7 +139,7 @@ static pspec_status prepare(ps_power_job *job, ps_error *error) {
         question->on_sphere && question->harmonics != PS_NO_HARMONICS && !question->keeps_sets;
     job->problem = (ps_problem){
         .frequencies = &job->frequencies,
-        .num_points = job->num_points,
+        .num_points = job->most_points,
         .planned_points = job->num_points,
         .num_realizations = has_only_set ? 1 : ps_power_needs_realizations(job),
         .harmonics = question->harmonics,

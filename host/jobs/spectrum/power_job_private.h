@@ -10,7 +10,8 @@ struct ps_power_job {
     const ps_power_question *question;
     ps_power_sets sets; /* of files, the first is read for planning */
     unsigned dimension;
-    uint64_t num_points; /* of the first set */
+    uint64_t num_points;  /* of the first set, or that a sampler is asked for */
+    uint64_t most_points; /* of any set, as far as it is known */
     ps_frequencies frequencies;
     ps_needs needs;
     ps_sampler_request request; /* what is really sampled: without a shift nobody needs */

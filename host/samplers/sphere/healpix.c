@@ -19,6 +19,7 @@ const ps_sampler ps_sampler_healpix = {
     .summary = "centres of the pixels of HEALPix, RING order",
     .domain = PS_SAMPLES_SPHERE,
     .parameters = {PS_NSIDE_PARAMETER},
+    .nanoseconds = 28,
     .is_deterministic = ps_sampler_always,
     .open_points = ps_healpix_open_points,
     .check = ps_healpix_check,

@@ -16,6 +16,7 @@ const ps_sampler ps_sampler_white_hemisphere = {
     .name = "white-hemisphere",
     .summary = "independent uniform points",
     .domain = PS_SAMPLES_HEMISPHERE,
+    .nanoseconds = 37,
     .is_deterministic = ps_sampler_never,
     .generate = generate,
 };

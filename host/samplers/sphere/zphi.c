@@ -102,6 +102,7 @@ const ps_sampler ps_sampler_zphi = {
     .domain = PS_SAMPLES_SPHERE,
     .parameters = {{"strata", PS_STRATA_AUTO,
                     "AxB, slices of height x sectors; auto: square at the equator, B/A near pi"}},
+    .nanoseconds = 34,
     .is_deterministic = ps_sampler_never,
     .check = check,
     .generate = generate,

@@ -37,6 +37,15 @@ bool ps_digital_net_is_plain(const ps_sampler_request *request, unsigned i_param
            scramble == PS_NET_PLAIN;
 }
 
+double ps_digital_net_seconds(const ps_sampler_request *request, unsigned i_parameter) {
+    static const double nanoseconds[] = {
+        [PS_NET_PLAIN] = 1.7, [PS_NET_XOR] = 1.7, [PS_NET_OWEN] = 160}; /* of a coordinate */
+    ps_net_scramble scramble = PS_NET_PLAIN;
+    return ps_digital_net_scramble(request, i_parameter, &scramble, NULL) == PSPEC_OK
+               ? ps_sampler_numbers(request) * nanoseconds[scramble] * PS_NANOSECOND
+               : 0;
+}
+
 void ps_digital_net_set_axis(ps_digital_net *net, unsigned axis,
                              const uint32_t directions[PS_NET_DIGITS]) {
     uint32_t sum = 0;

@@ -40,6 +40,9 @@ pspec_status ps_digital_net_scramble(const ps_sampler_request *request, unsigned
 /* Is that parameter "none"? Then every realization has the same points. */
 bool ps_digital_net_is_plain(const ps_sampler_request *request, unsigned i_parameter);
 
+/* For ps_sampler.seconds. */
+double ps_digital_net_seconds(const ps_sampler_request *request, unsigned i_parameter);
+
 /* Writes the first num_points points of the net, scrambled for this realization.
  * PSPEC_ERROR_CANCELLED where the watch asks to stop. */
 pspec_status ps_digital_net_generate(const ps_digital_net *net, ps_net_scramble scramble,

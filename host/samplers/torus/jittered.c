@@ -29,6 +29,7 @@ const ps_sampler ps_sampler_jittered = {
     .minimum_dimension = 1,
     .maximum_dimension = PS_MAX_DIMENSION,
     .parameters = {PS_STRATA_PARAMETER},
+    .nanoseconds = 7,
     .is_deterministic = ps_sampler_never,
     .check = check,
     .generate = generate,

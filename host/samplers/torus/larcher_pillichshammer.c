@@ -43,6 +43,10 @@ static bool is_deterministic(const ps_sampler_request *request) {
     return ps_digital_net_is_plain(request, SCRAMBLE);
 }
 
+static double seconds(const ps_sampler_request *request) {
+    return ps_digital_net_seconds(request, SCRAMBLE);
+}
+
 static pspec_status check(const ps_sampler_request *request, ps_error *error) {
     ps_net_scramble scramble = PS_NET_PLAIN;
     unsigned answer = 0;
@@ -77,6 +81,7 @@ const ps_sampler ps_sampler_larcher_pillichshammer = {
     .maximum_dimension = 2,
     .parameters = {PS_NET_SCRAMBLE_PARAMETER,
                    {"centred", "no", "no|yes, add 1/(2N) to both coordinates before scrambling"}},
+    .seconds = seconds,
     .is_deterministic = is_deterministic,
     .check = check,
     .generate = generate,

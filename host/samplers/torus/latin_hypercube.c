@@ -81,6 +81,7 @@ const ps_sampler ps_sampler_latin_hypercube = {
     .minimum_dimension = 1,
     .maximum_dimension = PS_MAX_DIMENSION,
     .parameters = {{"offset", "jittered", "jittered|centred, place within the stratum"}},
+    .nanoseconds = 15,
     .is_deterministic = ps_sampler_never,
     .check = check,
     .generate = generate,

@@ -29,6 +29,7 @@ const ps_sampler ps_sampler_regular = {
     .minimum_dimension = 1,
     .maximum_dimension = PS_MAX_DIMENSION,
     .parameters = {PS_STRATA_PARAMETER},
+    .nanoseconds = 2.2,
     .is_deterministic = ps_sampler_always,
     .check = check,
     .generate = generate,

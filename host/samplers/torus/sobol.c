@@ -60,6 +60,10 @@ static bool is_deterministic(const ps_sampler_request *request) {
     return ps_digital_net_is_plain(request, SCRAMBLE);
 }
 
+static double seconds(const ps_sampler_request *request) {
+    return ps_digital_net_seconds(request, SCRAMBLE);
+}
+
 static pspec_status check(const ps_sampler_request *request, ps_error *error) {
     ps_net_scramble scramble = PS_NET_PLAIN;
     PS_TRY(ps_sampler_limit_points(request, (uint64_t)1 << PS_NET_DIGITS, error));
@@ -86,6 +90,7 @@ const ps_sampler ps_sampler_sobol = {
     .minimum_dimension = 1,
     .maximum_dimension = PS_MAX_DIMENSION,
     .parameters = {PS_NET_SCRAMBLE_PARAMETER},
+    .seconds = seconds,
     .is_deterministic = is_deterministic,
     .note = note,
     .check = check,

@@ -16,6 +16,7 @@ const ps_sampler ps_sampler_white = {
     .aliases = {"whitenoise", "random", "uniform"},
     .minimum_dimension = 1,
     .maximum_dimension = PS_MAX_DIMENSION,
+    .nanoseconds = 4.5,
     .is_deterministic = ps_sampler_never,
     .generate = generate,
 };

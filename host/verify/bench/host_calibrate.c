@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "samplers/sampler.h"
 #include "verify/bench/host_probes.h"
+#include "verify/bench/sampler_probes.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -19,44 +20,68 @@ enum { ROUNDS = 7 };
 /* What a figure may be: host/store/figures_text.c does not take others. */
 static const double least_scale = 1e-3, most_scale = 1e3;
 
-/* Seconds over predicted ones, of every round. */
-typedef double probe_scales[PS_NUM_HOST_KINDS][ROUNDS];
+/* Seconds over predicted ones, of every round: of the probes, then of the samplers. */
+typedef double probe_scales[PS_FIGURES_HOST][ROUNDS];
 
-static pspec_status measure(ps_probe_data *data, const ps_probe *what, double *scale,
-                            ps_error *error) {
+static double limit_scale(double scale) {
+    return fmin(fmax(scale, least_scale), most_scale);
+}
+
+static pspec_status measure_probe(ps_probe_data *data, const ps_probe *what, double *scale,
+                                  ps_error *error) {
     double predicted = 1;
     data->unmeasured = 0;
     const double begin = ps_clock_seconds();
     PS_TRY(what->run(data, what, &predicted, error));
-    const double found = (ps_clock_seconds() - begin - data->unmeasured) / predicted;
-    *scale = fmin(fmax(found, least_scale), most_scale);
+    *scale = limit_scale((ps_clock_seconds() - begin - data->unmeasured) / predicted);
     return PSPEC_OK;
 }
 
-static pspec_status measure_rounds(ps_probe_data *data, const ps_bench_options *options,
-                                   probe_scales scales, ps_error *error) {
-    for (size_t round = 0; round < ROUNDS; round++) {
-        if (options->advance != NULL) {
-            options->advance(options->payload, round, ROUNDS);
-        }
-        for (size_t i = 0; ps_probes[i].run != NULL; i++) {
-            PS_TRY(ps_bench_go_on(options, error));
-            PS_TRY(measure(data, &ps_probes[i], &scales[i][round], error));
-        }
+static pspec_status measure_sampler(ps_probe_data *data, const ps_sampler *sampler, double *scale,
+                                    ps_error *error) {
+    double predicted = 1;
+    const double begin = ps_clock_seconds();
+    PS_TRY(ps_probe_sampler(sampler, data->numbers, &predicted, error));
+    *scale = limit_scale((ps_clock_seconds() - begin) / predicted);
+    return PSPEC_OK;
+}
+
+static pspec_status measure_round(ps_probe_data *data, const ps_bench_options *options,
+                                  probe_scales scales, size_t round, ps_error *error) {
+    size_t at = 0;
+    for (size_t i = 0; ps_probes[i].run != NULL; i++) {
+        PS_TRY(ps_bench_go_on(options, error));
+        PS_TRY(measure_probe(data, &ps_probes[i], &scales[at++][round], error));
+    }
+    for (size_t i = 0; ps_samplers[i] != NULL && at < PS_FIGURES_HOST; i++) {
+        PS_TRY(ps_bench_go_on(options, error));
+        PS_TRY(measure_sampler(data, ps_samplers[i], &scales[at++][round], error));
     }
     return PSPEC_OK;
+}
+
+static void keep(ps_figures *figures, const char *name, double *scales) {
+    ps_host_figure *const row = ps_figures_host_row(figures, name);
+    if (row != NULL) {
+        row->scale = ps_bench_median(scales, ROUNDS);
+    }
 }
 
 static pspec_status measure_all(ps_probe_data *data, const ps_bench_options *options,
                                 ps_figures *figures, ps_error *error) {
     probe_scales scales;
-    PS_TRY(measure_rounds(data, options, scales, error));
-    for (size_t i = 0; ps_probes[i].run != NULL; i++) {
-        ps_host_figure *const row =
-            ps_figures_host_row(figures, ps_host_kind_name(ps_probes[i].kind));
-        if (row != NULL) {
-            row->scale = ps_bench_median(scales[i], ROUNDS);
+    size_t at = 0;
+    for (size_t round = 0; round < ROUNDS; round++) {
+        if (options->advance != NULL) {
+            options->advance(options->payload, round, ROUNDS);
         }
+        PS_TRY(measure_round(data, options, scales, round, error));
+    }
+    for (size_t i = 0; ps_probes[i].run != NULL; i++) {
+        keep(figures, ps_host_kind_name(ps_probes[i].kind), scales[at++]);
+    }
+    for (size_t i = 0; ps_samplers[i] != NULL && at < PS_FIGURES_HOST; i++) {
+        keep(figures, ps_samplers[i]->name, scales[at++]);
     }
     return PSPEC_OK;
 }
@@ -69,7 +94,7 @@ static pspec_status prepare(ps_probe_data *data, void **memory, ps_error *error)
     PS_TRY(ps_sampler_parse(&white, "white-sphere", error));
     white.num_points = PS_PROBE_POINTS;
     PS_TRY(ps_sampler_resolve(&white, error));
-    return ps_sampler_generate(&white, 0, data->points, NULL, error);
+    return ps_sampler_generate(&white, 0, data->points, NULL, NULL, error);
 }
 
 pspec_status ps_bench_calibrate_host(const ps_bench_options *options, const char *folder,

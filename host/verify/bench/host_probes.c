@@ -10,7 +10,6 @@
 #include "rules/kernel_factor.h"
 #include "rules/kernel_system.h"
 #include "rules/worst_case_error.h"
-#include "samplers/sampler.h"
 #include "spectra/bins.h"
 #include "verify/bench/start_probes.h"
 
@@ -25,20 +24,6 @@ static double predict(const ps_probe *what, double units) {
 }
 
 /* ---- points -------------------------------------------------------------------------------- */
-
-static pspec_status sample(ps_probe_data *data, const ps_probe *what, double *predicted,
-                           ps_error *error) {
-    ps_sampler_request request = {0};
-    PS_TRY(ps_sampler_parse(&request, what->argument, error));
-    request.seed = 1;
-    if (strstr(what->argument, "nside") == NULL) {
-        request.num_points = PS_PROBE_POINTS;
-    }
-    PS_TRY(ps_sampler_resolve(&request, error));
-    const bool is_on_sphere = ps_sampler_is_on_sphere(&request);
-    *predicted = predict(what, (double)request.num_points * (is_on_sphere ? 1 : request.dimension));
-    return ps_sampler_generate(&request, 0, data->numbers, NULL, error);
-}
 
 static pspec_status write_points(ps_probe_data *data, const ps_probe *what, double *predicted,
                                  ps_error *error) {
@@ -240,19 +225,6 @@ const ps_probe ps_probes[] = {
     {PS_HOST_DRIVER, "", ps_probe_start},
     {PS_HOST_KERNEL, "", ps_probe_start},
     {PS_HOST_MEMORY, "", touch_memory},
-    {PS_HOST_WHITE, "white", sample},
-    {PS_HOST_REGULAR, "regular", sample},
-    {PS_HOST_JITTERED, "jittered", sample},
-    {PS_HOST_LATIN, "latin-hypercube", sample},
-    {PS_HOST_SOBOL, "sobol", sample},
-    {PS_HOST_NET, "sobol:scramble=xor", sample},
-    {PS_HOST_OWEN, "sobol:scramble=owen", sample},
-    {PS_HOST_HALTON, "halton", sample},
-    {PS_HOST_ZPHI, "zphi:strata=512x256", sample},
-    {PS_HOST_HEALPIX, "healpix:nside=64", sample},
-    {PS_HOST_FIBONACCI, "fibonacci", sample},
-    {PS_HOST_SPIRAL, "spiral", sample},
-    {PS_HOST_WHITE_SPHERE, "white-sphere", sample},
     {PS_HOST_WRITE_BINARY, "npy", write_points},
     {PS_HOST_READ_BINARY, "npy", read_points},
     {PS_HOST_WRITE_TEXT, "utk-text", write_points},

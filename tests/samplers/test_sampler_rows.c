@@ -1,0 +1,97 @@
+/* What every row of the table of samplers must have, for who asks the table instead of naming
+ * samplers: costs, numbers of points, one way to make them. */
+#include "test_samplers.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* The fewest points, by the rule that calibration uses, too: every sampler has a power of two or
+ * three quarters of one. */
+static ps_sampler_request fewest(const ps_sampler *sampler) {
+    enum { MOST = 1 << 10 };
+    ps_error error = {0};
+    for (size_t num = 1; num <= MOST; num *= 2) {
+        for (size_t quarters = 3; quarters <= 4; quarters++) {
+            ps_sampler_request request = {.num_points = num * quarters / 4, .seed = 1};
+            if (request.num_points > 0 &&
+                ps_sampler_parse(&request, sampler->name, &error) == PSPEC_OK &&
+                ps_sampler_resolve(&request, &error) == PSPEC_OK) {
+                return request;
+            }
+        }
+    }
+    fail_msg("%s: %s", sampler->name, error.message);
+    return (ps_sampler_request){0};
+}
+
+static void every_sampler_makes_points_in_one_way(void **state) {
+    (void)state;
+    for (size_t i = 0; ps_samplers[i] != NULL; i++) {
+        const ps_sampler *const sampler = ps_samplers[i];
+        const bool makes_some = sampler->generate_some != NULL;
+        assert_true(makes_some != (sampler->generate != NULL));
+        assert_true(makes_some == (sampler->most_points != NULL));
+        assert_true(makes_some || sampler->varies == NULL);
+        assert_non_null(sampler->is_deterministic);
+    }
+}
+
+static void every_sampler_says_what_it_costs(void **state) {
+    (void)state;
+    for (size_t i = 0; ps_samplers[i] != NULL; i++) {
+        ps_sampler_request request = fewest(ps_samplers[i]);
+        const double once = ps_sampler_seconds(&request);
+        if (!(once > 0) || (ps_samplers[i]->seconds != NULL) == (ps_samplers[i]->nanoseconds > 0)) {
+            fail_msg("%s: %g s, %g ns", ps_samplers[i]->name, once, ps_samplers[i]->nanoseconds);
+        }
+        request.num_points *= 4;
+        assert_true(ps_sampler_seconds(&request) > once);
+        assert_true(ps_sampler_most_points(&request) >= request.num_points);
+        assert_true(ps_sampler_varies(&request) == false || ps_samplers[i]->varies != NULL);
+    }
+}
+
+/* Points lie inside the room that was asked for, and their number is the one that is told. */
+static void every_sampler_keeps_to_its_room(void **state) {
+    (void)state;
+    const double unwritten = -7; /* no coordinate of the torus or of a unit vector */
+    for (size_t i = 0; ps_samplers[i] != NULL; i++) {
+        const ps_sampler_request request = fewest(ps_samplers[i]);
+        const size_t most = ps_sampler_most_points(&request) * request.dimension;
+        double *const points = malloc((most + 1) * sizeof *points);
+        ps_error error = {0};
+        size_t num = 0;
+        assert_non_null(points);
+        for (size_t n = 0; n <= most; n++) {
+            points[n] = unwritten;
+        }
+        assert_int_equal(ps_sampler_generate(&request, 3, points, &num, NULL, &error), PSPEC_OK);
+        assert_true(num > 0 && num <= ps_sampler_most_points(&request));
+        assert_true(ps_sampler_varies(&request) || num == request.num_points);
+        for (size_t n = 0; n < num * request.dimension; n++) {
+            assert_true(points[n] != unwritten);
+        }
+        assert_true(points[most] == unwritten);
+        free(points);
+    }
+}
+
+/* Scrambling by Owen's tree is priced as what it is, lifted or not. */
+static void parameters_change_the_cost(void **state) {
+    (void)state;
+    const ps_sampler_request plain = make_request("sobol", 1024, 2);
+    const ps_sampler_request owen = make_request("sobol:scramble=owen", 1024, 2);
+    const ps_sampler_request lifted = make_request("sobol:scramble=owen,lift=sphere", 1024, 3);
+    assert_true(ps_sampler_seconds(&owen) > 20 * ps_sampler_seconds(&plain));
+    assert_true(ps_sampler_seconds(&lifted) == ps_sampler_seconds(&owen));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_sampler_makes_points_in_one_way),
+        cmocka_unit_test(every_sampler_says_what_it_costs),
+        cmocka_unit_test(every_sampler_keeps_to_its_room),
+        cmocka_unit_test(parameters_change_the_cost),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
