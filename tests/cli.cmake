@@ -54,6 +54,7 @@ add_program_test(cli_run_pictures) # pictures of scenes: panels, failures, title
 add_program_test(cli_stress)    # the stability suite: rows, formats, what is refused
 add_program_test(cli_stress_broken ${PROJECT_SOURCE_DIR}/kernels) # broken kernels fail by name
 add_program_test(cli_tolerance) # --tol and --floor, torus and sphere: kept or refused; threads change no bit
+set_tests_properties(cli_tolerance PROPERTIES LABELS "unit;sweep")
 add_program_test(cli_no_device) # why there is no device; plan and devices without one
 add_program_test(cli_doctor)    # what works here, and what is said where something does not
 add_program_test(cli_examples)  # the examples of every --help
