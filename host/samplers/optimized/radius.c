@@ -1,0 +1,65 @@
+#include "samplers/optimized/radius.h"
+
+#include "samplers/optimized/torus_grid.h"
+
+#include <math.h>
+
+/* N r^d of random balls at saturation: of disks whose radius is r/2 they cover 0.54707, of balls
+ * 0.38413 (G. Zhang, S. Torquato, "Precise algorithm to generate random sequential addition of hard
+ * hyperspheres at saturation", 2013). Measured over 1500 sets of 4096 points and 30 of 16384: 0.6966 and 0.7338. */
+static const double SATURATED[PS_GRID_MOST_DIMENSION + 1] = {0, 0, 0.69656, 0.73364, 0};
+
+/* N r^d of the densest packings, rounded up: hexagonal, face-centred cubic, and in four dimensions
+ * the bound of H. Cohn and N. Elkies (2003). */
+static const double PACKED[PS_GRID_MOST_DIMENSION + 1] = {0, 0, 1.15471, 1.41422, 2.1003};
+
+static double power(double x, unsigned exponent) {
+    double product = 1;
+    for (unsigned i = 0; i < exponent; i++) {
+        product *= x;
+    }
+    return product;
+}
+
+static double largest(unsigned dimension) {
+    return sqrt(dimension) / 2;
+}
+
+/* x^(1/d) for x in (0,1] by Newton's method from above: unlike pow(), the same bits on any machine.
+ * At first a step takes the share 1/d away, so 200 reach any x that a number of points makes. */
+static double root(double x, unsigned dimension) {
+    enum { STEPS = 200 };
+    double y = 1;
+    for (unsigned i = 0; i < STEPS; i++) {
+        y -= (y - x / power(y, dimension - 1)) / dimension;
+    }
+    return y;
+}
+
+pspec_status ps_torus_radius_check(unsigned dimension, double radius, ps_error *error) {
+    if (radius > 0 && radius <= largest(dimension)) {
+        return PSPEC_OK;
+    }
+    return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                   "radius %g is not above 0 and at most %g, which is the farthest that points of "
+                   "the torus in %u dimensions are apart",
+                   radius, largest(dimension), dimension);
+}
+
+size_t ps_torus_radius_most_points(unsigned dimension, double radius) {
+    return (size_t)(PACKED[dimension] / power(radius, dimension));
+}
+
+/* The radius at which num_points make N r^d = product. */
+static double radius_of(unsigned dimension, double product, size_t num_points) {
+    const double radius = root(product / (double)num_points, dimension);
+    return radius < largest(dimension) ? radius : largest(dimension);
+}
+
+double ps_poisson_disk_radius(unsigned dimension, size_t num_points) {
+    return radius_of(dimension, SATURATED[dimension], num_points);
+}
+
+double ps_poisson_disk_expected(unsigned dimension, double radius) {
+    return SATURATED[dimension] / power(radius, dimension);
+}

@@ -1,0 +1,179 @@
+/* What tests of points with a least distance on the torus share. */
+#ifndef TEST_BLUE_NOISE_H
+#define TEST_BLUE_NOISE_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "files/digest.h"
+#include "math/pi.h"
+#include "samplers/optimized/blue_noise.h"
+#include "samplers/optimized/radius.h"
+
+typedef pspec_status test_maker(const ps_blue_noise *, ps_random *, double *, size_t *, ps_error *);
+
+/* One set in fresh memory, which the caller frees. */
+static inline double *test_make_set(test_maker *make, ps_blue_noise asked, uint64_t realization,
+                                    size_t *num) {
+    ps_random random = ps_random_init(1, PS_STREAM_COORDINATES, realization);
+    ps_error error = {0};
+    if (asked.most_points == 0) {
+        asked.most_points = ps_torus_radius_most_points(asked.dimension, asked.radius);
+    }
+    double *const points = malloc((asked.most_points + 1) * asked.dimension * sizeof *points);
+    assert_non_null(points);
+    if (make(&asked, &random, points, num, &error) != PSPEC_OK) {
+        fail_msg("%s", error.message);
+    }
+    return points;
+}
+
+/* Square of the wrapped distance. */
+static inline double test_square_distance(unsigned dimension, const double *a, const double *b) {
+    double square = 0;
+    for (unsigned i = 0; i < dimension; i++) {
+        double difference = a[i] - b[i];
+        difference -= difference > 0.5 ? 1 : difference < -0.5 ? -1 : 0;
+        square += difference * difference;
+    }
+    return square;
+}
+
+/* To the nearest of the points but number `but`. */
+static inline double test_nearest(unsigned dimension, const double *points, size_t num, size_t but,
+                                  const double *place) {
+    double least = HUGE_VAL;
+    for (size_t j = 0; j < num; j++) {
+        const double square = test_square_distance(dimension, place, points + j * dimension);
+        least = j != but && square < least ? square : least;
+    }
+    return sqrt(least);
+}
+
+/* Least and mean distance to the nearest neighbour. */
+static inline void test_distances(unsigned dimension, const double *points, size_t num,
+                                  double *least, double *mean) {
+    double sum = 0;
+    *least = HUGE_VAL;
+    for (size_t i = 0; i < num; i++) {
+        const double d = test_nearest(dimension, points, num, i, points + i * dimension);
+        *least = d < *least ? d : *least;
+        sum += d;
+    }
+    *mean = sum / (double)num;
+}
+
+static inline void test_assert_in_cube(unsigned dimension, const double *points, size_t num) {
+    for (size_t i = 0; i < num * dimension; i++) {
+        assert_true(points[i] >= 0 && points[i] < 1);
+    }
+}
+
+/* |S(k)|^2/N of points of the plane. */
+static inline double test_plane_power(const double *points, size_t num, int kx, int ky) {
+    double re = 0;
+    double im = 0;
+    for (size_t j = 0; j < num; j++) {
+        const double phase = PS_TWO_PI * (kx * points[2 * j] + ky * points[2 * j + 1]);
+        re += cos(phase);
+        im += sin(phase);
+    }
+    return (re * re + im * im) / (double)num;
+}
+
+/* Mean power over all k != 0 with low <= |k| < high, of one sign each. */
+static inline double test_ring_power(const double *points, size_t num, double low, double high) {
+    const int most = (int)ceil(high);
+    double sum = 0;
+    size_t count = 0;
+    for (int kx = -most; kx <= most; kx++) {
+        for (int ky = 0; ky <= most; ky++) {
+            const double length = sqrt((double)(kx * kx + ky * ky));
+            if ((ky > 0 || kx > 0) && length >= low && length < high) {
+                sum += test_plane_power(points, num, kx, ky);
+                count++;
+            }
+        }
+    }
+    return sum / (double)count;
+}
+
+/* Sets of about n = 1024 points: means over rings in units of sqrt(n), |k| from low to high. */
+static inline double test_mean_ring(test_maker *make, const ps_blue_noise *asked, unsigned num_sets,
+                                    double low, double high) {
+    const double root = 32;
+    double sum = 0;
+    for (unsigned r = 0; r < num_sets; r++) {
+        size_t num = 0;
+        double *const points = test_make_set(make, *asked, r, &num);
+        sum += test_ring_power(points, num, low * root, high * root);
+        free(points);
+    }
+    return sum / num_sets;
+}
+
+/* Numbers of points of so many sets. */
+typedef struct test_numbers {
+    double mean, variance, error; /* error: of the mean */
+} test_numbers;
+
+static inline test_numbers test_count(test_maker *make, const ps_blue_noise *asked,
+                                      unsigned num_sets) {
+    double sum = 0;
+    double squares = 0;
+    for (unsigned r = 0; r < num_sets; r++) {
+        size_t num = 0;
+        free(test_make_set(make, *asked, r, &num));
+        sum += (double)num;
+        squares += (double)num * (double)num;
+    }
+    const double mean = sum / num_sets;
+    const double variance = (squares / num_sets - mean * mean) * num_sets / (num_sets - 1);
+    return (test_numbers){mean, variance, sqrt(variance / num_sets)};
+}
+
+static inline void test_assert_between(const char *what, double value, double low, double high) {
+    if (!(value >= low && value <= high)) {
+        fail_msg("%s: %.10g is not between %g and %g", what, value, low, high);
+    }
+}
+
+static inline void test_assert_digest(const char *what, const double *points, size_t count,
+                                      const char *expected) {
+    char digest[PS_DIGEST_BYTES];
+    ps_digest_bytes(points, count * sizeof *points, digest);
+    if (strcmp(digest, expected) != 0) {
+        fail_msg("%s: the bits of the points have the digest %s, not %s", what, digest, expected);
+    }
+}
+
+static inline void test_assert_refused(test_maker *make, ps_blue_noise asked, pspec_status status,
+                                       const char *expected) {
+    ps_random random = ps_random_init(1, PS_STREAM_COORDINATES, 0);
+    ps_error error = {0};
+    double point[4];
+    size_t num = 1;
+    assert_int_equal(make(&asked, &random, point, &num, &error), status);
+    assert_int_equal(num, 0);
+    if (strstr(error.message, expected) == NULL) {
+        fail_msg("\"%s\" lacks \"%s\"", error.message, expected);
+    }
+}
+
+/* A watch that stops at its first word after so many. */
+static inline int test_stop_after(const ps_watch_report *report, void *payload) {
+    int *const left = (int *)payload;
+    assert_true(report->done <= report->total);
+    return (*left)-- <= 0;
+}
+
+#endif
