@@ -20,4 +20,11 @@ double ps_poisson_disk_radius(unsigned dimension, size_t num_points);
 /* The mean number of points at the radius. */
 double ps_poisson_disk_expected(unsigned dimension, double radius);
 
+/* Bridson's tries: with a single one chains of points end before they fill anything. */
+enum { PS_LEAST_TRIES = 2, PS_MOST_TRIES = 1000 };
+pspec_status ps_bridson_tries_check(unsigned tries, ps_error *error) PS_MUST_CHECK;
+/* The same two for Bridson's points, d = 2 to 4, within 1 % for the tries that were measured. */
+double ps_bridson_radius(unsigned dimension, unsigned tries, size_t num_points);
+double ps_bridson_expected(unsigned dimension, double radius, unsigned tries);
+
 #endif
