@@ -12,12 +12,15 @@ extern const ps_sampler ps_sampler_sobol;
 extern const ps_sampler ps_sampler_halton;
 extern const ps_sampler ps_sampler_hammersley;
 extern const ps_sampler ps_sampler_larcher_pillichshammer;
+extern const ps_sampler ps_sampler_poisson_disk;
+extern const ps_sampler ps_sampler_bridson;
 extern const ps_sampler ps_sampler_white_sphere;
 extern const ps_sampler ps_sampler_zphi;
 extern const ps_sampler ps_sampler_healpix;
 extern const ps_sampler ps_sampler_healpix_jittered;
 extern const ps_sampler ps_sampler_fibonacci;
 extern const ps_sampler ps_sampler_spiral;
+extern const ps_sampler ps_sampler_poisson_disk_sphere;
 extern const ps_sampler ps_sampler_white_hemisphere;
 extern const ps_sampler ps_sampler_fibonacci_hemisphere;
 

@@ -120,7 +120,8 @@ pspec_status ps_sampler_resolve(ps_sampler_request *request, ps_error *error) {
     if (request->num_points == 0) {
         request->num_points = PS_DEFAULT_POINTS;
         if (sampler->open_points != NULL) {
-            PS_TRY(sampler->open_points(request, &request->num_points, error));
+            const ps_sampler_request own = own_request(request);
+            PS_TRY(sampler->open_points(&own, &request->num_points, error));
         }
     }
     return ps_sampler_check(request, error);

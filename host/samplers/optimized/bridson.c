@@ -190,10 +190,17 @@ static pspec_status visit_any(bridson *work, ps_error *error) {
     }
 }
 
+pspec_status ps_bridson_check(const ps_blue_noise *asked, ps_error *error) {
+    PS_TRY(ps_torus_radius_check(asked->dimension, asked->radius, error));
+    PS_TRY(ps_bridson_tries_check(asked->tries, error));
+    return ps_torus_grid_check(asked->dimension, asked->radius, error);
+}
+
 static pspec_status fill(bridson *work, ps_error *error) {
     uint32_t indices[MOST_DIMENSION];
-    PS_TRY(ps_torus_radius_check(work->asked->dimension, work->asked->radius, error));
-    PS_TRY(ps_bridson_tries_check(work->asked->tries, error));
+    PS_TRY(ps_bridson_check(work->asked, error));
+    work->expected =
+        ps_bridson_expected(work->asked->dimension, work->asked->radius, work->asked->tries);
     PS_TRY(ps_torus_grid_create(&work->grid, work->asked->dimension, work->asked->radius,
                                 work->asked->dimension == PLANE ? WIDE_RADII : 0, work->points,
                                 error));
@@ -218,9 +225,6 @@ static pspec_status fill(bridson *work, ps_error *error) {
 pspec_status ps_bridson_points(const ps_blue_noise *asked, ps_random *random, double *points,
                                size_t *num_points, ps_error *error) {
     bridson work = {.asked = asked, .random = random, .points = points};
-    if (asked->radius > 0) {
-        work.expected = ps_bridson_expected(asked->dimension, asked->radius, asked->tries);
-    }
     const pspec_status status = fill(&work, error);
     *num_points = status == PSPEC_OK ? work.num_points : 0;
     ps_torus_grid_free(&work.grid);

@@ -7,6 +7,9 @@
 
 #include "samplers/optimized/blue_noise.h"
 
+/* Are radius and tries possible? */
+pspec_status ps_bridson_check(const ps_blue_noise *asked, ps_error *error) PS_MUST_CHECK;
+
 /* d = 2, 3 or 4. Points [num_points][d] in the order of their acceptance. */
 pspec_status ps_bridson_points(const ps_blue_noise *asked, ps_random *random, double *points,
                                size_t *num_points, ps_error *error) PS_MUST_CHECK;

@@ -114,8 +114,13 @@ static unsigned open_children(void *space, uint32_t cell, const uint32_t *at, do
 
 /* ---- the whole ----------------------------------------------------------------------------- */
 
-static pspec_status create(torus *self, const ps_blue_noise *asked, ps_error *error) {
+pspec_status ps_poisson_disk_check(const ps_blue_noise *asked, ps_error *error) {
     PS_TRY(ps_torus_radius_check(asked->dimension, asked->radius, error));
+    return ps_torus_grid_check(asked->dimension, asked->radius, error);
+}
+
+static pspec_status create(torus *self, const ps_blue_noise *asked, ps_error *error) {
+    PS_TRY(ps_poisson_disk_check(asked, error));
     PS_TRY(
         ps_torus_grid_create(&self->grid, asked->dimension, asked->radius, 0, self->points, error));
     const double reach = self->grid.num_side * asked->radius;

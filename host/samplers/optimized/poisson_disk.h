@@ -8,6 +8,9 @@
 
 #include "samplers/optimized/blue_noise.h"
 
+/* Is the radius possible? */
+pspec_status ps_poisson_disk_check(const ps_blue_noise *asked, ps_error *error) PS_MUST_CHECK;
+
 /* d = 2 or 3. Points [num_points][d] in the order of their acceptance. */
 pspec_status ps_poisson_disk_points(const ps_blue_noise *asked, ps_random *random, double *points,
                                     size_t *num_points, ps_error *error) PS_MUST_CHECK;

@@ -3,6 +3,7 @@
 #include "samplers/optimized/torus_grid.h"
 
 #include <math.h>
+#include <stdint.h>
 
 /* N r^d of random balls at saturation: of disks whose radius is r/2 they cover 0.54707, of balls
  * 0.38413 (G. Zhang, S. Torquato, "Precise algorithm to generate random sequential addition of hard
@@ -63,7 +64,9 @@ pspec_status ps_torus_radius_check(unsigned dimension, double radius, ps_error *
 }
 
 size_t ps_torus_radius_most_points(unsigned dimension, double radius) {
-    return (size_t)(PACKED[dimension] / power(radius, dimension));
+    const double most = PACKED[dimension] / power(radius, dimension);
+    const double possible = 0x1p32; /* a grid has no more */
+    return most < possible ? (size_t)most : SIZE_MAX;
 }
 
 /* The radius at which num_points make N r^d = product. */

@@ -11,7 +11,8 @@
 pspec_status ps_torus_radius_check(unsigned dimension, double radius,
                                    ps_error *error) PS_MUST_CHECK;
 
-/* More points than this are never at the radius from each other: the densest packing of balls. */
+/* More points than this are never at the radius from each other: the densest packing of balls.
+ * SIZE_MAX for radii that no grid has. */
 size_t ps_torus_radius_most_points(unsigned dimension, double radius);
 
 /* The radius at which saturated dart throwing makes num_points in the mean, d = 2 or 3; at most

@@ -95,7 +95,7 @@ static unsigned open_children(void *space, uint32_t cell, const uint32_t *at, do
 
 /* ---- the whole ----------------------------------------------------------------------------- */
 
-static pspec_status create(sphere *self, const ps_blue_noise *asked, ps_error *error) {
+pspec_status ps_sphere_disk_check(const ps_blue_noise *asked, ps_error *error) {
     if (!(asked->radius > 0 && asked->radius <= PS_SPHERE_MOST_RADIUS)) {
         return ps_fail(
             error, PSPEC_ERROR_INVALID_ARGUMENT,
@@ -109,6 +109,12 @@ static pspec_status create(sphere *self, const ps_blue_noise *asked, ps_error *e
                        "radius %g needs %.3g cells of the sphere, more than 2^32", asked->radius,
                        PS_NUM_FACES * num_side * num_side);
     }
+    return PSPEC_OK;
+}
+
+static pspec_status create(sphere *self, const ps_blue_noise *asked, ps_error *error) {
+    PS_TRY(ps_sphere_disk_check(asked, error));
+    const double num_side = ceil(CELLS_PER_RADIUS / asked->radius);
     self->num_side = (uint32_t)num_side;
     self->radius = asked->radius;
     self->reach = PS_FACE_REACH / num_side;
@@ -145,7 +151,8 @@ pspec_status ps_sphere_disk_points(const ps_blue_noise *asked, ps_random *random
 size_t ps_sphere_disk_most_points(double radius) {
     const double rounding = 1e-9;
     const double sine = ps_chord(radius / 2) / 2;
-    return (size_t)((1 + rounding) / (sine * sine));
+    const double most = (1 + rounding) / (sine * sine);
+    return most < MOST_CELLS ? (size_t)most : SIZE_MAX; /* of radii that are refused */
 }
 
 double ps_sphere_disk_radius(size_t num_points) {

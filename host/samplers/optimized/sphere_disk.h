@@ -10,6 +10,9 @@
  * distance says less and less of their angle. */
 #define PS_SPHERE_MOST_RADIUS 3.0
 
+/* Is the radius possible? */
+pspec_status ps_sphere_disk_check(const ps_blue_noise *asked, ps_error *error) PS_MUST_CHECK;
+
 /* Unit vectors [num_points][3] in the order of their acceptance, no two of them at an angle below
  * the radius, up to the rounding of their numbers. */
 pspec_status ps_sphere_disk_points(const ps_blue_noise *asked, ps_random *random, double *points,

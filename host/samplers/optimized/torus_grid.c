@@ -86,21 +86,29 @@ static pspec_status make_wraps(ps_torus_grid *grid, ps_error *error) {
 
 /* ---- the grid ------------------------------------------------------------------------------ */
 
+static double side_of(unsigned dimension, double radius) {
+    return ceil(sqrt(dimension) / radius);
+}
+
+pspec_status ps_torus_grid_check(unsigned dimension, double radius, ps_error *error) {
+    double num_cells = 1;
+    for (unsigned a = 0; a < dimension; a++) {
+        num_cells *= side_of(dimension, radius);
+    }
+    if (num_cells <= MOST_CELLS) {
+        return PSPEC_OK;
+    }
+    return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                   "radius %g needs %.3g cells in %u dimensions, more than 2^32", radius, num_cells,
+                   dimension);
+}
+
 pspec_status ps_torus_grid_create(ps_torus_grid *grid, unsigned dimension, double radius,
                                   double wide_radii, const double *points, ps_error *error) {
     *grid =
         (ps_torus_grid){.dimension = dimension, .square_radius = radius * radius, .points = points};
-    const double num_side = ceil(sqrt(dimension) / radius);
-    double num_cells = 1;
-    for (unsigned a = 0; a < dimension; a++) {
-        num_cells *= num_side;
-    }
-    if (!(num_cells <= MOST_CELLS)) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "radius %g needs %.3g cells in %u dimensions, more than 2^32", radius,
-                       num_cells, dimension);
-    }
-    grid->num_side = (uint32_t)num_side;
+    PS_TRY(ps_torus_grid_check(dimension, radius, error));
+    grid->num_side = (uint32_t)side_of(dimension, radius);
     grid->num_cells = 1;
     for (unsigned a = dimension; a-- > 0;) {
         grid->strides[a] = grid->num_cells;
