@@ -25,8 +25,7 @@ static double nanoseconds(const ps_blue_noise *asked) {
     return first[asked->dimension] + asked->tries * per_try[asked->dimension];
 }
 
-const ps_distance_kind ps_distance_bridson = {
-    .sampler = &ps_sampler_bridson,
+static const ps_distance_kind kind = {
     .radius = radius,
     .expected = expected,
     .most_points = most_points,
@@ -34,6 +33,7 @@ const ps_distance_kind ps_distance_bridson = {
     .check = ps_bridson_check,
     .make = ps_bridson_points,
 };
+PS_DISTANCE_FUNCTIONS(kind)
 
 const ps_sampler ps_sampler_bridson = {
     .name = "bridson",

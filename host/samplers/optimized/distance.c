@@ -17,16 +17,6 @@ static const double SETS_PER_ROOT = 12;
 static const double SETS_PER_HIT = 0.6;
 static const double LEAST_SETS = 100;
 
-static const ps_distance_kind *kind_of(const ps_sampler_request *request) {
-    static const ps_distance_kind *const kinds[] = {&ps_distance_poisson_disk, &ps_distance_bridson,
-                                                    &ps_distance_sphere_disk};
-    size_t i = 0;
-    while (kinds[i]->sampler != request->sampler) {
-        i++;
-    }
-    return kinds[i];
-}
-
 /* ---- parameters ---------------------------------------------------------------------------- */
 
 static bool has_radius(const ps_sampler_request *request) {
@@ -38,8 +28,8 @@ static bool is_exact(const ps_sampler_request *request) {
 }
 
 /* Everything but a radius that hangs on N. */
-static pspec_status read_values(const ps_sampler_request *request, ps_blue_noise *asked,
-                                ps_error *error) {
+static pspec_status read_values(const ps_distance_kind *kind, const ps_sampler_request *request,
+                                ps_blue_noise *asked, ps_error *error) {
     static const char *const choices[] = {"no", "yes", NULL};
     const char *const name = request->sampler->name;
     uint64_t tries = 0;
@@ -55,32 +45,34 @@ static pspec_status read_values(const ps_sampler_request *request, ps_blue_noise
         snprintf(what, sizeof what, "sampler %s: radius", name);
         PS_TRY(ps_parse_number(request->values[RADIUS], what, -HUGE_VAL, HUGE_VAL, &asked->radius,
                                error));
-        PS_TRY(kind_of(request)->check(asked, error));
+        PS_TRY(kind->check(asked, error));
     }
     return ps_sampler_choice(request, EXACT, choices, &choice, error);
 }
 
-static pspec_status read_request(const ps_sampler_request *request, ps_blue_noise *asked,
-                                 ps_error *error) {
-    PS_TRY(read_values(request, asked, error));
+static pspec_status read_request(const ps_distance_kind *kind, const ps_sampler_request *request,
+                                 ps_blue_noise *asked, ps_error *error) {
+    PS_TRY(read_values(kind, request, asked, error));
     if (!has_radius(request)) {
         const double any = 0.1; /* for tries that are checked before they make a radius */
         asked->radius = any;
-        PS_TRY(kind_of(request)->check(asked, error));
-        asked->radius = kind_of(request)->radius(asked, request->num_points);
-        PS_TRY(kind_of(request)->check(asked, error));
+        PS_TRY(kind->check(asked, error));
+        asked->radius = kind->radius(asked, request->num_points);
+        PS_TRY(kind->check(asked, error));
     }
-    asked->most_points = kind_of(request)->most_points(asked);
+    asked->most_points = kind->most_points(asked);
     return PSPEC_OK;
 }
 
-static size_t mean_number(const ps_sampler_request *request, const ps_blue_noise *asked) {
-    const double mean = floor(kind_of(request)->expected(asked) + 0.5);
+static size_t mean_number(const ps_distance_kind *kind, const ps_sampler_request *request,
+                          const ps_blue_noise *asked) {
+    const double mean = floor(kind->expected(asked) + 0.5);
     const double least = request->sampler->minimum_points > 1 ? 2 : 1;
     return (size_t)(mean > least ? mean : least);
 }
 
-pspec_status ps_distance_open_points(const ps_sampler_request *request, size_t *num_points,
+pspec_status ps_distance_open_points(const ps_distance_kind *kind,
+                                     const ps_sampler_request *request, size_t *num_points,
                                      ps_error *error) {
     const ps_sampler *const sampler = request->sampler;
     ps_blue_noise asked;
@@ -88,23 +80,24 @@ pspec_status ps_distance_open_points(const ps_sampler_request *request, size_t *
                                                 request->dimension > sampler->maximum_dimension)) {
         return PSPEC_OK; /* refused next */
     }
-    PS_TRY(read_values(request, &asked, error));
+    PS_TRY(read_values(kind, request, &asked, error));
     if (has_radius(request)) {
-        *num_points = mean_number(request, &asked);
+        *num_points = mean_number(kind, request, &asked);
     }
     return PSPEC_OK;
 }
 
-pspec_status ps_distance_check(const ps_sampler_request *request, ps_error *error) {
+pspec_status ps_distance_check(const ps_distance_kind *kind, const ps_sampler_request *request,
+                               ps_error *error) {
     ps_blue_noise asked;
-    PS_TRY(read_request(request, &asked, error));
+    PS_TRY(read_request(kind, request, &asked, error));
     if (has_radius(request) && !is_exact(request) &&
-        mean_number(request, &asked) != request->num_points) {
+        mean_number(kind, request, &asked) != request->num_points) {
         return ps_fail(
             error, PSPEC_ERROR_INVALID_ARGUMENT,
             "sampler %s: radius=%s makes about %zu points, but %zu were asked for; leave "
             "one of the two away, or say exact=yes",
-            request->sampler->name, request->values[RADIUS], mean_number(request, &asked),
+            request->sampler->name, request->values[RADIUS], mean_number(kind, request, &asked),
             request->num_points);
     }
     return PSPEC_OK;
@@ -117,35 +110,36 @@ bool ps_distance_varies(const ps_sampler_request *request) {
 }
 
 /* Asked before the request is checked: what is refused then has no room of its own. */
-size_t ps_distance_most_points(const ps_sampler_request *request) {
+size_t ps_distance_most_points(const ps_distance_kind *kind, const ps_sampler_request *request) {
     ps_blue_noise asked;
-    return is_exact(request) || read_request(request, &asked, NULL) != PSPEC_OK
+    return is_exact(request) || read_request(kind, request, &asked, NULL) != PSPEC_OK
                ? request->num_points
                : asked.most_points;
 }
 
-double ps_distance_seconds(const ps_sampler_request *request) {
+double ps_distance_seconds(const ps_distance_kind *kind, const ps_sampler_request *request) {
     ps_blue_noise asked;
-    if (read_request(request, &asked, NULL) != PSPEC_OK) {
+    if (read_request(kind, request, &asked, NULL) != PSPEC_OK) {
         return 0; /* refused */
     }
     const double num = (double)request->num_points;
     const double sets = is_exact(request) ? 1 + SETS_PER_HIT * sqrt(num) : 1;
-    return sets * num * kind_of(request)->nanoseconds(&asked) * PS_NANOSECOND;
+    return sets * num * kind->nanoseconds(&asked) * PS_NANOSECOND;
 }
 
 /* ---- points -------------------------------------------------------------------------------- */
 
 /* Sets at one radius, each with the random numbers after those of the last, until one has N
  * points: sets of N points among all, where a point more or less would change the power. */
-static pspec_status repeat(const ps_sampler_request *request, const ps_blue_noise *asked,
-                           ps_random *random, double *points, ps_error *error) {
+static pspec_status repeat(const ps_distance_kind *kind, const ps_sampler_request *request,
+                           const ps_blue_noise *asked, ps_random *random, double *points,
+                           ps_error *error) {
     const double most = LEAST_SETS + SETS_PER_ROOT * sqrt((double)request->num_points);
     double sum = 0;
     double sets = 0;
     for (; sets < most; sets++) {
         size_t num = 0;
-        PS_TRY(kind_of(request)->make(asked, random, points, &num, error));
+        PS_TRY(kind->make(asked, random, points, &num, error));
         if (num == request->num_points) {
             return PSPEC_OK;
         }
@@ -157,7 +151,8 @@ static pspec_status repeat(const ps_sampler_request *request, const ps_blue_nois
                    request->sampler->name, sets, asked->radius, request->num_points, sum / sets);
 }
 
-static pspec_status generate_exactly(const ps_sampler_request *request, const ps_blue_noise *asked,
+static pspec_status generate_exactly(const ps_distance_kind *kind,
+                                     const ps_sampler_request *request, const ps_blue_noise *asked,
                                      ps_random *random, double *points, ps_error *error) {
     double *room = NULL;
     size_t count = 0;
@@ -165,7 +160,7 @@ static pspec_status generate_exactly(const ps_sampler_request *request, const ps
         count = SIZE_MAX; /* refused in the same words as other sizes */
     }
     PS_TRY(PS_NEW(&room, count, "points", error));
-    const pspec_status status = repeat(request, asked, random, room, error);
+    const pspec_status status = repeat(kind, request, asked, random, room, error);
     if (status == PSPEC_OK) {
         memcpy(points, room, request->num_points * request->dimension * sizeof *points);
     }
@@ -173,14 +168,15 @@ static pspec_status generate_exactly(const ps_sampler_request *request, const ps
     return status;
 }
 
-pspec_status ps_distance_generate(const ps_sampler_request *request, uint64_t realization,
-                                  double *points, size_t *num_points, ps_error *error) {
+pspec_status ps_distance_generate(const ps_distance_kind *kind, const ps_sampler_request *request,
+                                  uint64_t realization, double *points, size_t *num_points,
+                                  ps_error *error) {
     ps_blue_noise asked;
     ps_random random = ps_random_init(request->seed, PS_STREAM_COORDINATES, realization);
-    PS_TRY(read_request(request, &asked, error));
+    PS_TRY(read_request(kind, request, &asked, error));
     if (is_exact(request)) {
         *num_points = request->num_points;
-        return generate_exactly(request, &asked, &random, points, error);
+        return generate_exactly(kind, request, &asked, &random, points, error);
     }
-    return kind_of(request)->make(&asked, &random, points, num_points, error);
+    return kind->make(&asked, &random, points, num_points, error);
 }

@@ -26,8 +26,7 @@ static double nanoseconds(const ps_blue_noise *asked) {
     return asked->dimension < CUBE ? plane : cube;
 }
 
-const ps_distance_kind ps_distance_poisson_disk = {
-    .sampler = &ps_sampler_poisson_disk,
+static const ps_distance_kind kind = {
     .radius = radius,
     .expected = expected,
     .most_points = most_points,
@@ -35,6 +34,7 @@ const ps_distance_kind ps_distance_poisson_disk = {
     .check = ps_poisson_disk_check,
     .make = ps_poisson_disk_points,
 };
+PS_DISTANCE_FUNCTIONS(kind)
 
 const ps_sampler ps_sampler_poisson_disk = {
     .name = "poisson-disk",

@@ -24,8 +24,7 @@ static double nanoseconds(const ps_blue_noise *asked) {
     return any;
 }
 
-const ps_distance_kind ps_distance_sphere_disk = {
-    .sampler = &ps_sampler_poisson_disk_sphere,
+static const ps_distance_kind kind = {
     .radius = radius,
     .expected = expected,
     .most_points = most_points,
@@ -33,6 +32,7 @@ const ps_distance_kind ps_distance_sphere_disk = {
     .check = ps_sphere_disk_check,
     .make = ps_sphere_disk_points,
 };
+PS_DISTANCE_FUNCTIONS(kind)
 
 const ps_sampler ps_sampler_poisson_disk_sphere = {
     .name = "poisson-disk-sphere",

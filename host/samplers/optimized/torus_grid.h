@@ -52,8 +52,8 @@ typedef struct ps_torus_grid {
 pspec_status ps_torus_grid_check(unsigned dimension, double radius, ps_error *error) PS_MUST_CHECK;
 
 /* An empty grid over points that will be written to the array, with a wide neighbourhood of so many
- * radii unless that is 0. The radius is positive and at most sqrt(d)/2, and ps_torus_grid_check lets it
- * pass. ps_torus_grid_free also after an error. */
+ * radii unless that is 0. The radius is positive and at most sqrt(d)/2, and ps_torus_grid_check
+ * lets it pass. ps_torus_grid_free also after an error. */
 pspec_status ps_torus_grid_create(ps_torus_grid *grid, unsigned dimension, double radius,
                                   double wide_radii, const double *points,
                                   ps_error *error) PS_MUST_CHECK;
