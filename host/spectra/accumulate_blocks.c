@@ -65,14 +65,32 @@ static void fill(ps_accumulate_blocks *self, const ps_bins *bins, const uint32_t
     }
 }
 
-/* Rings of equal length one after the other: the loop over members becomes predictable. */
-static int compare_rings(const void *left, const void *right) {
-    const ps_block_ring *a = left;
-    const ps_block_ring *b = right;
-    const uint32_t a_length = a->end - a->first;
-    const uint32_t b_length = b->end - b->first;
-    return a_length != b_length ? (a_length > b_length) - (a_length < b_length)
-                                : (a->piece > b->piece) - (a->piece < b->piece);
+/* Rings of equal length one after the other: the loop over members becomes predictable. Those of
+ * one length stay in the order of bins. */
+static void sort_rings(ps_block_ring *rings, size_t num, ps_block_ring *sorted) {
+    uint32_t begins[PS_ACCUMULATE_BLOCK + 1] = {0}; /* of a length, from 1 on */
+    uint32_t begin = 0;
+    for (size_t i = 0; i < num; i++) {
+        begins[rings[i].end - rings[i].first]++;
+    }
+    for (size_t length = 0; length <= PS_ACCUMULATE_BLOCK; length++) {
+        const uint32_t count = begins[length];
+        begins[length] = begin;
+        begin += count;
+    }
+    for (size_t i = 0; i < num; i++) {
+        sorted[begins[rings[i].end - rings[i].first]++] = rings[i];
+    }
+    memcpy(rings, sorted, num * sizeof *rings);
+}
+
+/* A block has no more rings than slots. */
+static void sort_blocks(ps_accumulate_blocks *self) {
+    ps_block_ring sorted[PS_ACCUMULATE_BLOCK];
+    for (size_t i = 0; i < self->num_blocks; i++) {
+        sort_rings(self->rings + self->first_rings[i],
+                   self->first_rings[i + 1] - self->first_rings[i], sorted);
+    }
 }
 
 static pspec_status allocate(ps_accumulate_blocks *self, ps_error *error) {
@@ -94,10 +112,7 @@ pspec_status ps_accumulate_blocks_create(ps_accumulate_blocks *out, const ps_bin
     if (status == PSPEC_OK) {
         begin_blocks(out, cursors);
         fill(out, bins, slots, cursors);
-        for (size_t i = 0; i < out->num_blocks; i++) {
-            qsort(out->rings + out->first_rings[i], out->first_rings[i + 1] - out->first_rings[i],
-                  sizeof *out->rings, compare_rings);
-        }
+        sort_blocks(out);
     } else {
         ps_accumulate_blocks_free(out);
     }

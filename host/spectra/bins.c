@@ -4,25 +4,15 @@
 
 #include <math.h>
 #include <stdlib.h>
-
-typedef struct keyed {
-    int64_t key;
-    uint32_t index;
-} keyed;
-
-static int compare_keys(const void *a, const void *b) {
-    const keyed *x = a;
-    const keyed *y = b;
-    if (x->key != y->key) {
-        return x->key < y->key ? -1 : 1;
-    }
-    return x->index < y->index ? -1 : x->index > y->index;
-}
+#include <string.h>
 
 uint64_t ps_bin_num_computed(const ps_bin *bin) {
     const uint64_t num_members = bin->end - bin->begin;
     return num_members == bin->num_frequencies ? bin->num_modes : 2 * num_members;
 }
+
+/* Keys of frequencies, in their order; later the numbers of their bins. */
+enum { NO_BIN = -1 }; /* of DC */
 
 /* What is not reported sorts behind all others. */
 static int64_t key_of(const ps_frequencies *set, const int32_t *k) {
@@ -30,14 +20,91 @@ static int64_t key_of(const ps_frequencies *set, const int32_t *k) {
         return k[0];
     }
     const int64_t norm2 = ps_frequency_norm2(k, set->dimension);
+    if (norm2 == 0) {
+        return NO_BIN;
+    }
     const bool has_rings = set->kind != PS_FREQUENCIES_LIST || set->rings != NULL;
     return has_rings && norm2 <= set->max_norm2 ? ps_bin_rule_find(&set->bins, norm2) : INT64_MAX;
 }
 
-static size_t count_bins(const keyed *keys, size_t num) {
-    size_t count = 0;
+/* Members in the order of frequencies, and the largest key of a reported bin. */
+static int64_t find_keys(ps_bins *out, const ps_frequencies *set, int64_t *keys) {
+    const unsigned num_components = ps_frequency_components(set);
+    int64_t largest = 0;
+    for (size_t i = 0; i < set->num; i++) {
+        keys[i] = key_of(set, set->vectors + i * num_components);
+        largest = keys[i] > largest && keys[i] < INT64_MAX ? keys[i] : largest;
+        if (keys[i] != NO_BIN) {
+            out->members[out->num_members++] = (uint32_t)i;
+        }
+    }
+    return largest;
+}
+
+/* ---- order --------------------------------------------------------------------------------- */
+
+/* Bits of a key that are sorted by at a time: rings take one pass, their beginnings fit into the
+ * nearest cache. */
+enum { DIGIT_BITS = 13, NUM_DIGITS = 1 << DIGIT_BITS, KEY_BITS = 63 };
+
+typedef struct digits {
+    const int64_t *keys;
+    int64_t rest; /* stands for INT64_MAX, so that it takes no bits of its own */
+    unsigned shift;
+} digits;
+
+static size_t digit_of(const digits *order, uint32_t member) {
+    const int64_t key = order->keys[member];
+    return (size_t)((key < order->rest ? key : order->rest) >> order->shift) % NUM_DIGITS;
+}
+
+/* Members of equal digits stay in their order. */
+static void sort_by_digit(const digits *order, const uint32_t *from, uint32_t *to, size_t num,
+                          size_t *begins) {
+    size_t begin = 0;
+    memset(begins, 0, NUM_DIGITS * sizeof *begins);
     for (size_t i = 0; i < num; i++) {
-        count += i == 0 || keys[i].key != keys[i - 1].key;
+        begins[digit_of(order, from[i])]++;
+    }
+    for (size_t digit = 0; digit < NUM_DIGITS; digit++) {
+        const size_t count = begins[digit];
+        begins[digit] = begin;
+        begin += count;
+    }
+    for (size_t i = 0; i < num; i++) {
+        to[begins[digit_of(order, from[i])]++] = from[i];
+    }
+}
+
+/* Members in ascending order of keys, those of one key in ascending order: comparisons would take
+ * longer, and as much memory again. */
+static pspec_status sort_members(ps_bins *out, const int64_t *keys, int64_t largest,
+                                 ps_error *error) {
+    digits order = {keys, largest + 1, 0};
+    uint32_t *other = NULL;
+    size_t *begins = NULL;
+    pspec_status status = PSPEC_OK;
+    PS_TRY_OUT(status, PS_NEW(&begins, NUM_DIGITS, "bins", error));
+    PS_TRY_OUT(status, PS_NEW(&other, out->num_members, "bins", error));
+    while (order.shift < KEY_BITS && order.rest >> order.shift > 0) {
+        uint32_t *const sorted = other;
+        sort_by_digit(&order, out->members, sorted, out->num_members, begins);
+        other = out->members;
+        out->members = sorted;
+        order.shift += DIGIT_BITS;
+    }
+out:
+    free(other);
+    free(begins);
+    return status;
+}
+
+/* ---- bins ---------------------------------------------------------------------------------- */
+
+static size_t count_bins(const ps_bins *bins, const int64_t *keys) {
+    size_t count = 0;
+    for (size_t i = 0; i < bins->num_members; i++) {
+        count += i == 0 || keys[bins->members[i]] != keys[bins->members[i - 1]];
     }
     return count;
 }
@@ -55,20 +122,30 @@ static void finish_bin(ps_bin *bin, const ps_frequencies *set, const ps_sampled_
         set->kind == PS_FREQUENCIES_DEGREES ? 2 * (uint64_t)bin->key + 1 : 2 * bin->num_frequencies;
 }
 
-static void fill_bins(ps_bins *out, const ps_frequencies *set, const keyed *keys) {
-    const unsigned num_components = ps_frequency_components(set);
+/* Keys become numbers of bins. */
+static void begin_bins(ps_bins *out, int64_t *keys) {
     size_t bin = 0;
     for (size_t i = 0; i < out->num_members; i++) {
-        if (i > 0 && keys[i].key != keys[i - 1].key) {
+        int64_t *const key = &keys[out->members[i]];
+        if (i > 0 && *key != out->bins[bin].key) {
             bin++;
         }
-        ps_bin *at = &out->bins[bin];
+        ps_bin *const at = &out->bins[bin];
         at->begin = at->end == 0 ? i : at->begin;
-        at->key = keys[i].key;
+        at->key = *key;
         at->end = i + 1;
-        out->members[i] = keys[i].index;
-        at->mean_frequency += sqrt((double)ps_frequency_norm2(
-            set->vectors + (size_t)keys[i].index * num_components, num_components));
+        *key = (int64_t)bin;
+    }
+}
+
+/* Frequencies in their order, which is that of every bin, too: the next one is at hand. */
+static void fill_bins(ps_bins *out, const ps_frequencies *set, const int64_t *numbers) {
+    const unsigned num_components = ps_frequency_components(set);
+    for (size_t i = 0; i < set->num; i++) {
+        if (numbers[i] != NO_BIN) {
+            out->bins[numbers[i]].mean_frequency +=
+                sqrt((double)ps_frequency_norm2(set->vectors + i * num_components, num_components));
+        }
     }
     for (size_t i = 0; i < out->num; i++) {
         finish_bin(&out->bins[i], set, set->rings != NULL ? &set->rings[i] : NULL);
@@ -86,22 +163,17 @@ static pspec_status check_rings(const ps_bins *bins, const ps_frequencies *set, 
 }
 
 pspec_status ps_bins_create(ps_bins *out, const ps_frequencies *frequencies, ps_error *error) {
-    keyed *keys = NULL;
+    int64_t *keys = NULL;
     pspec_status status = PSPEC_OK;
-    const unsigned num_components = ps_frequency_components(frequencies);
     *out = (ps_bins){0};
     PS_TRY_OUT(status, PS_NEW(&keys, frequencies->num, "bins", error));
-    for (size_t i = 0; i < frequencies->num; i++) {
-        const int32_t *k = frequencies->vectors + i * num_components;
-        if (ps_frequency_norm2(k, num_components) > 0) {
-            keys[out->num_members++] = (keyed){key_of(frequencies, k), (uint32_t)i};
-        }
-    }
-    qsort(keys, out->num_members, sizeof *keys, compare_keys);
-    out->num = count_bins(keys, out->num_members);
+    PS_TRY_OUT(status, PS_NEW(&out->members, frequencies->num, "bins", error));
+    const int64_t largest = find_keys(out, frequencies, keys);
+    PS_TRY_OUT(status, sort_members(out, keys, largest, error));
+    out->num = count_bins(out, keys);
     PS_TRY_OUT(status, check_rings(out, frequencies, error));
     PS_TRY_OUT(status, PS_NEW(&out->bins, out->num, "bins", error));
-    PS_TRY_OUT(status, PS_NEW(&out->members, out->num_members, "bins", error));
+    begin_bins(out, keys);
     fill_bins(out, frequencies, keys);
 out:
     free(keys);

@@ -160,6 +160,14 @@ static void bins_of_lattices(void **state) {
     }
 }
 
+/* Keys of two and three digits of the sort in bins.c, with corners behind all of them. */
+static void shells_of_large_keys(void **state) {
+    (void)state;
+    check_bins(2, 120, false, &shells);
+    check_bins(2, 120, true, &shells);
+    check_bins(1, 8300, false, &shells);
+}
+
 /* Numbers of lattice points that anyone can look up: r_2(25) = 12, r_2(65) = 16, r_3(9) = 30; rings
  * 1, 2, 3 of the plane have 8, 12 and 16 points by rounding, and 8, 16 and 20 by floor (Gauss's
  * circles of radius 1, 2, 3, 4 have 5, 13, 29 and 49, of which 4, 4, 4 and 4 lie on the last). */
@@ -293,8 +301,9 @@ static void blocks_of_slots(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rings_of_small_norms), cmocka_unit_test(rings_of_large_norms),
-        cmocka_unit_test(bins_of_lattices),     cmocka_unit_test(known_counts),
-        cmocka_unit_test(bins_of_lists),        cmocka_unit_test(blocks_of_slots),
+        cmocka_unit_test(bins_of_lattices),     cmocka_unit_test(shells_of_large_keys),
+        cmocka_unit_test(known_counts),         cmocka_unit_test(bins_of_lists),
+        cmocka_unit_test(blocks_of_slots),
     };
     return cmocka_run_group_tests_name("bins", tests, NULL, NULL);
 }
