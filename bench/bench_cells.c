@@ -1,0 +1,105 @@
+/* Optimised sets of the plane: seconds a set of one core, moves of all points, and times that all
+ * cells were made, from realizations 0, 1, .. of seed 1. cells: one cell of random points each.
+ *
+ *     bench_cells [cells|bnot] [PARAMETER] [N...]       default: each, eps 1, 1024 4096 16384
+ */
+#include "bench.h"
+
+#include "samplers/optimized/bnot.h"
+#include "samplers/optimized/cells.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+enum { MOST_REPEATS = 9, POINTS_IN_ALL = 1 << 16 };
+
+/* Of this program alone: others may be busy. */
+static double cpu_seconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static size_t repeats_of(size_t num) {
+    const size_t repeats = POINTS_IN_ALL / num;
+    return repeats < 1 ? 1 : repeats > MOST_REPEATS ? MOST_REPEATS : repeats;
+}
+
+typedef struct made {
+    double seconds;
+    unsigned moves, tries;
+    double reached; /* what the set was made for */
+} made;
+
+static made make_cells(size_t num, double parameter, double *points) {
+    ps_power_cells cells;
+    static ps_cell cell;
+    double sum = 0;
+    (void)parameter;
+    BENCH_TRY(ps_power_cells_create(&cells, num, points, error));
+    const double begin = cpu_seconds();
+    for (size_t i = 0; i < num; i++) {
+        ps_power_cells_clip(&cells, i, NULL, 0, &cell);
+        sum += ps_polygon_moments(ps_cell_polygon(&cell)).area;
+    }
+    const double seconds = cpu_seconds() - begin;
+    ps_power_cells_destroy(&cells);
+    return (made){seconds, 0, 1, sum};
+}
+
+static made make_bnot(size_t num, double parameter, double *points) {
+    ps_bnot_outcome outcome;
+    const double begin = cpu_seconds();
+    BENCH_TRY(ps_bnot_optimise(num, parameter, NULL, points, NULL, &outcome, error));
+    return (made){cpu_seconds() - begin, outcome.moves, outcome.tries, outcome.capacity};
+}
+
+typedef struct maker {
+    const char *name;
+    made (*make)(size_t num, double parameter, double *points);
+    double parameter;
+    const char *reached;
+} maker;
+
+static const maker makers[] = {{"cells", make_cells, 0, "sum of areas"},
+                               {"bnot", make_bnot, 1, "capacity"}};
+enum { NUM_MAKERS = sizeof makers / sizeof makers[0] };
+
+static void measure(const maker *way, double parameter, size_t num) {
+    double seconds[MOST_REPEATS];
+    const size_t repeats = repeats_of(num);
+    double *const points = calloc(2 * num, sizeof *points);
+    made last = {0};
+    if (points == NULL) {
+        bench_die("no memory for points");
+    }
+    for (size_t r = 0; r < repeats; r++) {
+        ps_random random = ps_random_init(1, PS_STREAM_COORDINATES, r);
+        ps_random_fill_uniform(&random, points, 2 * num);
+        last = way->make(num, parameter, points);
+        seconds[r] = last.seconds;
+    }
+    printf("%-6s %6g %8zu %10.4f s %8u %8u   %s %.6g\n", way->name, parameter, num,
+           bench_median(seconds, repeats), last.moves, last.tries, way->reached, last.reached);
+    free(points);
+}
+
+int main(int argc, char **argv) {
+    static const size_t usual[] = {1024, 4096, 16384};
+    printf("of what parameter  points    a set       moves    tries\n");
+    for (int k = 0; k < NUM_MAKERS; k++) {
+        if (argc > 1 && strcmp(argv[1], makers[k].name) != 0) {
+            continue;
+        }
+        const double parameter = argc > 2 ? strtod(argv[2], NULL) : makers[k].parameter;
+        for (int i = 3; i < argc; i++) {
+            measure(&makers[k], parameter, (size_t)strtoull(argv[i], NULL, 10));
+        }
+        for (unsigned i = 0; argc <= 3 && i < sizeof usual / sizeof usual[0]; i++) {
+            measure(&makers[k], parameter, usual[i]);
+        }
+    }
+    return 0;
+}
