@@ -1,12 +1,15 @@
-/* Optimised sets of the plane: seconds a set of one core, moves of all points, and times that all
- * cells were made, from realizations 0, 1, .. of seed 1. cells: one cell of random points each.
+/* Optimised sets of the plane: seconds a set of one core, moves or passes of all points, and times
+ * that all cells were made, from realizations 0, 1, .. of seed 1. cells: one cell of each random
+ * point.
  *
- *     bench_cells [cells|bnot] [PARAMETER] [N...]       default: each, eps 1, 1024 4096 16384
+ *     bench_cells [cells|bnot|fpo] [PARAMETER] [N...]   default: each, eps 1, distance 0.925,
+ *                                                    1024 4096 16384
  */
 #include "bench.h"
 
 #include "samplers/optimized/bnot.h"
 #include "samplers/optimized/cells.h"
+#include "samplers/optimized/fpo.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -56,6 +59,14 @@ static made make_bnot(size_t num, double parameter, double *points) {
     return (made){cpu_seconds() - begin, outcome.moves, outcome.tries, outcome.capacity};
 }
 
+static made make_fpo(size_t num, double parameter, double *points) {
+    ps_fpo_outcome outcome;
+    ps_random order = ps_random_init(1, PS_STREAM_PERMUTATION, num);
+    const double begin = cpu_seconds();
+    BENCH_TRY(ps_fpo_optimise(num, parameter, &order, NULL, points, &outcome, error));
+    return (made){cpu_seconds() - begin, outcome.passes, 0, outcome.distance};
+}
+
 typedef struct maker {
     const char *name;
     made (*make)(size_t num, double parameter, double *points);
@@ -64,7 +75,8 @@ typedef struct maker {
 } maker;
 
 static const maker makers[] = {{"cells", make_cells, 0, "sum of areas"},
-                               {"bnot", make_bnot, 1, "capacity"}};
+                               {"bnot", make_bnot, 1, "capacity"},
+                               {"fpo", make_fpo, 0.925, "distance"}};
 enum { NUM_MAKERS = sizeof makers / sizeof makers[0] };
 
 static void measure(const maker *way, double parameter, size_t num) {
