@@ -9,10 +9,10 @@
 #include "bench.h"
 
 #include "math/pi.h"
-#include "samplers/optimized/bridson.h"
-#include "samplers/optimized/poisson_disk.h"
-#include "samplers/optimized/radius.h"
-#include "samplers/optimized/sphere_disk.h"
+#include "samplers/darts/bridson.h"
+#include "samplers/darts/poisson_disk.h"
+#include "samplers/darts/radius.h"
+#include "samplers/darts/sphere_disk.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -131,7 +131,7 @@ static pspec_status add_header(const ps_planner *planner, const ps_request *argu
                                          ? limits->figures->note
                                          : "built-in: no device"),
                              error));
-    PS_TRY(ps_table_add_meta(table, "points", PS_INTEGER(problem->num_points), error));
+    PS_TRY(ps_table_add_meta(table, "points", PS_INTEGER(problem->planned_points), error));
     PS_TRY(ps_table_add_meta(table, "realizations",
                              problem->num_realizations > 0 ? PS_INTEGER(problem->num_realizations)
                                                            : PS_TEXT("as many as there are"),

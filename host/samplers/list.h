@@ -14,6 +14,8 @@ extern const ps_sampler ps_sampler_hammersley;
 extern const ps_sampler ps_sampler_larcher_pillichshammer;
 extern const ps_sampler ps_sampler_poisson_disk;
 extern const ps_sampler ps_sampler_bridson;
+extern const ps_sampler ps_sampler_bnot;
+extern const ps_sampler ps_sampler_fpo;
 extern const ps_sampler ps_sampler_white_sphere;
 extern const ps_sampler ps_sampler_zphi;
 extern const ps_sampler ps_sampler_healpix;

@@ -26,15 +26,28 @@ static const ps_sampler *nearest_sampler(const char *name, size_t *distance,
     return nearest;
 }
 
+void ps_sampler_names(ps_text *names) {
+    for (size_t i = 0; ps_samplers[i] != NULL; i++) {
+        ps_text_append(names, "%s%s", i > 0 ? ", " : "", ps_samplers[i]->name);
+    }
+}
+
 static pspec_status find_sampler(ps_sampler_request *request, const char *name, ps_error *error) {
     size_t distance = 0;
     const char *nearest_name = NULL;
     request->sampler = nearest_sampler(name, &distance, &nearest_name);
-    if (distance > 0) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "unknown sampler \"%s\"%s", name,
-                       ps_text_suggest(name, nearest_name, distance, "; did you mean ", "?").text);
+    if (distance == 0) {
+        return PSPEC_OK;
     }
-    return PSPEC_OK;
+    const ps_suggestion suggestion =
+        ps_text_suggest(name, nearest_name, distance, "; did you mean ", "?");
+    ps_text names = {0};
+    ps_sampler_names(&names);
+    const pspec_status status = ps_fail(
+        error, PSPEC_ERROR_INVALID_ARGUMENT, "unknown sampler \"%s\"%s%s %s", name, suggestion.text,
+        suggestion.text[0] != '\0' ? " There are" : "; there are", ps_text_string(&names));
+    ps_text_free(&names);
+    return status;
 }
 
 /* ---- the parameters of many samplers ------------------------------------------------------- */

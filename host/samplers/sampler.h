@@ -14,6 +14,7 @@
 
 #include "base/grammar.h"
 #include "base/status.h"
+#include "base/text.h"
 #include "base/watch.h"
 #include "math/lift.h"
 #include "math/morph.h"
@@ -118,6 +119,9 @@ struct ps_sampler {
 
 /* All samplers, ended by NULL. */
 extern const ps_sampler *const ps_samplers[];
+
+/* Appends the names of all samplers, "white, regular, ...". */
+void ps_sampler_names(ps_text *names);
 
 /* Parses "NAME[:key=value,...]" into request->sampler, ->lift and ->values (defaults filled in).
  * Unknown names and keys are PSPEC_ERROR_INVALID_ARGUMENT and name the nearest known one. */

@@ -13,6 +13,8 @@ const ps_sampler *const ps_samplers[] = {
     &ps_sampler_larcher_pillichshammer,
     &ps_sampler_poisson_disk,
     &ps_sampler_bridson,
+    &ps_sampler_bnot,
+    &ps_sampler_fpo,
     &ps_sampler_white_sphere,
     &ps_sampler_zphi,
     &ps_sampler_healpix,

@@ -14,9 +14,7 @@
 
 static pspec_status fail_without_sampler(ps_error *error) {
     ps_text names = {0};
-    for (size_t i = 0; ps_samplers[i] != NULL; i++) {
-        ps_text_append(&names, "%s%s", i > 0 ? ", " : "", ps_samplers[i]->name);
-    }
+    ps_sampler_names(&names);
     ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "--sampler NAME is needed; there are %s",
             ps_text_string(&names));
     ps_text_free(&names);

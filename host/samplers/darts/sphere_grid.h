@@ -1,7 +1,7 @@
 /* Points of the sphere in cubes of space, found by a hash of the cube.
  */
-#ifndef PS_SAMPLERS_OPTIMIZED_SPHERE_GRID_H
-#define PS_SAMPLERS_OPTIMIZED_SPHERE_GRID_H
+#ifndef PS_SAMPLERS_DARTS_SPHERE_GRID_H
+#define PS_SAMPLERS_DARTS_SPHERE_GRID_H
 
 #include "base/status.h"
 

@@ -1,8 +1,8 @@
 /* The twelve faces of HEALPix as squares [0,1]^2 of equal area (samplers/sphere/healpix_pixels.c
  * has the formulas), by + - * / and sqrt alone: the same bits on every machine.
  */
-#ifndef PS_SAMPLERS_OPTIMIZED_FACE_H
-#define PS_SAMPLERS_OPTIMIZED_FACE_H
+#ifndef PS_SAMPLERS_DARTS_FACE_H
+#define PS_SAMPLERS_DARTS_FACE_H
 
 enum { PS_NUM_FACES = 12 };
 

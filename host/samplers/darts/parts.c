@@ -1,4 +1,4 @@
-#include "samplers/optimized/parts.h"
+#include "samplers/darts/parts.h"
 
 #include "base/memory.h"
 

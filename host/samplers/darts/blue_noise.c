@@ -1,4 +1,4 @@
-#include "samplers/optimized/blue_noise.h"
+#include "samplers/darts/blue_noise.h"
 
 pspec_status ps_blue_noise_tell(const ps_blue_noise *asked, size_t num_points, double expected,
                                 ps_error *error) {

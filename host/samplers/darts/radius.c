@@ -1,6 +1,6 @@
-#include "samplers/optimized/radius.h"
+#include "samplers/darts/radius.h"
 
-#include "samplers/optimized/torus_grid.h"
+#include "samplers/darts/torus_grid.h"
 
 #include <math.h>
 #include <stdint.h>

@@ -2,10 +2,10 @@
  * earlier one, which is given up after so many tries in a row that failed (R. Bridson, "Fast
  * Poisson disk sampling in arbitrary dimensions", 2007). Not maximal: holes are left.
  */
-#ifndef PS_SAMPLERS_OPTIMIZED_BRIDSON_H
-#define PS_SAMPLERS_OPTIMIZED_BRIDSON_H
+#ifndef PS_SAMPLERS_DARTS_BRIDSON_H
+#define PS_SAMPLERS_DARTS_BRIDSON_H
 
-#include "samplers/optimized/blue_noise.h"
+#include "samplers/darts/blue_noise.h"
 
 /* Are radius and tries possible? */
 pspec_status ps_bridson_check(const ps_blue_noise *asked, ps_error *error) PS_MUST_CHECK;

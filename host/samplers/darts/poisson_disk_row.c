@@ -1,8 +1,8 @@
 #include "samplers/list.h"
 
-#include "samplers/optimized/distance.h"
-#include "samplers/optimized/poisson_disk.h"
-#include "samplers/optimized/radius.h"
+#include "samplers/darts/distance.h"
+#include "samplers/darts/poisson_disk.h"
+#include "samplers/darts/radius.h"
 #include "samplers/values.h"
 
 enum { CUBE = 3 };

@@ -1,7 +1,7 @@
 #include "samplers/list.h"
 
-#include "samplers/optimized/distance.h"
-#include "samplers/optimized/sphere_disk.h"
+#include "samplers/darts/distance.h"
+#include "samplers/darts/sphere_disk.h"
 #include "samplers/values.h"
 
 static double radius(const ps_blue_noise *asked, size_t num_points) {

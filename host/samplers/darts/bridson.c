@@ -1,8 +1,8 @@
-#include "samplers/optimized/bridson.h"
+#include "samplers/darts/bridson.h"
 
 #include "base/memory.h"
-#include "samplers/optimized/radius.h"
-#include "samplers/optimized/torus_grid.h"
+#include "samplers/darts/radius.h"
+#include "samplers/darts/torus_grid.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* What samplers that keep a least distance are asked for, and what they tell while they work.
  */
-#ifndef PS_SAMPLERS_OPTIMIZED_BLUE_NOISE_H
-#define PS_SAMPLERS_OPTIMIZED_BLUE_NOISE_H
+#ifndef PS_SAMPLERS_DARTS_BLUE_NOISE_H
+#define PS_SAMPLERS_DARTS_BLUE_NOISE_H
 
 #include "base/status.h"
 #include "base/watch.h"

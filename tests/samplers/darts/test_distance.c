@@ -4,9 +4,9 @@
 
 #include <stdio.h>
 
-#include "samplers/optimized/bridson.h"
-#include "samplers/optimized/poisson_disk.h"
-#include "samplers/optimized/sphere_disk.h"
+#include "samplers/darts/bridson.h"
+#include "samplers/darts/poisson_disk.h"
+#include "samplers/darts/sphere_disk.h"
 
 static const char *const NAMES[] = {"poisson-disk", "bridson", "poisson-disk-sphere"};
 enum { NUM_NAMES = sizeof NAMES / sizeof NAMES[0] };

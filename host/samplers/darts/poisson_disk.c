@@ -1,10 +1,10 @@
 /* The torus as a space of cells with one point at most (parts.h). */
-#include "samplers/optimized/poisson_disk.h"
+#include "samplers/darts/poisson_disk.h"
 
 #include "base/memory.h"
-#include "samplers/optimized/parts.h"
-#include "samplers/optimized/radius.h"
-#include "samplers/optimized/torus_grid.h"
+#include "samplers/darts/parts.h"
+#include "samplers/darts/radius.h"
+#include "samplers/darts/torus_grid.h"
 
 #include <stdlib.h>
 

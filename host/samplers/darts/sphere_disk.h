@@ -1,10 +1,10 @@
-/* Maximal Poisson disk points of the sphere: as samplers/optimized/poisson_disk.h on the torus, by
+/* Maximal Poisson disk points of the sphere: as samplers/darts/poisson_disk.h on the torus, by
  * squares of the faces of HEALPix, which have equal areas.
  */
-#ifndef PS_SAMPLERS_OPTIMIZED_SPHERE_DISK_H
-#define PS_SAMPLERS_OPTIMIZED_SPHERE_DISK_H
+#ifndef PS_SAMPLERS_DARTS_SPHERE_DISK_H
+#define PS_SAMPLERS_DARTS_SPHERE_DISK_H
 
-#include "samplers/optimized/blue_noise.h"
+#include "samplers/darts/blue_noise.h"
 
 /* In radians. Up to here two points always find room, and between here and pi their straight
  * distance says less and less of their angle. */

@@ -1,4 +1,4 @@
-#include "samplers/optimized/face.h"
+#include "samplers/darts/face.h"
 
 #include "math/pi.h"
 

@@ -1,10 +1,10 @@
-#include "samplers/optimized/sphere_disk.h"
+#include "samplers/darts/sphere_disk.h"
 
 #include "base/memory.h"
 #include "math/pi.h"
-#include "samplers/optimized/face.h"
-#include "samplers/optimized/parts.h"
-#include "samplers/optimized/sphere_grid.h"
+#include "samplers/darts/face.h"
+#include "samplers/darts/parts.h"
+#include "samplers/darts/sphere_grid.h"
 
 #include <math.h>
 

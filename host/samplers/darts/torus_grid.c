@@ -1,4 +1,4 @@
-#include "samplers/optimized/torus_grid.h"
+#include "samplers/darts/torus_grid.h"
 
 #include "base/memory.h"
 

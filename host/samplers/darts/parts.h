@@ -6,10 +6,10 @@
  * inside one disk dropped. What is left out is covered, so an accepted point is distributed as by
  * plain dart throwing.
  */
-#ifndef PS_SAMPLERS_OPTIMIZED_PARTS_H
-#define PS_SAMPLERS_OPTIMIZED_PARTS_H
+#ifndef PS_SAMPLERS_DARTS_PARTS_H
+#define PS_SAMPLERS_DARTS_PARTS_H
 
-#include "samplers/optimized/blue_noise.h"
+#include "samplers/darts/blue_noise.h"
 
 #include <stdbool.h>
 #include <stdint.h>

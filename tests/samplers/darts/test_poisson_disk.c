@@ -1,7 +1,7 @@
 /* Maximal Poisson disk points: distances, saturation, the law of dart throwing, numbers, power. */
 #include "test_blue_noise.h"
 
-#include "samplers/optimized/poisson_disk.h"
+#include "samplers/darts/poisson_disk.h"
 
 static const double SIGMAS = 4;
 

@@ -1,8 +1,8 @@
 /* Points of the torus in cells so small that each holds one of them at most, for the question
  * whether a place is at least a radius away from all of them.
  */
-#ifndef PS_SAMPLERS_OPTIMIZED_TORUS_GRID_H
-#define PS_SAMPLERS_OPTIMIZED_TORUS_GRID_H
+#ifndef PS_SAMPLERS_DARTS_TORUS_GRID_H
+#define PS_SAMPLERS_DARTS_TORUS_GRID_H
 
 #include "base/status.h"
 

@@ -1,4 +1,4 @@
-#include "samplers/optimized/sphere_grid.h"
+#include "samplers/darts/sphere_grid.h"
 
 #include "base/memory.h"
 

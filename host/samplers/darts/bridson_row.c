@@ -1,9 +1,9 @@
 #include "samplers/list.h"
 
-#include "samplers/optimized/bridson.h"
-#include "samplers/optimized/distance.h"
-#include "samplers/optimized/radius.h"
-#include "samplers/optimized/torus_grid.h"
+#include "samplers/darts/bridson.h"
+#include "samplers/darts/distance.h"
+#include "samplers/darts/radius.h"
+#include "samplers/darts/torus_grid.h"
 #include "samplers/values.h"
 
 static double radius(const ps_blue_noise *asked, size_t num_points) {

@@ -1,10 +1,10 @@
 /* Requests of samplers that keep a least distance: what their parameters radius=, exact= and tries=
  * say, how many points there will be, and sets of an exact number.
  */
-#ifndef PS_SAMPLERS_OPTIMIZED_DISTANCE_H
-#define PS_SAMPLERS_OPTIMIZED_DISTANCE_H
+#ifndef PS_SAMPLERS_DARTS_DISTANCE_H
+#define PS_SAMPLERS_DARTS_DISTANCE_H
 
-#include "samplers/optimized/blue_noise.h"
+#include "samplers/darts/blue_noise.h"
 #include "samplers/sampler.h"
 
 /* What such a sampler is besides its row. asked has the dimension and the tries. */

@@ -16,8 +16,8 @@
 
 #include "files/digest.h"
 #include "math/pi.h"
-#include "samplers/optimized/blue_noise.h"
-#include "samplers/optimized/radius.h"
+#include "samplers/darts/blue_noise.h"
+#include "samplers/darts/radius.h"
 
 typedef pspec_status test_maker(const ps_blue_noise *, ps_random *, double *, size_t *, ps_error *);
 

@@ -2,8 +2,8 @@
 #include "test_blue_noise.h"
 
 #include "math/unit_vector.h"
-#include "samplers/optimized/face.h"
-#include "samplers/optimized/sphere_disk.h"
+#include "samplers/darts/face.h"
+#include "samplers/darts/sphere_disk.h"
 
 static const double SIGMAS = 4;
 enum { VECTOR = 3 };

@@ -1,6 +1,6 @@
 /* Least distances of points on the torus: from numbers of points and back. */
-#ifndef PS_SAMPLERS_OPTIMIZED_RADIUS_H
-#define PS_SAMPLERS_OPTIMIZED_RADIUS_H
+#ifndef PS_SAMPLERS_DARTS_RADIUS_H
+#define PS_SAMPLERS_DARTS_RADIUS_H
 
 #include "base/status.h"
 

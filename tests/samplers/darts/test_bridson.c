@@ -1,7 +1,7 @@
 /* Bridson's points: distances, neighbours, numbers, power, bits. */
 #include "test_blue_noise.h"
 
-#include "samplers/optimized/bridson.h"
+#include "samplers/darts/bridson.h"
 
 static const double SIGMAS = 4;
 

@@ -1,4 +1,4 @@
-#include "samplers/optimized/distance.h"
+#include "samplers/darts/distance.h"
 
 #include "base/memory.h"
 #include "base/text.h"

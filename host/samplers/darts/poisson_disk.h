@@ -3,10 +3,10 @@
  * plain dart throwing to saturation (M. S. Ebeida et al., "A simple algorithm for maximal
  * Poisson-disk sampling in high dimensions", 2012).
  */
-#ifndef PS_SAMPLERS_OPTIMIZED_POISSON_DISK_H
-#define PS_SAMPLERS_OPTIMIZED_POISSON_DISK_H
+#ifndef PS_SAMPLERS_DARTS_POISSON_DISK_H
+#define PS_SAMPLERS_DARTS_POISSON_DISK_H
 
-#include "samplers/optimized/blue_noise.h"
+#include "samplers/darts/blue_noise.h"
 
 /* Is the radius possible? */
 pspec_status ps_poisson_disk_check(const ps_blue_noise *asked, ps_error *error) PS_MUST_CHECK;
