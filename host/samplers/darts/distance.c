@@ -17,6 +17,11 @@ static const double SETS_PER_ROOT = 12;
 static const double SETS_PER_HIT = 0.6;
 static const double LEAST_SETS = 100;
 
+/* Eight times the spread of N, in units of sqrt(N), and two points, which small sets go beyond it:
+ * what is farther from the mean never comes. */
+static const double MOST_AWAY_PER_ROOT = 2;
+static const double MOST_AWAY = 2;
+
 /* ---- parameters ---------------------------------------------------------------------------- */
 
 static bool has_radius(const ps_sampler_request *request) {
@@ -91,16 +96,20 @@ pspec_status ps_distance_check(const ps_distance_kind *kind, const ps_sampler_re
                                ps_error *error) {
     ps_blue_noise asked;
     PS_TRY(read_request(kind, request, &asked, error));
-    if (has_radius(request) && !is_exact(request) &&
-        mean_number(kind, request, &asked) != request->num_points) {
-        return ps_fail(
-            error, PSPEC_ERROR_INVALID_ARGUMENT,
-            "sampler %s: radius=%s makes about %zu points, but %zu were asked for; leave "
-            "one of the two away, or say exact=yes",
-            request->sampler->name, request->values[RADIUS], mean_number(kind, request, &asked),
-            request->num_points);
+    if (!has_radius(request)) {
+        return PSPEC_OK;
     }
-    return PSPEC_OK;
+    const size_t mean = mean_number(kind, request, &asked);
+    const double away = fabs((double)mean - (double)request->num_points);
+    const double most_away = MOST_AWAY + MOST_AWAY_PER_ROOT * sqrt((double)mean);
+    return away <= (is_exact(request) ? most_away : 0)
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "sampler %s: radius=%s makes about %zu points, but %zu were asked for; "
+                         "leave one of the two away%s",
+                         request->sampler->name, request->values[RADIUS], mean, request->num_points,
+                         is_exact(request) ? ", for no set is so far from it"
+                                           : ", or say exact=yes");
 }
 
 /* ---- what it takes ------------------------------------------------------------------------- */

@@ -153,6 +153,7 @@ static void wrong_requests_are_explained(void **state) {
     assert_refused("poisson-disk:radius=0.8", 0, 2, "at most 0.707107");
     assert_refused("poisson-disk:radius=1e-300", 0, 2, "more than 2^32");
     assert_refused("poisson-disk:radius=1e-300", 5, 3, "more than 2^32");
+    assert_refused("poisson-disk:radius=0.0001,exact=yes", 2, 2, "for no set is so far from it");
     assert_refused("poisson-disk:exact=maybe", 5, 2, "exact=maybe is not one of no, yes");
     assert_refused("poisson-disk", (size_t)1 << 32, 2, "more than 2^32");
     assert_refused("poisson-disk:radius=0.1", 0, 4, "dimension 4 is not between 2 and 3");
