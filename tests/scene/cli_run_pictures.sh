@@ -42,7 +42,16 @@ PATH=$PWD/none runs 0 many.yaml -o early
 head -n 1 err | grep -q 'plots need the program gnuplot' || complain "gnuplot is not looked for before the work: $(<err)"
 PATH=$whole
 
+# Numbers of points that change from realization to realization: a picture as of others.
+cat >varying.yaml <<'SCENE'
+scene: 1
+results:
+  - {result: power, name: disks, samplers: [poisson-disk], points: 64, realizations: 3, max-frequency: 8, pictures: true}
+SCENE
+
 if command -v gnuplot >/dev/null; then
+    runs 0 varying.yaml -o varying
+    [[ -s varying/disks.svg && -s varying/disks-picture-1.svg ]] || complain "no picture: $(ls varying)"
     runs 0 many.yaml -o many
     grep -q 'rules-d2-1.svg: 10 curves are too many for one frame: 2 panels, one for each of weights' err ||
         complain "panels are not said: $(<err)"

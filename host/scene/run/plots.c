@@ -3,12 +3,24 @@
 
 #include <math.h>
 
+/* sqrt(N), of the mean N where sets differ: what frequencies are divided by. NAN without rows. */
+static double frequency_unit(const ps_table *table) {
+    size_t frequency = 0;
+    size_t normalized = 0;
+    return ps_table_find_column(table, "frequency", &frequency) &&
+                   ps_table_find_column(table, "normalized_frequency", &normalized) &&
+                   ps_table_num_rows(table) > 0
+               ? ps_cell_number(ps_table_cell(table, 0, frequency)) /
+                     ps_cell_number(ps_table_cell(table, 0, normalized))
+               : NAN;
+}
+
 /* Where the array was wanted and is there. */
 static pspec_status draw_image(const ps_artist *artist, const ps_picture *what) {
     const ps_answer *const answer = &artist->result->questions[what->curves[0]].answer;
-    const double points = ps_cell_number(ps_table_find_meta(answer->table, "points"));
-    const ps_plot_image image = {answer->shape[0], answer->array, sqrt(points)};
-    return answer->rank == 2 && !answer->is_complex && points > 0
+    const double unit = frequency_unit(answer->table);
+    const ps_plot_image image = {answer->shape[0], answer->array, unit};
+    return answer->rank == 2 && !answer->is_complex && unit > 0
                ? ps_draw_curves(artist, what, &image)
                : PSPEC_OK;
 }
