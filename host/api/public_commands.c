@@ -62,6 +62,7 @@ pspec_status pspec_plan_table(pspec_table **out, pspec_context *context, const c
 pspec_status pspec_devices(pspec_table **out, pspec_context *context) {
     static const ps_task task = {.name = "devices", .taker = PS_TAKER_BIT(devices)};
     ps_public_words words;
+    ps_text why_none = {0};
     ps_answer made = {0};
     if (out == NULL || context == NULL) {
         return PSPEC_ERROR_INVALID_ARGUMENT;
@@ -70,9 +71,13 @@ pspec_status pspec_devices(pspec_table **out, pspec_context *context) {
     *out = NULL;
     pspec_status status = ps_public_words_make(&words, context, "", &task, NULL, 0);
     if (status == PSPEC_OK) {
-        const ps_answer_hooks hooks = ps_public_hooks(context);
-        status = ps_devices_tabulate(&made.table, &words.request, &hooks, error);
+        status = ps_devices_tabulate(&made.table, &why_none, &words.request, error);
     }
+    if (status == PSPEC_OK && why_none.length > 0) {
+        const ps_answer_hooks hooks = ps_public_hooks(context);
+        ps_answer_warn(&hooks, "%s", ps_text_string(&why_none));
+    }
+    ps_text_free(&why_none);
     ps_public_words_free(&words);
     return give(out, &made, status, error);
 }

@@ -57,17 +57,17 @@ static pspec_status add_device(ps_table *table, const ps_device_limits *limits, 
     return ps_table_add_row(table, cells, error);
 }
 
-/* None is a list, too: why is said, and the table is empty. */
-static pspec_status list_devices(ps_device_limits **limits, size_t *num_devices,
-                                 const ps_answer_hooks *hooks, ps_error *error) {
+/* None is a list, too, and the table is empty. */
+static pspec_status list_devices(ps_device_limits **limits, size_t *num_devices, ps_text *why_none,
+                                 ps_error *error) {
     const pspec_status status = ps_device_list(limits, num_devices, error);
     if (status != PSPEC_ERROR_NO_DEVICE) {
         return status;
     }
-    ps_answer_warn(hooks, "%s", error->message);
+    ps_text_append(why_none, "%s", error->message);
     *error = (ps_error){0};
     *num_devices = 0;
-    return PSPEC_OK;
+    return ps_text_check(why_none, error);
 }
 
 static pspec_status add_facts(ps_table *table, const ps_request *request, ps_error *error) {
@@ -82,13 +82,13 @@ static pspec_status add_header(ps_table *table, const ps_request *request,
     return ps_table_add_meta(table, "device", PS_TEXT(chosen->name), error);
 }
 
-static pspec_status fill_table(ps_table *table, const ps_request *request,
-                               const ps_answer_hooks *hooks, ps_error *error) {
+static pspec_status fill_table(ps_table *table, ps_text *why_none, const ps_request *request,
+                               ps_error *error) {
     ps_device_limits *limits = NULL;
     size_t num_devices = 0;
     size_t chosen = 0;
     pspec_status status = PSPEC_OK;
-    PS_TRY(list_devices(&limits, &num_devices, hooks, error));
+    PS_TRY(list_devices(&limits, &num_devices, why_none, error));
     if (num_devices == 0) {
         return add_facts(table, request, error);
     }
@@ -104,11 +104,11 @@ out:
     return status;
 }
 
-pspec_status ps_devices_tabulate(ps_table **out, const ps_request *request,
-                                 const ps_answer_hooks *hooks, ps_error *error) {
+pspec_status ps_devices_tabulate(ps_table **out, ps_text *why_none, const ps_request *request,
+                                 ps_error *error) {
     PS_TRY(ps_table_create(out, "devices", columns, NUM_COLUMNS, error));
     ps_table_set_blocks(*out);
-    const pspec_status status = fill_table(*out, request, hooks, error);
+    const pspec_status status = fill_table(*out, why_none, request, error);
     if (status != PSPEC_OK) {
         ps_table_destroy(*out);
         *out = NULL;

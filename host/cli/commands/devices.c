@@ -13,8 +13,15 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
                        arguments->files[0]);
     }
     PS_TRY(ps_table_choose_format(&format, arguments->format, arguments->output, error));
-    PS_TRY(ps_devices_tabulate(&table, arguments, &hooks, error));
-    const pspec_status status = ps_table_write(table, arguments->output, format, error);
+    ps_text why_none = {0};
+    pspec_status status = ps_devices_tabulate(&table, &why_none, arguments, error);
+    if (status == PSPEC_OK) {
+        status = ps_table_write(table, arguments->output, format, error);
+    }
+    if (status == PSPEC_OK && why_none.length > 0) {
+        ps_answer_warn(&hooks, "%s", ps_text_string(&why_none));
+    }
+    ps_text_free(&why_none);
     ps_table_destroy(table);
     return status;
 }
