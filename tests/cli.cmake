@@ -23,6 +23,7 @@ if(NOT POINTSPEC_SANITIZE)
   add_program_test(cli_signals)   # every long command ends within a second of a signal, and leaves nothing
   add_program_test(cli_memory)    # limits of memory, streams without an end, records
 endif()
+add_program_test(cli_kept_sets) # sets that are kept: same points, --prefetch, damage, no room
 add_program_test(cli_full)      # arrays of --full, DC and its standard error
 add_program_test(cli_different_points) # sets of different N, normalizations, what was saved before
 add_program_test(cli_empty_axis) # points of a smaller box

@@ -188,16 +188,19 @@ void ps_text_keep_nearest(const char *name, const char *known, const char **near
 
 ps_suggestion ps_text_suggest(const char *typed, const char *known, size_t distance,
                               const char *before, const char *after) {
-    /* A slip changes one letter, or two in five of a longer name, so that "powre" is near "power";
-     * and a name may be cut short, to no less than two letters. */
-    enum { SLIP = 1, CHANGED = 2, LETTERS = 5, LEAST_BEGINNING = 2 };
+    /* A slip changes one letter, or two in five of a longer name, so that "powre" is near "power",
+     * and three at most, so that "bluenoise" is not near "whitenoise"; and a name may be cut short,
+     * to no less than two letters. */
+    enum { SLIP = 1, CHANGED = 2, LETTERS = 5, MOST_CHANGED = 3, LEAST_BEGINNING = 2 };
     ps_suggestion out = {""};
     const size_t typed_length = strlen(typed);
     const size_t known_length = strlen(known);
     const size_t length = typed_length > known_length ? typed_length : known_length;
     const bool is_beginning =
         typed_length >= LEAST_BEGINNING && strncmp(typed, known, typed_length) == 0;
-    if (distance <= SLIP || distance * LETTERS <= length * CHANGED || is_beginning) {
+    const bool is_slip =
+        distance <= SLIP || (distance <= MOST_CHANGED && distance * LETTERS <= length * CHANGED);
+    if (is_slip || is_beginning) {
         snprintf(out.text, sizeof out.text, "%s%s%s", before, known, after);
     }
     return out;

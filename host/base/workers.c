@@ -1,8 +1,7 @@
 #include "base/workers.h"
 
-#include <pthread.h>
-#include <signal.h>
-#include <stdbool.h>
+#include "base/thread.h"
+
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -48,22 +47,15 @@ static void *work(void *argument) {
     return NULL;
 }
 
-/* Signals that a handler of the caller waits for must not end up in a thread that goes on working.
- */
 static void start_threads(ps_workers *workers, unsigned wanted) {
-    sigset_t all;
-    sigset_t kept;
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &kept);
     for (unsigned i = 0; i < wanted; i++) {
         worker *const self = &workers->threads[i];
         *self = (worker){.workers = workers, .index = i + 1};
-        if (pthread_create(&self->thread, NULL, work, self) != 0) {
+        if (!ps_thread_begin(&self->thread, work, self)) {
             break;
         }
         workers->num_threads++;
     }
-    pthread_sigmask(SIG_SETMASK, &kept, NULL);
 }
 
 static unsigned count_processors(unsigned most_threads) {

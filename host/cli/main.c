@@ -70,7 +70,9 @@ static void trust_cache(const ps_command *command, ps_request *arguments, const 
     ps_error reason = {0};
     if (ps_cache_check_folder(folder, &reason) == PSPEC_OK) {
         arguments->limits.cache_folder = folder;
-    } else if (ps_command_takes(command, PS_OPTION_DEVICE) && !arguments->quiet) {
+    } else if ((ps_command_takes(command, PS_OPTION_DEVICE) ||
+                ps_command_takes(command, PS_OPTION_KEPT_SETS)) &&
+               !arguments->quiet) {
         fprintf(stderr, "pointspec: no cache: %s\n", reason.message);
     }
 }

@@ -249,6 +249,14 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                          .help = "what the cache of results may take on the disk; 0: nothing is "
                                  "taken from it or kept (default 1e9)",
                          COUNT(cache_bytes), .minimum = 0, .maximum = INT64_MAX},
+    [PS_OPTION_KEPT_SETS] = {NAMED("kept-sets", 0, "BYTES"), OF(0, SETS | BIT(sample) | BIT(run)),
+                             .help = "what sets of samplers that take long to make may take on the "
+                                     "disk; 0: they are made anew (default 4e9)",
+                             COUNT(limits.kept_bytes), .minimum = 0, .maximum = INT64_MAX},
+    [PS_OPTION_PREFETCH] = {NAMED("prefetch", 0, NULL), OF(0, BIT(sample)),
+                            .help = "write no points: make those that are not kept yet, and keep "
+                                    "them",
+                            FLAG(prefetch)},
     [PS_OPTION_RECORDED_ENGINES] = {NAMED("recorded-engines", 0, NULL), OF(0, BIT(run)),
                                     .help = "answer the questions of a record by the engines, and "
                                             "in the precisions, that it names",

@@ -68,6 +68,8 @@ typedef enum ps_option_id {
     PS_OPTION_DEVICE,            /* --device SELECTOR */
     PS_OPTION_MEMORY,            /* --memory SIZE */
     PS_OPTION_CACHE,             /* --cache BYTES */
+    PS_OPTION_KEPT_SETS,         /* --kept-sets BYTES */
+    PS_OPTION_PREFETCH,          /* --prefetch */
     PS_OPTION_RECORDED_ENGINES,  /* --recorded-engines */
     PS_OPTION_NO_SKIP,           /* --no-skip */
     PS_OPTION_NO_SELF_CHECK,     /* --no-self-check */
@@ -110,8 +112,9 @@ typedef struct ps_request {
     ps_limits_spec limits;
     bool is_memory_of_environment; /* it stands in POINTSPEC_MEMORY */
     uint64_t cache_bytes;          /* 1e9 unless given */
-    const char *against;           /* NULL unless given */
-    double false_alarm_rate;       /* 1e-3 unless given */
+    bool prefetch;
+    const char *against;     /* NULL unless given */
+    double false_alarm_rate; /* 1e-3 unless given */
     const char *brdf, *coefficients, *harmonics, *full, *weights_out, *to_columns, *case_name,
         *output, *format, *plot; /* NULL unless given */
     /* How point files are read. What is of samplers or engines, too (dimension, number of points,

@@ -227,8 +227,9 @@ pspec_status ps_plan_table_add_sample(ps_planner *planner, const ps_request *req
     }
     PS_TRY(ps_sampler_request_make(&sampler, request, 0, error));
     const double sets = (double)request->num_realizations;
+    const ps_sets_options kept = ps_source_sets(&request->limits, request->accuracy.no_skip);
     ps_phases_start(&phases, NULL);
-    ps_phases_sample(&phases, &sampler, sets);
+    ps_phases_sample(&phases, &sampler, sets, &kept.place);
     ps_phases_touch(&phases, (double)sampler.num_points * sampler.dimension * sizeof(double));
     ps_phases_write(&phases, request->output != NULL ? request->output : "-", request->format,
                     sets * (double)sampler.num_points * sampler.dimension);

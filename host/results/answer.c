@@ -38,6 +38,12 @@ void ps_answer_warn(const ps_answer_hooks *hooks, const char *format, ...) {
     va_end(arguments);
 }
 
+void ps_answer_warn_of(const ps_answer_hooks *hooks, const char *sentence) {
+    if (sentence[0] != '\0') {
+        ps_answer_warn(hooks, "%s", sentence);
+    }
+}
+
 void ps_answer_tell_missing(const ps_answer_hooks *hooks, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);

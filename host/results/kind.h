@@ -47,6 +47,8 @@ void ps_answer_end(const ps_answer_hooks *hooks);
 bool ps_answer_is_interrupted(const ps_answer_hooks *hooks);
 /* Calls the hook `warn` with a sentence, if there is somebody to hear it. */
 void ps_answer_warn(const ps_answer_hooks *hooks, const char *format, ...) PS_PRINTF(2, 3);
+/* The same with a sentence that may be empty: then nobody hears it. */
+void ps_answer_warn_of(const ps_answer_hooks *hooks, const char *sentence);
 void ps_answer_tell_missing(const ps_answer_hooks *hooks, const char *format, ...) PS_PRINTF(2, 3);
 
 enum { PS_ANSWER_RANK = PS_MAX_TORUS_DIMENSION + 1 };

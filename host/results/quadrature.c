@@ -72,6 +72,7 @@ static pspec_status run_one(ps_quadrature_result *result, ps_quadrature_question
     }
     question->tell_plan = hooks->tell_plan;
     question->tell_profile = hooks->tell_profile;
+    question->tell_trouble = hooks->warn;
     question->payload = hooks->payload;
     ps_answer_begin_next(hooks);
     PS_TRY(ps_quadrature_run(result, question, error));

@@ -62,6 +62,7 @@ pspec_status ps_spectra_run_one(ps_power_job **job, ps_power_question *question,
     }
     PS_TRY(ps_power_job_run(*job, error));
     warn_of_standard_error(*job, question->accuracy.standard_error, hooks);
+    ps_answer_warn_of(hooks, ps_power_job_trouble(*job));
     if (hooks->tell_profile != NULL) {
         size_t num_rows = 0;
         const ps_profile_row *const rows = ps_power_job_profile(*job, &num_rows);

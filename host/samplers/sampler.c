@@ -7,6 +7,8 @@
 #include "samplers/pace.h"
 #include "samplers/values.h"
 
+#include <inttypes.h>
+
 /* Indices, and sums of an index and a 53-bit offset, stay far inside the doubles; 2^40 points of
  * the plane are 16 TiB. */
 static const uint64_t MAXIMUM_POINTS = (uint64_t)1 << 40;
@@ -34,6 +36,10 @@ static ps_sampler_request own_request(const ps_sampler_request *request) {
         own.dimension = PLANE;
     }
     return own;
+}
+
+unsigned ps_sampler_own_dimension(const ps_sampler_request *request) {
+    return own_request(request).dimension;
 }
 
 size_t ps_sampler_most_points(const ps_sampler_request *request) {
@@ -188,33 +194,52 @@ static pspec_status homogenize_points(const ps_sampler_request *request, uint64_
                                             : shift_points(request, realization, points, error);
 }
 
-/* The points of the sampler itself; their number is left in the request. */
-static pspec_status generate_own(ps_sampler_request *request, uint64_t realization, double *points,
-                                 ps_error *error) {
-    const ps_sampler_request own = own_request(request);
+pspec_status ps_sampler_make(const ps_sampler_request *request, uint64_t realization,
+                             double *points, size_t *num_points, const ps_watch *watch,
+                             ps_error *error) {
+    ps_sampler_request own = own_request(request);
+    own.watch = watch;
+    *num_points = own.num_points;
     return own.sampler->generate != NULL
                ? own.sampler->generate(&own, realization, points, error)
-               : own.sampler->generate_some(&own, realization, points, &request->num_points, error);
+               : own.sampler->generate_some(&own, realization, points, num_points, error);
+}
+
+pspec_status ps_sampler_place(const ps_sampler_request *request, uint64_t realization,
+                              double *points, size_t num_points, const ps_watch *watch,
+                              ps_error *error) {
+    ps_sampler_request whole = *request;
+    whole.watch = watch;
+    whole.num_points = num_points;
+    if (request->lift != PS_SAMPLES_TORUS) {
+        PS_TRY(ps_sampler_lift(&whole, request->lift == PS_SAMPLES_HEMISPHERE, points, error));
+    }
+    PS_TRY(homogenize_points(&whole, realization, points, error));
+    return ps_sampler_is_on_hemisphere(request) && request->morph.kind != PS_MORPH_NONE
+               ? ps_sampler_pieces(&whole, "sampler: points morphed", morph, &request->morph,
+                                   points, error)
+               : PSPEC_OK;
 }
 
 pspec_status ps_sampler_generate(const ps_sampler_request *request, uint64_t realization,
                                  double *points, size_t *num_points, const ps_watch *watch,
                                  ps_error *error) {
-    ps_sampler_request whole = *request;
-    whole.watch = watch;
-    PS_TRY(generate_own(&whole, realization, points, error));
+    size_t num = 0;
+    PS_TRY(ps_sampler_make(request, realization, points, &num, watch, error));
     if (num_points != NULL) {
-        *num_points = whole.num_points;
+        *num_points = num;
     }
-    if (request->lift != PS_SAMPLES_TORUS) {
-        PS_TRY(ps_sampler_lift(&whole, request->lift == PS_SAMPLES_HEMISPHERE, points, error));
+    return ps_sampler_place(request, realization, points, num, watch, error);
+}
+
+void ps_sampler_identify(const ps_sampler_request *request, ps_text *out) {
+    const ps_sampler_request own = own_request(request);
+    ps_text_append(out, "%s, version %u\npoints %zu\ndimension %u\nseed %" PRIu64 "\n",
+                   own.sampler->name, own.sampler->version, own.num_points, own.dimension,
+                   own.seed);
+    for (size_t i = 0; own.sampler->parameters[i].key != NULL; i++) {
+        ps_text_append(out, "%s=%s\n", own.sampler->parameters[i].key, own.values[i]);
     }
-    PS_TRY(homogenize_points(&whole, realization, points, error));
-    if (ps_sampler_is_on_hemisphere(request) && request->morph.kind != PS_MORPH_NONE) {
-        PS_TRY(ps_sampler_pieces(&whole, "sampler: points morphed", morph, &request->morph, points,
-                                 error));
-    }
-    return PSPEC_OK;
 }
 
 const char *ps_sampler_note(const ps_sampler_request *request) {

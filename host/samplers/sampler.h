@@ -92,6 +92,10 @@ struct ps_sampler {
     double nanoseconds;
     double (*seconds)(const ps_sampler_request *);
 
+    /* Of the algorithm, raised by whoever changes the bits of a set, where sets are dear enough to
+     * be kept on the disk; 0: they are made anew in less time. */
+    unsigned version;
+
     /* Where the number of points changes from realization to realization, about the request's; the
      * member may be NULL: never. */
     bool (*varies)(const ps_sampler_request *);
@@ -143,6 +147,20 @@ pspec_status ps_sampler_check(const ps_sampler_request *request, ps_error *error
 pspec_status ps_sampler_generate(const ps_sampler_request *request, uint64_t realization,
                                  double *points, size_t *num_points, const ps_watch *watch,
                                  ps_error *error) PS_MUST_CHECK;
+
+/* The two halves of it: the sampler's own points, which are the same whatever lift, homogenize and
+ * morph say, with room for points of the request's dimension; and what becomes of these. */
+pspec_status ps_sampler_make(const ps_sampler_request *request, uint64_t realization,
+                             double *points, size_t *num_points, const ps_watch *watch,
+                             ps_error *error) PS_MUST_CHECK;
+pspec_status ps_sampler_place(const ps_sampler_request *request, uint64_t realization,
+                              double *points, size_t num_points, const ps_watch *watch,
+                              ps_error *error) PS_MUST_CHECK;
+/* Appends all that the sampler's own points depend on, but for the realization: name, version,
+ * number of points, dimension, seed, parameters. */
+void ps_sampler_identify(const ps_sampler_request *request, ps_text *out);
+/* Numbers of one of the sampler's own points, before a lift. */
+unsigned ps_sampler_own_dimension(const ps_sampler_request *request);
 
 /* Room that a realization needs, in points: those of the request unless their number varies. */
 size_t ps_sampler_most_points(const ps_sampler_request *request);

@@ -16,7 +16,13 @@ struct ps_cache {
     char *directory;
     uint64_t max_bytes;
     atomic_flag has_failed;
+    atomic_uint num_broken;
+    atomic_uint_least64_t unsurveyed; /* bytes put since all files were counted */
 };
+
+/* Files of a folder are counted again when this handle has put so much of the limit: with 200,000
+ * of them that takes 0.4 s, and an entry 0.9 ms (two cores of an EPYC, ext4, 2026-11). */
+enum { SURVEYS_OF_LIMIT = 64 };
 
 /* ---- where ---- */
 
@@ -57,6 +63,8 @@ pspec_status ps_cache_open(ps_cache **out, const char *directory, uint64_t max_b
     PS_TRY(PS_NEW(&cache, 1, "cache", error));
     cache->max_bytes = max_bytes;
     atomic_flag_clear(&cache->has_failed);
+    atomic_init(&cache->num_broken, 0);
+    atomic_init(&cache->unsurveyed, max_bytes); /* what is there already is not known */
     cache->directory = strdup(directory);
     if (cache->directory == NULL) {
         free(cache);
@@ -88,7 +96,7 @@ static pspec_status entry_path(ps_text *path, const ps_cache *cache, const void 
 
 /* ---- entries ---- */
 
-pspec_status ps_cache_get(const ps_cache *cache, const void *key, size_t key_bytes, void **data,
+pspec_status ps_cache_get(ps_cache *cache, const void *key, size_t key_bytes, void **data,
                           size_t *data_bytes, bool *is_found, ps_error *error) {
     ps_text path = {0};
     ps_cache_finding finding = PS_CACHE_ABSENT;
@@ -103,16 +111,40 @@ pspec_status ps_cache_get(const ps_cache *cache, const void *key, size_t key_byt
         /* In the meantime it may be a new one of another process: then that is computed once more.
          */
         (void)unlink(path.data);
+        atomic_fetch_add(&cache->num_broken, 1);
     }
     ps_text_free(&path);
     return status;
 }
 
-pspec_status ps_cache_put(const ps_cache *cache, const void *key, size_t key_bytes,
-                          const void *data, size_t data_bytes, ps_error *error) {
+/* Asked of names alone: an entry may be damaged. */
+bool ps_cache_has(const ps_cache *cache, const void *key, size_t key_bytes) {
+    ps_text path = {0};
+    const bool has =
+        entry_path(&path, cache, key, key_bytes, NULL) == PSPEC_OK && access(path.data, R_OK) == 0;
+    ps_text_free(&path);
+    return has;
+}
+
+unsigned ps_cache_num_broken(const ps_cache *cache) {
+    return atomic_load(&cache->num_broken);
+}
+
+static pspec_status evict(ps_cache *cache, uint64_t put_bytes, ps_error *error) {
+    const uint64_t unsurveyed = atomic_fetch_add(&cache->unsurveyed, put_bytes) + put_bytes;
+    if (unsurveyed < cache->max_bytes / SURVEYS_OF_LIMIT) {
+        return PSPEC_OK;
+    }
+    atomic_store(&cache->unsurveyed, 0);
+    return ps_cache_folder_evict(cache->directory, cache->max_bytes, error);
+}
+
+pspec_status ps_cache_put(ps_cache *cache, const void *key, size_t key_bytes, const void *data,
+                          size_t data_bytes, ps_error *error) {
     const uint64_t least = sizeof(ps_cache_head) + (uint64_t)key_bytes; /* keys are in memory */
-    if (data_bytes > UINT64_MAX - least ||
-        ps_cache_disk_bytes(least + data_bytes) > cache->max_bytes) {
+    const uint64_t bytes =
+        data_bytes > UINT64_MAX - least ? UINT64_MAX : ps_cache_disk_bytes(least + data_bytes);
+    if (bytes > cache->max_bytes) {
         return PSPEC_OK;
     }
     ps_text path = {0};
@@ -125,7 +157,7 @@ pspec_status ps_cache_put(const ps_cache *cache, const void *key, size_t key_byt
     }
     ps_text_free(&path);
     PS_TRY(status);
-    return ps_cache_folder_evict(cache->directory, cache->max_bytes, error);
+    return evict(cache, bytes, error);
 }
 
 /* ---- all of them ---- */

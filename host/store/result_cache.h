@@ -1,11 +1,11 @@
-/* A cache of results in a folder that processes share.
+/* A cache of results, or of whatever else takes long to make, in a folder that processes share.
  *
  * An entry is found by its whole key, any bytes, in a file whose name is the hash of the key (XXH3,
  * 128 bits). What comes back is what was put, or nothing: a file that is cut, damaged or of another
  * version is a miss, and is removed; another key of the same hash is a miss. A process that is
  * killed leaves whole entries and perhaps a temporary file, which goes later. Entries are as old as
  * their last use; the oldest go when all together take more than max_bytes on the disk, counted in
- * blocks of 4096 bytes.
+ * blocks of 4096 bytes. A process may put a 64th of that before it looks how much there is.
  *
  * A cache is a convenience: whoever gets an error from it can compute the result instead, and say
  * so once. Several threads may use one handle. Folders that others can write, and entries of other
@@ -39,14 +39,19 @@ void ps_cache_close(ps_cache *cache);
 
 /* *is_found: *data, never NULL, is to be freed by the caller. Otherwise, and after an error (a file
  * that is there and cannot be read or is not ours, memory, an interruption), *data is NULL. */
-pspec_status ps_cache_get(const ps_cache *cache, const void *key, size_t key_bytes, void **data,
+pspec_status ps_cache_get(ps_cache *cache, const void *key, size_t key_bytes, void **data,
                           size_t *data_bytes, bool *is_found, ps_error *error) PS_MUST_CHECK;
+
+/* Is there a file for the key? It may be damaged. */
+bool ps_cache_has(const ps_cache *cache, const void *key, size_t key_bytes);
+/* Entries that were found damaged, and removed, through this handle. */
+unsigned ps_cache_num_broken(const ps_cache *cache);
 
 /* Replaces what is there under this key. An entry that alone is larger than the limit is not
  * stored, which is no error. After an error the entry is not there, or it is and older ones could
  * not be removed. */
-pspec_status ps_cache_put(const ps_cache *cache, const void *key, size_t key_bytes,
-                          const void *data, size_t data_bytes, ps_error *error) PS_MUST_CHECK;
+pspec_status ps_cache_put(ps_cache *cache, const void *key, size_t key_bytes, const void *data,
+                          size_t data_bytes, ps_error *error) PS_MUST_CHECK;
 
 /* Entries, and the disk space of these and of temporary files. */
 pspec_status ps_cache_usage(const ps_cache *cache, size_t *num_entries, uint64_t *bytes,

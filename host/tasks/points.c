@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "base/process/memory_limit.h"
 #include "jobs/convert.h"
+#include "jobs/parts/source.h"
 #include "questions/question.h"
 #include "report/output_check.h"
 
@@ -78,14 +79,14 @@ static int tell_realizations(const ps_watch_report *report, void *payload) {
 }
 
 /* set: the points' place, of one realization. */
-static pspec_status write_realizations(const ps_sampler_request *sampler, uint64_t num_realizations,
-                                       ps_point_set *set, ps_point_writer *writer,
-                                       const ps_answer_hooks *hooks, ps_error *error) {
+static pspec_status write_realizations(ps_sets *sets, uint64_t num_realizations, ps_point_set *set,
+                                       ps_point_writer *writer, const ps_answer_hooks *hooks,
+                                       ps_error *error) {
     realizations all = {&hooks->watch, 0, num_realizations};
     const ps_watch watch = {tell_realizations, &all};
     for (uint64_t r = 0; r < num_realizations; r++) {
         all.done = r;
-        PS_TRY(ps_sampler_generate(sampler, r, set->points, &set->num_points, &watch, error));
+        PS_TRY(ps_sets_next(sets, set->points, &set->num_points, &watch, error));
         PS_TRY(write_points(set, writer, &watch, error));
         PS_TRY(ps_watch_tell(&hooks->watch, "realizations", r + 1, num_realizations, NULL, error));
     }
@@ -118,7 +119,8 @@ static pspec_status check_memory(const ps_sampler_request *sampler, uint64_t lim
 
 /* points: the place of one realization. */
 static pspec_status write_sets(const ps_request *request, const ps_sampler_request *sampler,
-                               double *points, const ps_answer_hooks *hooks, ps_error *error) {
+                               ps_sets *sets, double *points, const ps_answer_hooks *hooks,
+                               ps_error *error) {
     ps_point_writer *writer = NULL;
     const ps_coordinates coordinates =
         ps_sampler_is_on_sphere(sampler) ? PS_UNIT_VECTORS : PS_TORUS_COORDINATES;
@@ -132,7 +134,7 @@ static pspec_status write_sets(const ps_request *request, const ps_sampler_reque
     PS_TRY(ps_points_create(&writer, request->output, request->format, &shape, error));
     ps_answer_begin_next(hooks);
     pspec_status status =
-        write_realizations(sampler, request->num_realizations, &set, writer, hooks, error);
+        write_realizations(sets, request->num_realizations, &set, writer, hooks, error);
     if (status == PSPEC_OK) {
         tell_loss(writer, hooks);
         status = ps_points_commit(writer, error);
@@ -146,13 +148,21 @@ pspec_status ps_points_sample(const ps_request *request, const ps_answer_hooks *
                               ps_error *error) {
     ps_sampler_request sampler = {0};
     void *points = NULL;
+    ps_sets *sets = NULL;
     PS_TRY(ps_points_find_sampler(&sampler, request, error));
     PS_TRY(check_memory(&sampler, request->limits.constraints.memory_limit, error));
+    const ps_sets_options options = ps_source_sets(&request->limits, false);
     const size_t most = ps_sampler_most_points(&sampler);
     PS_TRY(ps_allocate(&points, most, sampler.dimension * sizeof(double), "points", error));
     /* gigabytes in small pages take half a second to give back, also where a signal ends it */
     ps_memory_use_large_pages(points, most * sampler.dimension * sizeof(double));
-    const pspec_status status = write_sets(request, &sampler, points, hooks, error);
+    pspec_status status =
+        ps_sets_create(&sets, &sampler, request->num_realizations, &options, error);
+    if (status == PSPEC_OK) {
+        status = write_sets(request, &sampler, sets, points, hooks, error);
+        ps_answer_warn_of(hooks, status == PSPEC_OK ? ps_sets_trouble(sets) : "");
+    }
+    ps_sets_destroy(sets);
     free(points);
     return status;
 }

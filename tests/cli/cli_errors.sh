@@ -138,7 +138,7 @@ says_exactly() {
     refuses 2 "$sentence" "$@"
     [[ $(<"$scratch/err") == *"$sentence" ]] || complain "more than \"$sentence\": pointspec $*"
 }
-refuses 2 'unknown sampler "bluenoise"; did you mean whitenoise? There are white, regular, ' sample --sampler bluenoise -n 16
+refuses 2 'unknown sampler "bluenoise"; there are white, regular, ' sample --sampler bluenoise -n 16
 says_exactly 'unknown command "xylophone"' xylophone
 says_exactly 'unknown option --zebra' power --zebra
 says_exactly '--brdf is not an option of this command' power --brdf diffuse

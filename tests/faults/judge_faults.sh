@@ -62,7 +62,7 @@ check_sentence() { # CASE CLASS NUMBER[+]
     remark=
     local -a said=("${said[@]}")
     case ${said[0]-} in # a warning before the work
-    pointspec:*' will not be drawn: '* | pointspec:*'; pictures are left out '*) said=("${said[@]:1}") ;;
+    pointspec:*' will not be drawn: '* | pointspec:*' kept sets of '* | pointspec:*'; pictures are left out '*) said=("${said[@]:1}") ;;
     esac
     for line in "${said[@]}"; do [[ $line != pointspec* ]] || sentences+=1; done
     last=${said[-1]-}
@@ -73,7 +73,7 @@ check_sentence() { # CASE CLASS NUMBER[+]
     fi
     case $2 in
     memory) [[ ${last,,} == *memory* ]] || remark="does not speak of memory" ;;
-    file) [[ $last =~ (cannot (read|write|create|run|make|find|open|look at)|could not draw).*($things) || $last == *'PoCL cannot keep kernels in '* ]] ||
+    file) [[ $last =~ (cannot (read|write|create|run|make|find|open|look at|look into)|could not draw).*($things) || $last == *'PoCL cannot keep kernels in '* ]] ||
         remark="does not name the file" ;;
     opencl)
         # Where everything fails from there on, the sentence may tell of a later call.
@@ -97,6 +97,13 @@ lacks_only_pictures() { # CASE
         [[ -e $run/folder/new.folder/${file##*/} ]] || rm -f "$file"
     done
     diff -rq "${same[@]}" "$run/folder" "$run/expected" >/dev/null &&
+        diff -q "${same[@]}" "$run/stdout" "$1/expected/stdout" >/dev/null
+}
+
+# A set that cannot be kept costs a warning: everything else is as without the fault.
+lacks_only_sets() { # CASE
+    [[ ${#said[@]} == 1 && ${said[0]} == pointspec*': kept sets of '* ]] &&
+        diff -rq -x kept.d "${same[@]}" "$run/folder" "$1/expected/folder" >/dev/null &&
         diff -q "${same[@]}" "$run/stdout" "$1/expected/stdout" >/dev/null
 }
 
@@ -126,6 +133,8 @@ judge() { # NAME CLASS NUMBER[+]
         remark=
     elif [[ $code == 0 ]] && lacks_only_pictures "$case"; then
         is_clean=no remark= # refused: the picture alone
+    elif [[ $code == 0 ]] && lacks_only_sets "$case"; then
+        is_clean=no remark=
     elif [[ $code == 0 ]]; then
         verdict=tolerated is_clean=no remark=
         # A temporary file that cannot be removed stays; the sentence of a failure would have said so.

@@ -22,7 +22,7 @@ size_t harness_cache_data(unsigned number, size_t most_bytes, unsigned char *dat
     return num_bytes;
 }
 
-pspec_status harness_cache_put(const ps_cache *cache, unsigned number, size_t most_bytes,
+pspec_status harness_cache_put(ps_cache *cache, unsigned number, size_t most_bytes,
                                ps_error *error) {
     char key[CACHE_KEY_BYTES];
     unsigned char *const data = malloc(most_bytes);
@@ -36,7 +36,7 @@ pspec_status harness_cache_put(const ps_cache *cache, unsigned number, size_t mo
     return status;
 }
 
-int harness_cache_get(const ps_cache *cache, unsigned number, size_t most_bytes, ps_error *error) {
+int harness_cache_get(ps_cache *cache, unsigned number, size_t most_bytes, ps_error *error) {
     char key[CACHE_KEY_BYTES];
     void *data = NULL;
     size_t num_bytes = 0;
@@ -77,14 +77,14 @@ ps_cache *harness_cache_open(void **state, uint64_t max_bytes) {
     return cache;
 }
 
-void harness_cache_must_put(const ps_cache *cache, unsigned number, size_t most_bytes) {
+void harness_cache_must_put(ps_cache *cache, unsigned number, size_t most_bytes) {
     ps_error error = {0};
     if (harness_cache_put(cache, number, most_bytes, &error) != PSPEC_OK) {
         fail_msg("%s", error.message);
     }
 }
 
-int harness_cache_must_get(const ps_cache *cache, unsigned number, size_t most_bytes) {
+int harness_cache_must_get(ps_cache *cache, unsigned number, size_t most_bytes) {
     ps_error error = {0};
     const int found = harness_cache_get(cache, number, most_bytes, &error);
     if (found < 0) {
@@ -93,7 +93,7 @@ int harness_cache_must_get(const ps_cache *cache, unsigned number, size_t most_b
     return found;
 }
 
-void harness_cache_check_usage(const ps_cache *cache, size_t num_entries, uint64_t bytes) {
+void harness_cache_check_usage(ps_cache *cache, size_t num_entries, uint64_t bytes) {
     size_t entries_there = 0;
     uint64_t bytes_there = 0;
     ps_error error = {0};

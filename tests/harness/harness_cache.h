@@ -16,17 +16,17 @@ void harness_cache_key(unsigned number, char key[CACHE_KEY_BYTES]);
 /* From 0 to most_bytes - 1 bytes. */
 size_t harness_cache_data(unsigned number, size_t most_bytes, unsigned char *data);
 
-pspec_status harness_cache_put(const ps_cache *cache, unsigned number, size_t most_bytes,
+pspec_status harness_cache_put(ps_cache *cache, unsigned number, size_t most_bytes,
                                ps_error *error);
 /* 1: the data of this number came, 0: nothing came, -1: an error, or other data. */
-int harness_cache_get(const ps_cache *cache, unsigned number, size_t most_bytes, ps_error *error);
+int harness_cache_get(ps_cache *cache, unsigned number, size_t most_bytes, ps_error *error);
 
 /* The cache in the folder of a test; and the same as above, where what does not work is a failure
  * of the test. */
 ps_cache *harness_cache_open(void **state, uint64_t max_bytes);
-void harness_cache_must_put(const ps_cache *cache, unsigned number, size_t most_bytes);
-int harness_cache_must_get(const ps_cache *cache, unsigned number, size_t most_bytes);
-void harness_cache_check_usage(const ps_cache *cache, size_t num_entries, uint64_t bytes);
+void harness_cache_must_put(ps_cache *cache, unsigned number, size_t most_bytes);
+int harness_cache_must_get(ps_cache *cache, unsigned number, size_t most_bytes);
+void harness_cache_check_usage(ps_cache *cache, size_t num_entries, uint64_t bytes);
 
 /* The file of an entry. */
 const char *harness_cache_path(const char *directory, unsigned number, char path[CACHE_PATH_BYTES]);

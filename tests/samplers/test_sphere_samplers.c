@@ -297,7 +297,8 @@ static void sources_say_what_numbers_are(void **state) {
         ps_point_set set = {0};
         ps_source_part part;
         bool has_set = false;
-        assert_int_equal(ps_source_sampler(&source, &request, 1, NULL, NULL), PSPEC_OK);
+        assert_int_equal(ps_source_sampler(&source, &request, 1, &(ps_sets_options){0}, NULL, NULL),
+                         PSPEC_OK);
         assert_int_equal(ps_source_next(source, &set, &part, &has_set, NULL), PSPEC_OK);
         assert_true(has_set && part.is_whole);
         assert_int_equal(set.coordinates, cases[i].coordinates);

@@ -13,7 +13,7 @@
 enum { ROOMY = 1 << 30, SMALL = 100 };
 
 /* These bytes as the file of entry 1: a miss, and gone. */
-static void check_broken(void **state, const ps_cache *cache, const void *bytes, size_t num_bytes) {
+static void check_broken(void **state, ps_cache *cache, const void *bytes, size_t num_bytes) {
     const test_folder *const folder = *state;
     char path[CACHE_PATH_BYTES];
     harness_cache_path(folder->path, 1, path);
@@ -22,7 +22,7 @@ static void check_broken(void **state, const ps_cache *cache, const void *bytes,
     assert_int_equal(access(path, F_OK), -1);
 }
 
-static char *take_entry(void **state, const ps_cache *cache, size_t *num_bytes) {
+static char *take_entry(void **state, ps_cache *cache, size_t *num_bytes) {
     const test_folder *const folder = *state;
     char path[CACHE_PATH_BYTES];
     harness_cache_must_put(cache, 1, SMALL);

@@ -49,7 +49,7 @@ static void check_end(pid_t child) {
     assert_int_equal(WEXITSTATUS(result), 0);
 }
 
-static size_t check_entries(const ps_cache *cache) {
+static size_t check_entries(ps_cache *cache) {
     ps_error error = {0};
     size_t num_found = 0;
     for (unsigned i = 0; i < NUM_KEYS; i++) {
@@ -150,8 +150,7 @@ static int put_for_ever(const test_folder *folder, unsigned number) {
 }
 
 /* Every entry that is there is whole; temporary files are older than an hour now. */
-static void check_after_kill(const test_folder *folder, const ps_cache *cache,
-                             size_t *num_temporary) {
+static void check_after_kill(const test_folder *folder, ps_cache *cache, size_t *num_temporary) {
     const struct timespec times[2] = {{1, 0}, {1, 0}};
     size_t num_entries = 0;
     DIR *const entries = opendir(folder->path);

@@ -2,6 +2,7 @@
 #include "cli/command.h"
 #include "cli/shown.h"
 #include "tasks/points.h"
+#include "tasks/prefetch.h"
 #include "tasks/task.h"
 
 static pspec_status run(const ps_request *arguments, ps_error *error) {
@@ -10,7 +11,8 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
                       .speaker = "pointspec sample",
                       .is_streamed = true};
     const ps_answer_hooks hooks = ps_shown_hooks(&shown);
-    return ps_points_sample(arguments, &hooks, error);
+    return arguments->prefetch ? ps_points_prefetch(arguments, &hooks, error)
+                               : ps_points_sample(arguments, &hooks, error);
 }
 
 const ps_command ps_command_sample = {
@@ -24,7 +26,10 @@ const ps_command ps_command_sample = {
         "parameters, N, D, the seed and r. UTK text has one point per line, coordinates with 17 "
         "digits, and a line \"#\" between two realizations; an NPY array has the shape (M, N, D), "
         "D = 3 on the sphere. --homogenize shifts points of the torus and rotates those of the "
-        "sphere, at random.",
+        "sphere, at random. Sets that take long to make, of blue noise, are kept on the disk, for "
+        "this command and all others, up to "
+        "--kept-sets; --prefetch only fills that store, on all processors, and goes on where it "
+        "was stopped.",
     .task = &ps_task_sample,
     .takes = PS_TAKER_BIT(sample),
     .samples = PS_DOMAIN_ANY,

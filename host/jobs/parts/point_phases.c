@@ -2,21 +2,32 @@
 
 #include "points/file_estimate.h"
 
+#include <inttypes.h>
 #include <string.h>
 
 /* ---- samplers ------------------------------------------------------------------------------ */
 
-void ps_phases_sample(ps_phases *phases, const ps_sampler_request *request, double realizations) {
+void ps_phases_sample(ps_phases *phases, const ps_sampler_request *request, double realizations,
+                      const ps_set_place *place) {
     static const char name[] = "points";
     const double points = (double)request->num_points * realizations;
     const bool is_lifted = request->lift != PS_SAMPLES_TORUS;
+    const uint64_t num_kept = ps_sets_count_kept(request, place, (uint64_t)realizations);
+    const double num_made = realizations - (double)num_kept;
     ps_phases_add_seconds(phases, name,
-                          ps_sampler_seconds(request) * realizations *
+                          ps_sampler_seconds(request) * num_made /
+                              ps_sets_makers(request, (uint64_t)num_made) *
                               ps_figures_host_scale(phases->host, request->sampler->name));
+    ps_phases_add_seconds(phases, name, ps_set_store_seconds(request) * (double)num_kept);
     ps_phases_add(phases, name, PS_HOST_LIFT, is_lifted ? points : 0);
     ps_phases_add(phases, name, PS_HOST_MOVE, request->homogenize ? points : 0);
     ps_phases_add(phases, name, PS_HOST_MORPH, request->morph.kind != PS_MORPH_NONE ? points : 0);
-    ps_phases_say(phases, name, "%.4g of %s", points, request->sampler->name);
+    if (ps_set_place_takes(place, request)) {
+        ps_phases_say(phases, name, "%.4g of %s, %" PRIu64 " of %.0f sets kept", points,
+                      request->sampler->name, num_kept, realizations);
+    } else {
+        ps_phases_say(phases, name, "%.4g of %s", points, request->sampler->name);
+    }
 }
 
 /* ---- files --------------------------------------------------------------------------------- */

@@ -9,7 +9,8 @@
 
 struct ps_source {
     bool is_turned; /* ps_source_turn */
-    /* sampler */
+    /* sampler: NULL for others */
+    ps_sets *sampled;
     ps_sampler_request request;
     ps_watch watch;
     uint64_t num_realizations, next_realization;
@@ -40,15 +41,31 @@ static pspec_status create(ps_source **out, ps_error *error) {
     return PSPEC_OK;
 }
 
+ps_sets_options ps_source_sets(const ps_limits_spec *limits, bool no_skip) {
+    return (ps_sets_options){{no_skip ? NULL : limits->cache_folder, limits->kept_bytes},
+                             limits->constraints.memory_limit};
+}
+
 pspec_status ps_source_sampler(ps_source **out, const ps_sampler_request *request,
-                               uint64_t num_realizations, const ps_watch *watch, ps_error *error) {
+                               uint64_t num_realizations, const ps_sets_options *options,
+                               const ps_watch *watch, ps_error *error) {
+    ps_sets *sets = NULL;
     *out = NULL;
-    PS_TRY(ps_sampler_check(request, error));
-    PS_TRY(create(out, error));
+    PS_TRY(ps_sets_create(&sets, request, num_realizations, options, error));
+    const pspec_status status = create(out, error);
+    if (status != PSPEC_OK) {
+        ps_sets_destroy(sets);
+        return status;
+    }
+    (*out)->sampled = sets;
     (*out)->request = *request;
     (*out)->watch = watch != NULL ? *watch : (ps_watch){0};
     (*out)->num_realizations = num_realizations;
     return PSPEC_OK;
+}
+
+const char *ps_source_trouble(ps_source *source) {
+    return source->sampled != NULL ? ps_sets_trouble(source->sampled) : "";
 }
 
 pspec_status ps_source_files(ps_source **out, const char *const *paths, size_t num_paths,
@@ -140,8 +157,8 @@ static pspec_status next_sample(ps_source *source, ps_point_set *set, bool *has_
     set->coordinates = ps_sampler_is_on_sphere(request) ? PS_UNIT_VECTORS : PS_TORUS_COORDINATES;
     set->dimension = request->dimension;
     set->has_weights = false;
-    PS_TRY(ps_sampler_generate(request, source->next_realization++, set->points, &set->num_points,
-                               &source->watch, error));
+    source->next_realization++;
+    PS_TRY(ps_sets_next(source->sampled, set->points, &set->num_points, &source->watch, error));
     turn(source, set, 0);
     return PSPEC_OK;
 }
@@ -326,6 +343,9 @@ pspec_status ps_source_rewind(ps_source *source, ps_error *error) {
     source->reader = NULL;
     source->next_path = 0;
     source->next_realization = 0;
+    if (source->sampled != NULL) {
+        ps_sets_rewind(source->sampled);
+    }
     source->num_sets = 0;
     return PSPEC_OK;
 }
@@ -341,6 +361,7 @@ const char *ps_source_columns(const ps_source *source) {
 void ps_source_destroy(ps_source *source) {
     if (source != NULL) {
         close_scout(source);
+        ps_sets_destroy(source->sampled);
         ps_points_close(source->reader);
         ps_text_free(&source->formats);
         ps_text_free(&source->columns);

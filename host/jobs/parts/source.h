@@ -8,19 +8,25 @@
 #define PS_JOBS_PARTS_SOURCE_H
 
 #include "jobs/parts/pattern_check.h"
+#include "plan/specs.h"
 #include "points/points.h"
-#include "samplers/sampler.h"
+#include "sets/sets.h"
 
 #include <stdint.h>
 
 typedef struct ps_source ps_source;
 
+/* Where a job's sets are kept: nowhere with no_skip. */
+ps_sets_options ps_source_sets(const ps_limits_spec *limits, bool no_skip);
+
 /* The sampler's realizations 0 .. num_realizations - 1, with torus coordinates or unit vectors;
  * request is resolved, and copied, and so is watch, which may be NULL: it is told while the points
  * of a large set are made. */
 pspec_status ps_source_sampler(ps_source **out, const ps_sampler_request *request,
-                               uint64_t num_realizations, const ps_watch *watch,
-                               ps_error *error) PS_MUST_CHECK;
+                               uint64_t num_realizations, const ps_sets_options *options,
+                               const ps_watch *watch, ps_error *error) PS_MUST_CHECK;
+/* ps_sets_trouble of a sampler's; "" of others. */
+const char *ps_source_trouble(ps_source *source);
 
 /* Bytes of a set that is read as a whole: some million points. Larger ones come in blocks of about
  * so many bytes, which are enough to keep a device busy. */

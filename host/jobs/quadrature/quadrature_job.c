@@ -297,6 +297,14 @@ static void tell_profile(const quadrature_job *job) {
     }
 }
 
+static void tell_trouble(const quadrature_job *job) {
+    const ps_quadrature_question *const question = job->question;
+    const char *const trouble = ps_source_trouble(job->rules.source);
+    if (question->tell_trouble != NULL && trouble[0] != '\0') {
+        question->tell_trouble(question->payload, trouble);
+    }
+}
+
 /* The spectral form may not exceed the kernel form, nor the rest its rigorous bound, by more than
  * rounding. */
 static pspec_status check_forms(const quadrature_job *job, ps_error *error) {
@@ -362,6 +370,7 @@ static pspec_status run(quadrature_job *job, ps_error *error) {
                               .has_no_accuracy = !job->setup.by_pairs};
     PS_TRY(ps_runner_run(&job->runner, error));
     tell_profile(job);
+    tell_trouble(job);
     collect_means(job);
     collect_facts(job);
     PS_TRY(describe(job, error));

@@ -38,6 +38,8 @@ typedef struct ps_quadrature_question {
     ps_watch watch;         /* told of realizations and other phases; {0}: nobody */
     void (*tell_plan)(void *, const ps_plan *); /* called before the work begins; may be NULL */
     void (*tell_profile)(void *, const ps_profile_row *, size_t num_rows); /* after it; likewise */
+    /* After it, if something was wrong with kept sets (sets/sets.h); likewise */
+    void (*tell_trouble)(void *, const char *sentence);
     void *payload;
 } ps_quadrature_question;
 

@@ -16,8 +16,10 @@
 static pspec_status open_source(ps_rules *rules, ps_error *error) {
     const ps_quadrature_question *const question = rules->question;
     if (question->sampler != NULL) {
+        const ps_sets_options options =
+            ps_source_sets(&question->limits, question->accuracy.no_skip);
         return ps_source_sampler(&rules->source, question->sampler, question->num_realizations,
-                                 &question->watch, error);
+                                 &options, &question->watch, error);
     }
     if (question->patterns != NULL) {
         return ps_source_patterns(&rules->source, question->patterns, question->num_patterns,

@@ -99,6 +99,8 @@ const double *ps_power_job_amplitudes(const ps_power_job *job, size_t *num_sets)
 /* The bin of the largest standard error when the realizations ended; NULL unless
  * question.accuracy.standard_error was asked for, and with one realization that stands for all. */
 const ps_sequential_look *ps_power_job_look(const ps_power_job *job);
+/* What was wrong with kept sets (sets/sets.h), "" where nothing was. Not while the job runs. */
+const char *ps_power_job_trouble(const ps_power_job *job);
 /* C_l^2 of pair sums, [number of degrees]; NULL unless they were asked for. */
 const ps_mean *ps_power_job_c2(const ps_power_job *job);
 /* True when the first run missed the tolerance and the plan was made again. */

@@ -45,6 +45,10 @@ const char *ps_power_job_description(const ps_power_job *job) {
     return ps_text_string(&job->description);
 }
 
+const char *ps_power_job_trouble(const ps_power_job *job) {
+    return ps_source_trouble(job->sets.source);
+}
+
 const ps_sequential_look *ps_power_job_look(const ps_power_job *job) {
     return job->question->accuracy.standard_error > 0 && job->runner.num_done > 1 ? &job->look
                                                                                   : NULL;

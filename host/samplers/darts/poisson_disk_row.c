@@ -42,6 +42,7 @@ const ps_sampler ps_sampler_poisson_disk = {
     .aliases = {"darts", "poissondisk", "pd"},
     .minimum_dimension = 2,
     .maximum_dimension = CUBE,
+    .version = 1,
     .parameters = {PS_DISTANCE_RADIUS, PS_DISTANCE_EXACT},
     PS_DISTANCE_MEMBERS,
 };

@@ -40,6 +40,7 @@ const ps_sampler ps_sampler_poisson_disk_sphere = {
     .aliases = {"darts-sphere"},
     .domain = PS_SAMPLES_SPHERE,
     .minimum_points = 2,
+    .version = 1,
     .parameters = {PS_DISTANCE_RADIUS, PS_DISTANCE_EXACT},
     PS_DISTANCE_MEMBERS,
 };

@@ -48,6 +48,7 @@ const ps_sampler ps_sampler_bnot = {
     .minimum_points = PS_CELLS_LEAST_POINTS,
     .parameters = {{"eps", "1",
                     "0.02 to 10, how near to the centroids of cells; smaller is more regular"}},
+    .version = 1,
     .seconds = seconds,
     .is_deterministic = ps_sampler_never,
     .check = check,

@@ -51,6 +51,7 @@ const ps_sampler ps_sampler_fpo = {
     .minimum_points = PS_CELLS_LEAST_POINTS,
     .parameters = {{"distance", "0.925",
                     "0.5 to 0.93 of hexagonal packing's, least distance of two points"}},
+    .version = 1,
     .seconds = seconds,
     .is_deterministic = ps_sampler_never,
     .check = check,

@@ -26,6 +26,8 @@ static pspec_status use_recorded(const ps_run *run, size_t number, ps_scene_ques
 
 static pspec_status ask_one(ps_run *run, ps_run_result *result, size_t number, ps_error *error) {
     ps_scene_question *const asked = &result->questions[number].asked;
+    /* points that are kept would hide that this machine makes others */
+    const bool is_repeated = run->scene->num_digests > 0;
     pspec_status status = ps_scene_question_make(asked, result->asked, number, error);
     result->num = number + 1;
     if (status == PSPEC_OK) {
@@ -36,6 +38,7 @@ static pspec_status ask_one(ps_run *run, ps_run_result *result, size_t number, p
     }
     asked->request.limits.device = run->arguments->limits.device;
     asked->request.limits.cache_folder = run->arguments->limits.cache_folder;
+    asked->request.limits.kept_bytes = is_repeated ? 0 : run->arguments->limits.kept_bytes;
     if (status == PSPEC_OK) {
         status = result->asked->kind->check_question(&asked->request, error);
     }
