@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # reproduction.sh PROGRAM table: what Marques et al. (M18) print beside what PROGRAM, a pointspec, computes.
 # reproduction.sh PROGRAM figures FOLDER: their Figures 1 to 5 as FOLDER/m18_figure*.png.
-# update_tables.sh and make_figures.sh call it. About half a minute on one core.
+# update_tables.sh and make_figures.sh call it. About a minute on one core.
 set -euo pipefail
 (($# == 2 && ${#2} == 5 || $# == 3)) || { sed -n '2,4s/^# //p' "$0" >&2; exit 2; }
 program=$(realpath "$1")
@@ -14,8 +14,8 @@ cd "$scratch"
 brdfs=(diffuse glossy:n=30)
 lobes=(diffuse 'glossy, n = 30')
 samplers=(fibonacci-hemisphere larcher-pillichshammer:lift=hemisphere sobol:lift=hemisphere
-    white-hemisphere jittered:lift=hemisphere)
-titles=("spherical Fibonacci" Larcher-Pillichshammer "Sobol'" random jittered)
+    white-hemisphere jittered:lift=hemisphere bnot:lift=hemisphere)
+titles=("spherical Fibonacci" Larcher-Pillichshammer "Sobol'" random jittered BNOT)
 sets=50 # of samplers that have several; one realization of the others is all there is
 sizes=(64 128 256 512)
 
@@ -70,7 +70,7 @@ table_1() {
 slopes() {
     # of the paper: a line for each sampler; diffuse and glossy with equal weights, then with optimal ones
     local -a theirs=(-0.77 -0.76 -0.75 -0.74 -0.77 -0.85 -0.75 -0.75 -0.75 -0.81 -0.74 -0.73
-        -0.52 -0.52 -0.73 -0.71 -0.75 -0.75 -0.74 -0.74)
+        -0.52 -0.52 -0.73 -0.71 -0.75 -0.75 -0.74 -0.74 -0.76 -0.76 -0.76 -0.75)
     local i k=0 weights brdf
     for i in "${!samplers[@]}"; do
         for weights in equal optimal; do
@@ -100,7 +100,7 @@ golden() {
 
 # ---- figures ---------------------------------------------------------------------------------------
 
-draw() { # NAME HEIGHT COMMANDS: gnuplot's, with colours 1 to 5
+draw() { # NAME HEIGHT COMMANDS: gnuplot's, with colours 1 to 6
     echo "figures: $1.png" >&2
     gnuplot <<GNUPLOT
 set terminal pngcairo size 900,$2 font "DejaVu Sans,10"
@@ -115,6 +115,7 @@ set linetype 2 linecolor "#d55e00" linewidth 1.5 pointtype 5 pointsize 0.6
 set linetype 3 linecolor "#009e73" linewidth 1.5 pointtype 9 pointsize 0.7
 set linetype 4 linecolor "#777777" linewidth 1.5 pointtype 11 pointsize 0.7
 set linetype 5 linecolor "#cc79a7" linewidth 1.5 pointtype 13 pointsize 0.7
+set linetype 6 linecolor "#e69f00" linewidth 1.5 pointtype 2 pointsize 0.7
 $3
 GNUPLOT
 }
@@ -131,7 +132,7 @@ spectra() { # the rules of 256 points whose degrees Figures 1 to 3 show: BRDF-WE
 }
 degree_curves() { # BRDF WEIGHTS COLUMN [STYLE]: of all sets; random points, the highest curve, lie under the others
     local i plots=
-    for i in 3 4 2 1 0; do
+    for i in 3 4 5 2 1 0; do
         plots+=" '$1-$2-$i.csv' using 1:$3 with ${4:-lines} linetype $((i + 1)) title \"${titles[i]}\","
     done
     echo "plot ${plots%,}"

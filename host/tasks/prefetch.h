@@ -4,7 +4,7 @@
 
 #include "results/kind.h"
 
-/* Nothing is written but the store (sets/sets.h); hooks->warn hears how many sets were there and how
+/* Nothing is written but the store (sets/sets.h). hooks->warn hears how many sets there were and how
  * many were made, hooks->watch of realizations. What is done when the work ends early stays, and is
  * not done again. Samplers whose sets are not kept are PSPEC_ERROR_INVALID_ARGUMENT, more sets than
  * the store may have PSPEC_ERROR_MEMORY, a store that takes nothing PSPEC_ERROR_IO. */
