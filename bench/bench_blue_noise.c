@@ -1,7 +1,7 @@
 /* Points that keep a least distance: milliseconds of a set beside plain C loops.
  *
  *     bench_blue_noise [times]           N = 1024, 4096, 16384, medians of runs that alternate
- *     bench_blue_noise means [SETS]      N r^d, of which radii are made (optimized/radius.c)
+ *     bench_blue_noise means [SETS]      N r^d, of which radii are made (samplers/darts/radius.c)
  *
  * plain: 400 N darts on a grid of cells, which come to 97 % of saturation (the last points take any
  * time), and Bridson's paper with cosines and the same tries.
