@@ -65,6 +65,11 @@ table_bench_blue_noise_peers() {
     [[ -n ${UTK_CLONE-} ]] || { echo "update_tables: UTK_CLONE names no clone" >&2; return 1; }
     need bench/bench_blue_noise && BUILD=$build "$docs/../bench/bench_blue_noise_peers.sh" "$UTK_CLONE"
 }
+# Four minutes; POINTSPEC_TEST_DATA as in ./dev.
+table_published_sets() {
+    need pointspec &&
+        "$docs/scripts/published_sets.sh" "$build/pointspec" "${POINTSPEC_TEST_DATA:-$docs/../../shared/data}" 2>/dev/null
+}
 table_needs_times() { need pointspec && "$docs/scripts/needs_times.sh" "$build/pointspec"; }
 
 # Rows on the Pareto fronts of pointspec bench. Also for the picture of make_figures.sh, which wants the same run.
