@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <time.h>
 
 void bench_die(const char *message) {
     fprintf(stderr, "bench: %s\n", message);
@@ -17,6 +18,12 @@ void bench_die(const char *message) {
 
 double bench_seconds(void) {
     return ps_clock_seconds();
+}
+
+double bench_thread_seconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
 static void *allocate(size_t count, size_t bytes) {

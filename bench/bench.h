@@ -22,6 +22,8 @@
 
 void bench_die(const char *message);
 double bench_seconds(void);
+/* Of the processor, of this thread alone: others may be busy. */
+double bench_thread_seconds(void);
 
 /* count numbers in [0,1), the same for the same seed. The caller frees them. */
 double *bench_uniform(size_t count, uint64_t seed);

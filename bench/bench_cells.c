@@ -14,16 +14,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { MOST_REPEATS = 9, POINTS_IN_ALL = 1 << 16 };
-
-/* Of this program alone: others may be busy. */
-static double cpu_seconds(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 static size_t repeats_of(size_t num) {
     const size_t repeats = POINTS_IN_ALL / num;
@@ -42,29 +34,29 @@ static made make_cells(size_t num, double parameter, double *points) {
     double sum = 0;
     (void)parameter;
     BENCH_TRY(ps_power_cells_create(&cells, num, points, error));
-    const double begin = cpu_seconds();
+    const double begin = bench_thread_seconds();
     for (size_t i = 0; i < num; i++) {
         ps_power_cells_clip(&cells, i, NULL, 0, &cell);
         sum += ps_polygon_moments(ps_cell_polygon(&cell)).area;
     }
-    const double seconds = cpu_seconds() - begin;
+    const double seconds = bench_thread_seconds() - begin;
     ps_power_cells_destroy(&cells);
     return (made){seconds, 0, 1, sum};
 }
 
 static made make_bnot(size_t num, double parameter, double *points) {
     ps_bnot_outcome outcome;
-    const double begin = cpu_seconds();
+    const double begin = bench_thread_seconds();
     BENCH_TRY(ps_bnot_optimise(num, parameter, NULL, points, NULL, &outcome, error));
-    return (made){cpu_seconds() - begin, outcome.moves, outcome.tries, outcome.capacity};
+    return (made){bench_thread_seconds() - begin, outcome.moves, outcome.tries, outcome.capacity};
 }
 
 static made make_fpo(size_t num, double parameter, double *points) {
     ps_fpo_outcome outcome;
     ps_random order = ps_random_init(1, PS_STREAM_PERMUTATION, num);
-    const double begin = cpu_seconds();
+    const double begin = bench_thread_seconds();
     BENCH_TRY(ps_fpo_optimise(num, parameter, &order, NULL, points, &outcome, error));
-    return (made){cpu_seconds() - begin, outcome.passes, 0, outcome.distance};
+    return (made){bench_thread_seconds() - begin, outcome.passes, 0, outcome.distance};
 }
 
 typedef struct maker {

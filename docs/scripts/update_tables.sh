@@ -54,6 +54,22 @@ table_pairs_routes() {
         "$docs/scripts/pairs_routes.sh" table "$docs/../bench-output/pairs_routes.txt"
 }
 table_bench_weights() { bench weights; }
+bench_blue_noise() { # MODE
+    need bench/bench_blue_noise && "$build/bench/bench_blue_noise" "$1"
+}
+table_bench_blue_noise() { bench_blue_noise cost; }
+# A quarter of an hour, of which FPO takes most.
+table_bench_blue_noise_hours() { bench_blue_noise hours; }
+# Ten minutes; UTK_CLONE is a clone of UTK (bench/blue_noise/peers.sh).
+table_bench_blue_noise_peers() {
+    [[ -n ${UTK_CLONE-} ]] || { echo "update_tables: UTK_CLONE names no clone" >&2; return 1; }
+    need bench/bench_blue_noise && BUILD=$build "$docs/../bench/bench_blue_noise_peers.sh" "$UTK_CLONE"
+}
+# Four minutes; POINTSPEC_TEST_DATA as in ./dev.
+table_published_sets() {
+    need pointspec &&
+        "$docs/scripts/published_sets.sh" "$build/pointspec" "${POINTSPEC_TEST_DATA:-$docs/../../shared/data}" 2>/dev/null
+}
 table_needs_times() { need pointspec && "$docs/scripts/needs_times.sh" "$build/pointspec"; }
 
 # Rows on the Pareto fronts of pointspec bench. Also for the picture of make_figures.sh, which wants the same run.

@@ -7,7 +7,8 @@
 
 /* N r^d of random balls at saturation: of disks whose radius is r/2 they cover 0.54707, of balls
  * 0.38413 (G. Zhang, S. Torquato, "Precise algorithm to generate random sequential addition of hard
- * hyperspheres at saturation", 2013). Measured over 1500 sets of 4096 points and 30 of 16384: 0.6966 and 0.7338. */
+ * hyperspheres at saturation", 2013). Measured over 1500 sets of 4096 points and 30 of 16384:
+ * 0.6966 and 0.7338. */
 static const double SATURATED[PS_GRID_MOST_DIMENSION + 1] = {0, 0, 0.69656, 0.73364, 0};
 
 /* N r^d of the densest packings, rounded up: hexagonal, face-centred cubic, and in four dimensions

@@ -7,8 +7,8 @@
  * square), with weights for areas right to the capacity
  * (docs/mathematics/optimized_samplers.md#bnot).
  */
-#ifndef PS_SAMPLERS_BNOT_H
-#define PS_SAMPLERS_BNOT_H
+#ifndef PS_SAMPLERS_OPTIMIZED_BNOT_H
+#define PS_SAMPLERS_OPTIMIZED_BNOT_H
 
 #include "base/watch.h"
 #include "math/random/random.h"

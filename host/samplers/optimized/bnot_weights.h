@@ -1,8 +1,8 @@
 /* Weights that give all power cells the area 1/N: damped Newton steps on the concave dual of
  * optimal transport (Kitagawa, Merigot, Thibert 2019), each by conjugate gradients.
  */
-#ifndef PS_SAMPLERS_BNOT_WEIGHTS_H
-#define PS_SAMPLERS_BNOT_WEIGHTS_H
+#ifndef PS_SAMPLERS_OPTIMIZED_BNOT_WEIGHTS_H
+#define PS_SAMPLERS_OPTIMIZED_BNOT_WEIGHTS_H
 
 #include "base/watch.h"
 #include "samplers/optimized/cells.h"

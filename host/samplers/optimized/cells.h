@@ -4,8 +4,8 @@
  * Sites lie in the order of the grid, so that those of neighbouring squares are neighbours in
  * memory. Only + - * / sqrt decide, in the order written: same points, same cells on any machine.
  */
-#ifndef PS_SAMPLERS_CELLS_H
-#define PS_SAMPLERS_CELLS_H
+#ifndef PS_SAMPLERS_OPTIMIZED_CELLS_H
+#define PS_SAMPLERS_OPTIMIZED_CELLS_H
 
 #include "base/status.h"
 #include "samplers/optimized/cells_polygon.h"

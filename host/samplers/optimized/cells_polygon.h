@@ -5,8 +5,8 @@
  * further than 1 along an axis is never nearer to a place of that square than the same site's image
  * one period back, whatever the weights: nine images of each site are all that matter.
  */
-#ifndef PS_SAMPLERS_CELLS_POLYGON_H
-#define PS_SAMPLERS_CELLS_POLYGON_H
+#ifndef PS_SAMPLERS_OPTIMIZED_CELLS_POLYGON_H
+#define PS_SAMPLERS_OPTIMIZED_CELLS_POLYGON_H
 
 #include <stdbool.h>
 #include <stdint.h>

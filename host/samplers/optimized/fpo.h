@@ -2,8 +2,8 @@
  * in turn, in an order drawn once, goes to the place that is farthest from all others, until the
  * least distance of two points is large enough (docs/mathematics/optimized_samplers.md#fpo).
  */
-#ifndef PS_SAMPLERS_FPO_H
-#define PS_SAMPLERS_FPO_H
+#ifndef PS_SAMPLERS_OPTIMIZED_FPO_H
+#define PS_SAMPLERS_OPTIMIZED_FPO_H
 
 #include "base/watch.h"
 #include "math/random/random.h"

@@ -8,8 +8,8 @@
  * out on one side: neighbours are only where to look, and each half plane is that of a point
  * where it is now, so that no harm follows.
  */
-#ifndef PS_SAMPLERS_FPO_MESH_H
-#define PS_SAMPLERS_FPO_MESH_H
+#ifndef PS_SAMPLERS_OPTIMIZED_FPO_MESH_H
+#define PS_SAMPLERS_OPTIMIZED_FPO_MESH_H
 
 #include "samplers/optimized/cells.h"
 #include "samplers/optimized/tournament.h"

@@ -1,8 +1,8 @@
 /* The largest of many numbers that change one by one: a tree of the winners of pairs, pairs of
  * pairs and so on. A change costs the logarithm of their number, the winner nothing.
  */
-#ifndef PS_SAMPLERS_TOURNAMENT_H
-#define PS_SAMPLERS_TOURNAMENT_H
+#ifndef PS_SAMPLERS_OPTIMIZED_TOURNAMENT_H
+#define PS_SAMPLERS_OPTIMIZED_TOURNAMENT_H
 
 #include "base/status.h"
 
