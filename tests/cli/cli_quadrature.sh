@@ -265,8 +265,8 @@ awk '/^  - result:/ { block = ""; inside = 1 }
 grep -q 'brdf: diffuse' figure2.yaml || complain "Figure 2 is not diffuse"
 "$program" run figure2.yaml -o figure2 --quiet >run.out 2>&1 || complain "Figure 2: $(tail -1 run.out)"
 grep -v '^#' figure2/low-degrees.csv >low.csv || complain "Figure 2: no table"
-# 5 samplers x 2 weights x degrees 0..10, whatever the order of the first two columns
-[[ $(wc -l <low.csv) == 111 ]] || complain "Figure 2: $(wc -l <low.csv) lines"
+# 6 samplers x 2 weights x degrees 0..10, whatever the order of the first two columns
+[[ $(wc -l <low.csv) == 133 ]] || complain "Figure 2: $(wc -l <low.csv) lines"
 # of Fibonacci points c2 + c_l0^2 is (2l+1)/4 pi times the mean of P_l over all pairs
 awk '{ x[NR] = $1; y[NR] = $2; z[NR] = $3 }
     END {
@@ -290,6 +290,6 @@ grep 'white' low.csv | grep 'equal' | awk -F, '$3 > 0 {
     off = ($5 + $7 - ((2 * $3 + 1) / 12.566370614359172 - $4 ^ 2) / 256) / sqrt($6 ^ 2 + $8 ^ 2)
     if (off > 5 || off < -5) bad = 1 }
     END { exit bad || num != 10 }' || complain "Figure 2: random points"
-awk -F, '/equal/ { equal += $7 } /optimal/ { optimal += $7; num++ } END { exit !(num == 55 && optimal < equal / 2) }' low.csv ||
+awk -F, '/equal/ { equal += $7 } /optimal/ { optimal += $7; num++ } END { exit !(num == 66 && optimal < equal / 2) }' low.csv ||
     complain "Figure 2: optimal weights"
 finish
