@@ -50,6 +50,7 @@ add_program_test(cli_run)       # scenes: the folder, the cache, records, what i
 add_program_test(cli_picture)   # --plot fails: numbers stay
 add_program_test(cli_run_keys)  # the cache finds what is the same and nothing else
 add_program_test(cli_run_files) # what scenes read and write
+add_program_test(cli_run_points) # numbers of points of scenes: lists, means where they vary
 add_program_test(cli_run_pictures) # pictures of scenes: panels, failures, titles
 add_program_test(cli_stress)    # the stability suite: rows, formats, what is refused
 add_program_test(cli_stress_broken ${PROJECT_SOURCE_DIR}/kernels) # broken kernels fail by name

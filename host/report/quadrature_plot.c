@@ -39,8 +39,8 @@ static pspec_status write_plot(const ps_request *arguments, const ps_series *lin
                                size_t num_lines, const ps_quadrature_result *first,
                                ps_error *error) {
     ps_text title = {0};
-    ps_text_append(&title, "%s, smoothness %g, N = %zu, %llu realization%s", arguments->brdf,
-                   arguments->smoothness, first->num_points,
+    ps_text_append(&title, "%s, smoothness %g, N = %.6g, %llu realization%s", arguments->brdf,
+                   arguments->smoothness, first->mean_points,
                    (unsigned long long)first->num_realizations,
                    first->num_realizations == 1 ? "" : "s");
     const ps_panel panel = {NULL, num_lines, lines};

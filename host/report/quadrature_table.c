@@ -49,7 +49,10 @@ static pspec_status add_question(ps_table *table, const ps_request *arguments,
 }
 
 static pspec_status add_facts(ps_table *table, const char *sampler, const ps_point_options *options,
-                              const ps_quadrature_result *result, ps_error *error) {
+                              const ps_quadrature_result *result, bool is_one_of_several,
+                              ps_error *error) {
+    const ps_points_range range = {result->mean_points, result->smallest_points,
+                                   result->largest_points};
     PS_TRY(add_remark(table, "sampler", sampler, error));
     PS_TRY(ps_header_add_reading(table, options, error));
     const ps_meta entries[] = {
@@ -57,11 +60,14 @@ static pspec_status add_facts(ps_table *table, const char *sampler, const ps_poi
         {"engine", PS_TEXT(result->engine)},
         {"precision", PS_TEXT(result->precision)},
         {"realizations", PS_INTEGER(result->num_realizations)},
-        {"points", PS_INTEGER(result->num_points)},
+    };
+    const ps_meta more[] = {
         {"max_degree", PS_INTEGER(result->max_degree)},
         {"skipped", PS_TEXT(result->skipped)},
     };
     PS_TRY(ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error));
+    PS_TRY(ps_header_add_points(table, &range, is_one_of_several, error));
+    PS_TRY(ps_table_add_metas(table, more, sizeof more / sizeof more[0], error));
     PS_TRY(add_remark(table, "degrees", result->degrees_note, error));
     return result->num_dropped > 0 ? ps_table_add_meta(table, "dropped_below_horizon",
                                                        PS_INTEGER(result->num_dropped), error)
@@ -161,7 +167,8 @@ static pspec_status fill(ps_table *table, const ps_request *arguments,
     PS_TRY(add_question(table, arguments, list, error));
     for (size_t i = 0; i < list->num; i++) {
         const char *const sampler = arguments->num_samplers > 0 ? arguments->samplers[i] : NULL;
-        PS_TRY(add_facts(table, sampler, &list->questions[i].point_options, &results[i], error));
+        PS_TRY(add_facts(table, sampler, &list->questions[i].point_options, &results[i],
+                         list->num > 1, error));
         PS_TRY(add_look(table, arguments->accuracy.standard_error, &results[i], error));
         PS_TRY(add_answer(table, &results[i], error));
         PS_TRY(add_condition(table, &results[i], error));

@@ -37,6 +37,18 @@ pspec_status ps_header_add_reading(ps_table *table, const ps_point_options *opti
                          : PSPEC_OK;
 }
 
+pspec_status ps_header_add_points(ps_table *table, const ps_points_range *points,
+                                  bool is_one_of_several, ps_error *error) {
+    const bool varies = points->smallest < points->largest;
+    const ps_meta entries[] = {
+        {"points", varies ? PS_NUMBER(points->mean) : PS_INTEGER(points->largest)},
+        {"points_smallest", PS_INTEGER(points->smallest)},
+        {"points_largest", PS_INTEGER(points->largest)},
+    };
+    const size_t num = sizeof entries / sizeof entries[0];
+    return ps_table_add_metas(table, entries, varies || is_one_of_several ? num : 1, error);
+}
+
 static bool is_on_sphere(const ps_frequencies *set) {
     return set->kind == PS_FREQUENCIES_DEGREES;
 }
@@ -103,15 +115,14 @@ static void put_different_points(header *head, const ps_request *arguments,
                       "integrals want --normalize integral"));
 }
 
-static void put_points(header *head, const ps_spectrum *spectrum, const ps_needs *needs) {
-    char range[96];
-    if (spectrum->smallest_points == spectrum->largest_points) {
-        put(head, "points", PS_INTEGER(spectrum->largest_points));
-    } else {
-        snprintf(range, sizeof range, "mean %.17g, from %zu to %zu", spectrum->mean_points,
-                 spectrum->smallest_points, spectrum->largest_points);
-        put(head, "points", PS_TEXT(range));
-    }
+static void put_points(header *head, const ps_request *arguments, const ps_spectrum *spectrum,
+                       const ps_needs *needs) {
+    const ps_points_range range = {spectrum->mean_points, spectrum->smallest_points,
+                                   spectrum->largest_points};
+    head->status =
+        head->status == PSPEC_OK
+            ? ps_header_add_points(head->table, &range, arguments->num_samplers > 1, head->error)
+            : head->status;
     put(head, "realizations", PS_INTEGER(spectrum->num_realizations));
     if (spectrum->num_realizations == 1) {
         put(head, "standard_error",
@@ -226,7 +237,7 @@ static void put_job(header *head, const ps_request *arguments, const ps_power_jo
                            ? ps_header_add_reading(head->table, &arguments->reading, head->error)
                            : head->status;
     }
-    put_points(head, ps_power_job_spectrum(job), ps_power_job_needs(job));
+    put_points(head, arguments, ps_power_job_spectrum(job), ps_power_job_needs(job));
     if (ps_power_job_problem(job)->measure != PS_OF_PAIR_SUMS) {
         put_different_points(head, arguments, ps_power_job_spectrum(job));
     }

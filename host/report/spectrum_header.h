@@ -13,6 +13,16 @@ pspec_status ps_header_add_job(ps_table *table, const ps_request *arguments,
                                const ps_power_job *job, size_t index,
                                ps_error *error) PS_MUST_CHECK;
 
+/* Numbers of points of sets. */
+typedef struct ps_points_range {
+    double mean;
+    uint64_t smallest, largest;
+} ps_points_range;
+/* N of all sets, or their mean, then the smallest and the largest; these also where every set has
+ * the same N, if is_one_of_several: JSON has the values of a key in an array, without gaps. */
+pspec_status ps_header_add_points(ps_table *table, const ps_points_range *points,
+                                  bool is_one_of_several, ps_error *error) PS_MUST_CHECK;
+
 /* nan is a missing number. */
 ps_cell ps_number_or_missing(double value);
 /* From which box point files came, and how they were lifted to the sphere, if they were. */

@@ -146,6 +146,8 @@ static void discard(void *computed) {
 /* ---- what tables mean ------------------------------------------------------------------------ */
 
 static const char *const summary[] = {"points",
+                                      "points_smallest",
+                                      "points_largest",
                                       "realizations",
                                       "max_degree",
                                       "weight_sum",

@@ -6,8 +6,9 @@
 
 #include <stdlib.h>
 
-const char *const ps_spectra_summary[] = {"points",          "realizations", "weight_sum",
-                                          "predicted_error", "self_check",   NULL};
+const char *const ps_spectra_summary[] = {
+    "points",     "points_smallest", "points_largest", "realizations",
+    "weight_sum", "predicted_error", "self_check",     NULL};
 
 /* ---- warnings ------------------------------------------------------------------------------ */
 

@@ -298,6 +298,8 @@ saved power '"points": 8, "dimension": 3, "max_frequency": 1, "per_ring": 2' "$r
     seed saved shells ''
 saved angular '"points": "mean 7.5, from 7 to 8", "domain": "hemisphere, even degrees", "max_degree": 2' \
     '"degree", "power", "standard_error"' '[2, 1.5, 0.25]' | seed saved degrees ''
+saved power '"points": 7.5, "points_smallest": 7, "points_largest": 8, "dimension": 2, "max_frequency": 1' "$ring_columns" \
+    '[1, 1.2, 8, 0.5, 0.1]' | seed saved range ''
 saved power '"points": 8, "dimension": 2, "max_frequency": 2' "$ring_columns" '[1, 1.2, 8, 0.5, null]' | seed saved missing ''
 printf '{"schema": 2, "command": "power", "meta": {"normalization": ["power: x"], "realizations": [4], "predicted_error": [1e-7], "seed": [1],
 "points": [8], "dimension": [2], "max_frequency": [2], "bins": ["relative=1/2"]}, "columns": [%s], "rows": [{"bin": 1, "frequency": 1.2, "count": 8,
