@@ -208,9 +208,9 @@ static int find_column(const cJSON *columns, const char *name) {
 
 static pspec_status find_places(const reader *source, places *at) {
     const cJSON *const columns = cJSON_GetObjectItemCaseSensitive(source->root, "columns");
-    if (find_column(columns, "sampler") >= 0) {
-        return fail_damaged(source,
-                            "this is the table of several samplers; save one of them alone");
+    if (find_column(columns, "sampler") >= 0 || find_column(columns, "points") >= 0) {
+        return fail_damaged(source, "this is the table of several samplers or numbers of points; "
+                                    "save one of them alone");
     }
     if (find_column(columns, "k1") >= 0) {
         return fail_damaged(source,

@@ -42,6 +42,7 @@ static pspec_status check_question(const ps_request *request, ps_error *error) {
                        "--against FILE, the saved spectrum, or --homogeneous is needed");
     }
     PS_TRY(check_domain(request, error));
+    PS_TRY(ps_request_check_one_count(request, "and a saved spectrum is of one", error));
     return request->num_samplers <= 1
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
@@ -56,6 +57,7 @@ static void discard(void *computed) {
     }
     ps_homogeneity_discard(check->homogeneity);
     ps_power_job_destroy(check->job);
+    ps_questions_free(&check->list);
     ps_saved_spectrum_free(&check->saved);
     free(check->rows);
     free(check);

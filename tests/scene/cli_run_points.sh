@@ -11,6 +11,7 @@ columns_of() { # NAME... of the summary, row by row
         !seen++ { for (i = 1; i <= NF; i++) at[$i] = i; next }
         { for (i = 1; i <= num; i++) printf "%s ", name[i] in at ? $at[name[i]] : "none" }' run/r.summary.csv
 }
+# shellcheck disable=SC2317 # called by eval
 means_of() { # OPTION...: mean, smallest and largest N as the header of the command has them
     "$program" "$@" | awk -F': ' '/^# points(_smallest|_largest)?:/ { printf "%s ", $2 }'
 }
