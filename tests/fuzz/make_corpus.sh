@@ -206,6 +206,7 @@ done
 printf -- '--sampler\nwhite\n-n\n1e3\n-m16\n-k\n64\n-o\nout.csv' | seed arguments power '\0'
 printf -- '--sampler\nsobol:scramble=owen\n--sampler=jittered\n-n4096\n-d3\n--tol=1e-9\n--plot=a.png' |
     seed arguments samplers '\0'
+printf -- '--sampler=white\n-n\n16..64,100\n--points=8,4' | seed arguments counts '\0'
 printf -- '--frequencies=f.txt\n--weights\ncolumn\n--wrap\n-\n--\n-x' | seed arguments files '\0'
 printf -- '--sampler\nhalton\n-n\n1000\n--format\nnpy\n-s\n18446744073709551615' |
     seed arguments sample '\1'
