@@ -28,6 +28,7 @@ add_program_test(cli_full)      # arrays of --full, DC and its standard error
 add_program_test(cli_different_points) # sets of different N, normalizations, what was saved before
 add_program_test(cli_empty_axis) # points of a smaller box
 add_program_test(cli_errors)    # bad input: exit code, one sentence, nothing left behind
+add_program_test(cli_counts)    # several numbers of points in one command
 add_program_test(cli_program)   # streams, signals, formats, same bits
 add_program_test(cli_convert)   # every format to every other, pipes, gzip, memory
 add_program_test(cli_formats)   # files as other tools write them
@@ -51,6 +52,7 @@ add_program_test(cli_run)       # scenes: the folder, the cache, records, what i
 add_program_test(cli_picture)   # --plot fails: numbers stay
 add_program_test(cli_run_keys)  # the cache finds what is the same and nothing else
 add_program_test(cli_run_files) # what scenes read and write
+add_program_test(cli_run_points) # numbers of points of scenes: lists, means where they vary
 add_program_test(cli_run_pictures) # pictures of scenes: panels, failures, titles
 add_program_test(cli_stress)    # the stability suite: rows, formats, what is refused
 add_program_test(cli_stress_broken ${PROJECT_SOURCE_DIR}/kernels) # broken kernels fail by name

@@ -21,6 +21,9 @@ typedef struct ps_series {
     const double *error, *lower; /* of spectra: standard errors, and anisotropy in dB; else NULL */
 } ps_series;
 
+/* Appends the slope of a line whose axes are logarithmic to its label, "label: slope -0.5". */
+void ps_series_say_slope(const ps_series *series, ps_text *label);
+
 typedef struct ps_panel {
     const char *title; /* looked at where there may be several panels */
     size_t num_series;

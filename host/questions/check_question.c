@@ -17,7 +17,7 @@ ps_request ps_check_request(const ps_request *arguments, const ps_saved_spectrum
     }
     if (!arguments->is_given[PS_OPTION_POINTS]) {
         own.is_given[PS_OPTION_POINTS] = true;
-        own.num_points = (uint64_t)llround(saved->mean_points);
+        own.counts[0] = (uint64_t)llround(saved->mean_points);
     }
     if (!arguments->is_given[PS_OPTION_REALIZATIONS]) {
         own.num_realizations = saved->num_realizations;

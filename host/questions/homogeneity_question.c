@@ -57,6 +57,7 @@ static pspec_status check_request(const ps_request *own, ps_error *error) {
                        ps_option_show(own, PS_OPTION_AGAINST).text,
                        ps_option_show(own, PS_OPTION_HOMOGENEOUS).text);
     }
+    PS_TRY(ps_request_check_one_count(own, "and sets of one are checked at a time", error));
     return own->num_samplers <= 1
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,

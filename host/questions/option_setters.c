@@ -1,6 +1,7 @@
 /* From the text of a value to a field of ps_request. */
 #include "questions/option_setters.h"
 
+#include "base/counts.h"
 #include "base/process/memory_limit.h"
 #include "base/text.h"
 #include "frequencies/frequencies.h"
@@ -43,6 +44,16 @@ pspec_status ps_set_count(const ps_option *option, const char *shown, const char
     (void)words;
     return ps_parse_count(value, shown, option->minimum, option->maximum,
                           find_field(option, arguments), error);
+}
+
+/* The last list that is said is the whole. */
+pspec_status ps_set_points(const ps_option *option, const char *shown, const char *words,
+                           const char *value, ps_request *arguments, ps_error *error) {
+    ps_counts list = {.most = PS_MAX_COUNTS, .values = arguments->counts};
+    (void)words;
+    PS_TRY(ps_counts_parse(&list, value, shown, option->minimum, option->maximum, error));
+    arguments->num_counts = list.num;
+    return PSPEC_OK;
 }
 
 pspec_status ps_set_size(const ps_option *option, const char *shown, const char *words,

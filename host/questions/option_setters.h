@@ -6,7 +6,8 @@
 
 /* These set the field at option->offset: a bool, a text, a uint64_t within limits, a
  * ps_point_range, one of words. */
-ps_option_setter ps_set_flag, ps_set_text, ps_set_count, ps_set_size, ps_set_range, ps_set_word;
+ps_option_setter ps_set_flag, ps_set_text, ps_set_count, ps_set_points, ps_set_size, ps_set_range,
+    ps_set_word;
 
 ps_option_setter ps_set_nothing, ps_set_dimension, ps_set_max_frequency, ps_set_max_degree,
     ps_set_tolerance, ps_set_floor, ps_set_standard_error, ps_set_smoothness, ps_add_sampler,

@@ -39,9 +39,11 @@
 const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_POINTS] =
         {NAMED("points", 'n', "N"), OF(SETS, BIT(sample) | BIT(convert)),
-         .help = "points in each realization (default 1024; check: as saved); of files: "
-                 "points in each set, for formats that do not say (rps)",
-         COUNT(num_points), .minimum = 1, .maximum = MOST_POINTS},
+         .help =
+             "points in each realization (default 1024; check: as saved); several as 64,128,256 "
+             "or 16..16384, which is 16 and its doubles; of files: points in each set, for "
+             "formats that do not say (rps)",
+         .set = ps_set_points, .minimum = 1, .maximum = MOST_POINTS},
     [PS_OPTION_REALIZATIONS] = {NAMED("realizations", 'm', "M"), OF(SETS, BIT(sample)),
                                 .help = "realizations of each sampler (default 1; check: as saved, "
                                         "or 128)",

@@ -1,8 +1,10 @@
 #include "questions/quadrature_question.h"
 
+#include "base/memory.h"
 #include "questions/options.h"
 #include "questions/question.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 /* This tolerance is for E^2: good rules of many points have an E^2 of 1e-7 and less. */
@@ -33,11 +35,13 @@ static pspec_status check_weights(const ps_request *arguments, ps_error *error) 
                        "%s is about --weights optimal, which was not given",
                        ps_option_show(arguments, PS_OPTION_WEIGHT_SUM).text);
     }
+    PS_TRY(ps_weights_check_counts(arguments, error));
     return (arguments->weights_out != NULL || arguments->wants_array) &&
-                   (arguments->num_samplers > 1 || ps_num_realizations_asked(arguments) > 1)
+                   (ps_request_num_questions(arguments) > 1 ||
+                    ps_num_realizations_asked(arguments) > 1)
                ? ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "%s has the weights of one rule, but several samplers or realizations "
-                         "were asked for",
+                         "%s has the weights of one rule, but several samplers, numbers of points "
+                         "or realizations were asked for",
                          arguments->wants_array ? "arrays" : "--weights-out")
                : PSPEC_OK;
 }
@@ -45,7 +49,7 @@ static pspec_status check_weights(const ps_request *arguments, ps_error *error) 
 /* Points of the hemisphere get the density of the lobe, unless morph= says otherwise. */
 static pspec_status make_request(ps_sampler_request *request, const ps_request *arguments,
                                  size_t index, const ps_brdf *brdf, ps_error *error) {
-    const char *const name = arguments->samplers[index];
+    const char *const name = ps_request_sampler(arguments, index);
     PS_TRY(ps_sampler_request_make(request, arguments, index, error));
     if (!ps_sampler_is_on_sphere(request)) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
@@ -97,10 +101,14 @@ static ps_quadrature_question make_question(const ps_request *arguments, const p
 
 pspec_status ps_quadrature_list_make(ps_quadrature_list *out, const ps_request *arguments,
                                      ps_error *error) {
-    *out = (ps_quadrature_list){.num = arguments->num_samplers > 0 ? arguments->num_samplers : 1};
+    const size_t num = ps_request_num_questions(arguments);
+    *out = (ps_quadrature_list){0};
     PS_TRY(check_source(arguments, error));
     PS_TRY(check_weights(arguments, error));
     PS_TRY(ps_brdf_parse(&out->brdf, arguments->brdf, error));
+    PS_TRY(PS_NEW(&out->questions, num, "questions", error));
+    PS_TRY(PS_NEW(&out->requests, num, "questions", error));
+    out->num = num;
     for (size_t i = 0; i < out->num; i++) {
         out->questions[i] = make_question(arguments, out->brdf);
         if (arguments->num_samplers > 0) {
@@ -113,4 +121,7 @@ pspec_status ps_quadrature_list_make(ps_quadrature_list *out, const ps_request *
 
 void ps_quadrature_list_free(ps_quadrature_list *list) {
     ps_brdf_destroy(list->brdf);
+    free(list->questions);
+    free(list->requests);
+    *list = (ps_quadrature_list){0};
 }

@@ -5,17 +5,17 @@
 #include "jobs/quadrature/quadrature_setup.h"
 #include "questions/request.h"
 
-/* One question per sampler, or one for the files. The questions borrow from the arguments and from
- * here. */
+/* One question for each sampler and number of points, or one for the files, as the request counts
+ * them. The questions borrow from it, and from here. */
 typedef struct ps_quadrature_list {
     ps_brdf *brdf;
     size_t num;
-    ps_quadrature_question questions[PS_MAX_SAMPLERS];
-    ps_sampler_request requests[PS_MAX_SAMPLERS];
+    ps_quadrature_question *questions; /* [num] */
+    ps_sampler_request *requests;      /* [num] */
 } ps_quadrature_list;
 
-/* Checks that the options fit together. *out must not be moved; freed by ps_quadrature_list_free,
- * also after an error. */
+/* Checks that the options fit together. *out is freed by ps_quadrature_list_free, also after an
+ * error. */
 pspec_status ps_quadrature_list_make(ps_quadrature_list *out, const ps_request *arguments,
                                      ps_error *error) PS_MUST_CHECK;
 void ps_quadrature_list_free(ps_quadrature_list *list);

@@ -1,8 +1,10 @@
 #include "questions/question.h"
 
+#include "base/memory.h"
 #include "questions/options.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static pspec_status fail_conflict(const char *a, const char *b, const char *why, ps_error *error) {
@@ -60,8 +62,25 @@ static pspec_status check_lift(const ps_request *arguments, ps_error *error) {
                          ps_option_show(arguments, PS_OPTION_MORPH).text);
 }
 
+pspec_status ps_sample_check_counts(const ps_request *arguments, ps_error *error) {
+    return ps_request_check_one_count(arguments,
+                                      "and an output has sets of one, for what reads it averages "
+                                      "over them; use a command for each",
+                                      error);
+}
+
+/* A file has one weight for each point. */
+pspec_status ps_weights_check_counts(const ps_request *arguments, ps_error *error) {
+    return arguments->weights.kind == PS_WEIGHTS_FILE
+               ? ps_request_check_one_count(arguments, "and a file of weights is for one", error)
+               : PSPEC_OK;
+}
+
 pspec_status ps_point_options_check(const ps_request *arguments, ps_error *error) {
     PS_TRY(check_other_source(arguments, error));
+    if (arguments->num_samplers == 0) {
+        PS_TRY(ps_request_check_one_count(arguments, "and point files have their own", error));
+    }
     return check_lift(arguments, error);
 }
 
@@ -87,6 +106,33 @@ typedef struct option_pair {
     ps_option_id a, b;
     const char *why;
 } option_pair;
+
+/* "several samplers" */
+static const char *name_several(const ps_request *arguments) {
+    return arguments->num_samplers > 1 ? "several samplers" : "several numbers of points";
+}
+
+/* What there is one of. */
+static pspec_status check_several(const ps_request *arguments, ps_error *error) {
+    const size_t num = ps_request_num_questions(arguments);
+    const char *const several = name_several(arguments);
+    if (num == 1) {
+        return PSPEC_OK;
+    }
+    if (arguments->full != NULL) {
+        return fail_conflict("--full", several, "one array has one file", error);
+    }
+    if (arguments->coefficients != NULL) {
+        return fail_conflict("--coefficients", several, "one array has one file", error);
+    }
+    PS_TRY(ps_weights_check_counts(arguments, error));
+    return arguments->plot == NULL || num <= PS_MAX_CURVES
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "--plot: %zu samplers with %zu numbers of points are %zu curves, and a "
+                         "picture has %d at most; pointspec run deals them out to panels",
+                         arguments->num_samplers, arguments->num_counts, num, PS_MAX_CURVES);
+}
 
 static pspec_status check_results(const ps_request *arguments, ps_error *error) {
     static const option_pair pairs[] = {
@@ -123,20 +169,14 @@ static pspec_status check_results(const ps_request *arguments, ps_error *error) 
                              "arrays: coefficients", "they are of whole arrays of every set",
                              error);
     }
-    if (arguments->full != NULL && arguments->num_samplers > 1) {
-        return fail_conflict("--full", "several samplers", "one array has one file", error);
-    }
-    if (arguments->coefficients != NULL && arguments->num_samplers > 1) {
-        return fail_conflict("--coefficients", "several samplers", "one array has one file", error);
-    }
-    return PSPEC_OK;
+    return check_several(arguments, error);
 }
 
 ps_point_options ps_point_options_make(const ps_request *arguments) {
     ps_point_options options = arguments->reading;
     options.dimension = arguments->is_given[PS_OPTION_DIMENSION] ? arguments->dimension : 0;
     options.points_per_set =
-        arguments->is_given[PS_OPTION_POINTS] ? (size_t)arguments->num_points : 0;
+        arguments->is_given[PS_OPTION_POINTS] ? (size_t)arguments->counts[0] : 0;
     options.memory_limit = arguments->limits.constraints.memory_limit;
     return options;
 }
@@ -209,7 +249,7 @@ static ps_power_question make_question(const ps_request *arguments, ps_question_
         /* the picture of one spectrum shows the corners; several, and subsets, are curves only */
         .wants_full_array = arguments->full != NULL || wants_coefficients(arguments) ||
                             arguments->wants_picture || arguments->wants_array ||
-                            (arguments->plot != NULL && arguments->num_samplers <= 1 &&
+                            (arguments->plot != NULL && ps_request_num_questions(arguments) == 1 &&
                              arguments->frequencies.per_ring == 0),
         .normalization = choose_normalization(arguments, kind),
         .accuracy = arguments->accuracy,
@@ -223,20 +263,21 @@ static ps_power_question make_question(const ps_request *arguments, ps_question_
 }
 
 pspec_status ps_sampler_request_make(ps_sampler_request *out, const ps_request *arguments,
-                                     size_t i_sampler, ps_error *error) {
+                                     size_t question, ps_error *error) {
+    const bool has_points = arguments->is_given[PS_OPTION_POINTS];
     *out = (ps_sampler_request){
-        .num_points = arguments->is_given[PS_OPTION_POINTS] ? (size_t)arguments->num_points : 0,
+        .num_points = has_points ? (size_t)ps_request_points(arguments, question) : 0,
         .dimension = arguments->is_given[PS_OPTION_DIMENSION] ? arguments->dimension : 0,
         .seed = arguments->seed,
         .homogenize = arguments->homogenize};
-    PS_TRY(ps_sampler_parse(out, arguments->samplers[i_sampler], error));
+    PS_TRY(ps_sampler_parse(out, ps_request_sampler(arguments, question), error));
     return ps_sampler_resolve(out, error);
 }
 
 /* The wrong domain is named before anything else that may be wrong with a sampler. */
 static pspec_status make_request_of_domain(ps_sampler_request *out, const ps_request *arguments,
-                                           size_t i_sampler, ps_domain domain, ps_error *error) {
-    const char *const text = arguments->samplers[i_sampler];
+                                           size_t question, ps_domain domain, ps_error *error) {
+    const char *const text = ps_request_sampler(arguments, question);
     PS_TRY(ps_sampler_parse(out, text, error));
     if (domain == PS_DOMAIN_TORUS && ps_sampler_is_on_sphere(out)) {
         return ps_fail(
@@ -252,14 +293,18 @@ static pspec_status make_request_of_domain(ps_sampler_request *out, const ps_req
                        "=hemisphere takes them there",
                        text);
     }
-    return ps_sampler_request_make(out, arguments, i_sampler, error);
+    return ps_sampler_request_make(out, arguments, question, error);
 }
 
 pspec_status ps_questions_make(ps_question_list *out, const ps_request *arguments,
                                ps_question_kind kind, ps_error *error) {
+    *out = (ps_question_list){0};
     PS_TRY(check_source(arguments, error));
     PS_TRY(check_results(arguments, error));
-    out->num = arguments->num_samplers > 0 ? arguments->num_samplers : 1;
+    const size_t num = ps_request_num_questions(arguments);
+    PS_TRY(PS_NEW(&out->questions, num, "questions", error));
+    PS_TRY(PS_NEW(&out->requests, num, "questions", error));
+    out->num = num;
     for (size_t i = 0; i < out->num; i++) {
         out->questions[i] = make_question(arguments, kind);
         if (arguments->num_samplers == 0) {
@@ -270,4 +315,10 @@ pspec_status ps_questions_make(ps_question_list *out, const ps_request *argument
         out->questions[i].sampler = request;
     }
     return PSPEC_OK;
+}
+
+void ps_questions_free(ps_question_list *list) {
+    free(list->questions);
+    free(list->requests);
+    *list = (ps_question_list){0};
 }

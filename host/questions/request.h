@@ -16,10 +16,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { PS_MAX_SAMPLERS = 16 };
+/* The doubles of 1 up to the largest N are 34 numbers. */
+enum { PS_MAX_SAMPLERS = 16, PS_MAX_COUNTS = 64 };
 
 typedef enum ps_option_id {
-    PS_OPTION_POINTS,            /* -n, --points N */
+    PS_OPTION_POINTS,            /* -n, --points N,..|N..M */
     PS_OPTION_REALIZATIONS,      /* -m, --realizations M */
     PS_OPTION_STANDARD_ERROR,    /* --standard-error X */
     PS_OPTION_DIMENSION,         /* -d, --dimension D */
@@ -97,7 +98,8 @@ typedef enum ps_option_form {
 typedef struct ps_request {
     bool is_given[PS_NUM_OPTIONS];        /* which options were said */
     ps_option_form forms[PS_NUM_OPTIONS]; /* of those */
-    uint64_t num_points;                  /* 1024 unless given */
+    size_t num_counts;                    /* numbers of points that were asked for, */
+    uint64_t counts[PS_MAX_COUNTS];       /* 1024 alone unless given */
     uint64_t num_realizations;            /* 1 unless given */
     unsigned dimension;                   /* 2 unless given, 1..6 */
     uint64_t seed;                        /* 1 unless given */
@@ -137,5 +139,14 @@ typedef struct ps_request {
 
 /* Nothing was said. */
 extern const ps_request ps_request_default;
+
+/* A request asks a question of each sampler, or of its files, with each number of points. */
+size_t ps_request_num_questions(const ps_request *request);
+/* The sampler of a question; NULL: files. */
+const char *ps_request_sampler(const ps_request *request, size_t question);
+uint64_t ps_request_points(const ps_request *request, size_t question);
+/* Refuses several numbers of points; why: "and one output holds sets of one". */
+pspec_status ps_request_check_one_count(const ps_request *request, const char *why,
+                                        ps_error *error) PS_MUST_CHECK;
 
 #endif

@@ -59,27 +59,40 @@ static bool begins_with(const cJSON *item, const char *beginning) {
 
 /* ---- header ------------------------------------------------------------------------------ */
 
-/* "mean 1023.5, from 1000 to 1040", or one number. */
-static pspec_status read_points(const reader *source) {
-    const cJSON *const item = entry(source, "points");
-    ps_saved_spectrum *const out = source->out;
+/* Before the range had keys of its own: "mean 1023.5, from 1000 to 1040". */
+static bool take_old_range(ps_saved_spectrum *out, const cJSON *item) {
     unsigned long long smallest = 0;
     unsigned long long largest = 0;
-    if (!cJSON_IsString(item)) {
+    const bool is_read =
+        cJSON_IsString(item) && sscanf(item->valuestring, "mean %lf, from %llu to %llu",
+                                       &out->mean_points, &smallest, &largest) == 3;
+    out->smallest_points = smallest;
+    out->largest_points = largest;
+    return is_read && smallest > 0 && largest <= MOST_EXACT;
+}
+
+/* One number, or the mean of several with the smallest and the largest. */
+static pspec_status read_points(const reader *source) {
+    const cJSON *const item = entry(source, "points");
+    const cJSON *const smallest = entry(source, "points_smallest");
+    ps_saved_spectrum *const out = source->out;
+    if (smallest == NULL && !cJSON_IsString(item)) {
         PS_TRY(need_whole(source, "points", MOST_EXACT, &out->smallest_points));
         out->largest_points = out->smallest_points;
         out->mean_points = (double)out->smallest_points;
         return PSPEC_OK;
     }
-    if (sscanf(item->valuestring, "mean %lf, from %llu to %llu", &out->mean_points, &smallest,
-               &largest) != 3 ||
-        smallest == 0 || smallest > largest || largest > MOST_EXACT ||
-        !(out->mean_points >= (double)smallest && out->mean_points <= (double)largest)) {
-        return fail_damaged(source, "\"points\" of \"meta\" is no range of numbers of points");
+    if (smallest != NULL) {
+        PS_TRY(need_whole(source, "points_smallest", MOST_EXACT, &out->smallest_points));
+        PS_TRY(need_whole(source, "points_largest", MOST_EXACT, &out->largest_points));
+        out->mean_points = cJSON_IsNumber(item) ? item->valuedouble : 0;
+    } else if (!take_old_range(out, item)) {
+        out->mean_points = 0;
     }
-    out->smallest_points = smallest;
-    out->largest_points = largest;
-    return PSPEC_OK;
+    return out->mean_points >= (double)out->smallest_points &&
+                   out->mean_points <= (double)out->largest_points && out->mean_points > 0
+               ? PSPEC_OK
+               : fail_damaged(source, "\"points\" of \"meta\" is not in their range");
 }
 
 /* Before the normalization of integrals had a name, power was that where N differed. */
@@ -195,9 +208,9 @@ static int find_column(const cJSON *columns, const char *name) {
 
 static pspec_status find_places(const reader *source, places *at) {
     const cJSON *const columns = cJSON_GetObjectItemCaseSensitive(source->root, "columns");
-    if (find_column(columns, "sampler") >= 0) {
-        return fail_damaged(source,
-                            "this is the table of several samplers; save one of them alone");
+    if (find_column(columns, "sampler") >= 0 || find_column(columns, "points") >= 0) {
+        return fail_damaged(source, "this is the table of several samplers or numbers of points; "
+                                    "save one of them alone");
     }
     if (find_column(columns, "k1") >= 0) {
         return fail_damaged(source,

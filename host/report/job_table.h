@@ -1,19 +1,20 @@
-/* What the tables of all kinds of jobs share: header lines, and the rows of one sampler after the
+/* What the tables of all kinds of jobs share: header lines, and the rows of one job after the
  * other.
  */
 #ifndef PS_REPORT_JOB_TABLE_H
 #define PS_REPORT_JOB_TABLE_H
 
 #include "questions/question.h"
+#include "report/lead.h"
 #include "tables/table.h"
 
 typedef struct ps_job_table {
-    const char *name; /* of the command */
-    const char *const *columns;
+    const char *name;           /* of the command */
+    const char *const *columns; /* behind those of the lead */
     size_t num_columns;
-    /* The rows of a job; sampler: NULL unless the table begins with a column of samplers. */
-    pspec_status (*add_rows)(ps_table *, const ps_request *, const ps_power_job *,
-                             const char *sampler, ps_error *);
+    /* The rows of a job, which begin with the cells of the lead. */
+    pspec_status (*add_rows)(ps_table *, const ps_request *, const ps_power_job *, const ps_lead *,
+                             ps_error *);
 } ps_job_table;
 
 /* Makes the table of num jobs that have run. */

@@ -9,13 +9,25 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static const char *const columns[] = {"job",   "engine", "verdict", "seconds",
-                                      "bytes", "error",  "reason"};
+static const char *const columns[] = {"engine", "verdict", "seconds", "bytes", "error", "reason"};
 enum { NUM_COLUMNS = sizeof columns / sizeof columns[0] };
 
-pspec_status ps_plan_table_create(ps_table **out, bool has_jobs, ps_error *error) {
-    const size_t first = has_jobs ? 0 : 1;
-    return ps_table_create(out, "plan", columns + first, NUM_COLUMNS - first, error);
+pspec_status ps_plan_table_create(ps_table **out, const ps_lead *lead, ps_error *error) {
+    return ps_lead_create_table(out, "plan", lead, columns, NUM_COLUMNS, error);
+}
+
+ps_lead ps_plan_table_lead(const char *job) {
+    return (ps_lead){.num = 1, .names = {"job"}, .cells = {PS_TEXT(job)}};
+}
+
+void ps_plan_table_begin_question(ps_planner *planner, const ps_request *request, size_t index) {
+    if (ps_request_num_questions(request) > 1) {
+        planner->lead = ps_lead_make(request, index);
+    }
+}
+
+static pspec_status add_row(const ps_planner *planner, const ps_cell *cells, ps_error *error) {
+    return ps_lead_add_row(planner->table, &planner->lead, cells, NUM_COLUMNS, error);
 }
 
 static const char *verdict_of(const ps_candidate *candidate) {
@@ -40,7 +52,6 @@ static pspec_status add_candidates(const ps_planner *planner, const ps_plan *pla
                  ps_precision_name(candidate->precision));
         const bool has_numbers = candidate->is_applicable;
         const ps_cell cells[NUM_COLUMNS] = {
-            PS_TEXT(planner->job),
             PS_TEXT(name),
             PS_TEXT(verdict_of(candidate)),
             has_numbers ? PS_NUMBER(candidate->seconds * repeats + others) : PS_MISSING,
@@ -48,7 +59,7 @@ static pspec_status add_candidates(const ps_planner *planner, const ps_plan *pla
             has_numbers ? PS_NUMBER(candidate->error) : PS_MISSING,
             PS_TEXT(candidate->reason),
         };
-        PS_TRY(ps_table_add_row(planner->table, planner->job != NULL ? cells : cells + 1, error));
+        PS_TRY(add_row(planner, cells, error));
     }
     return PSPEC_OK;
 }
@@ -58,11 +69,10 @@ static pspec_status add_candidates(const ps_planner *planner, const ps_plan *pla
 static pspec_status add_skip(const ps_planner *planner, const ps_skip *skip, ps_error *error) {
     char text[sizeof(ps_skip) + 32]; /* with a number and separators */
     snprintf(text, sizeof text, "%s; %s; %.3g", skip->what, skip->why, skip->share);
-    const ps_cell cells[NUM_COLUMNS] = {
-        PS_TEXT(planner->job), PS_MISSING, PS_TEXT("skip"), PS_MISSING, PS_MISSING, PS_MISSING,
-        PS_TEXT(text)};
+    const ps_cell cells[NUM_COLUMNS] = {PS_MISSING, PS_TEXT("skip"), PS_MISSING,
+                                        PS_MISSING, PS_MISSING,      PS_TEXT(text)};
     PS_TRY(ps_table_add_meta(planner->table, "skip", PS_TEXT(text), error));
-    return planner->job != NULL ? ps_table_add_row(planner->table, cells, error) : PSPEC_OK;
+    return planner->lead.num > 0 ? add_row(planner, cells, error) : PSPEC_OK;
 }
 
 /* ---- phases -------------------------------------------------------------------------------- */
@@ -74,14 +84,9 @@ static pspec_status add_phase(const ps_planner *planner, const ps_phase_cost *ph
     snprintf(text, sizeof text, "%s; %s%.3g s; %s", phase->name, most, phase->seconds, phase->what);
     PS_TRY(ps_table_add_meta(planner->table, "phase", PS_TEXT(text), error));
     snprintf(text, sizeof text, "%s%s; %s", most, phase->name, phase->what);
-    const ps_cell cells[NUM_COLUMNS] = {PS_TEXT(planner->job),
-                                        PS_MISSING,
-                                        PS_TEXT("phase"),
-                                        PS_NUMBER(phase->seconds),
-                                        PS_MISSING,
-                                        PS_MISSING,
-                                        PS_TEXT(text)};
-    return planner->job != NULL ? ps_table_add_row(planner->table, cells, error) : PSPEC_OK;
+    const ps_cell cells[NUM_COLUMNS] = {PS_MISSING, PS_TEXT("phase"), PS_NUMBER(phase->seconds),
+                                        PS_MISSING, PS_MISSING,       PS_TEXT(text)};
+    return planner->lead.num > 0 ? add_row(planner, cells, error) : PSPEC_OK;
 }
 
 pspec_status ps_plan_table_add_phases(ps_planner *planner, const ps_phases *phases,
@@ -102,16 +107,12 @@ pspec_status ps_plan_table_end(const ps_planner *planner, ps_error *error) {
 
 pspec_status ps_plan_table_add_host(ps_planner *planner, const ps_phases *phases,
                                     const char *reason, ps_error *error) {
-    const ps_cell cells[NUM_COLUMNS] = {PS_TEXT(planner->job),
-                                        PS_TEXT("host"),
-                                        PS_TEXT("chosen"),
-                                        PS_NUMBER(ps_phases_seconds(phases)),
-                                        PS_MISSING,
-                                        PS_MISSING,
-                                        PS_TEXT(reason)};
+    const ps_cell cells[NUM_COLUMNS] = {
+        PS_TEXT("host"), PS_TEXT("chosen"), PS_NUMBER(ps_phases_seconds(phases)),
+        PS_MISSING,      PS_MISSING,        PS_TEXT(reason)};
     PS_TRY(ps_table_add_meta(planner->table, "device", PS_TEXT("none"), error));
     PS_TRY(ps_plan_table_add_phases(planner, phases, error));
-    return ps_table_add_row(planner->table, planner->job != NULL ? cells : cells + 1, error);
+    return add_row(planner, cells, error);
 }
 
 /* ---- jobs ---------------------------------------------------------------------------------- */
@@ -121,8 +122,9 @@ static pspec_status add_header(const ps_planner *planner, const ps_request *argu
                                const ps_problem *problem, const ps_needs *needs,
                                const ps_device_limits *limits, size_t index, ps_error *error) {
     ps_table *const table = planner->table;
-    if (arguments->num_samplers > 0) {
-        PS_TRY(ps_table_add_meta(table, "sampler", PS_TEXT(arguments->samplers[index]), error));
+    const char *const sampler = ps_request_sampler(arguments, index);
+    if (sampler != NULL) {
+        PS_TRY(ps_table_add_meta(table, "sampler", PS_TEXT(sampler), error));
     }
     PS_TRY(
         ps_table_add_meta(table, "device", PS_TEXT(limits != NULL ? limits->name : "host"), error));
@@ -204,16 +206,12 @@ pspec_status ps_plan_table_add_quadrature(ps_planner *planner, const ps_request 
 }
 
 pspec_status ps_plan_table_add_cached(ps_planner *planner, ps_error *error) {
-    const ps_cell cells[NUM_COLUMNS] = {PS_TEXT(planner->job),
-                                        PS_TEXT("cache"),
-                                        PS_TEXT("chosen"),
-                                        PS_NUMBER(0),
-                                        PS_INTEGER(0),
-                                        PS_MISSING,
-                                        PS_TEXT("the answer is in the cache of results")};
+    const ps_cell cells[NUM_COLUMNS] = {
+        PS_TEXT("cache"), PS_TEXT("chosen"), PS_NUMBER(0),
+        PS_INTEGER(0),    PS_MISSING,        PS_TEXT("the answer is in the cache of results")};
     PS_TRY(ps_table_add_meta(planner->table, "skip",
                              PS_TEXT("the whole question; its answer is in the cache; 1"), error));
-    return ps_table_add_row(planner->table, planner->job != NULL ? cells : cells + 1, error);
+    return add_row(planner, cells, error);
 }
 
 /* ---- points -------------------------------------------------------------------------------- */
@@ -225,6 +223,7 @@ pspec_status ps_plan_table_add_sample(ps_planner *planner, const ps_request *req
     if (request->num_samplers != 1) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "one --sampler NAME is needed");
     }
+    PS_TRY(ps_sample_check_counts(request, error));
     PS_TRY(ps_sampler_request_make(&sampler, request, 0, error));
     const double sets = (double)request->num_realizations;
     const ps_sets_options kept = ps_source_sets(&request->limits, request->accuracy.no_skip);

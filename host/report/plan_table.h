@@ -6,11 +6,12 @@
 #include "plan/phases.h"
 #include "questions/quadrature_question.h"
 #include "questions/question.h"
+#include "report/lead.h"
 #include "tables/table.h"
 
 typedef struct ps_planner {
     ps_table *table;
-    const char *job; /* what the rows begin with, where the table has that column; NULL otherwise */
+    ps_lead lead; /* what the rows begin with, the same columns in all of them */
     /* Borrowed; NULL: the one that a request names is opened where it is needed */
     ps_device *device;
     const ps_figures *host; /* what was measured of the host; NULL: nothing */
@@ -19,8 +20,13 @@ typedef struct ps_planner {
     bool is_at_most;
 } ps_planner;
 
-/* has_jobs: rows begin with the job that they are of. */
-pspec_status ps_plan_table_create(ps_table **out, bool has_jobs, ps_error *error) PS_MUST_CHECK;
+/* lead: its columns. */
+pspec_status ps_plan_table_create(ps_table **out, const ps_lead *lead,
+                                  ps_error *error) PS_MUST_CHECK;
+/* That of a scene, whose questions are jobs: the name, borrowed. */
+ps_lead ps_plan_table_lead(const char *job);
+/* Rows are of number `index` of the questions of a request from here on, where it has several. */
+void ps_plan_table_begin_question(ps_planner *planner, const ps_request *request, size_t index);
 
 /* Without any device the host's engines are planned, and the header says why there is none. A
  * device that was named and is not there is an error, as for the command itself. */

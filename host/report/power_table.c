@@ -7,19 +7,18 @@
 
 /* ---- rows -------------------------------------------------------------------------------- */
 
-enum { MOST_COLUMNS = PS_MAX_DIMENSION + 8 };
+enum { MOST_COLUMNS = PS_MAX_DIMENSION + 7 };
 
 static const char *const bin_columns[] = {"bin",          "frequency", "normalized_frequency",
                                           "count",        "power",     "standard_error",
                                           "anisotropy_db"};
 static const char *const axis_columns[] = {"k1", "k2", "k3", "k4", "k5", "k6"};
 
-static pspec_status add_bins(ps_table *table, const ps_spectrum *spectrum, const char *sampler,
+static pspec_status add_bins(ps_table *table, const ps_spectrum *spectrum, const ps_lead *lead,
                              ps_error *error) {
     for (size_t b = 0; b < spectrum->num_bins; b++) {
         const ps_spectrum_bin *bin = &spectrum->bins[b];
         const ps_cell cells[] = {
-            PS_TEXT(sampler),
             PS_INTEGER(bin->key),
             PS_NUMBER(bin->frequency),
             PS_NUMBER(bin->normalized_frequency),
@@ -28,26 +27,23 @@ static pspec_status add_bins(ps_table *table, const ps_spectrum *spectrum, const
             ps_number_or_missing(bin->standard_error),
             ps_number_or_missing(bin->anisotropy_db),
         };
-        PS_TRY(ps_table_add_row(table, sampler != NULL ? cells : cells + 1, error));
+        PS_TRY(ps_lead_add_row(table, lead, cells, sizeof cells / sizeof cells[0], error));
     }
     return PSPEC_OK;
 }
 
 static pspec_status add_frequencies(ps_table *table, const ps_spectrum *spectrum,
-                                    const char *sampler, ps_error *error) {
+                                    const ps_lead *lead, ps_error *error) {
     const unsigned dimension = spectrum->frequencies.dimension;
     for (size_t i = 0; i < spectrum->frequencies.num; i++) {
         ps_cell cells[MOST_COLUMNS];
         size_t num = 0;
-        if (sampler != NULL) {
-            cells[num++] = PS_TEXT(sampler);
-        }
         for (unsigned axis = 0; axis < dimension; axis++) {
             cells[num++] = PS_INTEGER(spectrum->frequencies.vectors[i * dimension + axis]);
         }
         cells[num++] = PS_NUMBER(spectrum->powers[i].mean);
         cells[num++] = ps_number_or_missing(spectrum->powers[i].standard_error);
-        PS_TRY(ps_table_add_row(table, cells, error));
+        PS_TRY(ps_lead_add_row(table, lead, cells, num, error));
     }
     return PSPEC_OK;
 }
@@ -55,9 +51,6 @@ static pspec_status add_frequencies(ps_table *table, const ps_spectrum *spectrum
 static size_t choose_columns(const char **columns, const ps_request *arguments,
                              unsigned dimension) {
     size_t num = 0;
-    if (arguments->num_samplers > 1) {
-        columns[num++] = "sampler";
-    }
     if (arguments->frequencies.path != NULL) {
         for (unsigned axis = 0; axis < dimension; axis++) {
             columns[num++] = axis_columns[axis];
@@ -73,10 +66,10 @@ static size_t choose_columns(const char **columns, const ps_request *arguments,
 }
 
 static pspec_status add_rows(ps_table *table, const ps_request *arguments, const ps_power_job *job,
-                             const char *sampler, ps_error *error) {
+                             const ps_lead *lead, ps_error *error) {
     const ps_spectrum *spectrum = ps_power_job_spectrum(job);
-    return arguments->frequencies.path != NULL ? add_frequencies(table, spectrum, sampler, error)
-                                               : add_bins(table, spectrum, sampler, error);
+    return arguments->frequencies.path != NULL ? add_frequencies(table, spectrum, lead, error)
+                                               : add_bins(table, spectrum, lead, error);
 }
 
 pspec_status ps_power_table(ps_table **out, const ps_request *arguments,

@@ -5,8 +5,7 @@
 #include "questions/question.h"
 #include "tables/table.h"
 
-/* Header lines and rows of num jobs that have run; the table of several samplers begins with a
- * column `sampler`. */
+/* Header lines and rows of num jobs that have run, behind the columns of their lead. */
 pspec_status ps_power_table(ps_table **out, const ps_request *arguments,
                             const ps_power_job *const *jobs, size_t num,
                             ps_error *error) PS_MUST_CHECK;

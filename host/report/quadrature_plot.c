@@ -35,19 +35,28 @@ static pspec_status make_curves(curves *out, ps_series *lines, size_t first, con
     return PSPEC_OK;
 }
 
-static pspec_status write_plot(const ps_request *arguments, const ps_series *lines,
-                               size_t num_lines, const ps_quadrature_result *first,
+typedef struct axis_labels {
+    const char *x, *y;
+} axis_labels;
+
+/* last: of the results. */
+static pspec_status write_plot(const ps_request *arguments, const axis_labels *labels,
+                               const ps_series *lines, size_t num_lines,
+                               const ps_quadrature_result *first, const ps_quadrature_result *last,
                                ps_error *error) {
     ps_text title = {0};
-    ps_text_append(&title, "%s, smoothness %g, N = %zu, %llu realization%s", arguments->brdf,
-                   arguments->smoothness, first->num_points,
-                   (unsigned long long)first->num_realizations,
+    ps_text_append(&title, "%s, smoothness %g, N = %.6g", arguments->brdf, arguments->smoothness,
+                   first->mean_points);
+    if (arguments->num_counts > 1) {
+        ps_text_append(&title, " to %.6g", last->mean_points);
+    }
+    ps_text_append(&title, ", %llu realization%s", (unsigned long long)first->num_realizations,
                    first->num_realizations == 1 ? "" : "s");
     const ps_panel panel = {NULL, num_lines, lines};
     const ps_figure figure = {.form = PS_FIGURE_FRAME,
                               .title = ps_text_string(&title),
-                              .x_label = "degree l",
-                              .y_label = "d@_l^2 , C@_l^2 , e@_l^2 = a_l (d@_l^2 + C@_l^2 )",
+                              .x_label = labels->x,
+                              .y_label = labels->y,
                               .axes = arguments->plot_axes,
                               .is_log_x = true,
                               .is_log_y = true,
@@ -63,18 +72,73 @@ static pspec_status write_plot(const ps_request *arguments, const ps_series *lin
 
 pspec_status ps_quadrature_plot(const ps_request *arguments, const ps_quadrature_list *list,
                                 const ps_quadrature_result *results, ps_error *error) {
+    static const axis_labels labels = {"degree l",
+                                       "d@_l^2 , C@_l^2 , e@_l^2 = a_l (d@_l^2 + C@_l^2 )"};
     curves all[PS_MAX_SAMPLERS] = {{.numbers = NULL}};
     ps_series lines[LINES * PS_MAX_SAMPLERS];
     pspec_status status = PSPEC_OK;
     for (size_t i = 0; i < list->num; i++) {
-        const char *const sampler = list->num > 1 ? arguments->samplers[i] : NULL;
+        const char *const sampler = list->num > 1 ? ps_request_sampler(arguments, i) : NULL;
         PS_TRY_OUT(status,
                    make_curves(&all[i], lines + LINES * i, LINES * i, sampler, &results[i], error));
     }
-    status = write_plot(arguments, lines, LINES * list->num, &results[0], error);
+    status =
+        write_plot(arguments, &labels, lines, LINES * list->num, &results[0], &results[0], error);
 out:
     for (size_t i = 0; i < list->num; i++) {
         free(all[i].numbers);
     }
+    return status;
+}
+
+/* ---- E against N --------------------------------------------------------------------------- */
+
+typedef struct error_lines {
+    size_t num;
+    ps_series series[PS_MAX_SAMPLERS];
+    ps_text labels[PS_MAX_SAMPLERS];
+    double *numbers; /* N and E of all questions */
+} error_lines;
+
+/* The line of a sampler: its questions stand together. */
+static pspec_status take_errors(error_lines *out, size_t line, const ps_request *arguments,
+                                const ps_quadrature_result *results, ps_error *error) {
+    const size_t num = arguments->num_counts;
+    double *const x = out->numbers + 2 * num * line;
+    double *const y = x + num;
+    ps_text *const label = &out->labels[line];
+    for (size_t i = 0; i < num; i++) {
+        const ps_quadrature_result *const result = &results[line * num + i];
+        x[i] = result->mean_points;
+        y[i] = ps_quadrature_error(result);
+    }
+    ps_series *const series = &out->series[line];
+    *series = (ps_series){.kind = line, .num = num, .x = x, .y = y};
+    if (out->num > 1) {
+        ps_text_append(label, "%s", ps_request_sampler(arguments, line * num));
+    }
+    ps_series_say_slope(series, label);
+    series->label = ps_text_string(label);
+    return ps_text_check(label, error);
+}
+
+pspec_status ps_quadrature_plot_errors(const ps_request *arguments, const char *x_label,
+                                       const char *y_label, const ps_quadrature_result *results,
+                                       ps_error *error) {
+    const axis_labels labels = {x_label, y_label};
+    const size_t num_counts = arguments->num_counts;
+    error_lines lines = {.num = ps_request_num_questions(arguments) / num_counts};
+    pspec_status status = PSPEC_OK;
+    PS_TRY(PS_NEW(&lines.numbers, 2 * num_counts * lines.num, "a picture", error));
+    for (size_t i = 0; i < lines.num; i++) {
+        PS_TRY_OUT(status, take_errors(&lines, i, arguments, results, error));
+    }
+    status = write_plot(arguments, &labels, lines.series, lines.num, &results[0],
+                        &results[num_counts - 1], error);
+out:
+    for (size_t i = 0; i < lines.num; i++) {
+        ps_text_free(&lines.labels[i]);
+    }
+    free(lines.numbers);
     return status;
 }

@@ -1,6 +1,7 @@
 #include "report/quadrature_table.h"
 
 #include "jobs/quadrature/quadrature_looks.h"
+#include "report/lead.h"
 #include "report/spectrum_header.h"
 
 #include <math.h>
@@ -49,7 +50,10 @@ static pspec_status add_question(ps_table *table, const ps_request *arguments,
 }
 
 static pspec_status add_facts(ps_table *table, const char *sampler, const ps_point_options *options,
-                              const ps_quadrature_result *result, ps_error *error) {
+                              const ps_quadrature_result *result, bool with_range,
+                              ps_error *error) {
+    const ps_points_range range = {result->mean_points, result->smallest_points,
+                                   result->largest_points};
     PS_TRY(add_remark(table, "sampler", sampler, error));
     PS_TRY(ps_header_add_reading(table, options, error));
     const ps_meta entries[] = {
@@ -57,11 +61,14 @@ static pspec_status add_facts(ps_table *table, const char *sampler, const ps_poi
         {"engine", PS_TEXT(result->engine)},
         {"precision", PS_TEXT(result->precision)},
         {"realizations", PS_INTEGER(result->num_realizations)},
-        {"points", PS_INTEGER(result->num_points)},
+    };
+    const ps_meta more[] = {
         {"max_degree", PS_INTEGER(result->max_degree)},
         {"skipped", PS_TEXT(result->skipped)},
     };
     PS_TRY(ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error));
+    PS_TRY(ps_header_add_points(table, &range, with_range, error));
+    PS_TRY(ps_table_add_metas(table, more, sizeof more / sizeof more[0], error));
     PS_TRY(add_remark(table, "degrees", result->degrees_note, error));
     return result->num_dropped > 0 ? ps_table_add_meta(table, "dropped_below_horizon",
                                                        PS_INTEGER(result->num_dropped), error)
@@ -89,10 +96,14 @@ static double root(double square) {
     return sqrt(fmax(square, 0));
 }
 
+double ps_quadrature_error(const ps_quadrature_result *result) {
+    return root(result->squared.mean);
+}
+
 static pspec_status add_answer(ps_table *table, const ps_quadrature_result *result,
                                ps_error *error) {
     char check[200];
-    const double e = root(result->squared.mean);
+    const double e = ps_quadrature_error(result);
     snprintf(check, sizeof check,
              "kernel form minus spectral form: %.6g; independent points of the lobe's density have "
              "%.6g in the mean",
@@ -130,16 +141,15 @@ static pspec_status add_condition(ps_table *table, const ps_quadrature_result *r
     return add_remark(table, "warning", result->is_ill_conditioned ? warning : NULL, error);
 }
 
-static const char *const columns[] = {"sampler", "degree",   "b", "d2", "d2_error",
-                                      "c2",      "c2_error", "a", "e2", "e2_error"};
+static const char *const columns[] = {"degree",   "b", "d2", "d2_error", "c2",
+                                      "c2_error", "a", "e2", "e2_error"};
 enum { NUM_COLUMNS = sizeof columns / sizeof columns[0] };
 
-static pspec_status add_degrees(ps_table *table, const char *sampler,
+static pspec_status add_degrees(ps_table *table, const ps_lead *lead,
                                 const ps_quadrature_result *result, ps_error *error) {
     for (size_t l = 0; l <= result->max_degree; l++) {
         const ps_quadrature_degree *const degree = &result->degrees[l];
         const ps_cell cells[NUM_COLUMNS] = {
-            PS_TEXT(sampler),
             PS_INTEGER(l),
             PS_NUMBER(degree->b),
             PS_NUMBER(degree->d2.mean),
@@ -150,22 +160,33 @@ static pspec_status add_degrees(ps_table *table, const char *sampler,
             PS_NUMBER(degree->e2.mean),
             ps_number_or_missing(degree->e2.standard_error),
         };
-        PS_TRY(ps_table_add_row(table, sampler != NULL ? cells : cells + 1, error));
+        PS_TRY(ps_lead_add_row(table, lead, cells, NUM_COLUMNS, error));
     }
     return PSPEC_OK;
+}
+
+static bool have_ranges(const ps_quadrature_result *results, size_t num) {
+    size_t i = 0;
+    while (i < num && results[i].smallest_points == results[i].largest_points) {
+        i++;
+    }
+    return i < num;
 }
 
 static pspec_status fill(ps_table *table, const ps_request *arguments,
                          const ps_quadrature_list *list, const ps_quadrature_result *results,
                          ps_error *error) {
+    const bool with_range = have_ranges(results, list->num);
     PS_TRY(add_question(table, arguments, list, error));
     for (size_t i = 0; i < list->num; i++) {
-        const char *const sampler = arguments->num_samplers > 0 ? arguments->samplers[i] : NULL;
-        PS_TRY(add_facts(table, sampler, &list->questions[i].point_options, &results[i], error));
+        const ps_lead lead = ps_lead_make(arguments, i);
+        const char *const sampler = ps_request_sampler(arguments, i);
+        PS_TRY(add_facts(table, sampler, &list->questions[i].point_options, &results[i], with_range,
+                         error));
         PS_TRY(add_look(table, arguments->accuracy.standard_error, &results[i], error));
         PS_TRY(add_answer(table, &results[i], error));
         PS_TRY(add_condition(table, &results[i], error));
-        PS_TRY(add_degrees(table, list->num > 1 ? sampler : NULL, &results[i], error));
+        PS_TRY(add_degrees(table, &lead, &results[i], error));
     }
     return PSPEC_OK;
 }
@@ -173,8 +194,8 @@ static pspec_status fill(ps_table *table, const ps_request *arguments,
 pspec_status ps_quadrature_table(ps_table **out, const ps_request *arguments,
                                  const ps_quadrature_list *list,
                                  const ps_quadrature_result *results, ps_error *error) {
-    const size_t first = list->num > 1 ? 0 : 1;
-    PS_TRY(ps_table_create(out, "quadrature", columns + first, NUM_COLUMNS - first, error));
+    const ps_lead first = ps_lead_make(arguments, 0);
+    PS_TRY(ps_lead_create_table(out, "quadrature", &first, columns, NUM_COLUMNS, error));
     const pspec_status status = fill(*out, arguments, list, results, error);
     if (status != PSPEC_OK) {
         ps_table_destroy(*out);

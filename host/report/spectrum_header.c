@@ -37,6 +37,18 @@ pspec_status ps_header_add_reading(ps_table *table, const ps_point_options *opti
                          : PSPEC_OK;
 }
 
+pspec_status ps_header_add_points(ps_table *table, const ps_points_range *points, bool with_range,
+                                  ps_error *error) {
+    const bool varies = points->smallest < points->largest;
+    const ps_meta entries[] = {
+        {"points", varies ? PS_NUMBER(points->mean) : PS_INTEGER(points->largest)},
+        {"points_smallest", PS_INTEGER(points->smallest)},
+        {"points_largest", PS_INTEGER(points->largest)},
+    };
+    return ps_table_add_metas(table, entries, with_range ? sizeof entries / sizeof entries[0] : 1,
+                              error);
+}
+
 static bool is_on_sphere(const ps_frequencies *set) {
     return set->kind == PS_FREQUENCIES_DEGREES;
 }
@@ -103,15 +115,13 @@ static void put_different_points(header *head, const ps_request *arguments,
                       "integrals want --normalize integral"));
 }
 
-static void put_points(header *head, const ps_spectrum *spectrum, const ps_needs *needs) {
-    char range[96];
-    if (spectrum->smallest_points == spectrum->largest_points) {
-        put(head, "points", PS_INTEGER(spectrum->largest_points));
-    } else {
-        snprintf(range, sizeof range, "mean %.17g, from %zu to %zu", spectrum->mean_points,
-                 spectrum->smallest_points, spectrum->largest_points);
-        put(head, "points", PS_TEXT(range));
-    }
+static void put_points(header *head, bool with_range, const ps_spectrum *spectrum,
+                       const ps_needs *needs) {
+    const ps_points_range range = {spectrum->mean_points, spectrum->smallest_points,
+                                   spectrum->largest_points};
+    head->status = head->status == PSPEC_OK
+                       ? ps_header_add_points(head->table, &range, with_range, head->error)
+                       : head->status;
     put(head, "realizations", PS_INTEGER(spectrum->num_realizations));
     if (spectrum->num_realizations == 1) {
         put(head, "standard_error",
@@ -208,14 +218,23 @@ static void put_empty_axis(header *head, const ps_power_job *job) {
     }
 }
 
+static bool have_ranges(const ps_power_job *const *jobs, size_t num) {
+    size_t i = 0;
+    while (i < num && ps_power_job_spectrum(jobs[i])->smallest_points ==
+                          ps_power_job_spectrum(jobs[i])->largest_points) {
+        i++;
+    }
+    return i < num;
+}
+
 static void put_job(header *head, const ps_request *arguments, const ps_power_job *job,
-                    size_t index) {
+                    size_t index, bool with_range) {
     const ps_device_limits *limits = ps_power_job_limits(job);
     const ps_candidate *chosen = ps_power_job_plan(job)->chosen;
     ps_text skipped = {0};
     if (arguments->num_samplers > 0) {
         const char *note = ps_sampler_note(ps_power_job_sampler(job));
-        put(head, "sampler", PS_TEXT(arguments->samplers[index]));
+        put(head, "sampler", PS_TEXT(ps_request_sampler(arguments, index)));
         if (note != NULL) {
             put(head, "sampler_note", PS_TEXT(note));
         }
@@ -226,7 +245,7 @@ static void put_job(header *head, const ps_request *arguments, const ps_power_jo
                            ? ps_header_add_reading(head->table, &arguments->reading, head->error)
                            : head->status;
     }
-    put_points(head, ps_power_job_spectrum(job), ps_power_job_needs(job));
+    put_points(head, with_range, ps_power_job_spectrum(job), ps_power_job_needs(job));
     if (ps_power_job_problem(job)->measure != PS_OF_PAIR_SUMS) {
         put_different_points(head, arguments, ps_power_job_spectrum(job));
     }
@@ -260,8 +279,9 @@ pspec_status ps_header_begin(ps_table *table, const ps_request *arguments,
 }
 
 pspec_status ps_header_add_job(ps_table *table, const ps_request *arguments,
-                               const ps_power_job *job, size_t index, ps_error *error) {
+                               const ps_power_job *const *jobs, size_t num, size_t index,
+                               ps_error *error) {
     header head = {table, error, PSPEC_OK};
-    put_job(&head, arguments, job, index);
+    put_job(&head, arguments, jobs[index], index, have_ranges(jobs, num));
     return head.status;
 }

@@ -8,10 +8,22 @@
 /* What all jobs have in common. */
 pspec_status ps_header_begin(ps_table *table, const ps_request *arguments,
                              const ps_power_job *first, ps_error *error) PS_MUST_CHECK;
-/* Adds what is to be said of job number `index`, which has run. */
+/* Adds what is to be said of the job of question `index` of those that the table is of, which all
+ * have run. */
 pspec_status ps_header_add_job(ps_table *table, const ps_request *arguments,
-                               const ps_power_job *job, size_t index,
+                               const ps_power_job *const *jobs, size_t num, size_t index,
                                ps_error *error) PS_MUST_CHECK;
+
+/* Numbers of points of sets. */
+typedef struct ps_points_range {
+    double mean;
+    uint64_t smallest, largest;
+} ps_points_range;
+/* N of all sets, or their mean, then, with_range, the smallest and the largest: where they differ
+ * in a question of the table, they are there for all, since JSON has the values of a key in an
+ * array, without gaps. */
+pspec_status ps_header_add_points(ps_table *table, const ps_points_range *points, bool with_range,
+                                  ps_error *error) PS_MUST_CHECK;
 
 /* nan is a missing number. */
 ps_cell ps_number_or_missing(double value);

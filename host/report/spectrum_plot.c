@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "plots/plot.h"
+#include "report/lead.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -65,8 +66,8 @@ static void write_points(ps_text *title, const ps_power_job *const *jobs, size_t
 static void write_title(ps_text *title, const ps_request *arguments,
                         const ps_power_job *const *jobs, size_t num) {
     const ps_spectrum *first = ps_power_job_spectrum(jobs[0]);
-    if (num > 1) {
-        ps_text_append(title, "%zu samplers", num);
+    if (arguments->num_samplers > 1) {
+        ps_text_append(title, "%zu samplers", arguments->num_samplers);
     } else if (arguments->num_samplers == 1) {
         ps_text_append(title, "%s", arguments->samplers[0]);
     } else if (arguments->num_files == 1) {
@@ -79,10 +80,23 @@ static void write_title(ps_text *title, const ps_request *arguments,
                    first->num_realizations == 1 ? "" : "s");
 }
 
+/* What tells the curve from the others. */
+static pspec_status write_label(ps_text *label, const ps_request *arguments, size_t question,
+                                ps_error *error) {
+    const ps_lead lead = ps_lead_make(arguments, question);
+    const char *const sampler = ps_request_sampler(arguments, question);
+    ps_lead_label(&lead, label);
+    if (lead.num == 0) {
+        ps_text_append(label, "%s", sampler != NULL ? sampler : "mean");
+    }
+    return ps_text_check(label, error);
+}
+
 pspec_status ps_spectrum_plot(const ps_request *arguments, const ps_power_job *const *jobs,
                               size_t num, ps_error *error) {
-    ps_series curves[PS_MAX_SAMPLERS];
-    void *blocks[PS_MAX_SAMPLERS] = {NULL};
+    ps_series curves[PS_MAX_CURVES];
+    ps_text labels[PS_MAX_CURVES] = {{0}};
+    void *blocks[PS_MAX_CURVES] = {NULL};
     ps_plot_image image;
     double *array = NULL;
     ps_text title = {0};
@@ -92,8 +106,9 @@ pspec_status ps_spectrum_plot(const ps_request *arguments, const ps_power_job *c
     const bool has_image =
         num == 1 && first->frequencies.dimension == 2 && arguments->frequencies.per_ring == 0;
     for (size_t i = 0; i < num; i++) {
-        const char *label = arguments->num_samplers > 0 ? arguments->samplers[i] : "mean";
-        PS_TRY_OUT(status, make_curve(&curves[i], i, label, jobs[i], &blocks[i], error));
+        PS_TRY_OUT(status, write_label(&labels[i], arguments, i, error));
+        PS_TRY_OUT(status, make_curve(&curves[i], i, ps_text_string(&labels[i]), jobs[i],
+                                      &blocks[i], error));
     }
     if (has_image) {
         PS_TRY_OUT(status, make_image(&image, &array, first, error));
@@ -114,6 +129,7 @@ pspec_status ps_spectrum_plot(const ps_request *arguments, const ps_power_job *c
 out:
     for (size_t i = 0; i < num; i++) {
         free(blocks[i]);
+        ps_text_free(&labels[i]);
     }
     free(array);
     ps_text_free(&title);

@@ -7,6 +7,7 @@
 #include "results/spectra.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 /* The saved spectrum, and the measured one. */
@@ -41,6 +42,7 @@ static pspec_status check_question(const ps_request *request, ps_error *error) {
                        "--against FILE, the saved spectrum, or --homogeneous is needed");
     }
     PS_TRY(check_domain(request, error));
+    PS_TRY(ps_request_check_one_count(request, "and a saved spectrum is of one", error));
     return request->num_samplers <= 1
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
@@ -55,6 +57,7 @@ static void discard(void *computed) {
     }
     ps_homogeneity_discard(check->homogeneity);
     ps_power_job_destroy(check->job);
+    ps_questions_free(&check->list);
     ps_saved_spectrum_free(&check->saved);
     free(check->rows);
     free(check);
@@ -86,6 +89,23 @@ static pspec_status plan(ps_planner *planner, const ps_request *request, ps_erro
 
 /* ---- the answer -------------------------------------------------------------------------- */
 
+typedef struct range_text {
+    char text[48];
+} range_text;
+
+/* "64", or "61 to 69" */
+static range_text show_range(uint64_t smallest, uint64_t largest) {
+    range_text out;
+    if (smallest == largest) {
+        snprintf(out.text, sizeof out.text, "%llu", (unsigned long long)smallest);
+    } else {
+        snprintf(out.text, sizeof out.text, "%llu to %llu", (unsigned long long)smallest,
+                 (unsigned long long)largest);
+    }
+    return out;
+}
+
+/* Sets of a sampler whose numbers of points vary have the same spectrum wherever in their range. */
 static pspec_status check_points(const ps_saved_spectrum *saved, const ps_spectrum *measured,
                                  const char *path, ps_error *error) {
     return saved->smallest_points <= measured->largest_points &&
@@ -93,11 +113,10 @@ static pspec_status check_points(const ps_saved_spectrum *saved, const ps_spectr
                ? PSPEC_OK
                : ps_fail(
                      error, PSPEC_ERROR_INPUT,
-                     "these sets have %.17g points%s, those of \"%s\" have %.17g; spectra change "
-                     "with the number of points (-n says how files without it are cut)",
-                     measured->mean_points,
-                     measured->smallest_points == measured->largest_points ? "" : " on average",
-                     path, saved->mean_points);
+                     "these sets have %s points, those of \"%s\" have %s; spectra change with the "
+                     "number of points (-n says how files without it are cut)",
+                     show_range(measured->smallest_points, measured->largest_points).text, path,
+                     show_range(saved->smallest_points, saved->largest_points).text);
 }
 
 /* Do the rows of the file tell of these frequencies? Its digits are all there, but the order of a
@@ -266,8 +285,9 @@ static pspec_status tabulate(ps_answer *out, const void *computed, const ps_requ
     return PSPEC_OK;
 }
 
-static const char *const summary[] = {"points",           "realizations", "different",
-                                      "adjusted_p_value", "verdict",      NULL};
+static const char *const summary[] = {
+    "points",    "points_smallest",  "points_largest", "realizations",
+    "different", "adjusted_p_value", "verdict",        NULL};
 /* A table of rings has bins, one of degrees has degrees. */
 static const ps_line_kind lines[] = {
     {"-scores", "difference", "bin", "z_score", "ring", "in standard errors", false, false},

@@ -29,6 +29,7 @@ void ps_homogeneity_discard(ps_homogeneity *computed) {
         return;
     }
     ps_power_job_destroy(computed->job);
+    ps_questions_free(&computed->list);
     ps_invariance_destroy(computed->invariance);
     free(computed->labels);
     free(computed->tests);
@@ -72,17 +73,20 @@ static pspec_status ask(ps_homogeneity *self, const ps_request *request, ps_erro
 
 pspec_status ps_homogeneity_check(const ps_request *request, ps_error *error) {
     ps_homogeneity self = {0};
-    return ask(&self, request, error);
+    const pspec_status status = ask(&self, request, error);
+    ps_questions_free(&self.list);
+    return status;
 }
 
 pspec_status ps_homogeneity_plan(ps_planner *planner, const ps_request *request, ps_error *error) {
     ps_homogeneity self = {0};
-    PS_TRY(ask(&self, request, error));
-    for (size_t part = 0; part < self.num_parts; part++) {
+    pspec_status status = ask(&self, request, error);
+    for (size_t part = 0; status == PSPEC_OK && part < self.num_parts; part++) {
         self.list.questions[0].is_turned = part > 0;
-        PS_TRY(ps_spectra_plan_list(planner, &self.own, &self.list, error));
+        status = ps_spectra_plan_list(planner, &self.own, &self.list, error);
     }
-    return PSPEC_OK;
+    ps_questions_free(&self.list);
+    return status;
 }
 
 /* ---- one part ---------------------------------------------------------------------------- */

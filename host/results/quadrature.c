@@ -10,11 +10,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* One rule, or one mean over realizations, for each sampler or for the files. */
+/* One rule, or one mean over realizations, for each question. */
 typedef struct rules {
     ps_quadrature_list list;
     ps_device *device; /* of all of them, where they share one that was opened for them */
-    ps_quadrature_result results[PS_MAX_SAMPLERS];
+    ps_quadrature_result *results; /* [list.num] */
 } rules;
 
 static pspec_status check_question(const ps_request *request, ps_error *error) {
@@ -30,6 +30,7 @@ static pspec_status plan_one(ps_planner *planner, const ps_request *request,
                              ps_quadrature_question *question, size_t index, ps_error *error) {
     ps_quadrature_setup setup = {0};
     question->open_device = planner->device;
+    ps_plan_table_begin_question(planner, request, index);
     PS_TRY(ps_plan_table_find_lack(planner, &question->limits.constraints,
                                    &question->may_lack_device, error));
     pspec_status status = ps_quadrature_setup_ask(&setup, question, error);
@@ -86,6 +87,7 @@ static pspec_status compute(void **out, const ps_request *request, const ps_answ
     rules *const work = *out;
     ps_quadrature_list *const list = &work->list;
     PS_TRY(ps_quadrature_list_make(list, request, error));
+    PS_TRY(PS_NEW(&work->results, list->num, "results", error));
     PS_TRY(ps_answer_open_device(&work->device, request, &list->questions[0].limits.constraints,
                                  list->num, hooks, error));
     for (size_t i = 0; i < list->num; i++) {
@@ -126,9 +128,16 @@ static pspec_status write_others(const void *computed, const ps_request *request
                : PSPEC_OK;
 }
 
+/* Of a scene and of a command. */
+static const ps_line_kind convergence = {
+    "-convergence", "worst-case error", "points", "worst_case_error", "points N", "E", true, true};
+
 static pspec_status draw(const void *computed, const ps_request *request, ps_error *error) {
     const rules *const work = computed;
-    return ps_quadrature_plot(request, &work->list, work->results, error);
+    return request->num_counts > 1
+               ? ps_quadrature_plot_errors(request, convergence.x_label, convergence.y_label,
+                                           work->results, error)
+               : ps_quadrature_plot(request, &work->list, work->results, error);
 }
 
 static void discard(void *computed) {
@@ -136,9 +145,10 @@ static void discard(void *computed) {
     if (work == NULL) {
         return;
     }
-    for (size_t i = 0; i < PS_MAX_SAMPLERS; i++) {
+    for (size_t i = 0; work->results != NULL && i < work->list.num; i++) {
         ps_quadrature_free(&work->results[i]);
     }
+    free(work->results);
     ps_quadrature_list_free(&work->list);
     ps_device_close(work->device);
     free(work);
@@ -147,6 +157,8 @@ static void discard(void *computed) {
 /* ---- what tables mean ------------------------------------------------------------------------ */
 
 static const char *const summary[] = {"points",
+                                      "points_smallest",
+                                      "points_largest",
                                       "realizations",
                                       "max_degree",
                                       "weight_sum",
@@ -162,9 +174,6 @@ static const ps_line_kind lines[] = {
     {"-c2", "part that depends on the azimuth", "degree", "c2", "degree l", "C@_l^2", false, true},
     {"-e2", "share of the squared error", "degree", "e2", "degree l", "e@_l^2", false, true},
     {.suffix = NULL}};
-static const ps_line_kind convergence = {
-    "-convergence", "worst-case error", "points", "worst_case_error", "points N", "E", true, true};
-
 const ps_result_kind ps_result_quadrature = {
     .name = "quadrature",
     .taker = PS_TAKER_BIT(quadrature),

@@ -6,8 +6,9 @@
 
 #include <stdlib.h>
 
-const char *const ps_spectra_summary[] = {"points",          "realizations", "weight_sum",
-                                          "predicted_error", "self_check",   NULL};
+const char *const ps_spectra_summary[] = {
+    "points",     "points_smallest", "points_largest", "realizations",
+    "weight_sum", "predicted_error", "self_check",     NULL};
 
 /* ---- warnings ------------------------------------------------------------------------------ */
 
@@ -88,6 +89,7 @@ pspec_status ps_spectra_compute(void **out, const ps_request *request, ps_questi
     ps_spectra *const spectra = *out;
     ps_question_list *const list = &spectra->list;
     PS_TRY(ps_questions_make(list, request, kind, error));
+    PS_TRY(PS_NEW(&spectra->jobs, list->num, "jobs", error));
     PS_TRY(ps_answer_open_device(&spectra->device, request, &list->questions[0].limits.constraints,
                                  list->num, hooks, error));
     for (size_t i = 0; i < list->num; i++) {
@@ -102,9 +104,11 @@ void ps_spectra_discard(void *computed) {
     if (spectra == NULL) {
         return;
     }
-    for (size_t i = 0; i < PS_MAX_SAMPLERS; i++) {
+    for (size_t i = 0; spectra->jobs != NULL && i < spectra->list.num; i++) {
         ps_power_job_destroy(spectra->jobs[i]);
     }
+    free(spectra->jobs);
+    ps_questions_free(&spectra->list);
     ps_device_close(spectra->device);
     free(spectra);
 }
@@ -113,7 +117,9 @@ void ps_spectra_discard(void *computed) {
 
 pspec_status ps_spectra_check(const ps_request *request, ps_question_kind kind, ps_error *error) {
     ps_question_list list;
-    return ps_questions_make(&list, request, kind, error);
+    const pspec_status status = ps_questions_make(&list, request, kind, error);
+    ps_questions_free(&list);
+    return status;
 }
 
 pspec_status ps_spectra_plan_list(ps_planner *planner, const ps_request *request,
@@ -122,6 +128,7 @@ pspec_status ps_spectra_plan_list(ps_planner *planner, const ps_request *request
         ps_power_job *job = NULL;
         ps_power_question *const question = &list->questions[i];
         question->open_device = planner->device;
+        ps_plan_table_begin_question(planner, request, i);
         PS_TRY(ps_plan_table_find_lack(planner, &question->limits.constraints,
                                        &question->may_lack_device, error));
         PS_TRY(ps_power_job_create(&job, question, error));
@@ -136,8 +143,12 @@ pspec_status ps_spectra_plan_list(ps_planner *planner, const ps_request *request
 pspec_status ps_spectra_plan(ps_planner *planner, const ps_request *request, ps_question_kind kind,
                              ps_error *error) {
     ps_question_list list;
-    PS_TRY(ps_questions_make(&list, request, kind, error));
-    return ps_spectra_plan_list(planner, request, &list, error);
+    pspec_status status = ps_questions_make(&list, request, kind, error);
+    if (status == PSPEC_OK) {
+        status = ps_spectra_plan_list(planner, request, &list, error);
+    }
+    ps_questions_free(&list);
+    return status;
 }
 
 pspec_status ps_spectra_tabulate(ps_answer *out, const void *computed, const ps_request *request,

@@ -6,11 +6,11 @@
 #include "questions/question.h"
 #include "results/kind.h"
 
-/* One job for each sampler, or one for the files; all have run. */
+/* One job for each question; all have run. */
 typedef struct ps_spectra {
     ps_question_list list;
-    ps_device *device; /* of all of them, where they share one that was opened for them */
-    ps_power_job *jobs[PS_MAX_SAMPLERS];
+    ps_device *device;   /* of all of them, where they share one that was opened for them */
+    ps_power_job **jobs; /* [list.num] */
 } ps_spectra;
 
 /* Asks and runs. *out is a ps_spectra, for ps_spectra_discard, also after an error. */

@@ -1,7 +1,9 @@
 /* The values of one key of a scene. */
+#include "base/counts.h"
 #include "questions/option_text.h"
 #include "scene/scene_file.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* A key has at most so many values: lists are typed by people. */
@@ -128,54 +130,45 @@ static bool has_lists(const ps_scene_node *node) {
     return false;
 }
 
-/* "16..4096": powers of 2 times the first. num 0: the text is no such range. */
-static pspec_status read_range(const char *text, uint64_t *first, size_t *num, ps_error *error) {
-    enum { MOST_LETTERS = 31 };
-    char left[MOST_LETTERS + 1];
-    const char *const dots = strstr(text, "..");
-    uint64_t last = 0;
-    *num = 0;
-    if (dots == NULL || dots - text > MOST_LETTERS) {
-        return PSPEC_OK;
-    }
-    memcpy(left, text, (size_t)(dots - text));
-    left[dots - text] = '\0';
-    PS_TRY(ps_parse_count(left, "points", 1, INT64_MAX, first, error));
-    PS_TRY(ps_parse_count(dots + 2, "points", 1, INT64_MAX, &last, error));
-    if (last < *first) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "points: \"%s\": the first number is the larger one", text);
-    }
-    for (uint64_t n = *first; n <= last; n *= 2) {
-        ++*num;
-    }
-    return PSPEC_OK;
+static pspec_status refuse_list(const ps_scene_file *file, const char *key,
+                                const ps_scene_node *item) {
+    return item->kind == PS_NODE_LIST
+               ? ps_scene_complain(file, item->line, key, "a list in a list; only files have those")
+               : PSPEC_OK;
 }
 
-static pspec_status expand_range(ps_scene *scene, const ps_scene_file *file,
-                                 const ps_scene_node *node, ps_scene_entry *out, bool *is_range) {
+/* Numbers of points, as -n has them, also in the items of a list. */
+static pspec_status parse_points(const ps_scene_file *file, const char *key,
+                                 const ps_scene_node *node, ps_counts *out) {
+    const ps_option *const option = &ps_options[PS_OPTION_POINTS];
+    const ps_scene_node *item = ps_scene_first_item(node);
+    for (size_t i = 0; i < ps_scene_num_items(node); i++, item = item->next) {
+        const char *text = NULL;
+        ps_error reason = {0};
+        PS_TRY(refuse_list(file, key, item));
+        PS_TRY(ps_scene_take_text(file, item, key, &text));
+        if (ps_counts_parse(out, text, key, option->minimum, option->maximum, &reason) !=
+            PSPEC_OK) {
+            return complain_of_value(file, item->line, key, &reason);
+        }
+    }
+    return out->num > 0 ? PSPEC_OK : ps_scene_complain(file, node->line, key, "an empty list");
+}
+
+static pspec_status take_points(ps_scene *scene, const ps_scene_file *file, const char *key,
+                                const ps_scene_node *node, ps_scene_entry *out) {
     enum { NUMBER = 24 };
-    const char *text = NULL;
-    uint64_t first = 0;
-    size_t num = 0;
-    ps_error reason = {0};
+    uint64_t numbers[MOST_VALUES];
+    ps_counts list = {.most = MOST_VALUES, .values = numbers};
     void *values = NULL;
-    *is_range = false;
-    if (out->option != PS_OPTION_POINTS || node->kind != PS_NODE_TEXT) {
-        return PSPEC_OK;
-    }
-    PS_TRY(ps_scene_take_text(file, node, "points", &text));
-    if (read_range(text, &first, &num, &reason) != PSPEC_OK) {
-        return complain_of_value(file, node->line, "points", &reason);
-    }
-    *is_range = num > 0;
-    PS_TRY(ps_scene_allocate(scene, num, sizeof *out->values, &values, file->error));
+    PS_TRY(parse_points(file, key, node, &list));
+    PS_TRY(ps_scene_allocate(scene, list.num, sizeof *out->values, &values, file->error));
     out->values = values;
-    out->num_values = num;
-    for (size_t i = 0; i < num; i++) {
+    out->num_values = list.num;
+    for (size_t i = 0; i < list.num; i++) {
         char number[NUMBER];
         const char *kept = NULL;
-        snprintf(number, sizeof number, "%llu", (unsigned long long)(first << i));
+        snprintf(number, sizeof number, "%llu", (unsigned long long)numbers[i]);
         PS_TRY(ps_scene_copy(scene, "", number, &kept, file->error));
         PS_TRY(ps_scene_make_value(scene, 1, out->line, &out->values[i], file->error));
         set_text(&out->values[i], 0, kept);
@@ -198,10 +191,7 @@ static pspec_status take_values(ps_scene *scene, const ps_scene_file *file, cons
     out->num_values = num;
     const ps_scene_node *item = is_one ? node : ps_scene_first_item(node);
     for (size_t i = 0; i < num; i++, item = item->next) {
-        if (item->kind == PS_NODE_LIST && out->option != PS_SCENE_FILES) {
-            return ps_scene_complain(file, item->line, key,
-                                     "a list in a list; only files have those");
-        }
+        PS_TRY(out->option != PS_SCENE_FILES ? refuse_list(file, key, item) : PSPEC_OK);
         PS_TRY(take_value(scene, file, key, item, &out->values[i]));
     }
     return PSPEC_OK;
@@ -210,12 +200,9 @@ static pspec_status take_values(ps_scene *scene, const ps_scene_file *file, cons
 pspec_status ps_scene_take_entry(ps_scene *scene, const ps_scene_file *file,
                                  const ps_result_kind *kind, int option, const char *key,
                                  const ps_scene_node *value, ps_scene_entry *out) {
-    bool is_range = false;
     *out = (ps_scene_entry){.option = option, .line = value->line};
-    PS_TRY(expand_range(scene, file, value, out, &is_range));
-    if (!is_range) {
-        PS_TRY(take_values(scene, file, key, value, out));
-    }
+    PS_TRY(option == PS_OPTION_POINTS ? take_points(scene, file, key, value, out)
+                                      : take_values(scene, file, key, value, out));
     for (size_t i = 0; i < out->num_values; i++) {
         PS_TRY(resolve_paths(scene, file, kind, option, &out->values[i]));
         PS_TRY(check_value(file, kind, option, key, &out->values[i]));

@@ -21,9 +21,11 @@ static pspec_status fill(ps_planner *planner, const ps_task *task, const ps_requ
 
 pspec_status ps_task_plan(ps_table **out, const ps_task *task, const ps_request *request,
                           const ps_answer_hooks *hooks, ps_error *error) {
-    ps_planner planner = {.device = hooks->device};
+    ps_planner planner = {.device = hooks->device,
+                          .lead = task == &ps_task_run ? ps_plan_table_lead("")
+                                                       : ps_lead_make(request, 0)};
     *out = NULL;
-    PS_TRY(ps_plan_table_create(&planner.table, task == &ps_task_run, error));
+    PS_TRY(ps_plan_table_create(&planner.table, &planner.lead, error));
     const pspec_status status = fill(&planner, task, request, hooks, error);
     if (status != PSPEC_OK) {
         ps_table_destroy(planner.table);

@@ -36,7 +36,7 @@ static pspec_status check_words(const ps_request *request, ps_error *error) {
                        "%zu samplers were given; one output holds the points of one",
                        request->num_samplers);
     }
-    return PSPEC_OK;
+    return ps_sample_check_counts(request, error);
 }
 
 pspec_status ps_points_find_sampler(ps_sampler_request *out, const ps_request *request,

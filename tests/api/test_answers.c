@@ -64,6 +64,12 @@ static void power(void **state) {
                                 {"bins", "shells"},      {"max-frequency", "6"},
                                 {"output", "two.csv"}};
     COMPARE("power", two, "two.csv");
+    const pspec_option sizes[] = {{"sampler", "jittered"},
+                                  {"points", "16..64,100"},
+                                  {"realizations", "3"},
+                                  {"max-frequency", "6"},
+                                  {"output", "sizes.npy"}};
+    COMPARE("power", sizes, "sizes.npy", "sizes.json");
     const pspec_option whole[] = {{"sampler", "halton"},  {"points", "50"},
                                   {"full", "full.npy"},   {"tol", "1e-9"},
                                   {"max-frequency", "5"}, {"output", "h.npy"}};
@@ -118,6 +124,13 @@ static void quadrature(void **state) {
                                   {"max-degree", "6"},
                                   {"output", "rule.csv"}};
     COMPARE("quadrature", equal, "rule.csv");
+    const pspec_option sizes[] = {{"brdf", "diffuse"},
+                                  {"sampler", "white-hemisphere"},
+                                  {"sampler", "fibonacci-hemisphere"},
+                                  {"points", "16,48"},
+                                  {"max-degree", "6"},
+                                  {"output", "sizes.json"}};
+    COMPARE("quadrature", sizes, "sizes.json");
     const pspec_option optimal[] = {{"brdf", "glossy:n=8"}, {"sampler", "fibonacci-hemisphere"},
                                     {"points", "40"},       {"weights", "optimal"},
                                     {"smoothness", "1.25"}, {"output", "optimal.json"}};

@@ -117,6 +117,11 @@ static void nonsense(void **state) {
     refuse("power", &(pspec_option){NULL, "3"}, 1, bad, "an option has no name");
     refuse("power", &(pspec_option){"points", NULL}, 1, bad, "points needs a value: N");
     refuse("power", &(pspec_option){"points", "many"}, 1, bad, "points");
+    refuse("power", &(pspec_option){"points", "64,,128"}, 1, bad,
+           "points: \"64,,128\": a number is missing beside a comma");
+    const pspec_option of_file[] = {{"files", "sets.txt"}, {"points", "64,128"}};
+    refuse("power", of_file, COUNT(of_file), bad,
+           "points names 2 numbers of points, and point files have their own");
     refuse("power", &(pspec_option){"homogenize", "perhaps"}, 1, bad, "true or false");
     refuse("power", &(pspec_option){"files", NULL}, 1, bad, "no name of a file");
     refuse("power", &(pspec_option){"files", "-"}, 1, bad, "- is none");

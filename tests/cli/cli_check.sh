@@ -75,7 +75,21 @@ runs 0 "${host[@]}" --against subset.json --sampler white -m 20 -s 5
 printf '0.1 0.2\n0.7 0.4\n0.3 0.9\n#\n0.2 0.2\n0.6 0.5\n' >mixed.txt
 "$program" power "${host[@]}" -k 3 mixed.txt -o mixed.json
 runs 0 "${host[@]}" --against mixed.json mixed.txt
-[[ $(key points) == "mean 2.5, from 2 to 3" ]] || complain "numbers of points: $(<out)"
+[[ "$(key points) $(key points_smallest) $(key points_largest)" == "2.5 2 3" ]] || complain "numbers of points: $(<out)"
+# sets of any N in the saved range, although none of them is the mean; tables that said the range in words are read, too
+sed 's/"points": \[2.5\]/"points": ["mean 2.5, from 2 to 3"]/; /"points_/d' mixed.json >words.json
+! cmp -s words.json mixed.json || complain "words.json is mixed.json"
+for n in 2 3; do
+    "$program" sample --sampler white -n "$n" -m 9 -o "of_$n.txt"
+    runs 0 "${host[@]}" --against mixed.json "of_$n.txt"
+    grep -v '^# \(command\|against\)' out >of_numbers
+    runs 0 "${host[@]}" --against words.json "of_$n.txt"
+    grep -v '^# \(command\|against\)' out | cmp -s - of_numbers || complain "the range in words is another"
+done
+"$program" sample --sampler white -n 4 -m 2 -o of_4.txt
+refuses 'these sets have 4 points, those of "mixed.json" have 2 to 3' --against mixed.json of_4.txt
+cat of_4.txt <(echo '#') of_4.txt <(printf '#\n0.1 0.2\n') >wide.txt
+runs 0 "${host[@]}" --against mixed.json wide.txt
 
 # ---- the sphere ----
 "$program" angular "${host[@]}" --sampler healpix-jittered:nside=2 -m 40 -l 10 -o sphere.json
@@ -143,7 +157,14 @@ damaged 'no table of pointspec' 's/"schema": 2,$/"schema": 3,/'
 damaged 'table of another command' 's/^  "command": "power"/  "command": "pairs"/'
 damaged '"realizations"' 's/"realizations": \[40/"realizations": [0/'
 damaged '"points"' 's/"points": \[64/"points": [64.5/'
-damaged 'no range' 's/"points": \[64/"points": ["mean 5, from 7 to 9"/'
+for range in '"mean 5, from 7 to 9"' '"no range"'; do
+    damaged 'not in their range' "s/\"points\": \[64/\"points\": [$range/"
+done
+for range in '[65],"points_largest": [66]' '[60],"points_largest": [63]' '[66],"points_largest": [60]'; do
+    damaged 'not in their range' "s/\"points\": \[64\]/&, \"points_smallest\": $range/"
+done
+damaged '"points_largest"' 's/"points": \[64\]/&, "points_smallest": [60]/'
+damaged '"points_smallest"' 's/"points": \[64\]/&, "points_smallest": [0.5], "points_largest": [70]/'
 damaged '"max_frequency"' '/"max_frequency"/d'
 damaged '"dimension"' 's/"dimension": \[2/"dimension": [7/'
 damaged 'none of power, effective, integral' 's/"normalization": \["power/"normalization": ["pairs/'

@@ -149,6 +149,18 @@ refuses '--plot draws' "${fibonacci[@]}" --brdf diffuse --plot lines.gif
 runs 0 "${fibonacci[@]}" --brdf diffuse -o table.npy
 [[ -s table.npy && -s table.json ]] || complain "npy"
 
+# rules whose N varies: the mean of what was made, not what was asked for
+"$program" sample --sampler poisson-disk -n 64 -m 5 -o disks.txt
+counts=$(awk 'BEGIN { least = 1e9; sets = 1 } /^#/ { add(); sets++; n = 0; next } { n++ } END { add(); printf "%.15g %d %d", all / sets, least, most }
+    function add() { all += n; if (n < least) least = n; if (n > most) most = n }' disks.txt)
+runs 0 --sampler poisson-disk:lift=hemisphere -n 64 -m 5 --brdf diffuse -l 4
+[[ "$(key points) $(key points_smallest) $(key points_largest)" == "$counts" && $(key points) != 64 ]] || complain "N of rules: $(grep points out), not $counts"
+runs 0 disks.txt --lift hemisphere --brdf diffuse -l 4
+[[ "$(key points) $(key points_smallest) $(key points_largest)" == "$counts" ]] || complain "N of files: $(grep points out), not $counts"
+# with several samplers every one has its range, so that JSON has no gaps
+runs 0 --sampler poisson-disk:lift=hemisphere --sampler white-hemisphere -n 64 -m 5 --brdf diffuse -l 4 --format json
+[[ $(tr -d ' \n' <out) == *'"points":['*',64],"points_smallest":['*',64],"points_largest":['*',64],'* ]] || complain "ranges: $(grep points out)"
+
 # the last degree: where the bound of the rest meets the tolerance, or 4 sqrt N with the reason
 runs 0 "${fibonacci[@]}" --brdf diffuse --tol 1e-2
 [[ $(key degrees) == "$(key max_degree), where"* ]] || complain "degrees: $(key degrees)"

@@ -61,7 +61,8 @@ static void nothing_leaves_the_defaults(void **state) {
     (void)state;
     line l;
     must_parse(&l, "");
-    assert_int_equal(l.arguments.num_points, 1024);
+    assert_int_equal(l.arguments.num_counts, 1);
+    assert_int_equal(l.arguments.counts[0], 1024);
     assert_int_equal(l.arguments.num_realizations, 1);
     assert_int_equal(l.arguments.dimension, 2);
     assert_int_equal(l.arguments.seed, 1);
@@ -76,13 +77,14 @@ static void nothing_leaves_the_defaults(void **state) {
 
 static void every_form_of_a_value_is_read(void **state) {
     (void)state;
-    static const char *const forms[] = {"-n 4096",       "-n4096",     "--points 4096",
-                                        "--points=4096", "-n 4.096e3", "-n 7 -n 4096",
-                                        "a -n 4096 b"};
+    static const char *const forms[] = {"-n 4096",          "-n4096",     "--points 4096",
+                                        "--points=4096",    "-n 4.096e3", "-n 7 -n 4096",
+                                        "-n 7,8,9 -n 4096", "a -n 4096 b"};
     for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++) {
         line l;
         must_parse(&l, forms[i]);
-        assert_int_equal(l.arguments.num_points, 4096);
+        assert_int_equal(l.arguments.num_counts, 1);
+        assert_int_equal(l.arguments.counts[0], 4096);
         assert_true(l.arguments.is_given[PS_OPTION_POINTS]);
         ps_arguments_free(&l.arguments);
     }

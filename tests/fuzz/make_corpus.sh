@@ -206,6 +206,7 @@ done
 printf -- '--sampler\nwhite\n-n\n1e3\n-m16\n-k\n64\n-o\nout.csv' | seed arguments power '\0'
 printf -- '--sampler\nsobol:scramble=owen\n--sampler=jittered\n-n4096\n-d3\n--tol=1e-9\n--plot=a.png' |
     seed arguments samplers '\0'
+printf -- '--sampler=white\n-n\n16..64,100\n--points=8,4' | seed arguments counts '\0'
 printf -- '--frequencies=f.txt\n--weights\ncolumn\n--wrap\n-\n--\n-x' | seed arguments files '\0'
 printf -- '--sampler\nhalton\n-n\n1000\n--format\nnpy\n-s\n18446744073709551615' |
     seed arguments sample '\1'
@@ -298,6 +299,8 @@ saved power '"points": 8, "dimension": 3, "max_frequency": 1, "per_ring": 2' "$r
     seed saved shells ''
 saved angular '"points": "mean 7.5, from 7 to 8", "domain": "hemisphere, even degrees", "max_degree": 2' \
     '"degree", "power", "standard_error"' '[2, 1.5, 0.25]' | seed saved degrees ''
+saved power '"points": 7.5, "points_smallest": 7, "points_largest": 8, "dimension": 2, "max_frequency": 1' "$ring_columns" \
+    '[1, 1.2, 8, 0.5, 0.1]' | seed saved range ''
 saved power '"points": 8, "dimension": 2, "max_frequency": 2' "$ring_columns" '[1, 1.2, 8, 0.5, null]' | seed saved missing ''
 printf '{"schema": 2, "command": "power", "meta": {"normalization": ["power: x"], "realizations": [4], "predicted_error": [1e-7], "seed": [1],
 "points": [8], "dimension": [2], "max_frequency": [2], "bins": ["relative=1/2"]}, "columns": [%s], "rows": [{"bin": 1, "frequency": 1.2, "count": 8,

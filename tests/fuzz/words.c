@@ -124,11 +124,12 @@ static int split_words(char *text, size_t size, char *words[MOST_WORDS]) {
 /* The limits of the options, which everything behind the parser relies on. */
 static void check_ranges(const ps_command *command, const ps_request *a, int num_words) {
     enum { MOST_DIMENSIONS = 6, MOST_PRECISION = 2 };
-    const bool is_good = a->num_points >= 1 && a->num_realizations >= 1 && a->dimension >= 1 &&
-                         a->dimension <= MOST_DIMENSIONS && a->frequencies.max_frequency >= 0 &&
-                         a->accuracy.tolerance > 0 && a->accuracy.tolerance <= 1 &&
-                         a->accuracy.floor >= 0 && isfinite(a->accuracy.floor) &&
-                         a->limits.constraints.precision >= -1 &&
+    const bool is_good = a->num_counts >= 1 && a->num_counts <= PS_MAX_COUNTS &&
+                         a->counts[a->num_counts - 1] >= 1 && a->num_realizations >= 1 &&
+                         a->dimension >= 1 && a->dimension <= MOST_DIMENSIONS &&
+                         a->frequencies.max_frequency >= 0 && a->accuracy.tolerance > 0 &&
+                         a->accuracy.tolerance <= 1 && a->accuracy.floor >= 0 &&
+                         isfinite(a->accuracy.floor) && a->limits.constraints.precision >= -1 &&
                          a->limits.constraints.precision <= MOST_PRECISION &&
                          a->num_samplers <= PS_MAX_SAMPLERS && a->num_files <= (size_t)num_words;
     if (!is_good) {
@@ -142,15 +143,14 @@ static void check_ranges(const ps_command *command, const ps_request *a, int num
 }
 
 static void check_questions(const ps_request *arguments) {
-    ps_question_list *const list = fuzz_allocate(NULL, 1, sizeof *list);
+    ps_question_list list;
     ps_error error = {0};
-    memset(list, 0, sizeof *list);
-    const pspec_status status = ps_questions_make(list, arguments, PS_QUESTION_POWER, &error);
+    const pspec_status status = ps_questions_make(&list, arguments, PS_QUESTION_POWER, &error);
     fuzz_check_error(status, &error, FUZZ_QUOTES_INPUT);
-    if (status == PSPEC_OK && (list->num < 1 || list->num > PS_MAX_SAMPLERS)) {
-        fuzz_fail("%zu questions", list->num);
+    if (status == PSPEC_OK && (list.num < 1 || list.num > PS_MAX_SAMPLERS * PS_MAX_COUNTS)) {
+        fuzz_fail("%zu questions", list.num);
     }
-    free(list);
+    ps_questions_free(&list);
 }
 
 static void parse_words(const ps_command *command, int num_words, char **words) {

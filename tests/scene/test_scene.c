@@ -61,7 +61,10 @@ static void ranges_of_points(void **state) {
     assert_points(state, "7..7", "7", "7", 1);
     assert_points(state, "1e3..4e3", "1000", "4000", 3);
     assert_points(state, "1..1e10", "1", "8589934592", 34);
-    assert_points(state, "[12, 1e3]", "12", "1e3", 2);
+    assert_points(state, "[12, 1e3]", "12", "1000", 2);
+    assert_points(state, "64,128,1e3", "64", "1000", 3);
+    assert_points(state, "16..64,100", "16", "100", 4);
+    assert_points(state, "[16..64, \"100,200..400\"]", "16", "400", 6);
 }
 
 static void defaults(void **state) {
@@ -179,7 +182,8 @@ static bool is_same_text(const char *a, const char *b) {
 
 static void assert_same_request(const ps_request *a, const ps_request *b) {
     assert_memory_equal(a->is_given, b->is_given, sizeof a->is_given);
-    assert_int_equal(a->num_points, b->num_points);
+    assert_int_equal(a->num_counts, b->num_counts);
+    assert_memory_equal(a->counts, b->counts, a->num_counts * sizeof *a->counts);
     assert_int_equal(a->seed, b->seed);
     assert_int_equal(a->frequencies.max_frequency, b->frequencies.max_frequency);
     assert_true(ps_bin_rule_is_same(&a->frequencies.bins, &b->frequencies.bins));

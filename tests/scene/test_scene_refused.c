@@ -139,9 +139,12 @@ static void values_out_of_range(void **state) {
         {POWER "    points: [4, 1e11]\n", 4, "points: 1e11 is not between"},
         {POWER "    points: 8..4\n", 4, "points: \"8..4\": the first number is the larger one"},
         {POWER "    points: 8..x\n", 4, "points: \"x\" is not a whole number"},
-        {POWER "    points: ..8\n", 4, "points: \"\" is not a whole number"},
+        {POWER "    points: ..8\n", 4, "points: \"..8\": a range has two ends, as 16..256 has"},
+        {POWER "    points: 64,,128\n", 4,
+         "points: \"64,,128\": a number is missing beside a comma"},
+        {POWER "    points: [16..64,\n      64,100]\n", 5, "points: 64 stands there twice"},
         {POWER "    points: 0..8\n", 4, "points: 0 is not between"},
-        {POWER "    points: 1..1e11\n", 4, "points: 17179869184 is not between"},
+        {POWER "    points: 1..1e11\n", 4, "points: 1e11 is not between"},
         {POWER "    dimension: 7\n", 4, "dimension: 7 is not between 1 and 6"},
         {POWER "    seed: -1\n", 4, "seed: -1 is not between 0 and 18446744073709551615"},
         {POWER "    seed: 18446744073709551616\n", 4, "seed: 18446744073709551616 is not between"},
@@ -193,8 +196,8 @@ static void limits(void **state) {
     refuses_repeated(state, "", "{a: ", DEEP, "", 1, "nested more than 16 deep");
     refuses_repeated(state, HEAD, "  - result: power\n", MOST_RESULTS + 1, "", 3,
                      "results: a list of 1 to 256 results");
-    refuses_repeated(state, POWER "    points: [1", ", 1", MANY - 1, "]\n", 4,
-                     "points: 1001 values, more than 1000");
+    refuses_repeated(state, POWER "    seed: [1", ", 1", MANY - 1, "]\n", 4,
+                     "seed: 1001 values, more than 1000");
     for (int i = 0; i < MANY; i++) {
         ps_text_append(&keys, "a%d: &a%d x\n", i, i);
     }

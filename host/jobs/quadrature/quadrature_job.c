@@ -254,6 +254,9 @@ static void collect_means(quadrature_job *job) {
 static void collect_facts(quadrature_job *job) {
     ps_quadrature_result *const out = job->out;
     const ps_rule_facts *const facts = &job->rules.facts;
+    out->mean_points = (double)facts->num_points / (double)out->num_realizations;
+    out->smallest_points = facts->smallest_points;
+    out->largest_points = facts->largest_points;
     out->num_dropped = facts->num_dropped;
     out->num_duplicates = facts->num_duplicates;
     out->is_ill_conditioned = facts->is_ill_conditioned;
@@ -268,7 +271,6 @@ static pspec_status describe(quadrature_job *job, ps_error *error) {
     const ps_quadrature_setup *const setup = &job->setup;
     ps_text skips = {0};
     ps_text engine = {0};
-    out->num_points = job->shape.num_points;
     out->max_degree = setup->max_degree;
     out->was_replanned = job->runner.was_replanned;
     out->precision = ps_precision_name(setup->plan.chosen->precision);

@@ -51,7 +51,8 @@ typedef struct ps_quadrature_degree {
 /* Squares are averaged: the error is the root of the mean of E^2. */
 typedef struct ps_quadrature_result {
     uint64_t num_realizations;
-    size_t num_points; /* of the first set */
+    double mean_points; /* of the sets, as they were given */
+    uint64_t smallest_points, largest_points;
     size_t max_degree;
     ps_quadrature_degree *degrees; /* [max_degree + 1] */
     ps_mean squared;               /* E^2, kernel form */

@@ -266,9 +266,18 @@ static pspec_status reserve_places(ps_rules *rules, const ps_weighted_rule *rule
     return PS_NEW(&rules->places, rules->num_given, "places of points", error);
 }
 
+static void count_points(ps_rule_facts *facts, uint64_t num_points) {
+    const bool is_first = facts->num_points == 0;
+    facts->num_points += num_points;
+    facts->smallest_points =
+        is_first || num_points < facts->smallest_points ? num_points : facts->smallest_points;
+    facts->largest_points = num_points > facts->largest_points ? num_points : facts->largest_points;
+}
+
 /* Points and weights of a set that was just read. */
 static pspec_status begin_rule(ps_rules *rules, ps_weighted_rule *rule, ps_error *error) {
     bool is_equal = false;
+    count_points(&rules->facts, rule->set.num_points);
     PS_TRY(reserve_places(rules, rule, error));
     PS_TRY(reserve(rule, error));
     PS_TRY(copy_weights(rules, rule, &is_equal, error));

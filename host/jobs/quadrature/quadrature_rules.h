@@ -17,6 +17,8 @@ typedef struct ps_weighted_rule {
 
 /* For the result: of all rules that were read. */
 typedef struct ps_rule_facts {
+    /* Points that rules were given with, in all, and of the smallest and the largest */
+    uint64_t num_points, smallest_points, largest_points;
     uint64_t num_dropped, num_duplicates;
     double largest_condition; /* 0 without optimal weights */
     bool is_ill_conditioned, has_matrices;

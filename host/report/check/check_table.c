@@ -91,7 +91,8 @@ static pspec_status fill(ps_table *table, const ps_request *arguments,
                          const ps_check_results *results, size_t first, ps_error *error) {
     PS_TRY(ps_header_begin(table, arguments, results->job, error));
     PS_TRY(add_verdict(table, arguments, results, error));
-    PS_TRY(ps_header_add_job(table, arguments, results->job, 0, error));
+    const ps_power_job *const job = results->job;
+    PS_TRY(ps_header_add_job(table, arguments, &job, 1, 0, error));
     return add_rows(table, results, first, error);
 }
 

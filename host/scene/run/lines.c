@@ -3,7 +3,6 @@
 #include "base/memory.h"
 #include "scene/run/drawing.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -117,24 +116,6 @@ static pspec_status take_columns(const ps_artist *artist, line_set *set, size_t 
     return PSPEC_OK;
 }
 
-/* The slope of log y over log x by least squares; nan for fewer than two places. */
-static double slope(const double *x, const double *y, size_t num) {
-    double sx = 0;
-    double sy = 0;
-    double sxx = 0;
-    double sxy = 0;
-    for (size_t i = 0; i < num; i++) {
-        const double u = log(x[i]);
-        const double v = log(y[i]);
-        sx += u;
-        sy += v;
-        sxx += u * u;
-        sxy += u * v;
-    }
-    const double n = (double)num;
-    return num > 1 ? (n * sxy - sx * sy) / (n * sxx - sx * sx) : NAN;
-}
-
 /* Worst-case error of the questions that differ from `first` in the number of points only. */
 static pspec_status take_errors(const ps_artist *artist, line_set *set, size_t index, size_t first,
                                 size_t points, const ps_line_kind *kind) {
@@ -163,8 +144,7 @@ static void label_line(const ps_artist *artist, const ps_picture *what, size_t q
         ps_run_label(artist->result, question, out);
     }
     if (what->num_panels == 1 && what->form == PS_PICTURE_ERRORS) {
-        ps_text_append(out, "%sslope %.3f", out->length > 0 ? ": " : "",
-                       slope(line->x, line->y, line->num));
+        ps_series_say_slope(line, out);
     }
 }
 

@@ -20,7 +20,7 @@ static pspec_status add_block(ps_run *run, const ps_run_result *result, size_t n
     PS_TRY(ps_run_fetch(run, question, &answer, &seconds, &is_cached, error));
     ps_answer_free(&answer);
     if (is_cached) {
-        planner->job = job;
+        planner->lead = ps_plan_table_lead(job);
         return ps_plan_table_add_cached(planner, error);
     }
     if (!run->lacks_device) {
@@ -30,7 +30,7 @@ static pspec_status add_block(ps_run *run, const ps_run_result *result, size_t n
             return status;
         }
     }
-    planner->job = job;
+    planner->lead = ps_plan_table_lead(job);
     planner->device = run->device;
     return result->asked->kind->plan(planner, &question->asked.request, error);
 }
@@ -46,7 +46,7 @@ static pspec_status add_pictures(const ps_run *run, ps_planner *planner, ps_erro
     ps_phases_add(&phases, "pictures", PS_HOST_PICTURE, (double)pictures.num);
     ps_phases_say(&phases, "pictures", "%zu by gnuplot", pictures.num);
     ps_pictures_free(&pictures);
-    planner->job = "pictures";
+    planner->lead = ps_plan_table_lead("pictures");
     return status == PSPEC_OK ? ps_plan_table_add_phases(planner, &phases, error) : status;
 }
 

@@ -165,24 +165,52 @@ out:
 
 /* ---- summaries --------------------------------------------------------------------------- */
 
-static pspec_status fill_summary(const ps_run *run, ps_run_result *result, const char **names,
-                                 ps_cell *cells, ps_error *error) {
+static bool has_entry(const ps_table *table, const char *wanted) {
+    const char *key = NULL;
+    bool is_there = false;
+    for (size_t i = 0; i < ps_table_num_meta(table) && !is_there; i++) {
+        (void)ps_table_meta(table, i, &key);
+        is_there = strcmp(key, wanted) == 0;
+    }
+    return is_there;
+}
+
+/* Entries that no answer has, as the range of N where all sets have one N, are no columns. */
+static bool has_answers_with(const ps_run_result *result, const char *key) {
+    size_t q = 0;
+    while (q < result->num && !has_entry(result->questions[q].answer.table, key)) {
+        q++;
+    }
+    return q < result->num;
+}
+
+static size_t put_keys(const ps_run_result *result, const char **names, size_t num) {
     const char *const *const keys = result->asked->kind->summary;
-    size_t num = put_names(result, names);
     for (size_t k = 0; keys[k] != NULL; k++) {
         bool is_known = false; /* points may vary, and then come first already */
         for (size_t i = 0; i < num; i++) {
             is_known = is_known || strcmp(names[i], keys[k]) == 0;
         }
-        if (!is_known) {
+        if (!is_known && has_answers_with(result, keys[k])) {
             names[num++] = keys[k];
         }
     }
+    return num;
+}
+
+/* Points that vary are what the answer says: the mean where they differ from set to set. */
+static pspec_status fill_summary(const ps_run *run, ps_run_result *result, const char **names,
+                                 ps_cell *cells, ps_error *error) {
+    const char *const points = ps_options[PS_OPTION_POINTS].name;
+    const size_t num_values = put_names(result, names);
+    const size_t num = put_keys(result, names, num_values);
     PS_TRY(begin(&result->summary, run, result, names, num, error));
     for (size_t q = 0; q < result->num; q++) {
-        const size_t num_values = put_values(result, q, cells);
-        for (size_t i = num_values; i < num; i++) {
-            cells[i] = ps_table_find_meta(result->questions[q].answer.table, names[i]);
+        const ps_table *const answer = result->questions[q].answer.table;
+        (void)put_values(result, q, cells);
+        for (size_t i = 0; i < num; i++) {
+            const bool is_said = i < num_values && strcmp(names[i], points) != 0;
+            cells[i] = is_said ? cells[i] : ps_table_find_meta(answer, names[i]);
         }
         PS_TRY(ps_table_add_row(result->summary, cells, error));
     }
