@@ -48,6 +48,7 @@ if(POINTSPEC_BUILD_BENCH)
 endif()
 add_program_test(cli_run)       # scenes: the folder, the cache, records, what is refused
 add_program_test(cli_picture)   # --plot fails: numbers stay
+add_program_test(cli_points_picture) # --plot of points: what is drawn, written and refused
 add_program_test(cli_run_keys)  # the cache finds what is the same and nothing else
 add_program_test(cli_run_files) # what scenes read and write
 add_program_test(cli_run_pictures) # pictures of scenes: panels, failures, titles

@@ -269,9 +269,9 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                           .help = "format of the output (default: by the ending of FILE, else the "
                                   "first of these)",
                           WORD(format)},
-    [PS_OPTION_PLOT] = {NAMED("plot", 0, "FILE"), OF(0, SPECTRA | LOBES | BIT(bench)),
+    [PS_OPTION_PLOT] = {NAMED("plot", 0, "FILE"), OF(0, SPECTRA | LOBES | BIT(bench) | BIT(sample)),
                         .help = "draw a picture too: .png, .svg or .pdf; one that fails is a "
-                                "warning, and an error where no table is kept",
+                                "warning, and an error where nothing else is kept",
                         TEXT(plot)},
     [PS_OPTION_PLOT_LOG] = {NAMED("plot-log", 0, "x|y|xy|none"), OF(0, SPECTRA | LOBES),
                             .help = "which axes of the picture are logarithmic",

@@ -11,3 +11,8 @@ const ps_request ps_request_default = {.num_points = 1024,
                                        .false_alarm_rate = 1e-3,
                                        .smoothness = 1.5,
                                        .command_line = ""};
+
+bool ps_request_only_draws(const ps_request *request) {
+    return request->plot != NULL && !request->is_given[PS_OPTION_OUTPUT] &&
+           !request->is_given[PS_OPTION_FORMAT];
+}

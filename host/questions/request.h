@@ -135,4 +135,8 @@ typedef struct ps_request {
 /* Nothing was said. */
 extern const ps_request ps_request_default;
 
+/* Of commands whose output is points: there is a picture, and nobody said where the points go, or
+ * how they are written. Then they are drawn, and that is all. */
+bool ps_request_only_draws(const ps_request *request);
+
 #endif

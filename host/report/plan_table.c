@@ -218,20 +218,33 @@ pspec_status ps_plan_table_add_cached(ps_planner *planner, ps_error *error) {
 
 /* ---- points -------------------------------------------------------------------------------- */
 
+/* Points that are only drawn are of one realization, and not written. */
+static pspec_status add_sampler(ps_phases *phases, const ps_request *request, size_t i_sampler,
+                                bool is_drawn, ps_error *error) {
+    ps_sampler_request sampler;
+    PS_TRY(ps_sampler_request_make(&sampler, request, i_sampler, error));
+    const double sets = is_drawn ? 1 : (double)request->num_realizations;
+    ps_phases_sample(phases, &sampler, sets);
+    ps_phases_touch(phases, (double)sampler.num_points * sampler.dimension * sizeof(double));
+    if (!is_drawn) {
+        ps_phases_write(phases, request->output != NULL ? request->output : "-", request->format,
+                        sets * (double)sampler.num_points * sampler.dimension);
+    }
+    return PSPEC_OK;
+}
+
 pspec_status ps_plan_table_add_sample(ps_planner *planner, const ps_request *request,
                                       ps_error *error) {
-    ps_sampler_request sampler;
     ps_phases phases = ps_plan_table_begin_phases(planner);
-    if (request->num_samplers != 1) {
+    const bool is_drawn = ps_request_only_draws(request);
+    if (request->num_samplers != 1 && !(is_drawn && request->num_samplers > 0)) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "one --sampler NAME is needed");
     }
-    PS_TRY(ps_sampler_request_make(&sampler, request, 0, error));
-    const double sets = (double)request->num_realizations;
     ps_phases_start(&phases, NULL);
-    ps_phases_sample(&phases, &sampler, sets);
-    ps_phases_touch(&phases, (double)sampler.num_points * sampler.dimension * sizeof(double));
-    ps_phases_write(&phases, request->output != NULL ? request->output : "-", request->format,
-                    sets * (double)sampler.num_points * sampler.dimension);
+    for (size_t i = 0; i < request->num_samplers; i++) {
+        PS_TRY(add_sampler(&phases, request, i, is_drawn, error));
+    }
+    ps_plan_table_add_picture(&phases, request);
     return ps_plan_table_add_host(planner, &phases,
                                   "points of one sampler, one realization at a time", error);
 }

@@ -6,6 +6,7 @@
 #include "jobs/convert.h"
 #include "questions/question.h"
 #include "report/output_check.h"
+#include "tasks/points_drawing.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -30,7 +31,7 @@ static pspec_status check_words(const ps_request *request, ps_error *error) {
     if (request->num_samplers == 0) {
         return fail_without_sampler(error);
     }
-    if (request->num_samplers > 1) {
+    if (request->num_samplers > 1 && !ps_request_only_draws(request)) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "%zu samplers were given; one output holds the points of one",
                        request->num_samplers);
@@ -77,16 +78,30 @@ static int tell_realizations(const ps_watch_report *report, void *payload) {
                : self->watch->tell(self->num > 1 ? &whole : report, self->watch->payload);
 }
 
+/* Where realizations go. */
+typedef struct sink {
+    ps_point_writer *writer;    /* NULL: the first one is only drawn */
+    ps_points_picture *picture; /* NULL: none */
+    const char *name;           /* of the sampler, for the picture */
+} sink;
+
 /* set: the points' place, of one realization. */
 static pspec_status write_realizations(const ps_sampler_request *sampler, uint64_t num_realizations,
-                                       ps_point_set *set, ps_point_writer *writer,
+                                       ps_point_set *set, const sink *to,
                                        const ps_answer_hooks *hooks, ps_error *error) {
     realizations all = {&hooks->watch, 0, num_realizations};
     const ps_watch watch = {tell_realizations, &all};
     for (uint64_t r = 0; r < num_realizations; r++) {
         all.done = r;
         PS_TRY(ps_sampler_generate(sampler, r, set->points, &set->num_points, &watch, error));
-        PS_TRY(write_points(set, writer, &watch, error));
+        if (r == 0 && to->picture != NULL) {
+            const ps_drawn_set drawn = {to->name, ps_sampler_where(sampler), set->dimension,
+                                        set->num_points, set->points};
+            PS_TRY(ps_points_picture_add(to->picture, &drawn, &watch, error));
+        }
+        if (to->writer != NULL) {
+            PS_TRY(write_points(set, to->writer, &watch, error));
+        }
         PS_TRY(ps_watch_tell(&hooks->watch, "realizations", r + 1, num_realizations, NULL, error));
     }
     return PSPEC_OK;
@@ -116,44 +131,70 @@ static pspec_status check_memory(const ps_sampler_request *sampler, uint64_t lim
                          ps_size_show(allowed, (double)limit));
 }
 
-/* points: the place of one realization. */
 static pspec_status write_sets(const ps_request *request, const ps_sampler_request *sampler,
-                               double *points, const ps_answer_hooks *hooks, ps_error *error) {
-    ps_point_writer *writer = NULL;
-    const ps_coordinates coordinates =
-        ps_sampler_is_on_sphere(sampler) ? PS_UNIT_VECTORS : PS_TORUS_COORDINATES;
-    ps_point_set set = {
-        .coordinates = coordinates, .dimension = sampler->dimension, .points = points};
+                               ps_point_set *set, ps_points_picture *picture,
+                               const ps_answer_hooks *hooks, ps_error *error) {
+    sink to = {NULL, picture, request->samplers[0]};
     const ps_point_shape shape = {.num_sets = (size_t)request->num_realizations,
                                   .num_points =
                                       ps_sampler_varies(sampler) ? 0 : sampler->num_points,
-                                  .coordinates = coordinates,
+                                  .coordinates = set->coordinates,
                                   .dimension = sampler->dimension};
-    PS_TRY(ps_points_create(&writer, request->output, request->format, &shape, error));
+    PS_TRY(ps_points_create(&to.writer, request->output, request->format, &shape, error));
     ps_answer_begin_next(hooks);
     pspec_status status =
-        write_realizations(sampler, request->num_realizations, &set, writer, hooks, error);
+        write_realizations(sampler, request->num_realizations, set, &to, hooks, error);
     if (status == PSPEC_OK) {
-        tell_loss(writer, hooks);
-        status = ps_points_commit(writer, error);
+        tell_loss(to.writer, hooks);
+        status = ps_points_commit(to.writer, error);
     }
     ps_answer_end(hooks);
-    ps_points_discard(writer);
+    ps_points_discard(to.writer);
     return status;
 }
 
-pspec_status ps_points_sample(const ps_request *request, const ps_answer_hooks *hooks,
-                              ps_error *error) {
+/* picture: NULL where nothing is drawn. */
+static pspec_status sample_one(const ps_request *request, size_t i_sampler,
+                               ps_points_picture *picture, const ps_answer_hooks *hooks,
+                               ps_error *error) {
     ps_sampler_request sampler = {0};
     void *points = NULL;
-    PS_TRY(ps_points_find_sampler(&sampler, request, error));
+    PS_TRY(ps_sampler_request_make(&sampler, request, i_sampler, error));
     PS_TRY(check_memory(&sampler, request->limits.constraints.memory_limit, error));
     const size_t most = ps_sampler_most_points(&sampler);
     PS_TRY(ps_allocate(&points, most, sampler.dimension * sizeof(double), "points", error));
     /* gigabytes in small pages take half a second to give back, also where a signal ends it */
     ps_memory_use_large_pages(points, most * sampler.dimension * sizeof(double));
-    const pspec_status status = write_sets(request, &sampler, points, hooks, error);
+    ps_point_set set = {.coordinates = ps_sampler_is_on_sphere(&sampler) ? PS_UNIT_VECTORS
+                                                                         : PS_TORUS_COORDINATES,
+                        .dimension = sampler.dimension,
+                        .points = points};
+    pspec_status status = PSPEC_OK;
+    if (!ps_request_only_draws(request)) {
+        status = write_sets(request, &sampler, &set, picture, hooks, error);
+    } else {
+        const sink to = {NULL, picture, request->samplers[i_sampler]};
+        ps_answer_begin_next(hooks);
+        status = write_realizations(&sampler, 1, &set, &to, hooks, error);
+        ps_answer_end(hooks);
+    }
     free(points);
+    return status;
+}
+
+pspec_status ps_points_sample(const ps_request *request, const ps_answer_hooks *hooks,
+                              ps_error *error) {
+    ps_points_picture picture = {.num_sets = request->num_samplers};
+    pspec_status status = PSPEC_OK;
+    PS_TRY(check_words(request, error));
+    PS_TRY(ps_points_drawing_check(request, hooks, error));
+    for (size_t i = 0; status == PSPEC_OK && i < request->num_samplers; i++) {
+        status = sample_one(request, i, request->plot != NULL ? &picture : NULL, hooks, error);
+    }
+    if (status == PSPEC_OK && request->plot != NULL) {
+        status = ps_points_draw(&picture, request, hooks, error);
+    }
+    ps_points_picture_free(&picture);
     return status;
 }
 

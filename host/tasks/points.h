@@ -1,11 +1,12 @@
 /* What commands do that make point files: sample and convert, for program and library alike. The
- * file is the output of the request, which must have one. */
+ * file is the output of the request, which must have one, or else a picture. */
 #ifndef PS_TASKS_POINTS_H
 #define PS_TASKS_POINTS_H
 
 #include "results/kind.h"
 
-/* Writes realizations of the only sampler, one of them in memory at a time. hooks->warn hears what
+/* Writes realizations of the only sampler, one of them in memory at a time, and draws the first;
+ * without an output those of all samplers are only drawn. hooks->warn hears what
  * the format could not keep, hooks->watch of realizations. */
 pspec_status ps_points_sample(const ps_request *request, const ps_answer_hooks *hooks,
                               ps_error *error) PS_MUST_CHECK;

@@ -24,7 +24,9 @@ const ps_command ps_command_sample = {
         "parameters, N, D, the seed and r. UTK text has one point per line, coordinates with 17 "
         "digits, and a line \"#\" between two realizations; an NPY array has the shape (M, N, D), "
         "D = 3 on the sphere. --homogenize shifts points of the torus and rotates those of the "
-        "sphere, at random.",
+        "sphere, at random. --plot draws the first realization: the unit square, a line, every "
+        "pair of coordinates of more dimensions, both sides of the sphere. Without -o and --format "
+        "the picture is all that is made, and several samplers are drawn side by side.",
     .task = &ps_task_sample,
     .takes = PS_TAKER_BIT(sample),
     .samples = PS_DOMAIN_ANY,
