@@ -6,6 +6,7 @@
 #include "jobs/convert.h"
 #include "questions/question.h"
 #include "report/output_check.h"
+#include "results/points.h"
 #include "tasks/points_drawing.h"
 
 #include <stdlib.h>
@@ -116,21 +117,6 @@ static void tell_loss(const ps_point_writer *writer, const ps_answer_hooks *hook
     }
 }
 
-/* One realization is in memory at a time. */
-static pspec_status check_memory(const ps_sampler_request *sampler, uint64_t limit,
-                                 ps_error *error) {
-    const double bytes =
-        (double)ps_sampler_most_points(sampler) * sampler->dimension * (double)sizeof(double);
-    char needed[PS_SIZE_TEXT];
-    char allowed[PS_SIZE_TEXT];
-    return limit == 0 || bytes <= (double)limit
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_MEMORY,
-                         "%zu points in %u dimensions take %s of memory, above the limit of %s",
-                         sampler->num_points, sampler->dimension, ps_size_show(needed, bytes),
-                         ps_size_show(allowed, (double)limit));
-}
-
 static pspec_status write_sets(const ps_request *request, const ps_sampler_request *sampler,
                                ps_point_set *set, ps_points_picture *picture,
                                const ps_answer_hooks *hooks, ps_error *error) {
@@ -160,7 +146,7 @@ static pspec_status sample_one(const ps_request *request, size_t i_sampler,
     ps_sampler_request sampler = {0};
     void *points = NULL;
     PS_TRY(ps_sampler_request_make(&sampler, request, i_sampler, error));
-    PS_TRY(check_memory(&sampler, request->limits.constraints.memory_limit, error));
+    PS_TRY(ps_points_check_memory(&sampler, 1, request->limits.constraints.memory_limit, error));
     const size_t most = ps_sampler_most_points(&sampler);
     PS_TRY(ps_allocate(&points, most, sampler.dimension * sizeof(double), "points", error));
     /* gigabytes in small pages take half a second to give back, also where a signal ends it */

@@ -44,7 +44,7 @@ if command -v gnuplot >/dev/null; then
     runs 0 --sampler white -n 50 -d 3 --plot f.png
     [[ $(panel 2 | wc -l) == 50 && -z $(panel 3) ]] || complain "pairs of three coordinates"
     runs 0 --sampler white --sampler poisson-disk --sampler white-sphere -n 50 --plot g.png
-    [[ $(panel 0 | wc -l) == 50 && $(grep -c '^\$data' script) == 4 ]] || complain "several samplers"
+    [[ $(panel 0 | wc -l) == 50 && $(grep -c '^[$]data' script) == 4 ]] || complain "several samplers"
     export PATH=$whole
 fi
 
