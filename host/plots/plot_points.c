@@ -158,8 +158,9 @@ static void print_square(const ps_figure *figure, const ps_point_frame *frame, F
     print_name(3, frame->y_label, -(double)LABEL / side_of(figure), 0.5, "rotate by 90", stream);
 }
 
-static void print_disc(const ps_point_frame *frame, FILE *stream) {
-    const double beside = 1.06;
+static void print_disc(const ps_figure *figure, const ps_point_frame *frame, FILE *stream) {
+    const double pixels = 15; /* from the circle to the middle of a name */
+    const double beside = 1 + pixels * 2 * disc_reach / side_of(figure);
     print_x_range(frame, -disc_reach, disc_reach, stream);
     fprintf(stream,
             "unset border\nunset xtics\nunset ytics\n"
@@ -182,7 +183,7 @@ static void print_panel(const ps_figure *figure, size_t i, const char *terminal,
     ps_script_print_text(figure->panels[i].title, stream);
     fputs(" noenhanced offset 0,-0.5\n", stream);
     if (figure->frames[i].form == PS_FRAME_DISC) {
-        print_disc(&figure->frames[i], stream);
+        print_disc(figure, &figure->frames[i], stream);
     } else {
         print_square(figure, &figure->frames[i], stream);
     }
