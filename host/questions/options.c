@@ -269,7 +269,8 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                           .help = "format of the output (default: by the ending of FILE, else the "
                                   "first of these)",
                           WORD(format)},
-    [PS_OPTION_PLOT] = {NAMED("plot", 0, "FILE"), OF(0, SPECTRA | LOBES | BIT(bench) | BIT(sample)),
+    [PS_OPTION_PLOT] = {NAMED("plot", 0, "FILE"),
+                        OF(0, SPECTRA | LOBES | BIT(bench) | BIT(sample) | BIT(convert)),
                         .help = "draw a picture too: .png, .svg or .pdf; one that fails is a "
                                 "warning, and an error where nothing else is kept",
                         TEXT(plot)},

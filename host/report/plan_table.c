@@ -270,8 +270,11 @@ pspec_status ps_plan_table_add_convert(ps_planner *planner, const ps_request *re
         ps_phases_start(&phases, NULL);
         const double points =
             ps_phases_read(&phases, request->files, request->num_files, options.format, numbers);
-        ps_phases_write(&phases, request->output != NULL ? request->output : "-", request->format,
-                        points * numbers);
+        if (!ps_request_only_draws(request)) {
+            ps_phases_write(&phases, request->output != NULL ? request->output : "-",
+                            request->format, points * numbers);
+        }
+        ps_plan_table_add_picture(&phases, request);
         status = ps_plan_table_add_host(planner, &phases, "a block of points at a time", error);
     }
     ps_points_close(reader);

@@ -89,12 +89,13 @@ static pspec_status count_parts(survey *self, const ps_watch *watch, ps_error *e
     return PSPEC_OK;
 }
 
-/* The largest part that has few enough points in every view. Sets that lie in a place may have more
- * at the end. */
+/* The largest part that has few enough points in every view; of sets that lie in a place, one that
+ * may have more, but not none. */
 static void choose_part(survey *self) {
     const size_t most = self->set->dimension == 1 ? PS_MOST_DRAWN_OF_LINE : PS_MOST_DRAWN;
     for (size_t v = 0; v < self->num_views; v++) {
-        while (self->part < MOST_HALVINGS && self->counts[v][self->part] > most) {
+        while (self->part < MOST_HALVINGS && self->counts[v][self->part] > most &&
+               self->counts[v][self->part + 1] > 0) {
             self->part++;
         }
     }

@@ -23,7 +23,8 @@ static pspec_status fail_without_sampler(ps_error *error) {
     return PSPEC_ERROR_INVALID_ARGUMENT;
 }
 
-static pspec_status check_words(const ps_request *request, ps_error *error) {
+/* may_be_several: samplers. */
+static pspec_status check_words(const ps_request *request, bool may_be_several, ps_error *error) {
     if (request->num_files > 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "no input file is read, but %s was given; -o FILE names the output",
@@ -32,7 +33,7 @@ static pspec_status check_words(const ps_request *request, ps_error *error) {
     if (request->num_samplers == 0) {
         return fail_without_sampler(error);
     }
-    if (request->num_samplers > 1 && !ps_request_only_draws(request)) {
+    if (request->num_samplers > 1 && !may_be_several) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "%zu samplers were given; one output holds the points of one",
                        request->num_samplers);
@@ -42,7 +43,7 @@ static pspec_status check_words(const ps_request *request, ps_error *error) {
 
 pspec_status ps_points_find_sampler(ps_sampler_request *out, const ps_request *request,
                                     ps_error *error) {
-    PS_TRY(check_words(request, error));
+    PS_TRY(check_words(request, false, error));
     return ps_sampler_request_make(out, request, 0, error);
 }
 
@@ -172,7 +173,7 @@ pspec_status ps_points_sample(const ps_request *request, const ps_answer_hooks *
                               ps_error *error) {
     ps_points_picture picture = {.num_sets = request->num_samplers};
     pspec_status status = PSPEC_OK;
-    PS_TRY(check_words(request, error));
+    PS_TRY(check_words(request, ps_request_only_draws(request), error));
     PS_TRY(ps_points_drawing_check(request, hooks, error));
     for (size_t i = 0; status == PSPEC_OK && i < request->num_samplers; i++) {
         status = sample_one(request, i, request->plot != NULL ? &picture : NULL, hooks, error);
@@ -186,32 +187,65 @@ pspec_status ps_points_sample(const ps_request *request, const ps_answer_hooks *
 
 /* ---- convert ----------------------------------------------------------------------------- */
 
+/* first: gets the first set, for the picture; NULL: nothing is drawn. */
+static pspec_status convert_files(const ps_request *request, size_t i_file, size_t num_files,
+                                  ps_point_set *first, const ps_answer_hooks *hooks,
+                                  ps_error *error) {
+    ps_text loss = {0};
+    const ps_conversion conversion = {
+        .paths = request->files + i_file,
+        .num_paths = num_files,
+        .options = ps_point_options_make(request),
+        .points = request->points,
+        .merge = request->merge,
+        .output = ps_request_only_draws(request) ? NULL : request->output,
+        .format = request->format,
+        .columns = request->to_columns,
+        .watch = hooks->watch,
+        .first = first,
+    };
+    const pspec_status status = ps_convert(&conversion, &loss, error);
+    if (status == PSPEC_OK && loss.length > 0) {
+        ps_answer_warn(hooks, "%s", ps_text_string(&loss));
+    }
+    ps_text_free(&loss);
+    return status;
+}
+
+/* Files into one output; those that are only drawn, one by one. */
+static pspec_status convert_all(const ps_request *request, ps_points_picture *picture,
+                                const ps_answer_hooks *hooks, ps_error *error) {
+    const bool is_drawn = request->plot != NULL;
+    const size_t step = request->num_files / picture->num_sets;
+    pspec_status status = PSPEC_OK;
+    ps_answer_begin_next(hooks);
+    for (size_t i = 0; status == PSPEC_OK && i < request->num_files; i += step) {
+        ps_point_set first = {0};
+        status = convert_files(request, i, step, is_drawn ? &first : NULL, hooks, error);
+        if (status == PSPEC_OK && is_drawn) {
+            status = ps_points_draw_file(picture, request->files[i], &first, &hooks->watch, error);
+        }
+        ps_point_set_free(&first);
+    }
+    ps_answer_end(hooks);
+    return status;
+}
+
 pspec_status ps_points_convert(const ps_request *request, const ps_answer_hooks *hooks,
                                ps_error *error) {
-    ps_text loss = {0};
+    const bool is_apart = ps_request_only_draws(request) && !request->merge;
+    ps_points_picture picture = {.num_sets = is_apart ? request->num_files : 1};
     if (request->num_files == 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "nothing to convert: name point files (- for standard input)");
     }
     PS_TRY(ps_point_options_check(request, error));
+    PS_TRY(ps_points_drawing_check(request, hooks, error));
     PS_TRY(ps_outputs_check(request, false, error));
-    ps_answer_begin_next(hooks);
-    const ps_conversion conversion = {
-        .paths = request->files,
-        .num_paths = request->num_files,
-        .options = ps_point_options_make(request),
-        .points = request->points,
-        .merge = request->merge,
-        .output = request->output,
-        .format = request->format,
-        .columns = request->to_columns,
-        .watch = hooks->watch,
-    };
-    const pspec_status status = ps_convert(&conversion, &loss, error);
-    ps_answer_end(hooks);
-    if (status == PSPEC_OK && loss.length > 0) {
-        ps_answer_warn(hooks, "%s", ps_text_string(&loss));
+    pspec_status status = convert_all(request, &picture, hooks, error);
+    if (status == PSPEC_OK && request->plot != NULL) {
+        status = ps_points_draw(&picture, request, hooks, error);
     }
-    ps_text_free(&loss);
+    ps_points_picture_free(&picture);
     return status;
 }

@@ -14,8 +14,9 @@ pspec_status ps_points_sample(const ps_request *request, const ps_answer_hooks *
 pspec_status ps_points_find_sampler(ps_sampler_request *out, const ps_request *request,
                                     ps_error *error) PS_MUST_CHECK;
 
-/* Writes the sets of all files into one, a block of points at a time. hooks->warn as above,
- * hooks->watch of points. */
+/* Writes the sets of all files into one, a block of points at a time, and draws the first; without
+ * an output the first set of each file is only drawn. hooks->warn as above, hooks->watch of points.
+ */
 pspec_status ps_points_convert(const ps_request *request, const ps_answer_hooks *hooks,
                                ps_error *error) PS_MUST_CHECK;
 

@@ -48,6 +48,57 @@ if command -v gnuplot >/dev/null; then
     export PATH=$whole
 fi
 
+# the same of files
+converts() { # EXIT ARGS...
+    local code=0 expected=$1
+    shift
+    checked=$((checked + 1))
+    "$program" convert "$@" >out 2>err || code=$?
+    [[ $code == "$expected" ]] || complain "convert: exit $code, not $expected: $*: $(<err)"
+}
+"$program" sample --sampler white -n 40 -m 3 -o sets.txt
+"$program" sample --sampler white-sphere -n 40 -o sphere.txt
+"$program" sample --sampler white-hemisphere -n 40 -o hemisphere.txt
+printf '0,90\n45,0\n-30,-60\n' >angles.csv
+if command -v gnuplot >/dev/null; then
+    export PATH=$PWD/spy:$whole
+    converts 0 sets.txt --plot h.svg
+    shows h.svg
+    [[ ! -s out ]] || complain "points beside the picture of a file"
+    head -n 40 sets.txt | awk '{ printf " %.9g %.9g\n", $1, $2 }' >points
+    panel 0 | cmp -s - points || complain "other points than the first set of the file"
+    converts 0 sets.txt --plot i.svg -o all.txt
+    cmp -s all.txt sets.txt || complain "other points beside the picture of a file"
+    panel 0 | cmp -s - points || complain "another set beside a file"
+    converts 0 --merge --select-points 2..3 --plot j.svg - <sets.txt
+    [[ $(panel 0 | wc -l) == 6 ]] || complain "merged sets: $(panel 0 | wc -l) points"
+    converts 0 --select-sets 2 --plot k.svg --format csv sets.txt
+    [[ $(wc -l <out) == 40 && $(panel 0 | wc -l) == 40 ]] || complain "the second set"
+    panel 0 | cmp -s - points && complain "the first set instead of the second"
+    converts 0 sets.txt sphere.txt hemisphere.txt --plot l.png
+    [[ $(grep -c '^[$]data' script) == 4 ]] || complain "not a square, two sides and one"
+    grep -q 'sphere' script || complain "panels without names"
+    for output in "" "-o angles.npy --format openquad"; do # as vectors, and as angles beside
+        # shellcheck disable=SC2086 # words
+        converts 0 --columns lon-lat angles.csv --plot m.png $output
+        { panel 0 && panel 1; } | awk '{ printf "%.6f %.6f,", $1 + 1e-12, $2 + 1e-12 }' >points
+        [[ $(<points) == '0.000000 0.000000,0.707107 0.707107,0.433013 -0.250000,' ]] || complain "angles: $(<points)"
+    done
+    export PATH=$whole
+fi
+converts 1 absent.txt --plot n.png
+converts 2 sets.txt --plot n.gif
+says '--plot draws .png, .svg and .pdf'
+converts 2 sets.txt --plot sets.txt.svg -o sets.txt.svg --format csv
+says 'are the same file'
+seventeen=$(printf 'sets.txt %.0s' {1..17})
+# shellcheck disable=SC2086 # words
+converts 2 $seventeen --plot n.png
+says '17 files are more than 16'
+converts 1 sets.txt --plot n.png --memory 100
+says 'does not fit in the memory that is allowed'
+[[ ! -e n.png ]] || complain "a picture of nothing"
+
 # a picture that fails costs a warning, and is an error where it is all
 PATH=$PWD/none:$PWD runs 0 --sampler white -n 4 --plot a.png -o points.txt
 [[ $(head -n 1 err) == *'"a.png" will not be drawn: plots need the program gnuplot'* ]] || complain "not said before: $(<err)"

@@ -199,6 +199,24 @@ static void of_too_many_points_a_part_is_shown(void **state) {
     }
 }
 
+/* All in a place that is in no smaller part. */
+static void a_clump_is_not_lost(void **state) {
+    enum { NUM = PS_MOST_DRAWN + 1 };
+    (void)state;
+    double *const points = calloc((size_t)2 * NUM, sizeof *points);
+    assert_non_null(points);
+    for (size_t i = 0; i < (size_t)2 * NUM; i++) {
+        points[i] = 0.375;
+    }
+    const ps_drawn_set set = {"own", PS_SAMPLES_TORUS, 2, NUM, points};
+    ps_points_picture picture = {.num_sets = 1};
+    add(&picture, &set);
+    assert_int_equal(picture.all[0].series.num, NUM);
+    assert_true(picture.all[0].frame.last == 0.5);
+    ps_points_picture_free(&picture);
+    free(points);
+}
+
 /* A third of the distance on a grid, within what is seen. */
 static void marks_follow_the_number_of_points(void **state) {
     static const struct {
@@ -227,6 +245,7 @@ int main(void) {
         cmocka_unit_test(every_pair_of_coordinates_has_a_panel),
         cmocka_unit_test(several_sets_are_panels_with_names),
         cmocka_unit_test(of_too_many_points_a_part_is_shown),
+        cmocka_unit_test(a_clump_is_not_lost),
         cmocka_unit_test(marks_follow_the_number_of_points),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
