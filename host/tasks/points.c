@@ -89,20 +89,20 @@ typedef struct sink {
 
 /* set: the points' place, of one realization. */
 static pspec_status write_realizations(const ps_sampler_request *sampler, uint64_t num_realizations,
-                                       ps_point_set *set, const sink *to,
+                                       ps_point_set *set, const sink *outlet,
                                        const ps_answer_hooks *hooks, ps_error *error) {
     realizations all = {&hooks->watch, 0, num_realizations};
     const ps_watch watch = {tell_realizations, &all};
     for (uint64_t r = 0; r < num_realizations; r++) {
         all.done = r;
         PS_TRY(ps_sampler_generate(sampler, r, set->points, &set->num_points, &watch, error));
-        if (r == 0 && to->picture != NULL) {
-            const ps_drawn_set drawn = {to->name, ps_sampler_where(sampler), set->dimension,
+        if (r == 0 && outlet->picture != NULL) {
+            const ps_drawn_set drawn = {outlet->name, ps_sampler_where(sampler), set->dimension,
                                         set->num_points, set->points};
-            PS_TRY(ps_points_picture_add(to->picture, &drawn, &watch, error));
+            PS_TRY(ps_points_picture_add(outlet->picture, &drawn, &watch, error));
         }
-        if (to->writer != NULL) {
-            PS_TRY(write_points(set, to->writer, &watch, error));
+        if (outlet->writer != NULL) {
+            PS_TRY(write_points(set, outlet->writer, &watch, error));
         }
         PS_TRY(ps_watch_tell(&hooks->watch, "realizations", r + 1, num_realizations, NULL, error));
     }

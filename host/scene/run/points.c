@@ -28,8 +28,7 @@ static void name_set(const ps_scene_result *asked, size_t question, ps_text *out
 
 /* The first realization of an answer: [M][N][dimension]. */
 static pspec_status add_set(const ps_artist *artist, size_t question, ps_points_picture *picture) {
-    const ps_run_question *const of = &artist->result->questions[question];
-    const ps_answer *const answer = &of->answer;
+    const ps_answer *const answer = &artist->result->questions[question].answer;
     ps_text name = {0};
     name_set(artist->result->asked, question, &name);
     const ps_drawn_set set = {ps_text_string(&name), find_domain(answer->table),
