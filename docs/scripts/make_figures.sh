@@ -24,6 +24,9 @@ echo "figures: sphere.png" >&2
 "$pointspec" angular --sampler healpix-jittered:nside=16 -m 1000 -l 256 --quiet -o sphere.csv \
     --plot "$images/sphere.png"
 
+# Points of the samplers.
+"$docs/scripts/points_figures.sh" "$pointspec" "$images"
+
 # Error of S against |k|: 60 random frequencies of the plane in every decade, each engine against
 # host_direct, and against it also what a phase 2 pi k.x in float does, all else being exact.
 echo "figures: torus_direct_error.png" >&2

@@ -80,7 +80,8 @@ static pspec_status make_file(make_points *make, pspec_context *context, const p
     }
     ps_error *const error = &context->error;
     pspec_status status = ps_public_words_make(&words, context, "", task, options, num_options);
-    if (status == PSPEC_OK && words.request.output == NULL) {
+    if (status == PSPEC_OK && words.request.output == NULL &&
+        !ps_request_only_draws(&words.request)) {
         status = ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                          "%s needs the option output, the file to write", task->name);
     }

@@ -114,10 +114,15 @@ static pspec_status parse(const ps_command *command, int num_words, char **words
     return status == PSPEC_OK ? ps_text_check(line, error) : status;
 }
 
+static bool has_output(const ps_command *command, const ps_request *arguments) {
+    const bool makes_points = command->task != NULL && command->task->makes_points;
+    return !command->makes_folder && !(makes_points && ps_request_only_draws(arguments));
+}
+
 /* Finds what the words left open: where output goes, the device, and the cache, in *folder. */
 static pspec_status complete(const ps_command *command, ps_request *arguments, ps_text *folder,
                              ps_error *error) {
-    if (arguments->output == NULL && !command->makes_folder) {
+    if (arguments->output == NULL && has_output(command, arguments)) {
         arguments->output = "-"; /* in the library NULL is no output */
     }
     arguments->format = ps_shown_format(command, arguments);

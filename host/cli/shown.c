@@ -9,8 +9,9 @@
 /* A line for each sampler, or other phase. */
 static void begin_line(void *payload) {
     ps_shown *const shown = payload;
-    const bool shares_terminal =
-        shown->is_streamed && strcmp(shown->arguments->output, "-") == 0 && isatty(STDOUT_FILENO);
+    const bool shares_terminal = shown->is_streamed && shown->arguments->output != NULL &&
+                                 strcmp(shown->arguments->output, "-") == 0 &&
+                                 isatty(STDOUT_FILENO);
     ps_progress_end(shown->progress);
     shown->progress = shares_terminal ? NULL : ps_progress_begin(shown->arguments, shown->counted);
 }

@@ -1,5 +1,6 @@
 #include "jobs/convert.h"
 
+#include <math.h>
 #include <string.h>
 
 /* Small enough to stay in the cache, large enough for few system calls. */
@@ -9,13 +10,15 @@ typedef struct worker {
     const ps_conversion *conversion;
     ps_point_options options;
     ps_point_reader *reader;
-    ps_point_writer *writer; /* made when the first block tells what there is to write */
+    ps_point_writer *writer; /* made when the first block tells what there is to write; or none */
     ps_point_set block;
     const char *path;
     ps_point_shape shape; /* of the first block */
-    uint64_t num_points;  /* read so far */
-    uint64_t position;    /* points of the set in front of the block */
-    bool turns_angles;    /* directions came as angles and became vectors */
+    bool has_shape;
+    bool has_first;      /* the set that somebody wants is there */
+    uint64_t num_points; /* read so far */
+    uint64_t position;   /* points of the set in front of the block */
+    bool turns_angles;   /* directions came as angles and became vectors */
 } worker;
 
 /* ---- what is written --------------------------------------------------------------------- */
@@ -27,19 +30,23 @@ static const char *output_format(const ps_conversion *conversion) {
 
 /* Angles that are written as angles are not turned into vectors on the way. */
 static bool writes_angles(const ps_conversion *conversion) {
-    return conversion->columns != NULL ? conversion->columns[0] != 'x'
-                                       : strcmp(output_format(conversion), "openquad") == 0;
+    return conversion->output == NULL    ? false
+           : conversion->columns != NULL ? conversion->columns[0] != 'x'
+                                         : strcmp(output_format(conversion), "openquad") == 0;
 }
 
 static pspec_status create_writer(worker *w, ps_error *error) {
     const ps_conversion *const conversion = w->conversion;
+    w->has_shape = true;
     w->shape = (ps_point_shape){.num_sets = conversion->merge ? 1 : 0,
                                 .coordinates = w->block.coordinates,
                                 .dimension = w->block.dimension,
                                 .has_weights = w->block.has_weights,
                                 .columns = conversion->columns,
                                 .memory_limit = conversion->options.memory_limit};
-    return ps_points_create(&w->writer, conversion->output, conversion->format, &w->shape, error);
+    return conversion->output != NULL ? ps_points_create(&w->writer, conversion->output,
+                                                         conversion->format, &w->shape, error)
+                                      : PSPEC_OK;
 }
 
 static void describe_points(ps_text *out, ps_coordinates coordinates, unsigned dimension,
@@ -109,10 +116,54 @@ static pspec_status check_selection(const worker *w, ps_error *error) {
                          (unsigned long long)w->position, (unsigned long long)needed);
 }
 
+/* ---- the set that somebody wants --------------------------------------------------------- */
+
+static void append_point(ps_point_set *first, const ps_point_set *view, size_t i) {
+    double *const out = first->points + first->num_points++ * first->dimension;
+    const double *const point = view->points + i * view->dimension;
+    if (view->coordinates == PS_ANGLES) {
+        out[0] = sin(point[0]) * cos(point[1]);
+        out[1] = sin(point[0]) * sin(point[1]);
+        out[2] = cos(point[0]);
+    } else {
+        memcpy(out, point, first->dimension * sizeof *out);
+    }
+}
+
+static pspec_status keep_block(worker *w, const ps_point_set *view, bool ends_set,
+                               ps_error *error) {
+    ps_point_set *const first = w->conversion->first;
+    const uint64_t limit = w->options.memory_limit;
+    if (first == NULL || w->has_first) {
+        return PSPEC_OK;
+    }
+    const bool are_angles = view->coordinates == PS_ANGLES;
+    first->coordinates = are_angles ? PS_UNIT_VECTORS : view->coordinates;
+    first->dimension = are_angles ? 3 : view->dimension;
+    const size_t num = first->num_points + view->num_points;
+    if (limit > 0 && (double)num * first->dimension * sizeof(double) > (double)limit) {
+        return ps_fail(error, PSPEC_ERROR_MEMORY,
+                       "\"%s\": the set that is drawn does not fit in the memory that is allowed",
+                       w->path);
+    }
+    PS_TRY(ps_points_reserve(first, num, error));
+    for (size_t i = 0; i < view->num_points; i++) {
+        append_point(first, view, i);
+    }
+    w->has_first = ends_set;
+    return PSPEC_OK;
+}
+
+/* Nothing more is wanted of the files. */
+static bool is_done(const worker *w) {
+    return w->conversion->output == NULL && w->has_first;
+}
+
 static pspec_status write_block(worker *w, bool ends_set, ps_error *error) {
     const ps_point_set view = select_points(w);
     const bool ends_output_set = ends_set && !w->conversion->merge;
-    if (view.num_points > 0 || ends_output_set) {
+    PS_TRY(keep_block(w, &view, ends_output_set, error));
+    if (w->writer != NULL && (view.num_points > 0 || ends_output_set)) {
         PS_TRY(ps_points_write(w->writer, &view, ends_output_set, error));
     }
     w->num_points += w->block.num_points;
@@ -128,7 +179,7 @@ static pspec_status write_block(worker *w, bool ends_set, ps_error *error) {
 
 static pspec_status take_block(worker *w, bool ends_set, ps_error *error) {
     const ps_conversion *const conversion = w->conversion;
-    if (w->writer == NULL) {
+    if (!w->has_shape) {
         PS_TRY(create_writer(w, error));
     }
     PS_TRY(check_kind(w, error));
@@ -143,7 +194,7 @@ static pspec_status take_file(worker *w, ps_error *error) {
     bool has_block = true;
     bool ends_set = false;
     PS_TRY(ps_points_open(&w->reader, w->path, &w->options, error));
-    while (has_block) {
+    while (has_block && !is_done(w)) {
         w->block.num_points = 0;
         PS_TRY(
             ps_points_next_block(w->reader, &w->block, BLOCK_POINTS, &has_block, &ends_set, error));
@@ -169,9 +220,12 @@ static void describe_loss(const worker *w, ps_text *loss) {
 
 static pspec_status convert_all(worker *w, ps_text *loss, ps_error *error) {
     const ps_conversion *const conversion = w->conversion;
-    for (size_t i = 0; i < conversion->num_paths; i++) {
+    for (size_t i = 0; i < conversion->num_paths && !is_done(w); i++) {
         w->path = conversion->paths[i];
         PS_TRY(take_file(w, error));
+    }
+    if (w->writer == NULL) {
+        return PSPEC_OK;
     }
     if (conversion->merge) {
         w->block.num_points = 0;
@@ -184,7 +238,7 @@ static pspec_status convert_all(worker *w, ps_text *loss, ps_error *error) {
 
 pspec_status ps_convert(const ps_conversion *conversion, ps_text *loss, ps_error *error) {
     worker w = {.conversion = conversion, .options = conversion->options};
-    if (conversion->format == NULL) {
+    if (conversion->output != NULL && conversion->format == NULL) {
         PS_TRY(ps_points_check_ending(conversion->output, error)); /* before anything is read */
     }
     w.options.keep_angles = writes_angles(conversion);

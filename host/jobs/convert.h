@@ -14,10 +14,13 @@ typedef struct ps_conversion {
     ps_point_options options; /* of every file */
     ps_point_range points;    /* of each set; {0}: all */
     bool merge;               /* all sets become one */
-    const char *output;       /* "-": standard output */
+    const char *output;       /* "-": standard output; NULL: nothing is written */
     const char *format;       /* NULL: by the ending of output */
     const char *columns;      /* of points of the sphere; NULL: vectors, unless format has angles */
-    ps_watch watch;           /* told of "points" after every block; {0}: nobody */
+    /* Gets the first set that is written, or would be, whole: angles as vectors; NULL: nobody wants
+     * it. To be freed also after an error. */
+    ps_point_set *first;
+    ps_watch watch; /* told of "points" after every block; {0}: nobody */
 } ps_conversion;
 
 /* Appends to *loss what did not survive. The output appears only when all of it is there. */

@@ -136,6 +136,17 @@ static void add_axes(ps_text *key, const ps_plot_axes *axes) {
                    axes->y[1]);
 }
 
+static void add_frames(ps_text *key, const ps_figure *figure) {
+    ps_text_append(key, "%zu\n", figure->num_columns);
+    for (size_t i = 0; i < figure->num_panels; i++) {
+        const ps_point_frame *const frame = &figure->frames[i];
+        add_text(key, frame->x_label);
+        add_text(key, frame->y_label);
+        ps_text_append(key, "%d %d %a %a\n", (int)frame->form, frame->is_mirrored, frame->first,
+                       frame->last);
+    }
+}
+
 void ps_figure_add_key(ps_text *key, const ps_figure *figure) {
     add_text(key, figure->title);
     add_text(key, figure->x_label);
@@ -157,6 +168,9 @@ void ps_figure_add_key(ps_text *key, const ps_figure *figure) {
             add_numbers(key, series->error, series->num);
             add_numbers(key, series->lower, series->num);
         }
+    }
+    if (figure->frames != NULL) {
+        add_frames(key, figure);
     }
     if (figure->image != NULL) {
         ps_text_append(key, "%zu %a\n", figure->image->size, figure->image->unit);

@@ -30,6 +30,20 @@ typedef struct ps_panel {
     const ps_series *series;
 } ps_panel;
 
+/* What a panel of points shows. */
+typedef enum ps_frame_form {
+    PS_FRAME_SQUARE, /* both axes from `first` to `last` */
+    PS_FRAME_LINE,   /* the axis of x, points of one coordinate; y is not looked at */
+    PS_FRAME_DISC    /* the unit disc, a side of the sphere */
+} ps_frame_form;
+
+typedef struct ps_point_frame {
+    ps_frame_form form;
+    double first, last;            /* of a square or a line */
+    const char *x_label, *y_label; /* names of the axes; of a disc they stand at their ends */
+    bool is_mirrored;              /* x runs to the left */
+} ps_point_frame;
+
 /* The averaged periodogram on the whole square: [size][size], size odd, DC in the middle, row index
  * along x_1. */
 typedef struct ps_plot_image {
@@ -53,7 +67,8 @@ typedef enum ps_figure_form {
     PS_FIGURE_FRAME, /* one panel of lines, with the key below it */
     /* Panels of lines, three in a row, with the same axes and one key for all of them. */
     PS_FIGURE_PANELS,
-    PS_FIGURE_MARKS /* the same of marks that nothing joins, each panel with axes of its own */
+    PS_FIGURE_MARKS, /* the same of marks that nothing joins, each panel with axes of its own */
+    PS_FIGURE_POINTS /* panels of points in frames, whose axes have the same unit */
 } ps_figure_form;
 
 typedef struct ps_figure {
@@ -67,7 +82,12 @@ typedef struct ps_figure {
     const ps_plot_image *image; /* NULL: none */
     double noise_level_db;      /* level of pure noise in the anisotropy panel, nan: no line */
     bool on_sphere; /* normalized frequency is l / sqrt(N); anisotropy is not looked at */
+    /* of points */
+    const ps_point_frame *frames; /* one for each panel */
+    size_t num_columns;           /* of panels, 1 to PS_MOST_POINT_COLUMNS */
 } ps_figure;
+
+enum { PS_MOST_POINT_COLUMNS = 4 };
 
 /* Looks for the program that draws, as it is looked for to draw: an executable file gnuplot in a
  * folder of PATH. *path is its path; it is to be freed in either case. PSPEC_ERROR_IO with a

@@ -70,6 +70,9 @@ pspec_status ps_figure_write_script(const ps_figure *asked, const char *terminal
     if (figure->form == PS_FIGURE_PANELS || figure->form == PS_FIGURE_MARKS) {
         ps_script_size_panels(figure, &width, &height);
     }
+    if (figure->form == PS_FIGURE_POINTS) {
+        ps_script_size_points(figure, &width, &height);
+    }
     print_page(figure->title, terminal, width, height, stream);
     print_data(figure, stream);
     switch (figure->form) {
@@ -82,6 +85,9 @@ pspec_status ps_figure_write_script(const ps_figure *asked, const char *terminal
     case PS_FIGURE_PANELS:
     case PS_FIGURE_MARKS:
         ps_script_print_panels(figure, stream);
+        break;
+    case PS_FIGURE_POINTS:
+        ps_script_print_points(figure, terminal, stream);
         break;
     }
     fputs("unset multiplot\n", stream);

@@ -38,13 +38,13 @@
  * one counts, but for --sampler. */
 const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_POINTS] =
-        {NAMED("points", 'n', "N"), OF(SETS, BIT(sample) | BIT(convert)),
+        {NAMED("points", 'n', "N"), OF(SETS | BIT(sample), BIT(convert)),
          .help =
              "points in each realization (default 1024; check: as saved); several as 64,128,256 "
              "or 16..16384, which is 16 and its doubles; of files: points in each set, for "
              "formats that do not say (rps)",
          .set = ps_set_points, .minimum = 1, .maximum = MOST_POINTS},
-    [PS_OPTION_REALIZATIONS] = {NAMED("realizations", 'm', "M"), OF(SETS, BIT(sample)),
+    [PS_OPTION_REALIZATIONS] = {NAMED("realizations", 'm', "M"), OF(SETS | BIT(sample), 0),
                                 .help = "realizations of each sampler (default 1; check: as saved, "
                                         "or 128)",
                                 COUNT(num_realizations), .minimum = 1,
@@ -55,13 +55,13 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                  "degree X (above --floor; at least 16); -m is then the most (default 1e6)",
          .set = ps_set_standard_error},
     [PS_OPTION_DIMENSION] = {NAMED("dimension", 'd', "D"),
-                             OF(BIT(power) | BIT(check), BIT(sample) | BIT(convert)),
+                             OF(BIT(power) | BIT(check) | BIT(sample), BIT(convert)),
                              .help = "dimension, 1 to 6 (default 2; of files: what they have)",
                              .set = ps_set_dimension, .minimum = 1, .maximum = PS_MAX_DIMENSION},
-    [PS_OPTION_SEED] = {NAMED("seed", 's', "S"), OF(SETS, BIT(sample)),
+    [PS_OPTION_SEED] = {NAMED("seed", 's', "S"), OF(SETS | BIT(sample), 0),
                         .help = "seed, 0 to 2^64 - 1 (default 1); same seed, same bits",
                         COUNT(seed), .minimum = 0, .maximum = UINT64_MAX},
-    [PS_OPTION_SAMPLER] = {NAMED("sampler", 0, "NAME[:key=value,...]"), OF(SETS, BIT(sample)),
+    [PS_OPTION_SAMPLER] = {NAMED("sampler", 0, "NAME[:key=value,...]"), OF(SETS | BIT(sample), 0),
                            .help = "what makes the points; the names are below",
                            .set = ps_add_sampler},
     [PS_OPTION_AGAINST] = {NAMED("against", 0, "FILE"), OF(BIT(check), 0),
@@ -94,7 +94,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                   "most; truncation: 20)",
                               .set = ps_set_max_degree},
     [PS_OPTION_MEMORY] = {NAMED("memory", 0, "SIZE"),
-                          OF(SETS, BIT(sample) | BIT(convert) | BIT(run)),
+                          OF(SETS | BIT(sample), BIT(convert) | BIT(run)),
                           .help = "what points and the engine may take, as in 400M or 2G; it "
                                   "chooses among engines and is kept with the results (default: "
                                   "POINTSPEC_MEMORY, else what is free, which chooses nothing)",
@@ -139,7 +139,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
          .help = "N |S|^2 / W^2 with N of each set (default power), |S|^2 / sum w^2, "
                  "or mean(N) mean(|S|^2 / W^2)",
          .set = ps_set_normalize},
-    [PS_OPTION_HOMOGENIZE] = {NAMED("homogenize", 0, NULL), OF(SETS, BIT(sample)),
+    [PS_OPTION_HOMOGENIZE] = {NAMED("homogenize", 0, NULL), OF(SETS | BIT(sample), 0),
                               .help = "shift every realization by one random vector, mod 1; "
                                       "points of the sphere are rotated",
                               FLAG(homogenize)},
@@ -279,9 +279,10 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                           .help = "format of the output (default: by the ending of FILE, else the "
                                   "first of these)",
                           WORD(format)},
-    [PS_OPTION_PLOT] = {NAMED("plot", 0, "FILE"), OF(0, SPECTRA | LOBES | BIT(bench)),
+    [PS_OPTION_PLOT] = {NAMED("plot", 0, "FILE"),
+                        OF(0, SPECTRA | LOBES | BIT(bench) | BIT(sample) | BIT(convert)),
                         .help = "draw a picture too: .png, .svg or .pdf; one that fails is a "
-                                "warning, and an error where no table is kept",
+                                "warning, and an error where nothing else is kept",
                         TEXT(plot)},
     [PS_OPTION_PLOT_LOG] = {NAMED("plot-log", 0, "x|y|xy|none"), OF(0, SPECTRA | LOBES),
                             .help = "which axes of the picture are logarithmic",

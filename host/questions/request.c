@@ -36,3 +36,8 @@ pspec_status ps_request_check_one_count(const ps_request *request, const char *w
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s names %zu numbers of points, %s",
                          ps_option_show(request, PS_OPTION_POINTS).text, request->num_counts, why);
 }
+
+bool ps_request_only_draws(const ps_request *request) {
+    return request->plot != NULL && !request->is_given[PS_OPTION_OUTPUT] &&
+           !request->is_given[PS_OPTION_FORMAT];
+}

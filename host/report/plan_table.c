@@ -216,22 +216,37 @@ pspec_status ps_plan_table_add_cached(ps_planner *planner, ps_error *error) {
 
 /* ---- points -------------------------------------------------------------------------------- */
 
+/* Points that are only drawn are of one realization, and not written. */
+static pspec_status add_sampler(ps_phases *phases, const ps_request *request, size_t question,
+                                bool is_drawn, ps_error *error) {
+    ps_sampler_request sampler;
+    PS_TRY(ps_sampler_request_make(&sampler, request, question, error));
+    const double sets = is_drawn ? 1 : (double)request->num_realizations;
+    const ps_sets_options kept = ps_source_sets(&request->limits, request->accuracy.no_skip);
+    ps_phases_sample(phases, &sampler, sets, &kept.place);
+    ps_phases_touch(phases, (double)sampler.num_points * sampler.dimension * sizeof(double));
+    if (!is_drawn) {
+        ps_phases_write(phases, request->output != NULL ? request->output : "-", request->format,
+                        sets * (double)sampler.num_points * sampler.dimension);
+    }
+    return PSPEC_OK;
+}
+
 pspec_status ps_plan_table_add_sample(ps_planner *planner, const ps_request *request,
                                       ps_error *error) {
-    ps_sampler_request sampler;
     ps_phases phases = ps_plan_table_begin_phases(planner);
-    if (request->num_samplers != 1) {
+    const bool is_drawn = ps_request_only_draws(request);
+    if (request->num_samplers != 1 && !(is_drawn && request->num_samplers > 0)) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "one --sampler NAME is needed");
     }
-    PS_TRY(ps_sample_check_counts(request, error));
-    PS_TRY(ps_sampler_request_make(&sampler, request, 0, error));
-    const double sets = (double)request->num_realizations;
-    const ps_sets_options kept = ps_source_sets(&request->limits, request->accuracy.no_skip);
+    if (!is_drawn) {
+        PS_TRY(ps_sample_check_counts(request, error));
+    }
     ps_phases_start(&phases, NULL);
-    ps_phases_sample(&phases, &sampler, sets, &kept.place);
-    ps_phases_touch(&phases, (double)sampler.num_points * sampler.dimension * sizeof(double));
-    ps_phases_write(&phases, request->output != NULL ? request->output : "-", request->format,
-                    sets * (double)sampler.num_points * sampler.dimension);
+    for (size_t i = 0; i < ps_request_num_questions(request); i++) {
+        PS_TRY(add_sampler(&phases, request, i, is_drawn, error));
+    }
+    ps_plan_table_add_picture(&phases, request);
     return ps_plan_table_add_host(planner, &phases,
                                   "points of one sampler, one realization at a time", error);
 }
@@ -257,8 +272,11 @@ pspec_status ps_plan_table_add_convert(ps_planner *planner, const ps_request *re
         ps_phases_start(&phases, NULL);
         const double points =
             ps_phases_read(&phases, request->files, request->num_files, options.format, numbers);
-        ps_phases_write(&phases, request->output != NULL ? request->output : "-", request->format,
-                        points * numbers);
+        if (!ps_request_only_draws(request)) {
+            ps_phases_write(&phases, request->output != NULL ? request->output : "-",
+                            request->format, points * numbers);
+        }
+        ps_plan_table_add_picture(&phases, request);
         status = ps_plan_table_add_host(planner, &phases, "a block of points at a time", error);
     }
     ps_points_close(reader);

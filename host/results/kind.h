@@ -56,7 +56,7 @@ enum { PS_ANSWER_RANK = PS_MAX_TORUS_DIMENSION + 1 };
 typedef struct ps_answer {
     ps_table *table;
     /* The averaged periodogram on the whole box, [2K+1]^d, or the weights of the only rule, where
-     * request->wants_array, or wants_picture in the plane, and there are such; complex
+     * request->wants_array, or wants_picture in the plane, and there are such; points; complex
      * coefficients, as --coefficients writes them, where request->wants_coefficients; NULL: none */
     double *array;
     bool is_complex; /* pairs (real, imaginary) */
@@ -87,6 +87,7 @@ typedef struct ps_result_kind {
     bool has_arrays; /* its answers may have an array, which scenes ask for by the key arrays, */
     bool has_coefficients; /* or coefficients, by arrays: coefficients */
     bool has_verdict;      /* whose rows are words, too: no NPY */
+    bool has_points; /* its arrays are points [M][N][D], and pictures show those of the first */
 
     /* Does a scene's default of this option say nothing to it? NULL: all are taken. */
     bool (*leaves_default)(ps_option_id id);
@@ -129,6 +130,10 @@ PS_TAKERS(PS_DECLARE_KIND, PS_DECLARE_NOTHING)
 
 /* All of them; ended by NULL. */
 extern const ps_result_kind *const ps_result_kinds[];
+
+/* Points of a sampler, as a result of a scene. None of these: the command sample writes point
+ * files, not a table. */
+extern const ps_result_kind ps_result_points;
 
 /* Does the option belong to the question? */
 static inline bool ps_result_asks(const ps_result_kind *kind, ps_option_id id) {

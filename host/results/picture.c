@@ -17,10 +17,9 @@ static bool is_discarded(const char *output) {
            facts.st_rdev == nothing.st_rdev;
 }
 
-/* A table that is written nowhere is kept by who asked for it. */
-static bool is_all(const ps_request *request) {
-    return request->full == NULL && request->coefficients == NULL && request->output != NULL &&
-           is_discarded(request->output);
+bool ps_picture_is_all(const ps_request *request, bool keeps_answer) {
+    return request->full == NULL && request->coefficients == NULL &&
+           (request->output != NULL ? is_discarded(request->output) : !keeps_answer);
 }
 
 /* gnuplot would say it at the end of the work. */
@@ -34,7 +33,7 @@ static pspec_status check_range(const char *axis, bool is_log, bool has_range, c
                          axis, range[0]);
 }
 
-pspec_status ps_picture_check(const ps_request *request, const ps_answer_hooks *hooks,
+pspec_status ps_picture_check(const ps_request *request, bool is_all, const ps_answer_hooks *hooks,
                               ps_error *error) {
     ps_text path = {0};
     ps_error reason = {0};
@@ -53,7 +52,7 @@ pspec_status ps_picture_check(const ps_request *request, const ps_answer_hooks *
     PS_TRY(check_range("x", axes->is_log_x, axes->has_x, axes->x, error));
     PS_TRY(check_range("y", axes->is_log_y, axes->has_y, axes->y, error));
     pspec_status status = ps_plot_find_gnuplot(&path, &reason);
-    if (status == PSPEC_ERROR_MEMORY || (status != PSPEC_OK && is_all(request))) {
+    if (status == PSPEC_ERROR_MEMORY || (status != PSPEC_OK && is_all)) {
         *error = reason;
     } else if (status != PSPEC_OK) {
         status = PSPEC_OK;
@@ -63,10 +62,10 @@ pspec_status ps_picture_check(const ps_request *request, const ps_answer_hooks *
     return status;
 }
 
-pspec_status ps_picture_settle(const ps_request *request, const ps_answer_hooks *hooks,
+pspec_status ps_picture_settle(const ps_request *request, bool is_all, const ps_answer_hooks *hooks,
                                pspec_status drawn, ps_error *error) {
     if (drawn == PSPEC_OK || drawn == PSPEC_ERROR_CANCELLED || ps_answer_is_interrupted(hooks) ||
-        is_all(request)) {
+        is_all) {
         return drawn;
     }
     ps_answer_tell_missing(hooks, "\"%s\" was not drawn: %s", request->plot, error->message);

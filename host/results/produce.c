@@ -21,7 +21,7 @@ static pspec_status check(ps_table_format *format, const ps_result_kind *kind,
     if (kind->check_arguments != NULL) {
         PS_TRY(kind->check_arguments(request, error));
     }
-    PS_TRY(ps_picture_check(request, hooks, error));
+    PS_TRY(ps_picture_check(request, ps_picture_is_all(request, true), hooks, error));
     PS_TRY(ps_outputs_check(request, true, error));
     PS_TRY(ps_table_choose_format(format, request->format, request->output, error));
     if (kind->has_verdict && *format == PS_FORMAT_NPY) {
@@ -45,7 +45,8 @@ static pspec_status write_files(ps_answer *out, const ps_result_kind *kind, cons
     }
     return request->plot == NULL
                ? PSPEC_OK
-               : ps_picture_settle(request, hooks, kind->draw(computed, request, error), error);
+               : ps_picture_settle(request, ps_picture_is_all(request, true), hooks,
+                                   kind->draw(computed, request, error), error);
 }
 
 pspec_status ps_answer_produce(ps_answer *out, const ps_result_kind *kind,

@@ -71,6 +71,9 @@ pspec_status ps_scene_take_entry(ps_scene *scene, const ps_scene_file *file,
                                  const ps_result_kind *kind, int option, const char *key,
                                  const ps_scene_node *value, ps_scene_entry *out) PS_MUST_CHECK;
 
+/* The kinds that a scene may have results of; ended by NULL. */
+extern const ps_result_kind *const ps_scene_kinds[];
+
 /* The path of a file that is read in the value of an option of the kind, a part of text; NULL: it
  * names none. */
 const char *ps_scene_find_path(const ps_result_kind *kind, int option, const char *text);

@@ -53,7 +53,8 @@ pspec_status ps_scene_question_make(ps_scene_question *out, const ps_scene_resul
     }
     PS_TRY(ps_text_check(&out->command, error));
     out->request.quiet = true;
-    out->request.wants_picture = result->wants_pictures;
+    out->request.wants_picture =
+        result->wants_pictures || (result->kind->has_points && result->wants_plot);
     out->request.wants_array = result->wants_arrays && !result->wants_coefficients;
     out->request.wants_coefficients = result->wants_coefficients;
     out->request.command_line = ps_text_string(&out->command);
@@ -83,8 +84,8 @@ static bool is_of_engine(const char *description, const char *name) {
 pspec_status ps_scene_question_use(ps_scene_question *question, const char *engine,
                                    const char *precision, ps_error *error) {
     size_t i = 0;
-    if (engine[0] == '\0') {
-        return PSPEC_OK;
+    if (engine[0] == '\0' || !ps_result_asks(question->result->kind, PS_OPTION_ENGINE)) {
+        return PSPEC_OK; /* none, or the host */
     }
     while (ps_engines[i] != NULL && !is_of_engine(engine, ps_engines[i]->name)) {
         i++;

@@ -20,9 +20,8 @@ enum { NUM_OWN_KEYS = sizeof own_keys / sizeof own_keys[0] };
 
 /* The option that a key of a result means; -1: none. */
 static int find_option(const ps_result_kind *kind, const char *key) {
-    const bool takes_points = ps_result_asks(kind, PS_OPTION_SAMPLER);
     if (strcmp(key, "files") == 0) {
-        return takes_points ? PS_SCENE_FILES : -1;
+        return ps_result_asks(kind, PS_OPTION_INPUT_FORMAT) ? PS_SCENE_FILES : -1;
     }
     const char *const name = strcmp(key, "samplers") == 0 ? "sampler" : key;
     for (int id = 0; id < PS_NUM_OPTIONS; id++) {
@@ -34,12 +33,19 @@ static int find_option(const ps_result_kind *kind, const char *key) {
 }
 
 static bool is_any_option(const char *key) {
-    for (size_t i = 0; ps_result_kinds[i] != NULL; i++) {
-        if (find_option(ps_result_kinds[i], key) >= 0) {
+    for (size_t i = 0; ps_scene_kinds[i] != NULL; i++) {
+        if (find_option(ps_scene_kinds[i], key) >= 0) {
             return true;
         }
     }
     return false;
+}
+
+/* Nothing where it is that very word, which others may have. */
+static ps_suggestion suggest(const char *typed, const ps_scene_nearest *best) {
+    return best->distance > 0
+               ? ps_text_suggest(typed, best->word, best->distance, "; did you mean ", "?")
+               : (ps_suggestion){""};
 }
 
 static pspec_status complain_of_key(const ps_scene_reader *reader, const ps_result_kind *kind,
@@ -53,10 +59,11 @@ static pspec_status complain_of_key(const ps_scene_reader *reader, const ps_resu
             ps_scene_consider(&best, key, ps_options[id].name);
         }
     }
-    return ps_scene_complain(
-        reader->file, line, key, "%s%s",
-        is_any_option(key) ? "not a key of this result" : "unknown key",
-        ps_text_suggest(key, best.word, best.distance, "; did you mean ", "?").text);
+    return best.distance == 0 || is_any_option(key)
+               ? ps_scene_complain(reader->file, line, key, "not a key of this result%s",
+                                   suggest(key, &best).text)
+               : ps_scene_complain(reader->file, line, key, "unknown key%s",
+                                   suggest(key, &best).text);
 }
 
 /* ---- one result -------------------------------------------------------------------------- */
@@ -93,10 +100,10 @@ static pspec_status take_kind(const ps_scene_reader *reader, const ps_scene_node
     const char *text = NULL;
     ps_scene_nearest best = {NULL, 0};
     PS_TRY(ps_scene_take_text(reader->file, node, "result", &text));
-    for (size_t i = 0; ps_result_kinds[i] != NULL; i++) {
-        ps_scene_consider(&best, text, ps_result_kinds[i]->name);
-        if (strcmp(text, ps_result_kinds[i]->name) == 0) {
-            *out = ps_result_kinds[i];
+    for (size_t i = 0; ps_scene_kinds[i] != NULL; i++) {
+        ps_scene_consider(&best, text, ps_scene_kinds[i]->name);
+        if (strcmp(text, ps_scene_kinds[i]->name) == 0) {
+            *out = ps_scene_kinds[i];
             return PSPEC_OK;
         }
     }
@@ -205,13 +212,13 @@ static pspec_status take_defaults(const ps_scene_reader *reader, ps_scene_result
 /* "power, angular, .. or check" */
 static pspec_status complain_of_no_kind(const ps_scene_reader *reader, int line) {
     ps_text names = {0};
-    for (size_t i = 0; ps_result_kinds[i] != NULL; i++) {
-        const bool is_last = ps_result_kinds[i + 1] == NULL;
+    for (size_t i = 0; ps_scene_kinds[i] != NULL; i++) {
+        const bool is_last = ps_scene_kinds[i + 1] == NULL;
         ps_text_append(&names, "%s%s",
                        i == 0    ? ""
                        : is_last ? " or "
                                  : ", ",
-                       ps_result_kinds[i]->name);
+                       ps_scene_kinds[i]->name);
     }
     const pspec_status status =
         ps_scene_complain(reader->file, line, "result", "is missing: %s", ps_text_string(&names));

@@ -7,6 +7,8 @@
 #include "jobs/parts/source.h"
 #include "questions/question.h"
 #include "report/output_check.h"
+#include "results/points.h"
+#include "tasks/points_drawing.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -22,7 +24,8 @@ static pspec_status fail_without_sampler(ps_error *error) {
     return PSPEC_ERROR_INVALID_ARGUMENT;
 }
 
-static pspec_status check_words(const ps_request *request, ps_error *error) {
+pspec_status ps_points_check_words(const ps_request *request, bool may_be_several,
+                                   ps_error *error) {
     if (request->num_files > 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "no input file is read, but %s was given; -o FILE names the output",
@@ -31,17 +34,19 @@ static pspec_status check_words(const ps_request *request, ps_error *error) {
     if (request->num_samplers == 0) {
         return fail_without_sampler(error);
     }
-    if (request->num_samplers > 1) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "%zu samplers were given; one output holds the points of one",
-                       request->num_samplers);
+    if (may_be_several) {
+        return PSPEC_OK;
     }
-    return ps_sample_check_counts(request, error);
+    return request->num_samplers == 1
+               ? ps_sample_check_counts(request, error)
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "%zu samplers were given; one output holds the points of one",
+                         request->num_samplers);
 }
 
 pspec_status ps_points_find_sampler(ps_sampler_request *out, const ps_request *request,
                                     ps_error *error) {
-    PS_TRY(check_words(request, error));
+    PS_TRY(ps_points_check_words(request, false, error));
     return ps_sampler_request_make(out, request, 0, error);
 }
 
@@ -78,16 +83,31 @@ static int tell_realizations(const ps_watch_report *report, void *payload) {
                : self->watch->tell(self->num > 1 ? &whole : report, self->watch->payload);
 }
 
+/* Where realizations go. */
+typedef struct sink {
+    ps_point_writer *writer;    /* NULL: the first one is only drawn */
+    ps_points_picture *picture; /* NULL: none */
+    const char *name;           /* of the sampler, for the picture */
+    ps_sampler_domain where;    /* are its points */
+} sink;
+
 /* set: the points' place, of one realization. */
 static pspec_status write_realizations(ps_sets *sets, uint64_t num_realizations, ps_point_set *set,
-                                       ps_point_writer *writer, const ps_answer_hooks *hooks,
+                                       const sink *outlet, const ps_answer_hooks *hooks,
                                        ps_error *error) {
     realizations all = {&hooks->watch, 0, num_realizations};
     const ps_watch watch = {tell_realizations, &all};
     for (uint64_t r = 0; r < num_realizations; r++) {
         all.done = r;
         PS_TRY(ps_sets_next(sets, set->points, &set->num_points, &watch, error));
-        PS_TRY(write_points(set, writer, &watch, error));
+        if (r == 0 && outlet->picture != NULL) {
+            const ps_drawn_set drawn = {outlet->name, outlet->where, set->dimension,
+                                        set->num_points, set->points};
+            PS_TRY(ps_points_picture_add(outlet->picture, &drawn, &watch, error));
+        }
+        if (outlet->writer != NULL) {
+            PS_TRY(write_points(set, outlet->writer, &watch, error));
+        }
         PS_TRY(ps_watch_tell(&hooks->watch, "realizations", r + 1, num_realizations, NULL, error));
     }
     return PSPEC_OK;
@@ -102,99 +122,147 @@ static void tell_loss(const ps_point_writer *writer, const ps_answer_hooks *hook
     }
 }
 
-/* One realization is in memory at a time. */
-static pspec_status check_memory(const ps_sampler_request *sampler, uint64_t limit,
-                                 ps_error *error) {
-    const double bytes =
-        (double)ps_sampler_most_points(sampler) * sampler->dimension * (double)sizeof(double);
-    char needed[PS_SIZE_TEXT];
-    char allowed[PS_SIZE_TEXT];
-    return limit == 0 || bytes <= (double)limit
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_MEMORY,
-                         "%zu points in %u dimensions take %s of memory, above the limit of %s",
-                         sampler->num_points, sampler->dimension, ps_size_show(needed, bytes),
-                         ps_size_show(allowed, (double)limit));
+/* Points that are only drawn are of the first realization. */
+static uint64_t count_sets(const ps_request *request) {
+    return ps_request_only_draws(request) ? 1 : request->num_realizations;
 }
 
-/* points: the place of one realization. */
 static pspec_status write_sets(const ps_request *request, const ps_sampler_request *sampler,
-                               ps_sets *sets, double *points, const ps_answer_hooks *hooks,
-                               ps_error *error) {
-    ps_point_writer *writer = NULL;
-    const ps_coordinates coordinates =
-        ps_sampler_is_on_sphere(sampler) ? PS_UNIT_VECTORS : PS_TORUS_COORDINATES;
-    ps_point_set set = {
-        .coordinates = coordinates, .dimension = sampler->dimension, .points = points};
+                               ps_sets *sets, ps_point_set *set, sink *outlet,
+                               const ps_answer_hooks *hooks, ps_error *error) {
     const ps_point_shape shape = {.num_sets = (size_t)request->num_realizations,
                                   .num_points =
                                       ps_sampler_varies(sampler) ? 0 : sampler->num_points,
-                                  .coordinates = coordinates,
+                                  .coordinates = set->coordinates,
                                   .dimension = sampler->dimension};
-    PS_TRY(ps_points_create(&writer, request->output, request->format, &shape, error));
+    if (!ps_request_only_draws(request)) {
+        PS_TRY(ps_points_create(&outlet->writer, request->output, request->format, &shape, error));
+    }
     ps_answer_begin_next(hooks);
-    pspec_status status =
-        write_realizations(sets, request->num_realizations, &set, writer, hooks, error);
-    if (status == PSPEC_OK) {
-        tell_loss(writer, hooks);
-        status = ps_points_commit(writer, error);
+    pspec_status status = write_realizations(sets, count_sets(request), set, outlet, hooks, error);
+    if (status == PSPEC_OK && outlet->writer != NULL) {
+        tell_loss(outlet->writer, hooks);
+        status = ps_points_commit(outlet->writer, error);
     }
     ps_answer_end(hooks);
-    ps_points_discard(writer);
+    ps_points_discard(outlet->writer);
+    return status;
+}
+
+/* points: the place of one realization. */
+static pspec_status sample_to(const ps_request *request, const ps_sampler_request *sampler,
+                              double *points, sink *outlet, const ps_answer_hooks *hooks,
+                              ps_error *error) {
+    const ps_sets_options options = ps_source_sets(&request->limits, false);
+    ps_point_set set = {.coordinates = ps_sampler_is_on_sphere(sampler) ? PS_UNIT_VECTORS
+                                                                        : PS_TORUS_COORDINATES,
+                        .dimension = sampler->dimension,
+                        .points = points};
+    ps_sets *sets = NULL;
+    PS_TRY(ps_sets_create(&sets, sampler, count_sets(request), &options, error));
+    const pspec_status status = write_sets(request, sampler, sets, &set, outlet, hooks, error);
+    ps_answer_warn_of(hooks, status == PSPEC_OK ? ps_sets_trouble(sets) : "");
+    ps_sets_destroy(sets);
+    return status;
+}
+
+/* picture: NULL where nothing is drawn. */
+static pspec_status sample_one(const ps_request *request, size_t question,
+                               ps_points_picture *picture, const ps_answer_hooks *hooks,
+                               ps_error *error) {
+    ps_sampler_request sampler = {0};
+    void *points = NULL;
+    PS_TRY(ps_sampler_request_make(&sampler, request, question, error));
+    PS_TRY(ps_points_check_memory(&sampler, 1, request->limits.constraints.memory_limit, error));
+    const size_t most = ps_sampler_most_points(&sampler);
+    PS_TRY(ps_allocate(&points, most, sampler.dimension * sizeof(double), "points", error));
+    /* gigabytes in small pages take half a second to give back, also where a signal ends it */
+    ps_memory_use_large_pages(points, most * sampler.dimension * sizeof(double));
+    sink outlet = {NULL, picture, ps_request_sampler(request, question),
+                   ps_sampler_where(&sampler)};
+    const pspec_status status = sample_to(request, &sampler, points, &outlet, hooks, error);
+    free(points);
     return status;
 }
 
 pspec_status ps_points_sample(const ps_request *request, const ps_answer_hooks *hooks,
                               ps_error *error) {
-    ps_sampler_request sampler = {0};
-    void *points = NULL;
-    ps_sets *sets = NULL;
-    PS_TRY(ps_points_find_sampler(&sampler, request, error));
-    PS_TRY(check_memory(&sampler, request->limits.constraints.memory_limit, error));
-    const ps_sets_options options = ps_source_sets(&request->limits, false);
-    const size_t most = ps_sampler_most_points(&sampler);
-    PS_TRY(ps_allocate(&points, most, sampler.dimension * sizeof(double), "points", error));
-    /* gigabytes in small pages take half a second to give back, also where a signal ends it */
-    ps_memory_use_large_pages(points, most * sampler.dimension * sizeof(double));
-    pspec_status status =
-        ps_sets_create(&sets, &sampler, request->num_realizations, &options, error);
-    if (status == PSPEC_OK) {
-        status = write_sets(request, &sampler, sets, points, hooks, error);
-        ps_answer_warn_of(hooks, status == PSPEC_OK ? ps_sets_trouble(sets) : "");
+    const size_t num = ps_request_num_questions(request);
+    ps_points_picture picture = {.num_sets = num};
+    pspec_status status = PSPEC_OK;
+    PS_TRY(ps_points_check_words(request, ps_request_only_draws(request), error));
+    PS_TRY(ps_points_drawing_check(request, hooks, error));
+    for (size_t i = 0; status == PSPEC_OK && i < num; i++) {
+        status = sample_one(request, i, request->plot != NULL ? &picture : NULL, hooks, error);
     }
-    ps_sets_destroy(sets);
-    free(points);
+    if (status == PSPEC_OK && request->plot != NULL) {
+        status = ps_points_draw(&picture, request, hooks, error);
+    }
+    ps_points_picture_free(&picture);
     return status;
 }
 
 /* ---- convert ----------------------------------------------------------------------------- */
 
+/* first: gets the first set, for the picture; NULL: nothing is drawn. */
+static pspec_status convert_files(const ps_request *request, size_t i_file, size_t num_files,
+                                  ps_point_set *first, const ps_answer_hooks *hooks,
+                                  ps_error *error) {
+    ps_text loss = {0};
+    const ps_conversion conversion = {
+        .paths = request->files + i_file,
+        .num_paths = num_files,
+        .options = ps_point_options_make(request),
+        .points = request->points,
+        .merge = request->merge,
+        .output = ps_request_only_draws(request) ? NULL : request->output,
+        .format = request->format,
+        .columns = request->to_columns,
+        .watch = hooks->watch,
+        .first = first,
+    };
+    const pspec_status status = ps_convert(&conversion, &loss, error);
+    if (status == PSPEC_OK && loss.length > 0) {
+        ps_answer_warn(hooks, "%s", ps_text_string(&loss));
+    }
+    ps_text_free(&loss);
+    return status;
+}
+
+/* Files into one output; those that are only drawn, one by one. */
+static pspec_status convert_all(const ps_request *request, ps_points_picture *picture,
+                                const ps_answer_hooks *hooks, ps_error *error) {
+    const bool is_drawn = request->plot != NULL;
+    const size_t step = request->num_files / picture->num_sets;
+    pspec_status status = PSPEC_OK;
+    ps_answer_begin_next(hooks);
+    for (size_t i = 0; status == PSPEC_OK && i < request->num_files; i += step) {
+        ps_point_set first = {0};
+        status = convert_files(request, i, step, is_drawn ? &first : NULL, hooks, error);
+        if (status == PSPEC_OK && is_drawn) {
+            status = ps_points_draw_file(picture, request->files[i], &first, &hooks->watch, error);
+        }
+        ps_point_set_free(&first);
+    }
+    ps_answer_end(hooks);
+    return status;
+}
+
 pspec_status ps_points_convert(const ps_request *request, const ps_answer_hooks *hooks,
                                ps_error *error) {
-    ps_text loss = {0};
+    const bool is_apart = ps_request_only_draws(request) && !request->merge;
+    ps_points_picture picture = {.num_sets = is_apart ? request->num_files : 1};
     if (request->num_files == 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "nothing to convert: name point files (- for standard input)");
     }
     PS_TRY(ps_point_options_check(request, error));
+    PS_TRY(ps_points_drawing_check(request, hooks, error));
     PS_TRY(ps_outputs_check(request, false, error));
-    ps_answer_begin_next(hooks);
-    const ps_conversion conversion = {
-        .paths = request->files,
-        .num_paths = request->num_files,
-        .options = ps_point_options_make(request),
-        .points = request->points,
-        .merge = request->merge,
-        .output = request->output,
-        .format = request->format,
-        .columns = request->to_columns,
-        .watch = hooks->watch,
-    };
-    const pspec_status status = ps_convert(&conversion, &loss, error);
-    ps_answer_end(hooks);
-    if (status == PSPEC_OK && loss.length > 0) {
-        ps_answer_warn(hooks, "%s", ps_text_string(&loss));
+    pspec_status status = convert_all(request, &picture, hooks, error);
+    if (status == PSPEC_OK && request->plot != NULL) {
+        status = ps_points_draw(&picture, request, hooks, error);
     }
-    ps_text_free(&loss);
+    ps_points_picture_free(&picture);
     return status;
 }

@@ -9,10 +9,10 @@
 #include <stdlib.h>
 
 typedef struct prefetch {
-    const ps_sampler_request *sampler;
+    ps_sampler_request sampler;
     const char *text; /* as it was typed */
     uint64_t num;
-    ps_set_place place;
+    ps_sets_options options;
     double *points; /* of one realization */
 } prefetch;
 
@@ -28,37 +28,58 @@ static pspec_status fail_cheap(const prefetch *self, ps_error *error) {
     ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
             "--prefetch: %s makes %zu points about as fast as they are read, so they are not kept; "
             "%s%s %s",
-            self->text, self->sampler->num_points,
-            self->sampler->sampler->version > 0 ? "larger sets are, of " : "sets are of ",
+            self->text, self->sampler.num_points,
+            self->sampler.sampler->version > 0 ? "larger sets are, of " : "sets are of ",
             ps_text_string(&names), "where they take more than 2 ms");
     ps_text_free(&names);
     return PSPEC_ERROR_INVALID_ARGUMENT;
 }
 
-static pspec_status check(const prefetch *self, const ps_request *request, ps_error *error) {
-    char needed[PS_SIZE_TEXT];
-    char allowed[PS_SIZE_TEXT];
-    const double bytes = (double)self->num * (double)ps_set_store_bytes(self->sampler);
-    if (request->is_given[PS_OPTION_OUTPUT] || request->format != NULL) {
+static pspec_status check_words(const ps_request *request, ps_error *error) {
+    if (request->is_given[PS_OPTION_OUTPUT] || request->format != NULL || request->plot != NULL) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "--prefetch writes no points: there is no use for --%s",
-                       request->format != NULL ? "format" : "output");
+                       request->format != NULL ? "format"
+                       : request->plot != NULL ? "plot"
+                                               : "output");
     }
-    if (!ps_sets_are_dear(self->sampler)) {
-        return fail_cheap(self, error);
+    return ps_points_check_words(request, true, error);
+}
+
+static pspec_status begin(prefetch *out, const ps_request *request, size_t question,
+                          ps_error *error) {
+    *out = (prefetch){.text = ps_request_sampler(request, question),
+                      .num = request->num_realizations,
+                      .options = ps_source_sets(&request->limits, false)};
+    PS_TRY(ps_sampler_request_make(&out->sampler, request, question, error));
+    if (!ps_sets_are_dear(&out->sampler)) {
+        return fail_cheap(out, error);
     }
-    if (self->place.cache_folder == NULL) {
-        return ps_fail(error, PSPEC_ERROR_IO,
-                       "--prefetch: there is no folder to keep sets in; set POINTSPEC_CACHE_DIR to "
-                       "one that no other user can write");
+    return out->options.place.cache_folder != NULL
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_IO,
+                         "--prefetch: there is no folder to keep sets in; set POINTSPEC_CACHE_DIR "
+                         "to one that no other user can write");
+}
+
+/* All sets must have room beside each other, or the last ones would drive out the first. */
+static pspec_status check_room(const ps_request *request, ps_error *error) {
+    double bytes = 0;
+    double allowed = 0;
+    for (size_t i = 0; i < ps_request_num_questions(request); i++) {
+        prefetch one;
+        PS_TRY(begin(&one, request, i, error));
+        bytes += (double)one.num * (double)ps_set_store_bytes(&one.sampler);
+        allowed = (double)one.options.place.max_bytes;
     }
-    return bytes <= (double)self->place.max_bytes
+    char needed_text[PS_SIZE_TEXT];
+    char allowed_text[PS_SIZE_TEXT];
+    return bytes <= allowed
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_MEMORY,
-                         "--prefetch: %" PRIu64 " sets of %zu points take %s on the disk, above "
-                         "--kept-sets, %s",
-                         self->num, self->sampler->num_points, ps_size_show(needed, bytes),
-                         ps_size_show(allowed, (double)self->place.max_bytes));
+                         "--prefetch: %" PRIu64 " sets take %s on the disk, above --kept-sets, %s",
+                         request->num_realizations * ps_request_num_questions(request),
+                         ps_size_show(needed_text, bytes), ps_size_show(allowed_text, allowed));
 }
 
 /* ---- the work ------------------------------------------------------------------------------ */
@@ -88,14 +109,13 @@ static void tell(const prefetch *self, ps_sets *sets, const ps_answer_hooks *hoo
     ps_answer_warn(hooks,
                    "%s, %zu points: %" PRIu64 " sets were kept already, %" PRIu64
                    " are made and kept in %s/sets",
-                   self->text, self->sampler->num_points, counts.num_read, counts.num_kept,
-                   self->place.cache_folder);
+                   self->text, self->sampler.num_points, counts.num_read, counts.num_kept,
+                   self->options.place.cache_folder);
 }
 
-static pspec_status run(const prefetch *self, const ps_sets_options *options,
-                        const ps_answer_hooks *hooks, ps_error *error) {
+static pspec_status run(const prefetch *self, const ps_answer_hooks *hooks, ps_error *error) {
     ps_sets *sets = NULL;
-    PS_TRY(ps_sets_create(&sets, self->sampler, self->num, options, error));
+    PS_TRY(ps_sets_create(&sets, &self->sampler, self->num, &self->options, error));
     ps_answer_begin_next(hooks);
     const pspec_status status = make_sets(self, sets, hooks, error);
     ps_answer_end(hooks);
@@ -106,23 +126,25 @@ static pspec_status run(const prefetch *self, const ps_sets_options *options,
     return status;
 }
 
-pspec_status ps_points_prefetch(const ps_request *request, const ps_answer_hooks *hooks,
-                                ps_error *error) {
-    ps_sampler_request sampler = {0};
+static pspec_status prefetch_one(const ps_request *request, size_t question,
+                                 const ps_answer_hooks *hooks, ps_error *error) {
+    prefetch self;
     void *points = NULL;
-    PS_TRY(ps_points_find_sampler(&sampler, request, error));
-    const ps_sets_options options = ps_source_sets(&request->limits, false);
-    prefetch self = {
-        .sampler = &sampler,
-        .text = request->samplers[0],
-        .num = request->num_realizations,
-        .place = options.place,
-    };
-    PS_TRY(check(&self, request, error));
-    PS_TRY(ps_allocate(&points, ps_sampler_most_points(&sampler),
-                       sampler.dimension * sizeof(double), "points", error));
+    PS_TRY(begin(&self, request, question, error));
+    PS_TRY(ps_allocate(&points, ps_sampler_most_points(&self.sampler),
+                       self.sampler.dimension * sizeof(double), "points", error));
     self.points = points;
-    const pspec_status status = run(&self, &options, hooks, error);
+    const pspec_status status = run(&self, hooks, error);
     free(points);
     return status;
+}
+
+pspec_status ps_points_prefetch(const ps_request *request, const ps_answer_hooks *hooks,
+                                ps_error *error) {
+    PS_TRY(check_words(request, error));
+    PS_TRY(check_room(request, error));
+    for (size_t i = 0; i < ps_request_num_questions(request); i++) {
+        PS_TRY(prefetch_one(request, i, hooks, error));
+    }
+    return PSPEC_OK;
 }

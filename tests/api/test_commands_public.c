@@ -70,6 +70,21 @@ static void points_are_those_of_the_program(void **state) {
     compare_points(pspec_sample, "sample", lossy, COUNT(lossy));
 }
 
+/* Without an output a picture is all that is made, and then there may be several samplers. */
+static void points_are_drawn(void **state) {
+    (void)state;
+    const pspec_option both[] = {
+        {"sampler", "white"}, {"sampler", "zphi"}, {"points", "20"}, {"plot", "both.svg"}};
+    const pspec_option one[] = {{"sampler", "white"}, {"plot", "one.svg"}, {"format", "csv"}};
+    pspec_sampler *sampler = NULL;
+    assert_refused(pspec_sampler_create(&sampler, context, both, COUNT(both)), "2 samplers");
+    assert_refused(pspec_sample(context, one, COUNT(one)), "needs the option output");
+    if (system("gnuplot --version >/dev/null 2>&1") == 0) {
+        assert_done(pspec_sample(context, both, COUNT(both)));
+        assert_int_equal(access("both.svg", F_OK), 0);
+    }
+}
+
 static void files_are_converted(void **state) {
     (void)state;
     const pspec_option made[] = {
@@ -361,6 +376,7 @@ static int remove_folder(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         TEST(points_are_those_of_the_program),
+        TEST(points_are_drawn),
         TEST(files_are_converted),
         TEST(samplers_fill_arrays),
         TEST(shapes_are_those_of_samplers),

@@ -76,6 +76,7 @@ ends_in_time INT 0.3 power --sampler white -d 1 -n 1024 -k 20000000 -o work/a.cs
 ends_in_time TERM 1 power --sampler white -d 6 -n 4096 -k 60 --per-ring 100000 -o work/a.csv
 ends_in_time INT 1 sample --sampler white -n 1e8 -m 3 -o work/a.npy
 ends_in_time TERM 1 sample --sampler sobol -n 1e8 -o work/a.txt
+ends_in_time INT 1 sample --sampler white -n 1e8 --plot work/a.svg
 ends_in_time INT 0.7 power --sampler white -n 65536 -k 300 --engine host_direct -o work/a.csv
 ends_in_time HUP 0.7 angular --sampler white-sphere -n 1e6 -m 100 -l 500 -o work/a.csv
 ends_in_time INT 0.3 truncation --brdf glossy:n=30 --harmonics hemispherical -l 400 -o work/a.csv

@@ -71,6 +71,7 @@ results:
   - {result: truncation, brdf: diffuse, max-degree: 1, plot: false}
 EOF
     printf 'scene: 1\nresults:\n  - {result: pairs, engine: host_direct, samplers: zphi, points: 8, max-degree: 4}\n' >drawn.yaml
+    printf 'scene: 1\nresults:\n  - {result: sample, samplers: [white, zphi], points: 8, arrays: true}\n' >sampled.yaml
     POINTSPEC_CACHE_DIR=$scratch/cache "$program" run points.yaml -o "$scratch/warm" >/dev/null
     POINTSPEC_CACHE_DIR=$scratch/cache "$program" run drawn.yaml -o "$scratch/warm" >/dev/null
     sed 's/"folder": ".*"/"folder": "."/' "$scratch/warm/record.json" >points.json

@@ -62,7 +62,7 @@ check_sentence() { # CASE CLASS NUMBER[+]
     remark=
     local -a said=("${said[@]}")
     case ${said[0]-} in # a warning before the work
-    pointspec:*' will not be drawn: '* | pointspec:*' kept sets of '* | pointspec:*'; pictures are left out '*) said=("${said[@]:1}") ;;
+    pointspec*' will not be drawn: '* | pointspec:*' kept sets of '* | pointspec:*'; pictures are left out '*) said=("${said[@]:1}") ;;
     esac
     for line in "${said[@]}"; do [[ $line != pointspec* ]] || sentences+=1; done
     last=${said[-1]-}
@@ -73,7 +73,8 @@ check_sentence() { # CASE CLASS NUMBER[+]
     fi
     case $2 in
     memory) [[ ${last,,} == *memory* ]] || remark="does not speak of memory" ;;
-    file) [[ $last =~ (cannot (read|write|create|run|make|find|open|look at|look into)|could not draw).*($things) || $last == *'PoCL cannot keep kernels in '* ]] ||
+    file) [[ $last =~ (cannot (read|write|create|run|make|find|open|look at|look into)|could not draw).*($things) || $last == *'PoCL cannot keep kernels in '* ||
+        $last == *'plots need the program gnuplot'* ]] ||
         remark="does not name the file" ;;
     opencl)
         # Where everything fails from there on, the sentence may tell of a later call.

@@ -68,6 +68,8 @@ runs 0 --prefetch "${bnot[@]}" -m 8 --quiet
 [[ ! -s err && ! -s out ]] || complain "--quiet: $(<err)"
 runs 0 "${bnot[@]}" -m 6 -o second.txt
 cmp anew.txt second.txt || complain "prefetched points are others"
+runs 0 --prefetch --sampler bnot --sampler fpo -n 200,400 -m 2
+[[ $(grep -c '0 sets were kept already, 2 are made' err) == 4 && $(num_kept) == 16 ]] || complain "lists: $(<err)"
 # interrupted, it ends soon, and goes on from there
 forget
 env --default-signal=INT "$program" sample --prefetch --sampler fpo -n 400 -m 100000 2>err &
@@ -102,10 +104,14 @@ runs 0 "${bnot[@]}" -m 20 --kept-sets 40960 -o second.txt
 refuses 'white makes 16 points about as fast as they are read' --prefetch --sampler white -n 16
 refuses 'larger sets are, of ' --prefetch --sampler bnot -n 16
 refuses 'no use for --output' --prefetch "${bnot[@]}" -o x.txt
+refuses 'no use for --plot' --prefetch "${bnot[@]}" --plot x.png
 refuses 'no use for --format' --prefetch "${bnot[@]}" --format npy
 refuses 'unknown sampler "bluenoise"; there are white, ' --prefetch --sampler bluenoise -n 16
 runs 1 --prefetch "${bnot[@]}" -m 1000 --kept-sets 1e6
-says '1000 sets of 100 points take '
+says '1000 sets take '
+# all of several questions must have room beside each other
+runs 1 --prefetch --sampler bnot -n 100,200 -m 10 --kept-sets 6e4
+says '20 sets take '
 # no folder: points are made all the same, and that is said once; prefetch has nothing to do then
 forget
 mkdir "$POINTSPEC_CACHE_DIR"

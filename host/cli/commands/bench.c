@@ -144,7 +144,7 @@ static pspec_status run_cases(answer *shown, const ps_bench_options *options,
     const ps_answer_hooks hooks = ps_shown_hooks(&ear);
     return arguments->plot == NULL
                ? PSPEC_OK
-               : ps_picture_settle(arguments, &hooks,
+               : ps_picture_settle(arguments, ps_picture_is_all(arguments, true), &hooks,
                                    ps_bench_plot(arguments->plot, &shown->rows,
                                                  ps_device_get_limits(shown->device)->name, error),
                                    error);
@@ -258,7 +258,7 @@ static pspec_status check_words(const ps_request *arguments, const ps_bench_opti
     }
     ps_shown shown = {.arguments = arguments, .speaker = "pointspec"};
     const ps_answer_hooks hooks = ps_shown_hooks(&shown);
-    PS_TRY(ps_picture_check(arguments, &hooks, error));
+    PS_TRY(ps_picture_check(arguments, ps_picture_is_all(arguments, true), &hooks, error));
     if (arguments->calibrate) {
         PS_TRY(check_calibration(arguments, error));
     }

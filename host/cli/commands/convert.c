@@ -21,7 +21,9 @@ const ps_command ps_command_convert = {
         "Reads point sets of the torus or of the sphere and writes them in another format, a block "
         "of points at a time, so that files may be larger than memory. Several files become sets "
         "of one output. What the format of the output cannot keep is refused, or said on standard "
-        "error. Files compressed by gzip are read as they are.",
+        "error. Files compressed by gzip are read as they are. --plot draws the first set; without "
+        "-o "
+        "and --format the picture is all that is made, and several files are drawn side by side.",
     .task = &ps_task_convert,
     .takes = PS_TAKER_BIT(convert),
     .examples = {"pointspec sample --sampler white -n 64 -m 3 | pointspec convert - -o sets.npy",

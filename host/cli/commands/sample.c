@@ -26,10 +26,13 @@ const ps_command ps_command_sample = {
         "parameters, N, D, the seed and r. UTK text has one point per line, coordinates with 17 "
         "digits, and a line \"#\" between two realizations; an NPY array has the shape (M, N, D), "
         "D = 3 on the sphere. --homogenize shifts points of the torus and rotates those of the "
-        "sphere, at random. Sets that take long to make, of blue noise, are kept on the disk, for "
-        "this command and all others, up to "
-        "--kept-sets; --prefetch only fills that store, on all processors, and goes on where it "
-        "was stopped.",
+        "sphere, at random. --plot draws the first realization: the unit square, a line, every "
+        "pair of coordinates of more dimensions, both sides of the sphere. Without -o and --format "
+        "the picture is all that is made, and several samplers or N are drawn side by side. Sets "
+        "that "
+        "take long to make, of blue noise, are kept on the disk, for this command and all others, "
+        "up to --kept-sets; --prefetch only fills that store, on all processors, and goes on where "
+        "it was stopped.",
     .task = &ps_task_sample,
     .takes = PS_TAKER_BIT(sample),
     .samples = PS_DOMAIN_ANY,

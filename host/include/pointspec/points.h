@@ -58,7 +58,8 @@ PSPEC_EXPORT pspec_status pspec_sampler_generate(const pspec_sampler *sampler,
                                                  double *points, size_t *num_points);
 
 /** Writes realizations of a sampler into the file "output", byte for byte as pointspec sample:
- * options of pspec_sampler_create(), "realizations" and "format". What the format cannot keep is
+ * options of pspec_sampler_create(), "realizations" and "format"; "plot" names a picture of the
+ * first realization, which without "output" and "format" is all that is made. What the format cannot keep is
  * told to the callback for warnings. #PSPEC_ERROR_IO where the file cannot be written,
  * #PSPEC_ERROR_MEMORY where a realization does not fit the limit of the context,
  * #PSPEC_ERROR_CANCELLED by the progress callback: there is no file then. */

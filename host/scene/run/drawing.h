@@ -27,4 +27,7 @@ pspec_status ps_run_add_plot(const ps_artist *artist, const ps_picture *picture,
 pspec_status ps_draw_curves(const ps_artist *artist, const ps_picture *what,
                             const ps_plot_image *image) PS_MUST_CHECK;
 
+/* A picture of points, the first realization of every question. */
+pspec_status ps_draw_points(const ps_artist *artist, const ps_picture *what) PS_MUST_CHECK;
+
 #endif

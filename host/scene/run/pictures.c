@@ -248,9 +248,35 @@ static pspec_status list_spectra(ps_pictures *out, const ps_scene_result *asked,
     return PSPEC_OK;
 }
 
+/* Sets side by side; pages of them, as few as there can be. */
+static pspec_status list_points(ps_pictures *out, const ps_scene_result *asked, ps_error *error) {
+    const size_t num = ps_scene_num_questions(asked);
+    const size_t none = asked->num_entries;
+    const size_t num_pages = (num + MOST_PANELS - 1) / MOST_PANELS;
+    for (size_t page = 0; page < num_pages; page++) {
+        const size_t first = page * num / num_pages;
+        const size_t end = (page + 1) * num / num_pages;
+        ps_picture one = {.form = PS_PICTURE_POINTS, .group = none, .points = none, .panel = none};
+        if (page > 0) {
+            snprintf(one.suffix, sizeof one.suffix, "-page-%zu", page + 1);
+        }
+        PS_TRY(add(out, &one, end - first, error));
+        ps_picture *const picture = &out->all[out->num - 1];
+        picture->num_panels = 1; /* nothing to be said of them */
+        picture->num_curves = picture->ends[0] = end - first;
+        for (size_t i = 0; i < end - first; i++) {
+            picture->curves[i] = first + i;
+        }
+    }
+    return PSPEC_OK;
+}
+
 pspec_status ps_pictures_list(ps_pictures *out, const ps_scene_result *asked, ps_error *error) {
     if (!asked->wants_plot) {
         return PSPEC_OK;
+    }
+    if (asked->kind->has_points) {
+        return list_points(out, asked, error);
     }
     return asked->kind->spectrum != NULL ? list_spectra(out, asked, error)
                                          : list_lines(out, asked, error);

@@ -12,7 +12,8 @@ typedef enum ps_picture_form {
     PS_PICTURE_SPECTRA, /* powers of a group of questions */
     PS_PICTURE_IMAGE,   /* of one question, with the averaged periodogram */
     PS_PICTURE_COLUMNS, /* lines of one kind */
-    PS_PICTURE_ERRORS   /* worst-case errors against numbers of points */
+    PS_PICTURE_ERRORS,  /* worst-case errors against numbers of points */
+    PS_PICTURE_POINTS   /* points of questions, side by side */
 } ps_picture_form;
 
 enum { PS_SUFFIX_BYTES = 96 };

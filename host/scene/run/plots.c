@@ -34,6 +34,9 @@ static bool has_bins(const ps_run_result *result) {
 
 static pspec_status draw(const ps_artist *artist, const ps_picture *what) {
     const bool is_image = what->form == PS_PICTURE_IMAGE;
+    if (what->form == PS_PICTURE_POINTS) {
+        return ps_draw_points(artist, what);
+    }
     const bool is_spectrum = is_image || what->form == PS_PICTURE_SPECTRA;
     if (is_spectrum && !has_bins(artist->result)) {
         return PSPEC_OK;

@@ -1,0 +1,164 @@
+/* Scripts of points: what gnuplot is given, and that it draws it. */
+#include "plots/plot_script.h"
+#include "test_folder.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+
+#include <cmocka.h>
+
+enum { NUM = 3, MOST_PANELS = 3 };
+
+typedef struct example {
+    double x[NUM], y[NUM];
+    ps_series series[MOST_PANELS];
+    ps_panel panels[MOST_PANELS];
+    ps_point_frame frames[MOST_PANELS];
+    ps_figure figure;
+} example;
+
+/* A square or a line, and both sides of the sphere, of which one has no points. */
+static void make_example(example *out, ps_frame_form first) {
+    for (size_t i = 0; i < NUM; i++) {
+        out->x[i] = out->y[i] = (double)(i + 1) / 4;
+    }
+    for (size_t i = 0; i < MOST_PANELS; i++) {
+        out->series[i] = (ps_series){.num = i < 2 ? NUM : 0, .x = out->x, .y = out->y};
+        out->panels[i] = (ps_panel){i > 0 ? "a \"panel\"" : "", 1, &out->series[i]};
+        out->frames[i] = (ps_point_frame){PS_FRAME_DISC, -1, 1, "x", "y", .is_mirrored = i == 2};
+    }
+    out->frames[0] = (ps_point_frame){first, 0, 0.5, "x_1", "x_2", false};
+    out->figure = (ps_figure){.form = PS_FIGURE_POINTS,
+                              .title = "it's \"a\" `title`",
+                              .num_panels = MOST_PANELS,
+                              .panels = out->panels,
+                              .frames = out->frames,
+                              .num_columns = 2};
+}
+
+static char *write_script(const ps_figure *figure, const char *terminal) {
+    char *script = NULL;
+    size_t length = 0;
+    ps_error error = {0};
+    FILE *const stream = open_memstream(&script, &length);
+    assert_non_null(stream);
+    assert_int_equal(ps_figure_write_script(figure, terminal, stream, &error), PSPEC_OK);
+    assert_int_equal(fclose(stream), 0);
+    return script;
+}
+
+static void asks_for_frames_and_points(void **state) {
+    static const char *const parts[] = {"$data0_0 << EOD\n 0.25 0.25\n 0.5 0.5\n 0.75 0.75\nEOD\n",
+                                        "$data2_0 << EOD\nEOD\n",
+                                        "set xrange [0:0.5]\n",
+                                        "set xtics (0, 0.5) out",
+                                        "set xrange [-1.12:1.12]\n",
+                                        "set xrange [1.12:-1.12]\n", /* x runs to the left */
+                                        "set object 1 circle at first 0,0 size first 1 ",
+                                        "plot NaN notitle"};
+    example data;
+    (void)state;
+    make_example(&data, PS_FRAME_SQUARE);
+    char *const script = write_script(&data.figure, "svg");
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
+        if (strstr(script, parts[i]) == NULL) {
+            fail_msg("no \"%s\" in %s", parts[i], script);
+        }
+    }
+    free(script);
+}
+
+/* Frames of the same side in both directions, whatever the page. */
+static void frames_are_square(void **state) {
+    example data;
+    int width = 0;
+    int height = 0;
+    (void)state;
+    for (size_t columns = 1; columns <= PS_MOST_POINT_COLUMNS; columns++) {
+        make_example(&data, PS_FRAME_SQUARE);
+        data.figure.num_columns = columns;
+        ps_script_size_points(&data.figure, &width, &height);
+        char *const script = write_script(&data.figure, "svg");
+        double ends[4];
+        for (size_t i = 0; i < 4; i++) {
+            static const char *const names[] = {"set lmargin at screen ", "set rmargin at screen ",
+                                                "set bmargin at screen ", "set tmargin at screen "};
+            const char *const found = strstr(script, names[i]);
+            assert_non_null(found);
+            ends[i] = strtod(found + strlen(names[i]), NULL);
+        }
+        const double side = (ends[1] - ends[0]) * width;
+        assert_true(side > 300 && width <= 2000);
+        assert_true(side / ((ends[3] - ends[2]) * height) > 0.999);
+        assert_true(side / ((ends[3] - ends[2]) * height) < 1.001);
+        free(script);
+    }
+}
+
+static void the_key_has_all_that_is_drawn(void **state) {
+    example data;
+    ps_text keys[4] = {{0}};
+    (void)state;
+    for (size_t i = 0; i < 4; i++) {
+        make_example(&data, PS_FRAME_SQUARE);
+        data.frames[0].last = i == 1 ? 0.25 : 0.5;
+        data.frames[1].is_mirrored = i == 2;
+        data.figure.num_columns = i == 3 ? 3 : 2;
+        ps_figure_add_key(&keys[i], &data.figure);
+    }
+    for (size_t i = 1; i < 4; i++) {
+        assert_true(keys[i].length != keys[0].length ||
+                    memcmp(keys[i].data, keys[0].data, keys[0].length) != 0);
+    }
+    for (size_t i = 0; i < 4; i++) {
+        ps_text_free(&keys[i]);
+    }
+}
+
+static size_t count(const char *text, const char *part) {
+    size_t num = 0;
+    while ((text = strstr(text, part)) != NULL) {
+        text += strlen(part);
+        num++;
+    }
+    return num;
+}
+
+static void draws_every_kind(void **state) {
+    static const struct {
+        const char *name, *start;
+    } kinds[] = {{"a.png", "\x89PNG"}, {"b.svg", "<?xml"}, {"c.pdf", "%PDF"}};
+    if (system("gnuplot --version >/dev/null 2>&1") != 0) {
+        print_message("gnuplot is not installed: skipped\n");
+        skip();
+    }
+    for (size_t i = 0; i < 2 * sizeof kinds / sizeof kinds[0]; i++) {
+        example data;
+        char path[TEST_PATH_BYTES];
+        ps_error error = {0};
+        make_example(&data, i % 2 == 0 ? PS_FRAME_SQUARE : PS_FRAME_LINE);
+        data.frames[0].last = 1;
+        test_path(*state, kinds[i / 2].name, path);
+        if (ps_figure_write(path, &data.figure, &error) != PSPEC_OK) {
+            fail_msg("%s", error.message);
+        }
+        char *const file = test_read_file(path, NULL);
+        assert_memory_equal(file, kinds[i / 2].start, strlen(kinds[i / 2].start));
+        if (strcmp(kinds[i / 2].name, "b.svg") == 0) { /* marks of all points */
+            assert_int_equal(count(file, "xlink:href='#gpPt6' transform"),
+                             i % 2 == 0 ? 2 * NUM : NUM);
+        }
+        free(file);
+        assert_int_equal(test_folder_count(*state, true), 1);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(asks_for_frames_and_points),
+        cmocka_unit_test(frames_are_square),
+        cmocka_unit_test(the_key_has_all_that_is_drawn),
+        cmocka_unit_test_setup_teardown(draws_every_kind, test_folder_create, test_folder_remove),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
