@@ -16,15 +16,11 @@ echo "figures: jittered.png" >&2
 "$pointspec" power --sampler jittered -n 4096 -m 500 -k 96 --quiet -o jittered.csv \
     --plot "$images/jittered.png"
 
-echo "figures: p15_figure4.png" >&2
-"$pointspec" power --sampler jittered --sampler poisson-disk --sampler fpo --sampler bnot -n 1024 -m 50 -k 128 \
-    --quiet -o figure4.csv --plot "$images/p15_figure4.png"
-
 echo "figures: sphere.png" >&2
 "$pointspec" angular --sampler healpix-jittered:nside=16 -m 1000 -l 256 --quiet -o sphere.csv \
     --plot "$images/sphere.png"
 
-# Points of the samplers.
+# Points and spectra of the samplers.
 "$docs/scripts/points_figures.sh" "$pointspec" "$images"
 
 # Error of S against |k|: 60 random frequencies of the plane in every decade, each engine against

@@ -5,7 +5,7 @@
  * of its cell, which lowers the transport cost sum int |x - x_i|^2 each time, so that no move needs
  * a search. It ends where points lie within 0.015 eps / sqrt(N) of their centroids (root mean
  * square), with weights for areas right to the capacity
- * (docs/mathematics/optimized_samplers.md#bnot).
+ * (docs/samplers/optimized.md#bnot).
  */
 #ifndef PS_SAMPLERS_OPTIMIZED_BNOT_H
 #define PS_SAMPLERS_OPTIMIZED_BNOT_H

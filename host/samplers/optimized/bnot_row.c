@@ -1,4 +1,4 @@
-/* The row of BNOT: docs/mathematics/optimized_samplers.md#bnot. */
+/* The row of BNOT: docs/samplers/optimized.md#bnot. */
 #include "samplers/list.h"
 
 #include "base/text.h"

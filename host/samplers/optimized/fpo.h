@@ -1,6 +1,6 @@
 /* Farthest-point optimisation (Schloemer, Heck, Deussen 2011) on the torus of the plane: each point
  * in turn, in an order drawn once, goes to the place that is farthest from all others, until the
- * least distance of two points is large enough (docs/mathematics/optimized_samplers.md#fpo).
+ * least distance of two points is large enough (docs/samplers/optimized.md#fpo).
  */
 #ifndef PS_SAMPLERS_OPTIMIZED_FPO_H
 #define PS_SAMPLERS_OPTIMIZED_FPO_H

@@ -1,4 +1,4 @@
-/* The row of farthest-point optimisation: docs/mathematics/optimized_samplers.md#fpo. */
+/* The row of farthest-point optimisation: docs/samplers/optimized.md#fpo. */
 #include "samplers/list.h"
 
 #include "base/text.h"
