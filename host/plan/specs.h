@@ -6,6 +6,7 @@
 #define PS_PLAN_SPECS_H
 
 #include "plan/choose.h"
+#include "sets/sets.h"
 
 /* How exact a result has to be, and what may be left out for that. */
 typedef struct ps_accuracy_spec {
@@ -26,5 +27,8 @@ typedef struct ps_limits_spec {
     uint64_t kept_bytes;             /* what sets of samplers may take in it */
     bool profile;                    /* kernels are timed */
 } ps_limits_spec;
+
+/* Where sets of samplers are kept, and in what memory they are made ahead: nowhere with no_skip. */
+ps_sets_options ps_limits_sets(const ps_limits_spec *limits, bool no_skip);
 
 #endif

@@ -222,7 +222,7 @@ static pspec_status add_sampler(ps_phases *phases, const ps_request *request, si
     ps_sampler_request sampler;
     PS_TRY(ps_sampler_request_make(&sampler, request, question, error));
     const double sets = is_drawn ? 1 : (double)request->num_realizations;
-    const ps_sets_options kept = ps_source_sets(&request->limits, request->accuracy.no_skip);
+    const ps_sets_options kept = ps_limits_sets(&request->limits, request->accuracy.no_skip);
     ps_phases_sample(phases, &sampler, sets, &kept.place);
     ps_phases_touch(phases, (double)sampler.num_points * sampler.dimension * sizeof(double));
     if (!is_drawn) {

@@ -80,7 +80,7 @@ static pspec_status plan(ps_planner *planner, const ps_request *request, ps_erro
     PS_TRY(check_question(request, error));
     PS_TRY(find_sampler(&sampler, request, error));
     ps_phases_start(&phases, NULL);
-    const ps_sets_options kept = ps_source_sets(&request->limits, request->accuracy.no_skip);
+    const ps_sets_options kept = ps_limits_sets(&request->limits, request->accuracy.no_skip);
     ps_phases_sample(&phases, &sampler, (double)request->num_realizations, &kept.place);
     return ps_plan_table_add_host(planner, &phases,
                                   "points of one sampler, one realization at a time", error);
@@ -131,7 +131,7 @@ static pspec_status compute(void **out, const ps_request *request, const ps_answ
     self->num_kept = count_kept(request);
     PS_TRY(find_sampler(&self->sampler, request, error));
     PS_TRY(PS_NEW(&self->all, self->num, "realizations", error));
-    const ps_sets_options kept = ps_source_sets(&request->limits, request->accuracy.no_skip);
+    const ps_sets_options kept = ps_limits_sets(&request->limits, request->accuracy.no_skip);
     PS_TRY(ps_source_sampler(&source, &self->sampler, self->num, &kept, &hooks->watch, error));
     const pspec_status status = take_sets(self, source, &hooks->watch, error);
     ps_answer_warn_of(hooks, status == PSPEC_OK ? ps_source_trouble(source) : "");

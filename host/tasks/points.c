@@ -4,7 +4,7 @@
 #include "base/memory.h"
 #include "base/process/memory_limit.h"
 #include "jobs/convert.h"
-#include "jobs/parts/source.h"
+#include "plan/specs.h"
 #include "questions/question.h"
 #include "report/output_check.h"
 #include "results/points.h"
@@ -153,7 +153,7 @@ static pspec_status write_sets(const ps_request *request, const ps_sampler_reque
 static pspec_status sample_to(const ps_request *request, const ps_sampler_request *sampler,
                               double *points, sink *outlet, const ps_answer_hooks *hooks,
                               ps_error *error) {
-    const ps_sets_options options = ps_source_sets(&request->limits, false);
+    const ps_sets_options options = ps_limits_sets(&request->limits, false);
     ps_point_set set = {.coordinates = ps_sampler_is_on_sphere(sampler) ? PS_UNIT_VECTORS
                                                                         : PS_TORUS_COORDINATES,
                         .dimension = sampler->dimension,

@@ -2,7 +2,7 @@
 
 #include "base/memory.h"
 #include "base/process/memory_limit.h"
-#include "jobs/parts/source.h"
+#include "plan/specs.h"
 #include "tasks/points.h"
 
 #include <inttypes.h>
@@ -50,7 +50,7 @@ static pspec_status begin(prefetch *out, const ps_request *request, size_t quest
                           ps_error *error) {
     *out = (prefetch){.text = ps_request_sampler(request, question),
                       .num = request->num_realizations,
-                      .options = ps_source_sets(&request->limits, false)};
+                      .options = ps_limits_sets(&request->limits, false)};
     PS_TRY(ps_sampler_request_make(&out->sampler, request, question, error));
     if (!ps_sets_are_dear(&out->sampler)) {
         return fail_cheap(out, error);

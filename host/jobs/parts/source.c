@@ -41,11 +41,6 @@ static pspec_status create(ps_source **out, ps_error *error) {
     return PSPEC_OK;
 }
 
-ps_sets_options ps_source_sets(const ps_limits_spec *limits, bool no_skip) {
-    return (ps_sets_options){{no_skip ? NULL : limits->cache_folder, limits->kept_bytes},
-                             limits->constraints.memory_limit};
-}
-
 pspec_status ps_source_sampler(ps_source **out, const ps_sampler_request *request,
                                uint64_t num_realizations, const ps_sets_options *options,
                                const ps_watch *watch, ps_error *error) {

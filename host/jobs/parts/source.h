@@ -8,16 +8,12 @@
 #define PS_JOBS_PARTS_SOURCE_H
 
 #include "jobs/parts/pattern_check.h"
-#include "plan/specs.h"
 #include "points/points.h"
 #include "sets/sets.h"
 
 #include <stdint.h>
 
 typedef struct ps_source ps_source;
-
-/* Where a job's sets are kept: nowhere with no_skip. */
-ps_sets_options ps_source_sets(const ps_limits_spec *limits, bool no_skip);
 
 /* The sampler's realizations 0 .. num_realizations - 1, with torus coordinates or unit vectors;
  * request is resolved, and copied, and so is watch, which may be NULL: it is told while the points

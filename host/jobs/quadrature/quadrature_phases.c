@@ -26,7 +26,7 @@ static double add_points(const ps_quadrature_setup *setup, const ps_quadrature_q
     const double each = (double)setup->problem.num_points;
     const double planned = (double)setup->planned_realizations;
     if (question->sampler != NULL) {
-        const ps_sets_options sets = ps_source_sets(&question->limits, question->accuracy.no_skip);
+        const ps_sets_options sets = ps_limits_sets(&question->limits, question->accuracy.no_skip);
         ps_phases_sample(phases, question->sampler, planned > 0 ? planned : 1, &sets.place);
         return planned > 0 ? planned : 1;
     }

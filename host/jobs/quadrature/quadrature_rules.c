@@ -17,7 +17,7 @@ static pspec_status open_source(ps_rules *rules, ps_error *error) {
     const ps_quadrature_question *const question = rules->question;
     if (question->sampler != NULL) {
         const ps_sets_options options =
-            ps_source_sets(&question->limits, question->accuracy.no_skip);
+            ps_limits_sets(&question->limits, question->accuracy.no_skip);
         return ps_source_sampler(&rules->source, question->sampler, question->num_realizations,
                                  &options, &question->watch, error);
     }

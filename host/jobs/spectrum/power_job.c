@@ -41,7 +41,7 @@ static pspec_status open_sampler(ps_power_job *job, ps_error *error) {
     job->request = *question->sampler;
     job->request.homogenize = question->sampler->homogenize && !job->needs.no_shift;
     job->num_realizations = job->needs.one_realization ? 1 : question->num_realizations;
-    const ps_sets_options options = ps_source_sets(&question->limits, question->accuracy.no_skip);
+    const ps_sets_options options = ps_limits_sets(&question->limits, question->accuracy.no_skip);
     PS_TRY(ps_source_sampler(&job->sets.source, &job->request, job->num_realizations, &options,
                              &(ps_watch){ask_while_sampling, job}, error));
     turn(job);

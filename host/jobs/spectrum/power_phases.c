@@ -55,7 +55,7 @@ static amounts add_points(const ps_power_job *job, ps_phases *phases) {
     if (question->sampler != NULL) {
         out.sets = job->problem.num_realizations > 0 ? (double)job->problem.num_realizations : 1;
         out.points = out.sets * each;
-        const ps_sets_options sets = ps_source_sets(&question->limits, question->accuracy.no_skip);
+        const ps_sets_options sets = ps_limits_sets(&question->limits, question->accuracy.no_skip);
         ps_phases_sample(phases, &job->request, out.sets, &sets.place);
     } else {
         const bool has_weights = job->sets.next.has_weights;
