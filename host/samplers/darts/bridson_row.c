@@ -40,7 +40,7 @@ const ps_sampler ps_sampler_bridson = {
     .summary = "random points that keep a distance, each within two of it from another",
     .minimum_dimension = 2,
     .maximum_dimension = PS_GRID_MOST_DIMENSION,
-    .version = 1,
+    .version = 2,
     .parameters = {PS_DISTANCE_RADIUS, PS_DISTANCE_EXACT, PS_DISTANCE_TRIES},
     PS_DISTANCE_MEMBERS,
 };
