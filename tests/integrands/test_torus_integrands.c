@@ -1,5 +1,5 @@
-/* Integrands of the torus: exact values of reference/torus.json and tables.json, Parseval, sums over
- * pairs against sums over frequencies, values against integrals, what is refused. */
+/* Integrands of the torus: exact values of reference/torus.json and tables.json, Parseval, sums
+ * over pairs against sums over frequencies, values against integrals, what is refused. */
 #include "harness.h"
 
 #include "integrands/integrand.h"

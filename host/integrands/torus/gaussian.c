@@ -1,4 +1,5 @@
-/* A Gaussian of height 1, summed over its images or cut: docs/mathematics/integrands.md#gaussians. */
+/* A Gaussian of height 1, summed over its images or cut:
+ * docs/mathematics/integrands.md#gaussians. */
 #define PRECISION 64
 #include "integrands/gaussian.h"
 

@@ -47,8 +47,8 @@ static double sinc(double x) {
     return x == 0 ? 1 : sin(PS_PI * x) / (PS_PI * x);
 }
 
-/* f_k = i/(2 pi |k|^2) sum_edges (k_x dy - k_y dx) exp(-2 pi i k.m) sinc(k.(b - a)), m the middle of
- * the edge from a to b. */
+/* f_k = i/(2 pi |k|^2) sum_edges (k_x dy - k_y dx) exp(-2 pi i k.m) sinc(k.(b - a)), m the middle
+ * of the edge from a to b. */
 static double power(const ps_polygon *part, double kx, double ky) {
     double real_part = 0;
     double imaginary = 0;
