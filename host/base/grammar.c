@@ -1,5 +1,6 @@
 #include "base/grammar.h"
 
+#include "base/memory.h"
 #include "base/text.h"
 
 #include <stdint.h>
@@ -121,4 +122,45 @@ pspec_status ps_grammar_values(const ps_grammar *grammar, const char *rest, ps_s
         rest += length;
     }
     return PSPEC_OK;
+}
+
+/* [num] pointers and then the letters of the values. */
+static pspec_status copy_values(char ***out, const ps_parameter *const *parameters, size_t num,
+                                const ps_slice *values, ps_error *error) {
+    size_t num_bytes = num * sizeof(char *) + 1;
+    for (size_t i = 0; i < num; i++) {
+        num_bytes += values[i].length + strlen(parameters[i]->default_value) + 1;
+    }
+    char **texts = NULL;
+    PS_TRY(ps_allocate_for(&texts, num_bytes, 1, "parameters", error));
+    char *letters = (char *)(texts + num);
+    for (size_t i = 0; i < num; i++) {
+        const char *const preset = parameters[i]->default_value;
+        ps_slice_copy(letters,
+                      values[i].text != NULL ? values[i] : (ps_slice){preset, strlen(preset)});
+        texts[i] = letters;
+        letters += strlen(letters) + 1;
+    }
+    *out = texts;
+    return PSPEC_OK;
+}
+
+pspec_status ps_grammar_texts(char ***texts, const char *kind, const char *name,
+                              const ps_parameter *own, const char *rest, ps_error *error) {
+    enum { MOST_LETTERS = 4095 }; /* of a value: a path */
+    const ps_parameter *parameters[PS_MOST_OWN_PARAMETERS + 1] = {NULL};
+    ps_slice values[PS_MOST_OWN_PARAMETERS];
+    size_t num = 0;
+    *texts = NULL;
+    while (own[num].key != NULL) {
+        parameters[num] = &own[num];
+        num++;
+    }
+    const ps_grammar grammar = {.kind = kind,
+                                .name = name,
+                                .parameters = parameters,
+                                .num_own = num,
+                                .most_letters = MOST_LETTERS};
+    PS_TRY(ps_grammar_values(&grammar, rest, values, error));
+    return copy_values(texts, parameters, num, values, error);
 }

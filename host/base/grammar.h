@@ -8,7 +8,8 @@
 #include <stddef.h>
 
 enum {
-    PS_GRAMMAR_WORD = 64
+    PS_GRAMMAR_WORD = 64,
+    PS_MOST_OWN_PARAMETERS = 8, /* of a thing that ps_grammar_texts reads */
 }; /* bytes of a name or key with its NUL: no known one has half as many */
 
 /* One key that a thing understands. */
@@ -45,5 +46,12 @@ void ps_slice_copy(char *text, ps_slice slice);
  * nearest known one; empty and repeated values are errors. Slices are of rest. */
 pspec_status ps_grammar_values(const ps_grammar *grammar, const char *rest, ps_slice *values,
                                ps_error *error) PS_MUST_CHECK;
+
+/* The values of a thing that has parameters of its own alone, own[] ended by key NULL, in their
+ * order, as texts that may be paths; presets where nothing was given. *texts is one block, freed by
+ * free. */
+pspec_status ps_grammar_texts(char ***texts, const char *kind, const char *name,
+                              const ps_parameter *own, const char *rest,
+                              ps_error *error) PS_MUST_CHECK;
 
 #endif

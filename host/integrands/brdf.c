@@ -11,8 +11,6 @@
 const ps_brdf_kind *const ps_brdf_kinds[] = {&ps_brdf_diffuse, &ps_brdf_glossy, &ps_brdf_phong,
                                              &ps_brdf_zonal, NULL};
 
-enum { MOST_LETTERS = 4095 }; /* of a value: a path */
-
 /* ---- parsing ------------------------------------------------------------------------------- */
 
 static pspec_status find_kind(const ps_brdf_kind **kind, const char *name, ps_error *error) {
@@ -30,47 +28,12 @@ static pspec_status find_kind(const ps_brdf_kind **kind, const char *name, ps_er
                          ps_text_suggest(name, (*kind)->name, best, "; did you mean ", "?").text);
 }
 
-/* Values as texts of their own, [num] pointers and then their letters in one block. */
-static pspec_status copy_values(char ***out, const ps_parameter *const *parameters, size_t num,
-                                const ps_slice *values, ps_error *error) {
-    size_t num_bytes = num * sizeof(char *) + 1;
-    for (size_t i = 0; i < num; i++) {
-        num_bytes += values[i].length + strlen(parameters[i]->default_value) + 1;
-    }
-    char **texts = NULL;
-    PS_TRY(ps_allocate_for(&texts, num_bytes, 1, "a BRDF", error));
-    char *letters = (char *)(texts + num);
-    for (size_t i = 0; i < num; i++) {
-        const char *const preset = parameters[i]->default_value;
-        ps_slice_copy(letters,
-                      values[i].text != NULL ? values[i] : (ps_slice){preset, strlen(preset)});
-        texts[i] = letters;
-        letters += strlen(letters) + 1;
-    }
-    *out = texts;
-    return PSPEC_OK;
-}
-
 static pspec_status read_values(ps_brdf *brdf, const char *rest, ps_error *error) {
-    const ps_parameter *parameters[PS_MAX_BRDF_PARAMETERS + 1] = {NULL};
-    ps_slice values[PS_MAX_BRDF_PARAMETERS];
     char **texts = NULL;
-    size_t num = 0;
-    while (brdf->kind->parameters[num].key != NULL) {
-        parameters[num] = &brdf->kind->parameters[num];
-        num++;
-    }
-    const ps_grammar grammar = {.kind = "BRDF",
-                                .name = brdf->kind->name,
-                                .parameters = parameters,
-                                .num_own = num,
-                                .most_letters = MOST_LETTERS};
-    PS_TRY(ps_grammar_values(&grammar, rest, values, error));
-    if (brdf->kind->create == NULL) {
-        return PSPEC_OK;
-    }
-    PS_TRY(copy_values(&texts, parameters, num, values, error));
-    const pspec_status status = brdf->kind->create(brdf, (const char *const *)texts, error);
+    PS_TRY(ps_grammar_texts(&texts, "BRDF", brdf->kind->name, brdf->kind->parameters, rest, error));
+    const pspec_status status = brdf->kind->create != NULL
+                                    ? brdf->kind->create(brdf, (const char *const *)texts, error)
+                                    : PSPEC_OK;
     free(texts);
     return status;
 }

@@ -1,0 +1,106 @@
+/* Integrands F whose integral points estimate: on the torus, the sphere or the hemisphere. One file
+ * per kind, one table. What is known of F exactly turns a spectrum of points into a variance
+ * (docs/mathematics/integrands.md):
+ *
+ *     torus        Var I = (1/N) sum_{k != 0} P(k) |f_k|^2                                 (V1)
+ *     sphere       Var I = (4 pi/N) sum_{l >= 1} P(l) sum_m |F_lm|^2                       (S1)
+ *     hemisphere   Var I = (pi/N) sum_{l = 2,4,..} P(l) sum_m |F_lm|^2, F extended evenly  (H1)
+ */
+#ifndef PS_INTEGRANDS_INTEGRAND_H
+#define PS_INTEGRANDS_INTEGRAND_H
+
+#include "base/grammar.h"
+#include "samplers/sampler.h"
+
+#include <stdint.h>
+
+/* Numbers that a kind fills: those of two points of six dimensions, and a few more. */
+enum { PS_MAX_INTEGRAND_PARAMETERS = 4, PS_INTEGRAND_NUMBERS = 16 };
+
+typedef struct ps_integrand ps_integrand;
+
+/* Where an integrand is asked for. */
+typedef struct ps_integrand_place {
+    ps_sampler_domain where;
+    unsigned dimension; /* of the torus; 3 elsewhere */
+} ps_integrand_place;
+
+/* What the integrands of one name have in common. Members may be NULL where it says so. */
+typedef struct ps_integrand_kind {
+    const char *name;
+    const char *aliases;  /* separated by blanks; NULL: none */
+    const char *summary;  /* one line, for help */
+    unsigned domains;     /* bits PS_INTEGRAND_ON(ps_sampler_domain) */
+    unsigned least, most; /* dimensions of the torus that it has; 0: not on the torus */
+    ps_parameter parameters[PS_MAX_INTEGRAND_PARAMETERS + 1]; /* ended by key NULL */
+    /* Reads values[i] of parameters[i] and fills numbers and own. NULL: nothing to read. */
+    pspec_status (*create)(ps_integrand *, const char *const *values, ps_error *);
+    void (*destroy)(ps_integrand *); /* frees what own points to; NULL: nothing */
+
+    double (*integral)(const ps_integrand *);
+    /* What all modes but the constant one hold: int F^2 - (int F)^2 on the torus, see
+     * ps_integrand_energy. */
+    double (*energy)(const ps_integrand *);
+    /* |f_k|^2 of num frequencies, [num][dimension], none of them 0. NULL: not on the torus. */
+    pspec_status (*powers)(const ps_integrand *, const int32_t *vectors, size_t num, double *powers,
+                           ps_error *);
+    /* sum_m |F_lm|^2 for l = 0 .. max_degree. NULL: not on the sphere. */
+    pspec_status (*degrees)(const ps_integrand *, size_t max_degree, double *powers, ps_error *);
+    /* F at num points, [num][dimension] coordinates in [0,1) or unit vectors. */
+    void (*values)(const ps_integrand *, const double *points, size_t num, double *values);
+    /* A(x) = int F(y) F(y + x) dy; of the sphere C(cos g) = 4 pi E_R[F(Ru) F(Rv)] of points at the
+     * angle g, of the hemisphere that of the even extension; x is that cosine then. NULL: no closed
+     * form. */
+    double (*correlation)(const ps_integrand *, const double *x);
+    /* Do the powers depend on |k| alone? NULL: no. */
+    bool (*is_isotropic)(const ps_integrand *);
+    const char *(*note)(const ps_integrand *); /* what a result should say of it; may be NULL */
+    const char *(*file)(const ps_integrand *); /* that was read; NULL: kinds without files */
+} ps_integrand_kind;
+
+#define PS_INTEGRAND_ON(where) (1U << (where))
+
+struct ps_integrand {
+    const ps_integrand_kind *kind;
+    ps_integrand_place place;
+    /* What its values are made of: kernels/integrands/NAME.h says which is which. */
+    double numbers[PS_INTEGRAND_NUMBERS];
+    void *own; /* of the kind */
+};
+
+/* All of them, ended by NULL. */
+extern const ps_integrand_kind *const ps_integrand_kinds[];
+
+/* Parses "NAME[:key=value,...]"; *out is freed by ps_integrand_destroy. An integrand that there is
+ * not in such a place, and radii and the like that make none, are errors with a sentence. */
+pspec_status ps_integrand_parse(ps_integrand **out, const char *text, ps_integrand_place place,
+                                ps_error *error) PS_MUST_CHECK;
+void ps_integrand_destroy(ps_integrand *integrand); /* NULL is allowed */
+
+/* int F over the torus, the sphere or the hemisphere. */
+double ps_integrand_integral(const ps_integrand *integrand);
+/* E, so that N Var I = E, 4 pi E, pi E for white noise: torus int F^2 - (int F)^2; sphere int F^2 -
+ * (int F)^2/(4 pi); hemisphere 2 int F^2 - (int F)^2/pi. */
+double ps_integrand_energy(const ps_integrand *integrand);
+/* The factor of E in N Var I: 1, 4 pi, pi. */
+double ps_integrand_factor(const ps_integrand *integrand);
+/* powers[num] */
+pspec_status ps_integrand_powers(const ps_integrand *integrand, const int32_t *vectors, size_t num,
+                                 double *powers, ps_error *error) PS_MUST_CHECK;
+/* powers[max_degree + 1]; odd degrees of the hemisphere are 0. */
+pspec_status ps_integrand_degrees(const ps_integrand *integrand, size_t max_degree, double *powers,
+                                  ps_error *error) PS_MUST_CHECK;
+/* values[num] */
+void ps_integrand_values(const ps_integrand *integrand, const double *points, size_t num,
+                         double *values);
+/* (V2), (S1'), (H1'): the variance of (1/W) sum_j w_j F of one set under a random shift, of (4
+ * pi/W) sum under a random rotation, of (2 pi/W) sum. weights NULL: 1 each. N^2 steps on the host:
+ * the check of the others. PSPEC_ERROR_INVALID_ARGUMENT where there is no closed form. */
+pspec_status ps_integrand_pairwise(const ps_integrand *integrand, const double *points,
+                                   const double *weights, size_t num, double *variance,
+                                   ps_error *error) PS_MUST_CHECK;
+bool ps_integrand_is_isotropic(const ps_integrand *integrand);
+const char *ps_integrand_note(const ps_integrand *integrand); /* or NULL */
+const char *ps_integrand_file(const ps_integrand *integrand); /* or NULL */
+
+#endif

@@ -1,0 +1,17 @@
+/* cos(2 pi (k.x + phase)), whole k. */
+#ifndef PS_INTEGRANDS_WAVE_H
+#define PS_INTEGRANDS_WAVE_H
+
+#include "shared/real.h"
+
+enum { WAVE_VECTOR = 0, WAVE_PHASE = 6 }; /* places among the numbers; the phase in turns */
+
+static inline realv wave_value(const realv *x, const unsigned dimension, const real *numbers) {
+    realv turns = numbers[WAVE_PHASE];
+    for (unsigned i = 0; i < dimension; i++) {
+        turns += x[i] * numbers[WAVE_VECTOR + i];
+    }
+    return cos((real)6.283185307179586477 * (turns - rint(turns)));
+}
+
+#endif
