@@ -1,0 +1,363 @@
+#include "trials/device_trials.h"
+
+#include "base/memory.h"
+#include "base/round.h"
+#include "base/text.h"
+#include "device/kernel_source.h"
+#include "device/reals.h"
+#include "engines/engine.h"
+#include "integrands/values.h"
+#include "math/neumaier.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { WORD_BYTES = 64, AXES = 3 };
+
+struct ps_device_trials {
+    const ps_integrand *integrand;
+    ps_trials_options options;
+    ps_device *device;
+    unsigned lanes;
+    size_t axis_numbers, most_pieces, most_moves; /* of a batch */
+    cl_kernel kernel;
+    ps_buffer points, weights, pieces, moves, sums;
+    values_piece *host_pieces;
+    double *host_moves, *host_sums;
+    int *host_exponents; /* of the weights of each set */
+};
+
+/* ---- which kernel ---------------------------------------------------------------------------- */
+
+static bool is_source(const char *name) {
+    for (const ps_kernel_source *source = ps_kernel_sources; source->name != NULL; source++) {
+        if (strcmp(source->name, name) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Whether the first `length` letters name a header; name is then what its function begins with. */
+static bool is_kernel(const char *word, size_t length, char name[WORD_BYTES]) {
+    char path[2 * WORD_BYTES];
+    if (length >= WORD_BYTES) {
+        return false;
+    }
+    for (size_t i = 0; i < length; i++) {
+        name[i] = word[i] == '-' ? '_' : word[i];
+    }
+    name[length] = '\0';
+    snprintf(path, sizeof path, "integrands/%s.h", name);
+    return is_source(path);
+}
+
+static bool find_kernel(const ps_integrand_kind *kind, char name[WORD_BYTES]) {
+    const char *word = kind->aliases != NULL ? kind->aliases : "";
+    bool is_found = is_kernel(kind->name, strlen(kind->name), name);
+    while (!is_found && *word != '\0') {
+        const size_t length = strcspn(word, " ");
+        is_found = is_kernel(word, length, name);
+        word += length + strspn(word + length, " ");
+    }
+    return is_found;
+}
+
+bool ps_device_trials_has(const ps_integrand *integrand) {
+    char name[WORD_BYTES];
+    return find_kernel(integrand->kind, name);
+}
+
+static pspec_status create_kernel(ps_device_trials *self, ps_error *error) {
+    const ps_integrand_place place = self->integrand->place;
+    char name[WORD_BYTES];
+    ps_text options = {0};
+    if (!find_kernel(self->integrand->kind, name)) {
+        return ps_fail(error, PSPEC_ERROR_BUILD, "integrand %s has no kernel",
+                       self->integrand->kind->name);
+    }
+    ps_text_append(&options, "-DINTEGRAND=%s -DPRECISION=%zu -DLANES=%u -DDIMENSION=%u", name,
+                   8 * ps_real_bytes(self->options.precision), self->lanes, place.dimension);
+    ps_text_append(&options, " -DROTATE=%d -DFOLD=%d", place.where != PS_SAMPLES_TORUS,
+                   place.where == PS_SAMPLES_HEMISPHERE);
+    pspec_status status = ps_text_check(&options, error);
+    if (status == PSPEC_OK) {
+        status = ps_kernel_create(self->device, &self->kernel, "integrands/values.cl",
+                                  "integrand_values", ps_text_string(&options), error);
+    }
+    ps_text_free(&options);
+    return status;
+}
+
+/* ---- create ---------------------------------------------------------------------------------- */
+
+static bool find_sizes(ps_device_trials *self, size_t *num_sums) {
+    const ps_trials_options *options = &self->options;
+    const size_t pieces = ps_divide_up(options->most_points, VALUES_PIECE);
+    size_t trials = 0;
+    return options->most_points <= SIZE_MAX - VALUES_PIECE &&
+           ps_size_multiply(options->batch, ps_round_up(options->most_points, self->lanes),
+                            &self->axis_numbers) &&
+           ps_size_multiply(options->batch, pieces, &self->most_pieces) &&
+           ps_size_multiply(options->batch, options->num_trials, &trials) &&
+           ps_size_multiply(trials, ps_trials_move_numbers(self->integrand), &self->most_moves) &&
+           ps_size_multiply(self->most_pieces, options->num_trials, num_sums) &&
+           ps_size_multiply(*num_sums, 2 * sizeof(double), &trials) &&
+           ps_size_multiply(self->axis_numbers, PS_MAX_DIMENSION * sizeof(double), &trials);
+}
+
+static pspec_status create_buffers(ps_device_trials *self, ps_error *error) {
+    const size_t real_bytes = ps_real_bytes(self->options.precision);
+    const size_t point_bytes = self->integrand->place.dimension * real_bytes;
+    size_t num_sums = 0;
+    if (!find_sizes(self, &num_sums)) {
+        return ps_fail(error, PSPEC_ERROR_MEMORY,
+                       "%zu trials of %zu sets of %zu points are too many",
+                       self->options.num_trials, self->options.batch, self->options.most_points);
+    }
+    PS_TRY(PS_NEW(&self->host_pieces, self->most_pieces, "pieces of sets", error));
+    PS_TRY(PS_NEW(&self->host_moves, self->most_moves, "moves of trials", error));
+    PS_TRY(PS_NEW(&self->host_exponents, self->options.batch, "sizes of weights", error));
+    PS_TRY(PS_NEW(&self->host_sums, 2 * num_sums, "sums of trials", error));
+    PS_TRY(ps_buffer_create(self->device, &self->points, self->axis_numbers * point_bytes, "points",
+                            error));
+    PS_TRY(ps_buffer_create(self->device, &self->weights, self->axis_numbers * real_bytes,
+                            "weights", error));
+    PS_TRY(ps_buffer_create(self->device, &self->pieces,
+                            self->most_pieces * sizeof *self->host_pieces, "pieces of sets",
+                            error));
+    PS_TRY(ps_buffer_create(self->device, &self->moves, self->most_moves * real_bytes,
+                            "moves of trials", error));
+    return ps_buffer_create(self->device, &self->sums, 2 * num_sums * real_bytes, "sums of trials",
+                            error);
+}
+
+pspec_status ps_device_trials_create(ps_device_trials **out, const ps_integrand *integrand,
+                                     const ps_trials_options *options, ps_device *device,
+                                     ps_error *error) {
+    ps_device_trials *self = NULL;
+    *out = NULL;
+    PS_TRY(PS_NEW(&self, 1, "trials", error));
+    self->integrand = integrand;
+    self->options = *options;
+    self->device = device;
+    self->lanes = ps_engine_lanes(ps_device_get_limits(device), options->precision);
+    pspec_status status = create_kernel(self, error);
+    if (status == PSPEC_OK) {
+        status = create_buffers(self, error);
+    }
+    if (status != PSPEC_OK) {
+        ps_device_trials_destroy(self);
+        return status;
+    }
+    *out = self;
+    return PSPEC_OK;
+}
+
+void ps_device_trials_destroy(ps_device_trials *trials) {
+    if (trials == NULL) {
+        return;
+    }
+    ps_buffer *const buffers[] = {&trials->points, &trials->weights, &trials->pieces,
+                                  &trials->moves, &trials->sums};
+    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; i++) {
+        ps_buffer_release(buffers[i]);
+    }
+    if (trials->kernel != NULL) {
+        clReleaseKernel(trials->kernel);
+    }
+    free(trials->host_pieces);
+    free(trials->host_moves);
+    free(trials->host_sums);
+    free(trials->host_exponents);
+    free(trials);
+}
+
+/* ---- what goes to the device ----------------------------------------------------------------- */
+
+/* How numbers go to the device. */
+typedef struct putting {
+    const double *from;
+    size_t apart, num;
+    double factor; /* a power of two */
+} putting;
+
+static void put_singles(float *to, putting numbers) {
+    for (size_t j = 0; j < numbers.num; j++) {
+        to[j] = (float)(numbers.from[j * numbers.apart] * numbers.factor);
+    }
+}
+
+static void put_doubles(double *to, putting numbers) {
+    for (size_t j = 0; j < numbers.num; j++) {
+        to[j] = numbers.from[j * numbers.apart] * numbers.factor;
+    }
+}
+
+/* From place `at` on, then 0 to the end of a vector. */
+static void put(const ps_device_trials *self, void *to, size_t at, putting numbers) {
+    const size_t real_bytes = ps_real_bytes(self->options.precision);
+    const size_t rest = ps_round_up(numbers.num, self->lanes) - numbers.num;
+    if (self->options.precision == PS_SINGLE) {
+        put_singles((float *)to + at, numbers);
+    } else {
+        put_doubles((double *)to + at, numbers);
+    }
+    memset((char *)to + (at + numbers.num) * real_bytes, 0, rest * real_bytes);
+}
+
+static void put_points(ps_device_trials *self, void *to, const pspec_pattern *patterns,
+                       size_t num_patterns) {
+    const unsigned dimension = self->integrand->place.dimension;
+    size_t at = 0;
+    for (size_t r = 0; r < num_patterns; r++) {
+        const size_t num = patterns[r].num_points;
+        for (unsigned i = 0; i < dimension; i++) {
+            put(self, to, i * self->axis_numbers + at,
+                (putting){patterns[r].points + i, dimension, num, 1});
+        }
+        at += ps_round_up(num, self->lanes);
+    }
+}
+
+/* Of the largest weight, so that weights of any size are near 1 in single precision. */
+static int exponent_of(const pspec_pattern *pattern) {
+    const int most = 1000; /* 2^-most is a number */
+    double largest = 0;
+    int exponent = 0;
+    for (size_t j = 0; pattern->weights != NULL && j < pattern->num_points; j++) {
+        largest = fmax(largest, fabs(pattern->weights[j]));
+    }
+    frexp(largest, &exponent);
+    exponent = exponent > most ? most : exponent;
+    return pattern->weights == NULL ? 0 : exponent < -most ? -most : exponent;
+}
+
+static void put_weights(ps_device_trials *self, void *to, const pspec_pattern *patterns,
+                        size_t num_patterns) {
+    static const double one = 1;
+    size_t at = 0;
+    for (size_t r = 0; r < num_patterns; r++) {
+        const double *const weights = patterns[r].weights;
+        const size_t num = patterns[r].num_points;
+        self->host_exponents[r] = exponent_of(&patterns[r]);
+        put(self, to, at,
+            (putting){weights != NULL ? weights : &one, weights != NULL, num,
+                      ldexp(1, -self->host_exponents[r])});
+        at += ps_round_up(num, self->lanes);
+    }
+}
+
+/* Fills a buffer in its own memory. */
+static pspec_status fill(ps_device_trials *self, const ps_buffer *buffer,
+                         void (*put_all)(ps_device_trials *, void *, const pspec_pattern *, size_t),
+                         const pspec_pattern *patterns, size_t num_patterns, ps_error *error) {
+    ps_mapping mapping;
+    PS_TRY(ps_mapping_begin(self->device, &mapping, buffer, error));
+    const pspec_status status = ps_mapping_wait(&mapping, error);
+    if (status != PSPEC_OK) {
+        ps_mapping_abandon(self->device, &mapping);
+        return status;
+    }
+    put_all(self, mapping.data, patterns, num_patterns);
+    return ps_mapping_end(self->device, &mapping, error);
+}
+
+/* Returns how many pieces the sets make. */
+static size_t make_pieces(ps_device_trials *self, const pspec_pattern *patterns,
+                          size_t num_patterns) {
+    const size_t whole = VALUES_PIECE / self->lanes;
+    size_t num = 0;
+    size_t first = 0;
+    for (size_t r = 0; r < num_patterns; r++) {
+        size_t rest = ps_divide_up(patterns[r].num_points, self->lanes);
+        while (rest > 0) {
+            const size_t own = rest < whole ? rest : whole;
+            self->host_pieces[num++] = (values_piece){first, (uint32_t)own, (uint32_t)r};
+            first += own;
+            rest -= own;
+        }
+    }
+    return num;
+}
+
+static pspec_status write_moves(ps_device_trials *self, size_t num_trials, const double *moves,
+                                ps_error *error) {
+    const size_t numbers = ps_trials_move_numbers(self->integrand);
+    if (moves == NULL) {
+        memset(self->host_moves, 0, num_trials * numbers * sizeof *self->host_moves);
+        for (size_t i = 0; numbers == AXES * AXES && i < num_trials * AXES; i++) {
+            self->host_moves[i / AXES * numbers + i % AXES * (AXES + 1)] = 1;
+        }
+        moves = self->host_moves;
+    }
+    return ps_reals_write(self->device, &self->moves, self->options.precision, moves,
+                          num_trials * numbers, error);
+}
+
+/* ---- run ------------------------------------------------------------------------------------- */
+
+/* Of a value, about that of an exponential and a sum in a pair: what it counts as in the profile,
+ * and how work-groups are made. */
+#define VALUE_FLOPS 40.0
+
+#define LAUNCH_ARGUMENTS(self, sizes, numbers)                                                     \
+    PS_STRUCT(sizes), PS_STRUCT(numbers), PS_BUFFER((self)->points), PS_BUFFER((self)->weights),   \
+        PS_BUFFER((self)->pieces), PS_BUFFER((self)->moves), PS_BUFFER((self)->sums)
+
+static pspec_status launch(ps_device_trials *self, size_t num_pieces, ps_error *error) {
+    const size_t num_trials = self->options.num_trials;
+    const double values = (double)num_trials * (double)num_pieces * VALUES_PIECE;
+    const ps_range range = ps_range_heavy(self->device, num_trials, num_pieces, 1,
+                                          VALUE_FLOPS * values, values * sizeof(float));
+    const values_sizes sizes = {self->axis_numbers, num_trials};
+    values_singles singles;
+    values_doubles doubles;
+    for (size_t i = 0; i < PS_INTEGRAND_NUMBERS; i++) {
+        doubles.numbers[i] = self->integrand->numbers[i];
+        singles.numbers[i] = (float)doubles.numbers[i];
+    }
+    return self->options.precision == PS_SINGLE
+               ? PS_LAUNCH(self->device, self->kernel, &range, error,
+                           LAUNCH_ARGUMENTS(self, sizes, singles))
+               : PS_LAUNCH(self->device, self->kernel, &range, error,
+                           LAUNCH_ARGUMENTS(self, sizes, doubles));
+}
+
+/* Adds the pieces of each set in their order. */
+static void add_pieces(const ps_device_trials *self, size_t num_pieces, double *sums) {
+    const size_t num_trials = self->options.num_trials;
+    for (size_t trial = 0; trial < num_trials; trial++) {
+        ps_neumaier total = {0, 0};
+        for (size_t piece = 0; piece < num_pieces; piece++) {
+            const double *const pair = self->host_sums + 2 * (piece * num_trials + trial);
+            const size_t set = self->host_pieces[piece].set;
+            ps_neumaier_add(&total, pair[0]);
+            ps_neumaier_add(&total, pair[1]);
+            if (piece + 1 == num_pieces || self->host_pieces[piece + 1].set != set) {
+                sums[set * num_trials + trial] =
+                    ldexp(ps_neumaier_value(&total), self->host_exponents[set]);
+                total = (ps_neumaier){0, 0};
+            }
+        }
+    }
+}
+
+pspec_status ps_device_trials_sums(ps_device_trials *trials, const pspec_pattern *patterns,
+                                   size_t num_patterns, const double *moves, double *sums,
+                                   ps_error *error) {
+    ps_device_trials *const self = trials;
+    const size_t num_pieces = make_pieces(self, patterns, num_patterns);
+    PS_TRY(ps_buffer_write(self->device, &self->pieces, 0, self->host_pieces,
+                           num_pieces * sizeof *self->host_pieces, error));
+    PS_TRY(write_moves(self, num_patterns * self->options.num_trials, moves, error));
+    PS_TRY(fill(self, &self->points, put_points, patterns, num_patterns, error));
+    PS_TRY(fill(self, &self->weights, put_weights, patterns, num_patterns, error));
+    PS_TRY(launch(self, num_pieces, error));
+    PS_TRY(ps_reals_read(self->device, &self->sums, self->options.precision, self->host_sums,
+                         2 * num_pieces * self->options.num_trials, error));
+    add_pieces(self, num_pieces, sums);
+    return PSPEC_OK;
+}

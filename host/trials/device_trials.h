@@ -1,0 +1,23 @@
+/* Trials on a device: integrands/values.cl and its buffers. */
+#ifndef PS_TRIALS_DEVICE_TRIALS_H
+#define PS_TRIALS_DEVICE_TRIALS_H
+
+#include "trials/trials.h"
+
+typedef struct ps_device_trials ps_device_trials;
+
+/* Whether there is a kernel for the integrand: a header integrands/WORD.h below kernels/, WORD its
+ * name or one of its aliases with _ for -. */
+bool ps_device_trials_has(const ps_integrand *integrand);
+
+pspec_status ps_device_trials_create(ps_device_trials **out, const ps_integrand *integrand,
+                                     const ps_trials_options *options, ps_device *device,
+                                     ps_error *error) PS_MUST_CHECK;
+void ps_device_trials_destroy(ps_device_trials *trials); /* NULL is allowed */
+
+/* sums[num_patterns][num_trials] of w F, of one batch at most; moves as in trials/trials.h. */
+pspec_status ps_device_trials_sums(ps_device_trials *trials, const pspec_pattern *patterns,
+                                   size_t num_patterns, const double *moves, double *sums,
+                                   ps_error *error) PS_MUST_CHECK;
+
+#endif
