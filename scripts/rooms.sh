@@ -5,7 +5,7 @@ rooms=(
     base math math/random math/linear device files store points tables plots
     samplers samplers/torus samplers/sphere samplers/darts samplers/optimized sets integrands frequencies
     engines engines/host engines/nufft engines/torus engines/torus/nufft engines/sphere engines/sphere/nufft
-    engines/pairs trials plan spectra rules jobs jobs/parts jobs/spectrum jobs/quadrature verify verify/bench
+    engines/pairs trials plan spectra rules jobs jobs/parts jobs/spectrum jobs/quadrature jobs/variance verify verify/bench
     questions report results scene scene/run tasks api cli cli/commands
 )
 

@@ -242,6 +242,12 @@ void ps_sampler_identify(const ps_sampler_request *request, ps_text *out) {
     }
 }
 
+double ps_sampler_most_power(const ps_sampler_request *request) {
+    const bool is_known =
+        request->morph.kind == PS_MORPH_NONE && request->sampler->most_power != NULL;
+    return is_known ? request->sampler->most_power(request) : 0;
+}
+
 const char *ps_sampler_note(const ps_sampler_request *request) {
     const ps_sampler_request own = own_request(request);
     return own.sampler->note != NULL ? own.sampler->note(&own) : NULL;

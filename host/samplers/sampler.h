@@ -104,6 +104,10 @@ struct ps_sampler {
 
     /* Every realization the same points, before homogenize (may depend on the parameters). */
     bool (*is_deterministic)(const ps_sampler_request *);
+    /* A bound of the expected power <P> at every frequency but 0, on the sphere at every degree but
+     * 0, where the expectation is known (docs/mathematics/samplers.md#spectra-on-the-torus), of the
+     * points where they are, lifted or not. 0, or NULL: none is. */
+    double (*most_power)(const ps_sampler_request *);
     /* What the header of a result should say of this request, or NULL. The member may be NULL. */
     const char *(*note)(const ps_sampler_request *);
     /* The number of points that parameters alone ask for, for requests that leave it open. The
@@ -171,6 +175,10 @@ double ps_sampler_numbers(const ps_sampler_request *request);
 /* Seconds of a realization on one core of the machine of plan/host_cost.c, without what lift,
  * homogenize and morph add. */
 double ps_sampler_seconds(const ps_sampler_request *request);
+
+/* A bound of the expected power of the request's points at every frequency but 0; 0: none is known
+ * but N. */
+double ps_sampler_most_power(const ps_sampler_request *request);
 
 /* The sampler's note on this request, NULL when there is nothing to say. Static storage. */
 const char *ps_sampler_note(const ps_sampler_request *request);

@@ -48,3 +48,8 @@ pspec_status ps_sampler_limit_points(const ps_sampler_request *request, uint64_t
                    "sampler %s: %zu points are more than its limit of %llu", request->sampler->name,
                    request->num_points, (unsigned long long)limit);
 }
+
+double ps_sampler_white_power(const ps_sampler_request *request) {
+    (void)request;
+    return 1;
+}

@@ -14,6 +14,10 @@ pspec_status ps_sampler_choice(const ps_sampler_request *request, unsigned i_par
 bool ps_sampler_always(const ps_sampler_request *request);
 bool ps_sampler_never(const ps_sampler_request *request);
 
+/* For most_power: that of white noise, which equal strata with a uniform point in each never
+ * exceed. */
+double ps_sampler_white_power(const ps_sampler_request *request);
+
 /* Refuses more points than limit, for samplers whose indices have a fixed number of digits. */
 pspec_status ps_sampler_limit_points(const ps_sampler_request *request, uint64_t limit,
                                      ps_error *error) PS_MUST_CHECK;

@@ -19,7 +19,7 @@ enum { MOST_SLOTS = 256, ROOM_BYTES = 1 << 24, SHARE_OF_LIMIT = 16 };
 struct ps_sets {
     ps_sampler_request request;
     ps_sets_options options;
-    uint64_t num_realizations, next;
+    uint64_t end, next; /* realizations */
     bool has_begun;
     ps_set_store *store; /* NULL: nothing is kept */
     ps_error no_store;   /* why, where something should be */
@@ -73,7 +73,7 @@ unsigned ps_sets_makers(const ps_sampler_request *request, uint64_t num) {
 
 static unsigned count_slots(const ps_sets *sets) {
     const uint64_t fit = find_room(sets) / (sets->stride * sizeof(double));
-    const uint64_t left = sets->num_realizations - sets->next;
+    const uint64_t left = sets->end - sets->next;
     const uint64_t most = left < MOST_SLOTS ? left : MOST_SLOTS;
     return (unsigned)(fit < most ? fit : most);
 }
@@ -82,7 +82,7 @@ static pspec_status begin_ahead(ps_sets *sets, unsigned num_slots, ps_error *err
     const ps_ahead_plan plan = {
         .make = make_ahead,
         .payload = sets,
-        .num_things = sets->num_realizations - sets->next,
+        .num_things = sets->end - sets->next,
         .num_slots = num_slots,
         .num_threads = ps_sets_makers(&sets->request, num_slots),
     };
@@ -122,7 +122,8 @@ pspec_status ps_sets_create(ps_sets **out, const ps_sampler_request *request,
     PS_TRY(PS_NEW(&sets, 1, "realizations of a sampler", error));
     sets->request = *request;
     sets->options = *options;
-    sets->num_realizations = num_realizations;
+    sets->next = options->first;
+    sets->end = options->first + num_realizations;
     sets->stride = ps_sampler_most_points(request) * request->dimension;
     *out = sets;
     return PSPEC_OK;
@@ -138,7 +139,7 @@ void ps_sets_destroy(ps_sets *sets) {
 
 void ps_sets_rewind(ps_sets *sets) {
     end_ahead(sets);
-    sets->next = 0;
+    sets->next = sets->options.first;
 }
 
 pspec_status ps_sets_next(ps_sets *sets, double *points, size_t *num_points, const ps_watch *watch,

@@ -15,7 +15,7 @@
 
 typedef struct ps_source ps_source;
 
-/* The sampler's realizations 0 .. num_realizations - 1, with torus coordinates or unit vectors;
+/* num_realizations realizations of the sampler, from options->first on, with torus coordinates or unit vectors;
  * request is resolved, and copied, and so is watch, which may be NULL: it is told while the points
  * of a large set are made. */
 pspec_status ps_source_sampler(ps_source **out, const ps_sampler_request *request,

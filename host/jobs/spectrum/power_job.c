@@ -151,6 +151,7 @@ static pspec_status prepare(ps_power_job *job, ps_error *error) {
         .measure = question->wants_pair_sums ? PS_OF_PAIR_SUMS : PS_OF_AMPLITUDES,
         .floor = question->wants_pair_sums ? question->accuracy.floor : 0,
         .tolerance = ps_power_needs_tolerance(question),
+        .num_weighted = question->num_weighted,
     };
     PS_TRY(open_device(job, error));
     return ps_power_needs_plan(job, error);
@@ -181,6 +182,8 @@ void ps_power_job_destroy(ps_power_job *job) {
     free(job->coefficients);
     free(job->kept);
     free(job->c2);
+    free(job->weights);
+    free(job->weighted);
     free(job->means);
     ps_frequencies_free(&job->frequencies);
     ps_power_sets_free(&job->sets);
@@ -203,6 +206,8 @@ static ps_estimator_options choose_options(void *payload) {
         .coefficients = job->coefficients,
         .keep = job->problem.keeps_coefficients ? ps_power_coefficients_keep : NULL,
         .want_c2 = question->wants_pair_sums,
+        .weights = job->weights,
+        .num_weighted = question->num_weighted,
         .should_stop = should_stop,
         .payload = payload,
     };
@@ -288,6 +293,29 @@ static pspec_status find_c2(ps_power_job *job, ps_error *error) {
     return PSPEC_OK;
 }
 
+static pspec_status weigh(ps_power_job *job, ps_error *error) {
+    const ps_power_question *const question = job->question;
+    const size_t num = question->num_weighted;
+    if (num == 0) {
+        return PSPEC_OK;
+    }
+    PS_TRY(PS_NEW(&job->weights, num * job->frequencies.num, "weights of frequencies", error));
+    PS_TRY(PS_NEW(&job->weighted, num, "weighted sums", error));
+    return question->weigh(question->weigh_payload, &job->frequencies, job->weights, error);
+}
+
+static pspec_status find_weighted(ps_power_job *job, ps_error *error) {
+    const size_t num = job->question->num_weighted;
+    if (num == 0) {
+        return PSPEC_OK;
+    }
+    PS_TRY(ps_estimator_weighted(job->runner.estimator, job->weighted, error));
+    for (size_t i = 0; job->needs.one_realization && i < num; i++) {
+        job->weighted[i].standard_error = 0;
+    }
+    return PSPEC_OK;
+}
+
 /* Realizations that a deterministic one stands for: all, or as few as a standard error takes. */
 static uint64_t count_repeats(const ps_power_question *question) {
     const uint64_t all = question->num_realizations;
@@ -301,6 +329,7 @@ static pspec_status finish(ps_power_job *job, ps_error *error) {
     PS_TRY(ps_text_check(&job->description, error));
     PS_TRY(ps_estimator_spectrum(job->runner.estimator, &job->spectrum, error));
     PS_TRY(find_c2(job, error));
+    PS_TRY(find_weighted(job, error));
     if (job->needs.one_realization) {
         ps_spectrum_repeat(&job->spectrum, count_repeats(job->question));
     }
@@ -311,6 +340,7 @@ pspec_status ps_power_job_run(ps_power_job *job, ps_error *error) {
     PS_TRY(ps_plan_require(&job->plan, &job->problem, error));
     PS_TRY(ps_frequencies_enumerate(&job->frequencies, error));
     PS_TRY(ps_power_coefficients_begin(job, error));
+    PS_TRY(weigh(job, error));
     job->runner = (ps_runner){.kind = &kind,
                               .job = job,
                               .problem = &job->problem,

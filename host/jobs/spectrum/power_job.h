@@ -47,6 +47,12 @@ typedef struct ps_power_question {
     ps_harmonics harmonics;
     bool keeps_sets; /* on the sphere, too, those of every set are wanted */
     bool is_turned;  /* on the sphere: about the x axis, see ps_source_turn */
+    /* Weighted sums of the powers, see ps_estimator_weighted: weigh fills weights
+     * [num_weighted][frequencies->num] once the frequencies are known; 0: none */
+    size_t num_weighted;
+    pspec_status (*weigh)(void *payload, const ps_frequencies *frequencies, double *weights,
+                          ps_error *error);
+    void *weigh_payload;
     pspec_normalization normalization;
     ps_accuracy_spec accuracy; /* the tolerance is of S, or of Q(l) */
     bool may_loosen; /* the tolerance, to what standard error and floor need; not for pair sums */
@@ -77,6 +83,7 @@ const ps_plan *ps_power_job_plan(const ps_power_job *job);
 const ps_needs *ps_power_job_needs(const ps_power_job *job);
 const ps_problem *ps_power_job_problem(const ps_power_job *job);
 const ps_device_limits *ps_power_job_limits(const ps_power_job *job); /* NULL: no device */
+ps_device *ps_power_job_device(const ps_power_job *job);              /* NULL: none; borrowed */
 const char *ps_power_job_source_format(const ps_power_job *job);
 const char *ps_power_job_source_columns(const ps_power_job *job);
 const ps_sampler_request *ps_power_job_sampler(const ps_power_job *job); /* NULL: files */
@@ -101,6 +108,8 @@ const double *ps_power_job_amplitudes(const ps_power_job *job, size_t *num_sets)
 const ps_sequential_look *ps_power_job_look(const ps_power_job *job);
 /* What was wrong with kept sets (sets/sets.h), "" where nothing was. Not while the job runs. */
 const char *ps_power_job_trouble(const ps_power_job *job);
+/* [question.num_weighted]; NULL: none were asked for. */
+const ps_mean *ps_power_job_weighted(const ps_power_job *job);
 /* C_l^2 of pair sums, [number of degrees]; NULL unless they were asked for. */
 const ps_mean *ps_power_job_c2(const ps_power_job *job);
 /* True when the first run missed the tolerance and the plan was made again. */

@@ -54,6 +54,14 @@ const ps_sequential_look *ps_power_job_look(const ps_power_job *job) {
                                                                                   : NULL;
 }
 
+ps_device *ps_power_job_device(const ps_power_job *job) {
+    return job->device;
+}
+
+const ps_mean *ps_power_job_weighted(const ps_power_job *job) {
+    return job->weighted;
+}
+
 const ps_mean *ps_power_job_c2(const ps_power_job *job) {
     return job->c2;
 }

@@ -35,7 +35,8 @@ typedef enum ps_random_stream {
     PS_STREAM_SCRAMBLE = 2,
     PS_STREAM_SHIFT = 3,
     PS_STREAM_FREQUENCIES = 4, /* which frequencies of a ring; the realization is the ring */
-    PS_STREAM_ROTATION = 5     /* of the sphere, one per realization */
+    PS_STREAM_ROTATION = 5,    /* of the sphere, one per realization */
+    PS_STREAM_TRIALS = 6       /* shifts or rotations of a realization that is used many times */
 } ps_random_stream;
 
 ps_random ps_random_init(uint64_t seed, ps_random_stream stream, uint64_t realization);

@@ -23,6 +23,7 @@ const ps_sampler ps_sampler_healpix_jittered = {
     .parameters = {PS_NSIDE_PARAMETER},
     .nanoseconds = 28,
     .is_deterministic = ps_sampler_never,
+    .most_power = ps_sampler_white_power,
     .open_points = ps_healpix_open_points,
     .check = ps_healpix_check,
     .generate = generate,

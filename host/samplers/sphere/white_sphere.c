@@ -18,5 +18,6 @@ const ps_sampler ps_sampler_white_sphere = {
     .domain = PS_SAMPLES_SPHERE,
     .nanoseconds = 37,
     .is_deterministic = ps_sampler_never,
+    .most_power = ps_sampler_white_power,
     .generate = generate,
 };

@@ -104,6 +104,7 @@ const ps_sampler ps_sampler_zphi = {
                     "AxB, slices of height x sectors; auto: square at the equator, B/A near pi"}},
     .nanoseconds = 34,
     .is_deterministic = ps_sampler_never,
+    .most_power = ps_sampler_white_power,
     .check = check,
     .generate = generate,
 };

@@ -31,6 +31,7 @@ const ps_sampler ps_sampler_jittered = {
     .parameters = {PS_STRATA_PARAMETER},
     .nanoseconds = 7,
     .is_deterministic = ps_sampler_never,
+    .most_power = ps_sampler_white_power,
     .check = check,
     .generate = generate,
 };

@@ -7,6 +7,8 @@
 #include "samplers/torus/strata.h"
 #include "samplers/values.h"
 
+#include <string.h>
+
 enum { OFFSET };
 static const char *const OFFSETS[] = {"jittered", "centred", NULL};
 enum { OFFSET_JITTERED, OFFSET_CENTRED };
@@ -74,6 +76,16 @@ static pspec_status generate(const ps_sampler_request *request, uint64_t realiza
     return place(request, offset == OFFSET_CENTRED ? NULL : &jitter, points, error);
 }
 
+/* 1 + 1/(N - 1) where cells are jittered; centred points have N where N divides every k. */
+static double most_power(const ps_sampler_request *request) {
+    const double num = (double)request->num_points;
+    const bool is_jittered = strcmp(request->values[0], "jittered") == 0;
+    if (request->lift != PS_SAMPLES_TORUS || num < 2) {
+        return 0;
+    }
+    return is_jittered ? num / (num - 1) : num;
+}
+
 const ps_sampler ps_sampler_latin_hypercube = {
     .name = "latin-hypercube",
     .summary = "one point in each of N strata of every axis",
@@ -83,6 +95,7 @@ const ps_sampler ps_sampler_latin_hypercube = {
     .parameters = {{"offset", "jittered", "jittered|centred, place within the stratum"}},
     .nanoseconds = 15,
     .is_deterministic = ps_sampler_never,
+    .most_power = most_power,
     .check = check,
     .generate = generate,
 };

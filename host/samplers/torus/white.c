@@ -18,5 +18,6 @@ const ps_sampler ps_sampler_white = {
     .maximum_dimension = PS_MAX_DIMENSION,
     .nanoseconds = 4.5,
     .is_deterministic = ps_sampler_never,
+    .most_power = ps_sampler_white_power,
     .generate = generate,
 };

@@ -1,0 +1,212 @@
+#include "jobs/variance/variance_job.h"
+
+#include "base/memory.h"
+#include "jobs/variance/measurement.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+struct ps_variance_job {
+    const ps_variance_question *question;
+    ps_power_question spectrum_question;
+    ps_power_job *spectrum;
+    ps_integrand **integrands; /* [num] */
+    double *held;              /* [num] of the energy, up to the cut-off */
+    ps_mean *measured;         /* [num] */
+    ps_variance_row *rows;     /* [num] */
+    double most_power;
+    bool is_known;
+};
+
+/* ---- prediction ---------------------------------------------------------------------------- */
+
+/* Powers of both k and -k are summed by one frequency of the torus; degrees have all of their
+ * orders already. What is held is counted as it is weighed. */
+static pspec_status weigh_one(const ps_integrand *integrand, const ps_frequencies *frequencies,
+                              double *weights, double *held, ps_error *error) {
+    const double factor = ps_integrand_factor(integrand);
+    const bool is_on_torus = integrand->place.where == PS_SAMPLES_TORUS;
+    long double sum = 0;
+    if (is_on_torus) {
+        PS_TRY(
+            ps_integrand_powers(integrand, frequencies->vectors, frequencies->num, weights, error));
+    } else {
+        double *degrees = NULL;
+        const size_t largest = (size_t)frequencies->max_frequency;
+        PS_TRY(PS_NEW(&degrees, largest + 1, "degrees of an integrand", error));
+        const pspec_status status = ps_integrand_degrees(integrand, largest, degrees, error);
+        for (size_t i = 0; status == PSPEC_OK && i < frequencies->num; i++) {
+            weights[i] = degrees[frequencies->vectors[i]];
+        }
+        free(degrees);
+        PS_TRY(status);
+    }
+    for (size_t i = 0; i < frequencies->num; i++) {
+        weights[i] *= is_on_torus ? 2 : factor;
+        sum += weights[i];
+    }
+    *held = (double)sum / factor;
+    return PSPEC_OK;
+}
+
+static pspec_status weigh(void *payload, const ps_frequencies *frequencies, double *weights,
+                          ps_error *error) {
+    ps_variance_job *const job = payload;
+    for (size_t i = 0; i < job->question->num_integrands; i++) {
+        PS_TRY(weigh_one(job->integrands[i], frequencies, weights + i * frequencies->num,
+                         &job->held[i], error));
+    }
+    return PSPEC_OK;
+}
+
+/* ---- create -------------------------------------------------------------------------------- */
+
+static pspec_status parse_integrands(ps_variance_job *job, ps_error *error) {
+    const ps_variance_question *const question = job->question;
+    const ps_sampler_request *const sampler = question->spectrum.sampler;
+    const ps_integrand_place place = {ps_sampler_where(sampler), sampler->dimension};
+    const size_t num = question->num_integrands;
+    PS_TRY(PS_NEW(&job->integrands, num, "integrands", error));
+    PS_TRY(PS_NEW(&job->held, num, "energies", error));
+    PS_TRY(PS_NEW(&job->measured, num, "variances", error));
+    PS_TRY(PS_NEW(&job->rows, num, "variances", error));
+    for (size_t i = 0; i < num; i++) {
+        PS_TRY(ps_integrand_parse(&job->integrands[i], question->texts[i], place, error));
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status prepare(ps_variance_job *job, ps_error *error) {
+    PS_TRY(parse_integrands(job, error));
+    job->spectrum_question = job->question->spectrum;
+    job->spectrum_question.num_weighted = job->question->num_integrands;
+    job->spectrum_question.weigh = weigh;
+    job->spectrum_question.weigh_payload = job;
+    return ps_power_job_create(&job->spectrum, &job->spectrum_question, error);
+}
+
+pspec_status ps_variance_job_create(ps_variance_job **out, const ps_variance_question *question,
+                                    ps_error *error) {
+    ps_variance_job *job = NULL;
+    *out = NULL;
+    PS_TRY(PS_NEW(&job, 1, "a job", error));
+    job->question = question;
+    const pspec_status status = prepare(job, error);
+    if (status != PSPEC_OK) {
+        ps_variance_job_destroy(job);
+        return status;
+    }
+    *out = job;
+    return PSPEC_OK;
+}
+
+void ps_variance_job_destroy(ps_variance_job *job) {
+    if (job == NULL) {
+        return;
+    }
+    for (size_t i = 0; job->integrands != NULL && i < job->question->num_integrands; i++) {
+        ps_integrand_destroy(job->integrands[i]);
+    }
+    ps_power_job_destroy(job->spectrum);
+    free(job->integrands);
+    free(job->held);
+    free(job->measured);
+    free(job->rows);
+    free(job);
+}
+
+/* ---- run ----------------------------------------------------------------------------------- */
+
+/* The largest mean power of a ring or degree. */
+static double largest_power(const ps_spectrum *spectrum) {
+    double largest = 0;
+    for (size_t i = 0; i < spectrum->num_bins; i++) {
+        largest = fmax(largest, spectrum->bins[i].power);
+    }
+    return largest;
+}
+
+/* Single sets have at most N anywhere. */
+static void find_most_power(ps_variance_job *job) {
+    const ps_sampler_request *const sampler = job->question->spectrum.sampler;
+    const ps_spectrum *const spectrum = ps_power_job_spectrum(job->spectrum);
+    job->most_power = ps_sampler_most_power(sampler);
+    job->is_known = true;
+    if (ps_sampler_has_constant_power(sampler)) {
+        job->most_power = spectrum->mean_points;
+    } else if (job->most_power == 0) {
+        job->most_power = largest_power(spectrum);
+        job->is_known = false;
+    }
+}
+
+static double z_score(const ps_variance_row *row, bool is_moved) {
+    const double error = hypot(row->predicted_error, row->measured_error);
+    return is_moved && error > 0 ? (row->measured - row->predicted) / error : NAN;
+}
+
+static void fill_row(ps_variance_job *job, size_t i) {
+    const ps_integrand *const integrand = job->integrands[i];
+    const ps_spectrum *const spectrum = ps_power_job_spectrum(job->spectrum);
+    const ps_mean sum = ps_power_job_weighted(job->spectrum)[i];
+    const double num = spectrum->mean_points;
+    const double factor = ps_integrand_factor(integrand);
+    const double energy = ps_integrand_energy(integrand);
+    const double tail = factor * fmax(energy - job->held[i], 0);
+    ps_variance_row *const row = &job->rows[i];
+    row->lower = sum.mean / num;
+    row->predicted = row->lower + tail / num;
+    row->predicted_error = sum.standard_error / num;
+    row->upper = row->lower + job->most_power * tail / num;
+    row->measured = job->measured[i].mean;
+    row->measured_error = job->measured[i].standard_error;
+    row->white = factor * energy / num;
+    row->z_score = z_score(row, job->question->is_moved);
+}
+
+static pspec_status measure(ps_variance_job *job, ps_error *error) {
+    const ps_variance_question *const question = job->question;
+    const ps_power_question *const spectrum = &question->spectrum;
+    ps_sampler_request sampler = *spectrum->sampler;
+    sampler.homogenize = false;
+    const ps_measurement_plan plan = {
+        .sampler = &sampler,
+        .integrands = (const ps_integrand *const *)job->integrands,
+        .num_integrands = question->num_integrands,
+        .first = spectrum->num_realizations,
+        .num_sets = spectrum->num_realizations,
+        .num_shifts = question->num_shifts,
+        .is_moved = question->is_moved,
+        .sets = ps_limits_sets(&spectrum->limits, spectrum->accuracy.no_skip),
+        .device = ps_power_job_device(job->spectrum),
+        .watch = &spectrum->watch,
+    };
+    return ps_measurement_run(&plan, job->measured, error);
+}
+
+pspec_status ps_variance_job_run(ps_variance_job *job, ps_error *error) {
+    PS_TRY(ps_power_job_run(job->spectrum, error));
+    PS_TRY(measure(job, error));
+    find_most_power(job);
+    for (size_t i = 0; i < job->question->num_integrands; i++) {
+        fill_row(job, i);
+    }
+    return PSPEC_OK;
+}
+
+ps_power_job *ps_variance_job_spectrum(const ps_variance_job *job) {
+    return job->spectrum;
+}
+
+const ps_integrand *ps_variance_job_integrand(const ps_variance_job *job, size_t index) {
+    return job->integrands[index];
+}
+
+const ps_variance_row *ps_variance_job_rows(const ps_variance_job *job) {
+    return job->rows;
+}
+
+double ps_variance_job_most_power(const ps_variance_job *job, bool *is_known) {
+    *is_known = job->is_known;
+    return job->most_power;
+}
