@@ -3,18 +3,16 @@
 #include "base/memory.h"
 #include "base/text.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* In the order of the help text. A new integrand is a file and a row here. */
-const ps_integrand_kind *const ps_integrand_kinds[] = {&ps_integrand_ball,
-                                                       &ps_integrand_box,
-                                                       &ps_integrand_half_plane,
-                                                       &ps_integrand_gaussian,
-                                                       &ps_integrand_wave,
-                                                       &ps_integrand_constant,
-                                                       NULL};
+const ps_integrand_kind *const ps_integrand_kinds[] = {
+    &ps_integrand_ball,     &ps_integrand_box,      &ps_integrand_half_plane,
+    &ps_integrand_gaussian, &ps_integrand_wave,     &ps_integrand_constant,
+    &ps_integrand_cap,      &ps_integrand_harmonic, &ps_integrand_square,
+    &ps_integrand_lobe,     &ps_integrand_diffuse,  &ps_integrand_glossy,
+    &ps_integrand_phong,    &ps_integrand_zonal,    NULL};
 
 /* ---- parsing ------------------------------------------------------------------------------- */
 
@@ -108,55 +106,6 @@ void ps_integrand_destroy(ps_integrand *integrand) {
         integrand->kind->destroy(integrand);
     }
     free(integrand);
-}
-
-/* ---- reading values ------------------------------------------------------------------------ */
-
-enum { WHAT_BYTES = 128 };
-
-pspec_status ps_integrand_number(const ps_integrand *integrand, const char *key, const char *text,
-                                 double least, double most, double *out, ps_error *error) {
-    char what[WHAT_BYTES];
-    snprintf(what, sizeof what, "%s of integrand %s", key, integrand->kind->name);
-    return ps_parse_number(text, what, least, most, out, error);
-}
-
-pspec_status ps_integrand_vector(const ps_integrand *integrand, const char *key, const char *text,
-                                 double least, double most, double *out, ps_error *error) {
-    enum { MOST_DIGITS = 64 };
-    const unsigned dimension = integrand->place.dimension;
-    unsigned num = 0;
-    for (const char *at = text;; at++) {
-        char digits[MOST_DIGITS];
-        const size_t length = strcspn(at, "x");
-        if (num == dimension || length >= sizeof digits) {
-            num = dimension + 1;
-            break;
-        }
-        memcpy(digits, at, length);
-        digits[length] = '\0';
-        PS_TRY(ps_integrand_number(integrand, key, digits, least, most, &out[num], error));
-        num++;
-        at += length;
-        if (*at == '\0') {
-            break;
-        }
-    }
-    if (num != 1 && num != dimension) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "integrand %s: %s=%s is not one number, nor %u with x between them",
-                       integrand->kind->name, key, text, dimension);
-    }
-    for (unsigned i = num; i < dimension; i++) {
-        out[i] = out[0];
-    }
-    return PSPEC_OK;
-}
-
-pspec_status ps_integrand_fail(const ps_integrand *integrand, const char *key, const char *text,
-                               const char *why, ps_error *error) {
-    return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "integrand %s: %s=%s: %s",
-                   integrand->kind->name, key, text, why);
 }
 
 /* ---- what is known ------------------------------------------------------------------------- */

@@ -2,31 +2,6 @@
 #include "integrands/integrand_kind.h"
 #include "math/neumaier.h"
 
-void ps_integrand_images(const double *x, unsigned dimension,
-                         void (*add)(void *payload, const double *image), void *payload) {
-    double image[PS_MAX_DIMENSION];
-    unsigned num = 1;
-    for (unsigned i = 0; i < dimension; i++) {
-        num *= 3;
-    }
-    for (unsigned code = 0; code < num; code++) {
-        unsigned rest = code;
-        for (unsigned i = 0; i < dimension; i++) {
-            image[i] = x[i] - rint(x[i]) + (int)(rest % 3) - 1;
-            rest /= 3;
-        }
-        add(payload, image);
-    }
-}
-
-double ps_integrand_norm(const int32_t *k, unsigned dimension) {
-    double norm2 = 0;
-    for (unsigned i = 0; i < dimension; i++) {
-        norm2 += (double)k[i] * k[i];
-    }
-    return sqrt(norm2);
-}
-
 /* What correlation takes: the difference of two points, or the cosine of their angle, whose chord
  * keeps its digits. */
 static double correlate(const ps_integrand *self, const double *a, const double *b) {
@@ -67,10 +42,15 @@ static double mean_correlation(const ps_integrand *self, const double *points,
     return ps_neumaier_value(&total) / (w * w);
 }
 
+bool ps_integrand_has_pairs(const ps_integrand *integrand) {
+    const double pole[PS_MAX_DIMENSION] = {0, 0, 1}; /* any point will do */
+    return integrand->kind->correlation != NULL && !isnan(correlate(integrand, pole, pole));
+}
+
 pspec_status ps_integrand_pairwise(const ps_integrand *integrand, const double *points,
                                    const double *weights, size_t num, double *variance,
                                    ps_error *error) {
-    if (integrand->kind->correlation == NULL) {
+    if (!ps_integrand_has_pairs(integrand)) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "integrand %s has no closed form for pairs of points",
                        integrand->kind->name);
