@@ -47,6 +47,7 @@ typedef struct ps_problem {
     uint64_t block_points;
     ps_harmonics harmonics;  /* whose coefficients are wanted, too */
     bool keeps_coefficients; /* of every set, until the end; else of the only one */
+    size_t num_weighted;     /* weighted sums of the powers of every realization */
 } ps_problem;
 
 /* That of white noise where nothing is known: 1, with a margin on the sphere. */

@@ -1,6 +1,7 @@
 #include "plan/memory_model.h"
 
 #include "base/round.h"
+#include "device/reals.h"
 
 #include <math.h>
 
@@ -14,13 +15,26 @@ static double padded_rows(const ps_device_limits *limits, ps_precision precision
     return (double)ps_round_up(batch, lanes);
 }
 
+/* Slots whose powers are added up in one go: PS_ACCUMULATE_BLOCK (spectra/accumulate_blocks.h). */
+static const double block = 512;
+
+/* Adds what weighted sums of rows on the device bring: their weights by slots, on the host, too,
+ * while they are brought there, and sums of blocks of slots in pairs, also read back. */
+static void add_weighted(ps_memory *sum, const ps_work *work, const ps_problem *problem,
+                         double rows, double real_bytes) {
+    const double num = (double)problem->num_weighted;
+    const double stride = work->row_bytes / real_bytes;
+    const double numbers = num * rows * ceil(stride / block) * 2;
+    sum->device += num * work->row_bytes + numbers * real_bytes;
+    sum->host += (num > 0 ? stride : 0) * (double)sizeof(double) + numbers * (double)sizeof(double);
+}
+
 /* Adds what rows of powers on the device bring: their sums and sums of squares in pairs, also read
- * back; members of bins, and the pieces of bins in the blocks of 512 slots of a row: 3 numbers for
- * each, and its sum in pairs. In one dimension all frequencies of a block are one piece; else rings
- * cross a block in about 36. */
+ * back; members of bins, and the pieces of bins in the blocks of a row: 3 numbers for each, and its
+ * sum in pairs. In one dimension all frequencies of a block are one piece; else rings cross a block
+ * in about 36. */
 static void add_accumulator(ps_memory *sum, const ps_work *work, const ps_problem *problem,
                             double rows, double real_bytes) {
-    const double block = 512;
     const double pieces_of_block = problem->frequencies->dimension == 1 ? 1 : 36;
     const double num = (double)problem->frequencies->num;
     const double blocks = ceil(work->row_bytes / real_bytes / block);
@@ -61,14 +75,15 @@ ps_memory ps_memory_count(const ps_engine *engine, ps_precision precision,
     const double num = (double)problem->frequencies->num;
     const double moved = limits != NULL && limits->has_unified_memory ? work->coordinate_bytes : 0;
     /* of every frequency twice its vector and its slot, its place in a bin, mean and standard
-     * error */
+     * error; and the weights of weighted sums */
     ps_memory sum = {
         .device = work->fixed_bytes - work->host_bytes +
                   (work->bytes_per_realization + work->point_bytes + moved) * (double)batch,
         .host = work->host_bytes + coefficient_bytes(problem) +
                 (ps_memory_of_set(problem, work) + work->point_bytes - moved) * (double)batch +
                 num * (2 * dimension * (double)sizeof(int32_t) + 3 * (double)sizeof(uint32_t) +
-                       2 * (double)sizeof(double))};
+                       2 * (double)sizeof(double)) +
+                num * (double)problem->num_weighted * (double)sizeof(double)};
     if (limits == NULL || engine->rows_on_host) {
         sum.host += num * 4 * (double)sizeof(double); /* the sums of the accumulator */
     }
@@ -79,8 +94,10 @@ ps_memory ps_memory_count(const ps_engine *engine, ps_precision precision,
     if (limits == NULL || engine->rows_on_host) {
         return sum;
     }
-    add_accumulator(&sum, work, problem, padded_rows(limits, precision, batch),
-                    precision == PS_SINGLE ? sizeof(float) : sizeof(double));
+    const double rows = padded_rows(limits, precision, batch);
+    const double real_bytes = (double)ps_real_bytes(precision);
+    add_accumulator(&sum, work, problem, rows, real_bytes);
+    add_weighted(&sum, work, problem, rows, real_bytes);
     return sum;
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "spectra/accumulate_device.h"
+#include "spectra/accumulate_weighted.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -10,6 +11,7 @@ struct ps_accumulator {
     ps_accumulator_options options;
     uint32_t *slots;
     ps_device_accumulator *on_device; /* NULL: rows are on the host */
+    ps_device_weighted *weighted;     /* NULL: that, or no weights */
     uint64_t num_realizations;
     ps_bin all;  /* members of all bins in one, */
     ps_bins one; /* and that alone */
@@ -19,18 +21,29 @@ struct ps_accumulator {
     double *mean_powers; /* [batch] */
     ps_sums *bin_sums; /* [num_bins]; of single members: from the device when they are asked for */
     ps_sums *frequency_sums; /* [num_frequencies], host rows only */
+    double *weighted_powers; /* [batch][num_weighted] */
+    ps_sums *weighted_sums;  /* [num_weighted] */
 };
+
+/* of: weighted sums or bins */
+static pspec_status allocate_powers(const ps_accumulator *self, double **powers, size_t num,
+                                    const char *of, ps_error *error) {
+    size_t num_powers = 0;
+    if (!ps_size_multiply(self->options.batch, num, &num_powers)) {
+        return ps_fail(error, PSPEC_ERROR_MEMORY, "%zu realizations of %zu %s are too many",
+                       self->options.batch, num, of);
+    }
+    return PS_NEW(powers, num_powers, "powers of bins", error);
+}
 
 static pspec_status allocate(ps_accumulator *self, ps_error *error) {
     const ps_accumulator_options *options = &self->options;
-    size_t num_powers = 0;
-    if (!ps_size_multiply(options->batch, self->formed->num, &num_powers)) {
-        return ps_fail(error, PSPEC_ERROR_MEMORY, "%zu realizations of %zu bins are too many",
-                       options->batch, self->formed->num);
-    }
     PS_TRY(PS_NEW(&self->slots, options->num_frequencies, "slots", error));
     memcpy(self->slots, options->slots, options->num_frequencies * sizeof(uint32_t));
-    PS_TRY(PS_NEW(&self->bin_powers, num_powers, "powers of bins", error));
+    PS_TRY(allocate_powers(self, &self->bin_powers, self->formed->num, "bins", error));
+    PS_TRY(allocate_powers(self, &self->weighted_powers, options->num_weighted, "weighted sums",
+                           error));
+    PS_TRY(PS_NEW(&self->weighted_sums, options->num_weighted, "weighted sums", error));
     PS_TRY(PS_NEW(&self->mean_powers, options->batch, "mean powers", error));
     PS_TRY(PS_NEW(&self->bin_sums, options->bins->num, "sums of bins", error));
     if (options->want_frequencies && !options->is_on_device) {
@@ -55,6 +68,7 @@ static void clear_all(ps_accumulator *self) {
     const ps_accumulator_options *options = &self->options;
     self->num_realizations = 0;
     clear(self->bin_sums, options->bins->num, options->mean_only);
+    clear(self->weighted_sums, options->num_weighted, options->mean_only);
     if (self->frequency_sums != NULL) {
         clear(self->frequency_sums, options->num_frequencies, no_squares(options));
     }
@@ -80,6 +94,16 @@ static void form_one_bin(ps_accumulator *self) {
     self->options.no_frequency_errors = false; /* those of bins are theirs */
 }
 
+static pspec_status create_on_device(ps_accumulator *self, ps_device *device, ps_error *error) {
+    ps_accumulator_options on_device = self->options;
+    on_device.bins = self->formed;
+    on_device.mean_only = no_squares(&self->options);
+    PS_TRY(ps_device_accumulator_create(&self->on_device, &on_device, device, error));
+    return self->options.num_weighted > 0
+               ? ps_device_weighted_create(&self->weighted, &self->options, device, error)
+               : PSPEC_OK;
+}
+
 pspec_status ps_accumulator_create(ps_accumulator **out, const ps_accumulator_options *options,
                                    ps_device *device, ps_error *error) {
     *out = NULL;
@@ -93,10 +117,7 @@ pspec_status ps_accumulator_create(ps_accumulator **out, const ps_accumulator_op
     pspec_status status = allocate(self, error);
     self->options.slots = self->slots;
     if (status == PSPEC_OK && options->is_on_device) {
-        ps_accumulator_options on_device = self->options;
-        on_device.bins = self->formed;
-        on_device.mean_only = no_squares(&self->options);
-        status = ps_device_accumulator_create(&self->on_device, &on_device, device, error);
+        status = create_on_device(self, device, error);
     }
     if (status != PSPEC_OK) {
         ps_accumulator_destroy(self);
@@ -112,11 +133,14 @@ void ps_accumulator_destroy(ps_accumulator *accumulator) {
         return;
     }
     ps_device_accumulator_destroy(accumulator->on_device);
+    ps_device_weighted_destroy(accumulator->weighted);
     free(accumulator->slots);
     free(accumulator->bin_powers);
     free(accumulator->mean_powers);
     free(accumulator->bin_sums);
     free(accumulator->frequency_sums);
+    free(accumulator->weighted_powers);
+    free(accumulator->weighted_sums);
     free(accumulator);
 }
 
@@ -140,10 +164,24 @@ static void average_bins(const ps_accumulator *self, const double *row, double *
     }
 }
 
+/* Weighted sums of one host row. */
+static void weigh(const ps_accumulator *self, const double *row, double *weighted_powers) {
+    const size_t num = self->options.num_frequencies;
+    for (size_t w = 0; w < self->options.num_weighted; w++) {
+        const double *weights = self->options.weights + w * num;
+        long double sum = 0;
+        for (size_t i = 0; i < num; i++) {
+            sum += weights[i] != 0 ? (long double)weights[i] * row[self->slots[i]] : 0;
+        }
+        weighted_powers[w] = (double)sum;
+    }
+}
+
 static void add_host_rows(ps_accumulator *self, const ps_rows *rows) {
     for (size_t r = 0; r < rows->num_rows; r++) {
         const double *row = rows->host + r * rows->stride;
         average_bins(self, row, self->bin_powers + r * self->options.bins->num);
+        weigh(self, row, self->weighted_powers + r * self->options.num_weighted);
         for (size_t i = 0; self->frequency_sums != NULL && i < self->options.num_frequencies; i++) {
             add(&self->frequency_sums[i], row[self->slots[i]], no_squares(&self->options));
         }
@@ -172,6 +210,13 @@ static void add_bins(ps_accumulator *self, size_t num_rows) {
     }
 }
 
+static void add_weighted(ps_accumulator *self, size_t num_rows) {
+    const size_t num = self->options.num_weighted;
+    for (size_t i = 0; i < num_rows * num; i++) {
+        add(&self->weighted_sums[i % num], self->weighted_powers[i], self->options.mean_only);
+    }
+}
+
 pspec_status ps_accumulator_add(ps_accumulator *accumulator, const ps_rows *rows,
                                 const double **mean_powers, ps_error *error) {
     if (accumulator->on_device != NULL) {
@@ -180,7 +225,12 @@ pspec_status ps_accumulator_add(ps_accumulator *accumulator, const ps_rows *rows
     } else {
         add_host_rows(accumulator, rows);
     }
+    if (accumulator->weighted != NULL) {
+        PS_TRY(ps_device_weighted_sums(accumulator->weighted, rows, accumulator->weighted_powers,
+                                       error));
+    }
     add_bins(accumulator, rows->num_rows);
+    add_weighted(accumulator, rows->num_rows);
     accumulator->num_realizations += rows->num_rows;
     if (mean_powers != NULL) {
         *mean_powers = accumulator->mean_powers;
@@ -256,4 +306,11 @@ pspec_status ps_accumulator_frequencies(ps_accumulator *accumulator, ps_mean *me
                        &means[i].mean, &means[i].standard_error);
     }
     return PSPEC_OK;
+}
+
+void ps_accumulator_weighted(const ps_accumulator *accumulator, ps_mean *means) {
+    for (size_t w = 0; w < accumulator->options.num_weighted; w++) {
+        ps_sums_finish(&accumulator->weighted_sums[w], accumulator->num_realizations,
+                       &means[w].mean, &means[w].standard_error);
+    }
 }

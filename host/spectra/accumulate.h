@@ -6,6 +6,10 @@
  * (docs/mathematics/statistics.md#standard-errors). Realizations are taken one after the other in
  * their order, whatever the batches were.
  *
+ * Weighted sums, sum over frequencies of weight * power, are formed for each realization likewise:
+ * their standard errors have the correlations of all frequencies
+ * (docs/mathematics/statistics.md#weighted-sums).
+ *
  * Where every bin has one member, as in one dimension, sums of bins are those of frequencies: on a
  * device only these are formed.
  */
@@ -35,6 +39,12 @@ typedef struct ps_accumulator_options {
     bool want_frequencies;    /* keep sums per frequency */
     bool mean_only;           /* no sums of squares: standard errors are nan */
     bool no_frequency_errors; /* no sums of squares of single frequencies: theirs are nan */
+    /* [num_weighted][num_frequencies], kept: must outlive the accumulator; NULL where there are
+     * none. The largest of a vector is 0 or between 1e-140 and 1e140 in size, so that squares of
+     * sums are numbers. A frequency of weight 0 is left out, whatever its power is. On the device
+     * weights are rounded to the precision of the rows, relative to the largest. */
+    const double *weights;
+    size_t num_weighted;
 } ps_accumulator_options;
 
 pspec_status ps_accumulator_create(ps_accumulator **out, const ps_accumulator_options *options,
@@ -59,5 +69,8 @@ pspec_status ps_accumulator_bins(ps_accumulator *accumulator, ps_mean *means,
 /* means[num_frequencies]; only with want_frequencies. */
 pspec_status ps_accumulator_frequencies(ps_accumulator *accumulator, ps_mean *means,
                                         ps_error *error) PS_MUST_CHECK;
+/* Of the weighted sums: means[num_weighted], in the units of weight times power of a row; standard
+ * errors over realizations, as those of bins. */
+void ps_accumulator_weighted(const ps_accumulator *accumulator, ps_mean *means);
 
 #endif

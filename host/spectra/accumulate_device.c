@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "base/round.h"
 #include "base/workers.h"
+#include "device/reals.h"
 #include "spectra/accumulate_blocks.h"
 
 #include <stdlib.h>
@@ -32,11 +33,12 @@ static size_t block_bytes(unsigned lanes, size_t real_bytes) {
     return PS_ACCUMULATE_BLOCK * lanes * real_bytes;
 }
 
-/* Results do not depend on it. Rows are whole vectors, and an engine may have had fewer lanes than
- * suit the device. For few realizations a vector that they do not fill costs memory and time; one
- * that they fill by more than a quarter is faster than a shorter one. */
-static unsigned choose_lanes(const ps_accumulator_options *options, size_t real_bytes,
+/* Rows are whole vectors, and an engine may have had fewer lanes than suit the device. For few
+ * realizations a vector that they do not fill costs memory and time; one that they fill by more
+ * than a quarter is faster than a shorter one. */
+unsigned ps_accumulate_lanes(const ps_accumulator_options *options,
                              const ps_device_limits *limits) {
+    const size_t real_bytes = ps_real_bytes(options->precision);
     unsigned lanes = options->lanes;
     while (lanes > 1 && (options->stride % lanes != 0 || lanes >= 4 * options->batch ||
                          block_bytes(lanes, real_bytes) > limits->local_bytes)) {
@@ -143,8 +145,8 @@ pspec_status ps_device_accumulator_create(ps_device_accumulator **out,
     PS_TRY(PS_NEW(&self, 1, "an accumulator", error));
     self->device = device;
     self->options = *options;
-    self->real_bytes = options->precision == PS_SINGLE ? sizeof(float) : sizeof(double);
-    self->options.lanes = choose_lanes(options, self->real_bytes, ps_device_get_limits(device));
+    self->real_bytes = ps_real_bytes(options->precision);
+    self->options.lanes = ps_accumulate_lanes(options, ps_device_get_limits(device));
     self->num_groups = ps_divide_up(options->batch, self->options.lanes);
     pspec_status status = create_kernels(self, error);
     if (status == PSPEC_OK) {

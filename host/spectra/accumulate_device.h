@@ -6,6 +6,10 @@
 
 typedef struct ps_device_accumulator ps_device_accumulator;
 
+/* Lanes of the kernels that take rows of options' stride and batch: realizations side by side.
+ * Results do not depend on it. */
+unsigned ps_accumulate_lanes(const ps_accumulator_options *options, const ps_device_limits *limits);
+
 /* options->slots must outlive the accumulator. mean_only is about frequencies here: powers of bins
  * go to the host. */
 pspec_status ps_device_accumulator_create(ps_device_accumulator **out,

@@ -20,13 +20,10 @@
  *   block    local, [BLOCK][LANES]
  */
 #include "accumulate/blocks.h"
+#include "accumulate/rows.h"
 #include "shared/lanes.h"
 #include "shared/pair.h"
 #include "shared/transpose.h"
-
-/* Fixed: sums depend on it. Long enough that pieces are few, short enough for the local memory of
- * any device and for the nearest cache of a core. host/spectra/accumulate_device.c knows it too. */
-#define BLOCK 512
 
 /* 0: sums alone, nobody asks for standard errors of frequencies. */
 #ifndef SQUARES
@@ -42,16 +39,6 @@ typedef struct ring {
 typedef struct state {
     __global real *sum, *sum_low, *square, *square_low;
 } state;
-
-/* The first `count` of LANES realizations; the others are left out of the state and are 0 in bins.
- */
-static inline void load_rows(realv *powers, __global const real *rows, const ulong stride,
-                             const uint count) {
-#pragma unroll
-    for (uint i = 0; i < LANES; i++) {
-        powers[i] = i < count ? load_global(rows + i * stride, 0) : (realv)0;
-    }
-}
 
 static inline void add_to_state(const state sums, const size_t slot, const realv *powers,
                                 const uint count) {

@@ -1,4 +1,4 @@
-/* The numbers among the arguments of blocks.cl, for host and device. */
+/* The numbers among the arguments of blocks.cl and weighted.cl, for host and device. */
 #ifndef PS_ACCUMULATE_BLOCKS_NUMBERS_H
 #define PS_ACCUMULATE_BLOCKS_NUMBERS_H
 

@@ -17,11 +17,16 @@ static inline void pair_add(realv *high, realv *low, realv x) {
     *high = sum;
 }
 
+/* *high + *low += x * y, the product exact. */
+static inline void pair_add_product(realv *high, realv *low, realv x, realv y) {
+    const realv product = x * y;
+    *low += fma(x, y, -product);
+    pair_add(high, low, product);
+}
+
 /* *high + *low += x * x, the product exact. */
 static inline void pair_add_square(realv *high, realv *low, realv x) {
-    const realv square = x * x;
-    *low += fma(x, x, -square);
-    pair_add(high, low, square);
+    pair_add_product(high, low, x, x);
 }
 
 #endif

@@ -14,8 +14,8 @@ typedef struct memory_case {
     const char *engine;
 } memory_case;
 
-/* All buffers are there before the first point. */
-static double measure(const memory_case *what, double *announced) {
+/* All buffers are there before the first point. num_weighted: weighted sums of the powers. */
+static double measure(const memory_case *what, size_t num_weighted, double *announced) {
     const ps_plan_constraints constraints = {.engine = what->engine, .precision = -1};
     ps_frequencies grid = {0};
     ps_device *device = test_open_device();
@@ -28,14 +28,18 @@ static double measure(const memory_case *what, double *announced) {
     const ps_problem problem = {.frequencies = &grid,
                                 .num_points = what->num_points,
                                 .num_realizations = what->num_realizations,
-                                .tolerance = 1e-6};
+                                .tolerance = 1e-6,
+                                .num_weighted = num_weighted};
+    double *weights = calloc(num_weighted * grid.num + 1, sizeof *weights);
     assert_ok(ps_plan_make(&plan, &problem, ps_device_get_limits(device), &constraints, error));
     assert_non_null(plan.chosen);
     const ps_estimator_options options = {.problem = problem,
                                           .engine = plan.chosen->engine,
                                           .precision = plan.chosen->precision,
                                           .batch = plan.chosen->batch,
-                                          .want_frequencies = true};
+                                          .want_frequencies = true,
+                                          .weights = weights,
+                                          .num_weighted = num_weighted};
     assert_ok(ps_estimator_create(&estimator, &options, device, error));
     assert_int_equal(ps_estimator_batch(estimator), plan.chosen->batch);
     ps_estimator_destroy(estimator);
@@ -46,7 +50,14 @@ static double measure(const memory_case *what, double *announced) {
                   plan.chosen->engine->name, plan.chosen->batch, *announced, measured);
     ps_device_close(device);
     ps_frequencies_free(&grid);
+    free(weights);
     return measured;
+}
+
+static void check_announced(const memory_case *what, size_t num_weighted) {
+    double announced = 0;
+    const double measured = measure(what, num_weighted, &announced);
+    assert_true(announced > 0.9 * measured && announced < 1.1 * measured);
 }
 
 static void buffers_are_announced(void **state) {
@@ -74,13 +85,28 @@ static void buffers_are_announced(void **state) {
         {0, 1500, 4096, 10, "sphere_nufft"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        double announced = 0;
-        const double measured = measure(&cases[i], &announced);
-        assert_true(announced > 0.9 * measured && announced < 1.1 * measured);
+        check_announced(&cases[i], 0);
+    }
+}
+
+/* As many as there are rows, and more. */
+static void weights_are_announced(void **state) {
+    (void)state;
+    static const memory_case cases[] = {
+        {2, 256, 4096, 4, NULL},
+        {3, 32, 4096, 3, NULL},
+        {1, 32768, 65536, 30, NULL},
+        {0, 256, 4096, 1, "sphere_nufft"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        check_announced(&cases[i], 40);
     }
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(buffers_are_announced)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(buffers_are_announced),
+        cmocka_unit_test(weights_are_announced),
+    };
     return cmocka_run_group_tests_name("memory", tests, NULL, NULL);
 }

@@ -26,6 +26,8 @@ static pspec_status create_accumulator(ps_estimator *self, ps_error *error) {
         .want_frequencies = options->want_frequencies,
         .mean_only = options->mean_only,
         .no_frequency_errors = options->no_frequency_errors,
+        .weights = options->weights,
+        .num_weighted = options->num_weighted,
     };
     return ps_accumulator_create(&self->accumulator, &accumulator, self->device, error);
 }

@@ -26,6 +26,11 @@ typedef struct ps_estimator_options {
     bool no_frequency_errors;  /* those of single frequencies are nan, means have the same bits */
     bool want_c2;              /* C_l^2 of the realizations, on the sphere: ps_estimator_c2 */
     ps_pair_observer observer; /* with want_c2: told of every realization */
+    /* [num_weighted][frequencies->num] of ps_accumulator_options, in the order of
+     * problem.frequencies; they outlive the estimator. ps_estimator_weighted has the sums.
+     * problem.num_weighted lets the plan count their memory. */
+    const double *weights;
+    size_t num_weighted;
     bool self_check;
     pspec_normalization normalization;
     /* [ps_num_coefficients_at] or NULL: where a realization that comes alone in its batch leaves
@@ -112,6 +117,14 @@ pspec_status ps_estimator_sums(ps_estimator *estimator, ps_spectrum_sums *out,
  * means[ps_estimator_bins()->num]. */
 pspec_status ps_estimator_bin_means(ps_estimator *estimator, ps_mean *means,
                                     ps_error *error) PS_MUST_CHECK;
+/* Mean and standard error, over realizations, of the weighted sums so far, in the units of the
+ * result: means[options.num_weighted]. The mean is the weighted sum of the powers that
+ * ps_estimator_spectrum has; under PSPEC_NORMALIZATION_INTEGRAL these are
+ * mean(N) mean(|S|^2 / W^2), and with weights |f|^2 the variance of integrals is the sum divided by
+ * mean(N). A frequency of the torus stands for itself, not for k and -k; on the sphere a power is
+ * that of a degree, for all of its orders. */
+pspec_status ps_estimator_weighted(ps_estimator *estimator, ps_mean *means,
+                                   ps_error *error) PS_MUST_CHECK;
 /* C_l^2 of pair sums, mean and standard error: means[number of degrees]; with want_c2 only. */
 void ps_estimator_c2(const ps_estimator *estimator, ps_mean *means);
 const ps_bins *ps_estimator_bins(const ps_estimator *estimator);

@@ -51,14 +51,25 @@ pspec_status ps_estimator_spectrum(ps_estimator *estimator, ps_spectrum *out, ps
                               estimator->options.want_frequencies, error);
 }
 
-pspec_status ps_estimator_bin_means(ps_estimator *estimator, ps_mean *means, ps_error *error) {
-    PS_TRY(require_realizations(estimator, error));
-    PS_TRY(ps_accumulator_bins(estimator->accumulator, means, error));
-    const double factor = find_factor(estimator);
-    for (size_t i = 0; i < estimator->bins.num; i++) {
+static void bring_to_units(const ps_estimator *self, ps_mean *means, size_t num) {
+    const double factor = find_factor(self);
+    for (size_t i = 0; i < num; i++) {
         means[i].mean *= factor;
         means[i].standard_error *= factor;
     }
+}
+
+pspec_status ps_estimator_bin_means(ps_estimator *estimator, ps_mean *means, ps_error *error) {
+    PS_TRY(require_realizations(estimator, error));
+    PS_TRY(ps_accumulator_bins(estimator->accumulator, means, error));
+    bring_to_units(estimator, means, estimator->bins.num);
+    return PSPEC_OK;
+}
+
+pspec_status ps_estimator_weighted(ps_estimator *estimator, ps_mean *means, ps_error *error) {
+    PS_TRY(require_realizations(estimator, error));
+    ps_accumulator_weighted(estimator->accumulator, means);
+    bring_to_units(estimator, means, estimator->options.num_weighted);
     return PSPEC_OK;
 }
 
