@@ -28,14 +28,19 @@ static pspec_status find_kind(const ps_brdf_kind **kind, const char *name, ps_er
                          ps_text_suggest(name, (*kind)->name, best, "; did you mean ", "?").text);
 }
 
-static pspec_status read_values(ps_brdf *brdf, const char *rest, ps_error *error) {
-    char **texts = NULL;
-    PS_TRY(ps_grammar_texts(&texts, "BRDF", brdf->kind->name, brdf->kind->parameters, rest, error));
-    const pspec_status status = brdf->kind->create != NULL
-                                    ? brdf->kind->create(brdf, (const char *const *)texts, error)
-                                    : PSPEC_OK;
-    free(texts);
-    return status;
+pspec_status ps_brdf_make(ps_brdf **out, const ps_brdf_kind *kind, const char *const *values,
+                          ps_error *error) {
+    ps_brdf *brdf = NULL;
+    *out = NULL;
+    PS_TRY(PS_NEW(&brdf, 1, "a BRDF", error));
+    brdf->kind = kind;
+    const pspec_status status = kind->create != NULL ? kind->create(brdf, values, error) : PSPEC_OK;
+    if (status != PSPEC_OK) {
+        ps_brdf_destroy(brdf);
+        return status;
+    }
+    *out = brdf;
+    return PSPEC_OK;
 }
 
 pspec_status ps_brdf_parse(ps_brdf **out, const char *text, ps_error *error) {
@@ -44,16 +49,11 @@ pspec_status ps_brdf_parse(ps_brdf **out, const char *text, ps_error *error) {
     *out = NULL;
     const char *const rest = ps_grammar_name(text, name);
     PS_TRY(find_kind(&kind, name, error));
-    ps_brdf *brdf = NULL;
-    PS_TRY(PS_NEW(&brdf, 1, "a BRDF", error));
-    brdf->kind = kind;
-    const pspec_status status = read_values(brdf, rest, error);
-    if (status != PSPEC_OK) {
-        ps_brdf_destroy(brdf);
-        return status;
-    }
-    *out = brdf;
-    return PSPEC_OK;
+    char **texts = NULL;
+    PS_TRY(ps_grammar_texts(&texts, "BRDF", kind->name, kind->parameters, rest, error));
+    const pspec_status status = ps_brdf_make(out, kind, (const char *const *)texts, error);
+    free(texts);
+    return status;
 }
 
 void ps_brdf_destroy(ps_brdf *brdf) {

@@ -65,7 +65,7 @@ static ps_morph morph(const ps_brdf *brdf) {
 
 const ps_brdf_kind ps_brdf_diffuse = {
     .name = "diffuse",
-    .summary = "max(0, z), z the cosine to the axis",
+    .summary = PS_DIFFUSE_SUMMARY,
     .norm = norm,
     .energy = energy,
     .density = density,

@@ -141,11 +141,8 @@ static pspec_status create(ps_brdf *brdf, const char *const *values, ps_error *e
 
 const ps_brdf_kind ps_brdf_glossy = {
     .name = "glossy",
-    .summary = "e^{n(z-1)}, a Gaussian lobe",
-    .parameters = {{"n", "", "exponent, 0.001 to 1e6; must be given"},
-                   {"cut", "horizon",
-                    "horizon|none: 0 below the horizon, or the lobe on the whole sphere"},
-                   {NULL, NULL, NULL}},
+    .summary = PS_GLOSSY_SUMMARY,
+    .parameters = {PS_EXPONENT_PARAMETER, PS_CUT_PARAMETER, {NULL, NULL, NULL}},
     .create = create,
     .norm = norm,
     .energy = energy,

@@ -11,6 +11,20 @@
 #define PS_LEAST_LOBE 1e-3
 #define PS_MOST_LOBE 1e6
 
+/* What the tables of lobes and of integrands both say of them. */
+#define PS_DIFFUSE_SUMMARY "max(0, z), z the cosine to the axis"
+#define PS_GLOSSY_SUMMARY "e^{n(z-1)}, a Gaussian lobe"
+#define PS_PHONG_SUMMARY "max(0, z)^n"
+#define PS_ZONAL_SUMMARY "a table from a file, linear in z between its rows, 0 outside"
+#define PS_EXPONENT_PARAMETER                                                                      \
+    { "n", "", "exponent, 0.001 to 1e6; must be given" }
+#define PS_CUT_PARAMETER                                                                           \
+    { "cut", "horizon", "horizon|none: 0 below the horizon, or the lobe on the whole sphere" }
+#define PS_FILE_PARAMETER                                                                          \
+    { "file", "", "rows of direction and value; must be given" }
+#define PS_UNIT_PARAMETER                                                                          \
+    { "of", "cosine", "cosine|degrees|radians: what the first column is, to the axis" }
+
 struct ps_brdf {
     const ps_brdf_kind *kind;
     double exponent;      /* n of glossy and Phong lobes */
@@ -20,6 +34,10 @@ struct ps_brdf {
 };
 
 extern const ps_brdf_kind ps_brdf_diffuse, ps_brdf_glossy, ps_brdf_phong, ps_brdf_zonal;
+
+/* Makes a lobe of a kind: values[i] is the text of its parameters[i]. */
+pspec_status ps_brdf_make(ps_brdf **out, const ps_brdf_kind *kind, const char *const *values,
+                          ps_error *error) PS_MUST_CHECK;
 
 /* Reads n of a lobe, PS_LEAST_LOBE .. PS_MOST_LOBE. */
 pspec_status ps_brdf_read_exponent(ps_brdf *brdf, const char *text, ps_error *error) PS_MUST_CHECK;

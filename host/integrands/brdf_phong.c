@@ -58,8 +58,8 @@ static pspec_status create(ps_brdf *brdf, const char *const *values, ps_error *e
 
 const ps_brdf_kind ps_brdf_phong = {
     .name = "phong",
-    .summary = "max(0, z)^n",
-    .parameters = {{"n", "", "exponent, 0.001 to 1e6; must be given"}, {NULL, NULL, NULL}},
+    .summary = PS_PHONG_SUMMARY,
+    .parameters = {PS_EXPONENT_PARAMETER, {NULL, NULL, NULL}},
     .create = create,
     .norm = norm,
     .energy = energy,

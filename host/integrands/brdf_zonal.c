@@ -195,11 +195,8 @@ static pspec_status create(ps_brdf *brdf, const char *const *values, ps_error *e
 
 const ps_brdf_kind ps_brdf_zonal = {
     .name = "zonal",
-    .summary = "a table from a file, linear in z between its rows, 0 outside",
-    .parameters = {{"file", "", "rows of direction and value; must be given"},
-                   {"of", "cosine",
-                    "cosine|degrees|radians: what the first column is, to the axis"},
-                   {NULL, NULL, NULL}},
+    .summary = PS_ZONAL_SUMMARY,
+    .parameters = {PS_FILE_PARAMETER, PS_UNIT_PARAMETER, {NULL, NULL, NULL}},
     .create = create,
     .norm = norm,
     .energy = energy,

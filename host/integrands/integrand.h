@@ -49,8 +49,8 @@ typedef struct ps_integrand_kind {
     /* F at num points, [num][dimension] coordinates in [0,1) or unit vectors. */
     void (*values)(const ps_integrand *, const double *points, size_t num, double *values);
     /* A(x) = int F(y) F(y + x) dy; of the sphere C(cos g) = 4 pi E_R[F(Ru) F(Rv)] of points at the
-     * angle g, of the hemisphere that of the even extension; x is that cosine then. NULL: no closed
-     * form. */
+     * angle g, of the hemisphere that of the even extension; x is that cosine then. NULL, or not a
+     * number: no closed form, of the kind or in its place. */
     double (*correlation)(const ps_integrand *, const double *x);
     /* Do the powers depend on |k| alone? NULL: no. */
     bool (*is_isotropic)(const ps_integrand *);
@@ -99,6 +99,8 @@ void ps_integrand_values(const ps_integrand *integrand, const double *points, si
 pspec_status ps_integrand_pairwise(const ps_integrand *integrand, const double *points,
                                    const double *weights, size_t num, double *variance,
                                    ps_error *error) PS_MUST_CHECK;
+/* Has it the closed form that ps_integrand_pairwise needs? */
+bool ps_integrand_has_pairs(const ps_integrand *integrand);
 bool ps_integrand_is_isotropic(const ps_integrand *integrand);
 const char *ps_integrand_note(const ps_integrand *integrand); /* or NULL */
 const char *ps_integrand_file(const ps_integrand *integrand); /* or NULL */

@@ -8,7 +8,9 @@
 #include <math.h>
 
 extern const ps_integrand_kind ps_integrand_ball, ps_integrand_box, ps_integrand_half_plane,
-    ps_integrand_gaussian, ps_integrand_wave, ps_integrand_constant;
+    ps_integrand_gaussian, ps_integrand_wave, ps_integrand_constant, ps_integrand_cap,
+    ps_integrand_harmonic, ps_integrand_square, ps_integrand_lobe, ps_integrand_diffuse,
+    ps_integrand_glossy, ps_integrand_phong, ps_integrand_zonal;
 
 /* Reads a finite number with least <= x <= most; key is its parameter. */
 pspec_status ps_integrand_number(const ps_integrand *integrand, const char *key, const char *text,
@@ -20,8 +22,10 @@ pspec_status ps_integrand_vector(const ps_integrand *integrand, const char *key,
                                  ps_error *error) PS_MUST_CHECK;
 /* The member values, from NAME_value of kernels/integrands/NAME.h, which is compiled for doubles
  * here: PRECISION 64 stands before it. */
-#define PS_INTEGRAND_VALUES(value)                                                                 \
-    static void values(const ps_integrand *self, const double *points, size_t num, double *out) {  \
+#define PS_INTEGRAND_VALUES(value) PS_INTEGRAND_VALUES_AS(values, value)
+#define PS_INTEGRAND_VALUES_AS(function, value)                                                    \
+    static void function(const ps_integrand *self, const double *points, size_t num,               \
+                         double *out) {                                                            \
         const unsigned dimension = self->place.dimension;                                          \
         for (size_t i = 0; i < num; i++) {                                                         \
             out[i] = value(points + i * dimension, dimension, self->numbers);                      \
@@ -35,6 +39,30 @@ void ps_integrand_images(const double *x, unsigned dimension,
 
 /* |k| */
 double ps_integrand_norm(const int32_t *k, unsigned dimension);
+
+/* Where the zonal integrands are, and their parameter: an axis, "0x0x1", of any length but 0. On
+ * the hemisphere it is z. */
+#define PS_INTEGRAND_ROUND                                                                         \
+    (PS_INTEGRAND_ON(PS_SAMPLES_SPHERE) | PS_INTEGRAND_ON(PS_SAMPLES_HEMISPHERE))
+#define PS_INTEGRAND_AXIS                                                                          \
+    { "axis", "0x0x1", "a direction, as 1x2x2; of the hemisphere z" }
+pspec_status ps_integrand_axis(const ps_integrand *integrand, const char *text, double *axis,
+                               ps_error *error) PS_MUST_CHECK;
+bool ps_integrand_is_on_hemisphere(const ps_integrand *integrand);
+
+/* From F_l0 of a zonal F, which is 0 below the horizon where it is of the hemisphere, to what the
+ * member degrees has: squares, and of the hemisphere those of the even extension, 2 F_l0 at even l.
+ */
+void ps_integrand_zonal_powers(const ps_integrand *integrand, size_t max_degree, double *f);
+
+/* sin and cos of half the angle g >= 0 whose cosine is x. */
+typedef struct ps_half_angle {
+    double sine, cosine;
+} ps_half_angle;
+ps_half_angle ps_integrand_half_angle(double x);
+
+/* C(cos g) of exp(n (z - 1)) on the whole sphere (docs/mathematics/integrands_sphere.md#lobes). */
+double ps_integrand_lobe_correlation(double n, double x);
 
 /* PSPEC_ERROR_INVALID_ARGUMENT: "integrand disk: radius=0.7: " and the sentence. */
 pspec_status ps_integrand_fail(const ps_integrand *integrand, const char *key, const char *text,

@@ -42,10 +42,15 @@ static double mean_correlation(const ps_integrand *self, const double *points,
     return ps_neumaier_value(&total) / (w * w);
 }
 
+bool ps_integrand_has_pairs(const ps_integrand *integrand) {
+    const double pole[PS_MAX_DIMENSION] = {0, 0, 1}; /* any point will do */
+    return integrand->kind->correlation != NULL && !isnan(correlate(integrand, pole, pole));
+}
+
 pspec_status ps_integrand_pairwise(const ps_integrand *integrand, const double *points,
                                    const double *weights, size_t num, double *variance,
                                    ps_error *error) {
-    if (integrand->kind->correlation == NULL) {
+    if (!ps_integrand_has_pairs(integrand)) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                        "integrand %s has no closed form for pairs of points",
                        integrand->kind->name);

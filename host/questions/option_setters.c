@@ -191,3 +191,14 @@ pspec_status ps_add_sampler(const ps_option *option, const char *shown, const ch
     arguments->samplers[arguments->num_samplers++] = value;
     return PSPEC_OK;
 }
+
+pspec_status ps_add_integrand(const ps_option *option, const char *shown, const char *words,
+                              const char *value, ps_request *arguments, ps_error *error) {
+    (void)option, (void)words;
+    if (arguments->num_integrands == PS_MAX_INTEGRANDS) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: more than %d integrands", shown,
+                       PS_MAX_INTEGRANDS);
+    }
+    arguments->integrands[arguments->num_integrands++] = value;
+    return PSPEC_OK;
+}

@@ -21,6 +21,8 @@
 
 /* 10^10 points of the plane are 160 GB. */
 #define MOST_POINTS UINT64_C(10000000000)
+/* A set has so many trials at most: their moves are in memory. */
+#define MOST_SHIFTS UINT64_C(1000000)
 #define MOST_REALIZATIONS UINT64_C(1000000000000)
 
 /* Sets of takers that many options have: kinds of spectra, those of them on the sphere, kinds that
@@ -31,20 +33,21 @@
 #define SPECTRA (BIT(power) | SPHERES)
 #define SETS (SPECTRA | BIT(quadrature) | BIT(check))
 #define LOBES (BIT(quadrature) | BIT(truncation))
+#define ENGINES (SETS | BIT(variance))
 #define SUITES (BIT(bench) | BIT(stress))
-#define TABLES (SETS | SUITES | BIT(truncation) | BIT(devices))
+#define TABLES (ENGINES | SUITES | BIT(truncation) | BIT(devices))
 
 /* In the order of ps_option_id, which is the order of --help. Where an option is repeated the last
  * one counts, but for --sampler. */
 const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_POINTS] =
-        {NAMED("points", 'n', "N"), OF(SETS | BIT(sample), BIT(convert)),
+        {NAMED("points", 'n', "N"), OF(ENGINES | BIT(sample), BIT(convert)),
          .help =
              "points in each realization (default 1024; check: as saved); several as 64,128,256 "
              "or 16..16384, which is 16 and its doubles; of files: points in each set, for "
              "formats that do not say (rps)",
          .set = ps_set_points, .minimum = 1, .maximum = MOST_POINTS},
-    [PS_OPTION_REALIZATIONS] = {NAMED("realizations", 'm', "M"), OF(SETS | BIT(sample), 0),
+    [PS_OPTION_REALIZATIONS] = {NAMED("realizations", 'm', "M"), OF(ENGINES | BIT(sample), 0),
                                 .help = "realizations of each sampler (default 1; check: as saved, "
                                         "or 128)",
                                 COUNT(num_realizations), .minimum = 1,
@@ -55,15 +58,26 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                  "degree X (above --floor; at least 16); -m is then the most (default 1e6)",
          .set = ps_set_standard_error},
     [PS_OPTION_DIMENSION] = {NAMED("dimension", 'd', "D"),
-                             OF(BIT(power) | BIT(check) | BIT(sample), BIT(convert)),
+                             OF(BIT(power) | BIT(check) | BIT(sample) | BIT(variance), BIT(convert)),
                              .help = "dimension, 1 to 6 (default 2; of files: what they have)",
                              .set = ps_set_dimension, .minimum = 1, .maximum = PS_MAX_DIMENSION},
-    [PS_OPTION_SEED] = {NAMED("seed", 's', "S"), OF(SETS | BIT(sample), 0),
+    [PS_OPTION_SEED] = {NAMED("seed", 's', "S"), OF(ENGINES | BIT(sample), 0),
                         .help = "seed, 0 to 2^64 - 1 (default 1); same seed, same bits",
                         COUNT(seed), .minimum = 0, .maximum = UINT64_MAX},
-    [PS_OPTION_SAMPLER] = {NAMED("sampler", 0, "NAME[:key=value,...]"), OF(SETS | BIT(sample), 0),
+    [PS_OPTION_SAMPLER] = {NAMED("sampler", 0, "NAME[:key=value,...]"), OF(ENGINES | BIT(sample), 0),
                            .help = "what makes the points; the names are below",
                            .set = ps_add_sampler},
+    [PS_OPTION_INTEGRAND] = {NAMED("integrand", 0, "NAME[:key=value,...]"), OF(BIT(variance), 0),
+                             .help = "what is integrated; the names are below",
+                             .set = ps_add_integrand},
+    [PS_OPTION_SHIFTS] = {NAMED("shifts", 0, "S"), OF(BIT(variance), 0),
+                          .help = "random shifts, on the sphere rotations, of every set that is "
+                                  "measured (default 1)",
+                          COUNT(num_shifts), .minimum = 1, .maximum = MOST_SHIFTS},
+    [PS_OPTION_IN_PLACE] = {NAMED("in-place", 0, NULL), OF(BIT(variance), 0),
+                            .help = "measure sets where they are, without shifts; the prediction "
+                                    "is of shifted ones, and there is no z-score",
+                            FLAG(in_place)},
     [PS_OPTION_AGAINST] = {NAMED("against", 0, "FILE"), OF(BIT(check), 0),
                            .help =
                                "the saved spectrum: what power or angular wrote with -o FILE.json",
@@ -83,18 +97,18 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                               .help = "of the integrands, functions of the Sobolev space H^S, "
                                       "1 < S < 2 (default 1.5)",
                               .set = ps_set_smoothness},
-    [PS_OPTION_MAX_FREQUENCY] = {NAMED("max-frequency", 'k', "K"), OF(BIT(power) | BIT(check), 0),
+    [PS_OPTION_MAX_FREQUENCY] = {NAMED("max-frequency", 'k', "K"), OF(BIT(power) | BIT(check) | BIT(variance), 0),
                                  .help = "frequencies -K..K on every axis, rings 1..K (default "
                                          "ceil(5 N^(1/d)) for d <= 3; check: 2 N^(1/d))",
                                  .set = ps_set_max_frequency, .minimum = 1,
                                  .maximum = PS_MAX_FREQUENCY},
-    [PS_OPTION_MAX_DEGREE] = {NAMED("max-degree", 'l', "L"), OF(SPHERES | LOBES | BIT(check), 0),
+    [PS_OPTION_MAX_DEGREE] = {NAMED("max-degree", 'l', "L"), OF(SPHERES | LOBES | BIT(check) | BIT(variance), 0),
                               .help =
                                   "the largest degree (default ceil(4 sqrt N), for quadrature at "
                                   "most; truncation: 20)",
                               .set = ps_set_max_degree},
     [PS_OPTION_MEMORY] = {NAMED("memory", 0, "SIZE"),
-                          OF(SETS | BIT(sample), BIT(convert) | BIT(run)),
+                          OF(ENGINES | BIT(sample), BIT(convert) | BIT(run)),
                           .help = "what points and the engine may take, as in 400M or 2G; it "
                                   "chooses among engines and is kept with the results (default: "
                                   "POINTSPEC_MEMORY, else what is free, which chooses nothing)",
@@ -221,7 +235,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                               .help = "columns of the output, for points of the sphere (default "
                                       "xyz, with w if there are weights)",
                               WORD(to_columns)},
-    [PS_OPTION_TOLERANCE] = {NAMED("tol", 0, "T"), OF(SETS, 0),
+    [PS_OPTION_TOLERANCE] = {NAMED("tol", 0, "T"), OF(ENGINES, 0),
                              .help =
                                  "largest error, above 0 and at most 1: of S relative to white "
                                  "noise (default 1e-6); pairs: of Q(l) over (sum |w|)^2 (1e-6); "
@@ -229,11 +243,11 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                              .set = ps_set_tolerance},
     [PS_OPTION_FLOOR] = {NAMED("floor", 0, "P"), OF(SPECTRA, 0),
                          .help = "powers down to P are right to 10 %", .set = ps_set_floor},
-    [PS_OPTION_PRECISION] = {NAMED("precision", 0, "auto|single|double|extended"), OF(SETS, SUITES),
+    [PS_OPTION_PRECISION] = {NAMED("precision", 0, "auto|single|double|extended"), OF(ENGINES, SUITES),
                              .help = "arithmetic of the engine (default auto: the cheapest that "
                                      "meets the tolerance)",
                              .set = ps_set_precision},
-    [PS_OPTION_ENGINE] = {NAMED("engine", 0, "NAME"), OF(SETS, SUITES),
+    [PS_OPTION_ENGINE] = {NAMED("engine", 0, "NAME"), OF(ENGINES, SUITES),
                           .help = "this engine; pointspec plan lists them (default: the cheapest)",
                           TEXT(limits.constraints.engine)},
     [PS_OPTION_CASE] = {NAMED("case", 0, "NAME"), OF(0, SUITES),
@@ -242,7 +256,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                              .help = "measure this device's figures for the planner and keep them",
                              FLAG(calibrate)},
     [PS_OPTION_DEVICE] = {NAMED("device", 0, "SELECTOR"),
-                          OF(0, SETS | SUITES | BIT(run) | BIT(devices) | BIT(doctor)),
+                          OF(0, ENGINES | SUITES | BIT(run) | BIT(devices) | BIT(doctor)),
                           .help = "OpenCL device: index, cpu, gpu, accelerator or part of a name "
                                   "(default: POINTSPEC_DEVICE, else the first GPU, else the first "
                                   "CPU)",
@@ -251,7 +265,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                          .help = "what the cache of results may take on the disk; 0: nothing is "
                                  "taken from it or kept (default 1e9)",
                          COUNT(cache_bytes), .minimum = 0, .maximum = INT64_MAX},
-    [PS_OPTION_KEPT_SETS] = {NAMED("kept-sets", 0, "BYTES"), OF(0, SETS | BIT(sample) | BIT(run)),
+    [PS_OPTION_KEPT_SETS] = {NAMED("kept-sets", 0, "BYTES"), OF(0, ENGINES | BIT(sample) | BIT(run)),
                              .help = "what sets of samplers that take long to make may take on the "
                                      "disk; 0: they are made anew (default 4e9)",
                              COUNT(limits.kept_bytes), .minimum = 0, .maximum = INT64_MAX},
@@ -263,10 +277,10 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                     .help = "answer the questions of a record by the engines, and "
                                             "in the precisions, that it names",
                                     FLAG(recorded_engines)},
-    [PS_OPTION_NO_SKIP] = {NAMED("no-skip", 0, NULL), OF(SETS, BIT(run)),
+    [PS_OPTION_NO_SKIP] = {NAMED("no-skip", 0, NULL), OF(ENGINES, BIT(run)),
                            .help = "do also what the question does not need",
                            FLAG(accuracy.no_skip)},
-    [PS_OPTION_NO_SELF_CHECK] = {NAMED("no-self-check", 0, NULL), OF(SPECTRA | BIT(check), 0),
+    [PS_OPTION_NO_SELF_CHECK] = {NAMED("no-self-check", 0, NULL), OF(SPECTRA | BIT(check) | BIT(variance), 0),
                                  .help = "do not recompute random entries with the referee",
                                  FLAG(accuracy.no_self_check)},
     [PS_OPTION_OUTPUT] = {NAMED("output", 'o', "FILE"),
@@ -280,21 +294,21 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                   "first of these)",
                           WORD(format)},
     [PS_OPTION_PLOT] = {NAMED("plot", 0, "FILE"),
-                        OF(0, SPECTRA | LOBES | BIT(bench) | BIT(sample) | BIT(convert)),
+                        OF(0, SPECTRA | LOBES | BIT(bench) | BIT(sample) | BIT(convert) | BIT(variance)),
                         .help = "draw a picture too: .png, .svg or .pdf; one that fails is a "
                                 "warning, and an error where nothing else is kept",
                         TEXT(plot)},
-    [PS_OPTION_PLOT_LOG] = {NAMED("plot-log", 0, "x|y|xy|none"), OF(0, SPECTRA | LOBES),
+    [PS_OPTION_PLOT_LOG] = {NAMED("plot-log", 0, "x|y|xy|none"), OF(0, SPECTRA | LOBES | BIT(variance)),
                             .help = "which axes of the picture are logarithmic",
                             .set = ps_set_plot_log},
-    [PS_OPTION_PLOT_RANGE] = {NAMED("plot-range", 0, "X0..X1,Y0..Y1"), OF(0, SPECTRA | LOBES),
+    [PS_OPTION_PLOT_RANGE] = {NAMED("plot-range", 0, "X0..X1,Y0..Y1"), OF(0, SPECTRA | LOBES | BIT(variance)),
                               .help = "what the axes of the picture show; X0..X1 alone, or ,Y0..Y1",
                               .set = ps_set_plot_range},
-    [PS_OPTION_PROFILE] = {NAMED("profile", 0, NULL), OF(0, SETS),
+    [PS_OPTION_PROFILE] = {NAMED("profile", 0, NULL), OF(0, ENGINES),
                            .help = "time, flop/s and bytes/s of every kernel on standard error",
                            FLAG(limits.profile)},
     [PS_OPTION_QUIET] = {NAMED("quiet", 0, NULL),
-                         OF(0, SETS | SUITES | BIT(truncation) | BIT(sample) | BIT(convert) |
+                         OF(0, ENGINES | SUITES | BIT(truncation) | BIT(sample) | BIT(convert) |
                                    BIT(run)),
                          .help = "no progress line, no remarks", FLAG(quiet)},
     [PS_OPTION_QUICK] = {NAMED("quick", 0, NULL), OF(0, SUITES),
@@ -304,7 +318,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                           .help = "time the scenes that are named instead, with and without skips, "
                                   "and compare the answers",
                           FLAG(scenes)},
-    [PS_OPTION_VERBOSE] = {NAMED("verbose", 0, NULL), OF(0, SETS),
+    [PS_OPTION_VERBOSE] = {NAMED("verbose", 0, NULL), OF(0, ENGINES),
                            .help = "say on standard error what is being done", FLAG(verbose)},
     [PS_OPTION_HELP] = {NAMED("help", 'h', NULL), OF(0, 0), .help = "this text",
                         .set = ps_set_nothing},

@@ -15,6 +15,7 @@
     KIND(pairs)                                                                                    \
     KIND(quadrature)                                                                               \
     KIND(truncation)                                                                               \
+    KIND(variance)                                                                                 \
     OTHER(sample)                                                                                  \
     OTHER(convert)                                                                                 \
     KIND(check)                                                                                    \

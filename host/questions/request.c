@@ -6,6 +6,7 @@ const ps_request ps_request_default = {
     .num_counts = 1,
     .counts = {1024},
     .num_realizations = 1,
+    .num_shifts = 1,
     .dimension = 2,
     .seed = 1,
     .cache_bytes = 1000000000,

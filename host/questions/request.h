@@ -17,7 +17,7 @@
 #include <stdint.h>
 
 /* The doubles of 1 up to the largest N are 34 numbers. */
-enum { PS_MAX_SAMPLERS = 16, PS_MAX_COUNTS = 64 };
+enum { PS_MAX_SAMPLERS = 16, PS_MAX_COUNTS = 64, PS_MAX_INTEGRANDS = 16 };
 
 typedef enum ps_option_id {
     PS_OPTION_POINTS,            /* -n, --points N,..|N..M */
@@ -26,6 +26,9 @@ typedef enum ps_option_id {
     PS_OPTION_DIMENSION,         /* -d, --dimension D */
     PS_OPTION_SEED,              /* -s, --seed S */
     PS_OPTION_SAMPLER,           /* --sampler NAME[:key=value,...], repeatable */
+    PS_OPTION_INTEGRAND,         /* --integrand NAME[:key=value,...] */
+    PS_OPTION_SHIFTS,            /* --shifts S */
+    PS_OPTION_IN_PLACE,          /* --in-place */
     PS_OPTION_AGAINST,           /* --against FILE */
     PS_OPTION_HOMOGENEOUS,       /* --homogeneous */
     PS_OPTION_FALSE_ALARM_RATE,  /* --false-alarm-rate P */
@@ -105,6 +108,10 @@ typedef struct ps_request {
     uint64_t seed;                        /* 1 unless given */
     size_t num_samplers;
     const char *samplers[PS_MAX_SAMPLERS];
+    size_t num_integrands;
+    const char *integrands[PS_MAX_INTEGRANDS];
+    uint64_t num_shifts; /* 1 unless given */
+    bool in_place;       /* sets are not moved */
     /* Zeros unless given: the defaults of docs/user/conventions.md. */
     ps_weights_spec weights;
     ps_frequencies_spec frequencies;

@@ -120,9 +120,9 @@ pspec_status ps_estimator_bin_means(ps_estimator *estimator, ps_mean *means,
 /* Mean and standard error, over realizations, of the weighted sums so far, in the units of the
  * result: means[options.num_weighted]. The mean is the weighted sum of the powers that
  * ps_estimator_spectrum has; under PSPEC_NORMALIZATION_INTEGRAL these are
- * mean(N) mean(|S|^2 / W^2), and with weights |f|^2 a variance of integrals is the sum over mean(N).
- * A frequency of the torus stands for itself, not for k and -k; on the sphere powers are those of
- * degrees, one for all of its orders. */
+ * mean(N) mean(|S|^2 / W^2), and with weights |f|^2 the variance of integrals is the sum divided by
+ * mean(N). A frequency of the torus stands for itself, not for k and -k; on the sphere a power is
+ * that of a degree, for all of its orders. */
 pspec_status ps_estimator_weighted(ps_estimator *estimator, ps_mean *means,
                                    ps_error *error) PS_MUST_CHECK;
 /* C_l^2 of pair sums, mean and standard error: means[number of degrees]; with want_c2 only. */

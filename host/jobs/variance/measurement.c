@@ -38,7 +38,7 @@ static size_t choose_batch(const ps_measurement_plan *plan) {
 }
 
 static ps_precision choose_precision(const ps_device *device) {
-    return device != NULL && ps_device_get_limits(device)->has_double ? PS_DOUBLE : PS_SINGLE;
+    return device != NULL && ps_device_get_limits(device)->has_fp64 ? PS_DOUBLE : PS_SINGLE;
 }
 
 static pspec_status create_trials(measurement *self, ps_error *error) {

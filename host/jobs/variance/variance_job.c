@@ -61,10 +61,23 @@ static pspec_status weigh(void *payload, const ps_frequencies *frequencies, doub
 
 /* ---- create -------------------------------------------------------------------------------- */
 
+static ps_integrand_place place_of(const ps_variance_question *question) {
+    const ps_sampler_request *const sampler = question->spectrum.sampler;
+    return (ps_integrand_place){ps_sampler_where(sampler), sampler->dimension};
+}
+
+pspec_status ps_variance_question_check(const ps_variance_question *question, ps_error *error) {
+    for (size_t i = 0; i < question->num_integrands; i++) {
+        ps_integrand *integrand = NULL;
+        PS_TRY(ps_integrand_parse(&integrand, question->texts[i], place_of(question), error));
+        ps_integrand_destroy(integrand);
+    }
+    return PSPEC_OK;
+}
+
 static pspec_status parse_integrands(ps_variance_job *job, ps_error *error) {
     const ps_variance_question *const question = job->question;
-    const ps_sampler_request *const sampler = question->spectrum.sampler;
-    const ps_integrand_place place = {ps_sampler_where(sampler), sampler->dimension};
+    const ps_integrand_place place = place_of(question);
     const size_t num = question->num_integrands;
     PS_TRY(PS_NEW(&job->integrands, num, "integrands", error));
     PS_TRY(PS_NEW(&job->held, num, "energies", error));

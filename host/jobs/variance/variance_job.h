@@ -33,6 +33,10 @@ typedef struct ps_variance_row {
 
 typedef struct ps_variance_job ps_variance_job;
 
+/* Are there such integrands where the points of the sampler are? */
+pspec_status ps_variance_question_check(const ps_variance_question *question,
+                                        ps_error *error) PS_MUST_CHECK;
+
 /* Parses the integrands and plans the spectrum. The question must outlive the job. */
 pspec_status ps_variance_job_create(ps_variance_job **out, const ps_variance_question *question,
                                     ps_error *error) PS_MUST_CHECK;
