@@ -1,6 +1,7 @@
 /* --help: everything comes from the tables of commands, options and samplers. */
 #include "cli/command.h"
 #include "integrands/brdf.h"
+#include "integrands/integrand.h"
 #include "questions/options.h"
 #include "samplers/sampler.h"
 
@@ -113,15 +114,29 @@ static void print_samplers(FILE *stream, ps_domain domain) {
 
 /* ---- BRDFs --------------------------------------------------------------------------------- */
 
+static void print_parameters(FILE *stream, const ps_parameter *parameters) {
+    for (const ps_parameter *p = parameters; p->key != NULL; p++) {
+        char term[128];
+        snprintf(term, sizeof term, "  :%s=%s", p->key, p->default_value);
+        print_item(stream, term, p->meaning);
+    }
+}
+
 static void print_brdfs(FILE *stream) {
     fputs("\nBRDFs, with the defaults of their parameters:\n", stream);
     for (size_t i = 0; ps_brdf_kinds[i] != NULL; i++) {
         print_item(stream, ps_brdf_kinds[i]->name, ps_brdf_kinds[i]->summary);
-        for (const ps_parameter *p = ps_brdf_kinds[i]->parameters; p->key != NULL; p++) {
-            char term[128];
-            snprintf(term, sizeof term, "  :%s=%s", p->key, p->default_value);
-            print_item(stream, term, p->meaning);
-        }
+        print_parameters(stream, ps_brdf_kinds[i]->parameters);
+    }
+}
+
+/* ---- integrands ---------------------------------------------------------------------------- */
+
+static void print_integrands(FILE *stream) {
+    fputs("\nIntegrands, with the defaults of their parameters:\n", stream);
+    for (size_t i = 0; ps_integrand_kinds[i] != NULL; i++) {
+        print_item(stream, ps_integrand_kinds[i]->name, ps_integrand_kinds[i]->summary);
+        print_parameters(stream, ps_integrand_kinds[i]->parameters);
     }
 }
 
@@ -142,6 +157,9 @@ void ps_help_command(FILE *stream, const ps_command *command) {
     }
     if (ps_command_takes(command, PS_OPTION_BRDF)) {
         print_brdfs(stream);
+    }
+    if (ps_command_takes(command, PS_OPTION_INTEGRAND)) {
+        print_integrands(stream);
     }
     fputs("\nExamples:\n", stream);
     for (size_t i = 0; i < sizeof command->examples / sizeof command->examples[0]; i++) {

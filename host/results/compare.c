@@ -109,6 +109,32 @@ double ps_compare_rules(const ps_table *a, const ps_table *b) {
     return apart(e * e, f * f, bound, scatter);
 }
 
+/* An error e of amplitudes relative to white noise, whose variance is `white`, is one of a variance
+ * v by sqrt(v) -> sqrt(v) + e sqrt(white); single precision of values is one of that kind. */
+static double variances_apart(const ps_table *a, const ps_table *b, size_t row, const char *name,
+                              const char *error_name) {
+    const double single = 1e-6;
+    const double e = meta_number(a, "predicted_error") + meta_number(b, "predicted_error") + single;
+    const double v = value_at(a, row, name);
+    const double white = value_at(a, row, "white");
+    const double scatter = are_other_realizations(a, b) ? scatter_of(value_at(a, row, error_name),
+                                                                     value_at(b, row, error_name))
+                                                        : 0;
+    return apart(v, value_at(b, row, name), e * (2 * sqrt(fabs(v * white)) + e * white), scatter);
+}
+
+double ps_compare_variances(const ps_table *a, const ps_table *b) {
+    double worst = 0;
+    if (!have_same_rows(a, b)) {
+        return INFINITY;
+    }
+    for (size_t row = 0; row < ps_table_num_rows(a); row++) {
+        worst = fmax(worst, variances_apart(a, b, row, "predicted", "predicted_error"));
+        worst = fmax(worst, variances_apart(a, b, row, "measured", "measured_error"));
+    }
+    return worst;
+}
+
 double ps_compare_verdicts(const ps_table *a, const ps_table *b) {
     const ps_cell x = ps_table_find_meta(a, "verdict");
     const ps_cell y = ps_table_find_meta(b, "verdict");

@@ -11,6 +11,8 @@ double ps_compare_powers(const ps_table *a, const ps_table *b);
 double ps_compare_pair_sums(const ps_table *a, const ps_table *b);
 /* The squared worst-case error of the header; rows may be others. */
 double ps_compare_rules(const ps_table *a, const ps_table *b);
+/* Tables of variance: predictions and measurements, in their standard errors. */
+double ps_compare_variances(const ps_table *a, const ps_table *b);
 /* Verdicts alone: 0 where both say the same, or one says nothing. */
 double ps_compare_verdicts(const ps_table *a, const ps_table *b);
 

@@ -24,9 +24,16 @@
  */
 #include "integrands/ball.h"
 #include "integrands/box.h"
+#include "integrands/cap.h"
 #include "integrands/constant.h"
+#include "integrands/diffuse.h"
 #include "integrands/gaussian.h"
+#include "integrands/glossy.h"
 #include "integrands/half_plane.h"
+#include "integrands/harmonic.h"
+#include "integrands/lobe.h"
+#include "integrands/phong.h"
+#include "integrands/square.h"
 #include "integrands/wave.h"
 
 #include "integrands/values.h"

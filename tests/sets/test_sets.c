@@ -26,7 +26,7 @@ static ps_sampler_request ask(const char *text, unsigned dimension) {
 
 static ps_sets *open_sets(void **state, const ps_sampler_request *request) {
     const test_folder *const folder = *state;
-    const ps_sets_options options = {{folder->path, 1 << 30}, 0};
+    const ps_sets_options options = {{folder->path, 1 << 30}, 0, 0};
     ps_sets *sets = NULL;
     assert_int_equal(ps_sets_create(&sets, request, NUM_SETS, &options, NULL), PSPEC_OK);
     return sets;
@@ -127,7 +127,7 @@ static void nothing_is_kept_without_a_place(void **state) {
     const test_folder *const folder = *state;
     const ps_sampler_request request = ask("bnot", 2);
     const ps_sets_options none[] = {
-        {{NULL, 1 << 30}, 0}, {{folder->path, 0}, 0}, {{folder->path, 2048}, 0}};
+        {{NULL, 1 << 30}, 0, 0}, {{folder->path, 0}, 0, 0}, {{folder->path, 2048}, 0, 0}};
     for (unsigned i = 0; i < sizeof none / sizeof none[0]; i++) {
         ps_sets *sets = NULL;
         assert_int_equal(ps_sets_create(&sets, &request, NUM_SETS, &none[i], NULL), PSPEC_OK);
@@ -157,7 +157,7 @@ static void a_limit_of_memory_changes_no_bit(void **state) {
     const ps_sampler_request request = ask("bnot", 2);
     for (uint64_t limit = 1; limit < (uint64_t)1 << 24; limit *= 8) {
         ps_sets *sets = NULL;
-        const ps_sets_options options = {{NULL, 0}, limit};
+        const ps_sets_options options = {{NULL, 0}, limit, 0};
         assert_int_equal(ps_sets_create(&sets, &request, NUM_SETS, &options, NULL), PSPEC_OK);
         take_all(sets, &request);
         ps_sets_destroy(sets);
