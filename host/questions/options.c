@@ -34,6 +34,7 @@
 #define SETS (SPECTRA | BIT(quadrature) | BIT(check))
 #define LOBES (BIT(quadrature) | BIT(truncation))
 #define ENGINES (SETS | BIT(variance))
+#define PICTURES (SPECTRA | LOBES | BIT(variance))
 #define SUITES (BIT(bench) | BIT(stress))
 #define TABLES (ENGINES | SUITES | BIT(truncation) | BIT(devices))
 
@@ -58,13 +59,15 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                  "degree X (above --floor; at least 16); -m is then the most (default 1e6)",
          .set = ps_set_standard_error},
     [PS_OPTION_DIMENSION] = {NAMED("dimension", 'd', "D"),
-                             OF(BIT(power) | BIT(check) | BIT(sample) | BIT(variance), BIT(convert)),
+                             OF(BIT(power) | BIT(check) | BIT(variance) | BIT(sample),
+                                BIT(convert)),
                              .help = "dimension, 1 to 6 (default 2; of files: what they have)",
                              .set = ps_set_dimension, .minimum = 1, .maximum = PS_MAX_DIMENSION},
     [PS_OPTION_SEED] = {NAMED("seed", 's', "S"), OF(ENGINES | BIT(sample), 0),
                         .help = "seed, 0 to 2^64 - 1 (default 1); same seed, same bits",
                         COUNT(seed), .minimum = 0, .maximum = UINT64_MAX},
-    [PS_OPTION_SAMPLER] = {NAMED("sampler", 0, "NAME[:key=value,...]"), OF(ENGINES | BIT(sample), 0),
+    [PS_OPTION_SAMPLER] = {NAMED("sampler", 0, "NAME[:key=value,...]"),
+                           OF(ENGINES | BIT(sample), 0),
                            .help = "what makes the points; the names are below",
                            .set = ps_add_sampler},
     [PS_OPTION_INTEGRAND] = {NAMED("integrand", 0, "NAME[:key=value,...]"), OF(BIT(variance), 0),
@@ -97,12 +100,14 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                               .help = "of the integrands, functions of the Sobolev space H^S, "
                                       "1 < S < 2 (default 1.5)",
                               .set = ps_set_smoothness},
-    [PS_OPTION_MAX_FREQUENCY] = {NAMED("max-frequency", 'k', "K"), OF(BIT(power) | BIT(check) | BIT(variance), 0),
+    [PS_OPTION_MAX_FREQUENCY] = {NAMED("max-frequency", 'k', "K"),
+                                 OF(BIT(power) | BIT(check) | BIT(variance), 0),
                                  .help = "frequencies -K..K on every axis, rings 1..K (default "
                                          "ceil(5 N^(1/d)) for d <= 3; check: 2 N^(1/d))",
                                  .set = ps_set_max_frequency, .minimum = 1,
                                  .maximum = PS_MAX_FREQUENCY},
-    [PS_OPTION_MAX_DEGREE] = {NAMED("max-degree", 'l', "L"), OF(SPHERES | LOBES | BIT(check) | BIT(variance), 0),
+    [PS_OPTION_MAX_DEGREE] = {NAMED("max-degree", 'l', "L"),
+                              OF(SPHERES | LOBES | BIT(check) | BIT(variance), 0),
                               .help =
                                   "the largest degree (default ceil(4 sqrt N), for quadrature at "
                                   "most; truncation: 20)",
@@ -243,7 +248,8 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                              .set = ps_set_tolerance},
     [PS_OPTION_FLOOR] = {NAMED("floor", 0, "P"), OF(SPECTRA, 0),
                          .help = "powers down to P are right to 10 %", .set = ps_set_floor},
-    [PS_OPTION_PRECISION] = {NAMED("precision", 0, "auto|single|double|extended"), OF(ENGINES, SUITES),
+    [PS_OPTION_PRECISION] = {NAMED("precision", 0, "auto|single|double|extended"),
+                             OF(ENGINES, SUITES),
                              .help = "arithmetic of the engine (default auto: the cheapest that "
                                      "meets the tolerance)",
                              .set = ps_set_precision},
@@ -265,7 +271,8 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                          .help = "what the cache of results may take on the disk; 0: nothing is "
                                  "taken from it or kept (default 1e9)",
                          COUNT(cache_bytes), .minimum = 0, .maximum = INT64_MAX},
-    [PS_OPTION_KEPT_SETS] = {NAMED("kept-sets", 0, "BYTES"), OF(0, ENGINES | BIT(sample) | BIT(run)),
+    [PS_OPTION_KEPT_SETS] = {NAMED("kept-sets", 0, "BYTES"),
+                             OF(0, ENGINES | BIT(sample) | BIT(run)),
                              .help = "what sets of samplers that take long to make may take on the "
                                      "disk; 0: they are made anew (default 4e9)",
                              COUNT(limits.kept_bytes), .minimum = 0, .maximum = INT64_MAX},
@@ -280,7 +287,8 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_NO_SKIP] = {NAMED("no-skip", 0, NULL), OF(ENGINES, BIT(run)),
                            .help = "do also what the question does not need",
                            FLAG(accuracy.no_skip)},
-    [PS_OPTION_NO_SELF_CHECK] = {NAMED("no-self-check", 0, NULL), OF(SPECTRA | BIT(check) | BIT(variance), 0),
+    [PS_OPTION_NO_SELF_CHECK] = {NAMED("no-self-check", 0, NULL),
+                                 OF(SPECTRA | BIT(check) | BIT(variance), 0),
                                  .help = "do not recompute random entries with the referee",
                                  FLAG(accuracy.no_self_check)},
     [PS_OPTION_OUTPUT] = {NAMED("output", 'o', "FILE"),
@@ -294,14 +302,14 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                   "first of these)",
                           WORD(format)},
     [PS_OPTION_PLOT] = {NAMED("plot", 0, "FILE"),
-                        OF(0, SPECTRA | LOBES | BIT(bench) | BIT(sample) | BIT(convert) | BIT(variance)),
+                        OF(0, PICTURES | BIT(bench) | BIT(sample) | BIT(convert)),
                         .help = "draw a picture too: .png, .svg or .pdf; one that fails is a "
                                 "warning, and an error where nothing else is kept",
                         TEXT(plot)},
-    [PS_OPTION_PLOT_LOG] = {NAMED("plot-log", 0, "x|y|xy|none"), OF(0, SPECTRA | LOBES | BIT(variance)),
+    [PS_OPTION_PLOT_LOG] = {NAMED("plot-log", 0, "x|y|xy|none"), OF(0, PICTURES),
                             .help = "which axes of the picture are logarithmic",
                             .set = ps_set_plot_log},
-    [PS_OPTION_PLOT_RANGE] = {NAMED("plot-range", 0, "X0..X1,Y0..Y1"), OF(0, SPECTRA | LOBES | BIT(variance)),
+    [PS_OPTION_PLOT_RANGE] = {NAMED("plot-range", 0, "X0..X1,Y0..Y1"), OF(0, PICTURES),
                               .help = "what the axes of the picture show; X0..X1 alone, or ,Y0..Y1",
                               .set = ps_set_plot_range},
     [PS_OPTION_PROFILE] = {NAMED("profile", 0, NULL), OF(0, ENGINES),

@@ -160,9 +160,13 @@ void ps_plan_table_add_picture(ps_phases *phases, const ps_request *arguments) {
 }
 
 pspec_status ps_plan_table_add_power(ps_planner *planner, const ps_request *arguments,
-                                     const ps_power_job *job, size_t index, ps_error *error) {
+                                     const ps_power_job *job, const ps_plan_more *more,
+                                     size_t index, ps_error *error) {
     ps_phases phases = ps_plan_table_begin_phases(planner);
     const double repeats = ps_power_job_phases(job, &phases);
+    if (more != NULL) {
+        more->add(more->job, &phases);
+    }
     ps_plan_table_add_picture(&phases, arguments);
     PS_TRY(add_header(planner, arguments, ps_power_job_problem(job), ps_power_job_needs(job),
                       ps_power_job_limits(job), index, error));

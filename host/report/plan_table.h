@@ -34,12 +34,18 @@ pspec_status ps_plan_table_find_lack(const ps_planner *planner,
                                      const ps_plan_constraints *constraints, bool *lacks_device,
                                      ps_error *error) PS_MUST_CHECK;
 
+/* Phases of a job whose spectrum is a part of it. */
+typedef struct ps_plan_more {
+    void (*add)(const void *job, ps_phases *phases);
+    const void *job;
+} ps_plan_more;
+
 /* What is asked by number `index` of the questions of a request, what is skipped and why, and what
  * takes how long, as header lines; every engine as a row. The seconds of a row are those of the
- * whole job with that engine. */
+ * whole job with that engine. more: NULL where the spectrum is all. */
 pspec_status ps_plan_table_add_power(ps_planner *planner, const ps_request *request,
-                                     const ps_power_job *job, size_t index,
-                                     ps_error *error) PS_MUST_CHECK;
+                                     const ps_power_job *job, const ps_plan_more *more,
+                                     size_t index, ps_error *error) PS_MUST_CHECK;
 pspec_status ps_plan_table_add_quadrature(ps_planner *planner, const ps_request *request,
                                           const ps_quadrature_question *question,
                                           const ps_quadrature_setup *setup, size_t index,

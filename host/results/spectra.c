@@ -133,7 +133,7 @@ pspec_status ps_spectra_plan_list(ps_planner *planner, const ps_request *request
                                        &question->may_lack_device, error));
         PS_TRY(ps_power_job_create(&job, question, error));
         ps_power_job_rate_skips(job);
-        const pspec_status status = ps_plan_table_add_power(planner, request, job, i, error);
+        const pspec_status status = ps_plan_table_add_power(planner, request, job, NULL, i, error);
         ps_power_job_destroy(job);
         PS_TRY(status);
     }

@@ -1,7 +1,7 @@
 /* The variance of Monte Carlo integration, predicted from spectra and measured beside it. */
 #include "base/memory.h"
 #include "questions/variance_question.h"
-#include "report/variance_table.h"
+#include "report/variance/variance_table.h"
 #include "results/compare.h"
 #include "results/spectra.h"
 
@@ -22,6 +22,10 @@ static pspec_status check_question(const ps_request *request, ps_error *error) {
 
 /* ---- plan ---------------------------------------------------------------------------------- */
 
+static void add_trials(const void *job, ps_phases *phases) {
+    ps_variance_job_phases(job, phases);
+}
+
 static pspec_status plan_one(ps_planner *planner, const ps_request *request,
                              ps_variance_question *question, size_t index, ps_error *error) {
     ps_variance_job *job = NULL;
@@ -30,8 +34,9 @@ static pspec_status plan_one(ps_planner *planner, const ps_request *request,
     PS_TRY(ps_plan_table_find_lack(planner, &question->spectrum.limits.constraints,
                                    &question->spectrum.may_lack_device, error));
     PS_TRY(ps_variance_job_create(&job, question, error));
-    const pspec_status status =
-        ps_plan_table_add_power(planner, request, ps_variance_job_spectrum(job), index, error);
+    const ps_plan_more more = {add_trials, job};
+    const pspec_status status = ps_plan_table_add_power(
+        planner, request, ps_variance_job_spectrum(job), &more, index, error);
     ps_variance_job_destroy(job);
     return status;
 }

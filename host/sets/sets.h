@@ -16,8 +16,8 @@ typedef struct ps_sets_options {
     uint64_t first;        /* realization */
 } ps_sets_options;
 
-/* Realizations first .. first + num_realizations - 1; request is resolved, and copied, and so are options, but
- * for the name of the folder. */
+/* Realizations first .. first + num_realizations - 1; request is resolved, and copied, and so are
+ * options, but for the name of the folder. */
 pspec_status ps_sets_create(ps_sets **out, const ps_sampler_request *request,
                             uint64_t num_realizations, const ps_sets_options *options,
                             ps_error *error) PS_MUST_CHECK;

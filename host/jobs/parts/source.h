@@ -15,9 +15,9 @@
 
 typedef struct ps_source ps_source;
 
-/* num_realizations realizations of the sampler, from options->first on, with torus coordinates or unit vectors;
- * request is resolved, and copied, and so is watch, which may be NULL: it is told while the points
- * of a large set are made. */
+/* num_realizations realizations of the sampler, from options->first on, with torus coordinates or
+ * unit vectors; request is resolved, and copied, and so is watch, which may be NULL: it is told
+ * while the points of a large set are made. */
 pspec_status ps_source_sampler(ps_source **out, const ps_sampler_request *request,
                                uint64_t num_realizations, const ps_sets_options *options,
                                const ps_watch *watch, ps_error *error) PS_MUST_CHECK;

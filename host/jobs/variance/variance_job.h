@@ -9,6 +9,7 @@
 
 #include "integrands/integrand.h"
 #include "jobs/spectrum/power_job.h"
+#include "plan/phases.h"
 
 typedef struct ps_variance_question {
     /* Of the prediction: a sampler, under the normalization of integrals; its weighted sums are
@@ -43,6 +44,8 @@ pspec_status ps_variance_job_create(ps_variance_job **out, const ps_variance_que
 void ps_variance_job_destroy(ps_variance_job *job); /* NULL is allowed */
 pspec_status ps_variance_job_run(ps_variance_job *job, ps_error *error) PS_MUST_CHECK;
 
+/* Adds what the measurement comes to: its points, and trials. */
+void ps_variance_job_phases(const ps_variance_job *job, ps_phases *phases);
 /* The job of the prediction: its plan, and what it found. */
 ps_power_job *ps_variance_job_spectrum(const ps_variance_job *job);
 const ps_integrand *ps_variance_job_integrand(const ps_variance_job *job, size_t index);

@@ -1,7 +1,7 @@
 /* Variances against N. */
 #include "base/memory.h"
 #include "plots/plot.h"
-#include "report/variance_table.h"
+#include "report/variance/variance_table.h"
 
 #include <math.h>
 #include <stdlib.h>

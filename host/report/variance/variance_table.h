@@ -1,6 +1,6 @@
 /* Tables and pictures of variances. */
-#ifndef PS_REPORT_VARIANCE_TABLE_H
-#define PS_REPORT_VARIANCE_TABLE_H
+#ifndef PS_REPORT_VARIANCE_VARIANCE_TABLE_H
+#define PS_REPORT_VARIANCE_VARIANCE_TABLE_H
 
 #include "jobs/variance/variance_job.h"
 #include "questions/request.h"

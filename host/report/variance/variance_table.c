@@ -1,4 +1,4 @@
-#include "report/variance_table.h"
+#include "report/variance/variance_table.h"
 
 #include "base/memory.h"
 #include "report/lead.h"
