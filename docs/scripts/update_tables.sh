@@ -53,6 +53,8 @@ table_pairs_routes() {
     bench_pairs routes >"$docs/../bench-output/pairs_routes.txt" &&
         "$docs/scripts/pairs_routes.sh" table "$docs/../bench-output/pairs_routes.txt"
 }
+# CPU time, and the clock beside it.
+table_bench_integrands() { bench integrands; }
 table_bench_weights() { bench weights; }
 bench_blue_noise() { # MODE
     need bench/bench_blue_noise && "$build/bench/bench_blue_noise" "$1"

@@ -177,7 +177,7 @@ void ps_device_trials_destroy(ps_device_trials *trials) {
 
 /* ---- what goes to the device ----------------------------------------------------------------- */
 
-/* How numbers go to the device. */
+/* How numbers go to the device; apart 0: one for all. */
 typedef struct putting {
     const double *from;
     size_t apart, num;

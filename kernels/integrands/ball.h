@@ -9,7 +9,7 @@ enum { BALL_CENTRE = 0, BALL_RADIUS = 6 }; /* places among the numbers */
 
 static inline realv ball_value(const realv *x, const unsigned dimension, const real *numbers) {
     realv norm2 = 0;
-    for (unsigned i = 0; i < dimension; i++) {
+    FOR_AXES(unsigned i = 0; i < dimension; i++) {
         const realv difference = fold_difference(x[i], numbers[BALL_CENTRE + i]);
         norm2 += difference * difference;
     }

@@ -8,7 +8,7 @@ enum { BOX_CENTRE = 0, BOX_SIDES = 6 }; /* places among the numbers */
 
 static inline realv box_value(const realv *x, const unsigned dimension, const real *numbers) {
     realv inside = 1;
-    for (unsigned i = 0; i < dimension; i++) {
+    FOR_AXES(unsigned i = 0; i < dimension; i++) {
         const realv difference = fold_difference(x[i], numbers[BOX_CENTRE + i]);
         inside = fabs(difference) < (real)0.5 * numbers[BOX_SIDES + i] ? inside : (realv)0;
     }

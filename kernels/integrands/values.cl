@@ -36,6 +36,7 @@
 #include "integrands/square.h"
 #include "integrands/wave.h"
 
+#include "integrands/fold.h"
 #include "integrands/values.h"
 #include "shared/lanes.h"
 #include "shared/pair.h"
@@ -67,22 +68,23 @@ typedef values_singles integrand_numbers;
 #endif
 
 #if ROTATE
-static inline void move_points(realv *x, const real *move) {
+static inline __attribute__((always_inline)) void move_points(realv *x, const real *move) {
     realv to[3];
-    for (uint i = 0; i < 3; i++) {
+    FOR_AXES(uint i = 0; i < 3; i++) {
         to[i] = x[0] * move[3 * i] + x[1] * move[3 * i + 1] + x[2] * move[3 * i + 2];
     }
     const realv side = FOLD ? (to[2] < (realv)0 ? (realv)-1 : (realv)1) : (realv)1;
-    for (uint i = 0; i < 3; i++) {
+    FOR_AXES(uint i = 0; i < 3; i++) {
         x[i] = to[i] * side;
     }
 }
 #else
-/* Of numbers that may have been rounded to 1, and their sum to 2. */
-static inline void move_points(realv *x, const real *move) {
-    for (uint i = 0; i < DIMENSION; i++) {
-        const realv sum = x[i] + move[i];
-        x[i] = sum - floor(sum);
+/* Of numbers that may have been rounded to 1, and their sum to 2: less 1 twice. */
+static inline __attribute__((always_inline)) void move_points(realv *x, const real *move) {
+    FOR_AXES(uint i = 0; i < DIMENSION; i++) {
+        realv sum = x[i] + move[i];
+        sum -= sum >= (realv)1 ? (realv)1 : (realv)0;
+        x[i] = sum - (sum >= (realv)1 ? (realv)1 : (realv)0);
     }
 }
 #endif
@@ -93,7 +95,7 @@ static inline void store_sum(__global real *sum, const realv high, const realv l
     realv all = 0, rest = 0;
     STOREV(high, 0, highs);
     STOREV(low, 0, lows);
-    for (uint i = 0; i < LANES; i++) {
+    FOR_AXES(uint i = 0; i < LANES; i++) {
         pair_add(&all, &rest, (realv)highs[i]);
         rest += (realv)lows[i];
     }
@@ -114,14 +116,13 @@ __kernel void integrand_values(const values_sizes sizes, const integrand_numbers
     }
     const values_piece own = pieces[piece];
     real move[MOVE_NUMBERS];
-    for (uint i = 0; i < MOVE_NUMBERS; i++) {
+    FOR_AXES(uint i = 0; i < MOVE_NUMBERS; i++) {
         move[i] = moves[(own.set * sizes.num_trials + trial) * MOVE_NUMBERS + i];
     }
     realv high = 0, low = 0;
     for (uint v = 0; v < own.num_vectors; v++) {
         realv x[DIMENSION];
-#pragma unroll
-        for (uint i = 0; i < DIMENSION; i++) {
+        FOR_AXES(uint i = 0; i < DIMENSION; i++) {
             x[i] = load_global(points + i * sizes.capacity, own.first + v);
         }
         move_points(x, move);

@@ -182,6 +182,14 @@ static void gaussian_that_is_cut(void **state) {
     }
 }
 
+static void nearest_whole_numbers(void **state) {
+    const real halves[] = {0, (real)0.5, (real)-0.5, (real)1.5, (real)-1, (real)0.499, 4000001};
+    (void)state;
+    for (size_t i = 0; i < sizeof halves / sizeof halves[0]; i++) {
+        assert_true(nearest_whole(halves[i]) == rint(halves[i]));
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ball),
@@ -191,6 +199,8 @@ int main(void) {
         cmocka_unit_test(wave),
         cmocka_unit_test(gaussian),
         cmocka_unit_test(gaussian_that_is_cut),
+
+        cmocka_unit_test(nearest_whole_numbers),
     };
     return cmocka_run_group_tests_name("integrand_headers", tests, NULL, NULL);
 }
