@@ -1,6 +1,7 @@
 #include "jobs/variance/measurement.h"
 
 #include "base/memory.h"
+#include "base/round.h"
 #include "math/random/rotation.h"
 #include "spectra/sums.h"
 #include "trials/trials.h"
@@ -9,18 +10,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Points of a batch together: some megabytes, which keep a device busy and caches warm. */
-enum { BATCH_POINTS = 1 << 18, MOST_BATCH = 256 };
+/* Points of a batch together: some megabytes, which keep a device busy and caches warm. Values of
+ * one call: half a second of a processor, after which somebody may stop the work. */
+enum { BATCH_POINTS = 1 << 18, BATCH_TRIALS = 1 << 18, MOST_BATCH = 256, CALL_VALUES = 1 << 24 };
 
 typedef struct measurement {
     const ps_measurement_plan *plan;
-    size_t batch;
+    size_t batch; /* sets at a time; 1 where the shifts of one are several calls */
+    size_t trials_of_call, num_calls;
     ps_source *source;
     ps_point_set *sets;      /* [batch] */
     pspec_pattern *patterns; /* [batch] */
     ps_trials **trials;      /* [num_integrands] */
-    double *moves;           /* [batch][num_shifts][numbers of a move] */
-    double *estimates;       /* [batch][num_shifts] */
+    double *moves;           /* [batch][num_calls][trials_of_call][numbers of a move] */
+    double *estimates;       /* [batch][num_calls][trials_of_call] */
     ps_sums *sums;           /* [num_integrands] of the means of squares of a set */
 } measurement;
 
@@ -30,11 +33,24 @@ static size_t move_numbers(const measurement *self) {
     return ps_trials_move_numbers(self->plan->integrands[0]);
 }
 
-static size_t choose_batch(const ps_measurement_plan *plan) {
-    const size_t most = ps_sampler_most_points(plan->sampler);
-    const size_t fit = most < BATCH_POINTS ? BATCH_POINTS / most : 1;
-    const size_t some = fit < MOST_BATCH ? fit : MOST_BATCH;
-    return plan->num_sets < some ? (size_t)plan->num_sets : some;
+static size_t least(size_t a, size_t b) {
+    return a < b ? a : b;
+}
+
+static size_t divide(size_t a, size_t b) { /* at least 1 */
+    return a > b ? a / b : 1;
+}
+
+static void choose_sizes(measurement *self) {
+    const ps_measurement_plan *const plan = self->plan;
+    const size_t points = ps_sampler_most_points(plan->sampler);
+    const size_t num_shifts = (size_t)plan->num_shifts;
+    self->trials_of_call = least(num_shifts, divide(CALL_VALUES, points));
+    self->num_calls = ps_divide_up(num_shifts, self->trials_of_call);
+    const size_t fit = least(divide(BATCH_POINTS, points), divide(BATCH_TRIALS, num_shifts));
+    const size_t quick = divide(CALL_VALUES, points * self->trials_of_call);
+    const size_t most = self->num_calls > 1 ? 1 : least(least(fit, quick), MOST_BATCH);
+    self->batch = plan->num_sets < most ? (size_t)plan->num_sets : most;
 }
 
 static ps_precision choose_precision(const ps_device *device) {
@@ -46,7 +62,7 @@ static pspec_status create_trials(measurement *self, ps_error *error) {
     const ps_trials_options options = {.precision = choose_precision(plan->device),
                                        .batch = self->batch,
                                        .most_points = ps_sampler_most_points(plan->sampler),
-                                       .num_trials = plan->num_shifts};
+                                       .num_trials = self->trials_of_call};
     PS_TRY(PS_NEW(&self->trials, plan->num_integrands, "trials", error));
     for (size_t i = 0; i < plan->num_integrands; i++) {
         PS_TRY(
@@ -57,7 +73,7 @@ static pspec_status create_trials(measurement *self, ps_error *error) {
 
 static pspec_status allocate(measurement *self, ps_error *error) {
     const ps_measurement_plan *const plan = self->plan;
-    const size_t num_trials = self->batch * plan->num_shifts;
+    const size_t num_trials = self->batch * self->num_calls * self->trials_of_call;
     PS_TRY(PS_NEW(&self->sets, self->batch, "point sets", error));
     PS_TRY(PS_NEW(&self->patterns, self->batch, "point sets", error));
     PS_TRY(PS_NEW(&self->moves, num_trials * move_numbers(self), "shifts", error));
@@ -84,7 +100,7 @@ static void release(measurement *self) {
 
 /* ---- trials -------------------------------------------------------------------------------- */
 
-/* Moves of a realization depend on its number alone. */
+/* Moves of a realization depend on its number alone. Those behind the last shift are 0. */
 static void make_moves(const measurement *self, uint64_t realization, double *moves) {
     const ps_measurement_plan *const plan = self->plan;
     const size_t numbers = move_numbers(self);
@@ -103,7 +119,7 @@ static void make_moves(const measurement *self, uint64_t realization, double *mo
 }
 
 static pspec_status fill_batch(measurement *self, uint64_t first, size_t num, ps_error *error) {
-    const size_t numbers = self->plan->num_shifts * move_numbers(self);
+    const size_t numbers = self->num_calls * self->trials_of_call * move_numbers(self);
     for (size_t i = 0; i < num; i++) {
         ps_point_set *const set = &self->sets[i];
         ps_source_part part;
@@ -125,15 +141,30 @@ static double mean_square(const double *estimates, size_t num, double exact) {
     return (double)(sum / num);
 }
 
-static pspec_status run_batch(measurement *self, size_t num, ps_error *error) {
+/* All trials of the batch, of one integrand. */
+static pspec_status estimate(measurement *self, size_t integrand, uint64_t done, size_t num,
+                             ps_error *error) {
     const ps_measurement_plan *const plan = self->plan;
-    const double *const moves = plan->is_moved ? self->moves : NULL;
+    const size_t numbers = self->trials_of_call * move_numbers(self);
+    for (size_t call = 0; call < self->num_calls; call++) {
+        const double *const moves = plan->is_moved ? self->moves + call * numbers : NULL;
+        PS_TRY(ps_trials_run(self->trials[integrand], self->patterns, num, moves,
+                             self->estimates + call * self->trials_of_call, error));
+        PS_TRY(
+            ps_watch_tell(plan->watch, "realizations measured", done, plan->num_sets, NULL, error));
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status run_batch(measurement *self, uint64_t done, size_t num, ps_error *error) {
+    const ps_measurement_plan *const plan = self->plan;
+    const size_t stride = self->num_calls * self->trials_of_call;
     for (size_t i = 0; i < plan->num_integrands; i++) {
         const double exact = ps_integrand_integral(plan->integrands[i]);
-        PS_TRY(ps_trials_run(self->trials[i], self->patterns, num, moves, self->estimates, error));
+        PS_TRY(estimate(self, i, done, num, error));
         for (size_t r = 0; r < num; r++) {
-            ps_sums_add(&self->sums[i], mean_square(self->estimates + r * plan->num_shifts,
-                                                    plan->num_shifts, exact));
+            ps_sums_add(&self->sums[i],
+                        mean_square(self->estimates + r * stride, (size_t)plan->num_shifts, exact));
         }
     }
     return PSPEC_OK;
@@ -145,16 +176,17 @@ static pspec_status run_all(measurement *self, ps_error *error) {
         const uint64_t left = plan->num_sets - done;
         const size_t num = left < self->batch ? (size_t)left : self->batch;
         PS_TRY(fill_batch(self, plan->first + done, num, error));
-        PS_TRY(run_batch(self, num, error));
-        PS_TRY(ps_watch_tell(plan->watch, "trials", (done + num) * plan->num_shifts,
-                             plan->num_sets * plan->num_shifts, NULL, error));
+        PS_TRY(run_batch(self, done, num, error));
+        PS_TRY(ps_watch_tell(plan->watch, "realizations measured", done + num, plan->num_sets, NULL,
+                             error));
     }
     return PSPEC_OK;
 }
 
 pspec_status ps_measurement_run(const ps_measurement_plan *plan, ps_mean *variances,
                                 ps_error *error) {
-    measurement self = {.plan = plan, .batch = choose_batch(plan)};
+    measurement self = {.plan = plan};
+    choose_sizes(&self);
     ps_sets_options sets = plan->sets;
     sets.first = plan->first;
     pspec_status status = allocate(&self, error);
