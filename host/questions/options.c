@@ -75,8 +75,8 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                              .set = ps_add_integrand},
     [PS_OPTION_SHIFTS] = {NAMED("shifts", 0, "S"), OF(BIT(variance), 0),
                           .help = "random shifts, on the sphere rotations, of every set that is "
-                                  "measured (default 1)",
-                          COUNT(num_shifts), .minimum = 1, .maximum = MOST_SHIFTS},
+                                  "measured (default 1; 0: nothing is measured)",
+                          COUNT(num_shifts), .minimum = 0, .maximum = MOST_SHIFTS},
     [PS_OPTION_IN_PLACE] = {NAMED("in-place", 0, NULL), OF(BIT(variance), 0),
                             .help = "measure sets where they are, without shifts; the prediction "
                                     "is of shifted ones, and there is no z-score",

@@ -182,6 +182,12 @@ static pspec_status measure(ps_variance_job *job, ps_error *error) {
     const ps_variance_question *const question = job->question;
     const ps_power_question *const spectrum = &question->spectrum;
     ps_sampler_request sampler = *spectrum->sampler;
+    for (size_t i = 0; i < question->num_integrands; i++) {
+        job->measured[i] = (ps_mean){NAN, NAN};
+    }
+    if (question->num_shifts == 0) {
+        return PSPEC_OK;
+    }
     sampler.homogenize = false;
     const ps_measurement_plan plan = {
         .sampler = &sampler,
@@ -218,6 +224,9 @@ void ps_variance_job_phases(const ps_variance_job *job, ps_phases *phases) {
     const double num_sets = (double)spectrum->num_realizations;
     const double values = num_sets * (double)question->num_shifts *
                           (double)spectrum->sampler->num_points * (double)question->num_integrands;
+    if (values == 0) {
+        return;
+    }
     ps_phases_sample(phases, spectrum->sampler, num_sets, &sets.place);
     ps_phases_add_seconds(phases, "trials", values * value_seconds);
     ps_phases_say(phases, "trials", "%.4g values of integrands", values);

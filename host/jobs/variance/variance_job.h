@@ -17,7 +17,7 @@ typedef struct ps_variance_question {
     ps_power_question spectrum;
     const char *const *texts; /* of the integrands */
     size_t num_integrands;
-    uint64_t num_shifts; /* trials of each set that is measured */
+    uint64_t num_shifts; /* trials of each set that is measured; 0: nothing is */
     bool is_moved; /* trials are shifted or rotated at random; else sets stay where they are */
 } ps_variance_question;
 

@@ -41,7 +41,7 @@ static pspec_status add_row(ps_table *table, const ps_lead *lead, const ps_varia
         ps_number_or_missing(row->predicted_error),
         PS_NUMBER(row->lower),
         PS_NUMBER(row->upper),
-        PS_NUMBER(row->measured),
+        ps_number_or_missing(row->measured),
         ps_number_or_missing(row->measured_error),
         ps_number_or_missing(row->z_score),
         PS_NUMBER(row->white),
@@ -59,8 +59,9 @@ static pspec_status begin(ps_table *table, const ps_request *request, ps_error *
         {"command", PS_TEXT(request->command_line)},
         {"normalization", PS_TEXT("mean(N) mean(|S|^2 / W^2), whose weighted sum is a variance")},
         {"seed", PS_INTEGER(request->seed)},
-        {"trials", PS_TEXT(request->in_place ? "sets where they are"
-                                             : "sets moved at random, one move for each trial")},
+        {"trials", PS_TEXT(request->num_shifts == 0 ? "none"
+                           : request->in_place      ? "sets where they are"
+                                                    : "sets moved at random, one for each trial")},
         {"shifts", PS_INTEGER(request->num_shifts)},
     };
     return ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
