@@ -20,6 +20,11 @@ echo "figures: sphere.png" >&2
 "$pointspec" angular --sampler healpix-jittered:nside=16 -m 1000 -l 256 --quiet -o sphere.csv \
     --plot "$images/sphere.png"
 
+# Variance against N, for docs/user/variance.md: twenty seconds of two cores.
+echo "figures: variance.png" >&2
+"$pointspec" variance --sampler jittered --sampler poisson-disk --sampler white --integrand disk:radius=0.25 \
+    -n 16..4096 -m 200 --quiet -o variance.csv --plot "$images/variance.png"
+
 # Points and spectra of the samplers.
 "$docs/scripts/points_figures.sh" "$pointspec" "$images"
 
