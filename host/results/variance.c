@@ -119,12 +119,18 @@ static void discard(void *computed) {
 
 /* ---- what tables mean ------------------------------------------------------------------------ */
 
-static const char *const summary[] = {
-    "points", "points_smallest", "points_largest", "realizations", "integral", "most_power", NULL};
-static const ps_line_kind lines[] = {
-    {"-predicted", "predicted variance", "points", "predicted", "points N", "variance", true, true},
-    {"-measured", "measured variance", "points", "measured", "points N", "variance", true, true},
-    {.suffix = NULL}};
+static const char *const summary[] = {"points",
+                                      "points_smallest",
+                                      "points_largest",
+                                      "realizations",
+                                      "predicted_variance",
+                                      "measured_variance",
+                                      "most_power",
+                                      NULL};
+static const ps_line_kind lines[] = {{.suffix = NULL}}; /* a question is one row */
+static const ps_line_kind convergence = {
+    "-convergence", "predicted variance", "points", "predicted_variance",
+    "points N",     "variance",           true,     true};
 
 const ps_result_kind ps_result_variance = {
     .name = "variance",
@@ -139,5 +145,6 @@ const ps_result_kind ps_result_variance = {
     .discard = discard,
     .summary = summary,
     .lines = lines,
+    .convergence = &convergence,
     .compare = ps_compare_variances,
 };

@@ -30,7 +30,8 @@ static pspec_status take_command(ps_request *inner, const ps_task **task,
         return ps_fail(
             error, PSPEC_ERROR_INVALID_ARGUMENT,
             "name the command to plan first, as in: pointspec plan power --sampler white "
-            "(power, angular, pairs, quadrature, truncation, check, run, sample and convert can be "
+            "(power, angular, pairs, quadrature, truncation, variance, check, run, sample and "
+            "convert can be "
             "planned)");
     }
     *inner = *arguments;
@@ -61,9 +62,9 @@ static pspec_status run(const ps_request *arguments, ps_error *error) {
 const ps_command ps_command_plan = {
     .name = "plan",
     .summary = "what a command would do: engines, seconds, bytes, error, what is skipped",
-    .usage =
-        "plan power|angular|pairs|quadrature|truncation|check|run|sample|convert [options of that "
-        "command]",
+    .usage = "plan power|angular|pairs|quadrature|truncation|variance|check|run|sample|convert "
+             "[options of that "
+             "command]",
     .description =
         "Takes the same arguments as the command named after it and prints how that "
         "command would go about it: every engine with its estimated time, memory and "

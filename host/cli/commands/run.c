@@ -25,7 +25,8 @@ const ps_command ps_command_run = {
     .usage = "run [options] SCENE.yaml",
     .description =
         "Reads a scene (docs/user/scenes.md): results of the kinds power, angular, pairs, "
-        "quadrature, truncation and check, and points of samplers (sample), each with the options "
+        "quadrature, truncation, variance and check, and points of samplers (sample), each with "
+        "the options "
         "of the command of that name, where lists ask "
         "for every combination. Writes a folder (-o; else named like the scene) with a table and a "
         "summary of each result, pictures, index.html, which shows all of it, and record.json, "

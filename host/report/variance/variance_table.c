@@ -79,6 +79,15 @@ static pspec_status add_integrand(ps_table *table, const ps_request *request,
                         : PSPEC_OK;
 }
 
+/* For who draws many questions, each of one integrand, against N. */
+static pspec_status add_variances(ps_table *table, const ps_variance_row *row, ps_error *error) {
+    const ps_meta entries[] = {
+        {"predicted_variance", PS_NUMBER(row->predicted)},
+        {"measured_variance", ps_number_or_missing(row->measured)},
+    };
+    return ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
+}
+
 /* What the bracket takes for the power beyond the cut-off. */
 static pspec_status add_most_power(ps_table *table, const ps_variance_job *job, ps_error *error) {
     bool is_known = false;
@@ -101,6 +110,7 @@ static pspec_status fill(ps_table *table, const ps_request *request, ps_variance
         PS_TRY(add_most_power(table, jobs[i], error));
         for (size_t k = 0; k < request->num_integrands; k++) {
             const ps_lead lead = make_lead(request, i, k);
+            PS_TRY(add_variances(table, &ps_variance_job_rows(jobs[i])[k], error));
             PS_TRY(add_row(table, &lead, jobs[i], k, error));
         }
     }
@@ -110,6 +120,8 @@ static pspec_status fill(ps_table *table, const ps_request *request, ps_variance
 pspec_status ps_variance_table(ps_table **out, const ps_request *request,
                                ps_variance_job *const *jobs, size_t num, ps_error *error) {
     const ps_lead first = make_lead(request, 0, 0);
+    ps_request own = *request; /* what headers say of powers is said of these */
+    own.normalization = PSPEC_NORMALIZATION_INTEGRAL;
     const ps_power_job **spectra = NULL;
     PS_TRY(PS_NEW(&spectra, num, "jobs", error));
     for (size_t i = 0; i < num; i++) {
@@ -118,7 +130,7 @@ pspec_status ps_variance_table(ps_table **out, const ps_request *request,
     pspec_status status =
         ps_lead_create_table(out, "variance", &first, columns, NUM_COLUMNS, error);
     if (status == PSPEC_OK) {
-        status = fill(*out, request, jobs, spectra, num, error);
+        status = fill(*out, &own, jobs, spectra, num, error);
     }
     free(spectra);
     return status;
