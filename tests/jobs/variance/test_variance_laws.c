@@ -101,8 +101,8 @@ static void jittered_gaussian(void **state) {
 }
 
 /* Of Y_40 by one point in each pixel of HEALPix, degree 4 has all of it: (4 pi/N^2) sum over pixels
- * of 1 - mean P_4(u.v), u and v in the same pixel. Squares would have (4 pi^2/3) 20/N^2 = 263.2/N^2;
- * pixels are longer than wide, and 460800 pairs of such u and v have 275.6 +- 0.4. */
+ * of 1 - mean P_4(u.v), u and v in the same pixel. Squares would have (4 pi^2/3) 20/N^2, which is
+ * 263.2/N^2; pixels are longer than wide, and 460800 pairs of such u and v have 275.6 +- 0.4. */
 static void jittered_harmonic(void **state) {
     const double num = 768;
     const double exact = 275.6 / (num * num), its_error = 0.4 / (num * num);
