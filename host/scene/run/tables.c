@@ -58,20 +58,29 @@ static size_t count_varying(const ps_run_result *result) {
     return num;
 }
 
-static size_t put_values(const ps_run_result *result, size_t number, ps_cell *cells) {
+/* beside: a table whose own columns come behind, NULL: none. One that has the name of a key says
+ * more than the key, as numbers of points do that were made instead of asked for. */
+static bool is_first_column(const ps_scene_entry *entry, const ps_table *beside) {
+    size_t column = 0;
+    return ps_run_varies(entry) &&
+           (beside == NULL || !ps_table_find_column(beside, ps_scene_key(entry), &column));
+}
+
+static size_t put_values(const ps_run_result *result, size_t number, const ps_table *beside,
+                         ps_cell *cells) {
     size_t num = 0;
     for (size_t i = 0; i < result->asked->num_entries; i++) {
-        if (ps_run_varies(&result->asked->entries[i])) {
+        if (is_first_column(&result->asked->entries[i], beside)) {
             cells[num++] = value_cell(ps_scene_value_of(result->asked, number, i));
         }
     }
     return num;
 }
 
-static size_t put_names(const ps_run_result *result, const char **columns) {
+static size_t put_names(const ps_run_result *result, const ps_table *beside, const char **columns) {
     size_t num = 0;
     for (size_t i = 0; i < result->asked->num_entries; i++) {
-        if (ps_run_varies(&result->asked->entries[i])) {
+        if (is_first_column(&result->asked->entries[i], beside)) {
             columns[num++] = ps_scene_key(&result->asked->entries[i]);
         }
     }
@@ -95,7 +104,7 @@ static pspec_status add_header(ps_table *table, const ps_table *answer, ps_error
 static pspec_status add_rows(ps_table *table, const ps_run_result *result, size_t number,
                              ps_cell *cells, ps_error *error) {
     const ps_table *const answer = result->questions[number].answer.table;
-    const size_t num = put_values(result, number, cells);
+    const size_t num = put_values(result, number, answer, cells);
     for (size_t row = 0; row < ps_table_num_rows(answer); row++) {
         for (size_t column = 0; column < ps_table_num_columns(answer); column++) {
             cells[num + column] = ps_table_cell(answer, row, column);
@@ -109,7 +118,7 @@ static pspec_status add_rows(ps_table *table, const ps_run_result *result, size_
 static pspec_status fill_table(const ps_run *run, ps_run_result *result, const char **names,
                                ps_cell *cells, ps_error *error) {
     const ps_table *const first = result->questions[0].answer.table;
-    const size_t num = put_names(result, names);
+    const size_t num = put_names(result, first, names);
     for (size_t i = 0; i < ps_table_num_columns(first); i++) {
         names[num + i] = ps_table_column_name(first, i);
     }
@@ -202,12 +211,12 @@ static size_t put_keys(const ps_run_result *result, const char **names, size_t n
 static pspec_status fill_summary(const ps_run *run, ps_run_result *result, const char **names,
                                  ps_cell *cells, ps_error *error) {
     const char *const points = ps_options[PS_OPTION_POINTS].name;
-    const size_t num_values = put_names(result, names);
+    const size_t num_values = put_names(result, NULL, names);
     const size_t num = put_keys(result, names, num_values);
     PS_TRY(begin(&result->summary, run, result, names, num, error));
     for (size_t q = 0; q < result->num; q++) {
         const ps_table *const answer = result->questions[q].answer.table;
-        (void)put_values(result, q, cells);
+        (void)put_values(result, q, NULL, cells);
         for (size_t i = 0; i < num; i++) {
             const bool is_said = i < num_values && strcmp(names[i], points) != 0;
             cells[i] = is_said ? cells[i] : ps_table_find_meta(answer, names[i]);

@@ -1,0 +1,191 @@
+/* Variances against plain loops: the prediction from the powers of every frequency, the measurement
+ * from the values at the points of every realization. */
+#include "harness_variance.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static ps_device *device;
+
+static void near(const char *what, double found, double expected, double allowed) {
+    if (!(fabs(found - expected) <= allowed)) {
+        fail_msg("%s: %.17g, not %.17g within %g", what, found, expected, allowed);
+    }
+}
+
+/* ---- prediction ---------------------------------------------------------------------------- */
+
+/* (1/N) sum P |f_k|^2 over the box; *held has the energy in it. */
+static double sum_box(const test_variance *asked, double *held) {
+    const ps_integrand *const integrand = test_variance_integrand(asked, 0);
+    const ps_spectrum *const spectrum = test_variance_spectrum(asked);
+    const ps_frequencies *const set = &spectrum->frequencies;
+    double *const powers = calloc(set->num, sizeof *powers);
+    double sum = 0;
+    assert_non_null(powers);
+    assert_non_null(spectrum->powers);
+    assert_ok(ps_integrand_powers(integrand, set->vectors, set->num, powers, error));
+    *held = 0;
+    for (size_t i = 0; i < set->num; i++) {
+        *held += 2 * powers[i];
+        sum += 2 * powers[i] * spectrum->powers[i].mean;
+    }
+    free(powers);
+    return sum / spectrum->mean_points;
+}
+
+static void the_prediction_is_a_sum(void **state) {
+    static const struct {
+        const char *sampler, *integrand;
+    } cases[] = {
+        {"white", "disk"},           {"jittered", "gaussian"}, {"poisson-disk", "disk:radius=0.1"},
+        {"halton", "box:sides=0.3"}, {"white", "half-plane"},
+    };
+    (void)state;
+    for (size_t i = 0; i < 2 * (sizeof cases / sizeof cases[0]); i++) {
+        test_variance asked;
+        double held = 0;
+        test_variance_ask(&asked, cases[i / 2].sampler, 36, 5, cases[i / 2].integrand,
+                          i % 2 == 0 ? device : NULL);
+        const ps_variance_row *const row = test_variance_run(&asked);
+        const double sum = sum_box(&asked, &held);
+        const double num = test_variance_spectrum(&asked)->mean_points;
+        const double energy = ps_integrand_energy(test_variance_integrand(&asked, 0));
+        near(cases[i / 2].integrand, row->lower, sum, 1e-5 * sum);
+        near(cases[i / 2].integrand, row->predicted - row->lower, (energy - held) / num,
+             1e-9 * row->white);
+        test_variance_free(&asked);
+    }
+}
+
+/* ---- measurement --------------------------------------------------------------------------- */
+
+static double estimate(const test_variance *asked, size_t i, const double *points, size_t num) {
+    const ps_integrand *const integrand = test_variance_integrand(asked, i);
+    const double volume = asked->question.spectrum.on_hemisphere ? 2 * acos(-1.0)
+                          : asked->question.spectrum.on_sphere   ? 4 * acos(-1.0)
+                                                                 : 1;
+    double *const values = calloc(num, sizeof *values);
+    long double sum = 0;
+    assert_non_null(values);
+    ps_integrand_values(integrand, points, num, values);
+    for (size_t j = 0; j < num; j++) {
+        sum += values[j];
+    }
+    free(values);
+    return (double)(volume * sum / num);
+}
+
+/* Mean of squares about the integral over realizations M .. 2M - 1, and its standard error. */
+static ps_mean loop(const test_variance *asked, size_t i) {
+    const uint64_t num = asked->question.spectrum.num_realizations;
+    const double exact = ps_integrand_integral(test_variance_integrand(asked, i));
+    long double sum = 0;
+    long double *const squares = calloc(num, sizeof *squares);
+    long double spread = 0;
+    assert_non_null(squares);
+    for (uint64_t r = 0; r < num; r++) {
+        size_t num_points = 0;
+        double *const points = test_variance_points(asked, num + r, &num_points);
+        const long double off = estimate(asked, i, points, num_points) - (long double)exact;
+        squares[r] = off * off;
+        sum += squares[r];
+        free(points);
+    }
+    for (uint64_t r = 0; r < num; r++) {
+        spread += (squares[r] - sum / num) * (squares[r] - sum / num);
+    }
+    free(squares);
+    return (ps_mean){(double)(sum / num), (double)sqrtl(spread / num / (num - 1))};
+}
+
+/* Values of the device are doubles where it has them. */
+static double precision_of(const ps_device *with) {
+    return with == NULL || ps_device_get_limits(with)->has_fp64 ? 1e-12 : 1e-5;
+}
+
+static void check_loop(const char *sampler, uint64_t num_realizations, const char *first,
+                       const char *second, ps_device *with) {
+    test_variance asked;
+    test_variance_ask(&asked, sampler, 48, num_realizations, first, with);
+    test_variance_add(&asked, second);
+    asked.question.is_moved = false;
+    asked.question.spectrum.max_degree = 2; /* what is predicted is not looked at */
+    asked.question.spectrum.frequencies.max_frequency = 2;
+    const ps_variance_row *const rows = test_variance_run(&asked);
+    for (size_t i = 0; i < 2; i++) {
+        const ps_mean expected = loop(&asked, i);
+        const double relative = precision_of(with);
+        near(sampler, rows[i].measured, expected.mean, relative * expected.mean);
+        near(sampler, rows[i].measured_error, expected.standard_error,
+             relative * 10 * expected.standard_error);
+        assert_true(isnan(rows[i].z_score));
+    }
+    test_variance_free(&asked);
+}
+
+/* 300 realizations are more than a batch; where points vary, so do the sizes of sets. */
+static void the_measurement_is_a_loop(void **state) {
+    ps_device *const with[] = {device, NULL};
+    (void)state;
+    for (size_t i = 0; i < 2; i++) {
+        check_loop("white", 300, "disk", "gaussian:sigma=0.2", with[i]);
+        check_loop("jittered", 300, "box", "gaussian", with[i]);
+        check_loop("poisson-disk", 20, "half-plane", "disk:radius=0.4", with[i]);
+        check_loop("white-sphere", 300, "cap", "harmonic", with[i]);
+        check_loop("white-hemisphere", 300, "cap", "square", with[i]);
+    }
+}
+
+/* The mean over more shifts is of the same sets, and the prediction knows nothing of it. */
+static void shifts_are_of_the_measurement(void **state) {
+    static const char *const samplers[] = {"jittered", "healpix-jittered"};
+    static const char *const integrands[] = {"disk", "cap"};
+    (void)state;
+    for (size_t i = 0; i < 2; i++) {
+        test_variance asked;
+        test_variance_ask(&asked, samplers[i], 48, 30, integrands[i], device);
+        const ps_variance_row once = *test_variance_run(&asked);
+        asked.question.num_shifts = 50;
+        const ps_variance_row often = *test_variance_run(&asked);
+        assert_memory_equal(&once.predicted, &often.predicted, sizeof once.predicted);
+        assert_memory_equal(&once.predicted_error, &often.predicted_error, sizeof(double));
+        assert_memory_equal(&once.lower, &often.lower, sizeof once.lower);
+        assert_memory_equal(&once.upper, &often.upper, sizeof once.upper);
+        assert_true(often.measured != once.measured);
+        /* a set has less to add to its shifts' spread */
+        assert_true(often.measured_error < 0.5 * once.measured_error);
+        near("shifts", often.measured, often.predicted,
+             5 * hypot(often.measured_error, often.predicted_error));
+        test_variance_free(&asked);
+    }
+}
+
+/* The same seed, the same bits, whatever else is asked: integrands beside it. */
+static void integrands_do_not_meet(void **state) {
+    test_variance alone, beside;
+    (void)state;
+    test_variance_ask(&alone, "jittered", 64, 40, "gaussian", device);
+    test_variance_ask(&beside, "jittered", 64, 40, "disk", device);
+    test_variance_add(&beside, "gaussian");
+    test_variance_add(&beside, "constant");
+    const ps_variance_row *const one = test_variance_run(&alone);
+    const ps_variance_row *const three = test_variance_run(&beside);
+    assert_memory_equal(one, three + 1, sizeof *one);
+    test_variance_free(&alone);
+    test_variance_free(&beside);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_prediction_is_a_sum),
+        cmocka_unit_test(the_measurement_is_a_loop),
+        cmocka_unit_test(shifts_are_of_the_measurement),
+        cmocka_unit_test(integrands_do_not_meet),
+    };
+    device = test_open_device();
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    ps_device_close(device);
+    return failed;
+}
