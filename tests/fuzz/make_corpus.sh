@@ -212,6 +212,8 @@ printf -- '--sampler\nhalton\n-n\n1000\n--format\nnpy\n-s\n18446744073709551615'
     seed arguments sample '\1'
 printf -- 'power\n--precision\nextended\na\nb' | seed arguments plan '\2'
 printf -- '--verbose\n--help' | seed arguments devices '\3'
+printf -- 'variance\n--sampler=jittered\n--integrand\ndisk:radius=0.25\n--integrand=gaussian\n-n\n16..64\n--shifts=3' |
+    seed arguments variance '\xff'
 printf -- 'pwer\n--pints=5' | seed arguments typing '\xff'
 printf -- '--points=0\n' | seed arguments range '\0'
 printf -- '--tol=0\n' | seed arguments tolerance '\0'

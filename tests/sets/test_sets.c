@@ -151,6 +151,40 @@ static void rewound_sets_come_again(void **state) {
     ps_sets_destroy(sets);
 }
 
+/* Realizations from `first` on are those of a source from 0, made, kept, taken from the store and
+ * after a rewind; of a place that keeps none, too. */
+static void sets_may_begin_later(void **state) {
+    const test_folder *const folder = *state;
+    static const char *const texts[] = {"bnot", "white"};
+    enum { FIRST = 3, MORE = 5 };
+    static set expected, found;
+    for (unsigned i = 0; i < 6; i++) {
+        const ps_sampler_request request = ask(texts[i % 2], 2);
+        const ps_sets_options options = {{i < 4 ? folder->path : NULL, 1 << 30}, 0, FIRST};
+        ps_sets *sets = NULL;
+        assert_int_equal(ps_sets_create(&sets, &request, MORE, &options, NULL), PSPEC_OK);
+        for (uint64_t r = 0; r < 2 * MORE; r++) {
+            if (r == MORE) {
+                ps_sets_rewind(sets);
+            }
+            assert_int_equal(ps_sampler_generate(&request, FIRST + r % MORE, expected.points,
+                                                 &expected.num_points, NULL, NULL),
+                             PSPEC_OK);
+            assert_int_equal(ps_sets_next(sets, found.points, &found.num_points, NULL, NULL),
+                             PSPEC_OK);
+            assert_memory_equal(found.points, expected.points,
+                                found.num_points * request.dimension * sizeof(double));
+        }
+        if (i == 2) { /* what the first round kept */
+            assert_int_equal(ps_sets_counts(sets).num_kept, 0);
+            assert_true(ps_sets_counts(sets).num_read >= MORE);
+        }
+        ps_sets_destroy(sets);
+    }
+    const ps_sampler_request request = ask("bnot", 2);
+    assert_int_equal(take(state, &request).num_read, NUM_SETS - FIRST);
+}
+
 /* Memory that was limited holds fewer sets, or none, and the points are the same. */
 static void a_limit_of_memory_changes_no_bit(void **state) {
     (void)state;
@@ -297,6 +331,7 @@ int main(void) {
         IN_A_FOLDER(one_set_serves_all_places),
         IN_A_FOLDER(nothing_is_kept_without_a_place),
         IN_A_FOLDER(rewound_sets_come_again),
+        IN_A_FOLDER(sets_may_begin_later),
         IN_A_FOLDER(a_limit_of_memory_changes_no_bit),
         IN_A_FOLDER(every_part_of_the_request_counts),
         cmocka_unit_test(versions_stand_for_bits),
