@@ -281,8 +281,8 @@ refuses 2 '--frequencies does not go with --standard-error' power --frequencies 
 power 2 '--full does not go with --per-ring' --sampler white -n 16 -k 4 --per-ring 9 --full full.npy
 refuses 2 '--frequencies does not go with --per-ring' power --frequencies "$in/vectors.txt" --per-ring 9 "$in/good.txt"
 refuses 2 '--seed does not go with point files' power -k 4 --seed 2 "$in/good.txt"
-refuses 2 'power, angular, pairs, quadrature, truncation, check, run, sample and convert can be planned' plan
-refuses 2 'power, angular, pairs, quadrature, truncation, check, run, sample and convert can be planned' plan devices
+refuses 2 'power, angular, pairs, quadrature, truncation, variance, check, run, sample and convert can be planned' plan
+refuses 2 'power, angular, pairs, quadrature, truncation, variance, check, run, sample and convert can be planned' plan devices
 refuses 2 'one --sampler NAME is needed' plan sample -n 16
 refuses 2 'nothing to convert' plan convert
 
