@@ -31,7 +31,7 @@ near predicted "$(column predicted)" 9.862274916100424e-3 0.25
 near z "$(column z_score)" "$(table | awk -F, 'NR == 2 { printf "%.17g", ($6 - $2) / sqrt($3 ^ 2 + $7 ^ 2) }')" \
     "$(awk -v z="$(column z_score)" 'BEGIN { print z < 0 ? -1e-12 : 1e-12 }')"
 is seed 1
-is trials 'sets moved at random, one move for each trial'
+is trials 'sets moved at random, one for each trial'
 is shifts 1
 is integrand disk
 is integral 0.19634954084936207
@@ -81,6 +81,13 @@ runs 0 --sampler jittered -n 4..32 -m 2 "${few[@]}" --integrand disk
 # another seed, other numbers
 runs 0 --sampler jittered -n 8 -m 5 -s 2 "${few[@]}" --integrand disk
 ! grep -q "^jittered,disk,$(table | sed 1d)" together || complain 'the seed changes nothing'
+
+# the prediction alone: the same one, and nothing is measured
+runs 0 --sampler jittered -n 8 -m 5 "${few[@]}" --integrand disk --shifts 0
+is trials none
+[[ $(table | sed 1d | cut -d, -f1-5) == "$(sed -n 's/^jittered,disk,\(8,.*\)/\1/p' together | cut -d, -f1-5)" ]] ||
+    complain "another prediction: $(table)"
+[[ $(table | sed 1d | cut -d, -f6-8) == ,, ]] || complain "measured without trials: $(table)"
 
 # the sphere and the hemisphere
 runs 0 --sampler healpix-jittered -n 48 -m 5 --integrand cap --integrand harmonic
@@ -149,7 +156,7 @@ refuses 'integrand cap: there is none on the torus' --sampler white-sphere --sam
 refuses 'half-plane' --sampler white -n 8 -d 3 --integrand half-plane
 refuses 'half-plane' --sampler white -n 8 --integrand half-plane:offset=7
 refuses '--shifts does not go with --in-place' --sampler white -n 8 --integrand disk --shifts 2 --in-place
-refuses '--shifts' --sampler white -n 8 --integrand disk --shifts 0
+refuses '--shifts' --sampler white -n 8 --integrand disk --shifts -1
 many=()
 for i in {11..27}; do many+=(--integrand "disk:radius=0.$i"); done
 refuses 'more than 16 integrands' --sampler white -n 8 "${many[@]}"
