@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "jobs/parts/point_phases.h"
 #include "jobs/variance/measurement.h"
+#include "jobs/variance/prediction.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,47 +16,15 @@ struct ps_variance_job {
     double *held;              /* [num] of the energy, up to the cut-off */
     ps_mean *measured;         /* [num] */
     ps_variance_row *rows;     /* [num] */
-    double most_power;
-    bool is_known;
+    ps_power_beyond beyond;
 };
-
-/* ---- prediction ---------------------------------------------------------------------------- */
-
-/* Powers of both k and -k are summed by one frequency of the torus; degrees have all of their
- * orders already. What is held is counted as it is weighed. */
-static pspec_status weigh_one(const ps_integrand *integrand, const ps_frequencies *frequencies,
-                              double *weights, double *held, ps_error *error) {
-    const double factor = ps_integrand_factor(integrand);
-    const bool is_on_torus = integrand->place.where == PS_SAMPLES_TORUS;
-    long double sum = 0;
-    if (is_on_torus) {
-        PS_TRY(
-            ps_integrand_powers(integrand, frequencies->vectors, frequencies->num, weights, error));
-    } else {
-        double *degrees = NULL;
-        const size_t largest = (size_t)frequencies->max_frequency;
-        PS_TRY(PS_NEW(&degrees, largest + 1, "degrees of an integrand", error));
-        const pspec_status status = ps_integrand_degrees(integrand, largest, degrees, error);
-        for (size_t i = 0; status == PSPEC_OK && i < frequencies->num; i++) {
-            weights[i] = degrees[frequencies->vectors[i]];
-        }
-        free(degrees);
-        PS_TRY(status);
-    }
-    for (size_t i = 0; i < frequencies->num; i++) {
-        weights[i] *= is_on_torus ? 2 : factor;
-        sum += weights[i];
-    }
-    *held = (double)sum / factor;
-    return PSPEC_OK;
-}
 
 static pspec_status weigh(void *payload, const ps_frequencies *frequencies, double *weights,
                           ps_error *error) {
     ps_variance_job *const job = payload;
     for (size_t i = 0; i < job->question->num_integrands; i++) {
-        PS_TRY(weigh_one(job->integrands[i], frequencies, weights + i * frequencies->num,
-                         &job->held[i], error));
+        PS_TRY(ps_prediction_weigh(job->integrands[i], frequencies, weights + i * frequencies->num,
+                                   &job->held[i], error));
     }
     return PSPEC_OK;
 }
@@ -131,53 +100,6 @@ void ps_variance_job_destroy(ps_variance_job *job) {
 
 /* ---- run ----------------------------------------------------------------------------------- */
 
-/* The largest mean power of a ring or degree. */
-static double largest_power(const ps_spectrum *spectrum) {
-    double largest = 0;
-    for (size_t i = 0; i < spectrum->num_bins; i++) {
-        largest = fmax(largest, spectrum->bins[i].power);
-    }
-    return largest;
-}
-
-/* Single sets have at most N anywhere. */
-static void find_most_power(ps_variance_job *job) {
-    const ps_sampler_request *const sampler = job->question->spectrum.sampler;
-    const ps_spectrum *const spectrum = ps_power_job_spectrum(job->spectrum);
-    job->most_power = ps_sampler_most_power(sampler);
-    job->is_known = true;
-    if (ps_sampler_has_constant_power(sampler)) {
-        job->most_power = spectrum->mean_points;
-    } else if (job->most_power == 0) {
-        job->most_power = largest_power(spectrum);
-        job->is_known = false;
-    }
-}
-
-static double z_score(const ps_variance_row *row, bool is_moved) {
-    const double error = hypot(row->predicted_error, row->measured_error);
-    return is_moved && error > 0 ? (row->measured - row->predicted) / error : NAN;
-}
-
-static void fill_row(ps_variance_job *job, size_t i) {
-    const ps_integrand *const integrand = job->integrands[i];
-    const ps_spectrum *const spectrum = ps_power_job_spectrum(job->spectrum);
-    const ps_mean sum = ps_power_job_weighted(job->spectrum)[i];
-    const double num = spectrum->mean_points;
-    const double factor = ps_integrand_factor(integrand);
-    const double energy = ps_integrand_energy(integrand);
-    const double tail = factor * fmax(energy - job->held[i], 0);
-    ps_variance_row *const row = &job->rows[i];
-    row->lower = sum.mean / num;
-    row->predicted = row->lower + tail / num;
-    row->predicted_error = sum.standard_error / num;
-    row->upper = row->lower + job->most_power * tail / num;
-    row->measured = job->measured[i].mean;
-    row->measured_error = job->measured[i].standard_error;
-    row->white = factor * energy / num;
-    row->z_score = z_score(row, job->question->is_moved);
-}
-
 static pspec_status measure(ps_variance_job *job, ps_error *error) {
     const ps_variance_question *const question = job->question;
     const ps_power_question *const spectrum = &question->spectrum;
@@ -204,13 +126,30 @@ static pspec_status measure(ps_variance_job *job, ps_error *error) {
     return ps_measurement_run(&plan, job->measured, error);
 }
 
+static double z_score(const ps_variance_row *row, bool is_moved) {
+    const double error = hypot(row->prediction.standard_error, row->measured_error);
+    return is_moved && error > 0 ? (row->measured - row->prediction.variance) / error : NAN;
+}
+
+static void fill_rows(ps_variance_job *job) {
+    const ps_variance_question *const question = job->question;
+    const ps_spectrum *const spectrum = ps_power_job_spectrum(job->spectrum);
+    const ps_mean *const sums = ps_power_job_weighted(job->spectrum);
+    job->beyond = ps_prediction_power_beyond(question->spectrum.sampler, spectrum);
+    for (size_t i = 0; i < question->num_integrands; i++) {
+        ps_variance_row *const row = &job->rows[i];
+        row->prediction = ps_prediction_make(job->integrands[i], sums[i], job->held[i],
+                                             spectrum->mean_points, &job->beyond);
+        row->measured = job->measured[i].mean;
+        row->measured_error = job->measured[i].standard_error;
+        row->z_score = z_score(row, question->is_moved);
+    }
+}
+
 pspec_status ps_variance_job_run(ps_variance_job *job, ps_error *error) {
     PS_TRY(ps_power_job_run(job->spectrum, error));
     PS_TRY(measure(job, error));
-    find_most_power(job);
-    for (size_t i = 0; i < job->question->num_integrands; i++) {
-        fill_row(job, i);
-    }
+    fill_rows(job);
     return PSPEC_OK;
 }
 
@@ -244,7 +183,6 @@ const ps_variance_row *ps_variance_job_rows(const ps_variance_job *job) {
     return job->rows;
 }
 
-double ps_variance_job_most_power(const ps_variance_job *job, bool *is_known) {
-    *is_known = job->is_known;
-    return job->most_power;
+const ps_power_beyond *ps_variance_job_power_beyond(const ps_variance_job *job) {
+    return &job->beyond;
 }

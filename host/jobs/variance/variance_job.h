@@ -9,6 +9,7 @@
 
 #include "integrands/integrand.h"
 #include "jobs/spectrum/power_job.h"
+#include "jobs/variance/prediction.h"
 #include "plan/phases.h"
 
 typedef struct ps_variance_question {
@@ -23,13 +24,9 @@ typedef struct ps_variance_question {
 
 /* Of one integrand. nan: there is none. */
 typedef struct ps_variance_row {
-    double predicted;       /* (V1), (S1) or (H1) with what lies beyond the cut-off as white */
-    double predicted_error; /* standard error over realizations */
-    /* With nothing beyond the cut-off, and with the most power there: (V3), without statistics */
-    double lower, upper;
+    ps_prediction prediction;
     double measured, measured_error; /* about the known integral; error over sets */
     double z_score;                  /* nan where sets are not moved, or nothing varies */
-    double white;                    /* of as many independent points */
 } ps_variance_row;
 
 typedef struct ps_variance_job ps_variance_job;
@@ -51,8 +48,7 @@ ps_power_job *ps_variance_job_spectrum(const ps_variance_job *job);
 const ps_integrand *ps_variance_job_integrand(const ps_variance_job *job, size_t index);
 /* [question.num_integrands], after run */
 const ps_variance_row *ps_variance_job_rows(const ps_variance_job *job);
-/* The power beyond the cut-off that `upper` has, after run; *is_known: a bound of the sampler's
- * expected power, else the largest that was measured in a ring or degree, or N of a single set. */
-double ps_variance_job_most_power(const ps_variance_job *job, bool *is_known);
+/* The power that `upper` has beyond the cut-off, after run. */
+const ps_power_beyond *ps_variance_job_power_beyond(const ps_variance_job *job);
 
 #endif

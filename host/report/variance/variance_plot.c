@@ -26,7 +26,9 @@ static void release(curves *self) {
 }
 
 static double value_of(const ps_variance_row *row, curve_form form) {
-    return form == PREDICTED ? row->predicted : form == MEASURED ? row->measured : row->white;
+    return form == PREDICTED  ? row->prediction.variance
+           : form == MEASURED ? row->measured
+                              : row->prediction.white;
 }
 
 /* form NUM_FORMS: white noise. */

@@ -37,14 +37,14 @@ static pspec_status add_row(ps_table *table, const ps_lead *lead, const ps_varia
     const ps_variance_row *const row = &ps_variance_job_rows(job)[integrand];
     const ps_cell cells[NUM_COLUMNS] = {
         points_cell(ps_power_job_spectrum(ps_variance_job_spectrum(job))),
-        PS_NUMBER(row->predicted),
-        ps_number_or_missing(row->predicted_error),
-        PS_NUMBER(row->lower),
-        PS_NUMBER(row->upper),
+        PS_NUMBER(row->prediction.variance),
+        ps_number_or_missing(row->prediction.standard_error),
+        PS_NUMBER(row->prediction.lower),
+        PS_NUMBER(row->prediction.upper),
         ps_number_or_missing(row->measured),
         ps_number_or_missing(row->measured_error),
         ps_number_or_missing(row->z_score),
-        PS_NUMBER(row->white),
+        PS_NUMBER(row->prediction.white),
     };
     return ps_lead_add_row(table, lead, cells, NUM_COLUMNS, error);
 }
@@ -82,7 +82,7 @@ static pspec_status add_integrand(ps_table *table, const ps_request *request,
 /* For who draws many questions, each of one integrand, against N. */
 static pspec_status add_variances(ps_table *table, const ps_variance_row *row, ps_error *error) {
     const ps_meta entries[] = {
-        {"predicted_variance", PS_NUMBER(row->predicted)},
+        {"predicted_variance", PS_NUMBER(row->prediction.variance)},
         {"measured_variance", ps_number_or_missing(row->measured)},
     };
     return ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
@@ -90,11 +90,11 @@ static pspec_status add_variances(ps_table *table, const ps_variance_row *row, p
 
 /* What the bracket takes for the power beyond the cut-off. */
 static pspec_status add_most_power(ps_table *table, const ps_variance_job *job, ps_error *error) {
-    bool is_known = false;
-    const double most = ps_variance_job_most_power(job, &is_known);
+    const ps_power_beyond *const beyond = ps_variance_job_power_beyond(job);
     const ps_meta entries[] = {
-        {"most_power", PS_NUMBER(most)},
-        {"most_power_is", PS_TEXT(is_known ? "a bound" : "assumed: the largest that was measured")},
+        {"most_power", PS_NUMBER(beyond->most)},
+        {"most_power_is",
+         PS_TEXT(beyond->is_known ? "a bound" : "assumed: the largest that was measured")},
     };
     return ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
 }

@@ -20,7 +20,7 @@ static void near(const char *what, double found, double expected, double allowed
 }
 
 static void near_both(const char *what, const ps_variance_row *row, double exact) {
-    near(what, row->predicted, exact, MANY * row->predicted_error);
+    near(what, row->prediction.variance, exact, MANY * row->prediction.standard_error);
     near(what, row->measured, exact, MANY * row->measured_error);
     assert_true(fabs(row->z_score) < MANY);
 }
@@ -46,9 +46,10 @@ static void check_white(size_t i, size_t num_points, uint64_t num_realizations, 
                       with);
     const ps_variance_row *const row = test_variance_run(&asked);
     const double exact = white[i].energy / (double)num_points;
-    near(white[i].integrand, row->white, exact, 1e-14 * exact);
+    near(white[i].integrand, row->prediction.white, exact, 1e-14 * exact);
     near_both(white[i].integrand, row, exact);
-    assert_true(row->lower <= row->predicted && row->predicted == row->upper);
+    assert_true(row->prediction.lower <= row->prediction.variance &&
+                row->prediction.variance == row->prediction.upper);
     test_variance_free(&asked);
 }
 
@@ -73,11 +74,13 @@ static void jittered_disk(void **state) {
         test_variance asked;
         test_variance_ask(&asked, "jittered", (size_t)test_field(item, "N"), 400, "disk", device);
         const ps_variance_row *const row = test_variance_run(&asked);
-        const double error = row->predicted_error;
-        near("white", row->white, test_field(item, "white"), 1e-13);
-        near("predicted", row->predicted, exact, MANY * error + (row->upper - row->lower));
+        const double error = row->prediction.standard_error;
+        near("white", row->prediction.white, test_field(item, "white"), 1e-13);
+        near("predicted", row->prediction.variance, exact,
+             MANY * error + (row->prediction.upper - row->prediction.lower));
         near("measured", row->measured, exact, MANY * row->measured_error);
-        assert_true(row->lower - MANY * error <= exact && exact <= row->upper + MANY * error);
+        assert_true(row->prediction.lower - MANY * error <= exact &&
+                    exact <= row->prediction.upper + MANY * error);
         test_variance_free(&asked);
     }
     cJSON_Delete(tables);
@@ -94,7 +97,7 @@ static void jittered_gaussian(void **state) {
         test_variance_ask(&asked, "jittered", nums[i], 1000, "gaussian", device);
         asked.question.spectrum.frequencies.max_frequency = 16;
         const ps_variance_row *const row = test_variance_run(&asked);
-        near("predicted", row->predicted, exact, 0.05 * exact);
+        near("predicted", row->prediction.variance, exact, 0.05 * exact);
         near("measured", row->measured, exact, MANY * row->measured_error + 0.02 * exact);
         test_variance_free(&asked);
     }
@@ -111,9 +114,10 @@ static void jittered_harmonic(void **state) {
     test_variance_ask(&asked, "healpix-jittered", (size_t)num, 1500, "harmonic:degree=4", device);
     asked.question.spectrum.max_degree = 4;
     const ps_variance_row *const row = test_variance_run(&asked);
-    near("predicted", row->predicted, exact, MANY * hypot(row->predicted_error, its_error));
+    near("predicted", row->prediction.variance, exact,
+         MANY * hypot(row->prediction.standard_error, its_error));
     near("measured", row->measured, exact, MANY * hypot(row->measured_error, its_error));
-    assert_true(row->predicted_error < 0.02 * exact);
+    assert_true(row->prediction.standard_error < 0.02 * exact);
     test_variance_free(&asked);
 }
 
@@ -129,8 +133,8 @@ static void square_of_the_hemisphere(void **state) {
         const ps_spectrum_bin *const bin = test_variance_spectrum(&asked)->bins;
         const double exact = 16 * PS_PI * PS_PI / 45 * bin->power / 64;
         assert_int_equal(bin->key, 2);
-        near(samplers[i], row->lower, exact, 1e-6 * exact);
-        near(samplers[i], row->upper, exact, 1e-6 * exact + 1e-12);
+        near(samplers[i], row->prediction.lower, exact, 1e-6 * exact);
+        near(samplers[i], row->prediction.upper, exact, 1e-6 * exact + 1e-12);
         test_variance_free(&asked);
     }
 }
@@ -141,7 +145,8 @@ static void square_of_the_hemisphere(void **state) {
  * for e is of the mean over frequencies. */
 static double numerical_error(const test_variance *asked, const ps_variance_row *row) {
     const double e = 2 * asked->question.spectrum.accuracy.tolerance;
-    return 2 * e * sqrt(row->white * row->upper) + e * e * row->white;
+    return 2 * e * sqrt(row->prediction.white * row->prediction.upper) +
+           e * e * row->prediction.white;
 }
 
 /* The bracket has the sum over all pairs of the very points. */
@@ -155,12 +160,12 @@ static void check_bracket(const char *sampler, size_t num_points, const char *in
     double *const points = test_variance_points(&asked, 0, &num);
     assert_ok(ps_integrand_pairwise(test_variance_integrand(&asked, 0), points, NULL, num, &exact,
                                     error));
-    const double off = with == NULL ? 1e-10 * row->white : numerical_error(&asked, row);
-    if (!(row->lower - off <= exact && exact <= row->upper + off)) {
+    const double off = with == NULL ? 1e-10 * row->prediction.white : numerical_error(&asked, row);
+    if (!(row->prediction.lower - off <= exact && exact <= row->prediction.upper + off)) {
         fail_msg("%s, %s: %.17g is not in %.17g .. %.17g within %g", sampler, integrand, exact,
-                 row->lower, row->upper, off);
+                 row->prediction.lower, row->prediction.upper, off);
     }
-    assert_true(row->predicted_error == 0);
+    assert_true(row->prediction.standard_error == 0);
     near(integrand, row->measured, exact, MANY * row->measured_error);
     free(points);
     test_variance_free(&asked);
@@ -194,8 +199,8 @@ static void points_vary(void **state) {
     const ps_spectrum *const spectrum = test_variance_spectrum(&asked);
     const double exact = PS_PI / 16 * (1 - PS_PI / 16) / spectrum->mean_points;
     assert_true(spectrum->smallest_points < spectrum->largest_points);
-    near("white", row->white, exact, 1e-14 * exact);
-    assert_true(row->predicted > 0.05 * exact && row->predicted < 0.4 * exact);
+    near("white", row->prediction.white, exact, 1e-14 * exact);
+    assert_true(row->prediction.variance > 0.05 * exact && row->prediction.variance < 0.4 * exact);
     assert_true(isfinite(row->z_score));
     test_variance_free(&asked);
 }
@@ -208,8 +213,9 @@ static void constants(void **state) {
         test_variance asked;
         test_variance_ask(&asked, "white", 100, 12, values[i / 2], i % 2 == 0 ? device : NULL);
         const ps_variance_row *const row = test_variance_run(&asked);
-        assert_true(row->predicted == 0 && row->predicted_error == 0 && row->white == 0);
-        assert_true(row->lower == 0 && row->upper == 0);
+        assert_true(row->prediction.variance == 0 && row->prediction.standard_error == 0 &&
+                    row->prediction.white == 0);
+        assert_true(row->prediction.lower == 0 && row->prediction.upper == 0);
         assert_true(row->measured == 0 && row->measured_error == 0);
         assert_true(isnan(row->z_score));
         test_variance_free(&asked);
@@ -222,8 +228,8 @@ static void one_realization(void **state) {
         test_variance asked;
         test_variance_ask(&asked, "white", 16, 1, "disk", on_host ? NULL : device);
         const ps_variance_row *const row = test_variance_run(&asked);
-        assert_true(row->predicted > 0 && row->measured >= 0);
-        assert_true(isnan(row->predicted_error) && isnan(row->measured_error));
+        assert_true(row->prediction.variance > 0 && row->measured >= 0);
+        assert_true(isnan(row->prediction.standard_error) && isnan(row->measured_error));
         assert_true(isnan(row->z_score));
         test_variance_free(&asked);
     }

@@ -74,8 +74,8 @@ static double find_score(const kind *what, size_t num_points, uint64_t seed) {
     const ps_variance_row *const row = test_variance_run(&asked);
     const double score = row->z_score;
     printf("%-38s %-20s %4zu %10.4g +- %8.2g %10.4g +- %8.2g %6.2f\n", what->sampler,
-           what->integrand, num_points, row->predicted, row->predicted_error, row->measured,
-           row->measured_error, score);
+           what->integrand, num_points, row->prediction.variance, row->prediction.standard_error,
+           row->measured, row->measured_error, score);
     assert_true(isfinite(score));
     test_variance_free(&asked);
     return score;

@@ -52,9 +52,9 @@ static void the_prediction_is_a_sum(void **state) {
         const double sum = sum_box(&asked, &held);
         const double num = test_variance_spectrum(&asked)->mean_points;
         const double energy = ps_integrand_energy(test_variance_integrand(&asked, 0));
-        near(cases[i / 2].integrand, row->lower, sum, 1e-5 * sum);
-        near(cases[i / 2].integrand, row->predicted - row->lower, (energy - held) / num,
-             1e-9 * row->white);
+        near(cases[i / 2].integrand, row->prediction.lower, sum, 1e-5 * sum);
+        near(cases[i / 2].integrand, row->prediction.variance - row->prediction.lower,
+             (energy - held) / num, 1e-9 * row->prediction.white);
         test_variance_free(&asked);
     }
 }
@@ -149,15 +149,19 @@ static void shifts_are_of_the_measurement(void **state) {
         const ps_variance_row once = *test_variance_run(&asked);
         asked.question.num_shifts = 50;
         const ps_variance_row often = *test_variance_run(&asked);
-        assert_memory_equal(&once.predicted, &often.predicted, sizeof once.predicted);
-        assert_memory_equal(&once.predicted_error, &often.predicted_error, sizeof(double));
-        assert_memory_equal(&once.lower, &often.lower, sizeof once.lower);
-        assert_memory_equal(&once.upper, &often.upper, sizeof once.upper);
+        assert_memory_equal(&once.prediction.variance, &often.prediction.variance,
+                            sizeof once.prediction.variance);
+        assert_memory_equal(&once.prediction.standard_error, &often.prediction.standard_error,
+                            sizeof(double));
+        assert_memory_equal(&once.prediction.lower, &often.prediction.lower,
+                            sizeof once.prediction.lower);
+        assert_memory_equal(&once.prediction.upper, &often.prediction.upper,
+                            sizeof once.prediction.upper);
         assert_true(often.measured != once.measured);
         /* a set has less to add to its shifts' spread */
         assert_true(often.measured_error < 0.5 * once.measured_error);
-        near("shifts", often.measured, often.predicted,
-             5 * hypot(often.measured_error, often.predicted_error));
+        near("shifts", often.measured, often.prediction.variance,
+             5 * hypot(often.measured_error, often.prediction.standard_error));
         test_variance_free(&asked);
     }
 }

@@ -1,0 +1,70 @@
+#include "jobs/variance/prediction.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static pspec_status weigh_degrees(const ps_integrand *integrand, const ps_frequencies *frequencies,
+                                  double *weights, ps_error *error) {
+    const size_t largest = (size_t)frequencies->max_frequency;
+    double *degrees = NULL;
+    PS_TRY(PS_NEW(&degrees, largest + 1, "degrees of an integrand", error));
+    const pspec_status status = ps_integrand_degrees(integrand, largest, degrees, error);
+    for (size_t i = 0; status == PSPEC_OK && i < frequencies->num; i++) {
+        weights[i] = degrees[frequencies->vectors[i]];
+    }
+    free(degrees);
+    return status;
+}
+
+/* What is held is counted as it is weighed. */
+pspec_status ps_prediction_weigh(const ps_integrand *integrand, const ps_frequencies *frequencies,
+                                 double *weights, double *held, ps_error *error) {
+    const double factor = ps_integrand_factor(integrand);
+    const bool is_on_torus = integrand->place.where == PS_SAMPLES_TORUS;
+    long double sum = 0;
+    PS_TRY(is_on_torus ? ps_integrand_powers(integrand, frequencies->vectors, frequencies->num,
+                                             weights, error)
+                       : weigh_degrees(integrand, frequencies, weights, error));
+    for (size_t i = 0; i < frequencies->num; i++) {
+        weights[i] *= is_on_torus ? 2 : factor;
+        sum += weights[i];
+    }
+    *held = (double)sum / factor;
+    return PSPEC_OK;
+}
+
+/* The largest mean power of a ring or degree. */
+static double largest_power(const ps_spectrum *spectrum) {
+    double largest = 0;
+    for (size_t i = 0; i < spectrum->num_bins; i++) {
+        largest = fmax(largest, spectrum->bins[i].power);
+    }
+    return largest;
+}
+
+ps_power_beyond ps_prediction_power_beyond(const ps_sampler_request *sampler,
+                                           const ps_spectrum *spectrum) {
+    if (ps_sampler_has_constant_power(sampler)) {
+        return (ps_power_beyond){spectrum->mean_points, true};
+    }
+    const double most = ps_sampler_most_power(sampler);
+    return most > 0 ? (ps_power_beyond){most, true}
+                    : (ps_power_beyond){largest_power(spectrum), false};
+}
+
+ps_prediction ps_prediction_make(const ps_integrand *integrand, ps_mean sum, double held,
+                                 double num_points, const ps_power_beyond *beyond) {
+    const double factor = ps_integrand_factor(integrand);
+    const double energy = ps_integrand_energy(integrand);
+    const double tail = factor * fmax(energy - held, 0);
+    const double lower = sum.mean / num_points;
+    return (ps_prediction){
+        .variance = lower + tail / num_points,
+        .standard_error = sum.standard_error / num_points,
+        .lower = lower,
+        .upper = lower + beyond->most * tail / num_points,
+        .white = factor * energy / num_points,
+    };
+}

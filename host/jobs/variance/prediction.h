@@ -1,0 +1,37 @@
+/* The variance that a spectrum and an integrand predict: (V1) on the torus, (S1) on the sphere and
+ * (H1) on the hemisphere, as a weighted sum of powers up to the cut-off, and (V3) for the rest.
+ */
+#ifndef PS_JOBS_VARIANCE_PREDICTION_H
+#define PS_JOBS_VARIANCE_PREDICTION_H
+
+#include "frequencies/frequencies.h"
+#include "integrands/integrand.h"
+#include "spectra/accumulate.h"
+#include "spectra/spectrum.h"
+
+typedef struct ps_prediction {
+    double variance;       /* with what lies beyond the cut-off as white */
+    double standard_error; /* over realizations; nan of one */
+    /* With nothing beyond the cut-off, and with the most power there: (V3), without statistics */
+    double lower, upper;
+    double white; /* of as many independent points */
+} ps_prediction;
+
+/* The most power that sets have beyond the cut-off. */
+typedef struct ps_power_beyond {
+    double most;
+    bool is_known; /* a bound of the sampler's expected power, or N of a single set; else the
+                      largest that was measured in a ring or degree */
+} ps_power_beyond;
+
+/* weights [frequencies->num] of the powers, so that N Var is their sum: those of both k and -k on
+ * the torus, of all orders of a degree. *held is what they have of the energy of the integrand. */
+pspec_status ps_prediction_weigh(const ps_integrand *integrand, const ps_frequencies *frequencies,
+                                 double *weights, double *held, ps_error *error) PS_MUST_CHECK;
+ps_power_beyond ps_prediction_power_beyond(const ps_sampler_request *sampler,
+                                           const ps_spectrum *spectrum);
+/* sum is the weighted sum, its mean and standard error over realizations. */
+ps_prediction ps_prediction_make(const ps_integrand *integrand, ps_mean sum, double held,
+                                 double num_points, const ps_power_beyond *beyond);
+
+#endif
