@@ -9,7 +9,7 @@
  */
 #include "bench.h"
 
-#include "jobs/parts/estimator.h"
+#include "jobs/estimator.h"
 #include "plan/choose.h"
 
 #include <stdio.h>

@@ -15,15 +15,15 @@ forbid() { # WHY FOLDERS PATTERN [FILE ALLOWED]...: an extended regular expressi
     fi
 }
 
-forbid "a kind of result is asked through its interface (results/kind.h), not by its name:" host '[!=]= &ps_result_'
-forbid "estimators are made by the runner (jobs/parts/runner.c), which plans again where it must:" host \
-    'ps_estimator_create\(' host/jobs/parts/estimator.c host/jobs/parts/estimator.h host/jobs/parts/runner.c \
+forbid "a kind of result is asked through its interface (answers/kind.h), not by its name:" host '[!=]= &ps_result_'
+forbid "estimators are made by the runner (jobs/runner.c), which plans again where it must:" host \
+    'ps_estimator_create\(' host/jobs/estimator.c host/jobs/estimator.h host/jobs/runner.c \
     host/verify/stress_device.c
 forbid "a receiver is named for the thing:" "host bench tests" '(^|[^[:alnum:]_])(of|from|to|over|all)->'
 names=$(sed -n 's/^    \.name = "\(.*\)",$/\1/p' host/samplers/*/*.c | paste -sd '|')
 forbid "what there is to know of a sampler stands in its row (samplers/sampler.h), whose name nobody else knows:" host \
-    "\"($names)[\":]" 'host/samplers/.*' 'host/verify/.*' 'host/include/.*' host/tasks/doctor_devices.c \
-    'host/report/variance/.*' host/results/compare.c # `white` is also a column, the variance of white noise
+    "\"($names)[\":]" 'host/samplers/.*' 'host/verify/.*' 'host/include/.*' host/commands/doctor_devices.c \
+    'host/answers/variance/.*' host/answers/compare.c # `white` is also a column, the variance of white noise
 
 # Formulas and tables in comments are indented, and strings may be long.
 if found=$(find host kernels tests bench \( -name '*.[ch]' -o -name '*.cl' \) -print0 | xargs -0 awk '

@@ -5,8 +5,9 @@ rooms=(
     base math math/random math/linear device files store points tables plots
     samplers samplers/torus samplers/sphere samplers/darts samplers/optimized sets integrands frequencies
     engines engines/host engines/nufft engines/torus engines/torus/nufft engines/sphere engines/sphere/nufft
-    engines/pairs trials plan spectra rules jobs jobs/parts jobs/spectrum jobs/quadrature jobs/variance verify verify/bench
-    questions report results scene scene/run tasks api cli cli/commands
+    engines/pairs trials plan spectra rules jobs jobs/spectrum jobs/quadrature jobs/variance request verify verify/bench
+    answers
+    scene scene/run commands api cli cli/commands
 )
 
 declare -A rank=()

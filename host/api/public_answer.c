@@ -1,6 +1,6 @@
 /* The public library: answers of every kind of result. */
 #include "api/public_words.h"
-#include "questions/options.h"
+#include "request/options.h"
 
 const char *pspec_result_kind(size_t i) {
     size_t num = 0;

@@ -1,9 +1,9 @@
 /* The public library: scenes, plans, and what there is on this machine. */
 #include "api/public_words.h"
-#include "questions/options.h"
+#include "commands/devices.h"
+#include "commands/doctor.h"
+#include "request/options.h"
 #include "scene/run/run.h"
-#include "tasks/devices.h"
-#include "tasks/doctor.h"
 
 /* A table that was made, or nothing. */
 static pspec_status give(pspec_table **out, ps_answer *made, pspec_status status, ps_error *error) {

@@ -1,7 +1,7 @@
 /* The public library: kernel interpolation (docs/mathematics/quadrature.md#interpolation). */
 #include "api/public_objects.h"
 #include "base/memory.h"
-#include "jobs/parts/pattern_check.h"
+#include "jobs/pattern_check.h"
 #include "math/sobolev.h"
 #include "rules/kernel_system.h"
 

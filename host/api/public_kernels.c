@@ -2,7 +2,7 @@
 #include "api/public_objects.h"
 #include "base/memory.h"
 #include "engines/pairs/pairs_isotropic.h"
-#include "jobs/parts/pattern_check.h"
+#include "jobs/pattern_check.h"
 
 #include <math.h>
 #include <stdlib.h>

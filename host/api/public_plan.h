@@ -3,12 +3,12 @@
 #ifndef PS_API_PUBLIC_PLAN_H
 #define PS_API_PUBLIC_PLAN_H
 
+#include "api/gather.h"
 #include "api/public_objects.h"
 #include "api/public_request.h"
 #include "base/text.h"
-#include "jobs/parts/gather.h"
-#include "jobs/parts/kept_patterns.h"
-#include "jobs/parts/runner.h"
+#include "jobs/kept_patterns.h"
+#include "jobs/runner.h"
 #include "plan/needs.h"
 
 struct pspec_plan {

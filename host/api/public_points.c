@@ -1,7 +1,7 @@
 /* The public library: points of samplers, and point files. */
 #include "api/public_words.h"
 #include "base/memory.h"
-#include "tasks/points.h"
+#include "commands/points.h"
 
 #include <stdlib.h>
 

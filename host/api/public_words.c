@@ -1,7 +1,7 @@
 #include "api/public_words.h"
 
 #include "base/memory.h"
-#include "questions/option_text.h"
+#include "request/option_text.h"
 #include "store/cache_trust.h"
 #include "store/result_cache.h"
 

@@ -5,7 +5,7 @@
 
 #include "api/public_objects.h"
 #include "base/text.h"
-#include "tasks/task.h"
+#include "commands/task.h"
 
 /* The task of that name, or the sentence that names the nearest one. is_kind: kinds of results
  * only. */

@@ -2,7 +2,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "cli/command.h"
-#include "questions/options.h"
+#include "request/options.h"
 
 #include <ctype.h>
 #include <stdio.h>

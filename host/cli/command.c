@@ -1,7 +1,7 @@
 /* What a command takes. */
 #include "cli/command.h"
 
-#include "questions/options.h"
+#include "request/options.h"
 
 #include <string.h>
 

@@ -2,10 +2,10 @@
 #ifndef PS_CLI_COMMAND_H
 #define PS_CLI_COMMAND_H
 
+#include "answers/kind.h"
 #include "base/watch.h"
 #include "cli/signals.h"
-#include "results/kind.h"
-#include "tasks/task.h"
+#include "commands/task.h"
 
 #include <stdio.h>
 

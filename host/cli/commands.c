@@ -2,11 +2,11 @@
 #include "base/text.h"
 #include "cli/command.h"
 
-#include "questions/options.h"
+#include "request/options.h"
 
 #include <string.h>
 
-/* In the order of --help. A new command is a file, a name in questions/options.h, and the rows of
+/* In the order of --help. A new command is a file, a name in request/options.h, and the rows of
  * its options. */
 #define COMMAND(name) &ps_command_##name,
 const ps_command *const ps_commands[] = {PS_TAKERS(COMMAND, COMMAND) NULL};

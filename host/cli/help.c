@@ -2,7 +2,7 @@
 #include "cli/command.h"
 #include "integrands/brdf.h"
 #include "integrands/integrand.h"
-#include "questions/options.h"
+#include "request/options.h"
 #include "samplers/sampler.h"
 
 #include <stdio.h>

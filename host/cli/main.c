@@ -4,7 +4,7 @@
 #include "base/text.h"
 #include "cli/command.h"
 #include "cli/shown.h"
-#include "questions/options.h"
+#include "request/options.h"
 #include "store/cache_trust.h"
 #include "store/result_cache.h"
 

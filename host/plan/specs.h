@@ -1,4 +1,4 @@
-/* Parts of every question about point sets, as the option table fills them (questions/options.c)
+/* Parts of every question about point sets, as the option table fills them (request/options.c)
  * and the program, scenes and the C library hand them on: nested in the request, in the questions
  * of jobs, and in what decides about needs, so that a value is said once.
  */

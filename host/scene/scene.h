@@ -13,8 +13,8 @@
 #ifndef PS_SCENE_SCENE_H
 #define PS_SCENE_SCENE_H
 
+#include "answers/kind.h"
 #include "base/text.h"
-#include "results/kind.h"
 
 /* One value of a key: a text; of `files`, the paths that belong together. */
 typedef struct ps_scene_value {

@@ -1,6 +1,6 @@
 /* The values of one key of a scene. */
 #include "base/counts.h"
-#include "questions/option_text.h"
+#include "request/option_text.h"
 #include "scene/scene_file.h"
 
 #include <stdio.h>

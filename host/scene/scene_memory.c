@@ -1,5 +1,5 @@
 /* The limit of memory that comes with a run, and not with the scene. */
-#include "questions/options.h"
+#include "request/options.h"
 #include "scene/scene_file.h"
 
 #include <stdio.h>

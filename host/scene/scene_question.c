@@ -1,6 +1,6 @@
 /* The questions of a result: one for each combination of its values. */
 #include "engines/engine.h"
-#include "questions/option_text.h"
+#include "request/option_text.h"
 #include "scene/scene_file.h"
 
 #include <stdlib.h>

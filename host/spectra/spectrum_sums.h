@@ -2,7 +2,7 @@
  * can be added up to the spectrum of the whole.
  *
  * Under the normalization of integrals the sums are of q = N_ref |S|^2 / W^2, N_ref being a number
- * of points that was fixed when summing began (jobs/parts/estimator.h); sums of another N_ref are
+ * of points that was fixed when summing began (jobs/estimator.h); sums of another N_ref are
  * rescaled.
  */
 #ifndef PS_SPECTRA_SPECTRUM_SUMS_H

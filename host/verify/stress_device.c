@@ -7,7 +7,7 @@
 #include "engines/host/host_pairs.h"
 #include "engines/pairs/pairs_chords.h"
 #include "engines/torus/torus_direct.h"
-#include "jobs/parts/estimator.h"
+#include "jobs/estimator.h"
 #include "verify/stress_shapes.h"
 
 #include <math.h>

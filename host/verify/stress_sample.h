@@ -2,7 +2,7 @@
 #ifndef PS_VERIFY_STRESS_SAMPLE_H
 #define PS_VERIFY_STRESS_SAMPLE_H
 
-#include "jobs/parts/pattern_check.h"
+#include "jobs/pattern_check.h"
 #include "verify/stress.h"
 
 typedef struct ps_stress_sample {

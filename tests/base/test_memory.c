@@ -2,7 +2,7 @@
  * counted. */
 #include "harness.h"
 
-#include "jobs/parts/estimator.h"
+#include "jobs/estimator.h"
 #include "plan/choose.h"
 
 #include <stdlib.h>

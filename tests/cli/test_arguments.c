@@ -1,7 +1,7 @@
 /* The parser of the command line: forms of options, limits, and the sentences for what is wrong. */
 #include "cli/command.h"
 
-#include "questions/options.h"
+#include "request/options.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

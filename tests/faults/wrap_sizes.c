@@ -9,7 +9,7 @@
 #include "faults.h"
 
 #include "engines/nufft/choose.h"
-#include "jobs/parts/source.h"
+#include "jobs/source.h"
 
 #include <stdlib.h>
 

@@ -1,6 +1,6 @@
 /* Saved tables of power and angular as JSON. What is taken is what the comparison counts on. */
+#include "answers/check/saved_spectrum.h"
 #include "fuzz.h"
-#include "questions/saved_spectrum.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,10 +1,10 @@
 /* What people type: samplers with their parameters, and the words of commands. */
+#include "answers/spectra/question.h"
 #include "base/text.h"
 #include "cli/command.h"
 #include "fuzz.h"
 #include "integrands/brdf.h"
-#include "questions/options.h"
-#include "questions/question.h"
+#include "request/options.h"
 #include "samplers/sampler.h"
 
 #include <math.h>

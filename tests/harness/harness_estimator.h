@@ -4,7 +4,7 @@
 
 #include "harness.h"
 
-#include "jobs/parts/estimator.h"
+#include "jobs/estimator.h"
 
 /* num white patterns of first, first + step, ... points. */
 typedef struct test_sample {

@@ -4,7 +4,7 @@
 #include "harness.h"
 
 #include "engines/host/host_direct.h"
-#include "jobs/parts/self_check.h"
+#include "jobs/self_check.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "jobs/parts/source.h"
+#include "jobs/source.h"
 #include "math/pi.h"
 #include "math/random/random.h"
 #include "math/random/rotation.h"

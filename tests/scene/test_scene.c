@@ -2,7 +2,7 @@
 #include "scene_text.h"
 
 #include "cli/command.h"
-#include "questions/options.h"
+#include "request/options.h"
 
 #include <sys/stat.h>
 

@@ -2,7 +2,7 @@
  * what it refuses. */
 #include "harness_public.h"
 
-#include "questions/saved_spectrum.h"
+#include "answers/check/saved_spectrum.h"
 #include "test_samplers.h"
 
 #include <math.h>

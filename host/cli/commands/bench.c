@@ -1,13 +1,13 @@
 /* pointspec bench: run time against error on this device, and its figures for the planner. */
+#include "answers/output_check.h"
+#include "answers/picture.h"
 #include "cli/command.h"
 #include "cli/commands/bench_scenes.h"
 #include "cli/shown.h"
-#include "report/output_check.h"
-#include "results/picture.h"
-#include "questions/options.h"
-#include "report/bench_plot.h"
+#include "request/options.h"
 #include "store/host_figures.h"
 #include "tables/table_stream.h"
+#include "verify/bench/bench_plot.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -2,7 +2,7 @@
 #ifndef PS_CLI_COMMANDS_BENCH_SCENES_H
 #define PS_CLI_COMMANDS_BENCH_SCENES_H
 
-#include "questions/request.h"
+#include "request/request.h"
 #include "tables/table.h"
 
 /* Answers the scenes arguments->files with and without skips, in turn, without the cache, and

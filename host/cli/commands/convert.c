@@ -1,8 +1,8 @@
 /* pointspec convert: point files into another format. */
 #include "cli/command.h"
 #include "cli/shown.h"
-#include "tasks/points.h"
-#include "tasks/task.h"
+#include "commands/points.h"
+#include "commands/task.h"
 
 static pspec_status run(const ps_request *arguments, ps_error *error) {
     ps_shown shown = {.arguments = arguments,

@@ -1,7 +1,7 @@
 /* pointspec devices: what OpenCL offers here, and which device would be used. */
 #include "cli/command.h"
 #include "cli/shown.h"
-#include "tasks/devices.h"
+#include "commands/devices.h"
 
 static pspec_status run(const ps_request *arguments, ps_error *error) {
     ps_shown shown = {.arguments = arguments, .speaker = "pointspec devices"};

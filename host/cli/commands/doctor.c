@@ -1,6 +1,6 @@
 /* pointspec doctor: what works here, and what does not. */
-#include "tasks/doctor.h"
 #include "cli/command.h"
+#include "commands/doctor.h"
 #include "store/result_cache.h"
 
 #include <stdio.h>

@@ -1,8 +1,8 @@
 /* pointspec run: a scene, its results into a folder. */
 #include "cli/command.h"
 #include "cli/shown.h"
+#include "commands/task.h"
 #include "scene/run/run.h"
-#include "tasks/task.h"
 
 static pspec_status run(const ps_request *arguments, ps_error *error) {
     ps_shown shown = {.arguments = arguments, .counted = "realizations", .speaker = "pointspec"};

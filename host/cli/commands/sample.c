@@ -1,9 +1,9 @@
 /* pointspec sample: point sets to a file or standard output. */
 #include "cli/command.h"
 #include "cli/shown.h"
-#include "tasks/points.h"
-#include "tasks/prefetch.h"
-#include "tasks/task.h"
+#include "commands/points.h"
+#include "commands/prefetch.h"
+#include "commands/task.h"
 
 static pspec_status run(const ps_request *arguments, ps_error *error) {
     ps_shown shown = {.arguments = arguments,

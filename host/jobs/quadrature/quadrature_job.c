@@ -1,9 +1,9 @@
 #include "jobs/quadrature/quadrature_job.h"
 
 #include "base/memory.h"
-#include "jobs/parts/runner.h"
 #include "jobs/quadrature/quadrature_looks.h"
 #include "jobs/quadrature/quadrature_rules.h"
+#include "jobs/runner.h"
 #include "math/pi.h"
 #include "spectra/sums.h"
 

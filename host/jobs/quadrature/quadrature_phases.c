@@ -1,6 +1,6 @@
 #include "jobs/quadrature/quadrature_phases.h"
 
-#include "jobs/parts/point_phases.h"
+#include "jobs/point_phases.h"
 #include "jobs/spectrum/power_phases.h"
 #include "rules/distance_split.h"
 

@@ -12,8 +12,8 @@
 
 #include "base/watch.h"
 #include "frequencies/frequencies_spec.h"
-#include "jobs/parts/estimator.h"
-#include "jobs/parts/source.h"
+#include "jobs/estimator.h"
+#include "jobs/source.h"
 #include "jobs/spectrum/empty_axis.h"
 #include "plan/needs.h"
 #include "plan/specs.h"

@@ -2,7 +2,7 @@
 #ifndef PS_JOBS_SPECTRUM_POWER_JOB_PRIVATE_H
 #define PS_JOBS_SPECTRUM_POWER_JOB_PRIVATE_H
 
-#include "jobs/parts/runner.h"
+#include "jobs/runner.h"
 #include "jobs/spectrum/power_job.h"
 #include "jobs/spectrum/power_sets.h"
 

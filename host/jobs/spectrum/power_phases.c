@@ -1,8 +1,8 @@
 #include "jobs/spectrum/power_phases.h"
 
 #include "engines/error_units.h"
-#include "jobs/parts/point_phases.h"
-#include "jobs/parts/self_check.h"
+#include "jobs/point_phases.h"
+#include "jobs/self_check.h"
 #include "jobs/spectrum/power_job_private.h"
 #include "plan/cost_model.h"
 #include "spectra/phases/shift_products.h"

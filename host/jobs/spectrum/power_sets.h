@@ -4,8 +4,8 @@
 #ifndef PS_JOBS_SPECTRUM_POWER_SETS_H
 #define PS_JOBS_SPECTRUM_POWER_SETS_H
 
-#include "jobs/parts/estimator.h"
-#include "jobs/parts/source.h"
+#include "jobs/estimator.h"
+#include "jobs/source.h"
 #include "jobs/spectrum/empty_axis.h"
 
 typedef struct ps_power_sets {

@@ -3,7 +3,7 @@
 #define PS_JOBS_VARIANCE_MEASUREMENT_H
 
 #include "integrands/integrand.h"
-#include "jobs/parts/source.h"
+#include "jobs/source.h"
 #include "spectra/accumulate.h"
 
 typedef struct ps_measurement_plan {

@@ -1,7 +1,7 @@
 #include "jobs/variance/variance_job.h"
 
 #include "base/memory.h"
-#include "jobs/parts/point_phases.h"
+#include "jobs/point_phases.h"
 #include "jobs/variance/measurement.h"
 #include "jobs/variance/prediction.h"
 

@@ -1,5 +1,5 @@
 /* Pictures of points: a panel, or two sides of the sphere, for every question. */
-#include "results/points_picture.h"
+#include "answers/points/points_picture.h"
 #include "scene/run/drawing.h"
 
 #include <string.h>

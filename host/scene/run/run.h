@@ -19,9 +19,9 @@
 #ifndef PS_SCENE_RUN_RUN_H
 #define PS_SCENE_RUN_RUN_H
 
+#include "answers/kind.h"
 #include "device/kind.h"
 #include "files/digest.h"
-#include "results/kind.h"
 #include "scene/run/files.h"
 #include "scene/run/pictures.h"
 #include "scene/scene.h"

@@ -1,0 +1,78 @@
+#include "answers/kind.h"
+
+#include "base/text.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+void ps_answer_begin_next(const ps_answer_hooks *hooks) {
+    if (hooks->next != NULL) {
+        hooks->next(hooks->payload);
+    }
+}
+
+void ps_answer_end(const ps_answer_hooks *hooks) {
+    if (hooks->end != NULL) {
+        hooks->end(hooks->payload);
+    }
+}
+
+bool ps_answer_is_interrupted(const ps_answer_hooks *hooks) {
+    return hooks->is_interrupted != NULL && hooks->is_interrupted(hooks->payload);
+}
+
+static void say(void (*hear)(void *payload, const char *sentence), void *payload,
+                const char *format, va_list arguments) {
+    char sentence[PS_MESSAGE_BYTES];
+    if (hear != NULL) {
+        vsnprintf(sentence, sizeof sentence, format, arguments);
+        hear(payload, sentence);
+    }
+}
+
+void ps_answer_warn(const ps_answer_hooks *hooks, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    say(hooks->warn, hooks->payload, format, arguments);
+    va_end(arguments);
+}
+
+void ps_answer_warn_of(const ps_answer_hooks *hooks, const char *sentence) {
+    if (sentence[0] != '\0') {
+        ps_answer_warn(hooks, "%s", sentence);
+    }
+}
+
+void ps_answer_tell_missing(const ps_answer_hooks *hooks, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    say(hooks->tell_missing, hooks->payload, format, arguments);
+    va_end(arguments);
+}
+
+size_t ps_answer_num_entries(const ps_answer *answer) {
+    size_t num = answer->array == NULL ? 0 : answer->is_complex ? 2 : 1;
+    for (unsigned axis = 0; axis < answer->rank; axis++) {
+        num *= answer->shape[axis];
+    }
+    return num;
+}
+
+pspec_status ps_answer_make(ps_answer *out, const ps_result_kind *kind, const ps_request *request,
+                            const ps_answer_hooks *hooks, ps_error *error) {
+    void *computed = NULL;
+    *out = (ps_answer){0};
+    pspec_status status = kind->compute(&computed, request, hooks, error);
+    if (status == PSPEC_OK) {
+        status = kind->tabulate(out, computed, request, error);
+    }
+    kind->discard(computed);
+    return status;
+}
+
+void ps_answer_free(ps_answer *answer) {
+    ps_table_destroy(answer->table);
+    free(answer->array);
+    *answer = (ps_answer){0};
+}

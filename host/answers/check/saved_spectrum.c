@@ -1,0 +1,152 @@
+#include "answers/check/saved_spectrum.h"
+
+#include "base/memory.h"
+#include "files/input_file.h"
+#include "spectra/file/spectrum_file.h"
+#include "spectra/file/spectrum_format.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- files of the library ---------------------------------------------------------------- */
+
+static pspec_status copy_bins(ps_saved_spectrum *out, const ps_spectrum *averages,
+                              ps_error *error) {
+    PS_TRY(PS_NEW(&out->bins, averages->num_bins, "saved bins", error));
+    out->num_bins = averages->num_bins;
+    for (size_t b = 0; b < averages->num_bins; b++) {
+        const ps_spectrum_bin *const bin = &averages->bins[b];
+        out->bins[b] =
+            (ps_saved_bin){bin->key, bin->power, bin->standard_error, bin->frequency, bin->count};
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status check_kind(const ps_spectrum_sums *sums, const char *path, ps_error *error) {
+    if (sums->normalization == PSPEC_NORMALIZATION_PAIRS) {
+        return ps_fail(error, PSPEC_ERROR_INPUT,
+                       "\"%s\" holds sums over pairs, and powers are compared", path);
+    }
+    if (sums->frequencies.kind == PS_FREQUENCIES_LIST) {
+        return ps_fail(
+            error, PSPEC_ERROR_INPUT,
+            "\"%s\" holds a list of frequencies or a random subset of them, which only the "
+            "library compares (pspec_spectrum_compare)",
+            path);
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status take_sums(ps_saved_spectrum *out, const ps_spectrum_sums *sums,
+                              const ps_bins *bins, const char *path, ps_error *error) {
+    const ps_frequencies *const set = &sums->frequencies;
+    ps_spectrum averages = {0};
+    PS_TRY(check_kind(sums, path, error));
+    PS_TRY(ps_spectrum_sums_finish(sums, bins, &averages, error));
+    *out = (ps_saved_spectrum){
+        .on_sphere = set->kind == PS_FREQUENCIES_DEGREES,
+        .on_hemisphere = set->kind == PS_FREQUENCIES_DEGREES && set->degree_step > 1,
+        .dimension = set->dimension,
+        .max_frequency = set->max_frequency,
+        .bin_rule = set->bins,
+        .normalization = sums->normalization,
+        .num_realizations = averages.num_realizations,
+        .smallest_points = averages.smallest_points,
+        .largest_points = averages.largest_points,
+        .mean_points = averages.mean_points,
+        .error = sums->error,
+    };
+    const pspec_status status = copy_bins(out, &averages, error);
+    ps_spectrum_free(&averages);
+    return status;
+}
+
+static pspec_status read_sums(ps_saved_spectrum *out, const char *path, ps_error *error) {
+    ps_spectrum_sums sums = {0};
+    ps_bins bins = {0};
+    PS_TRY(ps_spectrum_read(&sums, &bins, path, error));
+    const pspec_status status = take_sums(out, &sums, &bins, path, error);
+    ps_spectrum_sums_free(&sums);
+    ps_bins_free(&bins);
+    return status;
+}
+
+/* ---- tables ------------------------------------------------------------------------------ */
+
+/* A row takes about 100 bytes: more rings than anybody has. What is larger is no saved spectrum. */
+#define MOST_BYTES ((size_t)1 << 26)
+
+static pspec_status read_text(ps_input *input, char **text, size_t *num_bytes, ps_error *error) {
+    const size_t first_room = 65536;
+    size_t room = 0;
+    size_t length = 0;
+    size_t count = 1;
+    while (count > 0) {
+        void *memory = *text;
+        PS_TRY(ps_grow(&memory, &room, length + first_room, 1, "a saved spectrum", error));
+        *text = memory;
+        PS_TRY(ps_input_read_some(input, *text + length, room - length, &count, error));
+        length += count;
+        if (length > MOST_BYTES) {
+            return ps_fail(error, PSPEC_ERROR_INPUT,
+                           "\"%s\" has more than %zu bytes, too many for a saved spectrum",
+                           input->name, MOST_BYTES);
+        }
+    }
+    *num_bytes = length;
+    return PSPEC_OK;
+}
+
+static pspec_status read_table(ps_saved_spectrum *out, ps_input *input, ps_error *error) {
+    char *text = NULL;
+    size_t num_bytes = 0;
+    pspec_status status = read_text(input, &text, &num_bytes, error);
+    if (status == PSPEC_OK) {
+        status = ps_saved_table_parse(out, text, num_bytes, input->name, error);
+    }
+    free(text);
+    return status;
+}
+
+/* ---- which ------------------------------------------------------------------------------- */
+
+static pspec_status read_either(ps_saved_spectrum *out, ps_input *input, const char *path,
+                                ps_error *error) {
+    enum { MOST_PEEKED = 16 };
+    const size_t length =
+        sizeof PS_SPECTRUM_MAGIC - 1 < MOST_PEEKED ? sizeof PS_SPECTRUM_MAGIC - 1 : MOST_PEEKED;
+    const unsigned char *bytes = NULL;
+    size_t num = 0;
+    PS_TRY(ps_input_open(input, path, error));
+    PS_TRY(ps_input_peek(input, length, &bytes, &num, error));
+    if (num >= length && memcmp(bytes, PS_SPECTRUM_MAGIC, length) == 0) {
+        return read_sums(out, path, error);
+    }
+    if (num > 0 && bytes[0] == '{') {
+        return read_table(out, input, error);
+    }
+    return ps_fail(error, PSPEC_ERROR_INPUT,
+                   "\"%s\" is no saved spectrum: pointspec power and angular save one with "
+                   "-o FILE.json",
+                   path);
+}
+
+pspec_status ps_saved_spectrum_read(ps_saved_spectrum *out, const char *path, ps_error *error) {
+    ps_input input = {0};
+    *out = (ps_saved_spectrum){0};
+    if (strcmp(path, "-") == 0) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "a saved spectrum is a file, and standard input is none");
+    }
+    const pspec_status status = read_either(out, &input, path, error);
+    ps_input_close(&input);
+    if (status != PSPEC_OK) {
+        ps_saved_spectrum_free(out);
+    }
+    return status;
+}
+
+void ps_saved_spectrum_free(ps_saved_spectrum *saved) {
+    free(saved->bins);
+    *saved = (ps_saved_spectrum){0};
+}

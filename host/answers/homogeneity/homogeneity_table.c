@@ -1,0 +1,175 @@
+#include "answers/homogeneity/homogeneity_table.h"
+
+#include "answers/spectra/spectrum_header.h"
+#include "base/memory.h"
+#include "math/random/distributions.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static const char *const torus_columns[] = {"bin",     "phases",           "resultant", "z_score",
+                                            "p_value", "adjusted_p_value", "worst",     "verdict"};
+enum { NUM_COLUMNS = sizeof torus_columns / sizeof torus_columns[0] };
+
+static bool is_on_sphere(const ps_frequencies *set) {
+    return set->kind == PS_FREQUENCIES_DEGREES;
+}
+
+/* " up to 20 on axes 1 and 3"; axes are not named where all are meant. */
+static void append_family(ps_text *out, const ps_phase_label *label, unsigned dimension) {
+    const unsigned all = (1U << dimension) - 1;
+    unsigned left = label->axes;
+    ps_text_append(out, " up to %d", (int)label->reach);
+    if (label->axes == all) {
+        return;
+    }
+    ps_text_append(out, " on %s", (left & (left - 1)) == 0 ? "axis" : "axes");
+    for (unsigned axis = 0; axis < dimension; axis++) {
+        const unsigned bit = 1U << axis;
+        if ((left & bit) != 0) {
+            const bool is_first = left == label->axes;
+            left &= ~bit;
+            ps_text_append(out, "%s %u", is_first ? "" : left == 0 ? " and" : ",", axis + 1);
+        }
+    }
+}
+
+pspec_status ps_phase_label_write(const ps_phase_label *label, const ps_frequencies *set,
+                                  ps_text *out, ps_error *error) {
+    const char *const what = label->is_product ? "products" : "amplitudes";
+    if (is_on_sphere(set)) {
+        ps_text_append(out, "degree %d, order %d of %s, about %s", (int)label->k[0],
+                       (int)label->k[1], what, label->is_turned ? "x" : "z");
+        return ps_text_check(out, error);
+    }
+    for (unsigned axis = 0; axis < set->dimension; axis++) {
+        ps_text_append(out, "%s%d", axis == 0 ? "(" : ",", (int)label->k[axis]);
+    }
+    ps_text_append(out, ") of %s", what);
+    if (label->is_product) {
+        append_family(out, label, set->dimension);
+    }
+    return ps_text_check(out, error);
+}
+
+/* ---- rows -------------------------------------------------------------------------------- */
+
+/* Tests of one ring or degree. */
+typedef struct ring {
+    size_t num;
+    const ps_phase_test *worst;
+} ring;
+
+static size_t ring_of(const ps_homogeneity_results *results, const ps_frequencies *set, size_t i) {
+    const int32_t *const k = results->labels[i].k;
+    return is_on_sphere(set) ? (size_t)k[0]
+                             : (size_t)ps_ring_of_norm2(ps_frequency_norm2(k, set->dimension));
+}
+
+/* Bonferroni: the smallest of num probabilities. */
+static double joint_p_value(const ring *one) {
+    return fmin(1, (double)one->num * one->worst->p_value);
+}
+
+static pspec_status add_row(ps_table *table, const ps_homogeneity_results *results,
+                            const ps_frequencies *set, size_t number, const ring *one,
+                            ps_error *error) {
+    ps_text label = {0};
+    pspec_status status =
+        ps_phase_label_write(&results->labels[one->worst - results->tests], set, &label, error);
+    if (status == PSPEC_OK) {
+        const double p_value = joint_p_value(one);
+        const ps_cell cells[NUM_COLUMNS] = {
+            PS_INTEGER(number),
+            PS_INTEGER(one->num),
+            PS_NUMBER(one->worst->resultant),
+            PS_NUMBER(ps_normal_score(p_value)),
+            PS_NUMBER(p_value),
+            PS_NUMBER(one->worst->adjusted_p_value),
+            PS_TEXT(ps_text_string(&label)),
+            PS_TEXT(one->worst->differs ? "different" : "same"),
+        };
+        status = ps_table_add_row(table, cells, error);
+    }
+    ps_text_free(&label);
+    return status;
+}
+
+static pspec_status add_rows(ps_table *table, const ps_homogeneity_results *results,
+                             const ps_frequencies *set, ps_error *error) {
+    size_t last = 0;
+    ring *rings = NULL;
+    pspec_status status = PSPEC_OK;
+    for (size_t i = 0; i < results->num_tests; i++) {
+        const size_t number = ring_of(results, set, i);
+        last = number > last ? number : last;
+    }
+    PS_TRY(PS_NEW(&rings, last + 1, "rings of phases", error));
+    for (size_t i = 0; i < results->num_tests; i++) {
+        ring *const one = &rings[ring_of(results, set, i)];
+        if (one->num++ == 0 || results->tests[i].p_value < one->worst->p_value) {
+            one->worst = &results->tests[i];
+        }
+    }
+    for (size_t b = 0; status == PSPEC_OK && b <= last; b++) {
+        if (rings[b].num > 0) {
+            status = add_row(table, results, set, b, &rings[b], error);
+        }
+    }
+    free(rings);
+    return status;
+}
+
+/* ---- header ------------------------------------------------------------------------------ */
+
+static double smallest_p_value(const ps_homogeneity_results *results) {
+    double smallest = 1;
+    for (size_t i = 0; i < results->num_tests; i++) {
+        smallest = fmin(smallest, results->tests[i].adjusted_p_value);
+    }
+    return smallest;
+}
+
+static pspec_status add_verdict(ps_table *table, const ps_request *arguments,
+                                const ps_homogeneity_results *results, bool on_sphere,
+                                ps_error *error) {
+    enum { TEXT_BYTES = 96 };
+    char text[TEXT_BYTES];
+    snprintf(text, sizeof text, "%zu of %zu phases", results->num_different, results->num_tests);
+    PS_TRY(ps_table_add_meta(table, "invariance", PS_TEXT(on_sphere ? "rotations" : "translations"),
+                             error));
+    PS_TRY(ps_table_add_meta(table, "false_alarm_rate", PS_NUMBER(arguments->false_alarm_rate),
+                             error));
+    PS_TRY(ps_table_add_meta(table, "different", PS_TEXT(text), error));
+    PS_TRY(
+        ps_table_add_meta(table, "adjusted_p_value", PS_NUMBER(smallest_p_value(results)), error));
+    return ps_table_add_meta(table, "verdict",
+                             PS_TEXT(results->num_different > 0 ? "different" : "same"), error);
+}
+
+static pspec_status fill(ps_table *table, const ps_request *arguments,
+                         const ps_homogeneity_results *results, ps_error *error) {
+    const ps_frequencies *const set = ps_power_job_problem(results->job)->frequencies;
+    PS_TRY(ps_header_begin(table, arguments, results->job, error));
+    PS_TRY(add_verdict(table, arguments, results, is_on_sphere(set), error));
+    const ps_power_job *const job = results->job;
+    PS_TRY(ps_header_add_job(table, arguments, &job, 1, 0, error));
+    return add_rows(table, results, set, error);
+}
+
+pspec_status ps_homogeneity_table(ps_table **out, const ps_request *arguments,
+                                  const ps_homogeneity_results *results, ps_error *error) {
+    const char *columns[NUM_COLUMNS];
+    const bool on_sphere = is_on_sphere(ps_power_job_problem(results->job)->frequencies);
+    for (size_t i = 0; i < NUM_COLUMNS; i++) {
+        columns[i] = i == 0 && on_sphere ? "degree" : torus_columns[i];
+    }
+    PS_TRY(ps_table_create(out, "check", columns, NUM_COLUMNS, error));
+    const pspec_status status = fill(*out, arguments, results, error);
+    if (status != PSPEC_OK) {
+        ps_table_destroy(*out);
+        *out = NULL;
+    }
+    return status;
+}

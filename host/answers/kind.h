@@ -1,0 +1,163 @@
+/* The interface of every kind of result, and the table that names them all.
+ *
+ * A kind of result is what can be asked for: a command of the same name prints one, a scene has
+ * several, and both go the same way: check -> compute -> tabulate, with pictures and other files
+ * made of what was computed, or of the table. A kind says which options belong to its question,
+ * what planning it comes to, and what its tables mean to who draws, sums up or compares them. A new
+ * kind is a new file, a name and the rows of its options in request/options.h and .c.
+ */
+#ifndef PS_ANSWERS_KIND_H
+#define PS_ANSWERS_KIND_H
+
+#include "answers/plan_table.h"
+#include "base/watch.h"
+#include "device/device.h"
+#include "plan/choose.h"
+#include "request/options.h"
+#include "tables/table.h"
+
+/* Who is told of the work, and what there is already; {0}: nobody, and nothing. Each of the calls
+ * may be NULL. */
+typedef struct ps_answer_hooks {
+    ps_watch watch;
+    ps_device
+        *device;   /* borrowed; NULL: the one that the request names is opened where it is needed */
+    void *payload; /* of the calls */
+    /* The work for the next sampler, for files, or for a scene begins. */
+    void (*next)(void *payload);
+    /* Question `number` (from 1) of num, which is one of that result of a scene, begins. */
+    void (*begin_question)(void *payload, const char *result, size_t number, size_t num);
+    /* The work is over, or has failed; what was made of it is written next. */
+    void (*end)(void *payload);
+    /* A whole sentence that is no error. */
+    void (*warn)(void *payload, const char *sentence);
+    /* The same, of a file that was asked for and is not there. */
+    void (*tell_missing)(void *payload, const char *sentence);
+    /* Asked between two questions of a scene, and after a failure: was it an interrupt? */
+    bool (*is_interrupted)(void *payload);
+    /* Before the work for one sampler, and after it. */
+    void (*tell_plan)(void *payload, const ps_plan *plan);
+    void (*tell_profile)(void *payload, const ps_profile_row *rows, size_t num_rows);
+} ps_answer_hooks;
+
+/* Call the hooks `next` and `end`, if there are such. */
+void ps_answer_begin_next(const ps_answer_hooks *hooks);
+void ps_answer_end(const ps_answer_hooks *hooks);
+/* false where nobody can say. */
+bool ps_answer_is_interrupted(const ps_answer_hooks *hooks);
+/* Calls the hook `warn` with a sentence, if there is somebody to hear it. */
+void ps_answer_warn(const ps_answer_hooks *hooks, const char *format, ...) PS_PRINTF(2, 3);
+/* The same with a sentence that may be empty: then nobody hears it. */
+void ps_answer_warn_of(const ps_answer_hooks *hooks, const char *sentence);
+void ps_answer_tell_missing(const ps_answer_hooks *hooks, const char *format, ...) PS_PRINTF(2, 3);
+
+enum { PS_ANSWER_RANK = PS_MAX_TORUS_DIMENSION + 1 };
+
+typedef struct ps_answer {
+    ps_table *table;
+    /* The averaged periodogram on the whole box, [2K+1]^d, or the weights of the only rule, where
+     * request->wants_array, or wants_picture in the plane, and there are such; points; complex
+     * coefficients, as --coefficients writes them, where request->wants_coefficients; NULL: none */
+    double *array;
+    bool is_complex; /* pairs (real, imaginary) */
+    unsigned rank;
+    size_t shape[PS_ANSWER_RANK];
+    ps_error verdict; /* PSPEC_ERROR_CHECK where differences were found; else status PSPEC_OK */
+} ps_answer;
+
+/* Two columns of a table, or two entries of its header, against each other: a line for each
+ * question. */
+typedef struct ps_line_kind {
+    const char *suffix; /* of the file's name; NULL ends a list of them */
+    const char *what, *x, *y, *x_label, *y_label;
+    bool is_log_x, is_log_y;
+} ps_line_kind;
+
+typedef struct ps_result_kind {
+    const char *name;
+
+    /* The question. */
+    /* Its bit in the table of options: which belong to the question, the same on every device */
+    ps_takers taker;
+    const char *weights; /* words of --weights; NULL: equal|column|FILE */
+    ps_domain samples;   /* which samplers it takes */
+    const char *counted; /* what its work counts: "realizations" */
+    bool is_of_host;     /* no device is needed, whatever is asked */
+    bool has_images; /* its answers may have a picture, which scenes ask for by the key pictures */
+    bool has_arrays; /* its answers may have an array, which scenes ask for by the key arrays, */
+    bool has_coefficients; /* or coefficients, by arrays: coefficients */
+    bool has_verdict;      /* whose rows are words, too: no NPY */
+    bool has_points; /* its arrays are points [M][N][D], and pictures show those of the first */
+
+    /* Does a scene's default of this option say nothing to it? NULL: all are taken. */
+    bool (*leaves_default)(ps_option_id id);
+    /* What a command refuses before it looks at its outputs; NULL: nothing. */
+    pspec_status (*check_arguments)(const ps_request *request, ps_error *error);
+    /* What can be refused is refused before the first hour of work: do the options fit together? */
+    pspec_status (*check_question)(const ps_request *request, ps_error *error);
+    /* Adds what computing it would come to. */
+    pspec_status (*plan)(ps_planner *planner, const ps_request *request, ps_error *error);
+
+    /* The answer. All the work: *out is what the following are made of, given to discard, also
+     * after an error. It borrows from the request. */
+    pspec_status (*compute)(void **out, const ps_request *request, const ps_answer_hooks *hooks,
+                            ps_error *error);
+    /* *out is {0} before, and freed by ps_answer_free, also after an error. */
+    pspec_status (*tabulate)(ps_answer *out, const void *computed, const ps_request *request,
+                             ps_error *error);
+    /* Writes the files that options besides --output and --plot ask for; NULL: there are no such
+     * options. */
+    pspec_status (*write_others)(const void *computed, const ps_request *request, ps_error *error);
+    /* Draws the picture request->plot; NULL: there is no such option. */
+    pspec_status (*draw)(const void *computed, const ps_request *request, ps_error *error);
+    void (*discard)(void *computed); /* NULL is allowed */
+
+    /* What the tables mean. */
+    const char *const *summary;   /* header entries that are columns of a summary, ended by NULL */
+    const ps_line_kind *spectrum; /* axes of the powers of spectra; NULL: it is none */
+    const ps_line_kind *lines;    /* pictures of columns; NULL for spectra */
+    /* Header entries against each other where numbers of points vary; NULL: none */
+    const ps_line_kind *convergence;
+    /* How far answers to questions with the same rows may be apart, and are: 1 is what is allowed,
+     * infinite where one has what the other lacks. */
+    double (*compare)(const ps_table *a, const ps_table *b);
+} ps_result_kind;
+
+/* ps_result_power, .. */
+#define PS_DECLARE_KIND(name) extern const ps_result_kind ps_result_##name;
+#define PS_DECLARE_NOTHING(name)
+PS_TAKERS(PS_DECLARE_KIND, PS_DECLARE_NOTHING)
+
+/* All of them; ended by NULL. */
+extern const ps_result_kind *const ps_result_kinds[];
+
+/* Points of a sampler, as a result of a scene. None of these: the command sample writes point
+ * files, not a table. */
+extern const ps_result_kind ps_result_points;
+
+/* Does the option belong to the question? */
+static inline bool ps_result_asks(const ps_result_kind *kind, ps_option_id id) {
+    return (ps_options[id].questions & kind->taker) != 0;
+}
+
+/* Doubles of the array; 0: none. */
+size_t ps_answer_num_entries(const ps_answer *answer);
+
+/* Computes and tabulates, and keeps nothing else. *out is freed by ps_answer_free, also after an
+ * error. A check that found differences is no error: the answer has the verdict. */
+pspec_status ps_answer_make(ps_answer *out, const ps_result_kind *kind, const ps_request *request,
+                            const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
+void ps_answer_free(ps_answer *answer);
+
+/* What a command that prints the kind does: whatever can be refused is refused before hours of
+ * work, then it is computed, and the files are written that the request names: table (an output
+ * NULL is none), others, picture. *out is freed by ps_answer_free, also after an error; differences
+ * that a check found are its verdict, and no error. */
+pspec_status ps_answer_produce(ps_answer *out, const ps_result_kind *kind,
+                               const ps_request *request, const ps_answer_hooks *hooks,
+                               ps_error *error) PS_MUST_CHECK;
+
+/* The values that the kind admits for the option, "one|two|FILE"; NULL for a flag. */
+const char *ps_result_words(const ps_result_kind *kind, ps_option_id id);
+
+#endif

@@ -1,0 +1,50 @@
+#include "answers/lead.h"
+
+#include <string.h>
+
+/* Behind the lead: those of a list of frequencies are fewer. */
+enum { MOST_LEAD = 2, MOST_COLUMNS = MOST_LEAD + 16 };
+
+static void add(ps_lead *lead, const char *name, ps_cell cell) {
+    lead->names[lead->num] = name;
+    lead->cells[lead->num++] = cell;
+}
+
+ps_lead ps_lead_make(const ps_request *request, size_t question) {
+    ps_lead out = {0};
+    if (request->num_samplers > 1) {
+        add(&out, "sampler", PS_TEXT(ps_request_sampler(request, question)));
+    }
+    if (request->num_counts > 1) {
+        add(&out, "points", PS_INTEGER(ps_request_points(request, question)));
+    }
+    return out;
+}
+
+void ps_lead_label(const ps_lead *lead, ps_text *out) {
+    for (size_t i = 0; i < lead->num; i++) {
+        const ps_cell *const cell = &lead->cells[i];
+        ps_text_append(out, "%s", i > 0 ? ", " : "");
+        if (cell->kind == PS_CELL_TEXT) {
+            ps_text_append(out, "%s", cell->text);
+        } else {
+            ps_text_append(out, "N = %lld", (long long)cell->integer);
+        }
+    }
+}
+
+pspec_status ps_lead_create_table(ps_table **out, const char *command, const ps_lead *lead,
+                                  const char *const *columns, size_t num, ps_error *error) {
+    const char *all[MOST_COLUMNS];
+    memcpy(all, lead->names, lead->num * sizeof *all);
+    memcpy(all + lead->num, columns, num * sizeof *all);
+    return ps_table_create(out, command, all, lead->num + num, error);
+}
+
+pspec_status ps_lead_add_row(ps_table *table, const ps_lead *lead, const ps_cell *cells, size_t num,
+                             ps_error *error) {
+    ps_cell all[MOST_COLUMNS];
+    memcpy(all, lead->cells, lead->num * sizeof *all);
+    memcpy(all + lead->num, cells, num * sizeof *all);
+    return ps_table_add_row(table, all, error);
+}

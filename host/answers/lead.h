@@ -1,0 +1,30 @@
+/* The columns that the tables of several questions begin with: what a row is of. */
+#ifndef PS_ANSWERS_LEAD_H
+#define PS_ANSWERS_LEAD_H
+
+#include "base/text.h"
+#include "request/request.h"
+#include "tables/table.h"
+
+/* {0}: none. */
+typedef struct ps_lead {
+    size_t num;
+    const char *names[2];
+    ps_cell cells[2]; /* texts borrowed */
+} ps_lead;
+
+/* Of a question of a request: `sampler` where it has several, `points` where it has several numbers
+ * of points, of which this is the one that was asked for. */
+ps_lead ps_lead_make(const ps_request *request, size_t question);
+/* The same for people, "jittered, N = 64"; nothing where there is one question. */
+void ps_lead_label(const ps_lead *lead, ps_text *out);
+
+/* A table with these columns, then others [num]. */
+pspec_status ps_lead_create_table(ps_table **out, const char *command, const ps_lead *lead,
+                                  const char *const *columns, size_t num,
+                                  ps_error *error) PS_MUST_CHECK;
+/* A row of it: the cells of the lead, then others [num]. */
+pspec_status ps_lead_add_row(ps_table *table, const ps_lead *lead, const ps_cell *cells, size_t num,
+                             ps_error *error) PS_MUST_CHECK;
+
+#endif

@@ -1,0 +1,289 @@
+/* What a plan says of one question. */
+#include "answers/plan_table.h"
+
+#include "answers/spectra/question.h"
+#include "jobs/point_phases.h"
+#include "jobs/quadrature/quadrature_phases.h"
+#include "jobs/spectrum/power_phases.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+static const char *const columns[] = {"engine", "verdict", "seconds", "bytes", "error", "reason"};
+enum { NUM_COLUMNS = sizeof columns / sizeof columns[0] };
+
+pspec_status ps_plan_table_create(ps_table **out, const ps_lead *lead, ps_error *error) {
+    return ps_lead_create_table(out, "plan", lead, columns, NUM_COLUMNS, error);
+}
+
+ps_lead ps_plan_table_lead(const char *job) {
+    return (ps_lead){.num = 1, .names = {"job"}, .cells = {PS_TEXT(job)}};
+}
+
+void ps_plan_table_begin_question(ps_planner *planner, const ps_request *request, size_t index) {
+    if (ps_request_num_questions(request) > 1) {
+        planner->lead = ps_lead_make(request, index);
+    }
+}
+
+static pspec_status add_row(const ps_planner *planner, const ps_cell *cells, ps_error *error) {
+    return ps_lead_add_row(planner->table, &planner->lead, cells, NUM_COLUMNS, error);
+}
+
+static const char *verdict_of(const ps_candidate *candidate) {
+    if (candidate->is_chosen) {
+        return "chosen";
+    }
+    if (!candidate->is_applicable) {
+        return "not applicable";
+    }
+    return candidate->is_feasible ? "slower" : candidate->is_excluded ? "excluded" : "infeasible";
+}
+
+/* Each with its own seconds, `repeats` times, and those of all other phases. */
+static pspec_status add_candidates(const ps_planner *planner, const ps_plan *plan,
+                                   const ps_phases *phases, double repeats, ps_error *error) {
+    const double own = plan->chosen != NULL ? plan->chosen->seconds * repeats : 0;
+    const double others = ps_phases_seconds(phases) - own;
+    for (size_t i = 0; i < plan->num_candidates; i++) {
+        const ps_candidate *candidate = &plan->candidates[i];
+        char name[64];
+        snprintf(name, sizeof name, "%s:%s", candidate->engine->name,
+                 ps_precision_name(candidate->precision));
+        const bool has_numbers = candidate->is_applicable;
+        const ps_cell cells[NUM_COLUMNS] = {
+            PS_TEXT(name),
+            PS_TEXT(verdict_of(candidate)),
+            has_numbers ? PS_NUMBER(candidate->seconds * repeats + others) : PS_MISSING,
+            has_numbers ? PS_INTEGER(candidate->bytes) : PS_MISSING,
+            has_numbers ? PS_NUMBER(candidate->error) : PS_MISSING,
+            PS_TEXT(candidate->reason),
+        };
+        PS_TRY(add_row(planner, cells, error));
+    }
+    return PSPEC_OK;
+}
+
+/* A header line; of several jobs a row, too: JSON does not keep which header line is of which job.
+ */
+static pspec_status add_skip(const ps_planner *planner, const ps_skip *skip, ps_error *error) {
+    char text[sizeof(ps_skip) + 32]; /* with a number and separators */
+    snprintf(text, sizeof text, "%s; %s; %.3g", skip->what, skip->why, skip->share);
+    const ps_cell cells[NUM_COLUMNS] = {PS_MISSING, PS_TEXT("skip"), PS_MISSING,
+                                        PS_MISSING, PS_MISSING,      PS_TEXT(text)};
+    PS_TRY(ps_table_add_meta(planner->table, "skip", PS_TEXT(text), error));
+    return planner->lead.num > 0 ? add_row(planner, cells, error) : PSPEC_OK;
+}
+
+/* ---- phases -------------------------------------------------------------------------------- */
+
+static pspec_status add_phase(const ps_planner *planner, const ps_phase_cost *phase,
+                              ps_error *error) {
+    char text[sizeof(ps_phase_cost) + 64]; /* with a number and separators */
+    const char *const most = phase->is_at_most ? "at most " : "";
+    snprintf(text, sizeof text, "%s; %s%.3g s; %s", phase->name, most, phase->seconds, phase->what);
+    PS_TRY(ps_table_add_meta(planner->table, "phase", PS_TEXT(text), error));
+    snprintf(text, sizeof text, "%s%s; %s", most, phase->name, phase->what);
+    const ps_cell cells[NUM_COLUMNS] = {PS_MISSING, PS_TEXT("phase"), PS_NUMBER(phase->seconds),
+                                        PS_MISSING, PS_MISSING,       PS_TEXT(text)};
+    return planner->lead.num > 0 ? add_row(planner, cells, error) : PSPEC_OK;
+}
+
+pspec_status ps_plan_table_add_phases(ps_planner *planner, const ps_phases *phases,
+                                      ps_error *error) {
+    for (size_t i = 0; i < phases->num; i++) {
+        PS_TRY(add_phase(planner, &phases->list[i], error));
+    }
+    planner->seconds += ps_phases_seconds(phases);
+    planner->is_at_most = planner->is_at_most || ps_phases_are_at_most(phases);
+    return PSPEC_OK;
+}
+
+pspec_status ps_plan_table_end(const ps_planner *planner, ps_error *error) {
+    char text[64];
+    snprintf(text, sizeof text, "%s%.3g", planner->is_at_most ? "at most " : "", planner->seconds);
+    return ps_table_add_meta(planner->table, "seconds", PS_TEXT(text), error);
+}
+
+pspec_status ps_plan_table_add_host(ps_planner *planner, const ps_phases *phases,
+                                    const char *reason, ps_error *error) {
+    const ps_cell cells[NUM_COLUMNS] = {
+        PS_TEXT("host"), PS_TEXT("chosen"), PS_NUMBER(ps_phases_seconds(phases)),
+        PS_MISSING,      PS_MISSING,        PS_TEXT(reason)};
+    PS_TRY(ps_table_add_meta(planner->table, "device", PS_TEXT("none"), error));
+    PS_TRY(ps_plan_table_add_phases(planner, phases, error));
+    return add_row(planner, cells, error);
+}
+
+/* ---- jobs ---------------------------------------------------------------------------------- */
+
+/* What is asked of a job: number `index` of its command. */
+static pspec_status add_header(const ps_planner *planner, const ps_request *arguments,
+                               const ps_problem *problem, const ps_needs *needs,
+                               const ps_device_limits *limits, size_t index, ps_error *error) {
+    ps_table *const table = planner->table;
+    const char *const sampler = ps_request_sampler(arguments, index);
+    if (sampler != NULL) {
+        PS_TRY(ps_table_add_meta(table, "sampler", PS_TEXT(sampler), error));
+    }
+    PS_TRY(
+        ps_table_add_meta(table, "device", PS_TEXT(limits != NULL ? limits->name : "host"), error));
+    PS_TRY(ps_table_add_meta(table, "figures",
+                             PS_TEXT(limits != NULL && limits->figures != NULL
+                                         ? limits->figures->note
+                                         : "built-in: no device"),
+                             error));
+    PS_TRY(ps_table_add_meta(table, "points", PS_INTEGER(problem->planned_points), error));
+    PS_TRY(ps_table_add_meta(table, "realizations",
+                             problem->num_realizations > 0 ? PS_INTEGER(problem->num_realizations)
+                                                           : PS_TEXT("as many as there are"),
+                             error));
+    const bool on_sphere = problem->frequencies->kind == PS_FREQUENCIES_DEGREES;
+    PS_TRY(ps_table_add_meta(table, on_sphere ? "max_degree" : "max_frequency",
+                             PS_INTEGER(problem->frequencies->max_frequency), error));
+    PS_TRY(ps_table_add_meta(table, on_sphere ? "degrees" : "frequencies",
+                             PS_INTEGER(problem->frequencies->num), error));
+    PS_TRY(ps_table_add_meta(table, "tolerance", PS_NUMBER(problem->tolerance), error));
+    for (size_t i = 0; i < needs->num_skips; i++) {
+        PS_TRY(add_skip(planner, &needs->skips[i], error));
+    }
+    return PSPEC_OK;
+}
+
+ps_phases ps_plan_table_begin_phases(ps_planner *planner) {
+    return (ps_phases){.host = planner->host, .begun = &planner->begun};
+}
+
+void ps_plan_table_add_picture(ps_phases *phases, const ps_request *arguments) {
+    ps_phases_add(phases, "picture", PS_HOST_PICTURE, arguments->plot != NULL ? 1 : 0);
+    ps_phases_say(phases, "picture", "by gnuplot");
+}
+
+pspec_status ps_plan_table_add_power(ps_planner *planner, const ps_request *arguments,
+                                     const ps_power_job *job, const ps_plan_more *more,
+                                     size_t index, ps_error *error) {
+    ps_phases phases = ps_plan_table_begin_phases(planner);
+    const double repeats = ps_power_job_phases(job, &phases);
+    if (more != NULL) {
+        more->add(more->job, &phases);
+    }
+    ps_plan_table_add_picture(&phases, arguments);
+    PS_TRY(add_header(planner, arguments, ps_power_job_problem(job), ps_power_job_needs(job),
+                      ps_power_job_limits(job), index, error));
+    PS_TRY(ps_plan_table_add_phases(planner, &phases, error));
+    return add_candidates(planner, ps_power_job_plan(job), &phases, repeats, error);
+}
+
+pspec_status ps_plan_table_find_lack(const ps_planner *planner,
+                                     const ps_plan_constraints *constraints, bool *lacks_device,
+                                     ps_error *error) {
+    ps_device_limits *limits = NULL;
+    size_t num = 0;
+    ps_error reason = {0};
+    *lacks_device = planner->device == NULL && ps_plan_may_need_device(constraints) &&
+                    ps_device_list(&limits, &num, &reason) == PSPEC_ERROR_NO_DEVICE;
+    free(limits);
+    return *lacks_device
+               ? ps_table_add_meta(planner->table, "no_device", PS_TEXT(reason.message), error)
+               : PSPEC_OK;
+}
+
+pspec_status ps_plan_table_add_quadrature(ps_planner *planner, const ps_request *arguments,
+                                          const ps_quadrature_question *question,
+                                          const ps_quadrature_setup *setup, size_t index,
+                                          ps_error *error) {
+    ps_phases phases = ps_plan_table_begin_phases(planner);
+    const double repeats = ps_quadrature_phases(setup, question, &phases);
+    ps_plan_table_add_picture(&phases, arguments);
+    const ps_device_limits *const limits =
+        setup->device != NULL ? ps_device_get_limits(setup->device) : NULL;
+    PS_TRY(add_header(planner, arguments, &setup->problem, &setup->needs, limits, index, error));
+    if (setup->degrees_note[0] != '\0') {
+        PS_TRY(
+            ps_table_add_meta(planner->table, "degrees_note", PS_TEXT(setup->degrees_note), error));
+    }
+    if (setup->weights_note[0] != '\0') {
+        PS_TRY(ps_table_add_meta(planner->table, "weights", PS_TEXT(setup->weights_note), error));
+    }
+    PS_TRY(ps_plan_table_add_phases(planner, &phases, error));
+    return add_candidates(planner, &setup->plan, &phases, repeats, error);
+}
+
+pspec_status ps_plan_table_add_cached(ps_planner *planner, ps_error *error) {
+    const ps_cell cells[NUM_COLUMNS] = {
+        PS_TEXT("cache"), PS_TEXT("chosen"), PS_NUMBER(0),
+        PS_INTEGER(0),    PS_MISSING,        PS_TEXT("the answer is in the cache of results")};
+    PS_TRY(ps_table_add_meta(planner->table, "skip",
+                             PS_TEXT("the whole question; its answer is in the cache; 1"), error));
+    return add_row(planner, cells, error);
+}
+
+/* ---- points -------------------------------------------------------------------------------- */
+
+/* Points that are only drawn are of one realization, and not written. */
+static pspec_status add_sampler(ps_phases *phases, const ps_request *request, size_t question,
+                                bool is_drawn, ps_error *error) {
+    ps_sampler_request sampler;
+    PS_TRY(ps_sampler_request_make(&sampler, request, question, error));
+    const double sets = is_drawn ? 1 : (double)request->num_realizations;
+    const ps_sets_options kept = ps_limits_sets(&request->limits, request->accuracy.no_skip);
+    ps_phases_sample(phases, &sampler, sets, &kept.place);
+    ps_phases_touch(phases, (double)sampler.num_points * sampler.dimension * sizeof(double));
+    if (!is_drawn) {
+        ps_phases_write(phases, request->output != NULL ? request->output : "-", request->format,
+                        sets * (double)sampler.num_points * sampler.dimension);
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_plan_table_add_sample(ps_planner *planner, const ps_request *request,
+                                      ps_error *error) {
+    ps_phases phases = ps_plan_table_begin_phases(planner);
+    const bool is_drawn = ps_request_only_draws(request);
+    if (request->num_samplers != 1 && !(is_drawn && request->num_samplers > 0)) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "one --sampler NAME is needed");
+    }
+    if (!is_drawn) {
+        PS_TRY(ps_sample_check_counts(request, error));
+    }
+    ps_phases_start(&phases, NULL);
+    for (size_t i = 0; i < ps_request_num_questions(request); i++) {
+        PS_TRY(add_sampler(&phases, request, i, is_drawn, error));
+    }
+    ps_plan_table_add_picture(&phases, request);
+    return ps_plan_table_add_host(planner, &phases,
+                                  "points of one sampler, one realization at a time", error);
+}
+
+pspec_status ps_plan_table_add_convert(ps_planner *planner, const ps_request *request,
+                                       ps_error *error) {
+    ps_phases phases = ps_plan_table_begin_phases(planner);
+    ps_point_set set = {0};
+    ps_point_reader *reader = NULL;
+    const ps_point_options options = ps_point_options_make(request);
+    bool has_block = false;
+    bool ends_set = false;
+    if (request->num_files == 0) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "nothing to convert: name point files (- for standard input)");
+    }
+    pspec_status status = ps_points_open(&reader, request->files[0], &options, error);
+    if (status == PSPEC_OK) { /* one point tells how many numbers each has */
+        status = ps_points_next_block(reader, &set, 1, &has_block, &ends_set, error);
+    }
+    if (status == PSPEC_OK) {
+        const unsigned numbers = set.dimension + (set.has_weights ? 1 : 0);
+        ps_phases_start(&phases, NULL);
+        const double points =
+            ps_phases_read(&phases, request->files, request->num_files, options.format, numbers);
+        if (!ps_request_only_draws(request)) {
+            ps_phases_write(&phases, request->output != NULL ? request->output : "-",
+                            request->format, points * numbers);
+        }
+        ps_plan_table_add_picture(&phases, request);
+        status = ps_plan_table_add_host(planner, &phases, "a block of points at a time", error);
+    }
+    ps_points_close(reader);
+    ps_point_set_free(&set);
+    return status;
+}

@@ -1,0 +1,75 @@
+/* Plans as a table: header lines and candidates of one question after the other. */
+#ifndef PS_ANSWERS_PLAN_TABLE_H
+#define PS_ANSWERS_PLAN_TABLE_H
+
+#include "answers/lead.h"
+#include "answers/quadrature/quadrature_question.h"
+#include "answers/spectra/question.h"
+#include "device/device.h"
+#include "plan/phases.h"
+#include "tables/table.h"
+
+typedef struct ps_planner {
+    ps_table *table;
+    ps_lead lead; /* what the rows begin with, the same columns in all of them */
+    /* Borrowed; NULL: the one that a request names is opened where it is needed */
+    ps_device *device;
+    const ps_figures *host; /* what was measured of the host; NULL: nothing */
+    ps_begun begun;
+    double seconds; /* of all jobs so far */
+    bool is_at_most;
+} ps_planner;
+
+/* lead: its columns. */
+pspec_status ps_plan_table_create(ps_table **out, const ps_lead *lead,
+                                  ps_error *error) PS_MUST_CHECK;
+/* That of a scene, whose questions are jobs: the name, borrowed. */
+ps_lead ps_plan_table_lead(const char *job);
+/* Rows are of number `index` of the questions of a request from here on, where it has several. */
+void ps_plan_table_begin_question(ps_planner *planner, const ps_request *request, size_t index);
+
+/* Without any device the host's engines are planned, and the header says why there is none. A
+ * device that was named and is not there is an error, as for the command itself. */
+pspec_status ps_plan_table_find_lack(const ps_planner *planner,
+                                     const ps_plan_constraints *constraints, bool *lacks_device,
+                                     ps_error *error) PS_MUST_CHECK;
+
+/* Phases of a job whose spectrum is a part of it. */
+typedef struct ps_plan_more {
+    void (*add)(const void *job, ps_phases *phases);
+    const void *job;
+} ps_plan_more;
+
+/* What is asked by number `index` of the questions of a request, what is skipped and why, and what
+ * takes how long, as header lines; every engine as a row. The seconds of a row are those of the
+ * whole job with that engine. more: NULL where the spectrum is all. */
+pspec_status ps_plan_table_add_power(ps_planner *planner, const ps_request *request,
+                                     const ps_power_job *job, const ps_plan_more *more,
+                                     size_t index, ps_error *error) PS_MUST_CHECK;
+pspec_status ps_plan_table_add_quadrature(ps_planner *planner, const ps_request *request,
+                                          const ps_quadrature_question *question,
+                                          const ps_quadrature_setup *setup, size_t index,
+                                          ps_error *error) PS_MUST_CHECK;
+/* What the host does without a choice of engines, and why: phases that were begun here, as header
+ * lines and one row. */
+pspec_status ps_plan_table_add_host(ps_planner *planner, const ps_phases *phases,
+                                    const char *reason, ps_error *error) PS_MUST_CHECK;
+ps_phases ps_plan_table_begin_phases(ps_planner *planner);
+/* A picture needs gnuplot, which takes its time whatever is in it. */
+void ps_plan_table_add_picture(ps_phases *phases, const ps_request *request);
+
+/* Says that the cache of results answers the question. */
+pspec_status ps_plan_table_add_cached(ps_planner *planner, ps_error *error) PS_MUST_CHECK;
+
+/* Say what making points, or rewriting them, takes: there is nothing to choose. */
+pspec_status ps_plan_table_add_sample(ps_planner *planner, const ps_request *request,
+                                      ps_error *error) PS_MUST_CHECK;
+pspec_status ps_plan_table_add_convert(ps_planner *planner, const ps_request *request,
+                                       ps_error *error) PS_MUST_CHECK;
+/* Phases as header lines (of several jobs as rows, too), and their sum. */
+pspec_status ps_plan_table_add_phases(ps_planner *planner, const ps_phases *phases,
+                                      ps_error *error) PS_MUST_CHECK;
+/* The last header line: seconds of all jobs. */
+pspec_status ps_plan_table_end(const ps_planner *planner, ps_error *error) PS_MUST_CHECK;
+
+#endif

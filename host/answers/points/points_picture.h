@@ -1,0 +1,50 @@
+/* Pictures of points: the unit square, a line, pairs of coordinates, both sides of the sphere. */
+#ifndef PS_ANSWERS_POINTS_POINTS_PICTURE_H
+#define PS_ANSWERS_POINTS_POINTS_PICTURE_H
+
+#include "plots/plot.h"
+#include "samplers/sampler.h"
+
+/* Of more points a picture shows a corner of the square, or the middle of the sides of the sphere,
+ * where so many are at most: in a frame of 860 pixels they are 3.4 apart, and marks as small as a
+ * pixel can still be told from each other. Of a line that is so much less. */
+enum { PS_MOST_DRAWN = 1 << 16, PS_MOST_DRAWN_OF_LINE = 1 << 8 };
+
+/* A set as somebody has it: the points of the torus in [0,1), unit vectors. */
+typedef struct ps_drawn_set {
+    const char *name; /* for the panel, where there are several sets; borrowed */
+    ps_sampler_domain where;
+    unsigned dimension; /* numbers of a point */
+    size_t num_points;
+    const double *points;
+} ps_drawn_set;
+
+typedef struct ps_points_panel {
+    ps_text title;
+    ps_point_frame frame;
+    ps_series series; /* its numbers are places */
+    double *places;   /* x of all, then y of all */
+} ps_points_panel;
+
+/* {.num_sets = N}: nothing yet. Freed by ps_points_picture_free, also after an error. */
+typedef struct ps_points_picture {
+    size_t num_sets;   /* that there will be: panels of one of several are named */
+    size_t num_points; /* of the set that came last */
+    size_t num, capacity;
+    ps_points_panel *all;
+    ps_panel *panels; /* of the figure */
+    ps_point_frame *frames;
+} ps_points_picture;
+
+/* Adds the panels of a set, and keeps nothing of it. In the plane one; of more dimensions every
+ * pair of coordinates, but the first alone where there are several sets; of the sphere the sides
+ * z >= 0 and z < 0, each from outside: x runs to the right of the one and to the left of the other;
+ * of the hemisphere the first of these. watch is told of large sets. */
+pspec_status ps_points_picture_add(ps_points_picture *self, const ps_drawn_set *set,
+                                   const ps_watch *watch, ps_error *error) PS_MUST_CHECK;
+/* The figure of all of them; it borrows from self, and from the title. */
+pspec_status ps_points_picture_figure(ps_points_picture *self, const char *title, ps_figure *out,
+                                      ps_error *error) PS_MUST_CHECK;
+void ps_points_picture_free(ps_points_picture *self);
+
+#endif

@@ -1,0 +1,66 @@
+/* What a command that prints a kind of result does, and a public function that answers one: refuse
+ * early, compute, write. */
+#include "answers/kind.h"
+#include "answers/output_check.h"
+#include "answers/picture.h"
+#include "request/options.h"
+
+const char *ps_result_words(const ps_result_kind *kind, ps_option_id id) {
+    if (id == PS_OPTION_FORMAT && kind->has_verdict) {
+        return "csv|json|jsonl|text"; /* verdicts are no numbers */
+    }
+    return id == PS_OPTION_WEIGHTS && kind->weights != NULL ? kind->weights
+                                                            : ps_options[id].metavar;
+}
+
+/* ---- before ------------------------------------------------------------------------------ */
+
+static pspec_status check(ps_table_format *format, const ps_result_kind *kind,
+                          const ps_request *request, const ps_answer_hooks *hooks,
+                          ps_error *error) {
+    if (kind->check_arguments != NULL) {
+        PS_TRY(kind->check_arguments(request, error));
+    }
+    PS_TRY(ps_picture_check(request, ps_picture_is_all(request, true), hooks, error));
+    PS_TRY(ps_outputs_check(request, true, error));
+    PS_TRY(ps_table_choose_format(format, request->format, request->output, error));
+    if (kind->has_verdict && *format == PS_FORMAT_NPY) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "verdicts are no numbers: .csv and .json, not .npy");
+    }
+    return PSPEC_OK;
+}
+
+/* ---- after ------------------------------------------------------------------------------- */
+
+static pspec_status write_files(ps_answer *out, const ps_result_kind *kind, const void *computed,
+                                const ps_request *request, ps_table_format format,
+                                const ps_answer_hooks *hooks, ps_error *error) {
+    if (kind->write_others != NULL) {
+        PS_TRY(kind->write_others(computed, request, error));
+    }
+    PS_TRY(kind->tabulate(out, computed, request, error));
+    if (request->output != NULL) {
+        PS_TRY(ps_table_write(out->table, request->output, format, error));
+    }
+    return request->plot == NULL
+               ? PSPEC_OK
+               : ps_picture_settle(request, ps_picture_is_all(request, true), hooks,
+                                   kind->draw(computed, request, error), error);
+}
+
+pspec_status ps_answer_produce(ps_answer *out, const ps_result_kind *kind,
+                               const ps_request *request, const ps_answer_hooks *hooks,
+                               ps_error *error) {
+    void *computed = NULL;
+    ps_table_format format = PS_FORMAT_CSV;
+    *out = (ps_answer){0};
+    PS_TRY(check(&format, kind, request, hooks, error));
+    pspec_status status = kind->compute(&computed, request, hooks, error);
+    ps_answer_end(hooks);
+    if (status == PSPEC_OK) {
+        status = write_files(out, kind, computed, request, format, hooks, error);
+    }
+    kind->discard(computed);
+    return status;
+}

@@ -1,0 +1,196 @@
+/* Quadrature spectrum and worst-case error of rules for a BRDF. */
+#include "answers/compare.h"
+#include "answers/quadrature/quadrature_question.h"
+#include "answers/quadrature/quadrature_table.h"
+#include "answers/spectra/spectra.h"
+#include "base/memory.h"
+#include "jobs/quadrature/quadrature_looks.h"
+#include "points/points.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* One rule, or one mean over realizations, for each question. */
+typedef struct rules {
+    ps_quadrature_list list;
+    ps_device *device; /* of all of them, where they share one that was opened for them */
+    ps_quadrature_result *results; /* [list.num] */
+} rules;
+
+static pspec_status check_question(const ps_request *request, ps_error *error) {
+    ps_quadrature_list list = {0};
+    const pspec_status status = ps_quadrature_list_make(&list, request, error);
+    ps_quadrature_list_free(&list);
+    return status;
+}
+
+/* ---- plan ---------------------------------------------------------------------------------- */
+
+static pspec_status plan_one(ps_planner *planner, const ps_request *request,
+                             ps_quadrature_question *question, size_t index, ps_error *error) {
+    ps_quadrature_setup setup = {0};
+    question->open_device = planner->device;
+    ps_plan_table_begin_question(planner, request, index);
+    PS_TRY(ps_plan_table_find_lack(planner, &question->limits.constraints,
+                                   &question->may_lack_device, error));
+    pspec_status status = ps_quadrature_setup_ask(&setup, question, error);
+    if (status == PSPEC_OK) {
+        status = ps_plan_table_add_quadrature(planner, request, question, &setup, index, error);
+    }
+    ps_quadrature_setup_free(&setup);
+    return status;
+}
+
+static pspec_status plan(ps_planner *planner, const ps_request *request, ps_error *error) {
+    ps_quadrature_list list;
+    pspec_status status = ps_quadrature_list_make(&list, request, error);
+    for (size_t i = 0; status == PSPEC_OK && i < list.num; i++) {
+        status = plan_one(planner, request, &list.questions[i], i, error);
+    }
+    ps_quadrature_list_free(&list);
+    return status;
+}
+
+/* ---- work ---------------------------------------------------------------------------------- */
+
+static void warn_of_standard_error(const ps_quadrature_result *result, double standard_error,
+                                   const ps_answer_hooks *hooks) {
+    char where[48];
+    if (result->has_look && !(result->look.corrected <= standard_error)) {
+        ps_quadrature_look_name(where, sizeof where, &result->look);
+        ps_answer_warn(
+            hooks, "the standard error %.3g was not reached in %llu realizations: it is %.3g of %s",
+            standard_error, (unsigned long long)result->num_realizations, result->look.corrected,
+            where);
+    }
+}
+
+static pspec_status run_one(ps_quadrature_result *result, ps_quadrature_question *question,
+                            const ps_answer_hooks *hooks, ps_error *error) {
+    question->watch = hooks->watch;
+    if (hooks->device != NULL) {
+        question->open_device = hooks->device;
+    }
+    question->tell_plan = hooks->tell_plan;
+    question->tell_profile = hooks->tell_profile;
+    question->tell_trouble = hooks->warn;
+    question->payload = hooks->payload;
+    ps_answer_begin_next(hooks);
+    PS_TRY(ps_quadrature_run(result, question, error));
+    warn_of_standard_error(result, question->accuracy.standard_error, hooks);
+    return PSPEC_OK;
+}
+
+static pspec_status compute(void **out, const ps_request *request, const ps_answer_hooks *hooks,
+                            ps_error *error) {
+    PS_TRY(ps_allocate(out, 1, sizeof(rules), "rules", error));
+    rules *const work = *out;
+    ps_quadrature_list *const list = &work->list;
+    PS_TRY(ps_quadrature_list_make(list, request, error));
+    PS_TRY(PS_NEW(&work->results, list->num, "results", error));
+    PS_TRY(ps_answer_open_device(&work->device, request, &list->questions[0].limits.constraints,
+                                 list->num, hooks, error));
+    for (size_t i = 0; i < list->num; i++) {
+        list->questions[i].open_device = work->device;
+        PS_TRY(run_one(&work->results[i], &list->questions[i], hooks, error));
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status take_weights(ps_answer *out, const ps_quadrature_result *result,
+                                 ps_error *error) {
+    PS_TRY(PS_NEW(&out->array, result->num_weights, "weights of an answer", error));
+    memcpy(out->array, result->weights, result->num_weights * sizeof *out->array);
+    out->rank = 1;
+    out->shape[0] = result->num_weights;
+    return PSPEC_OK;
+}
+
+static pspec_status tabulate(ps_answer *out, const void *computed, const ps_request *request,
+                             ps_error *error) {
+    const rules *const work = computed;
+    if (request->wants_array) {
+        PS_TRY(take_weights(out, &work->results[0], error));
+    }
+    return ps_quadrature_table(&out->table, request, &work->list, work->results, error);
+}
+
+static pspec_status check_weights_out(const ps_request *request, ps_error *error) {
+    return request->weights_out != NULL ? ps_weights_check_name(request->weights_out, error)
+                                        : PSPEC_OK;
+}
+
+static pspec_status write_others(const void *computed, const ps_request *request, ps_error *error) {
+    const rules *const work = computed;
+    const ps_quadrature_result *const result = &work->results[0];
+    return request->weights_out != NULL
+               ? ps_write_weights(request->weights_out, result->weights, result->num_weights, error)
+               : PSPEC_OK;
+}
+
+/* Of a scene and of a command. */
+static const ps_line_kind convergence = {
+    "-convergence", "worst-case error", "points", "worst_case_error", "points N", "E", true, true};
+
+static pspec_status draw(const void *computed, const ps_request *request, ps_error *error) {
+    const rules *const work = computed;
+    return request->num_counts > 1
+               ? ps_quadrature_plot_errors(request, convergence.x_label, convergence.y_label,
+                                           work->results, error)
+               : ps_quadrature_plot(request, &work->list, work->results, error);
+}
+
+static void discard(void *computed) {
+    rules *const work = computed;
+    if (work == NULL) {
+        return;
+    }
+    for (size_t i = 0; work->results != NULL && i < work->list.num; i++) {
+        ps_quadrature_free(&work->results[i]);
+    }
+    free(work->results);
+    ps_quadrature_list_free(&work->list);
+    ps_device_close(work->device);
+    free(work);
+}
+
+/* ---- what tables mean ------------------------------------------------------------------------ */
+
+static const char *const summary[] = {"points",
+                                      "points_smallest",
+                                      "points_largest",
+                                      "realizations",
+                                      "max_degree",
+                                      "weight_sum",
+                                      "worst_case_error",
+                                      "worst_case_error_standard_error",
+                                      "zonal_error",
+                                      "anisotropic_error",
+                                      "tail",
+                                      "predicted_error",
+                                      NULL};
+static const ps_line_kind lines[] = {
+    {"-d2", "zonal part", "degree", "d2", "degree l", "d@_l^2", false, true},
+    {"-c2", "part that depends on the azimuth", "degree", "c2", "degree l", "C@_l^2", false, true},
+    {"-e2", "share of the squared error", "degree", "e2", "degree l", "e@_l^2", false, true},
+    {.suffix = NULL}};
+const ps_result_kind ps_result_quadrature = {
+    .name = "quadrature",
+    .taker = PS_TAKER_BIT(quadrature),
+    .weights = "equal|column|optimal|FILE",
+    .samples = PS_DOMAIN_SPHERE,
+    .counted = "realizations",
+    .has_arrays = true,
+    .check_arguments = check_weights_out,
+    .check_question = check_question,
+    .plan = plan,
+    .compute = compute,
+    .tabulate = tabulate,
+    .write_others = write_others,
+    .draw = draw,
+    .discard = discard,
+    .summary = summary,
+    .lines = lines,
+    .convergence = &convergence,
+    .compare = ps_compare_rules,
+};

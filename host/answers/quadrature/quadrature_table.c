@@ -1,0 +1,205 @@
+#include "answers/quadrature/quadrature_table.h"
+
+#include "answers/lead.h"
+#include "answers/spectra/spectrum_header.h"
+#include "jobs/quadrature/quadrature_looks.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/* A text that is only there where there is something to say. */
+static pspec_status add_remark(ps_table *table, const char *key, const char *text,
+                               ps_error *error) {
+    return text != NULL && text[0] != '\0' ? ps_table_add_meta(table, key, PS_TEXT(text), error)
+                                           : PSPEC_OK;
+}
+
+static const char *name_weights(const ps_quadrature_question *question) {
+    switch (question->weights.kind) {
+    case PS_WEIGHTS_OPTIMAL:
+        return question->weights.sum_to_one ? "optimal with sum 1" : "optimal";
+    case PS_WEIGHTS_FILE:
+        return question->weights.path;
+    case PS_WEIGHTS_GIVEN:
+    case PS_WEIGHTS_COLUMN:
+        return question->sampler != NULL ? "equal"
+                                         : "those of the files, equal where they have none";
+    case PS_WEIGHTS_EQUAL:
+        break;
+    }
+    return "equal";
+}
+
+/* What all jobs have in common. */
+static pspec_status add_question(ps_table *table, const ps_request *arguments,
+                                 const ps_quadrature_list *list, ps_error *error) {
+    const ps_quadrature_question *const question = &list->questions[0];
+    const ps_meta entries[] = {
+        {"pointspec_version", PS_TEXT(pspec_version())},
+        {"schema", PS_INTEGER(PS_TABLE_SCHEMA)},
+        {"command", PS_TEXT(arguments->command_line)},
+        {"tolerance", PS_NUMBER(question->accuracy.tolerance)},
+        {"seed", question->sampler != NULL ? PS_INTEGER(arguments->seed) : PS_MISSING},
+        {"normalization", PS_TEXT("weights as they are; equal ones are 1/N")},
+        {"weights", PS_TEXT(name_weights(question))},
+        {"brdf", PS_TEXT(arguments->brdf)},
+        {"smoothness", PS_NUMBER(arguments->smoothness)},
+    };
+    PS_TRY(ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error));
+    return add_remark(table, "note", ps_brdf_note(list->brdf), error);
+}
+
+static pspec_status add_facts(ps_table *table, const char *sampler, const ps_point_options *options,
+                              const ps_quadrature_result *result, bool with_range,
+                              ps_error *error) {
+    const ps_points_range range = {result->mean_points, result->smallest_points,
+                                   result->largest_points};
+    PS_TRY(add_remark(table, "sampler", sampler, error));
+    PS_TRY(ps_header_add_reading(table, options, error));
+    const ps_meta entries[] = {
+        {"device", PS_TEXT(result->device)},
+        {"engine", PS_TEXT(result->engine)},
+        {"precision", PS_TEXT(result->precision)},
+        {"realizations", PS_INTEGER(result->num_realizations)},
+    };
+    const ps_meta more[] = {
+        {"max_degree", PS_INTEGER(result->max_degree)},
+        {"skipped", PS_TEXT(result->skipped)},
+    };
+    PS_TRY(ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error));
+    PS_TRY(ps_header_add_points(table, &range, with_range, error));
+    PS_TRY(ps_table_add_metas(table, more, sizeof more / sizeof more[0], error));
+    PS_TRY(add_remark(table, "degrees", result->degrees_note, error));
+    return result->num_dropped > 0 ? ps_table_add_meta(table, "dropped_below_horizon",
+                                                       PS_INTEGER(result->num_dropped), error)
+                                   : PSPEC_OK;
+}
+
+/* As other commands say it. */
+static pspec_status add_look(ps_table *table, double wanted, const ps_quadrature_result *result,
+                             ps_error *error) {
+    char text[160];
+    char where[48];
+    const ps_sequential_look *const look = &result->look;
+    if (!result->has_look) {
+        return PSPEC_OK;
+    }
+    ps_quadrature_look_name(where, sizeof where, look);
+    snprintf(text, sizeof text, "%.3g, %s; largest %.3g, of %s, %.3g with the correction", wanted,
+             look->corrected <= wanted ? "reached" : "not reached", look->relative_error, where,
+             look->corrected);
+    return ps_table_add_meta(table, "relative_standard_error", PS_TEXT(text), error);
+}
+
+/* E from the mean of E^2, where rounding may have left less than nothing. */
+static double root(double square) {
+    return sqrt(fmax(square, 0));
+}
+
+double ps_quadrature_error(const ps_quadrature_result *result) {
+    return root(result->squared.mean);
+}
+
+static pspec_status add_answer(ps_table *table, const ps_quadrature_result *result,
+                               ps_error *error) {
+    char check[200];
+    const double e = ps_quadrature_error(result);
+    snprintf(check, sizeof check,
+             "kernel form minus spectral form: %.6g; independent points of the lobe's density have "
+             "%.6g in the mean",
+             result->tail.mean, result->tail_model);
+    const ps_meta entries[] = {
+        {"predicted_error", PS_NUMBER(result->numerical_bound)},
+        {"self_check", PS_TEXT(check)},
+        {"weight_sum", PS_NUMBER(result->weight_sum.mean)},
+        {"worst_case_error", PS_NUMBER(e)},
+        {"worst_case_error_standard_error",
+         e > 0 ? ps_number_or_missing(result->squared.standard_error / (2 * e)) : PS_MISSING},
+        {"zonal_error", PS_NUMBER(root(result->zonal.mean))},
+        {"anisotropic_error", PS_NUMBER(root(result->anisotropic.mean))},
+        {"tail", PS_NUMBER(result->tail.mean)},
+        {"tail_model", PS_NUMBER(result->tail_model)},
+        {"tail_bound", PS_NUMBER(result->tail_bound)},
+    };
+    return ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
+}
+
+/* Optimal weights have a condition number and a residual. */
+static pspec_status add_condition(ps_table *table, const ps_quadrature_result *result,
+                                  ps_error *error) {
+    char warning[160];
+    if (isnan(result->largest_condition)) {
+        return PSPEC_OK;
+    }
+    PS_TRY(ps_table_add_meta(table, "weights_by", PS_TEXT(result->weights_by), error));
+    PS_TRY(ps_table_add_meta(table, "condition", PS_NUMBER(result->largest_condition), error));
+    PS_TRY(ps_table_add_meta(table, "duplicates", PS_INTEGER(result->num_duplicates), error));
+    snprintf(warning, sizeof warning,
+             "the condition number is %s%.2g: points lie so near each other that the weights have "
+             "fewer than four digits",
+             result->has_matrices ? "" : "at least ", result->largest_condition);
+    return add_remark(table, "warning", result->is_ill_conditioned ? warning : NULL, error);
+}
+
+static const char *const columns[] = {"degree",   "b", "d2", "d2_error", "c2",
+                                      "c2_error", "a", "e2", "e2_error"};
+enum { NUM_COLUMNS = sizeof columns / sizeof columns[0] };
+
+static pspec_status add_degrees(ps_table *table, const ps_lead *lead,
+                                const ps_quadrature_result *result, ps_error *error) {
+    for (size_t l = 0; l <= result->max_degree; l++) {
+        const ps_quadrature_degree *const degree = &result->degrees[l];
+        const ps_cell cells[NUM_COLUMNS] = {
+            PS_INTEGER(l),
+            PS_NUMBER(degree->b),
+            PS_NUMBER(degree->d2.mean),
+            ps_number_or_missing(degree->d2.standard_error),
+            PS_NUMBER(degree->c2.mean),
+            ps_number_or_missing(degree->c2.standard_error),
+            PS_NUMBER(degree->a),
+            PS_NUMBER(degree->e2.mean),
+            ps_number_or_missing(degree->e2.standard_error),
+        };
+        PS_TRY(ps_lead_add_row(table, lead, cells, NUM_COLUMNS, error));
+    }
+    return PSPEC_OK;
+}
+
+static bool have_ranges(const ps_quadrature_result *results, size_t num) {
+    size_t i = 0;
+    while (i < num && results[i].smallest_points == results[i].largest_points) {
+        i++;
+    }
+    return i < num;
+}
+
+static pspec_status fill(ps_table *table, const ps_request *arguments,
+                         const ps_quadrature_list *list, const ps_quadrature_result *results,
+                         ps_error *error) {
+    const bool with_range = have_ranges(results, list->num);
+    PS_TRY(add_question(table, arguments, list, error));
+    for (size_t i = 0; i < list->num; i++) {
+        const ps_lead lead = ps_lead_make(arguments, i);
+        const char *const sampler = ps_request_sampler(arguments, i);
+        PS_TRY(add_facts(table, sampler, &list->questions[i].point_options, &results[i], with_range,
+                         error));
+        PS_TRY(add_look(table, arguments->accuracy.standard_error, &results[i], error));
+        PS_TRY(add_answer(table, &results[i], error));
+        PS_TRY(add_condition(table, &results[i], error));
+        PS_TRY(add_degrees(table, &lead, &results[i], error));
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_quadrature_table(ps_table **out, const ps_request *arguments,
+                                 const ps_quadrature_list *list,
+                                 const ps_quadrature_result *results, ps_error *error) {
+    const ps_lead first = ps_lead_make(arguments, 0);
+    PS_TRY(ps_lead_create_table(out, "quadrature", &first, columns, NUM_COLUMNS, error));
+    const pspec_status status = fill(*out, arguments, list, results, error);
+    if (status != PSPEC_OK) {
+        ps_table_destroy(*out);
+        *out = NULL;
+    }
+    return status;
+}

@@ -1,0 +1,82 @@
+#include "answers/spectra/power_table.h"
+
+#include "answers/spectra/job_table.h"
+#include "answers/spectra/spectrum_header.h"
+
+#include <math.h>
+
+/* ---- rows -------------------------------------------------------------------------------- */
+
+enum { MOST_COLUMNS = PS_MAX_DIMENSION + 7 };
+
+static const char *const bin_columns[] = {"bin",          "frequency", "normalized_frequency",
+                                          "count",        "power",     "standard_error",
+                                          "anisotropy_db"};
+static const char *const axis_columns[] = {"k1", "k2", "k3", "k4", "k5", "k6"};
+
+static pspec_status add_bins(ps_table *table, const ps_spectrum *spectrum, const ps_lead *lead,
+                             ps_error *error) {
+    for (size_t b = 0; b < spectrum->num_bins; b++) {
+        const ps_spectrum_bin *bin = &spectrum->bins[b];
+        const ps_cell cells[] = {
+            PS_INTEGER(bin->key),
+            PS_NUMBER(bin->frequency),
+            PS_NUMBER(bin->normalized_frequency),
+            PS_INTEGER(bin->count),
+            PS_NUMBER(bin->power),
+            ps_number_or_missing(bin->standard_error),
+            ps_number_or_missing(bin->anisotropy_db),
+        };
+        PS_TRY(ps_lead_add_row(table, lead, cells, sizeof cells / sizeof cells[0], error));
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status add_frequencies(ps_table *table, const ps_spectrum *spectrum,
+                                    const ps_lead *lead, ps_error *error) {
+    const unsigned dimension = spectrum->frequencies.dimension;
+    for (size_t i = 0; i < spectrum->frequencies.num; i++) {
+        ps_cell cells[MOST_COLUMNS];
+        size_t num = 0;
+        for (unsigned axis = 0; axis < dimension; axis++) {
+            cells[num++] = PS_INTEGER(spectrum->frequencies.vectors[i * dimension + axis]);
+        }
+        cells[num++] = PS_NUMBER(spectrum->powers[i].mean);
+        cells[num++] = ps_number_or_missing(spectrum->powers[i].standard_error);
+        PS_TRY(ps_lead_add_row(table, lead, cells, num, error));
+    }
+    return PSPEC_OK;
+}
+
+static size_t choose_columns(const char **columns, const ps_request *arguments,
+                             unsigned dimension) {
+    size_t num = 0;
+    if (arguments->frequencies.path != NULL) {
+        for (unsigned axis = 0; axis < dimension; axis++) {
+            columns[num++] = axis_columns[axis];
+        }
+        columns[num++] = "power";
+        columns[num++] = "standard_error";
+        return num;
+    }
+    for (size_t i = 0; i < sizeof bin_columns / sizeof bin_columns[0]; i++) {
+        columns[num++] = bin_columns[i];
+    }
+    return num;
+}
+
+static pspec_status add_rows(ps_table *table, const ps_request *arguments, const ps_power_job *job,
+                             const ps_lead *lead, ps_error *error) {
+    const ps_spectrum *spectrum = ps_power_job_spectrum(job);
+    return arguments->frequencies.path != NULL ? add_frequencies(table, spectrum, lead, error)
+                                               : add_bins(table, spectrum, lead, error);
+}
+
+pspec_status ps_power_table(ps_table **out, const ps_request *arguments,
+                            const ps_power_job *const *jobs, size_t num, ps_error *error) {
+    const char *columns[MOST_COLUMNS];
+    const unsigned dimension = ps_power_job_problem(jobs[0])->frequencies->dimension;
+    const size_t num_columns = choose_columns(columns, arguments, dimension);
+    const ps_job_table kind = {"power", columns, num_columns, add_rows};
+    return ps_job_table_make(out, &kind, arguments, jobs, num, error);
+}

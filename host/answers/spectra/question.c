@@ -1,0 +1,324 @@
+#include "answers/spectra/question.h"
+
+#include "base/memory.h"
+#include "request/options.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static pspec_status fail_conflict(const char *a, const char *b, const char *why, ps_error *error) {
+    return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s does not go with %s: %s", a, b, why);
+}
+
+ps_option_source ps_option_source_of(ps_option_id id) {
+    switch (id) {
+    case PS_OPTION_REALIZATIONS:
+    case PS_OPTION_SEED: /* but for --per-ring */
+    case PS_OPTION_HOMOGENIZE:
+        return PS_OF_SAMPLERS;
+    case PS_OPTION_INPUT_FORMAT:
+    case PS_OPTION_COLUMNS:
+    case PS_OPTION_HEADER:
+    case PS_OPTION_TRANSPOSE:
+    case PS_OPTION_DOMAIN:
+    case PS_OPTION_WRAP:
+    case PS_OPTION_NORMALIZE_VECTORS:
+    case PS_OPTION_LIFT:
+    case PS_OPTION_BOX:
+    case PS_OPTION_MORPH:
+    case PS_OPTION_SELECT_SETS:
+        return PS_OF_FILES;
+    default:
+        return PS_OF_BOTH;
+    }
+}
+
+/* Options that are about the other kind of source. */
+static pspec_status check_other_source(const ps_request *arguments, ps_error *error) {
+    const bool are_files = arguments->num_files > 0;
+    const ps_option_source other = are_files ? PS_OF_SAMPLERS : PS_OF_FILES;
+    for (int id = 0; id < PS_NUM_OPTIONS; id++) {
+        const bool is_of_subset = id == PS_OPTION_SEED && arguments->frequencies.per_ring > 0;
+        if (!arguments->is_given[id] || ps_option_source_of((ps_option_id)id) != other ||
+            is_of_subset) {
+            continue;
+        }
+        const ps_shown_option shown = ps_option_show(arguments, (ps_option_id)id);
+        return are_files
+                   ? fail_conflict(shown.text, "point files", "it says what samplers make", error)
+                   : fail_conflict(shown.text, ps_option_show(arguments, PS_OPTION_SAMPLER).text,
+                                   "it says how point files are read", error);
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status check_lift(const ps_request *arguments, ps_error *error) {
+    return arguments->reading.morph.kind == PS_MORPH_NONE ||
+                   arguments->reading.lift == PS_LIFT_TO_HEMISPHERE
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "%s is for points lifted to the hemisphere; add --lift hemisphere",
+                         ps_option_show(arguments, PS_OPTION_MORPH).text);
+}
+
+pspec_status ps_sample_check_counts(const ps_request *arguments, ps_error *error) {
+    return ps_request_check_one_count(arguments,
+                                      "and an output has sets of one, for what reads it averages "
+                                      "over them; use a command for each",
+                                      error);
+}
+
+/* A file has one weight for each point. */
+pspec_status ps_weights_check_counts(const ps_request *arguments, ps_error *error) {
+    return arguments->weights.kind == PS_WEIGHTS_FILE
+               ? ps_request_check_one_count(arguments, "and a file of weights is for one", error)
+               : PSPEC_OK;
+}
+
+pspec_status ps_point_options_check(const ps_request *arguments, ps_error *error) {
+    PS_TRY(check_other_source(arguments, error));
+    if (arguments->num_samplers == 0) {
+        PS_TRY(ps_request_check_one_count(arguments, "and point files have their own", error));
+    }
+    return check_lift(arguments, error);
+}
+
+static pspec_status check_source(const ps_request *arguments, ps_error *error) {
+    if (arguments->num_samplers == 0 && arguments->num_files == 0) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "nothing to take a spectrum of: name point files (- for standard input) or "
+                       "a --sampler");
+    }
+    if (arguments->num_samplers > 0 && arguments->num_files > 0) {
+        return fail_conflict("--sampler", arguments->files[0], "points come from one of them",
+                             error);
+    }
+    PS_TRY(ps_point_options_check(arguments, error));
+    if (arguments->weights.kind == PS_WEIGHTS_COLUMN && arguments->num_samplers > 0) {
+        return fail_conflict("--weights column", "--sampler", "samplers make points only", error);
+    }
+    return PSPEC_OK;
+}
+
+/* What does not go together, and why; both are options. */
+typedef struct option_pair {
+    ps_option_id a, b;
+    const char *why;
+} option_pair;
+
+/* "several samplers" */
+static const char *name_several(const ps_request *arguments) {
+    return arguments->num_samplers > 1 ? "several samplers" : "several numbers of points";
+}
+
+/* What there is one of. */
+static pspec_status check_several(const ps_request *arguments, ps_error *error) {
+    const size_t num = ps_request_num_questions(arguments);
+    const char *const several = name_several(arguments);
+    if (num == 1) {
+        return PSPEC_OK;
+    }
+    if (arguments->full != NULL) {
+        return fail_conflict("--full", several, "one array has one file", error);
+    }
+    if (arguments->coefficients != NULL) {
+        return fail_conflict("--coefficients", several, "one array has one file", error);
+    }
+    PS_TRY(ps_weights_check_counts(arguments, error));
+    return arguments->plot == NULL || num <= PS_MAX_CURVES
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "--plot: %zu samplers with %zu numbers of points are %zu curves, and a "
+                         "picture has %d at most; pointspec run deals them out to panels",
+                         arguments->num_samplers, arguments->num_counts, num, PS_MAX_CURVES);
+}
+
+static pspec_status check_results(const ps_request *arguments, ps_error *error) {
+    static const option_pair pairs[] = {
+        {PS_OPTION_FREQUENCIES, PS_OPTION_MAX_FREQUENCY, "the list says it all"},
+        {PS_OPTION_FREQUENCIES, PS_OPTION_BINS, "a list is not averaged"},
+        {PS_OPTION_FREQUENCIES, PS_OPTION_FULL, "a list is not an array"},
+        {PS_OPTION_FREQUENCIES, PS_OPTION_PLOT, "only grids are drawn"},
+        {PS_OPTION_FREQUENCIES, PS_OPTION_PER_RING, "the list says it all"},
+        {PS_OPTION_FREQUENCIES, PS_OPTION_STANDARD_ERROR,
+         "it is that of rings, and a list has none"},
+        {PS_OPTION_PER_RING, PS_OPTION_STANDARD_ERROR,
+         "more realizations do not mend the error of the choice"},
+        {PS_OPTION_COEFFICIENTS, PS_OPTION_STANDARD_ERROR,
+         "coefficients are of sets whose number is known before"},
+        {PS_OPTION_COEFFICIENTS, PS_OPTION_PER_RING, "a subset does not fill an array"},
+        {PS_OPTION_FULL, PS_OPTION_PER_RING, "a subset does not fill an array"}};
+    for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
+        if (arguments->is_given[pairs[i].a] && arguments->is_given[pairs[i].b]) {
+            return fail_conflict(ps_option_show(arguments, pairs[i].a).text,
+                                 ps_option_show(arguments, pairs[i].b).text, pairs[i].why, error);
+        }
+    }
+    if (arguments->wants_array &&
+        (arguments->frequencies.path != NULL || arguments->frequencies.per_ring > 0)) {
+        return fail_conflict(arguments->frequencies.path != NULL ? "frequencies" : "per-ring",
+                             "arrays", "they do not fill an array", error);
+    }
+    if (arguments->wants_coefficients && arguments->wants_picture) {
+        return fail_conflict("pictures", "arrays: coefficients", "an answer has one array", error);
+    }
+    if (arguments->wants_coefficients &&
+        (arguments->accuracy.standard_error > 0 || arguments->frequencies.per_ring > 0)) {
+        return fail_conflict(arguments->frequencies.per_ring > 0 ? "per-ring" : "standard-error",
+                             "arrays: coefficients", "they are of whole arrays of every set",
+                             error);
+    }
+    return check_several(arguments, error);
+}
+
+ps_point_options ps_point_options_make(const ps_request *arguments) {
+    ps_point_options options = arguments->reading;
+    options.dimension = arguments->is_given[PS_OPTION_DIMENSION] ? arguments->dimension : 0;
+    options.points_per_set =
+        arguments->is_given[PS_OPTION_POINTS] ? (size_t)arguments->counts[0] : 0;
+    options.memory_limit = arguments->limits.constraints.memory_limit;
+    return options;
+}
+
+static void fill_points(ps_power_question *question, const ps_request *arguments,
+                        ps_domain domain) {
+    question->paths = arguments->files;
+    question->num_paths = arguments->num_files;
+    question->weights = arguments->weights;
+    question->point_options = ps_point_options_make(arguments);
+    question->point_options.domain = domain;
+}
+
+static bool wants_coefficients(const ps_request *arguments) {
+    return arguments->coefficients != NULL || arguments->wants_coefficients;
+}
+
+static ps_harmonics find_harmonics(const ps_request *arguments, ps_question_kind kind) {
+    if (!wants_coefficients(arguments)) {
+        return PS_NO_HARMONICS;
+    }
+    if (kind == PS_QUESTION_POWER) {
+        return PS_EXPONENTIALS;
+    }
+    return arguments->harmonics != NULL && strcmp(arguments->harmonics, "hemispherical") == 0
+               ? PS_HEMISPHERICAL_HARMONICS
+               : PS_SPHERICAL_HARMONICS;
+}
+
+static pspec_normalization choose_normalization(const ps_request *arguments,
+                                                ps_question_kind kind) {
+    return kind == PS_QUESTION_PAIRS ? PSPEC_NORMALIZATION_PAIRS : arguments->normalization;
+}
+
+static ps_domain domain_of(ps_question_kind kind) {
+    return kind == PS_QUESTION_POWER ? PS_DOMAIN_TORUS : PS_DOMAIN_SPHERE;
+}
+
+/* A standard error needs a limit, for a sampler may never reach it. */
+uint64_t ps_num_realizations_asked(const ps_request *arguments) {
+    const uint64_t most = 1000000;
+    return arguments->accuracy.standard_error > 0 && !arguments->is_given[PS_OPTION_REALIZATIONS]
+               ? most
+               : arguments->num_realizations;
+}
+
+/* What else this may be asked of, as check_results has it. */
+static unsigned find_offers(const ps_request *arguments, ps_question_kind kind) {
+    const bool is_whole = arguments->full != NULL || arguments->accuracy.standard_error > 0;
+    if (kind != PS_QUESTION_POWER || is_whole || arguments->frequencies.path != NULL ||
+        arguments->frequencies.per_ring > 0) {
+        return 0;
+    }
+    return PS_OFFER_RINGS |
+           (arguments->plot == NULL && arguments->frequencies.bins.kind != PS_BINS_SHELLS
+                ? (unsigned)PS_OFFER_LISTS
+                : 0);
+}
+
+static ps_power_question make_question(const ps_request *arguments, ps_question_kind kind) {
+    ps_power_question question = {
+        .on_sphere = domain_of(kind) == PS_DOMAIN_SPHERE,
+        .wants_pair_sums = kind == PS_QUESTION_PAIRS,
+        .on_hemisphere = arguments->hemisphere,
+        .harmonics = find_harmonics(arguments, kind),
+        .max_degree = (int64_t)arguments->max_degree,
+        .num_realizations = ps_num_realizations_asked(arguments),
+        .frequencies = arguments->frequencies,
+        .per_ring_seed = arguments->seed,
+        /* the picture of one spectrum shows the corners; several, and subsets, are curves only */
+        .wants_full_array = arguments->full != NULL || wants_coefficients(arguments) ||
+                            arguments->wants_picture || arguments->wants_array ||
+                            (arguments->plot != NULL && ps_request_num_questions(arguments) == 1 &&
+                             arguments->frequencies.per_ring == 0),
+        .normalization = choose_normalization(arguments, kind),
+        .accuracy = arguments->accuracy,
+        .may_loosen = arguments->accuracy.standard_error > 0 && arguments->accuracy.floor > 0 &&
+                      !arguments->is_given[PS_OPTION_TOLERANCE],
+        .limits = arguments->limits,
+    };
+    question.limits.constraints.offers = find_offers(arguments, kind);
+    fill_points(&question, arguments, domain_of(kind));
+    return question;
+}
+
+pspec_status ps_sampler_request_make(ps_sampler_request *out, const ps_request *arguments,
+                                     size_t question, ps_error *error) {
+    const bool has_points = arguments->is_given[PS_OPTION_POINTS];
+    *out = (ps_sampler_request){
+        .num_points = has_points ? (size_t)ps_request_points(arguments, question) : 0,
+        .dimension = arguments->is_given[PS_OPTION_DIMENSION] ? arguments->dimension : 0,
+        .seed = arguments->seed,
+        .homogenize = arguments->homogenize};
+    PS_TRY(ps_sampler_parse(out, ps_request_sampler(arguments, question), error));
+    return ps_sampler_resolve(out, error);
+}
+
+/* The wrong domain is named before anything else that may be wrong with a sampler. */
+static pspec_status make_request_of_domain(ps_sampler_request *out, const ps_request *arguments,
+                                           size_t question, ps_domain domain, ps_error *error) {
+    const char *const text = ps_request_sampler(arguments, question);
+    PS_TRY(ps_sampler_parse(out, text, error));
+    if (domain == PS_DOMAIN_TORUS && ps_sampler_is_on_sphere(out)) {
+        return ps_fail(
+            error, PSPEC_ERROR_INVALID_ARGUMENT,
+            "--sampler %s makes points of the sphere, and this spectrum is of the torus; "
+            "pointspec angular is for the sphere",
+            text);
+    }
+    if (domain == PS_DOMAIN_SPHERE && !ps_sampler_is_on_sphere(out)) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "--sampler %s makes points of the torus, and this spectrum is of the "
+                       "sphere; " PS_LIFT_KEY "=sphere or " PS_LIFT_KEY
+                       "=hemisphere takes them there",
+                       text);
+    }
+    return ps_sampler_request_make(out, arguments, question, error);
+}
+
+pspec_status ps_questions_make(ps_question_list *out, const ps_request *arguments,
+                               ps_question_kind kind, ps_error *error) {
+    *out = (ps_question_list){0};
+    PS_TRY(check_source(arguments, error));
+    PS_TRY(check_results(arguments, error));
+    const size_t num = ps_request_num_questions(arguments);
+    PS_TRY(PS_NEW(&out->questions, num, "questions", error));
+    PS_TRY(PS_NEW(&out->requests, num, "questions", error));
+    out->num = num;
+    for (size_t i = 0; i < out->num; i++) {
+        out->questions[i] = make_question(arguments, kind);
+        if (arguments->num_samplers == 0) {
+            continue;
+        }
+        ps_sampler_request *request = &out->requests[i];
+        PS_TRY(make_request_of_domain(request, arguments, i, domain_of(kind), error));
+        out->questions[i].sampler = request;
+    }
+    return PSPEC_OK;
+}
+
+void ps_questions_free(ps_question_list *list) {
+    free(list->questions);
+    free(list->requests);
+    *list = (ps_question_list){0};
+}

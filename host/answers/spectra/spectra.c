@@ -1,0 +1,165 @@
+#include "answers/spectra/spectra.h"
+
+#include "answers/spectra/spectrum_plot.h"
+#include "base/memory.h"
+#include "store/figures_file.h"
+
+#include <stdlib.h>
+
+const char *const ps_spectra_summary[] = {
+    "points",     "points_smallest", "points_largest", "realizations",
+    "weight_sum", "predicted_error", "self_check",     NULL};
+
+/* ---- warnings ------------------------------------------------------------------------------ */
+
+/* Lattices of many dimensions, and degrees, which cost their square, are more than people think. */
+static void warn_of_hours(const ps_power_job *job, unsigned offers, const ps_answer_hooks *hooks) {
+    const double hour = 3600;    /* seconds */
+    enum { FEW_DIMENSIONS = 3 }; /* where K has a default, and time is a matter of realizations */
+    const ps_candidate *chosen = ps_power_job_plan(job)->chosen;
+    const ps_frequencies *set = ps_power_job_problem(job)->frequencies;
+    if (chosen == NULL || chosen->seconds <= hour) {
+        return;
+    }
+    const double hours = chosen->seconds / hour;
+    if (set->kind == PS_FREQUENCIES_DEGREES) {
+        ps_answer_warn(hooks,
+                       "%s will take about %.2g hours to degree %d; fewer degrees (--max-degree) "
+                       "take less",
+                       chosen->engine->name, hours, (int)set->max_frequency);
+    } else if (set->kind != PS_FREQUENCIES_LIST && set->dimension > FEW_DIMENSIONS) {
+        ps_answer_warn(
+            hooks, "%.3g frequencies will take about %.2g hours%s", (double)set->num, hours,
+            offers & PS_OFFER_RINGS ? "; a random subset of every ring (--per-ring) takes less"
+                                    : "");
+    }
+}
+
+static void warn_of_standard_error(const ps_power_job *job, double standard_error,
+                                   const ps_answer_hooks *hooks) {
+    const ps_sequential_look *look = ps_power_job_look(job);
+    if (look != NULL && look->corrected > standard_error) {
+        ps_answer_warn(
+            hooks,
+            "the standard error %.3g was not reached in %llu realizations: it is %.3g of bin %lld",
+            standard_error, (unsigned long long)ps_power_job_spectrum(job)->num_realizations,
+            look->corrected, (long long)look->bin);
+    }
+}
+
+/* ---- jobs ---------------------------------------------------------------------------------- */
+
+pspec_status ps_spectra_run_one(ps_power_job **job, ps_power_question *question,
+                                const ps_answer_hooks *hooks, ps_error *error) {
+    question->watch = hooks->watch;
+    if (hooks->device != NULL) {
+        question->open_device = hooks->device;
+    }
+    ps_answer_begin_next(hooks);
+    PS_TRY(ps_power_job_create(job, question, error));
+    warn_of_hours(*job, question->limits.constraints.offers, hooks);
+    if (hooks->tell_plan != NULL) {
+        hooks->tell_plan(hooks->payload, ps_power_job_plan(*job));
+    }
+    PS_TRY(ps_power_job_run(*job, error));
+    warn_of_standard_error(*job, question->accuracy.standard_error, hooks);
+    ps_answer_warn_of(hooks, ps_power_job_trouble(*job));
+    if (hooks->tell_profile != NULL) {
+        size_t num_rows = 0;
+        const ps_profile_row *const rows = ps_power_job_profile(*job, &num_rows);
+        hooks->tell_profile(hooks->payload, rows, num_rows);
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_answer_open_device(ps_device **out, const ps_request *request,
+                                   const ps_plan_constraints *constraints, size_t num_jobs,
+                                   const ps_answer_hooks *hooks, ps_error *error) {
+    *out = NULL;
+    return num_jobs > 1 && hooks->device == NULL && !request->limits.profile &&
+                   ps_plan_may_need_device(constraints)
+               ? ps_figures_open_device(out, request->limits.device, false,
+                                        request->limits.cache_folder, error)
+               : PSPEC_OK;
+}
+
+pspec_status ps_spectra_compute(void **out, const ps_request *request, ps_question_kind kind,
+                                const ps_answer_hooks *hooks, ps_error *error) {
+    PS_TRY(ps_allocate(out, 1, sizeof(ps_spectra), "jobs", error));
+    ps_spectra *const spectra = *out;
+    ps_question_list *const list = &spectra->list;
+    PS_TRY(ps_questions_make(list, request, kind, error));
+    PS_TRY(PS_NEW(&spectra->jobs, list->num, "jobs", error));
+    PS_TRY(ps_answer_open_device(&spectra->device, request, &list->questions[0].limits.constraints,
+                                 list->num, hooks, error));
+    for (size_t i = 0; i < list->num; i++) {
+        list->questions[i].open_device = spectra->device;
+        PS_TRY(ps_spectra_run_one(&spectra->jobs[i], &list->questions[i], hooks, error));
+    }
+    return PSPEC_OK;
+}
+
+void ps_spectra_discard(void *computed) {
+    ps_spectra *const spectra = computed;
+    if (spectra == NULL) {
+        return;
+    }
+    for (size_t i = 0; spectra->jobs != NULL && i < spectra->list.num; i++) {
+        ps_power_job_destroy(spectra->jobs[i]);
+    }
+    free(spectra->jobs);
+    ps_questions_free(&spectra->list);
+    ps_device_close(spectra->device);
+    free(spectra);
+}
+
+/* ---- before and after the work --------------------------------------------------------------- */
+
+pspec_status ps_spectra_check(const ps_request *request, ps_question_kind kind, ps_error *error) {
+    ps_question_list list;
+    const pspec_status status = ps_questions_make(&list, request, kind, error);
+    ps_questions_free(&list);
+    return status;
+}
+
+pspec_status ps_spectra_plan_list(ps_planner *planner, const ps_request *request,
+                                  ps_question_list *list, ps_error *error) {
+    for (size_t i = 0; i < list->num; i++) {
+        ps_power_job *job = NULL;
+        ps_power_question *const question = &list->questions[i];
+        question->open_device = planner->device;
+        ps_plan_table_begin_question(planner, request, i);
+        PS_TRY(ps_plan_table_find_lack(planner, &question->limits.constraints,
+                                       &question->may_lack_device, error));
+        PS_TRY(ps_power_job_create(&job, question, error));
+        ps_power_job_rate_skips(job);
+        const pspec_status status = ps_plan_table_add_power(planner, request, job, NULL, i, error);
+        ps_power_job_destroy(job);
+        PS_TRY(status);
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_spectra_plan(ps_planner *planner, const ps_request *request, ps_question_kind kind,
+                             ps_error *error) {
+    ps_question_list list;
+    pspec_status status = ps_questions_make(&list, request, kind, error);
+    if (status == PSPEC_OK) {
+        status = ps_spectra_plan_list(planner, request, &list, error);
+    }
+    ps_questions_free(&list);
+    return status;
+}
+
+pspec_status ps_spectra_tabulate(ps_answer *out, const void *computed, const ps_request *request,
+                                 ps_make_spectra_table *make, ps_error *error) {
+    const ps_spectra *const spectra = computed;
+    return make(&out->table, request, (const ps_power_job *const *)spectra->jobs, spectra->list.num,
+                error);
+}
+
+pspec_status ps_spectra_draw(const void *computed, const ps_request *request, ps_error *error) {
+    const ps_spectra *const spectra = computed;
+    return ps_spectrum_plot(request, (const ps_power_job *const *)spectra->jobs, spectra->list.num,
+                            error);
+}

@@ -1,0 +1,53 @@
+/* What kinds of results that are spectra of point sets share: power, angular and pairs, and the
+ * measured side of check. */
+#ifndef PS_ANSWERS_SPECTRA_SPECTRA_H
+#define PS_ANSWERS_SPECTRA_SPECTRA_H
+
+#include "answers/kind.h"
+#include "answers/spectra/question.h"
+
+/* One job for each question; all have run. */
+typedef struct ps_spectra {
+    ps_question_list list;
+    ps_device *device;   /* of all of them, where they share one that was opened for them */
+    ps_power_job **jobs; /* [list.num] */
+} ps_spectra;
+
+/* Asks and runs. *out is a ps_spectra, for ps_spectra_discard, also after an error. */
+pspec_status ps_spectra_compute(void **out, const ps_request *request, ps_question_kind kind,
+                                const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
+void ps_spectra_discard(void *computed);
+
+/* Runs one job of a question, which must outlive it. *job may be there after a failure, too. */
+pspec_status ps_spectra_run_one(ps_power_job **job, ps_power_question *question,
+                                const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
+
+/* One device for several jobs, whose kernels are then built once. NULL where each job is to find
+ * its own: for a single job, where none is needed, and for --profile, which is of one job. Closed
+ * by the caller, after the jobs. */
+pspec_status ps_answer_open_device(ps_device **out, const ps_request *request,
+                                   const ps_plan_constraints *constraints, size_t num_jobs,
+                                   const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
+
+pspec_status ps_spectra_check(const ps_request *request, ps_question_kind kind,
+                              ps_error *error) PS_MUST_CHECK;
+/* Plans of all questions of a list, and of the list that a request of this kind asks. */
+pspec_status ps_spectra_plan_list(ps_planner *planner, const ps_request *request,
+                                  ps_question_list *list, ps_error *error) PS_MUST_CHECK;
+pspec_status ps_spectra_plan(ps_planner *planner, const ps_request *request, ps_question_kind kind,
+                             ps_error *error) PS_MUST_CHECK;
+
+typedef pspec_status ps_make_spectra_table(ps_table **out, const ps_request *request,
+                                           const ps_power_job *const *jobs, size_t num,
+                                           ps_error *error);
+/* The table of all jobs. */
+pspec_status ps_spectra_tabulate(ps_answer *out, const void *computed, const ps_request *request,
+                                 ps_make_spectra_table *make, ps_error *error) PS_MUST_CHECK;
+/* --plot: curves of all jobs, and the picture of the spectrum where there is one. */
+pspec_status ps_spectra_draw(const void *computed, const ps_request *request,
+                             ps_error *error) PS_MUST_CHECK;
+
+/* Header entries that are columns of a summary of spectra. */
+extern const char *const ps_spectra_summary[];
+
+#endif

@@ -1,0 +1,287 @@
+#include "answers/spectra/spectrum_header.h"
+
+#include "files/decimal.h"
+#include "samplers/morph_words.h"
+
+#include "pointspec_version.h"
+
+#include <math.h>
+#include <stdio.h>
+
+ps_cell ps_number_or_missing(double value) {
+    return isnan(value) ? PS_MISSING : PS_NUMBER(value);
+}
+
+static pspec_status add_box(ps_table *table, const ps_point_options *options, ps_error *error) {
+    char text[2 * PS_DECIMAL_BYTES];
+    if (!(options->box_high > options->box_low)) {
+        return PSPEC_OK;
+    }
+    const size_t length = ps_decimal_format(text, options->box_low);
+    text[length] = ',';
+    ps_decimal_format(text + length + 1, options->box_high);
+    return ps_table_add_meta(table, "box", PS_TEXT(text), error);
+}
+
+pspec_status ps_header_add_reading(ps_table *table, const ps_point_options *options,
+                                   ps_error *error) {
+    PS_TRY(add_box(table, options, error));
+    if (options->lift == PS_NO_LIFT) {
+        return PSPEC_OK;
+    }
+    const bool on_hemisphere = options->lift == PS_LIFT_TO_HEMISPHERE;
+    PS_TRY(ps_table_add_meta(table, PS_LIFT_KEY, PS_TEXT(on_hemisphere ? "hemisphere" : "sphere"),
+                             error));
+    return on_hemisphere ? ps_table_add_meta(table, PS_MORPH_KEY,
+                                             PS_TEXT(ps_morph_write(&options->morph).text), error)
+                         : PSPEC_OK;
+}
+
+pspec_status ps_header_add_points(ps_table *table, const ps_points_range *points, bool with_range,
+                                  ps_error *error) {
+    const bool varies = points->smallest < points->largest;
+    const ps_meta entries[] = {
+        {"points", varies ? PS_NUMBER(points->mean) : PS_INTEGER(points->largest)},
+        {"points_smallest", PS_INTEGER(points->smallest)},
+        {"points_largest", PS_INTEGER(points->largest)},
+    };
+    return ps_table_add_metas(table, entries, with_range ? sizeof entries / sizeof entries[0] : 1,
+                              error);
+}
+
+static bool is_on_sphere(const ps_frequencies *set) {
+    return set->kind == PS_FREQUENCIES_DEGREES;
+}
+
+typedef struct header {
+    ps_table *table;
+    ps_error *error;
+    pspec_status status; /* the first failure; later entries do nothing */
+} header;
+
+static void put(header *head, const char *key, ps_cell value) {
+    if (head->status == PSPEC_OK) {
+        head->status = ps_table_add_meta(head->table, key, value, head->error);
+    }
+}
+
+/* What |S|^2 is called: on the sphere it is a sum over orders. */
+static const char *name_normalization(const ps_request *arguments, const ps_problem *problem) {
+    const bool on_sphere = is_on_sphere(problem->frequencies);
+    if (problem->measure == PS_OF_PAIR_SUMS) {
+        return "pairs: Q(l), weights 1/N unless given";
+    }
+    switch (arguments->normalization) {
+    case PSPEC_NORMALIZATION_EFFECTIVE:
+        return on_sphere ? "effective: Q(l) / sum w^2" : "effective: |S|^2 / sum w^2";
+    case PSPEC_NORMALIZATION_INTEGRAL:
+        return on_sphere ? "integral: mean(N) mean(Q(l) / (sum w)^2)"
+                         : "integral: mean(N) mean(|S|^2 / (sum w)^2)";
+    default:
+        return on_sphere ? "power: N Q(l) / (sum w)^2, N of each set"
+                         : "power: N |S|^2 / (sum w)^2, N of each set";
+    }
+}
+
+static void put_common(header *head, const ps_request *arguments, const ps_problem *problem) {
+    put(head, "pointspec_version", PS_TEXT(PS_VERSION));
+    put(head, "schema", PS_INTEGER(PS_TABLE_SCHEMA));
+    put(head, "command", PS_TEXT(arguments->command_line));
+    put(head, "normalization", PS_TEXT(name_normalization(arguments, problem)));
+    if (arguments->num_samplers > 0 || arguments->frequencies.per_ring > 0) {
+        put(head, "seed", PS_INTEGER(arguments->seed));
+    }
+    if (arguments->num_samplers > 0) {
+        put(head, "homogenize", PS_TEXT(arguments->homogenize ? "yes" : "no"));
+    }
+}
+
+/* Sets whose N differ by less are as good as of one N. */
+static const double notable_ratio = 1.1;
+
+/* Averages over sets of different N mix spectra, which change with N. */
+static void put_different_points(header *head, const ps_request *arguments,
+                                 const ps_spectrum *spectrum) {
+    if (!((double)spectrum->largest_points > notable_ratio * (double)spectrum->smallest_points)) {
+        return;
+    }
+    put(head, "different_points",
+        PS_TEXT(arguments->normalization == PSPEC_NORMALIZATION_INTEGRAL
+                    ? "every set counts by |S|^2 / W^2, as variances of integrals want it; white "
+                      "noise is above 1"
+                : arguments->normalization == PSPEC_NORMALIZATION_EFFECTIVE
+                    ? "every set is divided by its own sum w^2; white noise is 1"
+                    : "every set counts with its own N, so that white noise is 1; variances of "
+                      "integrals want --normalize integral"));
+}
+
+static void put_points(header *head, bool with_range, const ps_spectrum *spectrum,
+                       const ps_needs *needs) {
+    const ps_points_range range = {spectrum->mean_points, spectrum->smallest_points,
+                                   spectrum->largest_points};
+    head->status = head->status == PSPEC_OK
+                       ? ps_header_add_points(head->table, &range, with_range, head->error)
+                       : head->status;
+    put(head, "realizations", PS_INTEGER(spectrum->num_realizations));
+    if (spectrum->num_realizations == 1) {
+        put(head, "standard_error",
+            PS_TEXT(spectrum->frequencies.rings != NULL
+                        ? "one realization: that of the choice of frequencies, none for complete "
+                          "rings"
+                        : "none: one realization"));
+    } else if (!needs->one_realization && !is_on_sphere(&spectrum->frequencies)) {
+        put(head, "noise_level_db", PS_NUMBER(-10 * log10((double)spectrum->num_realizations)));
+    }
+    put(head, "weight_sum", PS_NUMBER(spectrum->mean_weight_sum));
+}
+
+/* Both signs, as in the table. */
+static void put_subset(header *head, const ps_request *arguments, const ps_frequencies *set) {
+    char text[128];
+    if (arguments->frequencies.per_ring == 0) {
+        return;
+    }
+    put(head, "per_ring", PS_INTEGER(arguments->frequencies.per_ring));
+    snprintf(text, sizeof text, "%llu of %llu frequencies of the rings, both signs",
+             2 * (unsigned long long)set->num,
+             2 * (unsigned long long)ps_frequencies_population(set));
+    put(head, "computed", PS_TEXT(text));
+}
+
+static void put_frequencies(header *head, const ps_request *arguments, const ps_frequencies *set) {
+    if (is_on_sphere(set)) {
+        put(head, "domain", PS_TEXT(set->degree_step > 1 ? "hemisphere, even degrees" : "sphere"));
+        put(head, "max_degree", PS_INTEGER(set->max_frequency));
+        return;
+    }
+    put(head, "dimension", PS_INTEGER(set->dimension));
+    put(head, "max_frequency", PS_INTEGER(set->max_frequency));
+    if (arguments->frequencies.path == NULL && set->bins.kind != PS_BINS_ROUND) {
+        put(head, "bins", PS_TEXT(ps_bin_rule_write(&set->bins).text));
+    }
+    put_subset(head, arguments, set);
+}
+
+static void put_self_check(header *head, const ps_accuracy *accuracy, const ps_problem *problem) {
+    const bool on_sphere = is_on_sphere(problem->frequencies);
+    char text[96];
+    if (accuracy->was_checked && problem->measure == PS_OF_PAIR_SUMS) {
+        snprintf(text, sizeof text, "%.2g (sum |w|)^2, largest deviation of Q(l) from host_direct",
+                 accuracy->self_check);
+        put(head, "self_check", PS_TEXT(text));
+    } else if (accuracy->was_checked) {
+        snprintf(text, sizeof text, "%.2g sqrt(sum w^2), largest deviation of %s from host_direct",
+                 accuracy->self_check, on_sphere ? "sqrt(Q(l))" : "|S|");
+        put(head, "self_check", PS_TEXT(text));
+    } else {
+        put(head, "self_check", PS_TEXT("none"));
+    }
+}
+
+/* Rounding of coordinates in double precision is not worth a line. */
+static void put_lengths(header *head, const ps_accuracy *accuracy) {
+    const double rounding = 1e-15;
+    char text[96];
+    if (accuracy->length_error > rounding) {
+        snprintf(text, sizeof text, "divided by their lengths, which differ from 1 by up to %.2g",
+                 accuracy->length_error);
+        put(head, "vectors", PS_TEXT(text));
+    }
+}
+
+static void put_look(header *head, const ps_request *arguments, const ps_power_job *job) {
+    const ps_sequential_look *look = ps_power_job_look(job);
+    char text[160];
+    if (look == NULL) {
+        return;
+    }
+    snprintf(text, sizeof text, "%.3g, %s; largest %.3g, of %s %lld, %.3g with the correction",
+             arguments->accuracy.standard_error,
+             look->corrected <= arguments->accuracy.standard_error ? "reached" : "not reached",
+             look->relative_error,
+             is_on_sphere(ps_power_job_problem(job)->frequencies) ? "degree" : "bin",
+             (long long)look->bin, look->corrected);
+    put(head, "relative_standard_error", PS_TEXT(text));
+}
+
+/* Points of a smaller box look like a spectrum of clusters. */
+static void put_empty_axis(header *head, const ps_power_job *job) {
+    char text[192];
+    ps_empty_axis empty = {0};
+    if (ps_power_job_empty_axis(job, &empty)) {
+        snprintf(text, sizeof text,
+                 "axis %u of the first set has no point from %.3g to %.3g%s: if the points are of "
+                 "a smaller box, --box X0,X1 takes that for the unit cell",
+                 empty.axis + 1, empty.begin, empty.end,
+                 empty.end <= empty.begin ? ", through 1" : "");
+        put(head, "empty", PS_TEXT(text));
+    }
+}
+
+static bool have_ranges(const ps_power_job *const *jobs, size_t num) {
+    size_t i = 0;
+    while (i < num && ps_power_job_spectrum(jobs[i])->smallest_points ==
+                          ps_power_job_spectrum(jobs[i])->largest_points) {
+        i++;
+    }
+    return i < num;
+}
+
+static void put_job(header *head, const ps_request *arguments, const ps_power_job *job,
+                    size_t index, bool with_range) {
+    const ps_device_limits *limits = ps_power_job_limits(job);
+    const ps_candidate *chosen = ps_power_job_plan(job)->chosen;
+    ps_text skipped = {0};
+    if (arguments->num_samplers > 0) {
+        const char *note = ps_sampler_note(ps_power_job_sampler(job));
+        put(head, "sampler", PS_TEXT(ps_request_sampler(arguments, index)));
+        if (note != NULL) {
+            put(head, "sampler_note", PS_TEXT(note));
+        }
+    } else {
+        put(head, "input_format", PS_TEXT(ps_power_job_source_format(job)));
+        put(head, "input_columns", PS_TEXT(ps_power_job_source_columns(job)));
+        head->status = head->status == PSPEC_OK
+                           ? ps_header_add_reading(head->table, &arguments->reading, head->error)
+                           : head->status;
+    }
+    put_points(head, with_range, ps_power_job_spectrum(job), ps_power_job_needs(job));
+    if (ps_power_job_problem(job)->measure != PS_OF_PAIR_SUMS) {
+        put_different_points(head, arguments, ps_power_job_spectrum(job));
+    }
+    put_look(head, arguments, job);
+    put_empty_axis(head, job);
+    put_lengths(head, ps_power_job_accuracy(job));
+    put_frequencies(head, arguments, ps_power_job_problem(job)->frequencies);
+    put(head, "device",
+        PS_TEXT(limits != NULL && chosen->engine->needs_device ? limits->name : "host"));
+    put(head, "engine", PS_TEXT(ps_power_job_description(job)));
+    put(head, "precision", PS_TEXT(ps_precision_name(chosen->precision)));
+    put(head, "tolerance", PS_NUMBER(ps_power_job_problem(job)->tolerance));
+    put(head, "predicted_error", PS_NUMBER(ps_power_job_accuracy(job)->error));
+    if (ps_power_job_was_replanned(job)) {
+        put(head, "planned_twice", PS_TEXT("the powers measured needed a more exact engine"));
+    }
+    put_self_check(head, ps_power_job_accuracy(job), ps_power_job_problem(job));
+    ps_needs_describe(ps_power_job_needs(job), &skipped);
+    if (head->status == PSPEC_OK) {
+        head->status = ps_text_check(&skipped, head->error);
+    }
+    put(head, "skipped", PS_TEXT(ps_text_string(&skipped)));
+    ps_text_free(&skipped);
+}
+
+pspec_status ps_header_begin(ps_table *table, const ps_request *arguments,
+                             const ps_power_job *first, ps_error *error) {
+    header head = {table, error, PSPEC_OK};
+    put_common(&head, arguments, ps_power_job_problem(first));
+    return head.status;
+}
+
+pspec_status ps_header_add_job(ps_table *table, const ps_request *arguments,
+                               const ps_power_job *const *jobs, size_t num, size_t index,
+                               ps_error *error) {
+    header head = {table, error, PSPEC_OK};
+    put_job(&head, arguments, jobs[index], index, have_ranges(jobs, num));
+    return head.status;
+}

@@ -1,0 +1,34 @@
+/* Header lines of a table of powers, on the torus and on the sphere: how every number was made. */
+#ifndef PS_ANSWERS_SPECTRA_SPECTRUM_HEADER_H
+#define PS_ANSWERS_SPECTRA_SPECTRUM_HEADER_H
+
+#include "answers/spectra/question.h"
+#include "tables/table.h"
+
+/* What all jobs have in common. */
+pspec_status ps_header_begin(ps_table *table, const ps_request *arguments,
+                             const ps_power_job *first, ps_error *error) PS_MUST_CHECK;
+/* Adds what is to be said of the job of question `index` of those that the table is of, which all
+ * have run. */
+pspec_status ps_header_add_job(ps_table *table, const ps_request *arguments,
+                               const ps_power_job *const *jobs, size_t num, size_t index,
+                               ps_error *error) PS_MUST_CHECK;
+
+/* Numbers of points of sets. */
+typedef struct ps_points_range {
+    double mean;
+    uint64_t smallest, largest;
+} ps_points_range;
+/* N of all sets, or their mean, then, with_range, the smallest and the largest: where they differ
+ * in a question of the table, they are there for all, since JSON has the values of a key in an
+ * array, without gaps. */
+pspec_status ps_header_add_points(ps_table *table, const ps_points_range *points, bool with_range,
+                                  ps_error *error) PS_MUST_CHECK;
+
+/* nan is a missing number. */
+ps_cell ps_number_or_missing(double value);
+/* From which box point files came, and how they were lifted to the sphere, if they were. */
+pspec_status ps_header_add_reading(ps_table *table, const ps_point_options *options,
+                                   ps_error *error) PS_MUST_CHECK;
+
+#endif

@@ -1,0 +1,137 @@
+#include "answers/variance/variance_table.h"
+
+#include "answers/lead.h"
+#include "answers/spectra/spectrum_header.h"
+#include "base/memory.h"
+
+#include <stdlib.h>
+
+static const char *const columns[] = {"points",         "predicted", "predicted_error",
+                                      "lower",          "upper",     "measured",
+                                      "measured_error", "z_score",   "white"};
+enum { NUM_COLUMNS = sizeof columns / sizeof columns[0] };
+
+/* What a row is of, besides its number of points, which every row has. */
+static ps_lead make_lead(const ps_request *request, size_t question, size_t integrand) {
+    ps_lead lead = {0};
+    if (request->num_samplers > 1) {
+        lead.names[lead.num] = "sampler";
+        lead.cells[lead.num++] = PS_TEXT(ps_request_sampler(request, question));
+    }
+    if (request->num_integrands > 1) {
+        lead.names[lead.num] = "integrand";
+        lead.cells[lead.num++] = PS_TEXT(request->integrands[integrand]);
+    }
+    return lead;
+}
+
+/* A whole number unless sets differ. */
+static ps_cell points_cell(const ps_spectrum *spectrum) {
+    return spectrum->smallest_points == spectrum->largest_points
+               ? PS_INTEGER((long long)spectrum->largest_points)
+               : PS_NUMBER(spectrum->mean_points);
+}
+
+static pspec_status add_row(ps_table *table, const ps_lead *lead, const ps_variance_job *job,
+                            size_t integrand, ps_error *error) {
+    const ps_variance_row *const row = &ps_variance_job_rows(job)[integrand];
+    const ps_cell cells[NUM_COLUMNS] = {
+        points_cell(ps_power_job_spectrum(ps_variance_job_spectrum(job))),
+        PS_NUMBER(row->prediction.variance),
+        ps_number_or_missing(row->prediction.standard_error),
+        PS_NUMBER(row->prediction.lower),
+        PS_NUMBER(row->prediction.upper),
+        ps_number_or_missing(row->measured),
+        ps_number_or_missing(row->measured_error),
+        ps_number_or_missing(row->z_score),
+        PS_NUMBER(row->prediction.white),
+    };
+    return ps_lead_add_row(table, lead, cells, NUM_COLUMNS, error);
+}
+
+/* ---- header -------------------------------------------------------------------------------- */
+
+/* What all jobs have in common. */
+static pspec_status begin(ps_table *table, const ps_request *request, ps_error *error) {
+    const ps_meta entries[] = {
+        {"pointspec_version", PS_TEXT(pspec_version())},
+        {"schema", PS_INTEGER(PS_TABLE_SCHEMA)},
+        {"command", PS_TEXT(request->command_line)},
+        {"normalization", PS_TEXT("mean(N) mean(|S|^2 / W^2), whose weighted sum is a variance")},
+        {"seed", PS_INTEGER(request->seed)},
+        {"trials", PS_TEXT(request->num_shifts == 0 ? "none"
+                           : request->in_place      ? "sets where they are"
+                                                    : "sets moved at random, one for each trial")},
+        {"shifts", PS_INTEGER(request->num_shifts)},
+    };
+    return ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
+}
+
+static pspec_status add_integrand(ps_table *table, const ps_request *request,
+                                  const ps_integrand *integrand, size_t index, ps_error *error) {
+    const char *const note = ps_integrand_note(integrand);
+    const ps_meta entries[] = {
+        {"integrand", PS_TEXT(request->integrands[index])},
+        {"integral", PS_NUMBER(ps_integrand_integral(integrand))},
+    };
+    PS_TRY(ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error));
+    return note != NULL ? ps_table_add_meta(table, "integrand_note", PS_TEXT(note), error)
+                        : PSPEC_OK;
+}
+
+/* For who draws many questions, each of one integrand, against N. */
+static pspec_status add_variances(ps_table *table, const ps_variance_row *row, ps_error *error) {
+    const ps_meta entries[] = {
+        {"predicted_variance", PS_NUMBER(row->prediction.variance)},
+        {"measured_variance", ps_number_or_missing(row->measured)},
+    };
+    return ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
+}
+
+/* What the bracket takes for the power beyond the cut-off. */
+static pspec_status add_most_power(ps_table *table, const ps_variance_job *job, ps_error *error) {
+    const ps_power_beyond *const beyond = ps_variance_job_power_beyond(job);
+    const ps_meta entries[] = {
+        {"most_power", PS_NUMBER(beyond->most)},
+        {"most_power_is",
+         PS_TEXT(beyond->is_known ? "a bound" : "assumed: the largest that was measured")},
+    };
+    return ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
+}
+
+static pspec_status fill(ps_table *table, const ps_request *request, ps_variance_job *const *jobs,
+                         const ps_power_job *const *spectra, size_t num, ps_error *error) {
+    PS_TRY(begin(table, request, error));
+    for (size_t i = 0; i < request->num_integrands; i++) {
+        PS_TRY(add_integrand(table, request, ps_variance_job_integrand(jobs[0], i), i, error));
+    }
+    for (size_t i = 0; i < num; i++) {
+        PS_TRY(ps_header_add_job(table, request, spectra, num, i, error));
+        PS_TRY(add_most_power(table, jobs[i], error));
+        for (size_t k = 0; k < request->num_integrands; k++) {
+            const ps_lead lead = make_lead(request, i, k);
+            PS_TRY(add_variances(table, &ps_variance_job_rows(jobs[i])[k], error));
+            PS_TRY(add_row(table, &lead, jobs[i], k, error));
+        }
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_variance_table(ps_table **out, const ps_request *request,
+                               ps_variance_job *const *jobs, size_t num, ps_error *error) {
+    const ps_lead first = make_lead(request, 0, 0);
+    ps_request own = *request; /* what headers say of powers is said of these */
+    own.normalization = PSPEC_NORMALIZATION_INTEGRAL;
+    const ps_power_job **spectra = NULL;
+    PS_TRY(PS_NEW(&spectra, num, "jobs", error));
+    for (size_t i = 0; i < num; i++) {
+        spectra[i] = ps_variance_job_spectrum(jobs[i]);
+    }
+    pspec_status status =
+        ps_lead_create_table(out, "variance", &first, columns, NUM_COLUMNS, error);
+    if (status == PSPEC_OK) {
+        status = fill(*out, &own, jobs, spectra, num, error);
+    }
+    free(spectra);
+    return status;
+}

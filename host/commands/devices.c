@@ -1,0 +1,117 @@
+#include "commands/devices.h"
+
+#include "engines/engine.h"
+#include "store/figures_file.h"
+
+#include <stdlib.h>
+
+static const char *const columns[] = {
+    "index",          "default",
+    "name",           "type",
+    "platform",       "driver",
+    "opencl_version", "compute_units",
+    "clock_mhz",      "fp64",
+    "float_lanes",    "double_lanes",
+    "global_bytes",   "max_allocation_bytes",
+    "local_bytes",    "cache_bytes",
+    "figures",        "single_flops",
+    "double_flops",   "copied_bytes",
+};
+enum { NUM_COLUMNS = sizeof columns / sizeof columns[0] };
+
+static const char *device_type(const ps_device_limits *limits) {
+    return limits->is_gpu ? "gpu" : limits->is_cpu ? "cpu" : "accelerator";
+}
+
+/* Measured, or not known. */
+static ps_cell rate(double value) {
+    return value > 0 ? PS_NUMBER(value) : PS_MISSING;
+}
+
+static pspec_status add_device(ps_table *table, const ps_device_limits *limits, size_t index,
+                               bool is_default, const char *folder, ps_error *error) {
+    ps_figures figures;
+    PS_TRY(ps_figures_read(&figures, folder, limits, error));
+    const ps_cell cells[NUM_COLUMNS] = {
+        PS_INTEGER(index),
+        PS_INTEGER(is_default),
+        PS_TEXT(limits->name),
+        PS_TEXT(device_type(limits)),
+        PS_TEXT(limits->platform),
+        PS_TEXT(limits->driver),
+        PS_TEXT(limits->version),
+        PS_INTEGER(limits->compute_units),
+        PS_INTEGER(limits->clock_mhz),
+        PS_INTEGER(limits->has_fp64),
+        PS_INTEGER(limits->native_float_lanes),
+        PS_INTEGER(limits->native_double_lanes),
+        PS_INTEGER(limits->global_bytes),
+        PS_INTEGER(limits->max_allocation_bytes),
+        PS_INTEGER(limits->local_bytes),
+        PS_INTEGER(limits->cache_bytes),
+        PS_TEXT(figures.note),
+        rate(figures.flops[PS_SINGLE]),
+        rate(figures.flops[PS_DOUBLE]),
+        rate(figures.copied_bytes),
+    };
+    return ps_table_add_row(table, cells, error);
+}
+
+/* None is a list, too, and the table is empty. */
+static pspec_status list_devices(ps_device_limits **limits, size_t *num_devices, ps_text *why_none,
+                                 ps_error *error) {
+    const pspec_status status = ps_device_list(limits, num_devices, error);
+    if (status != PSPEC_ERROR_NO_DEVICE) {
+        return status;
+    }
+    ps_text_append(why_none, "%s", error->message);
+    *error = (ps_error){0};
+    *num_devices = 0;
+    return ps_text_check(why_none, error);
+}
+
+static pspec_status add_facts(ps_table *table, const ps_request *request, ps_error *error) {
+    PS_TRY(ps_table_add_meta(table, "pointspec_version", PS_TEXT(pspec_version()), error));
+    PS_TRY(ps_table_add_meta(table, "schema", PS_INTEGER(PS_TABLE_SCHEMA), error));
+    return ps_table_add_meta(table, "command", PS_TEXT(request->command_line), error);
+}
+
+static pspec_status add_header(ps_table *table, const ps_request *request,
+                               const ps_device_limits *chosen, ps_error *error) {
+    PS_TRY(add_facts(table, request, error));
+    return ps_table_add_meta(table, "device", PS_TEXT(chosen->name), error);
+}
+
+static pspec_status fill_table(ps_table *table, ps_text *why_none, const ps_request *request,
+                               ps_error *error) {
+    ps_device_limits *limits = NULL;
+    size_t num_devices = 0;
+    size_t chosen = 0;
+    pspec_status status = PSPEC_OK;
+    PS_TRY(list_devices(&limits, &num_devices, why_none, error));
+    if (num_devices == 0) {
+        return add_facts(table, request, error);
+    }
+    PS_TRY_OUT(status,
+               ps_device_choose(limits, num_devices, request->limits.device, &chosen, error));
+    PS_TRY_OUT(status, add_header(table, request, &limits[chosen], error));
+    for (size_t i = 0; i < num_devices; i++) {
+        PS_TRY_OUT(status, add_device(table, &limits[i], i, i == chosen,
+                                      request->limits.cache_folder, error));
+    }
+out:
+    free(limits);
+    return status;
+}
+
+pspec_status ps_devices_tabulate(ps_table **out, ps_text *why_none, const ps_request *request,
+                                 ps_error *error) {
+    PS_TRY(ps_table_create(out, "devices", columns, NUM_COLUMNS, error));
+    ps_table_set_blocks(*out);
+    const pspec_status status = fill_table(*out, why_none, request, error);
+    if (status != PSPEC_OK) {
+        ps_table_destroy(*out);
+        *out = NULL;
+    }
+    return status;
+}

@@ -1,0 +1,162 @@
+#include "commands/doctor.h"
+
+#include "base/process/memory_limit.h"
+#include "base/text.h"
+#include "device/drivers.h"
+#include "plots/plot.h"
+#include "store/cache_trust.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+enum { LINE_BYTES = 512 };
+
+/* ---- caches ---------------------------------------------------------------------------------- */
+
+static void tell_space(const ps_doctor *doctor, const char *topic, const char *folder) {
+    struct statvfs facts;
+    char text[PS_SIZE_TEXT];
+    if (statvfs(folder, &facts) == 0) {
+        const double left = (double)facts.f_bavail * (double)facts.f_frsize;
+        const double little = 1 << 26; /* bytes, of which a program's kernels take a hundredth */
+        ps_doctor_tell(doctor, left < little ? PS_FINDING_NOTE : PS_FINDING_GOOD, topic,
+                       "%s has room for %s bytes", folder, ps_size_show(text, left));
+    }
+}
+
+static void tell_own_cache(const ps_doctor *doctor) {
+    ps_error reason = {0};
+    const char *const folder = doctor->cache_folder;
+    if (folder == NULL) {
+        ps_doctor_tell(doctor, PS_FINDING_NOTE, "cache",
+                       "no folder: none of POINTSPEC_CACHE_DIR, XDG_CACHE_HOME and HOME is set");
+    } else if (ps_cache_check_folder(folder, &reason) != PSPEC_OK) {
+        ps_doctor_tell(doctor, PS_FINDING_NOTE, "cache", "%s", reason.message);
+    } else if (access(folder, F_OK) != 0) {
+        ps_doctor_tell(
+            doctor, errno == ENOENT ? PS_FINDING_GOOD : PS_FINDING_NOTE, "cache", "%s: %s", folder,
+            errno == ENOENT ? "not there yet; it is made when it is needed" : strerror(errno));
+    } else if (access(folder, R_OK | W_OK | X_OK) != 0) {
+        ps_doctor_tell(doctor, PS_FINDING_NOTE, "cache", "%s cannot be used: %s", folder,
+                       strerror(errno));
+    } else {
+        ps_doctor_tell(doctor, PS_FINDING_GOOD, "cache", "%s can be written by its owner alone",
+                       folder);
+        tell_space(doctor, "cache", folder);
+    }
+}
+
+static pspec_status tell_pocl_cache(const ps_doctor *doctor, ps_error *error) {
+    ps_text folder = {0};
+    ps_text problem = {0};
+    const pspec_status status = ps_drivers_pocl_cache(&folder, error);
+    if (status == PSPEC_OK && folder.length > 0) {
+        ps_drivers_pocl_cache_problem(ps_text_string(&folder), &problem);
+        if (problem.length > 0) {
+            ps_doctor_tell(doctor, PS_FINDING_NOTE, "kernels", "%s", ps_text_string(&problem));
+        } else {
+            ps_doctor_tell(doctor, PS_FINDING_GOOD, "kernels", "%s can be written",
+                           ps_text_string(&folder));
+            tell_space(doctor, "kernels", ps_text_string(&folder));
+        }
+    }
+    ps_text_free(&folder);
+    ps_text_free(&problem);
+    return status;
+}
+
+/* ---- memory, threads, gnuplot ---------------------------------------------------------------- */
+
+static void tell_memory(const ps_doctor *doctor) {
+    ps_memory_limits limits;
+    char text[PS_MEMORY_TEXT];
+    ps_memory_limits_find(&limits, "");
+    for (int kind = 0; kind < PS_NUM_MEMORY_KINDS; kind++) {
+        if (limits.bounds[kind].limit == 0) {
+            continue;
+        }
+        ps_memory_describe(&limits, (ps_memory_kind)kind, text, sizeof text);
+        ps_doctor_tell(doctor, PS_FINDING_GOOD, "memory", "%s%s", text,
+                       kind == limits.least ? "; this leaves the least" : "");
+    }
+}
+
+/* What follows the key in a file of lines; false: there is no such line. */
+static bool find_line(const char *path, const char *key, char line[LINE_BYTES]) {
+    FILE *const file = fopen(path, "re");
+    bool is_found = false;
+    while (file != NULL && !is_found && fgets(line, LINE_BYTES, file) != NULL) {
+        is_found = strncmp(line, key, strlen(key)) == 0;
+    }
+    if (file != NULL) {
+        fclose(file);
+    }
+    if (is_found) {
+        const char *const value = line + strlen(key) + strspn(line + strlen(key), " \t");
+        memmove(line, value, strlen(value) + 1);
+        line[strcspn(line, "\n")] = '\0';
+    }
+    return is_found;
+}
+
+/* Version 2 of cgroups: "QUOTA PERIOD" in microseconds, or "max PERIOD"; of the own group. */
+static void tell_quota(const ps_doctor *doctor) {
+    char group[LINE_BYTES];
+    char line[LINE_BYTES];
+    char path[LINE_BYTES + 64];
+    uint64_t quota = 0;
+    uint64_t period = 0;
+    const bool has_group = find_line("/proc/self/cgroup", "0::", group);
+    snprintf(path, sizeof path, "/sys/fs/cgroup%s/cpu.max", has_group ? group : "");
+    if (access(path, R_OK) != 0) {
+        snprintf(path, sizeof path, "/sys/fs/cgroup/cpu.max");
+    }
+    if (find_line(path, "", line) && sscanf(line, "%" SCNu64 " %" SCNu64, &quota, &period) == 2 &&
+        period > 0) {
+        ps_doctor_tell(doctor, PS_FINDING_NOTE, "threads",
+                       "%s allows the time of %.3g processors, whatever their number", path,
+                       (double)quota / (double)period);
+    }
+}
+
+static void tell_threads(const ps_doctor *doctor) {
+    char allowed[LINE_BYTES];
+    const long online = sysconf(_SC_NPROCESSORS_ONLN);
+    if (find_line("/proc/self/status", "Cpus_allowed_list:", allowed)) {
+        ps_doctor_tell(doctor, PS_FINDING_GOOD, "threads",
+                       "%ld processors are there, and this process may run on number %s", online,
+                       allowed);
+    } else {
+        ps_doctor_tell(doctor, PS_FINDING_GOOD, "threads", "%ld processors are there", online);
+    }
+    tell_quota(doctor);
+}
+
+static void tell_gnuplot(const ps_doctor *doctor) {
+    ps_text path = {0};
+    ps_error reason = {0};
+    const bool is_found = ps_plot_find_gnuplot(&path, &reason) == PSPEC_OK;
+    ps_doctor_tell(doctor, is_found ? PS_FINDING_GOOD : PS_FINDING_NOTE, "gnuplot", "%s",
+                   is_found ? ps_text_string(&path) : reason.message);
+    ps_text_free(&path);
+}
+
+pspec_status ps_doctor_examine(const ps_doctor *doctor, ps_error *error) {
+    bool is_wrong = false;
+    PS_TRY(ps_doctor_devices(doctor, &is_wrong, error));
+    tell_own_cache(doctor);
+    PS_TRY(tell_pocl_cache(doctor, error));
+    tell_memory(doctor);
+    tell_threads(doctor);
+    tell_gnuplot(doctor);
+    return is_wrong ? ps_fail(error, PSPEC_ERROR_CHECK,
+                              "the default device cannot be used; the lines that begin with WRONG "
+                              "say why; --engine host_direct needs no device")
+                    : PSPEC_OK;
+}

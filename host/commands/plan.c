@@ -1,0 +1,36 @@
+/* Plans of tasks. */
+#include "commands/task.h"
+#include "store/host_figures.h"
+
+#include "pointspec_version.h"
+
+static pspec_status fill(ps_planner *planner, const ps_task *task, const ps_request *request,
+                         const ps_answer_hooks *hooks, ps_error *error) {
+    ps_figures host;
+    ps_table *const table = planner->table;
+    planner->host = &host;
+    PS_TRY(ps_table_add_meta(table, "pointspec_version", PS_TEXT(PS_VERSION), error));
+    PS_TRY(ps_table_add_meta(table, "schema", PS_INTEGER(PS_TABLE_SCHEMA), error));
+    PS_TRY(ps_table_add_meta(table, "command", PS_TEXT(request->command_line), error));
+    PS_TRY(ps_host_figures_read(&host, request->limits.cache_folder, error));
+    PS_TRY(ps_table_add_meta(table, "host_figures", PS_TEXT(host.note), error));
+    PS_TRY(task->kind != NULL ? task->kind->plan(planner, request, error)
+                              : task->plan(planner, request, hooks, error));
+    return ps_plan_table_end(planner, error);
+}
+
+pspec_status ps_task_plan(ps_table **out, const ps_task *task, const ps_request *request,
+                          const ps_answer_hooks *hooks, ps_error *error) {
+    ps_planner planner = {.device = hooks->device,
+                          .lead = task == &ps_task_run ? ps_plan_table_lead("")
+                                                       : ps_lead_make(request, 0)};
+    *out = NULL;
+    PS_TRY(ps_plan_table_create(&planner.table, &planner.lead, error));
+    const pspec_status status = fill(&planner, task, request, hooks, error);
+    if (status != PSPEC_OK) {
+        ps_table_destroy(planner.table);
+        return status;
+    }
+    *out = planner.table;
+    return PSPEC_OK;
+}

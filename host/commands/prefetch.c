@@ -1,0 +1,150 @@
+#include "commands/prefetch.h"
+
+#include "base/memory.h"
+#include "base/process/memory_limit.h"
+#include "commands/points.h"
+#include "plan/specs.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+
+typedef struct prefetch {
+    ps_sampler_request sampler;
+    const char *text; /* as it was typed */
+    uint64_t num;
+    ps_sets_options options;
+    double *points; /* of one realization */
+} prefetch;
+
+/* ---- before the work ----------------------------------------------------------------------- */
+
+static pspec_status fail_cheap(const prefetch *self, ps_error *error) {
+    ps_text names = {0};
+    for (size_t i = 0; ps_samplers[i] != NULL; i++) {
+        if (ps_samplers[i]->version > 0) {
+            ps_text_append(&names, "%s%s", names.length > 0 ? ", " : "", ps_samplers[i]->name);
+        }
+    }
+    ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+            "--prefetch: %s makes %zu points about as fast as they are read, so they are not kept; "
+            "%s%s %s",
+            self->text, self->sampler.num_points,
+            self->sampler.sampler->version > 0 ? "larger sets are, of " : "sets are of ",
+            ps_text_string(&names), "where they take more than 2 ms");
+    ps_text_free(&names);
+    return PSPEC_ERROR_INVALID_ARGUMENT;
+}
+
+static pspec_status check_words(const ps_request *request, ps_error *error) {
+    if (request->is_given[PS_OPTION_OUTPUT] || request->format != NULL || request->plot != NULL) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "--prefetch writes no points: there is no use for --%s",
+                       request->format != NULL ? "format"
+                       : request->plot != NULL ? "plot"
+                                               : "output");
+    }
+    return ps_points_check_words(request, true, error);
+}
+
+static pspec_status begin(prefetch *out, const ps_request *request, size_t question,
+                          ps_error *error) {
+    *out = (prefetch){.text = ps_request_sampler(request, question),
+                      .num = request->num_realizations,
+                      .options = ps_limits_sets(&request->limits, false)};
+    PS_TRY(ps_sampler_request_make(&out->sampler, request, question, error));
+    if (!ps_sets_are_dear(&out->sampler)) {
+        return fail_cheap(out, error);
+    }
+    return out->options.place.cache_folder != NULL
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_IO,
+                         "--prefetch: there is no folder to keep sets in; set POINTSPEC_CACHE_DIR "
+                         "to one that no other user can write");
+}
+
+/* All sets must have room beside each other, or the last ones would drive out the first. */
+static pspec_status check_room(const ps_request *request, ps_error *error) {
+    double bytes = 0;
+    double allowed = 0;
+    for (size_t i = 0; i < ps_request_num_questions(request); i++) {
+        prefetch one;
+        PS_TRY(begin(&one, request, i, error));
+        bytes += (double)one.num * (double)ps_set_store_bytes(&one.sampler);
+        allowed = (double)one.options.place.max_bytes;
+    }
+    char needed_text[PS_SIZE_TEXT];
+    char allowed_text[PS_SIZE_TEXT];
+    return bytes <= allowed
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_MEMORY,
+                         "--prefetch: %" PRIu64 " sets take %s on the disk, above --kept-sets, %s",
+                         request->num_realizations * ps_request_num_questions(request),
+                         ps_size_show(needed_text, bytes), ps_size_show(allowed_text, allowed));
+}
+
+/* ---- the work ------------------------------------------------------------------------------ */
+
+/* The first set shows whether the store takes any. */
+static pspec_status check_store(ps_sets *sets, ps_error *error) {
+    const ps_set_counts counts = ps_sets_counts(sets);
+    return counts.num_read + counts.num_kept > 0
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_IO, "%s", ps_sets_trouble(sets));
+}
+
+static pspec_status make_sets(const prefetch *self, ps_sets *sets, const ps_answer_hooks *hooks,
+                              ps_error *error) {
+    size_t num_points = 0;
+    for (uint64_t r = 0; r < self->num; r++) {
+        PS_TRY(ps_sets_next(sets, self->points, &num_points, &hooks->watch, error));
+        PS_TRY(check_store(sets, error));
+        PS_TRY(ps_watch_tell(&hooks->watch, "realizations", r + 1, self->num, NULL, error));
+    }
+    return PSPEC_OK;
+}
+
+static void tell(const prefetch *self, ps_sets *sets, const ps_answer_hooks *hooks) {
+    const ps_set_counts counts = ps_sets_counts(sets);
+    ps_answer_warn_of(hooks, ps_sets_trouble(sets));
+    ps_answer_warn(hooks,
+                   "%s, %zu points: %" PRIu64 " sets were kept already, %" PRIu64
+                   " are made and kept in %s/sets",
+                   self->text, self->sampler.num_points, counts.num_read, counts.num_kept,
+                   self->options.place.cache_folder);
+}
+
+static pspec_status run(const prefetch *self, const ps_answer_hooks *hooks, ps_error *error) {
+    ps_sets *sets = NULL;
+    PS_TRY(ps_sets_create(&sets, &self->sampler, self->num, &self->options, error));
+    ps_answer_begin_next(hooks);
+    const pspec_status status = make_sets(self, sets, hooks, error);
+    ps_answer_end(hooks);
+    if (status == PSPEC_OK) {
+        tell(self, sets, hooks);
+    }
+    ps_sets_destroy(sets);
+    return status;
+}
+
+static pspec_status prefetch_one(const ps_request *request, size_t question,
+                                 const ps_answer_hooks *hooks, ps_error *error) {
+    prefetch self;
+    void *points = NULL;
+    PS_TRY(begin(&self, request, question, error));
+    PS_TRY(ps_allocate(&points, ps_sampler_most_points(&self.sampler),
+                       self.sampler.dimension * sizeof(double), "points", error));
+    self.points = points;
+    const pspec_status status = run(&self, hooks, error);
+    free(points);
+    return status;
+}
+
+pspec_status ps_points_prefetch(const ps_request *request, const ps_answer_hooks *hooks,
+                                ps_error *error) {
+    PS_TRY(check_words(request, error));
+    PS_TRY(check_room(request, error));
+    for (size_t i = 0; i < ps_request_num_questions(request); i++) {
+        PS_TRY(prefetch_one(request, i, hooks, error));
+    }
+    return PSPEC_OK;
+}

@@ -1,0 +1,346 @@
+#include "jobs/estimator_private.h"
+
+#include "base/memory.h"
+#include "jobs/self_check.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* ---- create ------------------------------------------------------------------------------ */
+
+static pspec_status create_accumulator(ps_estimator *self, ps_error *error) {
+    const ps_estimator_options *options = &self->options;
+    const ps_frequencies *set = options->problem.frequencies;
+    const bool is_on_device = options->engine->needs_device && !options->engine->rows_on_host;
+    const ps_accumulator_options accumulator = {
+        .bins = &self->bins,
+        .num_frequencies = set->num,
+        .slots = self->slots,
+        .stride = options->engine->get_stride(self->engine_state),
+        .batch = self->batch,
+        .is_on_device = is_on_device,
+        .precision = options->precision == PS_SINGLE && is_on_device ? PS_SINGLE : PS_DOUBLE,
+        .lanes = is_on_device
+                     ? ps_engine_lanes(ps_device_get_limits(self->device), options->precision)
+                     : 1,
+        .want_frequencies = options->want_frequencies,
+        .mean_only = options->mean_only,
+        .no_frequency_errors = options->no_frequency_errors,
+        .weights = options->weights,
+        .num_weighted = options->num_weighted,
+    };
+    return ps_accumulator_create(&self->accumulator, &accumulator, self->device, error);
+}
+
+/* Engine and accumulator, for half as many realizations as long as memory is refused to either. */
+static pspec_status create_parts(ps_estimator *self, ps_error *error) {
+    for (;;) {
+        PS_TRY(ps_estimator_make_engine(self, error));
+        ps_engine_slots(self->options.engine, self->engine_state,
+                        self->options.problem.frequencies->num, self->slots);
+        const pspec_status status = create_accumulator(self, error);
+        if (status != PSPEC_ERROR_MEMORY || self->batch == 1) {
+            return status;
+        }
+        ps_estimator_halve_batch(self);
+    }
+}
+
+static pspec_status create_arrays(ps_estimator *self, ps_error *error) {
+    const ps_frequencies *set = self->options.problem.frequencies;
+    PS_TRY(ps_bins_create(&self->bins, set, error));
+    PS_TRY(PS_NEW(&self->slots, set->num, "slots", error));
+    PS_TRY(PS_NEW(&self->scales, self->batch, "scales", error));
+    PS_TRY(PS_NEW(&self->exponents, self->batch, "exponents", error));
+    PS_TRY(PS_NEW(&self->sums, self->batch, "sums of weights", error));
+    return self->options.want_c2
+               ? ps_pair_sums_create(&self->c2, set, self->batch, self->options.observer, error)
+               : PSPEC_OK;
+}
+
+pspec_status ps_estimator_create(ps_estimator **out, const ps_estimator_options *options,
+                                 ps_device *device, ps_error *error) {
+    *out = NULL;
+    ps_estimator *self = NULL;
+    PS_TRY(PS_NEW(&self, 1, "an estimator", error));
+    self->options = *options;
+    self->device = device;
+    self->batch = options->batch;
+    self->reference_points = options->normalization == PSPEC_NORMALIZATION_INTEGRAL
+                                 ? (double)options->problem.num_points
+                                 : 1;
+    pspec_status status = create_arrays(self, error);
+    if (status == PSPEC_OK) {
+        status = create_parts(self, error);
+    }
+    if (status != PSPEC_OK) {
+        ps_estimator_destroy(self);
+        return status;
+    }
+    *out = self;
+    return PSPEC_OK;
+}
+
+void ps_estimator_destroy(ps_estimator *estimator) {
+    if (estimator == NULL) {
+        return;
+    }
+    estimator->options.engine->destroy(estimator->engine_state);
+    ps_accumulator_destroy(estimator->accumulator);
+    ps_bins_free(&estimator->bins);
+    free(estimator->slots);
+    free(estimator->scales);
+    free(estimator->exponents);
+    free(estimator->sums);
+    ps_pair_sums_free(&estimator->c2);
+    free(estimator);
+}
+
+size_t ps_estimator_batch(const ps_estimator *estimator) {
+    return estimator->batch;
+}
+
+uint64_t ps_estimator_num_realizations(const ps_estimator *estimator) {
+    return estimator->totals.num_realizations;
+}
+
+/* ---- add --------------------------------------------------------------------------------- */
+
+pspec_status ps_estimator_check(const ps_estimator *estimator, const pspec_pattern *pattern,
+                                uint64_t realization, ps_pattern_sums *sums, ps_error *error) {
+    const ps_estimator_options *options = &estimator->options;
+    return ps_pattern_check(pattern, options->problem.frequencies, options->normalization,
+                            realization, sums, error);
+}
+
+/* Nothing but the coordinates could be wrong, and the engine sees them anyway. (Bins relative to a
+ * number of points want all sets to have it.) */
+static bool may_leave_checks(const ps_estimator *self, const pspec_pattern *patterns,
+                             size_t num_patterns) {
+    const unsigned dimension = self->options.problem.frequencies->dimension;
+    const bool is_relative = self->options.problem.frequencies->bins.kind == PS_BINS_RELATIVE;
+    bool is_plain = self->options.engine->checks_points && !is_relative;
+    for (size_t r = 0; r < num_patterns; r++) {
+        is_plain = is_plain && patterns[r].dimension == dimension && patterns[r].num_points > 0 &&
+                   patterns[r].points != NULL && patterns[r].weights == NULL;
+    }
+    return is_plain;
+}
+
+static pspec_status check_all(const ps_estimator *self, const pspec_pattern *patterns,
+                              size_t num_patterns, ps_error *error) {
+    pspec_status status = PSPEC_OK;
+    for (size_t r = 0; r < num_patterns && status == PSPEC_OK; r++) {
+        ps_pattern_sums sums = {0};
+        status =
+            ps_estimator_check(self, &patterns[r], self->totals.num_realizations + r, &sums, error);
+    }
+    return status;
+}
+
+/* What sums of weights are where all weights are 1. */
+static ps_pattern_sums plain_sums(const pspec_pattern *pattern) {
+    const double num = (double)pattern->num_points;
+    return (ps_pattern_sums){
+        .is_plain = true, .weight_sum = num, .weight_square_sum = num, .weight_size_sum = num};
+}
+
+/* Scales of the patterns of a batch, whose sums are known or found here, and the largest number of
+ * points. */
+static pspec_status prepare(ps_estimator *self, const pspec_pattern *patterns,
+                            const ps_pattern_sums *sums, size_t num_patterns, uint64_t *longest,
+                            ps_error *error) {
+    *longest = 0;
+    self->leaves_checks = sums == NULL && may_leave_checks(self, patterns, num_patterns);
+    for (size_t r = 0; r < num_patterns; r++) {
+        ps_pattern_sums found = plain_sums(&patterns[r]);
+        if (sums == NULL && !self->leaves_checks) {
+            PS_TRY(ps_estimator_check(self, &patterns[r], self->totals.num_realizations + r, &found,
+                                      error));
+        }
+        ps_estimator_set_sums(self, r, patterns[r].num_points, sums != NULL ? &sums[r] : &found);
+        *longest = patterns[r].num_points > *longest ? patterns[r].num_points : *longest;
+    }
+    return PSPEC_OK;
+}
+
+/* Effective power of every realization, mean over all frequencies but DC: what the error formula
+ * needs. */
+static void measure_powers(ps_estimator *self, const double *mean_powers, size_t num_patterns) {
+    for (size_t r = 0; r < num_patterns; r++) {
+        const double power = mean_powers[r] / (self->scales[r] * self->sums[r].weight_square_sum);
+        if (!(power <= self->accuracy.largest_mean_power)) {
+            self->accuracy.largest_mean_power = power;
+        }
+    }
+}
+
+static void count_patterns(ps_estimator *self, const pspec_pattern *patterns, size_t num_patterns) {
+    ps_pattern_totals *totals = &self->totals;
+    for (size_t r = 0; r < num_patterns; r++) {
+        const size_t num_points = patterns[r].num_points;
+        const bool is_first = totals->num_realizations == 0;
+        totals->num_realizations++;
+        self->accuracy.length_error = fmax(self->accuracy.length_error, self->sums[r].length_error);
+        ps_sums_add(&totals->points, (double)num_points);
+        ps_sums_add(&totals->sample_sizes, self->sums[r].weight_sum * self->sums[r].weight_sum /
+                                               self->sums[r].weight_square_sum);
+        totals->sum_weights += ps_estimator_weight_sum(self, &self->sums[r]);
+        ps_estimator_measure_share(self, &self->sums[r]);
+        if (is_first || num_points < totals->smallest_points) {
+            totals->smallest_points = num_points;
+        }
+        if (num_points > totals->largest_points) {
+            totals->largest_points = num_points;
+        }
+    }
+}
+
+ps_batch ps_estimator_make_batch(const ps_estimator *self, const pspec_pattern *patterns,
+                                 size_t num_patterns) {
+    return (ps_batch){.num_patterns = num_patterns,
+                      .patterns = patterns,
+                      .scales = self->scales,
+                      .exponents = self->exponents,
+                      .should_stop = self->options.should_stop,
+                      .payload = self->options.payload};
+}
+
+/* What a sum of all weights is rounded by, in units of sqrt(V); 0 on the torus, where frequency 0
+ * is kept out of the others, and in extended precision. */
+static double sum_rounding(const ps_estimator *self) {
+    const ps_pattern_sums *sums = &self->sums[0];
+    const ps_precision precision = self->options.precision;
+    const bool on_sphere = self->options.problem.frequencies->kind == PS_FREQUENCIES_DEGREES;
+    const double roundoff = precision == PS_SINGLE ? 0x1p-24 : precision == PS_DOUBLE ? 0x1p-53 : 0;
+    return on_sphere ? roundoff * sums->weight_size_sum / sqrt(sums->weight_square_sum) : 0;
+}
+
+static pspec_status compare_with_referee(ps_estimator *self, const ps_rows *rows,
+                                         const pspec_pattern *pattern, ps_error *error) {
+    const ps_problem *problem = &self->options.problem;
+    const ps_self_check_input input = {
+        .rows = rows,
+        .slots = self->slots,
+        .frequencies = problem->frequencies,
+        .pattern = pattern,
+        .exponent = self->exponents[0],
+        .scale = self->scales[0],
+        .weight_square_sum = self->sums[0].weight_square_sum,
+        .size_square = problem->measure == PS_OF_PAIR_SUMS
+                           ? self->sums[0].weight_size_sum * self->sums[0].weight_size_sum
+                           : 0,
+        .engine_error = ps_estimator_error_of(self, 1, &self->sums[0]),
+        .sum_rounding = problem->measure == PS_OF_PAIR_SUMS ? 0 : sum_rounding(self),
+    };
+    return ps_self_check(&input, self->device, &self->accuracy.self_check, error);
+}
+
+pspec_status ps_estimator_check_beginning(ps_estimator *self, const pspec_pattern *beginning,
+                                          ps_error *error) {
+    pspec_pattern pattern = *beginning;
+    ps_rows rows = {0};
+    const double scale = self->scales[0];
+    const ps_pattern_sums sums = self->sums[0];
+    pattern.num_points =
+        pattern.num_points < PS_SELF_CHECK_POINTS ? pattern.num_points : PS_SELF_CHECK_POINTS;
+    if (ps_pattern_check(&pattern, self->options.problem.frequencies, PSPEC_NORMALIZATION_EFFECTIVE,
+                         0, &self->sums[0], NULL) != PSPEC_OK) {
+        self->sums[0] = sums; /* these weights are all 0: nothing to compare */
+        return PSPEC_OK;
+    }
+    self->exponents[0] = self->sums[0].exponent;
+    self->scales[0] = 1 / self->sums[0].weight_square_sum;
+    const ps_batch batch = ps_estimator_make_batch(self, &pattern, 1);
+    pspec_status status = self->options.engine->run(self->engine_state, &batch, &rows, error);
+    if (status == PSPEC_OK) {
+        status = compare_with_referee(self, &rows, &pattern, error);
+    }
+    self->scales[0] = scale;
+    self->sums[0] = sums;
+    self->exponents[0] = sums.exponent;
+    return status;
+}
+
+/* Runs the engine on one batch that fits; makes a smaller engine when memory is refused (drivers
+ * may allocate no sooner than at the first use). */
+static pspec_status run_batch(ps_estimator *self, const pspec_pattern *patterns,
+                              size_t *num_patterns, ps_rows *rows, ps_error *error) {
+    for (;;) {
+        *num_patterns = *num_patterns < self->batch ? *num_patterns : self->batch;
+        const ps_batch batch = ps_estimator_make_batch(self, patterns, *num_patterns);
+        const bool has_coefficients = self->options.coefficients != NULL && *num_patterns == 1;
+        const pspec_status status =
+            has_coefficients ? ps_estimator_run_with_coefficients(self, &batch, rows, error)
+                             : self->options.engine->run(self->engine_state, &batch, rows, error);
+        if (status == PSPEC_ERROR_INPUT && self->leaves_checks) {
+            PS_TRY(check_all(self, patterns, *num_patterns, error)); /* says which point it is */
+        }
+        if (status != PSPEC_ERROR_MEMORY || self->batch == 1) {
+            return status;
+        }
+        ps_estimator_halve_batch(self);
+        PS_TRY(ps_estimator_make_engine(self, error));
+    }
+}
+
+pspec_status ps_estimator_take(ps_estimator *self, const ps_rows *rows,
+                               const pspec_pattern *patterns, size_t num_patterns,
+                               ps_error *error) {
+    const double *mean_powers = NULL;
+    PS_TRY(ps_accumulator_add(self->accumulator, rows, &mean_powers, error));
+    if (self->options.want_c2) {
+        const ps_batch batch = ps_estimator_make_batch(self, patterns, num_patterns);
+        ps_pair_sums_add(&self->c2, &batch, rows, self->slots);
+    }
+    measure_powers(self, mean_powers, num_patterns);
+    count_patterns(self, patterns, num_patterns);
+    return PSPEC_OK;
+}
+
+/* The first batch of a job is compared with the referee once it has run. Of a large pattern only
+ * the beginning is compared, and before the pattern runs. */
+static bool is_check_due(const ps_estimator *self, const pspec_pattern *patterns, bool is_large) {
+    return self->options.self_check && !self->accuracy.was_checked &&
+           (patterns[0].num_points > PS_SELF_CHECK_POINTS) == is_large;
+}
+
+/* Compares what is due of a batch: before it runs, when rows is NULL, and after it. */
+static pspec_status check_itself(ps_estimator *self, const pspec_pattern *patterns,
+                                 const ps_rows *rows, ps_error *error) {
+    if (!is_check_due(self, patterns, rows == NULL)) {
+        return PSPEC_OK;
+    }
+    PS_TRY(rows == NULL ? ps_estimator_check_beginning(self, patterns, error)
+                        : compare_with_referee(self, rows, patterns, error));
+    self->accuracy.was_checked = true;
+    return PSPEC_OK;
+}
+
+pspec_status ps_estimator_add(ps_estimator *estimator, const pspec_pattern *patterns,
+                              const ps_pattern_sums *sums, size_t num_patterns, ps_error *error) {
+    for (size_t done = 0; done < num_patterns;) {
+        const pspec_pattern *const next = patterns + done;
+        const size_t rest = num_patterns - done;
+        size_t taken = rest < estimator->batch ? rest : estimator->batch;
+        uint64_t longest = 0;
+        ps_rows rows = {0};
+        PS_TRY(prepare(estimator, next, sums != NULL ? sums + done : NULL, taken, &longest, error));
+        PS_TRY(ps_estimator_get_ready(estimator, longest, error));
+        PS_TRY(check_itself(estimator, next, NULL, error));
+        PS_TRY(run_batch(estimator, next, &taken, &rows, error));
+        PS_TRY(check_itself(estimator, next, &rows, error));
+        PS_TRY(ps_estimator_take(estimator, &rows, next, taken, error));
+        done += taken;
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_estimator_reset(ps_estimator *estimator, ps_error *error) {
+    estimator->totals = (ps_pattern_totals){0};
+    estimator->accuracy = (ps_accuracy){0};
+    if (estimator->options.want_c2) {
+        ps_pair_sums_reset(&estimator->c2);
+    }
+    return ps_accumulator_reset(estimator->accumulator, error);
+}

@@ -1,0 +1,134 @@
+/* The streaming estimator: point sets go in, averages come out. Batches, memory, numerical error.
+ *
+ * Normalization. Rows hold N |S|^2 / W^2 with N of each realization, or |S|^2 / V. What variances
+ * of integrals need, mean(N) mean(|S|^2 / W^2), is mean(N) / N_ref mean(q), rows being
+ * q = N_ref |S|^2 / W^2 (N_ref fixed for the job: powers of order 1 in float;
+ * docs/mathematics/statistics.md#different-numbers-of-points).
+ */
+#ifndef PS_JOBS_ESTIMATOR_H
+#define PS_JOBS_ESTIMATOR_H
+
+#include "base/log.h"
+#include "jobs/estimator_pairs.h"
+#include "jobs/pattern_check.h"
+#include "plan/choose.h"
+#include "spectra/spectrum_sums.h"
+
+typedef struct ps_estimator ps_estimator;
+
+typedef struct ps_estimator_options {
+    ps_problem problem; /* frequencies enumerated; num_points of the largest set so far known */
+    const ps_engine *engine;
+    ps_precision precision;
+    size_t batch;          /* realizations at a time; halved when memory is refused */
+    bool want_frequencies; /* keep sums per frequency */
+    bool mean_only; /* no sums of squares: every standard error is nan, means have the same bits */
+    bool no_frequency_errors;  /* those of single frequencies are nan, means have the same bits */
+    bool want_c2;              /* C_l^2 of the realizations, on the sphere: ps_estimator_c2 */
+    ps_pair_observer observer; /* with want_c2: told of every realization */
+    /* [num_weighted][frequencies->num] of ps_accumulator_options, in the order of
+     * problem.frequencies; they outlive the estimator. ps_estimator_weighted has the sums.
+     * problem.num_weighted lets the plan count their memory. */
+    const double *weights;
+    size_t num_weighted;
+    bool self_check;
+    pspec_normalization normalization;
+    /* [ps_num_coefficients_at] or NULL: where a realization that comes alone in its batch leaves
+     * its coefficients, of problem.harmonics; what there is to sum twice is summed once */
+    double *coefficients;
+    /* Is given them, and the sum of the weights, after every such realization; may be NULL */
+    pspec_status (*keep)(void *payload, const double *coefficients, double weight_sum,
+                         ps_error *error);
+    bool (*should_stop)(void *payload); /* asked every second or so; may be NULL, see ps_batch */
+    void *payload;
+    ps_log log; /* told of smaller batches and larger engines */
+} ps_estimator_options;
+
+/* The numerical side of a result. */
+typedef struct ps_accuracy {
+    double error; /* bound of the engine's formula with the powers that were measured */
+    /* Largest | |u| - 1 | of the vectors on the sphere, which were divided by |u| */
+    double length_error;
+    double largest_share;      /* largest sum w^2 / (sum |w|)^2 of a realization */
+    double largest_mean_power; /* largest effective power of a realization, mean over frequencies */
+    bool was_checked;
+    /* Largest deviation from the referee, of |S| in units of sqrt(sum w^2), of pair sums in (sum
+     * |w|)^2 */
+    double self_check;
+} ps_accuracy;
+
+/* device may be NULL for engines that need none. */
+pspec_status ps_estimator_create(ps_estimator **out, const ps_estimator_options *options,
+                                 ps_device *device, ps_error *error) PS_MUST_CHECK;
+void ps_estimator_destroy(ps_estimator *estimator);
+
+/* Adds realizations, in order; any number at a time gives the same bits. A pattern larger than
+ * problem.num_points is taken all the same (the engine is made anew). Every coordinate and
+ * weight is checked, unless sums is there: sums[num_patterns] of ps_estimator_check, which was
+ * asked of each pattern before. A self-check that fails is PSPEC_ERROR_CHECK. */
+pspec_status ps_estimator_add(ps_estimator *estimator, const pspec_pattern *patterns,
+                              const ps_pattern_sums *sums, size_t num_patterns,
+                              ps_error *error) PS_MUST_CHECK;
+/* Checks a pattern that will be realization number `realization`, counted from 0. */
+pspec_status ps_estimator_check(const ps_estimator *estimator, const pspec_pattern *pattern,
+                                uint64_t realization, ps_pattern_sums *sums,
+                                ps_error *error) PS_MUST_CHECK;
+
+/* A pattern that is never in memory as a whole. What its scale needs is known before its points
+ * come. */
+typedef struct ps_pattern_stream {
+    unsigned dimension;
+    uint64_t num_points;
+    ps_pattern_sums sums;
+    /* The next block: a multiple of `unit` points, any number of them at the end of the pattern,
+     * and none behind it. */
+    pspec_status (*next)(void *payload, size_t unit, pspec_pattern *block, ps_error *error);
+    void *payload;
+} ps_pattern_stream;
+
+/* May a pattern come in blocks? That depends on engine and problem, not on the pattern. */
+bool ps_estimator_can_stream(const ps_estimator *estimator);
+/* Adds one realization in blocks, to the bit as ps_estimator_add would. */
+pspec_status ps_estimator_add_stream(ps_estimator *estimator, const ps_pattern_stream *stream,
+                                     ps_error *error) PS_MUST_CHECK;
+
+/* Coefficients of one pattern as ps_engine.coefficients has them, out[ps_num_coefficients_at]; the
+ * averages do not change. Hemispherical harmonics are for points with z >= 0.
+ * PSPEC_ERROR_INVALID_ARGUMENT where the engine has none, as on the torus. should_stop is asked as
+ * while realizations are added. */
+pspec_status ps_estimator_coefficients(ps_estimator *estimator, const pspec_pattern *pattern,
+                                       ps_harmonics harmonics, double *out,
+                                       ps_error *error) PS_MUST_CHECK;
+
+/* Forgets all realizations, and any failure: what follows has the bits of a new estimator.
+ * Allocates nothing. */
+pspec_status ps_estimator_reset(ps_estimator *estimator, ps_error *error) PS_MUST_CHECK;
+
+/* Realizations that one call of ps_estimator_add takes best. */
+size_t ps_estimator_batch(const ps_estimator *estimator);
+uint64_t ps_estimator_num_realizations(const ps_estimator *estimator);
+
+pspec_status ps_estimator_spectrum(ps_estimator *estimator, ps_spectrum *out,
+                                   ps_error *error) PS_MUST_CHECK;
+/* The sums behind the averages, with the error bound; bins are ps_estimator_bins. */
+pspec_status ps_estimator_sums(ps_estimator *estimator, ps_spectrum_sums *out,
+                               ps_error *error) PS_MUST_CHECK;
+/* Mean and standard error of every bin so far, in the units of the result:
+ * means[ps_estimator_bins()->num]. */
+pspec_status ps_estimator_bin_means(ps_estimator *estimator, ps_mean *means,
+                                    ps_error *error) PS_MUST_CHECK;
+/* Mean and standard error, over realizations, of the weighted sums so far, in the units of the
+ * result: means[options.num_weighted]. The mean is the weighted sum of the powers that
+ * ps_estimator_spectrum has; under PSPEC_NORMALIZATION_INTEGRAL these are
+ * mean(N) mean(|S|^2 / W^2), and with weights |f|^2 the variance of integrals is the sum divided by
+ * mean(N). A frequency of the torus stands for itself, not for k and -k; on the sphere a power is
+ * that of a degree, for all of its orders. */
+pspec_status ps_estimator_weighted(ps_estimator *estimator, ps_mean *means,
+                                   ps_error *error) PS_MUST_CHECK;
+/* C_l^2 of pair sums, mean and standard error: means[number of degrees]; with want_c2 only. */
+void ps_estimator_c2(const ps_estimator *estimator, ps_mean *means);
+const ps_bins *ps_estimator_bins(const ps_estimator *estimator);
+ps_accuracy ps_estimator_accuracy(const ps_estimator *estimator);
+void ps_estimator_describe(const ps_estimator *estimator, ps_text *text);
+
+#endif

@@ -1,0 +1,67 @@
+/* Inside of ps_estimator, for the files estimator*.c only. */
+#ifndef PS_JOBS_ESTIMATOR_PRIVATE_H
+#define PS_JOBS_ESTIMATOR_PRIVATE_H
+
+#include "jobs/estimator.h"
+#include "jobs/estimator_pairs.h"
+
+struct ps_estimator {
+    ps_estimator_options options;
+    ps_device *device;
+    void *engine_state; /* NULL after a refused allocation, until it is made again */
+    size_t batch;
+    ps_bins bins;
+    uint32_t *slots;
+    ps_accumulator *accumulator;
+    double reference_points; /* N_ref: 1 but under the normalization of integrals */
+    double *scales;          /* [batch] */
+    int *exponents;          /* [batch] of the weights */
+    ps_pattern_sums *sums;   /* [batch] */
+    ps_pair_sums c2;         /* with options.want_c2 */
+    bool leaves_checks;      /* of this batch's coordinates to the engine */
+    ps_pattern_totals totals;
+    ps_accuracy accuracy;
+};
+
+/* Makes the engine anew, for half as many realizations as long as memory is refused. */
+pspec_status ps_estimator_make_engine(ps_estimator *self, ps_error *error) PS_MUST_CHECK;
+void ps_estimator_halve_batch(ps_estimator *self);
+/* An engine for patterns of so many points. */
+pspec_status ps_estimator_get_ready(ps_estimator *self, uint64_t num_points,
+                                    ps_error *error) PS_MUST_CHECK;
+
+/* The error of the engine for sets of that mean power (ps_survey.error), in the units of the
+ * problem's tolerance. */
+double ps_estimator_error_at(const ps_estimator *self, double mean_power);
+/* The same for one pattern. */
+double ps_estimator_error_of(const ps_estimator *self, double mean_power,
+                             const ps_pattern_sums *sums);
+
+/* Sums, scale and exponent of a pattern of the batch. */
+void ps_estimator_set_sums(ps_estimator *self, size_t pattern, uint64_t num_points,
+                           const ps_pattern_sums *sums);
+/* W of the weights that the normalization means: where there are none, 1/N each under that of
+ * pairs. */
+double ps_estimator_weight_sum(const ps_estimator *self, const ps_pattern_sums *sums);
+/* Keeps the largest sum w^2 / (sum |w|)^2. */
+void ps_estimator_measure_share(ps_estimator *self, const ps_pattern_sums *sums);
+ps_batch ps_estimator_make_batch(const ps_estimator *self, const pspec_pattern *patterns,
+                                 size_t num_patterns);
+
+/* A pattern too large for long double sums is checked by its first points, in a run of their own.
+ */
+pspec_status ps_estimator_check_beginning(ps_estimator *self, const pspec_pattern *beginning,
+                                          ps_error *error) PS_MUST_CHECK;
+
+/* The engine's rows of a batch of one pattern, and its coefficients to options.coefficients: in one
+ * go where they are of the same sums. */
+pspec_status ps_estimator_run_with_coefficients(ps_estimator *self, const ps_batch *one,
+                                                ps_rows *rows, ps_error *error) PS_MUST_CHECK;
+
+/* Adds the rows of a batch to the averages; of the patterns only their numbers of points are looked
+ * at. */
+pspec_status ps_estimator_take(ps_estimator *self, const ps_rows *rows,
+                               const pspec_pattern *patterns, size_t num_patterns,
+                               ps_error *error) PS_MUST_CHECK;
+
+#endif

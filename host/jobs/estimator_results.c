@@ -1,0 +1,110 @@
+/* What an estimator has found. */
+#include "engines/error_units.h"
+#include "jobs/estimator_private.h"
+
+/* In the engine's units; of an engine that is still to be made again, what is planned for such
+ * powers. */
+static double own_error(const ps_estimator *self, double mean_power, double share) {
+    const ps_engine *engine = self->options.engine;
+    if (self->engine_state != NULL) {
+        return engine->error_of_state(self->engine_state, mean_power, share);
+    }
+    const ps_device_limits *limits =
+        self->device != NULL ? ps_device_get_limits(self->device) : NULL;
+    ps_problem own = ps_engine_problem(engine, &self->options.problem); /* as it was planned */
+    own.weight_share = share;
+    own.expected_power = mean_power;
+    return engine->survey(&own, limits, self->options.precision).error;
+}
+
+static double error_for_share(const ps_estimator *self, double mean_power, double share) {
+    ps_problem problem = self->options.problem;
+    problem.weight_share = share;
+    return ps_engine_error_in(self->options.engine, &problem, own_error(self, mean_power, share));
+}
+
+double ps_estimator_error_at(const ps_estimator *self, double mean_power) {
+    return error_for_share(self, mean_power, self->accuracy.largest_share);
+}
+
+double ps_estimator_error_of(const ps_estimator *self, double mean_power,
+                             const ps_pattern_sums *sums) {
+    const double size = sums->weight_size_sum;
+    return error_for_share(self, mean_power, sums->weight_square_sum / (size * size));
+}
+
+static pspec_status require_realizations(const ps_estimator *self, ps_error *error) {
+    return self->totals.num_realizations > 0
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INPUT, "there are no point sets to take a spectrum of");
+}
+
+/* From the units of rows to those of the result. */
+static double find_factor(const ps_estimator *self) {
+    return ps_spectrum_factor(self->options.normalization, &self->totals, self->reference_points);
+}
+
+pspec_status ps_estimator_spectrum(ps_estimator *estimator, ps_spectrum *out, ps_error *error) {
+    PS_TRY(require_realizations(estimator, error));
+    return ps_spectrum_create(out, estimator->options.problem.frequencies, &estimator->bins,
+                              estimator->accumulator, find_factor(estimator), &estimator->totals,
+                              estimator->options.want_frequencies, error);
+}
+
+static void bring_to_units(const ps_estimator *self, ps_mean *means, size_t num) {
+    const double factor = find_factor(self);
+    for (size_t i = 0; i < num; i++) {
+        means[i].mean *= factor;
+        means[i].standard_error *= factor;
+    }
+}
+
+pspec_status ps_estimator_bin_means(ps_estimator *estimator, ps_mean *means, ps_error *error) {
+    PS_TRY(require_realizations(estimator, error));
+    PS_TRY(ps_accumulator_bins(estimator->accumulator, means, error));
+    bring_to_units(estimator, means, estimator->bins.num);
+    return PSPEC_OK;
+}
+
+pspec_status ps_estimator_weighted(ps_estimator *estimator, ps_mean *means, ps_error *error) {
+    PS_TRY(require_realizations(estimator, error));
+    ps_accumulator_weighted(estimator->accumulator, means);
+    bring_to_units(estimator, means, estimator->options.num_weighted);
+    return PSPEC_OK;
+}
+
+pspec_status ps_estimator_sums(ps_estimator *estimator, ps_spectrum_sums *out, ps_error *error) {
+    const ps_estimator_options *options = &estimator->options;
+    PS_TRY(require_realizations(estimator, error));
+    PS_TRY(ps_spectrum_sums_create(out, options->problem.frequencies, estimator->bins.num, error));
+    out->normalization = options->normalization;
+    out->reference_points = estimator->reference_points;
+    out->totals = estimator->totals;
+    out->error = ps_estimator_accuracy(estimator).error;
+    const pspec_status status =
+        ps_accumulator_sums(estimator->accumulator, out->bins, out->powers, error);
+    if (status != PSPEC_OK) {
+        ps_spectrum_sums_free(out);
+    }
+    return status;
+}
+
+void ps_estimator_c2(const ps_estimator *estimator, ps_mean *means) {
+    ps_pair_sums_finish(&estimator->c2, means);
+}
+
+const ps_bins *ps_estimator_bins(const ps_estimator *estimator) {
+    return &estimator->bins;
+}
+
+ps_accuracy ps_estimator_accuracy(const ps_estimator *estimator) {
+    ps_accuracy accuracy = estimator->accuracy;
+    accuracy.error = ps_estimator_error_at(estimator, accuracy.largest_mean_power);
+    return accuracy;
+}
+
+void ps_estimator_describe(const ps_estimator *estimator, ps_text *text) {
+    if (estimator->engine_state != NULL) {
+        estimator->options.engine->describe(estimator->engine_state, text);
+    }
+}

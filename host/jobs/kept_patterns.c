@@ -1,0 +1,85 @@
+#include "jobs/kept_patterns.h"
+
+#include "base/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* As much as the source keeps of a file (PS_SOURCE_WHOLE_BYTES): a thousand sets of four thousand
+ * points in the plane. */
+static const uint64_t most_by_default = (uint64_t)64 << 20;
+
+/* Patterns that `room` numbers are enough for. Smaller ones than were announced may be more. */
+static size_t count_patterns(const ps_kept_shape *shape, size_t columns, size_t room) {
+    const size_t few = 64;
+    const size_t by_room = (size_t)(room / columns / shape->num_points) + few;
+    return shape->num_realizations > 0 && shape->num_realizations < by_room
+               ? (size_t)shape->num_realizations
+               : by_room;
+}
+
+/* Numbers of all patterns that were announced, within bounds. */
+static size_t count_numbers(const ps_kept_shape *shape, size_t columns) {
+    const uint64_t bytes = shape->most_bytes > 0 && shape->most_bytes < most_by_default
+                               ? shape->most_bytes
+                               : most_by_default;
+    const size_t most = (size_t)(bytes / sizeof(double));
+    size_t per_pattern = 0;
+    size_t numbers = 0;
+    return shape->num_realizations > 0 &&
+                   ps_size_multiply((size_t)shape->num_points, columns, &per_pattern) &&
+                   ps_size_multiply(per_pattern, (size_t)shape->num_realizations, &numbers) &&
+                   numbers < most
+               ? numbers
+               : most;
+}
+
+pspec_status ps_kept_patterns_create(ps_kept_patterns *kept, const ps_kept_shape *shape,
+                                     ps_error *error) {
+    const size_t columns = shape->dimension + 1; /* with a weight */
+    *kept = (ps_kept_patterns){.room = count_numbers(shape, columns)};
+    kept->capacity = count_patterns(shape, columns, kept->room);
+    PS_TRY(PS_NEW(&kept->numbers, kept->room, "patterns for a second plan", error));
+    PS_TRY(PS_NEW(&kept->patterns, kept->capacity, "patterns for a second plan", error));
+    return PSPEC_OK;
+}
+
+void ps_kept_patterns_free(ps_kept_patterns *kept) {
+    free(kept->patterns);
+    free(kept->numbers);
+    *kept = (ps_kept_patterns){0};
+}
+
+static const double *copy_numbers(ps_kept_patterns *kept, const double *numbers, size_t count) {
+    double *const copy = kept->numbers + kept->used;
+    memcpy(copy, numbers, count * sizeof(double));
+    kept->used += count;
+    return copy;
+}
+
+static bool add_one(ps_kept_patterns *kept, const pspec_pattern *pattern) {
+    const size_t coordinates = pattern->num_points * pattern->dimension;
+    const size_t needed = coordinates + (pattern->weights != NULL ? pattern->num_points : 0);
+    if (kept->num == kept->capacity || needed > kept->room - kept->used) {
+        return false;
+    }
+    pspec_pattern *const copy = &kept->patterns[kept->num++];
+    *copy = *pattern;
+    copy->points = copy_numbers(kept, pattern->points, coordinates);
+    if (pattern->weights != NULL) {
+        copy->weights = copy_numbers(kept, pattern->weights, pattern->num_points);
+    }
+    return true;
+}
+
+void ps_kept_patterns_add(ps_kept_patterns *kept, const pspec_pattern *patterns, size_t num) {
+    for (size_t i = 0; i < num && !kept->is_partial; i++) {
+        kept->is_partial = !add_one(kept, &patterns[i]);
+    }
+}
+
+void ps_kept_patterns_reset(ps_kept_patterns *kept) {
+    kept->num = 0;
+    kept->used = 0;
+    kept->is_partial = false;
+}

@@ -1,0 +1,59 @@
+#include "jobs/point_phases.h"
+
+#include "points/file_estimate.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+/* ---- samplers ------------------------------------------------------------------------------ */
+
+void ps_phases_sample(ps_phases *phases, const ps_sampler_request *request, double realizations,
+                      const ps_set_place *place) {
+    static const char name[] = "points";
+    const double points = (double)request->num_points * realizations;
+    const bool is_lifted = request->lift != PS_SAMPLES_TORUS;
+    const uint64_t num_kept = ps_sets_count_kept(request, place, (uint64_t)realizations);
+    const double num_made = realizations - (double)num_kept;
+    ps_phases_add_seconds(phases, name,
+                          ps_sampler_seconds(request) * num_made /
+                              ps_sets_makers(request, (uint64_t)num_made) *
+                              ps_figures_host_scale(phases->host, request->sampler->name));
+    ps_phases_add_seconds(phases, name, ps_set_store_seconds(request) * (double)num_kept);
+    ps_phases_add(phases, name, PS_HOST_LIFT, is_lifted ? points : 0);
+    ps_phases_add(phases, name, PS_HOST_MOVE, request->homogenize ? points : 0);
+    ps_phases_add(phases, name, PS_HOST_MORPH, request->morph.kind != PS_MORPH_NONE ? points : 0);
+    if (ps_set_place_takes(place, request)) {
+        ps_phases_say(phases, name, "%.4g of %s, %" PRIu64 " of %.0f sets kept", points,
+                      request->sampler->name, num_kept, realizations);
+    } else {
+        ps_phases_say(phases, name, "%.4g of %s", points, request->sampler->name);
+    }
+}
+
+/* ---- files --------------------------------------------------------------------------------- */
+
+double ps_phases_read(ps_phases *phases, const char *const *paths, size_t num_paths,
+                      const char *format, unsigned columns) {
+    static const char name[] = "reading";
+    double points = 0;
+    double bytes = 0;
+    for (size_t i = 0; i < num_paths; i++) {
+        const ps_file_estimate file = ps_file_estimate_of(paths[i], format);
+        ps_phases_add(phases, name, file.is_text ? PS_HOST_READ_TEXT : PS_HOST_READ_BINARY,
+                      file.bytes);
+        ps_phases_add(phases, name, PS_HOST_INFLATE, file.is_compressed ? file.bytes : 0);
+        points += ps_file_estimate_points(&file, columns);
+        bytes += file.bytes;
+    }
+    ps_phases_say(phases, name, "about %.4g points, %.4g bytes", points, bytes);
+    return points;
+}
+
+void ps_phases_write(ps_phases *phases, const char *path, const char *format, double numbers) {
+    static const char name[] = "writing";
+    const char *const used = format != NULL ? format : ps_points_format_by_ending(path);
+    const bool is_binary =
+        strcmp(used, "npy") == 0 || strcmp(used, "rps") == 0 || strcmp(used, "utk-binary") == 0;
+    ps_phases_add(phases, name, is_binary ? PS_HOST_WRITE_BINARY : PS_HOST_WRITE_TEXT, numbers);
+    ps_phases_say(phases, name, "%.4g numbers as %s", numbers, used);
+}

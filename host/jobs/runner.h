@@ -1,0 +1,75 @@
+/* The one way through a job, of the program and of the library: plan -> estimator, which checks
+ * itself -> realizations, with looks at the standard error between them -> another plan when the
+ * powers that were measured are too large for this one -> the same realizations again.
+ *
+ * Kinds of jobs differ in what they give the estimator and in what they keep of it: ps_runner_kind.
+ * What concerns every job belongs here, and has its place: a range of realizations begins and ends
+ * where `num_done` and the `most` of `give` do; a checkpoint is whole between two calls of `give`,
+ * where also `tell` is called; several devices are several estimators instead of the one that
+ * ps_runner_start makes; ranks bring their accuracies together at the beginning of
+ * ps_runner_settle, so that all of them plan again, or none.
+ */
+#ifndef PS_JOBS_RUNNER_H
+#define PS_JOBS_RUNNER_H
+
+#include "jobs/estimator.h"
+#include "spectra/sequential.h"
+
+typedef struct ps_runner_kind {
+    /* Makes the plan for the problem, also once more when powers were measured. That nothing is
+     * feasible is no error. */
+    pspec_status (*plan)(void *job, ps_error *error);
+    /* All but problem, engine and precision, which are the plan's; the batch, too, where it is 0.
+     */
+    ps_estimator_options (*options)(void *job);
+    /* An estimator was made, and realizations begin with the first. */
+    pspec_status (*begin)(void *job, ps_error *error);
+    /* Tells how far the job is; a failure ends it. */
+    pspec_status (*tell)(void *job, ps_error *error);
+    /* Gives the estimator the next realizations, `most` at most; *num were given, 0 behind the
+     * last. */
+    pspec_status (*give)(void *job, uint64_t most, size_t *num, ps_error *error);
+    /* Looks at the standard errors, returns the largest (ps_sequential_look.corrected); NULL: there
+     * is none to look at. */
+    pspec_status (*look)(void *job, double *largest, ps_error *error);
+    /* Back to the first realization, or PSPEC_ERROR_TOLERANCE when they cannot be had again. */
+    pspec_status (*rewind)(void *job, ps_error *error);
+} ps_runner_kind;
+
+typedef struct ps_runner {
+    /* set by the job */
+    const ps_runner_kind *kind;
+    void *job;
+    ps_problem *problem;   /* the job's, in which measured powers are left */
+    ps_plan *plan;         /* the job's, filled by kind->plan */
+    ps_device *device;     /* NULL: none is needed */
+    double standard_error; /* at which realizations stop; 0: nobody asked */
+    bool is_sequential;    /* they do stop there */
+    /* Amplitudes alone are asked of the estimator, whose errors no power changes */
+    bool has_no_accuracy;
+    /* known afterwards */
+    ps_estimator *estimator; /* owned, freed by ps_runner_free */
+    uint64_t num_done;       /* realizations */
+    ps_accuracy accuracy;
+    bool was_replanned;
+} ps_runner;
+
+void ps_runner_free(ps_runner *runner);
+
+/* The estimator of the plan that was made, instead of the one before; fails where the plan has
+ * nothing feasible. */
+pspec_status ps_runner_start(ps_runner *runner, ps_error *error) PS_MUST_CHECK;
+
+/* Starts, adds all realizations, or as many as the standard error takes, and settles. */
+pspec_status ps_runner_run(ps_runner *runner, ps_error *error) PS_MUST_CHECK;
+
+/* Makes sure that the averages are within the tolerance: where powers are too large, by another
+ * plan and all realizations again. Where no plan reaches it, or realizations cannot be had again,
+ * PSPEC_ERROR_TOLERANCE comes with estimator, plan and problem as they were. */
+pspec_status ps_runner_settle(ps_runner *runner, ps_error *error) PS_MUST_CHECK;
+
+/* Bytes of the machine's memory that the estimator has, which another plan need not count as taken.
+ */
+uint64_t ps_runner_held(const ps_runner *runner);
+
+#endif

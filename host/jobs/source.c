@@ -1,0 +1,365 @@
+#include "jobs/source.h"
+
+#include "base/memory.h"
+#include "base/text.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct ps_source {
+    bool is_turned; /* ps_source_turn */
+    /* sampler: NULL for others */
+    ps_sets *sampled;
+    ps_sampler_request request;
+    ps_watch watch;
+    uint64_t num_realizations, next_realization;
+    /* memory: patterns is NULL for others; next_realization counts them */
+    const pspec_pattern *patterns;
+    size_t num_patterns;
+    /* files: paths is NULL for others */
+    const char *const *paths;
+    size_t num_paths, next_path;
+    ps_source_options options;
+    ps_point_reader *reader;
+    uint64_t sets_of_file;    /* begun by the reader */
+    uint64_t num_sets;        /* begun of all files */
+    bool is_inside;           /* of a set, whose end has not come yet */
+    ps_point_reader *scout;   /* of the same file, ahead of the reader to count a set */
+    uint64_t sets_scouted;    /* passed by it */
+    ps_text formats, columns; /* of the files read so far, each once */
+};
+
+/* Points that are only counted: few enough to stay in the cache. */
+enum { SCOUT_POINTS = 32768 };
+
+/* Read to learn how much memory a point takes. */
+enum { FIRST_POINTS = 1024 };
+
+static pspec_status create(ps_source **out, ps_error *error) {
+    PS_TRY(PS_NEW(out, 1, "a source of points", error));
+    return PSPEC_OK;
+}
+
+pspec_status ps_source_sampler(ps_source **out, const ps_sampler_request *request,
+                               uint64_t num_realizations, const ps_sets_options *options,
+                               const ps_watch *watch, ps_error *error) {
+    ps_sets *sets = NULL;
+    *out = NULL;
+    PS_TRY(ps_sets_create(&sets, request, num_realizations, options, error));
+    const pspec_status status = create(out, error);
+    if (status != PSPEC_OK) {
+        ps_sets_destroy(sets);
+        return status;
+    }
+    (*out)->sampled = sets;
+    (*out)->request = *request;
+    (*out)->watch = watch != NULL ? *watch : (ps_watch){0};
+    (*out)->num_realizations = num_realizations;
+    return PSPEC_OK;
+}
+
+const char *ps_source_trouble(ps_source *source) {
+    return source->sampled != NULL ? ps_sets_trouble(source->sampled) : "";
+}
+
+pspec_status ps_source_files(ps_source **out, const char *const *paths, size_t num_paths,
+                             const ps_source_options *options, ps_error *error) {
+    PS_TRY(create(out, error));
+    (*out)->paths = paths;
+    (*out)->num_paths = num_paths;
+    (*out)->options = *options;
+    if (options->whole_bytes == 0) {
+        (*out)->options.whole_bytes = PS_SOURCE_WHOLE_BYTES;
+    }
+    return PSPEC_OK;
+}
+
+pspec_status ps_source_patterns(ps_source **out, const pspec_pattern *patterns, size_t num_patterns,
+                                ps_error *error) {
+    PS_TRY(create(out, error));
+    (*out)->patterns = patterns;
+    (*out)->num_patterns = num_patterns;
+    return PSPEC_OK;
+}
+
+static pspec_status check_vectors(const pspec_pattern *pattern, uint64_t realization,
+                                  ps_error *error) {
+    const unsigned long long number = (unsigned long long)realization + 1;
+    ps_pattern_count count = {.realization = realization, .on_sphere = true};
+    if (pattern->dimension != PS_SPHERE_DIMENSION) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "set %llu has dimension %u instead of %d", number,
+                       pattern->dimension, (int)PS_SPHERE_DIMENSION);
+    }
+    if (pattern->num_points == 0 || pattern->points == NULL) {
+        return ps_fail(error, PSPEC_ERROR_INPUT, "set %llu has no points", number);
+    }
+    return ps_pattern_count_add(&count, pattern,
+                                error); /* what weights sum to depends on their use */
+}
+
+static pspec_status next_pattern(ps_source *source, ps_point_set *set, bool *has_set,
+                                 ps_error *error) {
+    *has_set = source->next_realization < source->num_patterns;
+    if (!*has_set) {
+        return PSPEC_OK;
+    }
+    const pspec_pattern *pattern = &source->patterns[source->next_realization];
+    const size_t num = pattern->num_points;
+    PS_TRY(check_vectors(pattern, source->next_realization++, error));
+    set->coordinates = PS_UNIT_VECTORS;
+    set->dimension = pattern->dimension;
+    set->has_weights = pattern->weights != NULL;
+    set->num_points = 0;
+    PS_TRY(ps_points_reserve(set, num, error));
+    memcpy(set->points, pattern->points, num * pattern->dimension * sizeof(double));
+    if (set->has_weights) {
+        memcpy(set->weights, pattern->weights, num * sizeof(double));
+    }
+    set->num_points = num;
+    return PSPEC_OK;
+}
+
+/* Points from `first` on. */
+static void turn(const ps_source *source, ps_point_set *set, size_t first) {
+    for (size_t j = first; source->is_turned && j < set->num_points; j++) {
+        double *const point = set->points + j * PS_SPHERE_DIMENSION;
+        const double x = point[0];
+        point[0] = point[1];
+        point[1] = point[2];
+        point[2] = x;
+    }
+}
+
+void ps_source_turn(ps_source *source) {
+    source->is_turned = true;
+}
+
+static pspec_status next_sample(ps_source *source, ps_point_set *set, bool *has_set,
+                                ps_error *error) {
+    const ps_sampler_request *request = &source->request;
+    *has_set = source->next_realization < source->num_realizations;
+    if (!*has_set) {
+        return PSPEC_OK;
+    }
+    size_t count = 0;
+    void *points = set->points;
+    if (!ps_size_multiply(ps_sampler_most_points(request), request->dimension, &count)) {
+        return ps_fail(error, PSPEC_ERROR_MEMORY, "%zu points are too many", request->num_points);
+    }
+    PS_TRY(ps_grow(&points, &set->points_capacity, count, sizeof(double), "points", error));
+    set->points = points;
+    set->coordinates = ps_sampler_is_on_sphere(request) ? PS_UNIT_VECTORS : PS_TORUS_COORDINATES;
+    set->dimension = request->dimension;
+    set->has_weights = false;
+    source->next_realization++;
+    PS_TRY(ps_sets_next(source->sampled, set->points, &set->num_points, &source->watch, error));
+    turn(source, set, 0);
+    return PSPEC_OK;
+}
+
+/* Appends a name to a list unless it is there. */
+static pspec_status add_name(ps_text *list, const char *name, ps_error *error) {
+    static const char separator[] = "; "; /* names have commas */
+    const size_t length = strlen(name);
+    for (const char *word = ps_text_string(list); *word != '\0';) {
+        const char *const end = strstr(word, separator);
+        const size_t word_length = end != NULL ? (size_t)(end - word) : strlen(word);
+        if (word_length == length && strncmp(word, name, length) == 0) {
+            return PSPEC_OK;
+        }
+        word += word_length + (end != NULL ? sizeof separator - 1 : 0);
+    }
+    ps_text_append(list, "%s%s", list->length > 0 && length > 0 ? separator : "", name);
+    return ps_text_check(list, error);
+}
+
+/* ---- sets that are too large ------------------------------------------------------------- */
+
+static void close_scout(ps_source *source) {
+    ps_points_close(source->scout);
+    source->scout = NULL;
+    source->sets_scouted = 0;
+}
+
+static pspec_status go_on(const ps_source *source, ps_error *error) {
+    const ps_source_options *options = &source->options;
+    return options->should_stop != NULL && options->should_stop(options->payload)
+               ? ps_fail(error, PSPEC_ERROR_CANCELLED, "cancelled while points were counted")
+               : PSPEC_OK;
+}
+
+/* Counts one set of the scout's; *block is room. */
+static pspec_status scout_set(ps_source *source, ps_point_set *block, ps_pattern_count *count,
+                              ps_error *error) {
+    bool has_block = true;
+    for (bool ends_set = false; has_block && !ends_set;) {
+        block->num_points = 0;
+        PS_TRY(go_on(source, error));
+        PS_TRY(
+            ps_points_next_block(source->scout, block, SCOUT_POINTS, &has_block, &ends_set, error));
+        const pspec_pattern pattern = {block->dimension, block->num_points, block->points,
+                                       block->has_weights ? block->weights : NULL};
+        PS_TRY(ps_pattern_count_add(count, &pattern, error));
+    }
+    source->sets_scouted++;
+    return PSPEC_OK;
+}
+
+/* Sends a second reader through the set that the reader is in. */
+static pspec_status scout_ahead(ps_source *source, ps_pattern_count *count, ps_error *error) {
+    ps_point_set block = {0};
+    pspec_status status = PSPEC_OK;
+    if (source->scout == NULL) {
+        PS_TRY(ps_points_open(&source->scout, source->paths[source->next_path - 1],
+                              &source->options.points, error));
+    }
+    while (status == PSPEC_OK && source->sets_scouted < source->sets_of_file) {
+        *count = (ps_pattern_count){.realization = source->num_sets - 1,
+                                    .on_sphere = source->options.points.domain == PS_DOMAIN_SPHERE};
+        status = scout_set(source, &block, count, error);
+    }
+    ps_point_set_free(&block);
+    return status;
+}
+
+static size_t points_of(const ps_point_set *set, uint64_t bytes) {
+    const size_t columns = set->dimension + (set->has_weights ? 1 : 0);
+    const size_t num = (size_t)(bytes / (columns * sizeof(double)));
+    return num > FIRST_POINTS ? num : FIRST_POINTS;
+}
+
+pspec_status ps_source_more(ps_source *source, ps_point_set *set, size_t max_points, bool *ends,
+                            ps_error *error) {
+    const size_t before = set->num_points;
+    bool has_block = source->is_inside;
+    *ends = !source->is_inside;
+    while (has_block && !*ends && set->num_points - before < max_points) {
+        PS_TRY(ps_points_next_block(source->reader, set, max_points - (set->num_points - before),
+                                    &has_block, ends, error));
+    }
+    *ends = *ends || !has_block;
+    source->is_inside = !*ends;
+    turn(source, set, before);
+    return PSPEC_OK;
+}
+
+/* A set that has begun: the rest of it, or what there is to know about the rest. */
+static pspec_status complete_set(ps_source *source, ps_point_set *set, ps_source_part *part,
+                                 ps_error *error) {
+    const bool is_counted = ps_points_per_set(source->reader) > 0 && !set->has_weights;
+    part->block_points = points_of(set, source->options.whole_bytes);
+    if (!is_counted && !ps_points_can_reopen(source->reader)) {
+        return ps_source_more(source, set, SIZE_MAX, &part->is_whole, error);
+    }
+    if (set->num_points < part->block_points) {
+        PS_TRY(ps_source_more(source, set, part->block_points - set->num_points, &part->is_whole,
+                              error));
+    }
+    if (part->is_whole) {
+        return PSPEC_OK;
+    }
+    part->count = (ps_pattern_count){.realization = source->num_sets - 1,
+                                     .num_points = ps_points_per_set(source->reader)};
+    return is_counted ? PSPEC_OK : scout_ahead(source, &part->count, error);
+}
+
+/* ---- files ------------------------------------------------------------------------------- */
+
+static pspec_status open_next(ps_source *source, ps_error *error) {
+    close_scout(source);
+    source->sets_of_file = 0;
+    PS_TRY(ps_points_open(&source->reader, source->paths[source->next_path++],
+                          &source->options.points, error));
+    return add_name(&source->formats, ps_points_format(source->reader), error);
+}
+
+/* "xy", or "xy (columns x,y)" where a text has others. */
+static pspec_status add_columns(ps_source *source, ps_error *error) {
+    char text[192];
+    const char *const chosen = ps_points_chosen(source->reader);
+    snprintf(text, sizeof text, "%s%s%s%s", ps_points_columns(source->reader),
+             chosen != NULL ? " (columns " : "", chosen != NULL ? chosen : "",
+             chosen != NULL ? ")" : "");
+    return add_name(&source->columns, text, error);
+}
+
+static pspec_status next_from_files(ps_source *source, ps_point_set *set, ps_source_part *part,
+                                    bool *has_set, ps_error *error) {
+    *has_set = false;
+    *part = (ps_source_part){0};
+    set->num_points = 0;
+    while (!*has_set) {
+        if (source->reader == NULL) {
+            if (source->next_path == source->num_paths) {
+                return PSPEC_OK;
+            }
+            PS_TRY(open_next(source, error));
+        }
+        source->is_inside = true;
+        PS_TRY(ps_source_more(source, set, FIRST_POINTS, &part->is_whole, error));
+        *has_set = set->num_points > 0;
+        PS_TRY(add_columns(source, error));
+        if (!*has_set) {
+            ps_points_close(source->reader);
+            source->reader = NULL;
+        }
+    }
+    source->sets_of_file++;
+    source->num_sets++;
+    return part->is_whole ? PSPEC_OK : complete_set(source, set, part, error);
+}
+
+pspec_status ps_source_next(ps_source *source, ps_point_set *set, ps_source_part *part,
+                            bool *has_set, ps_error *error) {
+    if (source->paths == NULL) {
+        *part = (ps_source_part){.is_whole = true};
+        return source->patterns != NULL ? next_pattern(source, set, has_set, error)
+                                        : next_sample(source, set, has_set, error);
+    }
+    return next_from_files(source, set, part, has_set, error);
+}
+
+bool ps_source_can_rewind(const ps_source *source) {
+    for (size_t i = 0; i < source->num_paths; i++) {
+        if (strcmp(source->paths[i], "-") == 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+pspec_status ps_source_rewind(ps_source *source, ps_error *error) {
+    if (!ps_source_can_rewind(source)) {
+        return ps_fail(error, PSPEC_ERROR_IO, "standard input cannot be read twice");
+    }
+    close_scout(source);
+    ps_points_close(source->reader);
+    source->reader = NULL;
+    source->next_path = 0;
+    source->next_realization = 0;
+    if (source->sampled != NULL) {
+        ps_sets_rewind(source->sampled);
+    }
+    source->num_sets = 0;
+    return PSPEC_OK;
+}
+
+const char *ps_source_format(const ps_source *source) {
+    return ps_text_string(&source->formats);
+}
+
+const char *ps_source_columns(const ps_source *source) {
+    return ps_text_string(&source->columns);
+}
+
+void ps_source_destroy(ps_source *source) {
+    if (source != NULL) {
+        close_scout(source);
+        ps_sets_destroy(source->sampled);
+        ps_points_close(source->reader);
+        ps_text_free(&source->formats);
+        ps_text_free(&source->columns);
+        free(source);
+    }
+}

@@ -1,0 +1,237 @@
+/* Setters of options whose values are words, or numbers between commas and dots. */
+#include "request/option_setters.h"
+
+#include "base/text.h"
+#include "samplers/morph_words.h"
+
+#include <float.h>
+#include <stdio.h>
+#include <string.h>
+
+/* The size of a box and differences in it are numbers, and its inverse is, too. */
+#define MOST_BOX 1e300
+#define LEAST_BOX 1e-300
+
+/* ---- values that are one of a few words ---------------------------------------------------- */
+
+static pspec_status fail_word(const char *shown, const char *words, const char *value,
+                              ps_error *error) {
+    ps_text list = {0};
+    for (const char *word = words; *word != '\0';) {
+        const size_t length = strcspn(word, "|");
+        ps_text_append(&list, "%s%.*s", word == words ? "" : ", ", (int)length, word);
+        word += length + (word[length] == '|');
+    }
+    ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: \"%s\" is not one of %s", shown, value,
+            ps_text_string(&list));
+    ps_text_free(&list);
+    return PSPEC_ERROR_INVALID_ARGUMENT;
+}
+
+/* Number of value among words, "one|two|three". */
+static pspec_status find_word(const char *shown, const char *words, const char *value, int *index,
+                              ps_error *error) {
+    *index = 0;
+    for (const char *word = words; *word != '\0';) {
+        const size_t length = strcspn(word, "|");
+        if (strlen(value) == length && strncmp(value, word, length) == 0) {
+            return PSPEC_OK;
+        }
+        word += length + (word[length] == '|');
+        ++*index;
+    }
+    return fail_word(shown, words, value, error);
+}
+
+pspec_status ps_set_word(const ps_option *option, const char *shown, const char *words,
+                         const char *value, ps_request *arguments, ps_error *error) {
+    int index = 0;
+    PS_TRY(find_word(shown, words, value, &index, error));
+    return ps_set_text(option, shown, words, value, arguments, error);
+}
+
+ps_weights_kind ps_weights_find(const char *words, const char *value) {
+    static const char *const names[] = {[PS_WEIGHTS_EQUAL] = "equal",
+                                        [PS_WEIGHTS_COLUMN] = "column",
+                                        [PS_WEIGHTS_OPTIMAL] = "optimal"};
+    for (size_t kind = 0; kind < sizeof names / sizeof names[0]; kind++) {
+        if (names[kind] != NULL && strcmp(value, names[kind]) == 0 &&
+            strstr(words, names[kind]) != NULL) {
+            return (ps_weights_kind)kind;
+        }
+    }
+    return strstr(words, "FILE") != NULL ? PS_WEIGHTS_FILE : PS_WEIGHTS_GIVEN;
+}
+
+pspec_status ps_set_weights(const ps_option *option, const char *shown, const char *words,
+                            const char *value, ps_request *arguments, ps_error *error) {
+    (void)option;
+    const ps_weights_kind kind = ps_weights_find(words, value);
+    if (kind == PS_WEIGHTS_GIVEN) {
+        return fail_word(shown, words, value, error);
+    }
+    arguments->weights.kind = kind;
+    arguments->weights.path = kind == PS_WEIGHTS_FILE ? value : NULL;
+    arguments->reading.weight_column = kind == PS_WEIGHTS_COLUMN;
+    arguments->reading.ignore_weights = kind != PS_WEIGHTS_COLUMN; /* others replace them */
+    return PSPEC_OK;
+}
+
+pspec_status ps_set_weight_sum(const ps_option *option, const char *shown, const char *words,
+                               const char *value, ps_request *arguments, ps_error *error) {
+    (void)option;
+    int index = 0;
+    PS_TRY(find_word(shown, words, value, &index, error));
+    arguments->weights.sum_to_one = index == 1;
+    return PSPEC_OK;
+}
+
+/* The words stand in the order of bits: x, y, both, none. */
+pspec_status ps_set_plot_log(const ps_option *option, const char *shown, const char *words,
+                             const char *value, ps_request *arguments, ps_error *error) {
+    (void)option;
+    enum { X = 0, Y = 1, BOTH = 2 };
+    int index = 0;
+    PS_TRY(find_word(shown, words, value, &index, error));
+    arguments->plot_axes.has_log = true;
+    arguments->plot_axes.is_log_x = index == X || index == BOTH;
+    arguments->plot_axes.is_log_y = index == Y || index == BOTH;
+    return PSPEC_OK;
+}
+
+/* "0..2", or nothing. */
+static pspec_status set_interval(const char *shown, const char *words, const char *text,
+                                 size_t length, bool *is_there, double ends[2], ps_error *error) {
+    enum { TEXT_BYTES = 96 };
+    static const char dots[] = "..";
+    char own[TEXT_BYTES];
+    snprintf(own, sizeof own, "%.*s", (int)(length < sizeof own ? length : sizeof own - 1), text);
+    char *const middle = strstr(own, dots);
+    *is_there = length > 0;
+    if (length == 0) {
+        return PSPEC_OK;
+    }
+    if (middle == NULL || length >= sizeof own) {
+        return fail_word(shown, words, text, error);
+    }
+    *middle = '\0';
+    PS_TRY(ps_parse_number(own, shown, -DBL_MAX, DBL_MAX, &ends[0], error));
+    PS_TRY(ps_parse_number(middle + sizeof dots - 1, shown, -DBL_MAX, DBL_MAX, &ends[1], error));
+    return ends[0] < ends[1]
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "%s: %s is no interval: it must end above its beginning", shown, text);
+}
+
+pspec_status ps_set_plot_range(const ps_option *option, const char *shown, const char *words,
+                               const char *value, ps_request *arguments, ps_error *error) {
+    (void)option;
+    ps_plot_axes *const axes = &arguments->plot_axes;
+    const size_t length = strcspn(value, ",");
+    const char *const second = value + length + (value[length] == ',');
+    if (length == 0 && *second == '\0') {
+        return fail_word(shown, words, value, error);
+    }
+    PS_TRY(set_interval(shown, words, value, length, &axes->has_x, axes->x, error));
+    return set_interval(shown, words, second, strlen(second), &axes->has_y, axes->y, error);
+}
+
+pspec_status ps_set_box(const ps_option *option, const char *shown, const char *words,
+                        const char *value, ps_request *arguments, ps_error *error) {
+    (void)option;
+    enum { NUMBER_BYTES = 64 };
+    char first[NUMBER_BYTES];
+    const char *const comma = strchr(value, ',');
+    ps_point_options *const reading = &arguments->reading;
+    if (comma == NULL || (size_t)(comma - value) >= sizeof first) {
+        return fail_word(shown, words, value, error);
+    }
+    snprintf(first, sizeof first, "%.*s", (int)(comma - value), value);
+    PS_TRY(ps_parse_number(first, shown, -MOST_BOX, MOST_BOX, &reading->box_low, error));
+    PS_TRY(ps_parse_number(comma + 1, shown, -MOST_BOX, MOST_BOX, &reading->box_high, error));
+    if (!(reading->box_low < reading->box_high)) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                       "%s: %s is no interval: X0 must be below X1", shown, value);
+    }
+    return reading->box_high - reading->box_low >= LEAST_BOX
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                         "%s: %s is %.3g wide, and must be at least %g", shown, value,
+                         reading->box_high - reading->box_low, LEAST_BOX);
+}
+
+/* A comma tells names of columns from what columns are. */
+pspec_status ps_set_columns(const ps_option *option, const char *shown, const char *words,
+                            const char *value, ps_request *arguments, ps_error *error) {
+    const bool are_names = strchr(value, ',') != NULL;
+    arguments->reading.columns = NULL;
+    arguments->reading.column_names = are_names ? value : NULL;
+    return are_names ? PSPEC_OK : ps_set_word(option, shown, words, value, arguments, error);
+}
+
+pspec_status ps_set_bins(const ps_option *option, const char *shown, const char *words,
+                         const char *value, ps_request *arguments, ps_error *error) {
+    (void)option, (void)words;
+    return ps_bin_rule_parse(&arguments->frequencies.bins, shown, value, error);
+}
+
+/* The words stand in the order of ps_domain. */
+pspec_status ps_set_domain(const ps_option *option, const char *shown, const char *words,
+                           const char *value, ps_request *arguments, ps_error *error) {
+    (void)option;
+    int index = 0;
+    PS_TRY(find_word(shown, words, value, &index, error));
+    arguments->reading.domain = (ps_domain)index;
+    return PSPEC_OK;
+}
+
+/* The words stand in the order of ps_lift, from 1. */
+pspec_status ps_set_lift(const ps_option *option, const char *shown, const char *words,
+                         const char *value, ps_request *arguments, ps_error *error) {
+    (void)option;
+    int index = 0;
+    PS_TRY(find_word(shown, words, value, &index, error));
+    arguments->reading.lift = (ps_lift)(index + 1);
+    return PSPEC_OK;
+}
+
+pspec_status ps_set_morph(const ps_option *option, const char *shown, const char *words,
+                          const char *value, ps_request *arguments, ps_error *error) {
+    (void)option;
+    (void)words;
+    static const ps_parameter exponent = {PS_EXPONENT_KEY, "", PS_EXPONENT_MEANING};
+    static const ps_parameter *const parameters[] = {&exponent, NULL};
+    char name[PS_GRAMMAR_WORD];
+    ps_slice given = {NULL, 0};
+    const char *const rest = ps_grammar_name(value, name);
+    const ps_grammar grammar = {.kind = "morph",
+                                .name = name,
+                                .parameters = parameters,
+                                .num_own = 1,
+                                .most_letters = PS_MAX_SAMPLER_VALUE - 1};
+    PS_TRY(ps_grammar_values(&grammar, rest, &given, error));
+    const ps_morph_words said = {shown, value, {name, strlen(name)}, given};
+    arguments->reading.has_morph = true;
+    return ps_morph_parse(&arguments->reading.morph, &said, error);
+}
+
+pspec_status ps_set_normalize(const ps_option *option, const char *shown, const char *words,
+                              const char *value, ps_request *arguments, ps_error *error) {
+    (void)option;
+    static const pspec_normalization meant[] = {
+        PSPEC_NORMALIZATION_POWER, PSPEC_NORMALIZATION_EFFECTIVE, PSPEC_NORMALIZATION_INTEGRAL};
+    int index = 0;
+    PS_TRY(find_word(shown, words, value, &index, error));
+    arguments->normalization = meant[index];
+    return PSPEC_OK;
+}
+
+/* The words after "auto" stand in the order of ps_precision. */
+pspec_status ps_set_precision(const ps_option *option, const char *shown, const char *words,
+                              const char *value, ps_request *arguments, ps_error *error) {
+    (void)option;
+    int index = 0;
+    PS_TRY(find_word(shown, words, value, &index, error));
+    arguments->limits.constraints.precision = index - 1;
+    return PSPEC_OK;
+}

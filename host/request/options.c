@@ -1,0 +1,363 @@
+#include "request/options.h"
+
+#include "base/text.h"
+#include "frequencies/frequency_sample.h"
+#include "points/points.h"
+#include "request/option_inputs.h"
+#include "request/option_setters.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* ---- the table ----------------------------------------------------------------------------- */
+
+#define NAMED(dashed, shortened, value) .name = dashed, .letter = shortened, .metavar = value
+#define OF(kinds, others) .questions = kinds, .commands = others
+#define FLAG(field) .set = ps_set_flag, .offset = offsetof(ps_request, field)
+#define TEXT(field) .set = ps_set_text, .offset = offsetof(ps_request, field)
+#define WORD(field) .set = ps_set_word, .offset = offsetof(ps_request, field)
+#define RANGE(field) .set = ps_set_range, .offset = offsetof(ps_request, field)
+#define COUNT(field) .set = ps_set_count, .offset = offsetof(ps_request, field)
+
+/* 10^10 points of the plane are 160 GB. */
+#define MOST_POINTS UINT64_C(10000000000)
+/* A set has so many trials at most: their moves are in memory. */
+#define MOST_SHIFTS UINT64_C(1000000)
+#define MOST_REALIZATIONS UINT64_C(1000000000000)
+
+/* Sets of takers that many options have: kinds of spectra, those of them on the sphere, kinds that
+ * look at point sets and that have a lobe; commands that try engines, and those whose output is a
+ * table. */
+#define BIT PS_TAKER_BIT
+#define SPHERES (BIT(angular) | BIT(pairs))
+#define SPECTRA (BIT(power) | SPHERES)
+#define SETS (SPECTRA | BIT(quadrature) | BIT(check))
+#define LOBES (BIT(quadrature) | BIT(truncation))
+#define ENGINES (SETS | BIT(variance))
+#define PICTURES (SPECTRA | LOBES | BIT(variance))
+#define SUITES (BIT(bench) | BIT(stress))
+#define TABLES (ENGINES | SUITES | BIT(truncation) | BIT(devices))
+
+/* In the order of ps_option_id, which is the order of --help. Where an option is repeated the last
+ * one counts, but for --sampler. */
+const ps_option ps_options[PS_NUM_OPTIONS] = {
+    [PS_OPTION_POINTS] =
+        {NAMED("points", 'n', "N"), OF(ENGINES | BIT(sample), BIT(convert)),
+         .help =
+             "points in each realization (default 1024; check: as saved); several as 64,128,256 "
+             "or 16..16384, which is 16 and its doubles; of files: points in each set, for "
+             "formats that do not say (rps)",
+         .set = ps_set_points, .minimum = 1, .maximum = MOST_POINTS},
+    [PS_OPTION_REALIZATIONS] = {NAMED("realizations", 'm', "M"), OF(ENGINES | BIT(sample), 0),
+                                .help = "realizations of each sampler (default 1; check: as saved, "
+                                        "or 128)",
+                                COUNT(num_realizations), .minimum = 1,
+                                .maximum = MOST_REALIZATIONS},
+    [PS_OPTION_STANDARD_ERROR] =
+        {NAMED("standard-error", 0, "X"), OF(SPECTRA | BIT(quadrature), 0),
+         .help = "no more realizations than make the relative standard error of every ring or "
+                 "degree X (above --floor; at least 16); -m is then the most (default 1e6)",
+         .set = ps_set_standard_error},
+    [PS_OPTION_DIMENSION] = {NAMED("dimension", 'd', "D"),
+                             OF(BIT(power) | BIT(check) | BIT(variance) | BIT(sample),
+                                BIT(convert)),
+                             .help = "dimension, 1 to 6 (default 2; of files: what they have)",
+                             .set = ps_set_dimension, .minimum = 1, .maximum = PS_MAX_DIMENSION},
+    [PS_OPTION_SEED] = {NAMED("seed", 's', "S"), OF(ENGINES | BIT(sample), 0),
+                        .help = "seed, 0 to 2^64 - 1 (default 1); same seed, same bits",
+                        COUNT(seed), .minimum = 0, .maximum = UINT64_MAX},
+    [PS_OPTION_SAMPLER] = {NAMED("sampler", 0, "NAME[:key=value,...]"),
+                           OF(ENGINES | BIT(sample), 0),
+                           .help = "what makes the points; the names are below",
+                           .set = ps_add_sampler},
+    [PS_OPTION_INTEGRAND] = {NAMED("integrand", 0, "NAME[:key=value,...]"), OF(BIT(variance), 0),
+                             .help = "what is integrated; the names are below",
+                             .set = ps_add_integrand},
+    [PS_OPTION_SHIFTS] = {NAMED("shifts", 0, "S"), OF(BIT(variance), 0),
+                          .help = "random shifts, on the sphere rotations, of every set that is "
+                                  "measured (default 1; 0: nothing is measured)",
+                          COUNT(num_shifts), .minimum = 0, .maximum = MOST_SHIFTS},
+    [PS_OPTION_IN_PLACE] = {NAMED("in-place", 0, NULL), OF(BIT(variance), 0),
+                            .help = "measure sets where they are, without shifts; the prediction "
+                                    "is of shifted ones, and there is no z-score",
+                            FLAG(in_place)},
+    [PS_OPTION_AGAINST] = {NAMED("against", 0, "FILE"), OF(BIT(check), 0),
+                           .help =
+                               "the saved spectrum: what power or angular wrote with -o FILE.json",
+                           TEXT(against), .input = ps_input_all},
+    [PS_OPTION_HOMOGENEOUS] = {NAMED("homogeneous", 0, NULL), OF(BIT(check), 0),
+                               .help = "instead: are realizations invariant under translations, "
+                                       "on the sphere under rotations, in distribution?",
+                               FLAG(homogeneous)},
+    [PS_OPTION_FALSE_ALARM_RATE] = {NAMED("false-alarm-rate", 0, "P"), OF(BIT(check), 0),
+                                    .help = "probability that anything differs by chance, "
+                                            "above 0 and below 1 (default 0.001)",
+                                    .set = ps_set_false_alarm_rate},
+    [PS_OPTION_BRDF] = {NAMED("brdf", 0, "NAME[:key=value,...]"), OF(LOBES, 0),
+                        .help = "lobe of reflection; the names are below", TEXT(brdf),
+                        .input = ps_input_of_lobe},
+    [PS_OPTION_SMOOTHNESS] = {NAMED("smoothness", 0, "S"), OF(LOBES, 0),
+                              .help = "of the integrands, functions of the Sobolev space H^S, "
+                                      "1 < S < 2 (default 1.5)",
+                              .set = ps_set_smoothness},
+    [PS_OPTION_MAX_FREQUENCY] = {NAMED("max-frequency", 'k', "K"),
+                                 OF(BIT(power) | BIT(check) | BIT(variance), 0),
+                                 .help = "frequencies -K..K on every axis, rings 1..K (default "
+                                         "ceil(5 N^(1/d)) for d <= 3; check: 2 N^(1/d))",
+                                 .set = ps_set_max_frequency, .minimum = 1,
+                                 .maximum = PS_MAX_FREQUENCY},
+    [PS_OPTION_MAX_DEGREE] = {NAMED("max-degree", 'l', "L"),
+                              OF(SPHERES | LOBES | BIT(check) | BIT(variance), 0),
+                              .help =
+                                  "the largest degree (default ceil(4 sqrt N), for quadrature at "
+                                  "most; truncation: 20)",
+                              .set = ps_set_max_degree},
+    [PS_OPTION_MEMORY] = {NAMED("memory", 0, "SIZE"),
+                          OF(ENGINES | BIT(sample), BIT(convert) | BIT(run)),
+                          .help = "what points and the engine may take, as in 400M or 2G; it "
+                                  "chooses among engines and is kept with the results (default: "
+                                  "POINTSPEC_MEMORY, else what is free, which chooses nothing)",
+                          .set = ps_set_size,
+                          .offset = offsetof(ps_request, limits.constraints.memory_limit)},
+    [PS_OPTION_HEMISPHERE] = {NAMED("hemisphere", 0, NULL), OF(SPHERES | BIT(check), 0),
+                              .help = "points of the hemisphere, that is of the projective plane: "
+                                      "even degrees, odd ones vanish",
+                              FLAG(hemisphere)},
+    [PS_OPTION_COEFFICIENTS] = {NAMED("coefficients", 0, "FILE.npy"),
+                                OF(0, BIT(power) | BIT(angular)),
+                                .help =
+                                    "write the complex128 array too: S(k) = sum w exp(-2 pi i k.x) "
+                                    "of each set in the order of --full or of the list; c_lm = "
+                                    "sum w Y_lm of the only set, (l, m) at index m(2L+1-m)/2 + l",
+                                TEXT(coefficients)},
+    [PS_OPTION_HARMONICS] = {NAMED("harmonics", 0, "spherical|hemispherical"),
+                             OF(BIT(truncation), BIT(angular)),
+                             .help = "of --coefficients, or of the products that are cut "
+                                     "(default spherical); hemispherical ones are for points and "
+                                     "lobes with z >= 0",
+                             WORD(harmonics)},
+    [PS_OPTION_FREQUENCIES] = {NAMED("frequencies", 0, "FILE"), OF(BIT(power), 0),
+                               .help = "only the integer frequency vectors in FILE, one per line",
+                               TEXT(frequencies.path), .input = ps_input_all},
+    [PS_OPTION_BINS] = {NAMED("bins", 0, PS_BIN_RULES), OF(BIT(power), 0),
+                        .help = "rings: of width 1 about whole |k| (round, the default), or by "
+                                "floor of |k|, of |k| Q/P or of |k| Q/P N^(-1/d); or exact shells "
+                                "of |k|^2",
+                        .set = ps_set_bins},
+    [PS_OPTION_PER_RING] = {NAMED("per-ring", 0, "S"), OF(BIT(power), 0),
+                            .help = "of every ring (or shell) with more than S frequencies of the "
+                                    "half lattice, only a random subset of S, from the seed",
+                            COUNT(frequencies.per_ring), .minimum = PS_MIN_PER_RING,
+                            .maximum = PS_MAX_NUM_FREQUENCIES},
+    [PS_OPTION_FULL] = {NAMED("full", 0, "FILE.npy"), OF(0, BIT(power)),
+                        .help = "write the whole array too, shape (2K+1)^D, DC in the middle, and "
+                                "its standard error to FILE.standard_error.npy",
+                        TEXT(full)},
+    [PS_OPTION_NORMALIZE] =
+        {NAMED("normalize", 0, "power|effective|integral"), OF(BIT(power) | BIT(angular), 0),
+         .help = "N |S|^2 / W^2 with N of each set (default power), |S|^2 / sum w^2, "
+                 "or mean(N) mean(|S|^2 / W^2)",
+         .set = ps_set_normalize},
+    [PS_OPTION_HOMOGENIZE] = {NAMED("homogenize", 0, NULL), OF(SETS | BIT(sample), 0),
+                              .help = "shift every realization by one random vector, mod 1; "
+                                      "points of the sphere are rotated",
+                              FLAG(homogenize)},
+    [PS_OPTION_WEIGHTS] = {NAMED("weights", 0, "equal|column|FILE"), OF(SETS, BIT(convert)),
+                           .help = "equal: all 1, weights of the files are dropped; column: the "
+                                   "last one of the files (default: those that the format or "
+                                   "--columns has, else all 1)",
+                           .set = ps_set_weights, .offset = offsetof(ps_request, weights.path),
+                           .input = ps_input_of_weights},
+    [PS_OPTION_WEIGHT_SUM] = {NAMED("weight-sum", 0, "free|one"), OF(BIT(quadrature), 0),
+                              .help = "of --weights optimal: those that make the error smallest, "
+                                      "or those that do among weights whose sum is 1 (default "
+                                      "free)",
+                              .set = ps_set_weight_sum},
+    [PS_OPTION_WEIGHTS_OUT] = {NAMED("weights-out", 0, "FILE"), OF(0, BIT(quadrature)),
+                               .help = "write the weights of the only rule too, as --weights FILE "
+                                       "reads them: an array where FILE ends in .npy, else text, "
+                                       "one a line; 0 for points that were dropped",
+                               TEXT(weights_out)},
+    [PS_OPTION_INPUT_FORMAT] = {NAMED("input-format", 0, PS_POINT_FORMATS), OF(SETS, BIT(convert)),
+                                .help = "format of the point files (default: detected)",
+                                WORD(reading.format)},
+    [PS_OPTION_COLUMNS] = {NAMED("columns", 0, PS_POINT_COLUMNS), OF(SETS, BIT(convert)),
+                           .help = "what the columns of the point files are, w being the weight "
+                                   "(default: found out; angles are in radians but lon-lat, "
+                                   "degrees); or names with commas, as in x,y, that the first "
+                                   "line of a text has",
+                           .set = ps_set_columns, .offset = offsetof(ps_request, reading.columns)},
+    [PS_OPTION_HEADER] = {NAMED("header", 0, "yes|no"), OF(SETS, BIT(convert)),
+                          .help = "has the first line of a text names of columns? (default: found "
+                                  "out)",
+                          WORD(reading.header)},
+    [PS_OPTION_TRANSPOSE] = {NAMED("transpose", 0, NULL), OF(SETS, BIT(convert)),
+                             .help = "points are the columns of arrays, as in shape (2, N)",
+                             FLAG(reading.transpose)},
+    [PS_OPTION_DOMAIN] = {NAMED("domain", 0, "torus|sphere"), OF(BIT(check), BIT(convert)),
+                          .help = "where the points lie (default: found out; check: on the torus)",
+                          .set = ps_set_domain},
+    [PS_OPTION_WRAP] = {NAMED("wrap", 0, NULL), OF(BIT(power) | BIT(check), BIT(convert)),
+                        .help = "reduce coordinates outside [0,1) mod 1 instead of refusing them",
+                        FLAG(reading.wrap)},
+    [PS_OPTION_BOX] = {NAMED("box", 0, "X0,X1"),
+                       OF(SPHERES | BIT(power) | BIT(quadrature) | BIT(check), BIT(convert)),
+                       .help = "coordinates of the files are in [X0,X1), as in 0,512 or -1,1, and "
+                               "become those in [0,1)",
+                       .set = ps_set_box},
+    [PS_OPTION_NORMALIZE_VECTORS] = {NAMED("normalize-vectors", 0, NULL),
+                                     OF(SPHERES | BIT(quadrature) | BIT(check), BIT(convert)),
+                                     .help = "divide vectors by their length instead of refusing "
+                                             "those of another length than 1",
+                                     FLAG(reading.normalize_vectors)},
+    [PS_OPTION_LIFT] = {NAMED("lift", 0, "sphere|hemisphere"),
+                        OF(SPHERES | BIT(quadrature) | BIT(check), BIT(convert)),
+                        .help =
+                            "points (x, y) of the plane become points of the sphere, z = 2x - 1 "
+                            "or z = x, phi = 2 pi y, as by lift= of samplers",
+                        .set = ps_set_lift},
+    [PS_OPTION_MORPH] = {NAMED("morph", 0, "none|diffuse|glossy:n=N|phong:n=N"),
+                         OF(SPHERES | BIT(quadrature) | BIT(check), BIT(convert)),
+                         .help =
+                             "points lifted to the hemisphere take the density of a lobe, as by "
+                             "morph= of samplers (default none; quadrature: that of --brdf)",
+                         .set = ps_set_morph},
+    [PS_OPTION_DROP_BELOW] = {NAMED("drop-below-horizon", 0, NULL), OF(BIT(quadrature), 0),
+                              .help = "leave points below the horizon out where the lobe "
+                                      "ends there",
+                              FLAG(drop_below_horizon)},
+    [PS_OPTION_SELECT_SETS] = {NAMED("select-sets", 0, "A..B"), OF(SETS, BIT(convert)),
+                               .help = "only these sets of each file, counted from 1; also A, A.., "
+                                       "..B",
+                               RANGE(reading.sets)},
+    [PS_OPTION_SELECT_POINTS] = {NAMED("select-points", 0, "A..B"), OF(0, BIT(convert)),
+                                 .help = "only these points of each set, counted from 1; also A, "
+                                         "A.., ..B",
+                                 RANGE(points)},
+    [PS_OPTION_MERGE] = {NAMED("merge", 0, NULL), OF(0, BIT(convert)),
+                         .help = "make one set of all sets", FLAG(merge)},
+    [PS_OPTION_TO_COLUMNS] = {NAMED("to-columns", 0, PS_SPHERE_COLUMNS), OF(0, BIT(convert)),
+                              .help = "columns of the output, for points of the sphere (default "
+                                      "xyz, with w if there are weights)",
+                              WORD(to_columns)},
+    [PS_OPTION_TOLERANCE] = {NAMED("tol", 0, "T"), OF(ENGINES, 0),
+                             .help =
+                                 "largest error, above 0 and at most 1: of S relative to white "
+                                 "noise (default 1e-6); pairs: of Q(l) over (sum |w|)^2 (1e-6); "
+                                 "quadrature: of E^2 over c (sum |w|)^2 (1e-10)",
+                             .set = ps_set_tolerance},
+    [PS_OPTION_FLOOR] = {NAMED("floor", 0, "P"), OF(SPECTRA, 0),
+                         .help = "powers down to P are right to 10 %", .set = ps_set_floor},
+    [PS_OPTION_PRECISION] = {NAMED("precision", 0, "auto|single|double|extended"),
+                             OF(ENGINES, SUITES),
+                             .help = "arithmetic of the engine (default auto: the cheapest that "
+                                     "meets the tolerance)",
+                             .set = ps_set_precision},
+    [PS_OPTION_ENGINE] = {NAMED("engine", 0, "NAME"), OF(ENGINES, SUITES),
+                          .help = "this engine; pointspec plan lists them (default: the cheapest)",
+                          TEXT(limits.constraints.engine)},
+    [PS_OPTION_CASE] = {NAMED("case", 0, "NAME"), OF(0, SUITES),
+                        .help = "this case alone; the first column names them", TEXT(case_name)},
+    [PS_OPTION_CALIBRATE] = {NAMED("calibrate", 0, NULL), OF(0, BIT(bench)),
+                             .help = "measure this device's figures for the planner and keep them",
+                             FLAG(calibrate)},
+    [PS_OPTION_DEVICE] = {NAMED("device", 0, "SELECTOR"),
+                          OF(0, ENGINES | SUITES | BIT(run) | BIT(devices) | BIT(doctor)),
+                          .help = "OpenCL device: index, cpu, gpu, accelerator or part of a name "
+                                  "(default: POINTSPEC_DEVICE, else the first GPU, else the first "
+                                  "CPU)",
+                          TEXT(limits.device)},
+    [PS_OPTION_CACHE] = {NAMED("cache", 0, "BYTES"), OF(0, BIT(run)),
+                         .help = "what the cache of results may take on the disk; 0: nothing is "
+                                 "taken from it or kept (default 1e9)",
+                         COUNT(cache_bytes), .minimum = 0, .maximum = INT64_MAX},
+    [PS_OPTION_KEPT_SETS] = {NAMED("kept-sets", 0, "BYTES"),
+                             OF(0, ENGINES | BIT(sample) | BIT(run)),
+                             .help = "what sets of samplers that take long to make may take on the "
+                                     "disk; 0: they are made anew (default 4e9)",
+                             COUNT(limits.kept_bytes), .minimum = 0, .maximum = INT64_MAX},
+    [PS_OPTION_PREFETCH] = {NAMED("prefetch", 0, NULL), OF(0, BIT(sample)),
+                            .help = "write no points: make those that are not kept yet, and keep "
+                                    "them",
+                            FLAG(prefetch)},
+    [PS_OPTION_RECORDED_ENGINES] = {NAMED("recorded-engines", 0, NULL), OF(0, BIT(run)),
+                                    .help = "answer the questions of a record by the engines, and "
+                                            "in the precisions, that it names",
+                                    FLAG(recorded_engines)},
+    [PS_OPTION_NO_SKIP] = {NAMED("no-skip", 0, NULL), OF(ENGINES, BIT(run)),
+                           .help = "do also what the question does not need",
+                           FLAG(accuracy.no_skip)},
+    [PS_OPTION_NO_SELF_CHECK] = {NAMED("no-self-check", 0, NULL),
+                                 OF(SPECTRA | BIT(check) | BIT(variance), 0),
+                                 .help = "do not recompute random entries with the referee",
+                                 FLAG(accuracy.no_self_check)},
+    [PS_OPTION_OUTPUT] = {NAMED("output", 'o', "FILE"),
+                          OF(0, TABLES | BIT(sample) | BIT(convert) | BIT(run)),
+                          .help = "write there, in the format of its ending (default: standard "
+                                  "output)",
+                          TEXT(output)},
+    [PS_OPTION_FORMAT] = {NAMED("format", 0, "csv|json|npy|jsonl|text"),
+                          OF(0, TABLES | BIT(sample) | BIT(convert)),
+                          .help = "format of the output (default: by the ending of FILE, else the "
+                                  "first of these)",
+                          WORD(format)},
+    [PS_OPTION_PLOT] = {NAMED("plot", 0, "FILE"),
+                        OF(0, PICTURES | BIT(bench) | BIT(sample) | BIT(convert)),
+                        .help = "draw a picture too: .png, .svg or .pdf; one that fails is a "
+                                "warning, and an error where nothing else is kept",
+                        TEXT(plot)},
+    [PS_OPTION_PLOT_LOG] = {NAMED("plot-log", 0, "x|y|xy|none"), OF(0, PICTURES),
+                            .help = "which axes of the picture are logarithmic",
+                            .set = ps_set_plot_log},
+    [PS_OPTION_PLOT_RANGE] = {NAMED("plot-range", 0, "X0..X1,Y0..Y1"), OF(0, PICTURES),
+                              .help = "what the axes of the picture show; X0..X1 alone, or ,Y0..Y1",
+                              .set = ps_set_plot_range},
+    [PS_OPTION_PROFILE] = {NAMED("profile", 0, NULL), OF(0, ENGINES),
+                           .help = "time, flop/s and bytes/s of every kernel on standard error",
+                           FLAG(limits.profile)},
+    [PS_OPTION_QUIET] = {NAMED("quiet", 0, NULL),
+                         OF(0, ENGINES | SUITES | BIT(truncation) | BIT(sample) | BIT(convert) |
+                                   BIT(run)),
+                         .help = "no progress line, no remarks", FLAG(quiet)},
+    [PS_OPTION_QUICK] = {NAMED("quick", 0, NULL), OF(0, SUITES),
+                         .help = "leave out the cases that take more than a second or so",
+                         FLAG(quick)},
+    [PS_OPTION_SCENES] = {NAMED("scenes", 0, NULL), OF(0, BIT(bench)),
+                          .help = "time the scenes that are named instead, with and without skips, "
+                                  "and compare the answers",
+                          FLAG(scenes)},
+    [PS_OPTION_VERBOSE] = {NAMED("verbose", 0, NULL), OF(0, ENGINES),
+                           .help = "say on standard error what is being done", FLAG(verbose)},
+    [PS_OPTION_HELP] = {NAMED("help", 'h', NULL), OF(0, 0), .help = "this text",
+                        .set = ps_set_nothing},
+
+};
+
+/* ---- one option ---------------------------------------------------------------------------- */
+
+ps_shown_option ps_option_show(const ps_request *request, ps_option_id id) {
+    ps_shown_option out;
+    const ps_option_form form = request->forms[id];
+    if (form == PS_FORM_LETTER) {
+        snprintf(out.text, sizeof out.text, "-%c", ps_options[id].letter);
+    } else {
+        snprintf(out.text, sizeof out.text, "%s%s", form == PS_FORM_KEY ? "" : "--",
+                 ps_options[id].name);
+    }
+    return out;
+}
+
+pspec_status ps_option_set(ps_request *request, ps_option_id id, const char *words,
+                           const char *value, ps_error *error) {
+    const ps_option *const option = &ps_options[id];
+    const ps_shown_option shown = ps_option_show(request, id);
+    return option->set(option, shown.text, words, value, request, error);
+}
+
+size_t ps_name_distance(const char *typed, const char *known) {
+    const size_t length = strlen(typed);
+    const bool is_beginning = length > 0 && strncmp(known, typed, length) == 0;
+    const bool goes_on = strncmp(known, typed, strlen(known)) == 0;
+    const size_t distance = ps_text_distance(typed, known);
+    return distance > 1 && (is_beginning || goes_on) ? 1 : distance;
+}

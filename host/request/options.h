@@ -1,0 +1,94 @@
+/* The options of all commands, which are the keys of scene files, one row per ps_option_id: parser,
+ * usage and --help come from here.
+ */
+#ifndef PS_REQUEST_OPTIONS_H
+#define PS_REQUEST_OPTIONS_H
+
+#include "request/request.h"
+
+/* Who takes options, in the order of --help: kinds of results (answers/kind.h), each of which a
+ * command prints, and the other commands. A new one is a name here, and a bit in the rows of the
+ * options that it takes. */
+#define PS_TAKERS(KIND, OTHER)                                                                     \
+    KIND(power)                                                                                    \
+    KIND(angular)                                                                                  \
+    KIND(pairs)                                                                                    \
+    KIND(quadrature)                                                                               \
+    KIND(truncation)                                                                               \
+    KIND(variance)                                                                                 \
+    OTHER(sample)                                                                                  \
+    OTHER(convert)                                                                                 \
+    KIND(check)                                                                                    \
+    OTHER(run)                                                                                     \
+    OTHER(plan)                                                                                    \
+    OTHER(bench)                                                                                   \
+    OTHER(stress)                                                                                  \
+    OTHER(devices)                                                                                 \
+    OTHER(doctor)
+
+#define PS_TAKER_NUMBER(name) PS_TAKER_##name,
+typedef enum ps_taker { PS_TAKERS(PS_TAKER_NUMBER, PS_TAKER_NUMBER) PS_NUM_TAKERS } ps_taker;
+
+/* A set of takers. */
+typedef uint32_t ps_takers;
+#define PS_TAKER_BIT(name) (UINT32_C(1) << PS_TAKER_##name)
+
+typedef struct ps_option ps_option;
+
+/* Stores value (NULL for a flag) in *arguments, or says what is wrong with it. shown is the option
+ * as it was said; words are the values that the command at hand admits, "one|two". */
+typedef pspec_status ps_option_setter(const ps_option *option, const char *shown, const char *words,
+                                      const char *value, ps_request *arguments, ps_error *error);
+
+/* The file that a value makes a question read, a part of the value; NULL: none. */
+typedef const char *ps_option_input(const char *words, const char *value);
+
+struct ps_option {
+    const char *name;    /* without its dashes */
+    const char *metavar; /* NULL: takes no value */
+    const char *help;
+    /* The kinds of results to whose question it belongs: it is a key of scenes there, too */
+    ps_takers questions;
+    ps_takers commands; /* others that take it: how they compute, and what becomes of the results */
+    ps_option_setter *set;
+    size_t offset; /* of the field of ps_request, for setters that serve several options */
+    uint64_t minimum, maximum;
+    char letter; /* 0: none */
+    /* NULL: no value of it names a file that is read. Else offset is of the field with the text */
+    ps_option_input *input;
+};
+
+extern const ps_option ps_options[PS_NUM_OPTIONS];
+
+/* An option as it was said, "-n", "--points" or the key "points"; the long form of one that was
+ * not. */
+typedef struct ps_shown_option {
+    char text[32];
+} ps_shown_option;
+ps_shown_option ps_option_show(const ps_request *request, ps_option_id id);
+
+/* Calls the setter of the option, whose form the request has already. */
+pspec_status ps_option_set(ps_request *request, ps_option_id id, const char *words,
+                           const char *value, ps_error *error) PS_MUST_CHECK;
+
+/* A file that a request reads. */
+typedef struct ps_request_input {
+    ps_shown_option option; /* that names it */
+    const char *path;       /* "-" is standard input; borrowed */
+} ps_request_input;
+/* Every file that is read, in the order of options, then those of points: visit is called for each
+ * until it fails. The only list: caches, records and checks of outputs ask it. */
+typedef pspec_status ps_request_visit_input(void *payload, const ps_request_input *input,
+                                            ps_error *error);
+pspec_status ps_request_visit_inputs(const ps_request *request, ps_request_visit_input *visit,
+                                     void *payload, ps_error *error) PS_MUST_CHECK;
+
+/* What a value of --weights is where these words are admitted, "equal|column|FILE": the name of a
+ * file where it is none of the others and FILE is admitted; PS_WEIGHTS_GIVEN: nothing. */
+ps_weights_kind ps_weights_find(const char *words, const char *value);
+
+/* How far a name that somebody typed is from a known one. 0: that very name; a beginning of it
+ * counts as one letter. */
+size_t ps_name_distance(const char *typed, const char *known);
+
+#endif

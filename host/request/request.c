@@ -1,0 +1,44 @@
+#include "request/request.h"
+
+#include "request/options.h"
+
+const ps_request ps_request_default = {
+    .num_counts = 1,
+    .counts = {1024},
+    .num_realizations = 1,
+    .num_shifts = 1,
+    .dimension = 2,
+    .seed = 1,
+    .cache_bytes = 1000000000,
+    .reading = {.domain = PS_DOMAIN_ANY},
+    .accuracy = {.tolerance = 1e-6},
+    .limits = {.constraints = {.precision = -1}, .kept_bytes = 4000000000},
+    .false_alarm_rate = 1e-3,
+    .smoothness = 1.5,
+    .command_line = ""};
+
+size_t ps_request_num_questions(const ps_request *request) {
+    const size_t num_sources = request->num_samplers > 0 ? request->num_samplers : 1;
+    return num_sources * request->num_counts;
+}
+
+const char *ps_request_sampler(const ps_request *request, size_t question) {
+    return request->num_samplers > 0 ? request->samplers[question / request->num_counts] : NULL;
+}
+
+uint64_t ps_request_points(const ps_request *request, size_t question) {
+    return request->counts[question % request->num_counts];
+}
+
+pspec_status ps_request_check_one_count(const ps_request *request, const char *why,
+                                        ps_error *error) {
+    return request->num_counts == 1
+               ? PSPEC_OK
+               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s names %zu numbers of points, %s",
+                         ps_option_show(request, PS_OPTION_POINTS).text, request->num_counts, why);
+}
+
+bool ps_request_only_draws(const ps_request *request) {
+    return request->plot != NULL && !request->is_given[PS_OPTION_OUTPUT] &&
+           !request->is_given[PS_OPTION_FORMAT];
+}

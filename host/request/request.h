@@ -1,0 +1,162 @@
+/* What is asked for, by a command line or in a scene file, after parsing. One struct for all kinds
+ * of results (answers/kind.h), each of which lists the options that belong to it.
+ */
+#ifndef PS_REQUEST_REQUEST_H
+#define PS_REQUEST_REQUEST_H
+
+#include "base/status.h"
+#include "frequencies/frequencies_spec.h"
+#include "plan/specs.h"
+#include "plots/plot.h"
+#include "points/points.h"
+#include "points/weights_spec.h"
+#include "samplers/sampler.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* The doubles of 1 up to the largest N are 34 numbers. */
+enum { PS_MAX_SAMPLERS = 16, PS_MAX_COUNTS = 64, PS_MAX_INTEGRANDS = 16 };
+
+typedef enum ps_option_id {
+    PS_OPTION_POINTS,            /* -n, --points N,..|N..M */
+    PS_OPTION_REALIZATIONS,      /* -m, --realizations M */
+    PS_OPTION_STANDARD_ERROR,    /* --standard-error X */
+    PS_OPTION_DIMENSION,         /* -d, --dimension D */
+    PS_OPTION_SEED,              /* -s, --seed S */
+    PS_OPTION_SAMPLER,           /* --sampler NAME[:key=value,...], repeatable */
+    PS_OPTION_INTEGRAND,         /* --integrand NAME[:key=value,...] */
+    PS_OPTION_SHIFTS,            /* --shifts S */
+    PS_OPTION_IN_PLACE,          /* --in-place */
+    PS_OPTION_AGAINST,           /* --against FILE */
+    PS_OPTION_HOMOGENEOUS,       /* --homogeneous */
+    PS_OPTION_FALSE_ALARM_RATE,  /* --false-alarm-rate P */
+    PS_OPTION_BRDF,              /* --brdf NAME[:key=value,...] */
+    PS_OPTION_SMOOTHNESS,        /* --smoothness S */
+    PS_OPTION_MAX_FREQUENCY,     /* -k, --max-frequency K */
+    PS_OPTION_MAX_DEGREE,        /* -l, --max-degree L */
+    PS_OPTION_HEMISPHERE,        /* --hemisphere */
+    PS_OPTION_COEFFICIENTS,      /* --coefficients FILE.npy */
+    PS_OPTION_HARMONICS,         /* --harmonics spherical|hemispherical */
+    PS_OPTION_FREQUENCIES,       /* --frequencies FILE */
+    PS_OPTION_BINS,              /* --bins round|floor|width=P/Q|relative=P/Q|shells */
+    PS_OPTION_PER_RING,          /* --per-ring S */
+    PS_OPTION_FULL,              /* --full FILE.npy */
+    PS_OPTION_NORMALIZE,         /* --normalize power|effective|integral */
+    PS_OPTION_HOMOGENIZE,        /* --homogenize */
+    PS_OPTION_WEIGHTS,           /* --weights equal|column|FILE */
+    PS_OPTION_WEIGHT_SUM,        /* --weight-sum free|one */
+    PS_OPTION_WEIGHTS_OUT,       /* --weights-out FILE */
+    PS_OPTION_INPUT_FORMAT,      /* --input-format NAME */
+    PS_OPTION_COLUMNS,           /* --columns NAME */
+    PS_OPTION_HEADER,            /* --header yes|no */
+    PS_OPTION_TRANSPOSE,         /* --transpose */
+    PS_OPTION_DOMAIN,            /* --domain torus|sphere */
+    PS_OPTION_WRAP,              /* --wrap */
+    PS_OPTION_BOX,               /* --box X0,X1 */
+    PS_OPTION_NORMALIZE_VECTORS, /* --normalize-vectors */
+    PS_OPTION_LIFT,              /* --lift sphere|hemisphere */
+    PS_OPTION_MORPH,             /* --morph none|diffuse|glossy:n=N|phong:n=N */
+    PS_OPTION_DROP_BELOW,        /* --drop-below-horizon */
+    PS_OPTION_SELECT_SETS,       /* --select-sets A..B */
+    PS_OPTION_SELECT_POINTS,     /* --select-points A..B */
+    PS_OPTION_MERGE,             /* --merge */
+    PS_OPTION_TO_COLUMNS,        /* --to-columns NAME */
+    PS_OPTION_TOLERANCE,         /* --tol T */
+    PS_OPTION_FLOOR,             /* --floor P */
+    PS_OPTION_PRECISION,         /* --precision auto|single|double|extended */
+    PS_OPTION_ENGINE,            /* --engine NAME */
+    PS_OPTION_CASE,              /* --case NAME */
+    PS_OPTION_CALIBRATE,         /* --calibrate */
+    PS_OPTION_DEVICE,            /* --device SELECTOR */
+    PS_OPTION_MEMORY,            /* --memory SIZE */
+    PS_OPTION_CACHE,             /* --cache BYTES */
+    PS_OPTION_KEPT_SETS,         /* --kept-sets BYTES */
+    PS_OPTION_PREFETCH,          /* --prefetch */
+    PS_OPTION_RECORDED_ENGINES,  /* --recorded-engines */
+    PS_OPTION_NO_SKIP,           /* --no-skip */
+    PS_OPTION_NO_SELF_CHECK,     /* --no-self-check */
+    PS_OPTION_OUTPUT,            /* -o, --output FILE */
+    PS_OPTION_FORMAT,            /* --format csv|json|npy|jsonl|text, or a format of points */
+    PS_OPTION_PLOT,              /* --plot FILE */
+    PS_OPTION_PLOT_LOG,          /* --plot-log x|y|xy|none */
+    PS_OPTION_PLOT_RANGE,        /* --plot-range X0..X1,Y0..Y1 */
+    PS_OPTION_PROFILE,           /* --profile */
+    PS_OPTION_QUIET,             /* --quiet */
+    PS_OPTION_QUICK,             /* --quick */
+    PS_OPTION_SCENES,            /* --scenes */
+    PS_OPTION_VERBOSE,           /* --verbose */
+    PS_OPTION_HELP,              /* -h, --help */
+    PS_NUM_OPTIONS
+} ps_option_id;
+
+/* How an option was said, for sentences that name it. */
+typedef enum ps_option_form {
+    PS_FORM_LONG,   /* --points */
+    PS_FORM_LETTER, /* -n */
+    PS_FORM_KEY     /* points, in a scene */
+} ps_option_form;
+
+typedef struct ps_request {
+    bool is_given[PS_NUM_OPTIONS];        /* which options were said */
+    ps_option_form forms[PS_NUM_OPTIONS]; /* of those */
+    size_t num_counts;                    /* numbers of points that were asked for, */
+    uint64_t counts[PS_MAX_COUNTS];       /* 1024 alone unless given */
+    uint64_t num_realizations;            /* 1 unless given */
+    unsigned dimension;                   /* 2 unless given, 1..6 */
+    uint64_t seed;                        /* 1 unless given */
+    size_t num_samplers;
+    const char *samplers[PS_MAX_SAMPLERS];
+    size_t num_integrands;
+    const char *integrands[PS_MAX_INTEGRANDS];
+    uint64_t num_shifts; /* 1 unless given */
+    bool in_place;       /* sets are not moved */
+    /* Zeros unless given: the defaults of docs/user/conventions.md. */
+    ps_weights_spec weights;
+    ps_frequencies_spec frequencies;
+    uint64_t max_degree;
+    ps_accuracy_spec accuracy; /* tolerance 1e-6 unless given */
+    /* Precision -1 unless given, which is auto. The memory may be that of POINTSPEC_MEMORY. */
+    ps_limits_spec limits;
+    bool is_memory_of_environment; /* it stands in POINTSPEC_MEMORY */
+    uint64_t cache_bytes;          /* 1e9 unless given */
+    bool prefetch;
+    const char *against;     /* NULL unless given */
+    double false_alarm_rate; /* 1e-3 unless given */
+    const char *brdf, *coefficients, *harmonics, *full, *weights_out, *to_columns, *case_name,
+        *output, *format, *plot; /* NULL unless given */
+    /* How point files are read. What is of samplers or engines, too (dimension, number of points,
+     * memory), stands in it no sooner than ps_point_options_make hands it on. */
+    ps_point_options reading;
+    ps_point_range points; /* of each set; {0} unless given */
+    ps_plot_axes plot_axes;
+    bool recorded_engines, homogenize, homogeneous, hemisphere, drop_below_horizon, merge,
+        calibrate, quick, scenes, quiet, verbose;
+    /* The picture shows the averaged periodogram on the whole square; no option asks for it. */
+    bool wants_picture;
+    /* The answer has its array, or its coefficients (answers/kind.h); no option asks for them. */
+    bool wants_array, wants_coefficients;
+    pspec_normalization normalization; /* never that of pairs */
+    double smoothness;                 /* 1.5 unless given */
+    size_t num_files;
+    const char **files;       /* the remaining words; "-" is standard input */
+    const char *command_line; /* the whole line, for headers */
+} ps_request;
+
+/* Nothing was said. */
+extern const ps_request ps_request_default;
+
+/* A request asks a question of each sampler, or of its files, with each number of points. */
+size_t ps_request_num_questions(const ps_request *request);
+/* The sampler of a question; NULL: files. */
+const char *ps_request_sampler(const ps_request *request, size_t question);
+uint64_t ps_request_points(const ps_request *request, size_t question);
+/* Refuses several numbers of points; why: "and one output holds sets of one". */
+pspec_status ps_request_check_one_count(const ps_request *request, const char *why,
+                                        ps_error *error) PS_MUST_CHECK;
+/* Of commands whose output is points: there is a picture, and nobody said where the points go, or
+ * how they are written. Then they are drawn, and that is all. */
+bool ps_request_only_draws(const ps_request *request);
+
+#endif
