@@ -1,11 +1,6 @@
 /* What a plan says of one question. */
 #include "answers/plan_table.h"
 
-#include "answers/spectra/question.h"
-#include "jobs/point_phases.h"
-#include "jobs/quadrature/quadrature_phases.h"
-#include "jobs/spectrum/power_phases.h"
-
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -119,9 +114,10 @@ pspec_status ps_plan_table_add_host(ps_planner *planner, const ps_phases *phases
 
 /* What is asked of a job: number `index` of its command. */
 static pspec_status add_header(const ps_planner *planner, const ps_request *arguments,
-                               const ps_problem *problem, const ps_needs *needs,
-                               const ps_device_limits *limits, size_t index, ps_error *error) {
+                               const ps_planned *job, size_t index, ps_error *error) {
     ps_table *const table = planner->table;
+    const ps_problem *const problem = job->problem;
+    const ps_device_limits *const limits = job->limits;
     const char *const sampler = ps_request_sampler(arguments, index);
     if (sampler != NULL) {
         PS_TRY(ps_table_add_meta(table, "sampler", PS_TEXT(sampler), error));
@@ -144,10 +140,10 @@ static pspec_status add_header(const ps_planner *planner, const ps_request *argu
     PS_TRY(ps_table_add_meta(table, on_sphere ? "degrees" : "frequencies",
                              PS_INTEGER(problem->frequencies->num), error));
     PS_TRY(ps_table_add_meta(table, "tolerance", PS_NUMBER(problem->tolerance), error));
-    for (size_t i = 0; i < needs->num_skips; i++) {
-        PS_TRY(add_skip(planner, &needs->skips[i], error));
+    for (size_t i = 0; i < job->needs->num_skips; i++) {
+        PS_TRY(add_skip(planner, &job->needs->skips[i], error));
     }
-    return PSPEC_OK;
+    return ps_table_add_metas(table, job->notes, job->num_notes, error);
 }
 
 ps_phases ps_plan_table_begin_phases(ps_planner *planner) {
@@ -159,19 +155,11 @@ void ps_plan_table_add_picture(ps_phases *phases, const ps_request *arguments) {
     ps_phases_say(phases, "picture", "by gnuplot");
 }
 
-pspec_status ps_plan_table_add_power(ps_planner *planner, const ps_request *arguments,
-                                     const ps_power_job *job, const ps_plan_more *more,
-                                     size_t index, ps_error *error) {
-    ps_phases phases = ps_plan_table_begin_phases(planner);
-    const double repeats = ps_power_job_phases(job, &phases);
-    if (more != NULL) {
-        more->add(more->job, &phases);
-    }
-    ps_plan_table_add_picture(&phases, arguments);
-    PS_TRY(add_header(planner, arguments, ps_power_job_problem(job), ps_power_job_needs(job),
-                      ps_power_job_limits(job), index, error));
-    PS_TRY(ps_plan_table_add_phases(planner, &phases, error));
-    return add_candidates(planner, ps_power_job_plan(job), &phases, repeats, error);
+pspec_status ps_plan_table_add_job(ps_planner *planner, const ps_request *arguments,
+                                   const ps_planned *job, size_t index, ps_error *error) {
+    PS_TRY(add_header(planner, arguments, job, index, error));
+    PS_TRY(ps_plan_table_add_phases(planner, job->phases, error));
+    return add_candidates(planner, job->plan, job->phases, job->repeats, error);
 }
 
 pspec_status ps_plan_table_find_lack(const ps_planner *planner,
@@ -188,27 +176,6 @@ pspec_status ps_plan_table_find_lack(const ps_planner *planner,
                : PSPEC_OK;
 }
 
-pspec_status ps_plan_table_add_quadrature(ps_planner *planner, const ps_request *arguments,
-                                          const ps_quadrature_question *question,
-                                          const ps_quadrature_setup *setup, size_t index,
-                                          ps_error *error) {
-    ps_phases phases = ps_plan_table_begin_phases(planner);
-    const double repeats = ps_quadrature_phases(setup, question, &phases);
-    ps_plan_table_add_picture(&phases, arguments);
-    const ps_device_limits *const limits =
-        setup->device != NULL ? ps_device_get_limits(setup->device) : NULL;
-    PS_TRY(add_header(planner, arguments, &setup->problem, &setup->needs, limits, index, error));
-    if (setup->degrees_note[0] != '\0') {
-        PS_TRY(
-            ps_table_add_meta(planner->table, "degrees_note", PS_TEXT(setup->degrees_note), error));
-    }
-    if (setup->weights_note[0] != '\0') {
-        PS_TRY(ps_table_add_meta(planner->table, "weights", PS_TEXT(setup->weights_note), error));
-    }
-    PS_TRY(ps_plan_table_add_phases(planner, &phases, error));
-    return add_candidates(planner, &setup->plan, &phases, repeats, error);
-}
-
 pspec_status ps_plan_table_add_cached(ps_planner *planner, ps_error *error) {
     const ps_cell cells[NUM_COLUMNS] = {
         PS_TEXT("cache"), PS_TEXT("chosen"), PS_NUMBER(0),
@@ -216,74 +183,4 @@ pspec_status ps_plan_table_add_cached(ps_planner *planner, ps_error *error) {
     PS_TRY(ps_table_add_meta(planner->table, "skip",
                              PS_TEXT("the whole question; its answer is in the cache; 1"), error));
     return add_row(planner, cells, error);
-}
-
-/* ---- points -------------------------------------------------------------------------------- */
-
-/* Points that are only drawn are of one realization, and not written. */
-static pspec_status add_sampler(ps_phases *phases, const ps_request *request, size_t question,
-                                bool is_drawn, ps_error *error) {
-    ps_sampler_request sampler;
-    PS_TRY(ps_sampler_request_make(&sampler, request, question, error));
-    const double sets = is_drawn ? 1 : (double)request->num_realizations;
-    const ps_sets_options kept = ps_limits_sets(&request->limits, request->accuracy.no_skip);
-    ps_phases_sample(phases, &sampler, sets, &kept.place);
-    ps_phases_touch(phases, (double)sampler.num_points * sampler.dimension * sizeof(double));
-    if (!is_drawn) {
-        ps_phases_write(phases, request->output != NULL ? request->output : "-", request->format,
-                        sets * (double)sampler.num_points * sampler.dimension);
-    }
-    return PSPEC_OK;
-}
-
-pspec_status ps_plan_table_add_sample(ps_planner *planner, const ps_request *request,
-                                      ps_error *error) {
-    ps_phases phases = ps_plan_table_begin_phases(planner);
-    const bool is_drawn = ps_request_only_draws(request);
-    if (request->num_samplers != 1 && !(is_drawn && request->num_samplers > 0)) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "one --sampler NAME is needed");
-    }
-    if (!is_drawn) {
-        PS_TRY(ps_sample_check_counts(request, error));
-    }
-    ps_phases_start(&phases, NULL);
-    for (size_t i = 0; i < ps_request_num_questions(request); i++) {
-        PS_TRY(add_sampler(&phases, request, i, is_drawn, error));
-    }
-    ps_plan_table_add_picture(&phases, request);
-    return ps_plan_table_add_host(planner, &phases,
-                                  "points of one sampler, one realization at a time", error);
-}
-
-pspec_status ps_plan_table_add_convert(ps_planner *planner, const ps_request *request,
-                                       ps_error *error) {
-    ps_phases phases = ps_plan_table_begin_phases(planner);
-    ps_point_set set = {0};
-    ps_point_reader *reader = NULL;
-    const ps_point_options options = ps_point_options_make(request);
-    bool has_block = false;
-    bool ends_set = false;
-    if (request->num_files == 0) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "nothing to convert: name point files (- for standard input)");
-    }
-    pspec_status status = ps_points_open(&reader, request->files[0], &options, error);
-    if (status == PSPEC_OK) { /* one point tells how many numbers each has */
-        status = ps_points_next_block(reader, &set, 1, &has_block, &ends_set, error);
-    }
-    if (status == PSPEC_OK) {
-        const unsigned numbers = set.dimension + (set.has_weights ? 1 : 0);
-        ps_phases_start(&phases, NULL);
-        const double points =
-            ps_phases_read(&phases, request->files, request->num_files, options.format, numbers);
-        if (!ps_request_only_draws(request)) {
-            ps_phases_write(&phases, request->output != NULL ? request->output : "-",
-                            request->format, points * numbers);
-        }
-        ps_plan_table_add_picture(&phases, request);
-        status = ps_plan_table_add_host(planner, &phases, "a block of points at a time", error);
-    }
-    ps_points_close(reader);
-    ps_point_set_free(&set);
-    return status;
 }

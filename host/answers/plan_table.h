@@ -3,10 +3,11 @@
 #define PS_ANSWERS_PLAN_TABLE_H
 
 #include "answers/lead.h"
-#include "answers/quadrature/quadrature_question.h"
-#include "answers/spectra/question.h"
 #include "device/device.h"
+#include "plan/choose.h"
+#include "plan/needs.h"
 #include "plan/phases.h"
+#include "request/request.h"
 #include "tables/table.h"
 
 typedef struct ps_planner {
@@ -34,22 +35,24 @@ pspec_status ps_plan_table_find_lack(const ps_planner *planner,
                                      const ps_plan_constraints *constraints, bool *lacks_device,
                                      ps_error *error) PS_MUST_CHECK;
 
-/* Phases of a job whose spectrum is a part of it. */
-typedef struct ps_plan_more {
-    void (*add)(const void *job, ps_phases *phases);
-    const void *job;
-} ps_plan_more;
+/* A job with a choice of engines. */
+typedef struct ps_planned {
+    const ps_problem *problem;
+    const ps_needs *needs;
+    const ps_device_limits *limits; /* NULL: no device */
+    const ps_plan *plan;
+    const ps_phases *phases; /* of all of it */
+    double repeats;          /* how often the chosen engine's seconds are in them */
+    const ps_meta *notes;    /* more header lines, [num_notes] */
+    size_t num_notes;
+} ps_planned;
 
 /* What is asked by number `index` of the questions of a request, what is skipped and why, and what
  * takes how long, as header lines; every engine as a row. The seconds of a row are those of the
- * whole job with that engine. more: NULL where the spectrum is all. */
-pspec_status ps_plan_table_add_power(ps_planner *planner, const ps_request *request,
-                                     const ps_power_job *job, const ps_plan_more *more,
-                                     size_t index, ps_error *error) PS_MUST_CHECK;
-pspec_status ps_plan_table_add_quadrature(ps_planner *planner, const ps_request *request,
-                                          const ps_quadrature_question *question,
-                                          const ps_quadrature_setup *setup, size_t index,
-                                          ps_error *error) PS_MUST_CHECK;
+ * whole job with that engine. */
+pspec_status ps_plan_table_add_job(ps_planner *planner, const ps_request *request,
+                                   const ps_planned *job, size_t index,
+                                   ps_error *error) PS_MUST_CHECK;
 /* What the host does without a choice of engines, and why: phases that were begun here, as header
  * lines and one row. */
 pspec_status ps_plan_table_add_host(ps_planner *planner, const ps_phases *phases,
@@ -61,11 +64,6 @@ void ps_plan_table_add_picture(ps_phases *phases, const ps_request *request);
 /* Says that the cache of results answers the question. */
 pspec_status ps_plan_table_add_cached(ps_planner *planner, ps_error *error) PS_MUST_CHECK;
 
-/* Say what making points, or rewriting them, takes: there is nothing to choose. */
-pspec_status ps_plan_table_add_sample(ps_planner *planner, const ps_request *request,
-                                      ps_error *error) PS_MUST_CHECK;
-pspec_status ps_plan_table_add_convert(ps_planner *planner, const ps_request *request,
-                                       ps_error *error) PS_MUST_CHECK;
 /* Phases as header lines (of several jobs as rows, too), and their sum. */
 pspec_status ps_plan_table_add_phases(ps_planner *planner, const ps_phases *phases,
                                       ps_error *error) PS_MUST_CHECK;

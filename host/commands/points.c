@@ -3,12 +3,12 @@
 
 #include "answers/output_check.h"
 #include "answers/points/points.h"
-#include "answers/spectra/question.h"
 #include "base/memory.h"
 #include "base/process/memory_limit.h"
 #include "commands/points_drawing.h"
 #include "jobs/convert.h"
 #include "plan/specs.h"
+#include "request/point_source.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -23,4 +23,10 @@ pspec_status ps_points_find_sampler(ps_sampler_request *out, const ps_request *r
 pspec_status ps_points_convert(const ps_request *request, const ps_answer_hooks *hooks,
                                ps_error *error) PS_MUST_CHECK;
 
+/* What they would take. */
+pspec_status ps_points_plan_sample(ps_planner *planner, const ps_request *request,
+                                   ps_error *error) PS_MUST_CHECK;
+pspec_status ps_points_plan_convert(ps_planner *planner, const ps_request *request,
+                                    ps_error *error) PS_MUST_CHECK;
+
 #endif

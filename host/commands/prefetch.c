@@ -1,4 +1,5 @@
 #include "commands/prefetch.h"
+#include "request/point_source.h"
 
 #include "base/memory.h"
 #include "base/process/memory_limit.h"

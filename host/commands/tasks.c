@@ -15,13 +15,13 @@ static pspec_status plan_run(ps_planner *planner, const ps_request *request,
 static pspec_status plan_sample(ps_planner *planner, const ps_request *request,
                                 const ps_answer_hooks *hooks, ps_error *error) {
     (void)hooks;
-    return ps_plan_table_add_sample(planner, request, error);
+    return ps_points_plan_sample(planner, request, error);
 }
 
 static pspec_status plan_convert(ps_planner *planner, const ps_request *request,
                                  const ps_answer_hooks *hooks, ps_error *error) {
     (void)hooks;
-    return ps_plan_table_add_convert(planner, request, error);
+    return ps_points_plan_convert(planner, request, error);
 }
 
 const ps_task ps_task_run = {.name = "run", .taker = PS_TAKER_BIT(run), .plan = plan_run};

@@ -1,7 +1,7 @@
 /* One result of a scene: its keys, and those of the defaults. */
-#include "answers/spectra/question.h"
 #include "base/text.h"
 #include "request/options.h"
+#include "request/point_source.h"
 #include "scene/scene_file.h"
 
 #include <ctype.h>

@@ -3,7 +3,6 @@
 #include "answers/points/points.h"
 
 #include "answers/kind.h"
-#include "answers/spectra/question.h"
 #include "base/memory.h"
 #include "base/process/memory_limit.h"
 #include "base/text.h"
@@ -11,6 +10,7 @@
 #include "jobs/point_phases.h"
 #include "jobs/source.h"
 #include "jobs/spectrum/power_phases.h"
+#include "request/point_source.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,6 +5,7 @@
 #include "answers/spectra/spectra.h"
 #include "base/memory.h"
 #include "jobs/quadrature/quadrature_looks.h"
+#include "jobs/quadrature/quadrature_phases.h"
 #include "points/points.h"
 
 #include <stdlib.h>
@@ -26,6 +27,30 @@ static pspec_status check_question(const ps_request *request, ps_error *error) {
 
 /* ---- plan ---------------------------------------------------------------------------------- */
 
+static pspec_status add_plan(ps_planner *planner, const ps_request *request,
+                             const ps_quadrature_question *question,
+                             const ps_quadrature_setup *setup, size_t index, ps_error *error) {
+    ps_phases phases = ps_plan_table_begin_phases(planner);
+    const double repeats = ps_quadrature_phases(setup, question, &phases);
+    ps_meta notes[2];
+    ps_planned planned = {.problem = &setup->problem,
+                          .needs = &setup->needs,
+                          .limits =
+                              setup->device != NULL ? ps_device_get_limits(setup->device) : NULL,
+                          .plan = &setup->plan,
+                          .phases = &phases,
+                          .repeats = repeats,
+                          .notes = notes};
+    ps_plan_table_add_picture(&phases, request);
+    if (setup->degrees_note[0] != '\0') {
+        notes[planned.num_notes++] = (ps_meta){"degrees_note", PS_TEXT(setup->degrees_note)};
+    }
+    if (setup->weights_note[0] != '\0') {
+        notes[planned.num_notes++] = (ps_meta){"weights", PS_TEXT(setup->weights_note)};
+    }
+    return ps_plan_table_add_job(planner, request, &planned, index, error);
+}
+
 static pspec_status plan_one(ps_planner *planner, const ps_request *request,
                              ps_quadrature_question *question, size_t index, ps_error *error) {
     ps_quadrature_setup setup = {0};
@@ -35,7 +60,7 @@ static pspec_status plan_one(ps_planner *planner, const ps_request *request,
                                    &question->may_lack_device, error));
     pspec_status status = ps_quadrature_setup_ask(&setup, question, error);
     if (status == PSPEC_OK) {
-        status = ps_plan_table_add_quadrature(planner, request, question, &setup, index, error);
+        status = add_plan(planner, request, question, &setup, index, error);
     }
     ps_quadrature_setup_free(&setup);
     return status;

@@ -1,8 +1,8 @@
 #include "answers/quadrature/quadrature_question.h"
 
-#include "answers/spectra/question.h"
 #include "base/memory.h"
 #include "request/options.h"
+#include "request/point_source.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "request/options.h"
+#include "request/point_source.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,79 +10,6 @@
 
 static pspec_status fail_conflict(const char *a, const char *b, const char *why, ps_error *error) {
     return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s does not go with %s: %s", a, b, why);
-}
-
-ps_option_source ps_option_source_of(ps_option_id id) {
-    switch (id) {
-    case PS_OPTION_REALIZATIONS:
-    case PS_OPTION_SEED: /* but for --per-ring */
-    case PS_OPTION_HOMOGENIZE:
-        return PS_OF_SAMPLERS;
-    case PS_OPTION_INPUT_FORMAT:
-    case PS_OPTION_COLUMNS:
-    case PS_OPTION_HEADER:
-    case PS_OPTION_TRANSPOSE:
-    case PS_OPTION_DOMAIN:
-    case PS_OPTION_WRAP:
-    case PS_OPTION_NORMALIZE_VECTORS:
-    case PS_OPTION_LIFT:
-    case PS_OPTION_BOX:
-    case PS_OPTION_MORPH:
-    case PS_OPTION_SELECT_SETS:
-        return PS_OF_FILES;
-    default:
-        return PS_OF_BOTH;
-    }
-}
-
-/* Options that are about the other kind of source. */
-static pspec_status check_other_source(const ps_request *arguments, ps_error *error) {
-    const bool are_files = arguments->num_files > 0;
-    const ps_option_source other = are_files ? PS_OF_SAMPLERS : PS_OF_FILES;
-    for (int id = 0; id < PS_NUM_OPTIONS; id++) {
-        const bool is_of_subset = id == PS_OPTION_SEED && arguments->frequencies.per_ring > 0;
-        if (!arguments->is_given[id] || ps_option_source_of((ps_option_id)id) != other ||
-            is_of_subset) {
-            continue;
-        }
-        const ps_shown_option shown = ps_option_show(arguments, (ps_option_id)id);
-        return are_files
-                   ? fail_conflict(shown.text, "point files", "it says what samplers make", error)
-                   : fail_conflict(shown.text, ps_option_show(arguments, PS_OPTION_SAMPLER).text,
-                                   "it says how point files are read", error);
-    }
-    return PSPEC_OK;
-}
-
-static pspec_status check_lift(const ps_request *arguments, ps_error *error) {
-    return arguments->reading.morph.kind == PS_MORPH_NONE ||
-                   arguments->reading.lift == PS_LIFT_TO_HEMISPHERE
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "%s is for points lifted to the hemisphere; add --lift hemisphere",
-                         ps_option_show(arguments, PS_OPTION_MORPH).text);
-}
-
-pspec_status ps_sample_check_counts(const ps_request *arguments, ps_error *error) {
-    return ps_request_check_one_count(arguments,
-                                      "and an output has sets of one, for what reads it averages "
-                                      "over them; use a command for each",
-                                      error);
-}
-
-/* A file has one weight for each point. */
-pspec_status ps_weights_check_counts(const ps_request *arguments, ps_error *error) {
-    return arguments->weights.kind == PS_WEIGHTS_FILE
-               ? ps_request_check_one_count(arguments, "and a file of weights is for one", error)
-               : PSPEC_OK;
-}
-
-pspec_status ps_point_options_check(const ps_request *arguments, ps_error *error) {
-    PS_TRY(check_other_source(arguments, error));
-    if (arguments->num_samplers == 0) {
-        PS_TRY(ps_request_check_one_count(arguments, "and point files have their own", error));
-    }
-    return check_lift(arguments, error);
 }
 
 static pspec_status check_source(const ps_request *arguments, ps_error *error) {
@@ -172,15 +100,6 @@ static pspec_status check_results(const ps_request *arguments, ps_error *error) 
     return check_several(arguments, error);
 }
 
-ps_point_options ps_point_options_make(const ps_request *arguments) {
-    ps_point_options options = arguments->reading;
-    options.dimension = arguments->is_given[PS_OPTION_DIMENSION] ? arguments->dimension : 0;
-    options.points_per_set =
-        arguments->is_given[PS_OPTION_POINTS] ? (size_t)arguments->counts[0] : 0;
-    options.memory_limit = arguments->limits.constraints.memory_limit;
-    return options;
-}
-
 static void fill_points(ps_power_question *question, const ps_request *arguments,
                         ps_domain domain) {
     question->paths = arguments->files;
@@ -213,14 +132,6 @@ static pspec_normalization choose_normalization(const ps_request *arguments,
 
 static ps_domain domain_of(ps_question_kind kind) {
     return kind == PS_QUESTION_POWER ? PS_DOMAIN_TORUS : PS_DOMAIN_SPHERE;
-}
-
-/* A standard error needs a limit, for a sampler may never reach it. */
-uint64_t ps_num_realizations_asked(const ps_request *arguments) {
-    const uint64_t most = 1000000;
-    return arguments->accuracy.standard_error > 0 && !arguments->is_given[PS_OPTION_REALIZATIONS]
-               ? most
-               : arguments->num_realizations;
 }
 
 /* What else this may be asked of, as check_results has it. */
@@ -260,18 +171,6 @@ static ps_power_question make_question(const ps_request *arguments, ps_question_
     question.limits.constraints.offers = find_offers(arguments, kind);
     fill_points(&question, arguments, domain_of(kind));
     return question;
-}
-
-pspec_status ps_sampler_request_make(ps_sampler_request *out, const ps_request *arguments,
-                                     size_t question, ps_error *error) {
-    const bool has_points = arguments->is_given[PS_OPTION_POINTS];
-    *out = (ps_sampler_request){
-        .num_points = has_points ? (size_t)ps_request_points(arguments, question) : 0,
-        .dimension = arguments->is_given[PS_OPTION_DIMENSION] ? arguments->dimension : 0,
-        .seed = arguments->seed,
-        .homogenize = arguments->homogenize};
-    PS_TRY(ps_sampler_parse(out, ps_request_sampler(arguments, question), error));
-    return ps_sampler_resolve(out, error);
 }
 
 /* The wrong domain is named before anything else that may be wrong with a sampler. */

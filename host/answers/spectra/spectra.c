@@ -2,6 +2,7 @@
 
 #include "answers/spectra/spectrum_plot.h"
 #include "base/memory.h"
+#include "jobs/spectrum/power_phases.h"
 #include "store/figures_file.h"
 
 #include <stdlib.h>
@@ -122,6 +123,24 @@ pspec_status ps_spectra_check(const ps_request *request, ps_question_kind kind, 
     return status;
 }
 
+pspec_status ps_spectra_plan_job(ps_planner *planner, const ps_request *request,
+                                 const ps_power_job *job, const ps_plan_more *more, size_t index,
+                                 ps_error *error) {
+    ps_phases phases = ps_plan_table_begin_phases(planner);
+    const double repeats = ps_power_job_phases(job, &phases);
+    if (more != NULL) {
+        more->add(more->job, &phases);
+    }
+    ps_plan_table_add_picture(&phases, request);
+    const ps_planned planned = {.problem = ps_power_job_problem(job),
+                                .needs = ps_power_job_needs(job),
+                                .limits = ps_power_job_limits(job),
+                                .plan = ps_power_job_plan(job),
+                                .phases = &phases,
+                                .repeats = repeats};
+    return ps_plan_table_add_job(planner, request, &planned, index, error);
+}
+
 pspec_status ps_spectra_plan_list(ps_planner *planner, const ps_request *request,
                                   ps_question_list *list, ps_error *error) {
     for (size_t i = 0; i < list->num; i++) {
@@ -133,7 +152,7 @@ pspec_status ps_spectra_plan_list(ps_planner *planner, const ps_request *request
                                        &question->may_lack_device, error));
         PS_TRY(ps_power_job_create(&job, question, error));
         ps_power_job_rate_skips(job);
-        const pspec_status status = ps_plan_table_add_power(planner, request, job, NULL, i, error);
+        const pspec_status status = ps_spectra_plan_job(planner, request, job, NULL, i, error);
         ps_power_job_destroy(job);
         PS_TRY(status);
     }

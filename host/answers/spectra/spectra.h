@@ -29,6 +29,18 @@ pspec_status ps_answer_open_device(ps_device **out, const ps_request *request,
                                    const ps_plan_constraints *constraints, size_t num_jobs,
                                    const ps_answer_hooks *hooks, ps_error *error) PS_MUST_CHECK;
 
+/* Phases of a job whose spectrum is a part of it. */
+typedef struct ps_plan_more {
+    void (*add)(const void *job, ps_phases *phases);
+    const void *job;
+} ps_plan_more;
+
+/* The plan of number `index` of the questions of a request. more: NULL where the spectrum is all.
+ */
+pspec_status ps_spectra_plan_job(ps_planner *planner, const ps_request *request,
+                                 const ps_power_job *job, const ps_plan_more *more, size_t index,
+                                 ps_error *error) PS_MUST_CHECK;
+
 pspec_status ps_spectra_check(const ps_request *request, ps_question_kind kind,
                               ps_error *error) PS_MUST_CHECK;
 /* Plans of all questions of a list, and of the list that a request of this kind asks. */

@@ -35,8 +35,8 @@ static pspec_status plan_one(ps_planner *planner, const ps_request *request,
                                    &question->spectrum.may_lack_device, error));
     PS_TRY(ps_variance_job_create(&job, question, error));
     const ps_plan_more more = {add_trials, job};
-    const pspec_status status = ps_plan_table_add_power(
-        planner, request, ps_variance_job_spectrum(job), &more, index, error);
+    const pspec_status status =
+        ps_spectra_plan_job(planner, request, ps_variance_job_spectrum(job), &more, index, error);
     ps_variance_job_destroy(job);
     return status;
 }

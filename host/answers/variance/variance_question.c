@@ -1,8 +1,8 @@
 #include "answers/variance/variance_question.h"
 
-#include "answers/spectra/question.h"
 #include "base/memory.h"
 #include "request/options.h"
+#include "request/point_source.h"
 
 #include <stdlib.h>
 
