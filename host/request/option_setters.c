@@ -13,53 +13,45 @@
 
 /* ---- setters ------------------------------------------------------------------------------- */
 
-static void *find_field(const ps_option *option, ps_request *arguments) {
-    return (char *)arguments + option->offset;
+static void *find_field(const ps_said *said) {
+    return (char *)said->request + said->option->offset;
 }
 
-pspec_status ps_set_flag(const ps_option *option, const char *shown, const char *words,
-                         const char *value, ps_request *arguments, ps_error *error) {
-    (void)shown, (void)words, (void)value, (void)error;
-    bool *const field = find_field(option, arguments);
+pspec_status ps_set_flag(const ps_said *said, ps_error *error) {
+    (void)error;
+    bool *const field = find_field(said);
     *field = true;
     return PSPEC_OK;
 }
 
-pspec_status ps_set_text(const ps_option *option, const char *shown, const char *words,
-                         const char *value, ps_request *arguments, ps_error *error) {
-    (void)shown, (void)words, (void)error;
-    const char **const field = find_field(option, arguments);
-    *field = value;
+pspec_status ps_set_text(const ps_said *said, ps_error *error) {
+    (void)error;
+    const char **const field = find_field(said);
+    *field = said->text;
     return PSPEC_OK;
 }
 
-pspec_status ps_set_nothing(const ps_option *option, const char *shown, const char *words,
-                            const char *value, ps_request *arguments, ps_error *error) {
-    (void)shown, (void)option, (void)words, (void)value, (void)arguments, (void)error;
+pspec_status ps_set_nothing(const ps_said *said, ps_error *error) {
+    (void)said, (void)error;
     return PSPEC_OK;
 }
 
-pspec_status ps_set_count(const ps_option *option, const char *shown, const char *words,
-                          const char *value, ps_request *arguments, ps_error *error) {
-    (void)words;
-    return ps_parse_count(value, shown, option->minimum, option->maximum,
-                          find_field(option, arguments), error);
+pspec_status ps_set_count(const ps_said *said, ps_error *error) {
+    return ps_parse_count(said->text, said->shown, said->option->minimum, said->option->maximum,
+                          find_field(said), error);
 }
 
 /* The last list that is said is the whole. */
-pspec_status ps_set_points(const ps_option *option, const char *shown, const char *words,
-                           const char *value, ps_request *arguments, ps_error *error) {
-    ps_counts list = {.most = PS_MAX_COUNTS, .values = arguments->counts};
-    (void)words;
-    PS_TRY(ps_counts_parse(&list, value, shown, option->minimum, option->maximum, error));
-    arguments->num_counts = list.num;
+pspec_status ps_set_points(const ps_said *said, ps_error *error) {
+    ps_counts list = {.most = PS_MAX_COUNTS, .values = said->request->counts};
+    PS_TRY(ps_counts_parse(&list, said->text, said->shown, said->option->minimum,
+                           said->option->maximum, error));
+    said->request->num_counts = list.num;
     return PSPEC_OK;
 }
 
-pspec_status ps_set_size(const ps_option *option, const char *shown, const char *words,
-                         const char *value, ps_request *arguments, ps_error *error) {
-    (void)words;
-    return ps_parse_size(value, shown, find_field(option, arguments), error);
+pspec_status ps_set_size(const ps_said *said, ps_error *error) {
+    return ps_parse_size(said->text, said->shown, find_field(said), error);
 }
 
 /* One end of a range; an empty text leaves *out as it is. */
@@ -73,59 +65,56 @@ static pspec_status parse_end(const char *shown, const char *text, size_t length
 }
 
 /* "A..B", "A", "A.." or "..B" */
-pspec_status ps_set_range(const ps_option *option, const char *shown, const char *words,
-                          const char *value, ps_request *arguments, ps_error *error) {
+pspec_status ps_set_range(const ps_said *said, ps_error *error) {
     static const char dots[] = "..";
-    ps_point_range *const field = find_field(option, arguments);
+    ps_point_range *const field = find_field(said);
     ps_point_range range = {1, UINT64_MAX};
-    const char *const middle = strstr(value, dots);
-    const char *const last = middle != NULL ? middle + sizeof dots - 1 : value;
-    const size_t first_length = middle != NULL ? (size_t)(middle - value) : strlen(value);
+    const char *const middle = strstr(said->text, dots);
+    const char *const last = middle != NULL ? middle + sizeof dots - 1 : said->text;
+    const size_t first_length = middle != NULL ? (size_t)(middle - said->text) : strlen(said->text);
     if (first_length + strlen(last) == 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "%s: \"%s\" says neither end: %s, or A, A.., ..B", shown, value, words);
+                       "%s: \"%s\" says neither end: %s, or A, A.., ..B", said->shown, said->text,
+                       said->words);
     }
-    PS_TRY(parse_end(shown, value, first_length, &range.first, error));
-    PS_TRY(parse_end(shown, last, strlen(last), &range.last, error));
+    PS_TRY(parse_end(said->shown, said->text, first_length, &range.first, error));
+    PS_TRY(parse_end(said->shown, last, strlen(last), &range.last, error));
     if (range.first > range.last) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "%s: \"%s\": the first number is the larger one", shown, value);
+                       "%s: \"%s\": the first number is the larger one", said->shown, said->text);
     }
     *field = range;
     return PSPEC_OK;
 }
 
 /* A kind of result that takes fewer degrees says so itself. */
-pspec_status ps_set_max_degree(const ps_option *option, const char *shown, const char *words,
-                               const char *value, ps_request *arguments, ps_error *error) {
-    (void)option, (void)words;
-    if (value[0] == '-' || strcmp(value, "0") == 0) {
+pspec_status ps_set_max_degree(const ps_said *said, ps_error *error) {
+    if (said->text[0] == '-' || strcmp(said->text, "0") == 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "%s: %s leaves no degree, the first is 1", shown, value);
+                       "%s: %s leaves no degree, the first is 1", said->shown, said->text);
     }
-    PS_TRY(ps_parse_count(value, shown, 1, INT64_MAX, &arguments->max_degree, error));
-    return arguments->max_degree <= (uint64_t)PS_MAX_DEGREE
+    PS_TRY(
+        ps_parse_count(said->text, said->shown, 1, INT64_MAX, &said->request->max_degree, error));
+    return said->request->max_degree <= (uint64_t)PS_MAX_DEGREE
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
                          "%s: degree %s is above %d, where the coefficients of one set take 8 GiB",
-                         shown, value, (int)PS_MAX_DEGREE);
+                         said->shown, said->text, (int)PS_MAX_DEGREE);
 }
 
-pspec_status ps_set_dimension(const ps_option *option, const char *shown, const char *words,
-                              const char *value, ps_request *arguments, ps_error *error) {
+pspec_status ps_set_dimension(const ps_said *said, ps_error *error) {
     uint64_t count = 0;
-    (void)words;
-    PS_TRY(ps_parse_count(value, shown, option->minimum, option->maximum, &count, error));
-    arguments->dimension = (unsigned)count;
+    PS_TRY(ps_parse_count(said->text, said->shown, said->option->minimum, said->option->maximum,
+                          &count, error));
+    said->request->dimension = (unsigned)count;
     return PSPEC_OK;
 }
 
-pspec_status ps_set_max_frequency(const ps_option *option, const char *shown, const char *words,
-                                  const char *value, ps_request *arguments, ps_error *error) {
+pspec_status ps_set_max_frequency(const ps_said *said, ps_error *error) {
     uint64_t count = 0;
-    (void)words;
-    PS_TRY(ps_parse_count(value, shown, option->minimum, option->maximum, &count, error));
-    arguments->frequencies.max_frequency = (int32_t)count;
+    PS_TRY(ps_parse_count(said->text, said->shown, said->option->minimum, said->option->maximum,
+                          &count, error));
+    said->request->frequencies.max_frequency = (int32_t)count;
     return PSPEC_OK;
 }
 
@@ -142,63 +131,54 @@ static pspec_status parse_positive(const char *shown, const char *value, double 
     return PSPEC_OK;
 }
 
-pspec_status ps_set_tolerance(const ps_option *option, const char *shown, const char *words,
-                              const char *value, ps_request *arguments, ps_error *error) {
-    (void)option, (void)words;
-    return parse_positive(shown, value, 1, " and at most 1", &arguments->accuracy.tolerance, error);
+pspec_status ps_set_tolerance(const ps_said *said, ps_error *error) {
+    return parse_positive(said->shown, said->text, 1, " and at most 1",
+                          &said->request->accuracy.tolerance, error);
 }
 
-pspec_status ps_set_floor(const ps_option *option, const char *shown, const char *words,
-                          const char *value, ps_request *arguments, ps_error *error) {
-    (void)option, (void)words;
-    return parse_positive(shown, value, DBL_MAX, "", &arguments->accuracy.floor, error);
-}
-
-pspec_status ps_set_standard_error(const ps_option *option, const char *shown, const char *words,
-                                   const char *value, ps_request *arguments, ps_error *error) {
-    (void)option, (void)words;
-    return parse_positive(shown, value, 1, " and at most 1", &arguments->accuracy.standard_error,
+pspec_status ps_set_floor(const ps_said *said, ps_error *error) {
+    return parse_positive(said->shown, said->text, DBL_MAX, "", &said->request->accuracy.floor,
                           error);
 }
 
-pspec_status ps_set_false_alarm_rate(const ps_option *option, const char *shown, const char *words,
-                                     const char *value, ps_request *arguments, ps_error *error) {
-    (void)option, (void)words;
-    PS_TRY(
-        parse_positive(shown, value, DBL_MAX, " and below 1", &arguments->false_alarm_rate, error));
-    return arguments->false_alarm_rate < 1
+pspec_status ps_set_standard_error(const ps_said *said, ps_error *error) {
+    return parse_positive(said->shown, said->text, 1, " and at most 1",
+                          &said->request->accuracy.standard_error, error);
+}
+
+pspec_status ps_set_false_alarm_rate(const ps_said *said, ps_error *error) {
+    PS_TRY(parse_positive(said->shown, said->text, DBL_MAX, " and below 1",
+                          &said->request->false_alarm_rate, error));
+    return said->request->false_alarm_rate < 1
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "%s: %s is not above 0 and below 1: every check would fail", shown, value);
+                         "%s: %s is not above 0 and below 1: every check would fail", said->shown,
+                         said->text);
 }
 
-pspec_status ps_set_smoothness(const ps_option *option, const char *shown, const char *words,
-                               const char *value, ps_request *arguments, ps_error *error) {
-    (void)option, (void)words;
+pspec_status ps_set_smoothness(const ps_said *said, ps_error *error) {
     ps_error reason = {0};
-    PS_TRY(ps_parse_number(value, shown, -DBL_MAX, DBL_MAX, &arguments->smoothness, error));
-    const pspec_status status = ps_sobolev_check(arguments->smoothness, &reason);
-    return status == PSPEC_OK ? PSPEC_OK : ps_fail(error, status, "%s: %s", shown, reason.message);
+    PS_TRY(ps_parse_number(said->text, said->shown, -DBL_MAX, DBL_MAX, &said->request->smoothness,
+                           error));
+    const pspec_status status = ps_sobolev_check(said->request->smoothness, &reason);
+    return status == PSPEC_OK ? PSPEC_OK
+                              : ps_fail(error, status, "%s: %s", said->shown, reason.message);
 }
 
-pspec_status ps_add_sampler(const ps_option *option, const char *shown, const char *words,
-                            const char *value, ps_request *arguments, ps_error *error) {
-    (void)option, (void)words;
-    if (arguments->num_samplers == PS_MAX_SAMPLERS) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: more than %d samplers", shown,
-                       PS_MAX_SAMPLERS);
+pspec_status ps_add_sampler(const ps_said *said, ps_error *error) {
+    if (said->request->num_samplers == PS_MAX_SAMPLERS) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: more than %d samplers",
+                       said->shown, PS_MAX_SAMPLERS);
     }
-    arguments->samplers[arguments->num_samplers++] = value;
+    said->request->samplers[said->request->num_samplers++] = said->text;
     return PSPEC_OK;
 }
 
-pspec_status ps_add_integrand(const ps_option *option, const char *shown, const char *words,
-                              const char *value, ps_request *arguments, ps_error *error) {
-    (void)option, (void)words;
-    if (arguments->num_integrands == PS_MAX_INTEGRANDS) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: more than %d integrands", shown,
-                       PS_MAX_INTEGRANDS);
+pspec_status ps_add_integrand(const ps_said *said, ps_error *error) {
+    if (said->request->num_integrands == PS_MAX_INTEGRANDS) {
+        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: more than %d integrands",
+                       said->shown, PS_MAX_INTEGRANDS);
     }
-    arguments->integrands[arguments->num_integrands++] = value;
+    said->request->integrands[said->request->num_integrands++] = said->text;
     return PSPEC_OK;
 }

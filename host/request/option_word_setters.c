@@ -14,40 +14,37 @@
 
 /* ---- values that are one of a few words ---------------------------------------------------- */
 
-static pspec_status fail_word(const char *shown, const char *words, const char *value,
-                              ps_error *error) {
+static pspec_status fail_word(const ps_said *said, ps_error *error) {
     ps_text list = {0};
-    for (const char *word = words; *word != '\0';) {
+    for (const char *word = said->words; *word != '\0';) {
         const size_t length = strcspn(word, "|");
-        ps_text_append(&list, "%s%.*s", word == words ? "" : ", ", (int)length, word);
+        ps_text_append(&list, "%s%.*s", word == said->words ? "" : ", ", (int)length, word);
         word += length + (word[length] == '|');
     }
-    ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: \"%s\" is not one of %s", shown, value,
-            ps_text_string(&list));
+    ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s: \"%s\" is not one of %s", said->shown,
+            said->text, ps_text_string(&list));
     ps_text_free(&list);
     return PSPEC_ERROR_INVALID_ARGUMENT;
 }
 
-/* Number of value among words, "one|two|three". */
-static pspec_status find_word(const char *shown, const char *words, const char *value, int *index,
-                              ps_error *error) {
+/* Number of the value among the words, "one|two|three". */
+static pspec_status find_word(const ps_said *said, int *index, ps_error *error) {
     *index = 0;
-    for (const char *word = words; *word != '\0';) {
+    for (const char *word = said->words; *word != '\0';) {
         const size_t length = strcspn(word, "|");
-        if (strlen(value) == length && strncmp(value, word, length) == 0) {
+        if (strlen(said->text) == length && strncmp(said->text, word, length) == 0) {
             return PSPEC_OK;
         }
         word += length + (word[length] == '|');
         ++*index;
     }
-    return fail_word(shown, words, value, error);
+    return fail_word(said, error);
 }
 
-pspec_status ps_set_word(const ps_option *option, const char *shown, const char *words,
-                         const char *value, ps_request *arguments, ps_error *error) {
+pspec_status ps_set_word(const ps_said *said, ps_error *error) {
     int index = 0;
-    PS_TRY(find_word(shown, words, value, &index, error));
-    return ps_set_text(option, shown, words, value, arguments, error);
+    PS_TRY(find_word(said, &index, error));
+    return ps_set_text(said, error);
 }
 
 ps_weights_kind ps_weights_find(const char *words, const char *value) {
@@ -63,45 +60,39 @@ ps_weights_kind ps_weights_find(const char *words, const char *value) {
     return strstr(words, "FILE") != NULL ? PS_WEIGHTS_FILE : PS_WEIGHTS_GIVEN;
 }
 
-pspec_status ps_set_weights(const ps_option *option, const char *shown, const char *words,
-                            const char *value, ps_request *arguments, ps_error *error) {
-    (void)option;
-    const ps_weights_kind kind = ps_weights_find(words, value);
+pspec_status ps_set_weights(const ps_said *said, ps_error *error) {
+    const ps_weights_kind kind = ps_weights_find(said->words, said->text);
     if (kind == PS_WEIGHTS_GIVEN) {
-        return fail_word(shown, words, value, error);
+        return fail_word(said, error);
     }
-    arguments->weights.kind = kind;
-    arguments->weights.path = kind == PS_WEIGHTS_FILE ? value : NULL;
-    arguments->reading.weight_column = kind == PS_WEIGHTS_COLUMN;
-    arguments->reading.ignore_weights = kind != PS_WEIGHTS_COLUMN; /* others replace them */
+    said->request->weights.kind = kind;
+    said->request->weights.path = kind == PS_WEIGHTS_FILE ? said->text : NULL;
+    said->request->reading.weight_column = kind == PS_WEIGHTS_COLUMN;
+    said->request->reading.ignore_weights = kind != PS_WEIGHTS_COLUMN; /* others replace them */
     return PSPEC_OK;
 }
 
-pspec_status ps_set_weight_sum(const ps_option *option, const char *shown, const char *words,
-                               const char *value, ps_request *arguments, ps_error *error) {
-    (void)option;
+pspec_status ps_set_weight_sum(const ps_said *said, ps_error *error) {
     int index = 0;
-    PS_TRY(find_word(shown, words, value, &index, error));
-    arguments->weights.sum_to_one = index == 1;
+    PS_TRY(find_word(said, &index, error));
+    said->request->weights.sum_to_one = index == 1;
     return PSPEC_OK;
 }
 
 /* The words stand in the order of bits: x, y, both, none. */
-pspec_status ps_set_plot_log(const ps_option *option, const char *shown, const char *words,
-                             const char *value, ps_request *arguments, ps_error *error) {
-    (void)option;
+pspec_status ps_set_plot_log(const ps_said *said, ps_error *error) {
     enum { X = 0, Y = 1, BOTH = 2 };
     int index = 0;
-    PS_TRY(find_word(shown, words, value, &index, error));
-    arguments->plot_axes.has_log = true;
-    arguments->plot_axes.is_log_x = index == X || index == BOTH;
-    arguments->plot_axes.is_log_y = index == Y || index == BOTH;
+    PS_TRY(find_word(said, &index, error));
+    said->request->plot_axes.has_log = true;
+    said->request->plot_axes.is_log_x = index == X || index == BOTH;
+    said->request->plot_axes.is_log_y = index == Y || index == BOTH;
     return PSPEC_OK;
 }
 
-/* "0..2", or nothing. */
-static pspec_status set_interval(const char *shown, const char *words, const char *text,
-                                 size_t length, bool *is_there, double ends[2], ps_error *error) {
+/* "0..2", or nothing: a part of what was said. */
+static pspec_status set_interval(const ps_said *said, const char *text, size_t length,
+                                 bool *is_there, double ends[2], ps_error *error) {
     enum { TEXT_BYTES = 96 };
     static const char dots[] = "..";
     char own[TEXT_BYTES];
@@ -112,126 +103,109 @@ static pspec_status set_interval(const char *shown, const char *words, const cha
         return PSPEC_OK;
     }
     if (middle == NULL || length >= sizeof own) {
-        return fail_word(shown, words, text, error);
+        return fail_word(said, error);
     }
     *middle = '\0';
-    PS_TRY(ps_parse_number(own, shown, -DBL_MAX, DBL_MAX, &ends[0], error));
-    PS_TRY(ps_parse_number(middle + sizeof dots - 1, shown, -DBL_MAX, DBL_MAX, &ends[1], error));
-    return ends[0] < ends[1]
-               ? PSPEC_OK
-               : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "%s: %s is no interval: it must end above its beginning", shown, text);
+    PS_TRY(ps_parse_number(own, said->shown, -DBL_MAX, DBL_MAX, &ends[0], error));
+    PS_TRY(
+        ps_parse_number(middle + sizeof dots - 1, said->shown, -DBL_MAX, DBL_MAX, &ends[1], error));
+    return ends[0] < ends[1] ? PSPEC_OK
+                             : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                                       "%s: %s is no interval: it must end above its beginning",
+                                       said->shown, text);
 }
 
-pspec_status ps_set_plot_range(const ps_option *option, const char *shown, const char *words,
-                               const char *value, ps_request *arguments, ps_error *error) {
-    (void)option;
-    ps_plot_axes *const axes = &arguments->plot_axes;
-    const size_t length = strcspn(value, ",");
-    const char *const second = value + length + (value[length] == ',');
+pspec_status ps_set_plot_range(const ps_said *said, ps_error *error) {
+    ps_plot_axes *const axes = &said->request->plot_axes;
+    const size_t length = strcspn(said->text, ",");
+    const char *const second = said->text + length + (said->text[length] == ',');
     if (length == 0 && *second == '\0') {
-        return fail_word(shown, words, value, error);
+        return fail_word(said, error);
     }
-    PS_TRY(set_interval(shown, words, value, length, &axes->has_x, axes->x, error));
-    return set_interval(shown, words, second, strlen(second), &axes->has_y, axes->y, error);
+    PS_TRY(set_interval(said, said->text, length, &axes->has_x, axes->x, error));
+    return set_interval(said, second, strlen(second), &axes->has_y, axes->y, error);
 }
 
-pspec_status ps_set_box(const ps_option *option, const char *shown, const char *words,
-                        const char *value, ps_request *arguments, ps_error *error) {
-    (void)option;
+pspec_status ps_set_box(const ps_said *said, ps_error *error) {
     enum { NUMBER_BYTES = 64 };
     char first[NUMBER_BYTES];
-    const char *const comma = strchr(value, ',');
-    ps_point_options *const reading = &arguments->reading;
-    if (comma == NULL || (size_t)(comma - value) >= sizeof first) {
-        return fail_word(shown, words, value, error);
+    const char *const comma = strchr(said->text, ',');
+    ps_point_options *const reading = &said->request->reading;
+    if (comma == NULL || (size_t)(comma - said->text) >= sizeof first) {
+        return fail_word(said, error);
     }
-    snprintf(first, sizeof first, "%.*s", (int)(comma - value), value);
-    PS_TRY(ps_parse_number(first, shown, -MOST_BOX, MOST_BOX, &reading->box_low, error));
-    PS_TRY(ps_parse_number(comma + 1, shown, -MOST_BOX, MOST_BOX, &reading->box_high, error));
+    snprintf(first, sizeof first, "%.*s", (int)(comma - said->text), said->text);
+    PS_TRY(ps_parse_number(first, said->shown, -MOST_BOX, MOST_BOX, &reading->box_low, error));
+    PS_TRY(ps_parse_number(comma + 1, said->shown, -MOST_BOX, MOST_BOX, &reading->box_high, error));
     if (!(reading->box_low < reading->box_high)) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "%s: %s is no interval: X0 must be below X1", shown, value);
+                       "%s: %s is no interval: X0 must be below X1", said->shown, said->text);
     }
     return reading->box_high - reading->box_low >= LEAST_BOX
                ? PSPEC_OK
                : ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                         "%s: %s is %.3g wide, and must be at least %g", shown, value,
+                         "%s: %s is %.3g wide, and must be at least %g", said->shown, said->text,
                          reading->box_high - reading->box_low, LEAST_BOX);
 }
 
 /* A comma tells names of columns from what columns are. */
-pspec_status ps_set_columns(const ps_option *option, const char *shown, const char *words,
-                            const char *value, ps_request *arguments, ps_error *error) {
-    const bool are_names = strchr(value, ',') != NULL;
-    arguments->reading.columns = NULL;
-    arguments->reading.column_names = are_names ? value : NULL;
-    return are_names ? PSPEC_OK : ps_set_word(option, shown, words, value, arguments, error);
+pspec_status ps_set_columns(const ps_said *said, ps_error *error) {
+    const bool are_names = strchr(said->text, ',') != NULL;
+    said->request->reading.columns = NULL;
+    said->request->reading.column_names = are_names ? said->text : NULL;
+    return are_names ? PSPEC_OK : ps_set_word(said, error);
 }
 
-pspec_status ps_set_bins(const ps_option *option, const char *shown, const char *words,
-                         const char *value, ps_request *arguments, ps_error *error) {
-    (void)option, (void)words;
-    return ps_bin_rule_parse(&arguments->frequencies.bins, shown, value, error);
+pspec_status ps_set_bins(const ps_said *said, ps_error *error) {
+    return ps_bin_rule_parse(&said->request->frequencies.bins, said->shown, said->text, error);
 }
 
 /* The words stand in the order of ps_domain. */
-pspec_status ps_set_domain(const ps_option *option, const char *shown, const char *words,
-                           const char *value, ps_request *arguments, ps_error *error) {
-    (void)option;
+pspec_status ps_set_domain(const ps_said *said, ps_error *error) {
     int index = 0;
-    PS_TRY(find_word(shown, words, value, &index, error));
-    arguments->reading.domain = (ps_domain)index;
+    PS_TRY(find_word(said, &index, error));
+    said->request->reading.domain = (ps_domain)index;
     return PSPEC_OK;
 }
 
 /* The words stand in the order of ps_lift, from 1. */
-pspec_status ps_set_lift(const ps_option *option, const char *shown, const char *words,
-                         const char *value, ps_request *arguments, ps_error *error) {
-    (void)option;
+pspec_status ps_set_lift(const ps_said *said, ps_error *error) {
     int index = 0;
-    PS_TRY(find_word(shown, words, value, &index, error));
-    arguments->reading.lift = (ps_lift)(index + 1);
+    PS_TRY(find_word(said, &index, error));
+    said->request->reading.lift = (ps_lift)(index + 1);
     return PSPEC_OK;
 }
 
-pspec_status ps_set_morph(const ps_option *option, const char *shown, const char *words,
-                          const char *value, ps_request *arguments, ps_error *error) {
-    (void)option;
-    (void)words;
+pspec_status ps_set_morph(const ps_said *said, ps_error *error) {
     static const ps_parameter exponent = {PS_EXPONENT_KEY, "", PS_EXPONENT_MEANING};
     static const ps_parameter *const parameters[] = {&exponent, NULL};
     char name[PS_GRAMMAR_WORD];
     ps_slice given = {NULL, 0};
-    const char *const rest = ps_grammar_name(value, name);
+    const char *const rest = ps_grammar_name(said->text, name);
     const ps_grammar grammar = {.kind = "morph",
                                 .name = name,
                                 .parameters = parameters,
                                 .num_own = 1,
                                 .most_letters = PS_MAX_SAMPLER_VALUE - 1};
     PS_TRY(ps_grammar_values(&grammar, rest, &given, error));
-    const ps_morph_words said = {shown, value, {name, strlen(name)}, given};
-    arguments->reading.has_morph = true;
-    return ps_morph_parse(&arguments->reading.morph, &said, error);
+    const ps_morph_words morph = {said->shown, said->text, {name, strlen(name)}, given};
+    said->request->reading.has_morph = true;
+    return ps_morph_parse(&said->request->reading.morph, &morph, error);
 }
 
-pspec_status ps_set_normalize(const ps_option *option, const char *shown, const char *words,
-                              const char *value, ps_request *arguments, ps_error *error) {
-    (void)option;
+pspec_status ps_set_normalize(const ps_said *said, ps_error *error) {
     static const pspec_normalization meant[] = {
         PSPEC_NORMALIZATION_POWER, PSPEC_NORMALIZATION_EFFECTIVE, PSPEC_NORMALIZATION_INTEGRAL};
     int index = 0;
-    PS_TRY(find_word(shown, words, value, &index, error));
-    arguments->normalization = meant[index];
+    PS_TRY(find_word(said, &index, error));
+    said->request->normalization = meant[index];
     return PSPEC_OK;
 }
 
 /* The words after "auto" stand in the order of ps_precision. */
-pspec_status ps_set_precision(const ps_option *option, const char *shown, const char *words,
-                              const char *value, ps_request *arguments, ps_error *error) {
-    (void)option;
+pspec_status ps_set_precision(const ps_said *said, ps_error *error) {
     int index = 0;
-    PS_TRY(find_word(shown, words, value, &index, error));
-    arguments->limits.constraints.precision = index - 1;
+    PS_TRY(find_word(said, &index, error));
+    said->request->limits.constraints.precision = index - 1;
     return PSPEC_OK;
 }

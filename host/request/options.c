@@ -48,7 +48,8 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
              "or 16..16384, which is 16 and its doubles; of files: points in each set, for "
              "formats that do not say (rps)",
          .set = ps_set_points, .minimum = 1, .maximum = MOST_POINTS},
-    [PS_OPTION_REALIZATIONS] = {NAMED("realizations", 'm', "M"), OF(ENGINES | BIT(sample), 0),
+    [PS_OPTION_REALIZATIONS] = {NAMED("realizations", 'm', "M"), .source = PS_OF_SAMPLERS,
+                                OF(ENGINES | BIT(sample), 0),
                                 .help = "realizations of each sampler (default 1; check: as saved, "
                                         "or 128)",
                                 COUNT(num_realizations), .minimum = 1,
@@ -63,7 +64,8 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                 BIT(convert)),
                              .help = "dimension, 1 to 6 (default 2; of files: what they have)",
                              .set = ps_set_dimension, .minimum = 1, .maximum = PS_MAX_DIMENSION},
-    [PS_OPTION_SEED] = {NAMED("seed", 's', "S"), OF(ENGINES | BIT(sample), 0),
+    [PS_OPTION_SEED] = {NAMED("seed", 's', "S"), .source = PS_OF_SAMPLERS,
+                        /* but for --per-ring */ OF(ENGINES | BIT(sample), 0),
                         .help = "seed, 0 to 2^64 - 1 (default 1); same seed, same bits",
                         COUNT(seed), .minimum = 0, .maximum = UINT64_MAX},
     [PS_OPTION_SAMPLER] = {NAMED("sampler", 0, "NAME[:key=value,...]"),
@@ -158,7 +160,8 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
          .help = "N |S|^2 / W^2 with N of each set (default power), |S|^2 / sum w^2, "
                  "or mean(N) mean(|S|^2 / W^2)",
          .set = ps_set_normalize},
-    [PS_OPTION_HOMOGENIZE] = {NAMED("homogenize", 0, NULL), OF(SETS | BIT(sample), 0),
+    [PS_OPTION_HOMOGENIZE] = {NAMED("homogenize", 0, NULL), .source = PS_OF_SAMPLERS,
+                              OF(SETS | BIT(sample), 0),
                               .help = "shift every realization by one random vector, mod 1; "
                                       "points of the sphere are rotated",
                               FLAG(homogenize)},
@@ -178,45 +181,52 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                        "reads them: an array where FILE ends in .npy, else text, "
                                        "one a line; 0 for points that were dropped",
                                TEXT(weights_out)},
-    [PS_OPTION_INPUT_FORMAT] = {NAMED("input-format", 0, PS_POINT_FORMATS), OF(SETS, BIT(convert)),
+    [PS_OPTION_INPUT_FORMAT] = {NAMED("input-format", 0, PS_POINT_FORMATS), .source = PS_OF_FILES,
+                                OF(SETS, BIT(convert)),
                                 .help = "format of the point files (default: detected)",
                                 WORD(reading.format)},
-    [PS_OPTION_COLUMNS] = {NAMED("columns", 0, PS_POINT_COLUMNS), OF(SETS, BIT(convert)),
+    [PS_OPTION_COLUMNS] = {NAMED("columns", 0, PS_POINT_COLUMNS), .source = PS_OF_FILES,
+                           OF(SETS, BIT(convert)),
                            .help = "what the columns of the point files are, w being the weight "
                                    "(default: found out; angles are in radians but lon-lat, "
                                    "degrees); or names with commas, as in x,y, that the first "
                                    "line of a text has",
                            .set = ps_set_columns, .offset = offsetof(ps_request, reading.columns)},
-    [PS_OPTION_HEADER] = {NAMED("header", 0, "yes|no"), OF(SETS, BIT(convert)),
+    [PS_OPTION_HEADER] = {NAMED("header", 0, "yes|no"), .source = PS_OF_FILES,
+                          OF(SETS, BIT(convert)),
                           .help = "has the first line of a text names of columns? (default: found "
                                   "out)",
                           WORD(reading.header)},
-    [PS_OPTION_TRANSPOSE] = {NAMED("transpose", 0, NULL), OF(SETS, BIT(convert)),
+    [PS_OPTION_TRANSPOSE] = {NAMED("transpose", 0, NULL), .source = PS_OF_FILES,
+                             OF(SETS, BIT(convert)),
                              .help = "points are the columns of arrays, as in shape (2, N)",
                              FLAG(reading.transpose)},
-    [PS_OPTION_DOMAIN] = {NAMED("domain", 0, "torus|sphere"), OF(BIT(check), BIT(convert)),
+    [PS_OPTION_DOMAIN] = {NAMED("domain", 0, "torus|sphere"), .source = PS_OF_FILES,
+                          OF(BIT(check), BIT(convert)),
                           .help = "where the points lie (default: found out; check: on the torus)",
                           .set = ps_set_domain},
-    [PS_OPTION_WRAP] = {NAMED("wrap", 0, NULL), OF(BIT(power) | BIT(check), BIT(convert)),
+    [PS_OPTION_WRAP] = {NAMED("wrap", 0, NULL), .source = PS_OF_FILES,
+                        OF(BIT(power) | BIT(check), BIT(convert)),
                         .help = "reduce coordinates outside [0,1) mod 1 instead of refusing them",
                         FLAG(reading.wrap)},
-    [PS_OPTION_BOX] = {NAMED("box", 0, "X0,X1"),
+    [PS_OPTION_BOX] = {NAMED("box", 0, "X0,X1"), .source = PS_OF_FILES,
                        OF(SPHERES | BIT(power) | BIT(quadrature) | BIT(check), BIT(convert)),
                        .help = "coordinates of the files are in [X0,X1), as in 0,512 or -1,1, and "
                                "become those in [0,1)",
                        .set = ps_set_box},
-    [PS_OPTION_NORMALIZE_VECTORS] = {NAMED("normalize-vectors", 0, NULL),
+    [PS_OPTION_NORMALIZE_VECTORS] = {NAMED("normalize-vectors", 0, NULL), .source = PS_OF_FILES,
                                      OF(SPHERES | BIT(quadrature) | BIT(check), BIT(convert)),
                                      .help = "divide vectors by their length instead of refusing "
                                              "those of another length than 1",
                                      FLAG(reading.normalize_vectors)},
-    [PS_OPTION_LIFT] = {NAMED("lift", 0, "sphere|hemisphere"),
+    [PS_OPTION_LIFT] = {NAMED("lift", 0, "sphere|hemisphere"), .source = PS_OF_FILES,
                         OF(SPHERES | BIT(quadrature) | BIT(check), BIT(convert)),
                         .help =
                             "points (x, y) of the plane become points of the sphere, z = 2x - 1 "
                             "or z = x, phi = 2 pi y, as by lift= of samplers",
                         .set = ps_set_lift},
     [PS_OPTION_MORPH] = {NAMED("morph", 0, "none|diffuse|glossy:n=N|phong:n=N"),
+                         .source = PS_OF_FILES,
                          OF(SPHERES | BIT(quadrature) | BIT(check), BIT(convert)),
                          .help =
                              "points lifted to the hemisphere take the density of a lobe, as by "
@@ -226,7 +236,8 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                               .help = "leave points below the horizon out where the lobe "
                                       "ends there",
                               FLAG(drop_below_horizon)},
-    [PS_OPTION_SELECT_SETS] = {NAMED("select-sets", 0, "A..B"), OF(SETS, BIT(convert)),
+    [PS_OPTION_SELECT_SETS] = {NAMED("select-sets", 0, "A..B"), .source = PS_OF_FILES,
+                               OF(SETS, BIT(convert)),
                                .help = "only these sets of each file, counted from 1; also A, A.., "
                                        "..B",
                                RANGE(reading.sets)},
@@ -351,7 +362,8 @@ pspec_status ps_option_set(ps_request *request, ps_option_id id, const char *wor
                            const char *value, ps_error *error) {
     const ps_option *const option = &ps_options[id];
     const ps_shown_option shown = ps_option_show(request, id);
-    return option->set(option, shown.text, words, value, request, error);
+    const ps_said said = {option, shown.text, words, value, request};
+    return option->set(&said, error);
 }
 
 size_t ps_name_distance(const char *typed, const char *known) {

@@ -35,13 +35,23 @@ typedef uint32_t ps_takers;
 
 typedef struct ps_option ps_option;
 
-/* Stores value (NULL for a flag) in *arguments, or says what is wrong with it. shown is the option
- * as it was said; words are the values that the command at hand admits, "one|two". */
-typedef pspec_status ps_option_setter(const ps_option *option, const char *shown, const char *words,
-                                      const char *value, ps_request *arguments, ps_error *error);
+/* An option that was said. */
+typedef struct ps_said {
+    const ps_option *option;
+    const char *shown;   /* as it was said, "-n" */
+    const char *words;   /* the values that the command at hand admits, "one|two" */
+    const char *text;    /* its value; NULL for a flag */
+    ps_request *request; /* that takes it */
+} ps_said;
+
+/* Stores the value in the request, or says what is wrong with it. */
+typedef pspec_status ps_option_setter(const ps_said *said, ps_error *error);
 
 /* The file that a value makes a question read, a part of the value; NULL: none. */
 typedef const char *ps_option_input(const char *words, const char *value);
+
+/* What kind of points an option is about. */
+typedef enum ps_option_source { PS_OF_BOTH, PS_OF_SAMPLERS, PS_OF_FILES } ps_option_source;
 
 struct ps_option {
     const char *name;    /* without its dashes */
@@ -54,6 +64,7 @@ struct ps_option {
     size_t offset; /* of the field of ps_request, for setters that serve several options */
     uint64_t minimum, maximum;
     char letter; /* 0: none */
+    ps_option_source source;
     /* NULL: no value of it names a file that is read. Else offset is of the field with the text */
     ps_option_input *input;
 };

@@ -6,37 +6,13 @@ static pspec_status fail_conflict(const char *a, const char *b, const char *why,
     return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s does not go with %s: %s", a, b, why);
 }
 
-ps_option_source ps_option_source_of(ps_option_id id) {
-    switch (id) {
-    case PS_OPTION_REALIZATIONS:
-    case PS_OPTION_SEED: /* but for --per-ring */
-    case PS_OPTION_HOMOGENIZE:
-        return PS_OF_SAMPLERS;
-    case PS_OPTION_INPUT_FORMAT:
-    case PS_OPTION_COLUMNS:
-    case PS_OPTION_HEADER:
-    case PS_OPTION_TRANSPOSE:
-    case PS_OPTION_DOMAIN:
-    case PS_OPTION_WRAP:
-    case PS_OPTION_NORMALIZE_VECTORS:
-    case PS_OPTION_LIFT:
-    case PS_OPTION_BOX:
-    case PS_OPTION_MORPH:
-    case PS_OPTION_SELECT_SETS:
-        return PS_OF_FILES;
-    default:
-        return PS_OF_BOTH;
-    }
-}
-
 /* Options that are about the other kind of source. */
 static pspec_status check_other_source(const ps_request *arguments, ps_error *error) {
     const bool are_files = arguments->num_files > 0;
     const ps_option_source other = are_files ? PS_OF_SAMPLERS : PS_OF_FILES;
     for (int id = 0; id < PS_NUM_OPTIONS; id++) {
         const bool is_of_subset = id == PS_OPTION_SEED && arguments->frequencies.per_ring > 0;
-        if (!arguments->is_given[id] || ps_option_source_of((ps_option_id)id) != other ||
-            is_of_subset) {
+        if (!arguments->is_given[id] || ps_options[id].source != other || is_of_subset) {
             continue;
         }
         const ps_shown_option shown = ps_option_show(arguments, (ps_option_id)id);

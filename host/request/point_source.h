@@ -20,10 +20,6 @@ pspec_status ps_sample_check_counts(const ps_request *arguments, ps_error *error
 /* Refuses weights of a file for several numbers of points. */
 pspec_status ps_weights_check_counts(const ps_request *arguments, ps_error *error) PS_MUST_CHECK;
 
-/* What kind of points an option is about. */
-typedef enum ps_option_source { PS_OF_BOTH, PS_OF_SAMPLERS, PS_OF_FILES } ps_option_source;
-ps_option_source ps_option_source_of(ps_option_id id);
-
 /* How point files are read. */
 ps_point_options ps_point_options_make(const ps_request *arguments);
 /* Refuses options about the other of samplers and files, several numbers of points of files, and

@@ -1,7 +1,6 @@
 /* One result of a scene: its keys, and those of the defaults. */
 #include "base/text.h"
 #include "request/options.h"
-#include "request/point_source.h"
 #include "scene/scene_file.h"
 
 #include <ctype.h>
@@ -174,7 +173,7 @@ static bool is_settled(const ps_scene_result *result, int option) {
 /* Defaults that are about samplers are not for files, nor the reverse; a kind may leave more. */
 static bool fits_result(const ps_scene_result *result, int option) {
     const ps_option_source other = has_entry(result, PS_SCENE_FILES) ? PS_OF_SAMPLERS : PS_OF_FILES;
-    return option == PS_SCENE_FILES || (ps_option_source_of((ps_option_id)option) != other &&
+    return option == PS_SCENE_FILES || (ps_options[option].source != other &&
                                         (result->kind->leaves_default == NULL ||
                                          !result->kind->leaves_default((ps_option_id)option)));
 }
