@@ -1,6 +1,7 @@
 /* The averaged angular power spectrum of sets on the sphere. */
 #include "answers/compare.h"
-#include "answers/spectra/angular_table.h"
+#include "answers/spectra/job_table.h"
+#include "answers/spectra/spectrum_header.h"
 #include "answers/spectra/spectra.h"
 #include "base/memory.h"
 #include "files/npy.h"
@@ -30,6 +31,34 @@ static pspec_status compute(void **out, const ps_request *request, const ps_answ
     return ps_spectra_compute(out, request, PS_QUESTION_ANGULAR, hooks, error);
 }
 
+/* ---- the table ----------------------------------------------------------------------------- */
+
+static const char *const columns[] = {"degree", "normalized_degree", "power", "standard_error"};
+enum { NUM_COLUMNS = sizeof columns / sizeof columns[0] };
+
+static pspec_status add_degrees(ps_table *table, const ps_request *arguments,
+                                const ps_power_job *job, const ps_lead *lead, ps_error *error) {
+    (void)arguments;
+    const ps_spectrum *spectrum = ps_power_job_spectrum(job);
+    for (size_t b = 0; b < spectrum->num_bins; b++) {
+        const ps_spectrum_bin *bin = &spectrum->bins[b];
+        const ps_cell cells[NUM_COLUMNS] = {
+            PS_INTEGER(bin->key),
+            PS_NUMBER(bin->normalized_frequency),
+            PS_NUMBER(bin->power),
+            ps_number_or_missing(bin->standard_error),
+        };
+        PS_TRY(ps_lead_add_row(table, lead, cells, NUM_COLUMNS, error));
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status make_table(ps_table **out, const ps_request *arguments,
+                               const ps_power_job *const *jobs, size_t num, ps_error *error) {
+    const ps_job_table kind = {"angular", columns, NUM_COLUMNS, add_degrees};
+    return ps_job_table_make(out, &kind, arguments, jobs, num, error);
+}
+
 static pspec_status take_coefficients(ps_answer *out, const ps_power_job *job, ps_error *error) {
     const size_t num = ps_num_coefficients_at(ps_power_job_problem(job)->frequencies);
     PS_TRY(PS_NEW(&out->array, num, "coefficients of an answer", error));
@@ -46,7 +75,7 @@ static pspec_status tabulate(ps_answer *out, const void *computed, const ps_requ
     if (request->wants_coefficients) {
         PS_TRY(take_coefficients(out, spectra->jobs[0], error));
     }
-    return ps_spectra_tabulate(out, computed, request, ps_angular_table, error);
+    return ps_spectra_tabulate(out, computed, request, make_table, error);
 }
 
 static pspec_status write_others(const void *computed, const ps_request *request, ps_error *error) {
