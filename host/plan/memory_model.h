@@ -20,7 +20,7 @@ typedef struct ps_memory {
 double ps_memory_of_set(const ps_problem *problem, const ps_work *work);
 
 /* Counts the memory of a batch: that of the engine, and what else a job keeps
- * (jobs/parts/estimator, spectra/accumulate, bins, spectrum). limits: NULL for work on the host. */
+ * (jobs/estimator, spectra/accumulate, bins, spectrum). limits: NULL for work on the host. */
 ps_memory ps_memory_count(const ps_engine *engine, ps_precision precision,
                           const ps_problem *problem, const ps_work *work,
                           const ps_device_limits *limits, size_t batch);

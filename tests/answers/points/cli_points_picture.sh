@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # cli_points_picture.sh PROGRAM: --plot of commands that make points: what is drawn, what is written beside it, what is refused.
 # shellcheck source=tests/harness/harness.sh
-. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../harness/harness.sh" sample "$1"
+. "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../../harness/harness.sh" sample "$1"
 mkdir none broken spy
 whole=$PATH
 printf '#!/bin/sh\necho "no terminal today" >&2\nexit 1\n' >broken/gnuplot
