@@ -58,6 +58,18 @@ static void streams_follow_the_documented_layout(void **state) {
     }
 }
 
+/* FNV-1a of "foobar" is 0x85944171f73967e8, that of nothing 0xcbf29ce484222325 (Fowler, Noll and
+ * Vo's own vectors). */
+static void seeds_of_texts_are_of_their_hashes(void **state) {
+    (void)state;
+    ps_random of_word = ps_random_init(9, PS_STREAM_TRIALS, UINT64_C(0x85944171f73967e8));
+    ps_random of_nothing = ps_random_init(9, PS_STREAM_TRIALS, UINT64_C(0xcbf29ce484222325));
+    assert_true(ps_random_seed_of(9, PS_STREAM_TRIALS, "foobar") == ps_random_u64(&of_word));
+    assert_true(ps_random_seed_of(9, PS_STREAM_TRIALS, "") == ps_random_u64(&of_nothing));
+    assert_true(ps_random_seed_of(9, PS_STREAM_SHIFT, "foobar") !=
+                ps_random_seed_of(9, PS_STREAM_TRIALS, "foobar"));
+}
+
 static void block_index_has_48_bits(void **state) {
     (void)state;
     const uint32_t key[2] = {7, 0};
@@ -214,6 +226,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(philox_gives_the_known_answers),
         cmocka_unit_test(streams_follow_the_documented_layout),
+        cmocka_unit_test(seeds_of_texts_are_of_their_hashes),
         cmocka_unit_test(block_index_has_48_bits),
         cmocka_unit_test(words_join_low_half_first),
         cmocka_unit_test(fill_equals_one_at_a_time),

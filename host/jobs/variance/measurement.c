@@ -24,6 +24,7 @@ typedef struct measurement {
     ps_trials **trials;      /* [num_integrands] */
     double *moves;           /* [batch][num_calls][trials_of_call][numbers of a move] */
     double *estimates;       /* [batch][num_calls][trials_of_call] */
+    uint64_t seed;           /* of moves */
     ps_sums *sums;           /* [num_integrands] of the means of squares of a set */
 } measurement;
 
@@ -100,11 +101,25 @@ static void release(measurement *self) {
 
 /* ---- trials -------------------------------------------------------------------------------- */
 
-/* Moves of a realization depend on its number alone. Those behind the last shift are 0. */
+/* Samplers and numbers of points have moves of their own, so that answers beside each other are
+ * independent. */
+static pspec_status choose_moves(measurement *self, ps_error *error) {
+    const ps_sampler_request *const sampler = self->plan->sampler;
+    ps_text text = {0};
+    ps_sampler_identify(sampler, &text);
+    ps_text_append(&text, "lift %d\n", (int)sampler->lift);
+    const pspec_status status = ps_text_check(&text, error);
+    self->seed = ps_random_seed_of(sampler->seed, PS_STREAM_TRIALS, ps_text_string(&text));
+    ps_text_free(&text);
+    return status;
+}
+
+/* Moves of a realization depend on its number, whatever the batches are. Those behind the last
+ * shift are 0. */
 static void make_moves(const measurement *self, uint64_t realization, double *moves) {
     const ps_measurement_plan *const plan = self->plan;
     const size_t numbers = move_numbers(self);
-    ps_random random = ps_random_init(plan->sampler->seed, PS_STREAM_TRIALS, realization);
+    ps_random random = ps_random_init(self->seed, PS_STREAM_TRIALS, realization);
     for (uint64_t s = 0; s < plan->num_shifts; s++) {
         double *const move = moves + s * numbers;
         if (plan->integrands[0]->place.where != PS_SAMPLES_TORUS) {
@@ -190,6 +205,7 @@ pspec_status ps_measurement_run(const ps_measurement_plan *plan, ps_mean *varian
     ps_sets_options sets = plan->sets;
     sets.first = plan->first;
     pspec_status status = allocate(&self, error);
+    PS_TRY_OUT(status, choose_moves(&self, error));
     PS_TRY_OUT(status, status);
     PS_TRY_OUT(status, ps_source_sampler(&self.source, plan->sampler, plan->num_sets, &sets,
                                          plan->watch, error));

@@ -72,6 +72,16 @@ uint64_t ps_random_u64(ps_random *random) {
     return low | (uint64_t)ps_random_u32(random) << 32;
 }
 
+uint64_t ps_random_seed_of(uint64_t seed, ps_random_stream stream, const char *text) {
+    const uint64_t prime = UINT64_C(0x100000001b3);
+    uint64_t hash = UINT64_C(0xcbf29ce484222325);
+    for (const char *letter = text; *letter != '\0'; letter++) {
+        hash = (hash ^ (unsigned char)*letter) * prime;
+    }
+    ps_random random = ps_random_init(seed, stream, hash);
+    return ps_random_u64(&random);
+}
+
 uint64_t ps_random_u53(ps_random *random) {
     return ps_random_u64(random) >> MANTISSA_DROP;
 }

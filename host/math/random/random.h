@@ -36,10 +36,16 @@ typedef enum ps_random_stream {
     PS_STREAM_SHIFT = 3,
     PS_STREAM_FREQUENCIES = 4, /* which frequencies of a ring; the realization is the ring */
     PS_STREAM_ROTATION = 5,    /* of the sphere, one per realization */
-    PS_STREAM_TRIALS = 6       /* shifts or rotations of a realization that is used many times */
+    /* Shifts or rotations of a realization that is used many times; the seed is that of
+     * ps_random_seed_of, of what the realizations are of */
+    PS_STREAM_TRIALS = 6
 } ps_random_stream;
 
 ps_random ps_random_init(uint64_t seed, ps_random_stream stream, uint64_t realization);
+
+/* The seed of streams that belong to a text, so that those of other texts are independent: the first
+ * 64 bits of (seed, stream, h), h the hash FNV-1a of 64 bits of the bytes of the text. */
+uint64_t ps_random_seed_of(uint64_t seed, ps_random_stream stream, const char *text);
 
 /* The next word, and the next two (the first is the low half). */
 uint32_t ps_random_u32(ps_random *random);

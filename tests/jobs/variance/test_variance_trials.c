@@ -181,12 +181,36 @@ static void integrands_do_not_meet(void **state) {
     test_variance_free(&beside);
 }
 
+/* One point at 0, and two at 0 and (1/2, 1/2) that the wave does not tell apart: the same moves
+ * would have the same squares. */
+static void samplers_and_numbers_have_moves_of_their_own(void **state) {
+    static const struct {
+        const char *sampler;
+        size_t num_points;
+    } cases[] = {{"sobol", 1}, {"sobol", 2}, {"hammersley", 1}};
+    enum { NUM_CASES = sizeof cases / sizeof cases[0] };
+    double measured[NUM_CASES];
+    (void)state;
+    for (size_t i = 0; i < NUM_CASES; i++) {
+        test_variance asked;
+        test_variance_ask(&asked, cases[i].sampler, cases[i].num_points, 50, "wave:k=2x2", device);
+        const ps_variance_row *const row = test_variance_run(&asked);
+        measured[i] = row->measured;
+        near(cases[i].sampler, row->measured, 0.5, 5 * row->measured_error);
+        for (size_t k = 0; k < i; k++) {
+            assert_true(fabs(measured[i] - measured[k]) > 1e-6);
+        }
+        test_variance_free(&asked);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_prediction_is_a_sum),
         cmocka_unit_test(the_measurement_is_a_loop),
         cmocka_unit_test(shifts_are_of_the_measurement),
         cmocka_unit_test(integrands_do_not_meet),
+        cmocka_unit_test(samplers_and_numbers_have_moves_of_their_own),
     };
     device = test_open_device();
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
