@@ -80,6 +80,12 @@ static pspec_status read_values(ps_integrand *self, const char *rest, ps_error *
     return status;
 }
 
+pspec_status ps_integrand_find(const ps_integrand_kind **kind, const char *text, ps_error *error) {
+    char name[PS_GRAMMAR_WORD];
+    ps_grammar_name(text, name);
+    return find_kind(kind, name, error);
+}
+
 pspec_status ps_integrand_parse(ps_integrand **out, const char *text, ps_integrand_place place,
                                 ps_error *error) {
     char name[PS_GRAMMAR_WORD];

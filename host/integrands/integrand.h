@@ -71,6 +71,9 @@ struct ps_integrand {
 /* All of them, ended by NULL. */
 extern const ps_integrand_kind *const ps_integrand_kinds[];
 
+/* The kind that a text names. */
+pspec_status ps_integrand_find(const ps_integrand_kind **kind, const char *text,
+                               ps_error *error) PS_MUST_CHECK;
 /* Parses "NAME[:key=value,...]"; *out is freed by ps_integrand_destroy. An integrand that there is
  * not in such a place, and radii and the like that make none, are errors with a sentence. */
 pspec_status ps_integrand_parse(ps_integrand **out, const char *text, ps_integrand_place place,

@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "sets/kept_inputs.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -28,6 +29,7 @@ struct ps_source {
     ps_point_reader *scout;   /* of the same file, ahead of the reader to count a set */
     uint64_t sets_scouted;    /* passed by it */
     ps_text formats, columns; /* of the files read so far, each once */
+    ps_kept_inputs kept;      /* only with options.keeps_streams */
 };
 
 /* Points that are only counted: few enough to stay in the cache. */
@@ -72,6 +74,7 @@ pspec_status ps_source_files(ps_source **out, const char *const *paths, size_t n
     if (options->whole_bytes == 0) {
         (*out)->options.whole_bytes = PS_SOURCE_WHOLE_BYTES;
     }
+    (*out)->kept.memory_limit = options->points.memory_limit;
     return PSPEC_OK;
 }
 
@@ -284,12 +287,37 @@ static pspec_status add_columns(ps_source *source, ps_error *error) {
     return add_name(&source->columns, text, error);
 }
 
+/* Of inputs that were read before and are kept, from next_path on. */
+static pspec_status next_kept(ps_source *source, ps_point_set *set, bool *has_set,
+                              ps_error *error) {
+    while (!*has_set && source->reader == NULL && source->next_path < source->num_paths &&
+           ps_kept_inputs_have(&source->kept, source->next_path)) {
+        PS_TRY(ps_kept_inputs_next(&source->kept, source->next_path, set, has_set, error));
+        source->next_path += *has_set ? 0 : 1;
+    }
+    return PSPEC_OK;
+}
+
+/* A set that has come, of a stream as a whole. */
+static pspec_status keep(ps_source *source, const ps_point_set *set, ps_error *error) {
+    const size_t input = source->next_path - 1;
+    return source->options.keeps_streams && !ps_points_can_reopen(source->reader)
+               ? ps_kept_inputs_add(&source->kept, input, source->paths[input], set, error)
+               : PSPEC_OK;
+}
+
 static pspec_status next_from_files(ps_source *source, ps_point_set *set, ps_source_part *part,
                                     bool *has_set, ps_error *error) {
     *has_set = false;
     *part = (ps_source_part){0};
     set->num_points = 0;
     while (!*has_set) {
+        PS_TRY(next_kept(source, set, has_set, error));
+        if (*has_set) {
+            part->is_whole = true;
+            source->num_sets++;
+            return PSPEC_OK;
+        }
         if (source->reader == NULL) {
             if (source->next_path == source->num_paths) {
                 return PSPEC_OK;
@@ -307,7 +335,8 @@ static pspec_status next_from_files(ps_source *source, ps_point_set *set, ps_sou
     }
     source->sets_of_file++;
     source->num_sets++;
-    return part->is_whole ? PSPEC_OK : complete_set(source, set, part, error);
+    PS_TRY(part->is_whole ? PSPEC_OK : complete_set(source, set, part, error));
+    return keep(source, set, error);
 }
 
 pspec_status ps_source_next(ps_source *source, ps_point_set *set, ps_source_part *part,
@@ -321,7 +350,7 @@ pspec_status ps_source_next(ps_source *source, ps_point_set *set, ps_source_part
 }
 
 bool ps_source_can_rewind(const ps_source *source) {
-    for (size_t i = 0; i < source->num_paths; i++) {
+    for (size_t i = 0; !source->options.keeps_streams && i < source->num_paths; i++) {
         if (strcmp(source->paths[i], "-") == 0) {
             return false;
         }
@@ -342,6 +371,7 @@ pspec_status ps_source_rewind(ps_source *source, ps_error *error) {
         ps_sets_rewind(source->sampled);
     }
     source->num_sets = 0;
+    ps_kept_inputs_rewind(&source->kept);
     return PSPEC_OK;
 }
 
@@ -360,6 +390,7 @@ void ps_source_destroy(ps_source *source) {
         ps_points_close(source->reader);
         ps_text_free(&source->formats);
         ps_text_free(&source->columns);
+        ps_kept_inputs_free(&source->kept);
         free(source);
     }
 }

@@ -1,8 +1,8 @@
 /* Where realizations come from: a sampler, point files one after the other, or unit vectors in
  * memory.
  *
- * A source yields point sets in order. It can be rewound unless it reads standard input. Sets of
- * files that are too large to be in memory come in blocks.
+ * A source yields point sets in order. It can be rewound unless it reads standard input, which it
+ * may keep. Sets of files that are too large to be in memory come in blocks.
  */
 #ifndef PS_JOBS_SOURCE_H
 #define PS_JOBS_SOURCE_H
@@ -31,6 +31,9 @@ const char *ps_source_trouble(ps_source *source);
 typedef struct ps_source_options {
     ps_point_options points; /* of every file */
     uint64_t whole_bytes;    /* 0: PS_SOURCE_WHOLE_BYTES */
+    /* Sets that come but once, from standard input or a pipe, stay in memory, so that it can be
+     * rewound once all of them were read */
+    bool keeps_streams;
     bool (*should_stop)(
         void *payload); /* asked after every block that is only counted; may be NULL */
     void *payload;

@@ -26,14 +26,15 @@
 #define MOST_REALIZATIONS UINT64_C(1000000000000)
 
 /* Sets of takers that many options have: kinds of spectra, those of them on the sphere, kinds that
- * look at point sets and that have a lobe; commands that try engines, and those whose output is a
- * table. */
+ * look at point sets, all that read them from files, and kinds that have a lobe; commands that try
+ * engines, and those whose output is a table. */
 #define BIT PS_TAKER_BIT
 #define SPHERES (BIT(angular) | BIT(pairs))
 #define SPECTRA (BIT(power) | SPHERES)
 #define SETS (SPECTRA | BIT(quadrature) | BIT(check))
+#define READERS (SETS | BIT(variance))
 #define LOBES (BIT(quadrature) | BIT(truncation))
-#define ENGINES (SETS | BIT(variance))
+#define ENGINES READERS
 #define PICTURES (SPECTRA | LOBES | BIT(variance))
 #define SUITES (BIT(bench) | BIT(stress))
 #define TABLES (ENGINES | SUITES | BIT(truncation) | BIT(devices))
@@ -75,10 +76,11 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
     [PS_OPTION_INTEGRAND] = {NAMED("integrand", 0, "NAME[:key=value,...]"), OF(BIT(variance), 0),
                              .help = "what is integrated; the names are below",
                              .set = ps_add_integrand},
-    [PS_OPTION_SHIFTS] = {NAMED("shifts", 0, "S"), OF(BIT(variance), 0),
-                          .help = "random shifts, on the sphere rotations, of every set that is "
-                                  "measured (default 1; 0: nothing is measured)",
-                          COUNT(num_shifts), .minimum = 0, .maximum = MOST_SHIFTS},
+    [PS_OPTION_SHIFTS] =
+        {NAMED("shifts", 0, "S"), OF(BIT(variance), 0),
+         .help = "random shifts, on the sphere rotations, of every set that is "
+                 "measured (default 1; of a single set in files 100; 0: nothing is measured)",
+         COUNT(num_shifts), .minimum = 0, .maximum = MOST_SHIFTS},
     [PS_OPTION_IN_PLACE] = {NAMED("in-place", 0, NULL), OF(BIT(variance), 0),
                             .help = "measure sets where they are, without shifts; the prediction "
                                     "is of shifted ones, and there is no z-score",
@@ -121,7 +123,8 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                   "POINTSPEC_MEMORY, else what is free, which chooses nothing)",
                           .set = ps_set_size,
                           .offset = offsetof(ps_request, limits.constraints.memory_limit)},
-    [PS_OPTION_HEMISPHERE] = {NAMED("hemisphere", 0, NULL), OF(SPHERES | BIT(check), 0),
+    [PS_OPTION_HEMISPHERE] = {NAMED("hemisphere", 0, NULL),
+                              OF(SPHERES | BIT(check) | BIT(variance), 0),
                               .help = "points of the hemisphere, that is of the projective plane: "
                                       "even degrees, odd ones vanish",
                               FLAG(hemisphere)},
@@ -165,7 +168,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                               .help = "shift every realization by one random vector, mod 1; "
                                       "points of the sphere are rotated",
                               FLAG(homogenize)},
-    [PS_OPTION_WEIGHTS] = {NAMED("weights", 0, "equal|column|FILE"), OF(SETS, BIT(convert)),
+    [PS_OPTION_WEIGHTS] = {NAMED("weights", 0, "equal|column|FILE"), OF(READERS, BIT(convert)),
                            .help = "equal: all 1, weights of the files are dropped; column: the "
                                    "last one of the files (default: those that the format or "
                                    "--columns has, else all 1)",
@@ -182,45 +185,46 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                        "one a line; 0 for points that were dropped",
                                TEXT(weights_out)},
     [PS_OPTION_INPUT_FORMAT] = {NAMED("input-format", 0, PS_POINT_FORMATS), .source = PS_OF_FILES,
-                                OF(SETS, BIT(convert)),
+                                OF(READERS, BIT(convert)),
                                 .help = "format of the point files (default: detected)",
                                 WORD(reading.format)},
     [PS_OPTION_COLUMNS] = {NAMED("columns", 0, PS_POINT_COLUMNS), .source = PS_OF_FILES,
-                           OF(SETS, BIT(convert)),
+                           OF(READERS, BIT(convert)),
                            .help = "what the columns of the point files are, w being the weight "
                                    "(default: found out; angles are in radians but lon-lat, "
                                    "degrees); or names with commas, as in x,y, that the first "
                                    "line of a text has",
                            .set = ps_set_columns, .offset = offsetof(ps_request, reading.columns)},
     [PS_OPTION_HEADER] = {NAMED("header", 0, "yes|no"), .source = PS_OF_FILES,
-                          OF(SETS, BIT(convert)),
+                          OF(READERS, BIT(convert)),
                           .help = "has the first line of a text names of columns? (default: found "
                                   "out)",
                           WORD(reading.header)},
     [PS_OPTION_TRANSPOSE] = {NAMED("transpose", 0, NULL), .source = PS_OF_FILES,
-                             OF(SETS, BIT(convert)),
+                             OF(READERS, BIT(convert)),
                              .help = "points are the columns of arrays, as in shape (2, N)",
                              FLAG(reading.transpose)},
     [PS_OPTION_DOMAIN] = {NAMED("domain", 0, "torus|sphere"), .source = PS_OF_FILES,
-                          OF(BIT(check), BIT(convert)),
-                          .help = "where the points lie (default: found out; check: on the torus)",
+                          OF(BIT(check) | BIT(variance), BIT(convert)),
+                          .help = "where the points lie (default: found out; check: on the torus; "
+                                  "variance: where there are the integrands)",
                           .set = ps_set_domain},
     [PS_OPTION_WRAP] = {NAMED("wrap", 0, NULL), .source = PS_OF_FILES,
-                        OF(BIT(power) | BIT(check), BIT(convert)),
+                        OF(BIT(power) | BIT(check) | BIT(variance), BIT(convert)),
                         .help = "reduce coordinates outside [0,1) mod 1 instead of refusing them",
                         FLAG(reading.wrap)},
-    [PS_OPTION_BOX] = {NAMED("box", 0, "X0,X1"), .source = PS_OF_FILES,
-                       OF(SPHERES | BIT(power) | BIT(quadrature) | BIT(check), BIT(convert)),
+    [PS_OPTION_BOX] = {NAMED("box", 0, "X0,X1"), .source = PS_OF_FILES, OF(READERS, BIT(convert)),
                        .help = "coordinates of the files are in [X0,X1), as in 0,512 or -1,1, and "
                                "become those in [0,1)",
                        .set = ps_set_box},
     [PS_OPTION_NORMALIZE_VECTORS] = {NAMED("normalize-vectors", 0, NULL), .source = PS_OF_FILES,
-                                     OF(SPHERES | BIT(quadrature) | BIT(check), BIT(convert)),
+                                     OF(SPHERES | BIT(quadrature) | BIT(check) | BIT(variance),
+                                        BIT(convert)),
                                      .help = "divide vectors by their length instead of refusing "
                                              "those of another length than 1",
                                      FLAG(reading.normalize_vectors)},
     [PS_OPTION_LIFT] = {NAMED("lift", 0, "sphere|hemisphere"), .source = PS_OF_FILES,
-                        OF(SPHERES | BIT(quadrature) | BIT(check), BIT(convert)),
+                        OF(SPHERES | BIT(quadrature) | BIT(check) | BIT(variance), BIT(convert)),
                         .help =
                             "points (x, y) of the plane become points of the sphere, z = 2x - 1 "
                             "or z = x, phi = 2 pi y, as by lift= of samplers",
@@ -237,7 +241,7 @@ const ps_option ps_options[PS_NUM_OPTIONS] = {
                                       "ends there",
                               FLAG(drop_below_horizon)},
     [PS_OPTION_SELECT_SETS] = {NAMED("select-sets", 0, "A..B"), .source = PS_OF_FILES,
-                               OF(SETS, BIT(convert)),
+                               OF(READERS, BIT(convert)),
                                .help = "only these sets of each file, counted from 1; also A, A.., "
                                        "..B",
                                RANGE(reading.sets)},

@@ -11,8 +11,9 @@ static pspec_status check_other_source(const ps_request *arguments, ps_error *er
     const bool are_files = arguments->num_files > 0;
     const ps_option_source other = are_files ? PS_OF_SAMPLERS : PS_OF_FILES;
     for (int id = 0; id < PS_NUM_OPTIONS; id++) {
-        const bool is_of_subset = id == PS_OPTION_SEED && arguments->frequencies.per_ring > 0;
-        if (!arguments->is_given[id] || ps_options[id].source != other || is_of_subset) {
+        const bool is_of_both = id == PS_OPTION_SEED && (arguments->frequencies.per_ring > 0 ||
+                                                         arguments->num_integrands > 0);
+        if (!arguments->is_given[id] || ps_options[id].source != other || is_of_both) {
             continue;
         }
         const ps_shown_option shown = ps_option_show(arguments, (ps_option_id)id);

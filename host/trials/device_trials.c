@@ -134,6 +134,18 @@ static pspec_status create_buffers(ps_device_trials *self, ps_error *error) {
                             error);
 }
 
+double ps_device_trials_bytes(const ps_integrand *integrand, const ps_trials_options *options) {
+    const double real_bytes = (double)ps_real_bytes(options->precision);
+    const double batch = (double)options->batch;
+    const double points = batch * (double)options->most_points;
+    const double pieces = batch * (double)ps_divide_up(options->most_points, VALUES_PIECE);
+    const double trials = (double)options->num_trials;
+    const double moves = batch * trials * (double)ps_trials_move_numbers(integrand);
+    const double pair_bytes = real_bytes + (double)sizeof(double);
+    return points * (integrand->place.dimension + 1) * real_bytes +
+           2 * pieces * (double)sizeof(values_piece) + (moves + 2 * pieces * trials) * pair_bytes;
+}
+
 pspec_status ps_device_trials_create(ps_device_trials **out, const ps_integrand *integrand,
                                      const ps_trials_options *options, ps_device *device,
                                      ps_error *error) {

@@ -58,6 +58,13 @@ bool ps_trials_is_on_device(const ps_trials *trials) {
     return trials->device != NULL;
 }
 
+double ps_trials_bytes(const ps_integrand *integrand, const ps_trials_options *options,
+                       const ps_device *device) {
+    return is_for_device(integrand, options->precision, device)
+               ? ps_device_trials_bytes(integrand, options)
+               : 0;
+}
+
 /* ---- run ------------------------------------------------------------------------------------- */
 
 static pspec_status check_pattern(const ps_trials *self, const pspec_pattern *pattern, size_t index,

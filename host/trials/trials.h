@@ -34,6 +34,10 @@ pspec_status ps_trials_create(ps_trials **out, const ps_integrand *integrand,
                               ps_error *error) PS_MUST_CHECK;
 void ps_trials_destroy(ps_trials *trials); /* NULL is allowed */
 bool ps_trials_is_on_device(const ps_trials *trials);
+/* Bytes of what such trials take, on the device and the host, but for patterns, moves and
+ * estimates. */
+double ps_trials_bytes(const ps_integrand *integrand, const ps_trials_options *options,
+                       const ps_device *device);
 
 enum { PS_ROTATION_NUMBERS = 9 };
 

@@ -25,6 +25,11 @@ static void release(curves *self) {
     free(self->numbers);
 }
 
+/* Files are one. */
+static size_t count_samplers(const ps_request *request) {
+    return request->num_samplers > 0 ? request->num_samplers : 1;
+}
+
 static double value_of(const ps_variance_row *row, curve_form form) {
     return form == PREDICTED  ? row->prediction.variance
            : form == MEASURED ? row->measured
@@ -62,7 +67,7 @@ static pspec_status add_all(curves *self, const ps_request *request, ps_variance
                             ps_error *error) {
     size_t index = 0;
     for (size_t integrand = 0; integrand < request->num_integrands; integrand++) {
-        for (size_t sampler = 0; sampler < request->num_samplers; sampler++) {
+        for (size_t sampler = 0; sampler < count_samplers(request); sampler++) {
             for (int form = PREDICTED; form < NUM_FORMS; form++) {
                 PS_TRY(add_curve(self, index++, request, jobs, sampler, integrand, (curve_form)form,
                                  error));
@@ -75,9 +80,11 @@ static pspec_status add_all(curves *self, const ps_request *request, ps_variance
 
 static pspec_status write_figure(const curves *self, const ps_request *request, ps_error *error) {
     ps_text title = {0};
-    ps_text_append(&title, "%s, %llu sets",
-                   request->num_integrands == 1 ? request->integrands[0] : "variance",
-                   (unsigned long long)request->num_realizations);
+    ps_text_append(&title, "%s",
+                   request->num_integrands == 1 ? request->integrands[0] : "variance");
+    if (request->num_samplers > 0) {
+        ps_text_append(&title, ", %llu sets", (unsigned long long)request->num_realizations);
+    }
     if (request->num_samplers == 1) {
         ps_text_append(&title, " of %s", request->samplers[0]);
     }
@@ -101,8 +108,8 @@ static pspec_status write_figure(const curves *self, const ps_request *request, 
 
 pspec_status ps_variance_plot(const ps_request *request, ps_variance_job *const *jobs, size_t num,
                               ps_error *error) {
-    curves self = {.num = request->num_integrands * (request->num_samplers * NUM_FORMS + 1),
-                   .num_counts = num / request->num_samplers};
+    curves self = {.num = request->num_integrands * (count_samplers(request) * NUM_FORMS + 1),
+                   .num_counts = num / count_samplers(request)};
     pspec_status status = PSPEC_OK;
     PS_TRY_OUT(status, PS_NEW(&self.series, self.num, "a picture", error));
     PS_TRY_OUT(status, PS_NEW(&self.labels, self.num, "a picture", error));

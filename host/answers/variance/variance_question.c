@@ -3,8 +3,12 @@
 #include "base/memory.h"
 #include "request/options.h"
 #include "request/point_source.h"
+#include "request/saved_result.h"
 
 #include <stdlib.h>
+
+/* Of a single set in files, unless --shifts is given. */
+enum { SINGLE_SHIFTS = 100 };
 
 static pspec_status fail_without_integrand(ps_error *error) {
     ps_text names = {0};
@@ -17,28 +21,113 @@ static pspec_status fail_without_integrand(ps_error *error) {
     return PSPEC_ERROR_INVALID_ARGUMENT;
 }
 
+static pspec_status fail_conflict(const ps_request *arguments, ps_option_id a, const char *b,
+                                  const char *why, ps_error *error) {
+    return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT, "%s does not go with %s: %s",
+                   ps_option_show(arguments, a).text, b, why);
+}
+
 static pspec_status check_source(const ps_request *arguments, ps_error *error) {
+    const ps_shown_option sampler = ps_option_show(arguments, PS_OPTION_SAMPLER);
     if (arguments->num_integrands == 0) {
         return fail_without_integrand(error);
     }
-    if (arguments->num_files > 0) {
+    if (arguments->num_samplers == 0 && arguments->num_files == 0) {
         return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "%s: variances are of samplers, whose realizations are independent; point "
-                       "files are not read",
-                       arguments->files[0]);
+                       "nothing to take a variance of: name a --sampler, or point files (- for "
+                       "standard input)");
     }
-    if (arguments->num_samplers == 0) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "nothing to take a variance of: name a --sampler");
+    if (arguments->num_samplers > 0 && arguments->num_files > 0) {
+        return fail_conflict(arguments, PS_OPTION_SAMPLER, arguments->files[0],
+                             "points come from one of them", error);
     }
     if (arguments->in_place && arguments->is_given[PS_OPTION_SHIFTS]) {
-        return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
-                       "%s does not go with %s: sets are moved, or they are not",
-                       ps_option_show(arguments, PS_OPTION_SHIFTS).text,
-                       ps_option_show(arguments, PS_OPTION_IN_PLACE).text);
+        return fail_conflict(arguments, PS_OPTION_SHIFTS,
+                             ps_option_show(arguments, PS_OPTION_IN_PLACE).text,
+                             "sets are moved, or they are not", error);
+    }
+    PS_TRY(ps_point_options_check(arguments, error));
+    if (arguments->num_samplers > 0 && arguments->is_given[PS_OPTION_WEIGHTS]) {
+        return fail_conflict(arguments, PS_OPTION_WEIGHTS, sampler.text,
+                             "all of its points count the same", error);
+    }
+    if (arguments->num_samplers > 0 && arguments->hemisphere) {
+        return fail_conflict(arguments, PS_OPTION_HEMISPHERE, sampler.text,
+                             "it says where its points are", error);
     }
     return PSPEC_OK;
 }
+
+/* ---- files --------------------------------------------------------------------------------- */
+
+static pspec_status check_files(const ps_request *arguments, ps_error *error) {
+    for (size_t i = 0; i < arguments->num_files; i++) {
+        PS_TRY(ps_saved_result_refuse(arguments->files[i],
+                                      "and variances are formed from sums of each set, which it "
+                                      "has not",
+                                      "variance", error));
+    }
+    return PSPEC_OK;
+}
+
+/* Where all of the integrands are; 0: nowhere. */
+static pspec_status find_domains(unsigned *domains, const ps_request *arguments, ps_error *error) {
+    *domains = ~0U;
+    for (size_t i = 0; i < arguments->num_integrands; i++) {
+        const ps_integrand_kind *kind = NULL;
+        PS_TRY(ps_integrand_find(&kind, arguments->integrands[i], error));
+        *domains &= kind->domains;
+    }
+    return PSPEC_OK;
+}
+
+/* Points are where it is said that they are, else where the integrands are: on the torus where
+ * these are everywhere. */
+static pspec_status find_place(bool *on_sphere, const ps_request *arguments, ps_error *error) {
+    unsigned domains = 0;
+    PS_TRY(find_domains(&domains, arguments, error));
+    const bool is_said = arguments->is_given[PS_OPTION_DOMAIN];
+    *on_sphere = is_said ? arguments->reading.domain == PS_DOMAIN_SPHERE
+                         : arguments->hemisphere || arguments->reading.lift != PS_NO_LIFT ||
+                               (domains & PS_INTEGRAND_ON(PS_SAMPLES_TORUS)) == 0;
+    return PSPEC_OK;
+}
+
+/* Options of the other domain. */
+static pspec_status check_place(const ps_request *arguments, bool on_sphere, ps_error *error) {
+    static const ps_option_id torus[] = {PS_OPTION_DIMENSION, PS_OPTION_MAX_FREQUENCY,
+                                         PS_OPTION_WRAP, PS_NUM_OPTIONS};
+    static const ps_option_id sphere[] = {PS_OPTION_MAX_DEGREE, PS_OPTION_HEMISPHERE,
+                                          PS_OPTION_NORMALIZE_VECTORS, PS_OPTION_LIFT,
+                                          PS_NUM_OPTIONS};
+    for (const ps_option_id *id = on_sphere ? torus : sphere; *id != PS_NUM_OPTIONS; id++) {
+        if (arguments->is_given[*id]) {
+            return ps_fail(error, PSPEC_ERROR_INVALID_ARGUMENT,
+                           "%s is for points of the %s, and these are of the %s",
+                           ps_option_show(arguments, *id).text, on_sphere ? "torus" : "sphere",
+                           on_sphere ? "sphere" : "torus");
+        }
+    }
+    return PSPEC_OK;
+}
+
+static pspec_status fill_files(ps_power_question *out, const ps_request *arguments,
+                               ps_error *error) {
+    bool on_sphere = false;
+    PS_TRY(check_files(arguments, error));
+    PS_TRY(find_place(&on_sphere, arguments, error));
+    PS_TRY(check_place(arguments, on_sphere, error));
+    out->paths = arguments->files;
+    out->num_paths = arguments->num_files;
+    out->weights = arguments->weights;
+    out->point_options = ps_point_options_make(arguments);
+    out->point_options.domain = on_sphere ? PS_DOMAIN_SPHERE : PS_DOMAIN_TORUS;
+    out->on_sphere = on_sphere;
+    out->on_hemisphere = arguments->hemisphere || arguments->reading.lift == PS_LIFT_TO_HEMISPHERE;
+    return PSPEC_OK;
+}
+
+/* ---- samplers ------------------------------------------------------------------------------ */
 
 /* Estimates by morphed points have other weights than 1/N. */
 static pspec_status check_sampler(const ps_sampler_request *request, const char *text,
@@ -51,14 +140,23 @@ static pspec_status check_sampler(const ps_sampler_request *request, const char 
                          text);
 }
 
-static ps_variance_question make_question(const ps_request *arguments,
-                                          const ps_sampler_request *sampler) {
+static pspec_status fill_sampler(ps_power_question *out, ps_sampler_request *request,
+                                 const ps_request *arguments, size_t index, ps_error *error) {
+    PS_TRY(ps_sampler_request_make(request, arguments, index, error));
+    PS_TRY(check_sampler(request, ps_request_sampler(arguments, index), error));
+    out->sampler = request;
+    out->num_realizations = arguments->num_realizations;
+    out->on_sphere = ps_sampler_is_on_sphere(request);
+    out->on_hemisphere = ps_sampler_is_on_hemisphere(request);
+    return PSPEC_OK;
+}
+
+/* ---- questions ----------------------------------------------------------------------------- */
+
+static ps_variance_question make_question(const ps_request *arguments) {
+    const bool has_shifts = arguments->is_given[PS_OPTION_SHIFTS];
     return (ps_variance_question){
-        .spectrum = {.sampler = sampler,
-                     .num_realizations = arguments->num_realizations,
-                     .on_sphere = ps_sampler_is_on_sphere(sampler),
-                     .on_hemisphere = ps_sampler_is_on_hemisphere(sampler),
-                     .max_degree = (int64_t)arguments->max_degree,
+        .spectrum = {.max_degree = (int64_t)arguments->max_degree,
                      .frequencies = arguments->frequencies,
                      /* all of the box: its energy is what the rest is told from */
                      .wants_full_array = true,
@@ -68,6 +166,8 @@ static ps_variance_question make_question(const ps_request *arguments,
         .texts = arguments->integrands,
         .num_integrands = arguments->num_integrands,
         .num_shifts = arguments->num_shifts,
+        .single_shifts = has_shifts ? arguments->num_shifts : SINGLE_SHIFTS,
+        .seed = arguments->seed,
         .is_moved = !arguments->in_place,
     };
 }
@@ -81,10 +181,12 @@ pspec_status ps_variance_list_make(ps_variance_list *out, const ps_request *argu
     PS_TRY(PS_NEW(&out->requests, num, "questions", error));
     out->num = num;
     for (size_t i = 0; i < num; i++) {
-        PS_TRY(ps_sampler_request_make(&out->requests[i], arguments, i, error));
-        PS_TRY(check_sampler(&out->requests[i], ps_request_sampler(arguments, i), error));
-        out->questions[i] = make_question(arguments, &out->requests[i]);
-        PS_TRY(ps_variance_question_check(&out->questions[i], error));
+        ps_variance_question *const question = &out->questions[i];
+        *question = make_question(arguments);
+        PS_TRY(arguments->num_files > 0
+                   ? fill_files(&question->spectrum, arguments, error)
+                   : fill_sampler(&question->spectrum, &out->requests[i], arguments, i, error));
+        PS_TRY(ps_variance_question_check(question, error));
     }
     return PSPEC_OK;
 }

@@ -4,6 +4,7 @@
 #include "answers/spectra/spectrum_header.h"
 #include "base/memory.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 static const char *const columns[] = {"points",         "predicted", "predicted_error",
@@ -52,7 +53,9 @@ static pspec_status add_row(ps_table *table, const ps_lead *lead, const ps_varia
 /* ---- header -------------------------------------------------------------------------------- */
 
 /* What all jobs have in common. */
-static pspec_status begin(ps_table *table, const ps_request *request, ps_error *error) {
+static pspec_status begin(ps_table *table, const ps_request *request, const ps_variance_job *first,
+                          ps_error *error) {
+    const ps_variance_trials trials = ps_variance_job_trials(first);
     const ps_meta entries[] = {
         {"pointspec_version", PS_TEXT(pspec_version())},
         {"schema", PS_INTEGER(PS_TABLE_SCHEMA)},
@@ -62,7 +65,7 @@ static pspec_status begin(ps_table *table, const ps_request *request, ps_error *
         {"trials", PS_TEXT(request->num_shifts == 0 ? "none"
                            : request->in_place      ? "sets where they are"
                                                     : "sets moved at random, one for each trial")},
-        {"shifts", PS_INTEGER(request->num_shifts)},
+        {"shifts", PS_INTEGER(request->num_samplers > 0 ? request->num_shifts : trials.num_shifts)},
     };
     return ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
 }
@@ -79,13 +82,28 @@ static pspec_status add_integrand(ps_table *table, const ps_request *request,
                         : PSPEC_OK;
 }
 
+/* Of files: how many sets are measured, beside those that predict, and what their weights cost. */
+static pspec_status add_files(ps_table *table, const ps_request *request,
+                              const ps_variance_job *job, ps_error *error) {
+    const ps_meta entries[] = {
+        {"measured_sets", PS_INTEGER(ps_variance_job_trials(job).num_sets)},
+        {"white_power", PS_NUMBER(ps_variance_job_power_beyond(job)->white)},
+    };
+    return request->num_samplers > 0
+               ? PSPEC_OK
+               : ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
+}
+
 /* For who draws many questions, each of one integrand, against N. */
 static pspec_status add_variances(ps_table *table, const ps_variance_row *row, ps_error *error) {
     const ps_meta entries[] = {
         {"predicted_variance", PS_NUMBER(row->prediction.variance)},
         {"measured_variance", ps_number_or_missing(row->measured)},
     };
-    return ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error);
+    PS_TRY(ps_table_add_metas(table, entries, sizeof entries / sizeof entries[0], error));
+    return isnan(row->pairwise)
+               ? PSPEC_OK
+               : ps_table_add_meta(table, "pairwise_variance", PS_NUMBER(row->pairwise), error);
 }
 
 /* What the bracket takes for the power beyond the cut-off. */
@@ -101,12 +119,13 @@ static pspec_status add_most_power(ps_table *table, const ps_variance_job *job, 
 
 static pspec_status fill(ps_table *table, const ps_request *request, ps_variance_job *const *jobs,
                          const ps_power_job *const *spectra, size_t num, ps_error *error) {
-    PS_TRY(begin(table, request, error));
+    PS_TRY(begin(table, request, jobs[0], error));
     for (size_t i = 0; i < request->num_integrands; i++) {
         PS_TRY(add_integrand(table, request, ps_variance_job_integrand(jobs[0], i), i, error));
     }
     for (size_t i = 0; i < num; i++) {
         PS_TRY(ps_header_add_job(table, request, spectra, num, i, error));
+        PS_TRY(add_files(table, request, jobs[i], error));
         PS_TRY(add_most_power(table, jobs[i], error));
         for (size_t k = 0; k < request->num_integrands; k++) {
             const ps_lead lead = make_lead(request, i, k);

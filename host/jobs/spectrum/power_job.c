@@ -62,8 +62,13 @@ static pspec_status open_files(ps_power_job *job, ps_error *error) {
                                        .whole_bytes = choose_whole_bytes(question),
                                        .should_stop = should_stop,
                                        .payload = job};
-    PS_TRY(
-        ps_source_files(&job->sets.source, question->paths, question->num_paths, &options, error));
+    job->num_realizations = question->num_sets;
+    job->sets.source = question->source;
+    job->sets.is_borrowed = question->source != NULL;
+    if (!job->sets.is_borrowed) {
+        PS_TRY(ps_source_files(&job->sets.source, question->paths, question->num_paths, &options,
+                               error));
+    }
     turn(job);
     return PSPEC_OK;
 }
@@ -172,6 +177,11 @@ pspec_status ps_power_job_create(ps_power_job **out, const ps_power_question *qu
     return PSPEC_OK;
 }
 
+void ps_power_job_release(ps_power_job *job) {
+    ps_runner_free(&job->runner);
+    ps_power_sets_release(&job->sets);
+}
+
 void ps_power_job_destroy(ps_power_job *job) {
     if (job == NULL) {
         return;
@@ -244,6 +254,13 @@ static pspec_status give(void *payload, uint64_t most, size_t *num, ps_error *er
     ps_power_job *const job = payload;
     ps_power_sets *const sets = &job->sets;
     ps_estimator *const estimator = job->runner.estimator;
+    const uint64_t asked = job->question->num_sets;
+    const uint64_t left = asked > 0 ? asked - job->runner.num_done : UINT64_MAX;
+    most = most < left ? most : left;
+    *num = 0;
+    if (most == 0) {
+        return PSPEC_OK;
+    }
     PS_TRY(ps_power_sets_fill(sets, ps_estimator_can_stream(estimator), most, num, error));
     if (*num == 0 && sets->has_next) {
         *num = 1;

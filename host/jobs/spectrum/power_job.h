@@ -29,6 +29,8 @@ typedef struct ps_power_question {
     ps_point_options point_options;
     ps_weights_spec weights; /* never optimal */
     uint64_t whole_bytes;    /* of a set of a file, see ps_source_options */
+    ps_source *source;       /* borrowed, of the files, at their first set; NULL: opened here */
+    uint64_t num_sets;       /* the first of the files alone; 0: all */
 
     /* degrees, where points are on the sphere; frequencies are then not looked at */
     bool on_sphere;
@@ -77,6 +79,9 @@ pspec_status ps_power_job_run(ps_power_job *job, ps_error *error) PS_MUST_CHECK;
 /* For who shows the shares of skips: makes those that depend on the plan better than from counts,
  * by planning again, which takes milliseconds. Before run. */
 void ps_power_job_rate_skips(ps_power_job *job);
+
+/* Gives the memory back that only realizations need; after run. */
+void ps_power_job_release(ps_power_job *job);
 
 /* What is known after create. */
 const ps_plan *ps_power_job_plan(const ps_power_job *job);

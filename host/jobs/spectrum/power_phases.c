@@ -62,7 +62,8 @@ static amounts add_points(const ps_power_job *job, ps_phases *phases) {
         out.points =
             ps_phases_read(phases, question->paths, question->num_paths,
                            question->point_options.format, job->dimension + (has_weights ? 1 : 0));
-        out.sets = fmax(1, nearbyint(out.points / each));
+        out.sets = question->num_sets > 0 ? (double)question->num_sets
+                                          : fmax(1, nearbyint(out.points / each));
         out.points = out.sets * each;
     }
     const bool is_checked = question->on_sphere || job->problem.has_weights;

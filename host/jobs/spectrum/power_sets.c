@@ -16,10 +16,17 @@ static void free_batch(ps_power_sets *sets) {
     sets->capacity = 0;
 }
 
-void ps_power_sets_free(ps_power_sets *sets) {
-    ps_source_destroy(sets->source);
+void ps_power_sets_release(ps_power_sets *sets) {
     ps_point_set_free(&sets->next);
+    sets->has_next = false;
     free_batch(sets);
+}
+
+void ps_power_sets_free(ps_power_sets *sets) {
+    if (!sets->is_borrowed) {
+        ps_source_destroy(sets->source);
+    }
+    ps_power_sets_release(sets);
     free(sets->weights);
     *sets = (ps_power_sets){0};
 }

@@ -9,7 +9,8 @@
 #include "jobs/spectrum/empty_axis.h"
 
 typedef struct ps_power_sets {
-    ps_source *source;        /* owned */
+    ps_source *source;
+    bool is_borrowed;         /* the source */
     const char *weights_path; /* NULL: none; the same weights for every set */
     double *weights;
     size_t num_weights;
@@ -32,6 +33,8 @@ pspec_status ps_power_sets_read_weights(ps_power_sets *sets, const char *path, u
 /* Room for batches of so many. */
 pspec_status ps_power_sets_allocate(ps_power_sets *sets, size_t capacity,
                                     ps_error *error) PS_MUST_CHECK;
+/* Gives back what sets take; they are to be read again. */
+void ps_power_sets_release(ps_power_sets *sets);
 /* Back to the first set. */
 pspec_status ps_power_sets_rewind(ps_power_sets *sets, ps_error *error) PS_MUST_CHECK;
 

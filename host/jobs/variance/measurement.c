@@ -1,7 +1,9 @@
 #include "jobs/variance/measurement.h"
 
 #include "base/memory.h"
+#include "base/process/memory_limit.h"
 #include "base/round.h"
+#include "jobs/variance/variance_sets.h"
 #include "math/random/rotation.h"
 #include "spectra/sums.h"
 #include "trials/trials.h"
@@ -18,13 +20,11 @@ typedef struct measurement {
     const ps_measurement_plan *plan;
     size_t batch; /* sets at a time; 1 where the shifts of one are several calls */
     size_t trials_of_call, num_calls;
-    ps_source *source;
     ps_point_set *sets;      /* [batch] */
     pspec_pattern *patterns; /* [batch] */
     ps_trials **trials;      /* [num_integrands] */
     double *moves;           /* [batch][num_calls][trials_of_call][numbers of a move] */
     double *estimates;       /* [batch][num_calls][trials_of_call] */
-    uint64_t seed;           /* of moves */
     ps_sums *sums;           /* [num_integrands] of the means of squares of a set */
 } measurement;
 
@@ -42,12 +42,16 @@ static size_t divide(size_t a, size_t b) { /* at least 1 */
     return a > b ? a / b : 1;
 }
 
+static void choose_calls(measurement *self, size_t trials_of_call) {
+    self->trials_of_call = trials_of_call;
+    self->num_calls = ps_divide_up((size_t)self->plan->num_shifts, trials_of_call);
+}
+
 static void choose_sizes(measurement *self) {
     const ps_measurement_plan *const plan = self->plan;
-    const size_t points = ps_sampler_most_points(plan->sampler);
+    const size_t points = plan->most_points;
     const size_t num_shifts = (size_t)plan->num_shifts;
-    self->trials_of_call = least(num_shifts, divide(CALL_VALUES, points));
-    self->num_calls = ps_divide_up(num_shifts, self->trials_of_call);
+    choose_calls(self, least(num_shifts, divide(CALL_VALUES, points)));
     const size_t fit = least(divide(BATCH_POINTS, points), divide(BATCH_TRIALS, num_shifts));
     const size_t quick = divide(CALL_VALUES, points * self->trials_of_call);
     const size_t most = self->num_calls > 1 ? 1 : least(least(fit, quick), MOST_BATCH);
@@ -58,12 +62,67 @@ static ps_precision choose_precision(const ps_device *device) {
     return device != NULL && ps_device_get_limits(device)->has_fp64 ? PS_DOUBLE : PS_SINGLE;
 }
 
+static ps_trials_options choose_options(const measurement *self) {
+    return (ps_trials_options){.precision = choose_precision(self->plan->device),
+                               .batch = self->batch,
+                               .most_points = self->plan->most_points,
+                               .num_trials = self->trials_of_call};
+}
+
+/* Of all that allocate takes, with weights, and of the sets. */
+static double count_bytes(const measurement *self) {
+    const ps_measurement_plan *const plan = self->plan;
+    const ps_trials_options options = choose_options(self);
+    const double numbers = plan->integrands[0]->place.dimension + 1;
+    const double sets = plan->is_one_set ? 1 : (double)self->batch;
+    const double trials = (double)self->batch * (double)(self->num_calls * self->trials_of_call);
+    double sum =
+        sets * (double)plan->most_points * numbers + trials * (double)(move_numbers(self) + 1);
+    sum *= (double)sizeof(double);
+    for (size_t i = 0; i < plan->num_integrands; i++) {
+        sum += ps_trials_bytes(plan->integrands[i], &options, plan->device);
+    }
+    return sum;
+}
+
+/* Fewer sets at a time, then fewer trials. Numbers do not depend on it. */
+static pspec_status fit_memory(measurement *self, ps_error *error) {
+    const ps_measurement_plan *const plan = self->plan;
+    ps_memory_room room = {plan->memory_limit, "the limit of --memory"};
+    char needed[PS_SIZE_TEXT];
+    char left[PS_SIZE_TEXT];
+    if (plan->memory_limit == 0) {
+        ps_memory_room_find(&room, 0);
+    }
+    const double limit = (double)room.bytes;
+    while (self->batch > 1 && count_bytes(self) > limit) {
+        self->batch = (self->batch + 1) / 2;
+    }
+    while (self->trials_of_call > 1 && count_bytes(self) > limit) {
+        choose_calls(self, (self->trials_of_call + 1) / 2);
+    }
+    return count_bytes(self) <= limit
+               ? PSPEC_OK
+               : ps_fail(
+                     error, PSPEC_ERROR_MEMORY,
+                     "measuring sets of %zu points, %llu shifts each, needs %s of memory, above "
+                     "%s, %s; --shifts 0 only predicts",
+                     plan->most_points, (unsigned long long)plan->num_shifts,
+                     ps_size_show(needed, count_bytes(self)), ps_size_show(left, limit),
+                     plan->memory_limit > 0 ? room.by : "what is free");
+}
+
+pspec_status ps_measurement_bytes(const ps_measurement_plan *plan, double *bytes, ps_error *error) {
+    measurement self = {.plan = plan};
+    choose_sizes(&self);
+    PS_TRY(fit_memory(&self, error));
+    *bytes = count_bytes(&self);
+    return PSPEC_OK;
+}
+
 static pspec_status create_trials(measurement *self, ps_error *error) {
     const ps_measurement_plan *const plan = self->plan;
-    const ps_trials_options options = {.precision = choose_precision(plan->device),
-                                       .batch = self->batch,
-                                       .most_points = ps_sampler_most_points(plan->sampler),
-                                       .num_trials = self->trials_of_call};
+    const ps_trials_options options = choose_options(self);
     PS_TRY(PS_NEW(&self->trials, plan->num_integrands, "trials", error));
     for (size_t i = 0; i < plan->num_integrands; i++) {
         PS_TRY(
@@ -96,30 +155,16 @@ static void release(measurement *self) {
     free(self->moves);
     free(self->estimates);
     free(self->sums);
-    ps_source_destroy(self->source);
 }
 
 /* ---- trials -------------------------------------------------------------------------------- */
-
-/* Samplers and numbers of points have moves of their own, so that answers beside each other are
- * independent. */
-static pspec_status choose_moves(measurement *self, ps_error *error) {
-    const ps_sampler_request *const sampler = self->plan->sampler;
-    ps_text text = {0};
-    ps_sampler_identify(sampler, &text);
-    ps_text_append(&text, "lift %d\n", (int)sampler->lift);
-    const pspec_status status = ps_text_check(&text, error);
-    self->seed = ps_random_seed_of(sampler->seed, PS_STREAM_TRIALS, ps_text_string(&text));
-    ps_text_free(&text);
-    return status;
-}
 
 /* Moves of a realization depend on its number, whatever the batches are. Those behind the last
  * shift are 0. */
 static void make_moves(const measurement *self, uint64_t realization, double *moves) {
     const ps_measurement_plan *const plan = self->plan;
     const size_t numbers = move_numbers(self);
-    ps_random random = ps_random_init(self->seed, PS_STREAM_TRIALS, realization);
+    ps_random random = ps_random_init(plan->seed, PS_STREAM_TRIALS, realization);
     for (uint64_t s = 0; s < plan->num_shifts; s++) {
         double *const move = moves + s * numbers;
         if (plan->integrands[0]->place.where != PS_SAMPLES_TORUS) {
@@ -133,15 +178,23 @@ static void make_moves(const measurement *self, uint64_t realization, double *mo
     }
 }
 
+/* Set i of the batch; of a single set there is one, read once. */
+static pspec_status read_set(measurement *self, size_t i, ps_error *error) {
+    const ps_measurement_plan *const plan = self->plan;
+    ps_point_set *const set = &self->sets[plan->is_one_set ? 0 : i];
+    if (!plan->is_one_set || set->num_points == 0) {
+        PS_TRY(ps_variance_sets_next(plan->source, set, error));
+    }
+    const double *const own = set->has_weights ? set->weights : NULL;
+    self->patterns[i] = (pspec_pattern){set->dimension, set->num_points, set->points,
+                                        plan->weights != NULL ? plan->weights : own};
+    return PSPEC_OK;
+}
+
 static pspec_status fill_batch(measurement *self, uint64_t first, size_t num, ps_error *error) {
     const size_t numbers = self->num_calls * self->trials_of_call * move_numbers(self);
     for (size_t i = 0; i < num; i++) {
-        ps_point_set *const set = &self->sets[i];
-        ps_source_part part;
-        bool has_set = false;
-        PS_TRY(ps_source_next(self->source, set, &part, &has_set, error));
-        self->patterns[i] = (pspec_pattern){
-            .dimension = set->dimension, .num_points = set->num_points, .points = set->points};
+        PS_TRY(read_set(self, i, error));
         make_moves(self, first + i, self->moves + i * numbers);
     }
     return PSPEC_OK;
@@ -202,13 +255,9 @@ pspec_status ps_measurement_run(const ps_measurement_plan *plan, ps_mean *varian
                                 ps_error *error) {
     measurement self = {.plan = plan};
     choose_sizes(&self);
-    ps_sets_options sets = plan->sets;
-    sets.first = plan->first;
-    pspec_status status = allocate(&self, error);
-    PS_TRY_OUT(status, choose_moves(&self, error));
-    PS_TRY_OUT(status, status);
-    PS_TRY_OUT(status, ps_source_sampler(&self.source, plan->sampler, plan->num_sets, &sets,
-                                         plan->watch, error));
+    pspec_status status = PSPEC_OK;
+    PS_TRY_OUT(status, fit_memory(&self, error));
+    PS_TRY_OUT(status, allocate(&self, error));
     PS_TRY_OUT(status, run_all(&self, error));
     for (size_t i = 0; i < plan->num_integrands; i++) {
         ps_sums_finish(&self.sums[i], plan->num_sets, &variances[i].mean,

@@ -7,16 +7,25 @@
 #include "spectra/accumulate.h"
 
 typedef struct ps_measurement_plan {
-    const ps_sampler_request *sampler; /* not homogenized */
+    ps_source *source; /* at the first set that is measured */
+    bool is_one_set;   /* it has one, and num_sets are moves of that */
+    size_t most_points;
+    const double *weights; /* [most_points] of every set; NULL: theirs */
     const ps_integrand *const *integrands;
     size_t num_integrands;
-    uint64_t first, num_sets; /* realizations; those of a deterministic sampler are one set */
+    uint64_t first, num_sets; /* numbers of the sets, for their moves */
     uint64_t num_shifts;
+    uint64_t seed; /* of the moves */
     bool is_moved;
-    ps_sets_options sets; /* where they are kept */
-    ps_device *device;    /* NULL: values are made on the host */
+    uint64_t memory_limit; /* bytes that somebody typed; 0: none */
+    ps_device *device;     /* NULL: values are made on the host */
     const ps_watch *watch;
 } ps_measurement_plan;
+
+/* Bytes that the measurement takes, in batches that the limit and what is free leave, where source
+ * and weights are not looked at. PSPEC_ERROR_MEMORY where single sets are too much. */
+pspec_status ps_measurement_bytes(const ps_measurement_plan *plan, double *bytes,
+                                  ps_error *error) PS_MUST_CHECK;
 
 /* variances[num_integrands]: mean over sets, and its standard error over them (nan of one set), of
  * the mean over the shifts of a set of (I - int F)^2. */

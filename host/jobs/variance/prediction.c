@@ -46,12 +46,12 @@ static double largest_power(const ps_spectrum *spectrum) {
 
 ps_power_beyond ps_prediction_power_beyond(const ps_sampler_request *sampler,
                                            const ps_spectrum *spectrum) {
-    if (ps_sampler_has_constant_power(sampler)) {
-        return (ps_power_beyond){spectrum->mean_points, true};
+    if (sampler != NULL && ps_sampler_has_constant_power(sampler)) {
+        return (ps_power_beyond){1, spectrum->mean_points, true};
     }
-    const double most = ps_sampler_most_power(sampler);
-    return most > 0 ? (ps_power_beyond){most, true}
-                    : (ps_power_beyond){largest_power(spectrum), false};
+    const double most = sampler != NULL ? ps_sampler_most_power(sampler) : 0;
+    return most > 0 ? (ps_power_beyond){1, most, true}
+                    : (ps_power_beyond){1, largest_power(spectrum), false};
 }
 
 ps_prediction ps_prediction_make(const ps_integrand *integrand, ps_mean sum, double held,
@@ -61,7 +61,7 @@ ps_prediction ps_prediction_make(const ps_integrand *integrand, ps_mean sum, dou
     const double tail = factor * fmax(energy - held, 0);
     const double lower = sum.mean / num_points;
     return (ps_prediction){
-        .variance = lower + tail / num_points,
+        .variance = lower + beyond->white * tail / num_points,
         .standard_error = sum.standard_error / num_points,
         .lower = lower,
         .upper = lower + beyond->most * tail / num_points,

@@ -19,6 +19,7 @@ typedef struct ps_prediction {
 
 /* The most power that sets have beyond the cut-off. */
 typedef struct ps_power_beyond {
+    double white; /* that of independent points with the same weights: 1 where all count the same */
     double most;
     bool is_known; /* a bound of the sampler's expected power, or N of a single set; else the
                       largest that was measured in a ring or degree */
@@ -28,6 +29,7 @@ typedef struct ps_power_beyond {
  * the torus, of all orders of a degree. *held is what they have of the energy of the integrand. */
 pspec_status ps_prediction_weigh(const ps_integrand *integrand, const ps_frequencies *frequencies,
                                  double *weights, double *held, ps_error *error) PS_MUST_CHECK;
+/* sampler NULL: of files, of which nothing is known. */
 ps_power_beyond ps_prediction_power_beyond(const ps_sampler_request *sampler,
                                            const ps_spectrum *spectrum);
 /* sum is the weighted sum, its mean and standard error over realizations. */

@@ -1,23 +1,10 @@
-#include "jobs/variance/variance_job.h"
+#include "jobs/variance/variance_job_private.h"
 
 #include "base/memory.h"
-#include "jobs/point_phases.h"
-#include "jobs/variance/measurement.h"
-#include "jobs/variance/prediction.h"
+#include "files/input_file.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-struct ps_variance_job {
-    const ps_variance_question *question;
-    ps_power_question spectrum_question;
-    ps_power_job *spectrum;
-    ps_integrand **integrands; /* [num] */
-    double *held;              /* [num] of the energy, up to the cut-off */
-    ps_mean *measured;         /* [num] */
-    ps_variance_row *rows;     /* [num] */
-    ps_power_beyond beyond;
-};
 
 static pspec_status weigh(void *payload, const ps_frequencies *frequencies, double *weights,
                           ps_error *error) {
@@ -31,15 +18,28 @@ static pspec_status weigh(void *payload, const ps_frequencies *frequencies, doub
 
 /* ---- create -------------------------------------------------------------------------------- */
 
-static ps_integrand_place place_of(const ps_variance_question *question) {
+/* The dimension of files is known once they are open. */
+static ps_integrand_place place_of(const ps_variance_question *question, unsigned dimension) {
     const ps_sampler_request *const sampler = question->spectrum.sampler;
-    return (ps_integrand_place){ps_sampler_where(sampler), sampler->dimension};
+    const ps_power_question *const spectrum = &question->spectrum;
+    const ps_sampler_domain where = spectrum->on_hemisphere ? PS_SAMPLES_HEMISPHERE
+                                    : spectrum->on_sphere   ? PS_SAMPLES_SPHERE
+                                                            : PS_SAMPLES_TORUS;
+    return sampler != NULL ? (ps_integrand_place){ps_sampler_where(sampler), sampler->dimension}
+                           : (ps_integrand_place){where, dimension};
 }
 
 pspec_status ps_variance_question_check(const ps_variance_question *question, ps_error *error) {
+    const ps_power_question *const spectrum = &question->spectrum;
+    const unsigned dimension =
+        spectrum->on_sphere ? PS_SPHERE_DIMENSION : spectrum->point_options.dimension;
+    if (spectrum->sampler == NULL && dimension == 0) {
+        return PSPEC_OK;
+    }
     for (size_t i = 0; i < question->num_integrands; i++) {
         ps_integrand *integrand = NULL;
-        PS_TRY(ps_integrand_parse(&integrand, question->texts[i], place_of(question), error));
+        PS_TRY(ps_integrand_parse(&integrand, question->texts[i], place_of(question, dimension),
+                                  error));
         ps_integrand_destroy(integrand);
     }
     return PSPEC_OK;
@@ -47,7 +47,7 @@ pspec_status ps_variance_question_check(const ps_variance_question *question, ps
 
 static pspec_status parse_integrands(ps_variance_job *job, ps_error *error) {
     const ps_variance_question *const question = job->question;
-    const ps_integrand_place place = place_of(question);
+    const ps_integrand_place place = place_of(question, job->files.dimension);
     const size_t num = question->num_integrands;
     PS_TRY(PS_NEW(&job->integrands, num, "integrands", error));
     PS_TRY(PS_NEW(&job->held, num, "energies", error));
@@ -59,13 +59,28 @@ static pspec_status parse_integrands(ps_variance_job *job, ps_error *error) {
     return PSPEC_OK;
 }
 
+static pspec_status open_files(ps_variance_job *job, ps_error *error) {
+    ps_power_question *const spectrum = &job->spectrum_question;
+    if (spectrum->sampler != NULL) {
+        return PSPEC_OK;
+    }
+    PS_TRY(ps_inputs_check(spectrum->paths, spectrum->num_paths, error));
+    PS_TRY(ps_inputs_check(&spectrum->weights.path, 1, error));
+    PS_TRY(ps_variance_sets_open(&job->files, spectrum, error));
+    spectrum->source = job->files.source;
+    spectrum->num_sets = job->files.num_predicting;
+    return PSPEC_OK;
+}
+
 static pspec_status prepare(ps_variance_job *job, ps_error *error) {
-    PS_TRY(parse_integrands(job, error));
     job->spectrum_question = job->question->spectrum;
     job->spectrum_question.num_weighted = job->question->num_integrands;
     job->spectrum_question.weigh = weigh;
     job->spectrum_question.weigh_payload = job;
-    return ps_power_job_create(&job->spectrum, &job->spectrum_question, error);
+    PS_TRY(open_files(job, error));
+    PS_TRY(parse_integrands(job, error));
+    PS_TRY(ps_power_job_create(&job->spectrum, &job->spectrum_question, error));
+    return ps_variance_trials_prepare(job, error);
 }
 
 pspec_status ps_variance_job_create(ps_variance_job **out, const ps_variance_question *question,
@@ -91,6 +106,7 @@ void ps_variance_job_destroy(ps_variance_job *job) {
         ps_integrand_destroy(job->integrands[i]);
     }
     ps_power_job_destroy(job->spectrum);
+    ps_variance_sets_close(&job->files);
     free(job->integrands);
     free(job->held);
     free(job->measured);
@@ -100,45 +116,37 @@ void ps_variance_job_destroy(ps_variance_job *job) {
 
 /* ---- run ----------------------------------------------------------------------------------- */
 
-static pspec_status measure(ps_variance_job *job, ps_error *error) {
-    const ps_variance_question *const question = job->question;
-    const ps_power_question *const spectrum = &question->spectrum;
-    ps_sampler_request sampler = *spectrum->sampler;
-    for (size_t i = 0; i < question->num_integrands; i++) {
-        job->measured[i] = (ps_mean){NAN, NAN};
-    }
-    if (question->num_shifts == 0) {
-        return PSPEC_OK;
-    }
-    sampler.homogenize = false;
-    const ps_measurement_plan plan = {
-        .sampler = &sampler,
-        .integrands = (const ps_integrand *const *)job->integrands,
-        .num_integrands = question->num_integrands,
-        .first = spectrum->num_realizations,
-        .num_sets = spectrum->num_realizations,
-        .num_shifts = question->num_shifts,
-        .is_moved = question->is_moved,
-        .sets = ps_limits_sets(&spectrum->limits, spectrum->accuracy.no_skip),
-        .device = ps_power_job_device(job->spectrum),
-        .watch = &spectrum->watch,
-    };
-    return ps_measurement_run(&plan, job->measured, error);
-}
-
 static double z_score(const ps_variance_row *row, bool is_moved) {
     const double error = hypot(row->prediction.standard_error, row->measured_error);
     return is_moved && error > 0 ? (row->measured - row->prediction.variance) / error : NAN;
 }
 
+/* A single set has at most N (sum |w|)^2/W^2 at any frequency. */
+static ps_power_beyond find_power_beyond(const ps_variance_job *job, const ps_spectrum *spectrum) {
+    const double num_points = spectrum->mean_points;
+    ps_power_beyond beyond = ps_prediction_power_beyond(job->question->spectrum.sampler, spectrum);
+    if (job->files.num > 0) { /* and no less than what predictions have there */
+        beyond.white = num_points * job->files.white;
+        beyond.most = fmax(beyond.most, beyond.white);
+    }
+    if (job->files.num == 1) {
+        beyond.most = num_points * job->files.size;
+        beyond.is_known = true;
+    }
+    return beyond;
+}
+
 static void fill_rows(ps_variance_job *job) {
     const ps_variance_question *const question = job->question;
     const ps_spectrum *const spectrum = ps_power_job_spectrum(job->spectrum);
-    const ps_mean *const sums = ps_power_job_weighted(job->spectrum);
-    job->beyond = ps_prediction_power_beyond(question->spectrum.sampler, spectrum);
+    job->beyond = find_power_beyond(job, spectrum);
     for (size_t i = 0; i < question->num_integrands; i++) {
         ps_variance_row *const row = &job->rows[i];
-        row->prediction = ps_prediction_make(job->integrands[i], sums[i], job->held[i],
+        ps_mean sum = ps_power_job_weighted(job->spectrum)[i];
+        if (job->trials.is_one_set) {
+            sum.standard_error = 0; /* every move of the set has this spectrum */
+        }
+        row->prediction = ps_prediction_make(job->integrands[i], sum, job->held[i],
                                              spectrum->mean_points, &job->beyond);
         row->measured = job->measured[i].mean;
         row->measured_error = job->measured[i].standard_error;
@@ -148,27 +156,15 @@ static void fill_rows(ps_variance_job *job) {
 
 pspec_status ps_variance_job_run(ps_variance_job *job, ps_error *error) {
     PS_TRY(ps_power_job_run(job->spectrum, error));
-    PS_TRY(measure(job, error));
+    ps_power_job_release(job->spectrum);
+    PS_TRY(ps_variance_trials_measure(job, error));
+    PS_TRY(ps_variance_trials_sum_pairs(job, error));
     fill_rows(job);
     return PSPEC_OK;
 }
 
-void ps_variance_job_phases(const ps_variance_job *job, ps_phases *phases) {
-    /* of a processor: 12 ns of a disk, 13 of a Gaussian, 42 of one with images (16384 points,
-     * double precision, AVX2, PoCL 3.1) */
-    const double value_seconds = 2e-8;
-    const ps_variance_question *const question = job->question;
-    const ps_power_question *const spectrum = &question->spectrum;
-    const ps_sets_options sets = ps_limits_sets(&spectrum->limits, spectrum->accuracy.no_skip);
-    const double num_sets = (double)spectrum->num_realizations;
-    const double values = num_sets * (double)question->num_shifts *
-                          (double)spectrum->sampler->num_points * (double)question->num_integrands;
-    if (values == 0) {
-        return;
-    }
-    ps_phases_sample(phases, spectrum->sampler, num_sets, &sets.place);
-    ps_phases_add_seconds(phases, "trials", values * value_seconds);
-    ps_phases_say(phases, "trials", "%.4g values of integrands", values);
+ps_variance_trials ps_variance_job_trials(const ps_variance_job *job) {
+    return job->trials;
 }
 
 ps_power_job *ps_variance_job_spectrum(const ps_variance_job *job) {

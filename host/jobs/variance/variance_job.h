@@ -1,8 +1,10 @@
-/* The variance of Monte Carlo integration of several integrands by the sets of one sampler:
- * predicted from their spectrum, and measured by moved sets beside it.
+/* The variance of Monte Carlo integration of several integrands by the sets of one sampler, or of
+ * point files: predicted from their spectrum, and measured by moved sets beside it.
  *
- * Realizations 0 .. M - 1 predict, M .. 2M - 1 are measured, so that the two are independent. The
- * formulas are in docs/user/variance.md; N is the mean number of points.
+ * Realizations 0 .. M - 1 predict, M .. 2M - 1 are measured, so that the two are independent; of
+ * files the first half predicts and the second is measured. A single set, and that of a sampler
+ * without randomness, is both, and its sum over pairs is the check. The formulas are in
+ * docs/user/variance.md; N is the mean number of points.
  */
 #ifndef PS_JOBS_VARIANCE_VARIANCE_JOB_H
 #define PS_JOBS_VARIANCE_VARIANCE_JOB_H
@@ -13,12 +15,15 @@
 #include "plan/phases.h"
 
 typedef struct ps_variance_question {
-    /* Of the prediction: a sampler, under the normalization of integrals; its weighted sums are
-     * set here. The measurement has as many realizations, and the same watch and device. */
+    /* Of the prediction, under the normalization of integrals: a sampler, or files, with where
+     * their points are; its weighted sums, and the sets of files, are set here. The measurement of
+     * a sampler has as many realizations, and the same watch and device. */
     ps_power_question spectrum;
     const char *const *texts; /* of the integrands */
     size_t num_integrands;
-    uint64_t num_shifts; /* trials of each set that is measured; 0: nothing is */
+    uint64_t num_shifts;    /* trials of each set that is measured; 0: nothing is */
+    uint64_t single_shifts; /* the same of a single set of a file */
+    uint64_t seed;          /* of the trials of files; a sampler has its own */
     bool is_moved; /* trials are shifted or rotated at random; else sets stay where they are */
 } ps_variance_question;
 
@@ -27,11 +32,23 @@ typedef struct ps_variance_row {
     ps_prediction prediction;
     double measured, measured_error; /* about the known integral; error over sets */
     double z_score;                  /* nan where sets are not moved, or nothing varies */
+    double pairwise;                 /* of a single set, exactly: (V2), (S1'), (H1'); nan: none */
 } ps_variance_row;
+
+/* Larger single sets are not summed over pairs, which takes N^2/2 steps of the host. */
+enum { PS_MOST_PAIRWISE_POINTS = 1024 };
+
+/* What is measured. */
+typedef struct ps_variance_trials {
+    bool is_one_set;
+    uint64_t num_sets;   /* of one set 1 */
+    uint64_t num_shifts; /* trials of each */
+} ps_variance_trials;
 
 typedef struct ps_variance_job ps_variance_job;
 
-/* Are there such integrands where the points of the sampler are? */
+/* Are there such integrands where the points are? Of files on the torus, whose dimension is not
+ * known yet, the job says so. */
 pspec_status ps_variance_question_check(const ps_variance_question *question,
                                         ps_error *error) PS_MUST_CHECK;
 
@@ -44,6 +61,7 @@ pspec_status ps_variance_job_run(ps_variance_job *job, ps_error *error) PS_MUST_
 /* Adds what the measurement comes to: its points, and trials. */
 void ps_variance_job_phases(const ps_variance_job *job, ps_phases *phases);
 /* The job of the prediction: its plan, and what it found. */
+ps_variance_trials ps_variance_job_trials(const ps_variance_job *job);
 ps_power_job *ps_variance_job_spectrum(const ps_variance_job *job);
 const ps_integrand *ps_variance_job_integrand(const ps_variance_job *job, size_t index);
 /* [question.num_integrands], after run */

@@ -43,8 +43,8 @@ typedef enum ps_random_stream {
 
 ps_random ps_random_init(uint64_t seed, ps_random_stream stream, uint64_t realization);
 
-/* The seed of streams that belong to a text, so that those of other texts are independent: the first
- * 64 bits of (seed, stream, h), h the hash FNV-1a of 64 bits of the bytes of the text. */
+/* The seed of streams that belong to a text, so that those of other texts are independent: the
+ * first 64 bits of (seed, stream, h), h the hash FNV-1a of 64 bits of the bytes of the text. */
 uint64_t ps_random_seed_of(uint64_t seed, ps_random_stream stream, const char *text);
 
 /* The next word, and the next two (the first is the low half). */

@@ -1,0 +1,127 @@
+#include "request/saved_result.h"
+
+#include "base/text.h"
+#include "files/input_file.h"
+#include "spectra/file/spectrum_format.h"
+#include "tables/table.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+/* What a header has that matters here stands in so many bytes. */
+enum { HEADER_BYTES = 8192, VALUE_BYTES = 128 };
+
+typedef struct header {
+    char text[HEADER_BYTES + 1];
+    size_t length;
+} header;
+
+/* Nothing of what is no regular file: a pipe would lose what is read of it. */
+static pspec_status read_header(header *out, const char *path, ps_error *error) {
+    struct stat facts;
+    ps_input input = {0};
+    out->length = 0;
+    out->text[0] = '\0';
+    if (strcmp(path, "-") == 0 || stat(path, &facts) != 0 || !S_ISREG(facts.st_mode)) {
+        return PSPEC_OK;
+    }
+    pspec_status status = ps_input_open(&input, path, error);
+    if (status == PSPEC_OK) {
+        status = ps_input_read(&input, out->text, HEADER_BYTES, &out->length, error);
+    }
+    ps_input_close(&input);
+    out->text[status == PSPEC_OK ? out->length : 0] = '\0';
+    return status;
+}
+
+/* Of an array the facts are in a table beside it that has no rows; one that has is of its own. */
+static pspec_status read_beside(header *out, const char *path, ps_error *error) {
+    static const char ending[] = ".npy";
+    const size_t length = strlen(path);
+    const size_t stem = length > sizeof ending - 1 ? length - (sizeof ending - 1) : 0;
+    ps_text text = {0};
+    out->text[0] = '\0';
+    if (stem == 0 || strcmp(path + stem, ending) != 0) {
+        return PSPEC_OK;
+    }
+    ps_text_append(&text, "%.*s.json", (int)stem, path);
+    pspec_status status = ps_text_check(&text, error);
+    if (status == PSPEC_OK) {
+        status = read_header(out, ps_text_string(&text), error);
+    }
+    ps_text_free(&text);
+    if (out->length == HEADER_BYTES || strstr(out->text, "\"rows\"") != NULL) {
+        out->text[0] = '\0';
+    }
+    return status == PSPEC_ERROR_INPUT ? PSPEC_OK : status; /* such as an empty file */
+}
+
+/* The first value of a key of CSV, "# key: value", or of JSON, "key": ["value", ..]. */
+static bool find_value(const header *self, const char *key, char value[VALUE_BYTES]) {
+    char of_csv[VALUE_BYTES];
+    char of_json[VALUE_BYTES];
+    snprintf(of_csv, sizeof of_csv, "# %s: ", key);
+    snprintf(of_json, sizeof of_json, "\"%s\": [", key);
+    const char *at = strstr(self->text, of_csv);
+    const char *end = "\n";
+    if (at != NULL) {
+        at += strlen(of_csv);
+    } else if ((at = strstr(self->text, of_json)) != NULL) {
+        at += strlen(of_json);
+        end = *at == '"' ? "\"" : ",]";
+        at += *at == '"' ? 1 : 0;
+    }
+    const size_t length = at != NULL ? strcspn(at, end) : 0;
+    snprintf(value, VALUE_BYTES, "%.*s", (int)(length < VALUE_BYTES ? length : VALUE_BYTES - 1),
+             at != NULL ? at : "");
+    return length > 0;
+}
+
+/* Every table has its command. Outputs of `sample` that are points have none. */
+static bool find_command(const header *self, char command[VALUE_BYTES]) {
+    static const char program[] = "pointspec ";
+    char version[VALUE_BYTES];
+    char line[VALUE_BYTES];
+    if (!find_value(self, "pointspec_version", version) || !find_value(self, "command", line) ||
+        strncmp(line, program, sizeof program - 1) != 0) {
+        return false;
+    }
+    const char *const word = line + sizeof program - 1;
+    snprintf(command, VALUE_BYTES, "%.*s", (int)strcspn(word, " "), word);
+    return true;
+}
+
+static pspec_status refuse_table(const header *self, const char *path, const char *made_by,
+                                 const char *why, const char *command, ps_error *error) {
+    char sampler[VALUE_BYTES];
+    char points[VALUE_BYTES];
+    const bool has_sampler = find_value(self, "sampler", sampler);
+    const bool has_points = find_value(self, "points", points);
+    return ps_fail(
+        error, PSPEC_ERROR_INPUT,
+        "\"%s\" holds no points: pointspec %s saved it%s%s%s%s, %s; use pointspec %s%s%s%s%s", path,
+        made_by, has_sampler ? ", of sampler " : "", has_sampler ? sampler : "",
+        has_points ? ", N = " : "", has_points ? points : "", why, command,
+        has_sampler ? " --sampler " : " on the point files", has_sampler ? sampler : "",
+        has_sampler && has_points ? " -n " : "", has_sampler && has_points ? points : "");
+}
+
+pspec_status ps_saved_result_refuse(const char *path, const char *why, const char *command,
+                                    ps_error *error) {
+    header head;
+    char made_by[VALUE_BYTES];
+    PS_TRY(read_header(&head, path, error));
+    if (strncmp(head.text, PS_SPECTRUM_MAGIC, sizeof PS_SPECTRUM_MAGIC - 1) == 0) {
+        return ps_fail(
+            error, PSPEC_ERROR_INPUT,
+            "\"%s\" holds no points: pspec_spectrum_save wrote it, %s; use pointspec %s on "
+            "the point files, or with --sampler",
+            path, why, command);
+    }
+    if (!find_command(&head, made_by)) {
+        PS_TRY(read_beside(&head, path, error));
+    }
+    return find_command(&head, made_by) ? refuse_table(&head, path, made_by, why, command, error)
+                                        : PSPEC_OK;
+}
